@@ -174,12 +174,47 @@ enum
     /// The insertion of the vertex is staged, so that it is not there before the next commit; or its removal is staged,
     /// and it can be neither moved with that commit nor removed twice. The message says which.
     DELDRIFT_STAGED_VERTEX = 28,
+    /// There is no segment of this id, or its removal is staged.
+    DELDRIFT_NO_SUCH_SEGMENT = 29,
+    /// Two segments would cross, at a place that is an end of neither; deldrift_segment_conflicts tells all conflicts.
+    DELDRIFT_CROSSING = 30,
+    /// A vertex would be on a segment, and not be one of its ends; deldrift_segment_conflicts tells all conflicts.
+    DELDRIFT_ON_SEGMENT = 31,
+    /// An end of a segment would be removed; deldrift_segment_conflicts tells all conflicts.
+    DELDRIFT_END_REMOVED = 32,
+    /// Both ends of a segment would be at the same place; deldrift_segment_conflicts tells all conflicts.
+    DELDRIFT_ENDS_MEET = 33,
+    /// A seed is on the boundary of several regions.
+    DELDRIFT_AMBIGUOUS_SEED = 34,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
 typedef enum deldrift_status deldrift_status;
 #else
 typedef uint32_t deldrift_status;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/// Why a segment cannot be an edge.
+enum
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  deldrift_conflict_kind : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /// Two segments cross at a place that is an end of neither: other is the second one, of the higher id.
+    DELDRIFT_CONFLICT_CROSSING = 0,
+    /// A vertex is on the segment, and is not one of its ends: other is the lowest id at the place.
+    DELDRIFT_CONFLICT_ON_SEGMENT = 1,
+    /// An end of the segment has been removed, or would be: other is the end.
+    DELDRIFT_CONFLICT_END_REMOVED = 2,
+    /// Both ends of the segment would be at the same place: other is DELDRIFT_NONE.
+    DELDRIFT_CONFLICT_ENDS_MEET = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum deldrift_conflict_kind deldrift_conflict_kind;
+#else
+typedef uint32_t deldrift_conflict_kind;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -373,6 +408,16 @@ typedef struct deldrift_commit_report {
     /// Zero; later versions may count more.
     uint64_t reserved[3];
 } deldrift_commit_report;
+
+/// What is in the way of a segment.
+typedef struct deldrift_conflict {
+    /// What other names.
+    deldrift_conflict_kind kind;
+    /// The segment.
+    uint32_t segment;
+    /// A segment or a vertex.
+    uint32_t other;
+} deldrift_conflict;
 
 /// What has changed since the program last took the changes: lists that belong to the triangulation, valid
 /// until the next call that changes it. A pointer is NULL if its list is empty.
@@ -732,6 +777,91 @@ deldrift_status deldrift_compact(deldrift_triangulation *t,
                                  uint32_t *map,
                                  size_t capacity,
                                  size_t *count);
+
+/// Stages segments between vertices: all of them, or none if it fails. From the next commit on, which makes them together
+/// with the staged moves, insertions and removals, each is an edge, and the cells are the constrained Delaunay
+/// triangulation of vertices and segments: the circle of a cell has no vertex inside that can be seen from the cell's
+/// inside, where segments are opaque. Ties are broken by id as everywhere, so the cells depend only on positions, ids and
+/// segments. Segments move with their ends.
+///
+/// ends: count rows of two vertex ids, in any order, of vertices that are present or whose insertion is staged. markers:
+/// count numbers, which are kept with the segments; NULL for zeros. Both are read during the call only, and may be NULL if
+/// count is 0. first_segment: receives the id of the first, which is one above the highest given so far; the others follow
+/// it in their order. It must not be NULL.
+///
+/// A segment may be given twice, and be a part of the hull; many may share a vertex. Where vertices are at the same place
+/// it goes to the one that represents them. deldrift_discard_moves forgets staged segments, too, and their ids are given
+/// again.
+///
+/// Cost: count.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_OUT_OF_MEMORY. Not to be called at
+/// the same time as any other call on t.
+deldrift_status deldrift_stage_segments(deldrift_triangulation *t,
+                                        const uint32_t *ends,
+                                        const int32_t *markers,
+                                        size_t count,
+                                        uint32_t *first_segment);
+
+/// Stages the removal of segments: all of them, or none if it fails. From the next commit on they need not be edges any
+/// more. Their vertices stay.
+///
+/// segments: count ids, each at most once, read during the call only; may be NULL if count is 0.
+///
+/// Cost: count, and that of looking for each among those staged before.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_SEGMENT for an id that is not in force, or whose removal is staged,
+/// DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
+deldrift_status deldrift_stage_segment_removals(deldrift_triangulation *t,
+                                                const uint32_t *segments,
+                                                size_t count);
+
+/// The segments in force, ascending by id: those of the last commit, and not what is staged.
+///
+/// segments: a buffer with room for capacity ids; ends: for capacity rows of two vertex ids, as they were given; markers: for
+/// capacity numbers. One that is NULL is not filled. count: receives the number of segments, which is also written when the
+/// buffers are too small. NULL for all with capacity 0 asks for the count alone.
+///
+/// Cost: the ids of segments given so far.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL.
+deldrift_status deldrift_segments(const deldrift_triangulation *t,
+                                  uint32_t *segments,
+                                  uint32_t *ends,
+                                  int32_t *markers,
+                                  size_t capacity,
+                                  size_t *count);
+
+/// Whether segments would stand against a commit of what is staged: moves, insertions, removals and segments. Returns what
+/// deldrift_commit_timestamp would return as far as segments are concerned, and commits nothing; what is staged stays so.
+/// deldrift_segment_conflicts then tells all conflicts, so that a solver can cut its step. Without segments, in force or
+/// staged, nothing is looked at, and in 3D there are none.
+///
+/// Cost: at most that of the commit, and of taking it back.
+///
+/// Errors: those of deldrift_commit_timestamp. Not to be called at the same time as any other call on t.
+deldrift_status deldrift_check_staged(deldrift_triangulation *t);
+
+/// The conflicts for which the latest change, or check, of t was refused: all of them, in ascending order of kind, segment
+/// and other. None if it was not refused for conflicts.
+///
+/// conflicts: a buffer with room for capacity entries. count: receives their number, which is also written when the buffer
+/// is too small. NULL with capacity 0 asks for the count alone.
+///
+/// A segment of several ids has a conflict for each of them. Those of a segment without two ends, which are of the kinds
+/// DELDRIFT_CONFLICT_END_REMOVED and DELDRIFT_CONFLICT_ENDS_MEET, are all that is told of it.
+///
+/// Cost: the number of conflicts.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL.
+deldrift_status deldrift_segment_conflicts(const deldrift_triangulation *t,
+                                           deldrift_conflict *conflicts,
+                                           size_t capacity,
+                                           size_t *count);
 
 /// Takes what has changed since this was last called, to *changes: commits, immediate calls, insertions and removals
 /// alike. The first call lists all cells as created.
@@ -1219,6 +1349,114 @@ deldrift_status deldrift_hull_facets(const deldrift_triangulation *t,
                                      uint8_t *corners,
                                      size_t capacity,
                                      size_t *count);
+
+/// For each cell and each of its corners the segment at the edge opposite it, in the order of deldrift_cells: the lowest id
+/// if there are several, DELDRIFT_NONE if there is none.
+///
+/// segments: a buffer with room for capacity rows of 3 ids. count: receives the number of cells, which is also written when
+/// the buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Cost: m, and for each segment the cells around an end. After a change the first call also does what the first
+/// deldrift_cells does.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_segments_of_cells(const deldrift_triangulation *t,
+                                           uint32_t *segments,
+                                           size_t capacity,
+                                           size_t *count);
+
+/// The cells on both sides of each segment in force, in the order of deldrift_segments.
+///
+/// cells: a buffer with room for capacity rows of 2 cells: that on the left of the segment, as seen from its first end
+/// along it, and that on its right; DELDRIFT_NONE for the outside, and for both while there are no cells. count: receives
+/// the number of segments, which is also written when the buffer is too small. NULL with capacity 0 asks for the count
+/// alone.
+///
+/// Cost: for each segment the cells around an end. After a change the first call also does what the first deldrift_cells
+/// does.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_cells_of_segments(const deldrift_triangulation *t,
+                                           uint32_t *cells,
+                                           size_t capacity,
+                                           size_t *count);
+
+/// For each cell how many segments at least a way crosses from it to the outside, in the order of deldrift_cells.
+///
+/// Cells outside of all closed chains of segments have 0, those of a domain 1, those of its holes 2, those of islands in
+/// these 3, and so on: the cells of the domain are those with an odd number. A segment with one region on both sides, such
+/// as a slit or an open chain, divides nothing. No seed is needed, and cells between the domain and the convex hull have 0.
+///
+/// levels: a buffer with room for capacity numbers. count: receives the number of cells, which is also written when the
+/// buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Exact. Cost: m, and for each segment the cells around an end. After a change the first call also does what the first
+/// deldrift_cells does.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_nesting_levels(const deldrift_triangulation *t,
+                                        uint32_t *levels,
+                                        size_t capacity,
+                                        size_t *count);
+
+/// A label for each cell, in the order of deldrift_cells: that of the first seed in its region. A region is a set of cells
+/// that can be reached from each other without crossing a segment.
+///
+/// seeds: seed_count rows of 2 coordinates; labels: as many numbers, any. Both are read during the call only, and may be
+/// NULL if seed_count is 0. A seed outside of the convex hull labels nothing. other: the label of cells in whose region no
+/// seed is. label_of: a buffer with room for capacity numbers. count: receives the number of cells, which is also written
+/// when the buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Holes are regions, too: give their seeds a label of its own. Without segments there is one region.
+///
+/// Exact. Cost: m, for each segment the cells around an end, and for each seed that of deldrift_locate. After a change the
+/// first call also does what the first deldrift_cells does.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_AMBIGUOUS_SEED for one that is exactly on
+/// the boundary of several regions, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_label_cells(const deldrift_triangulation *t,
+                                     const double *seeds,
+                                     const int32_t *labels,
+                                     size_t seed_count,
+                                     int32_t other,
+                                     int32_t *label_of,
+                                     size_t capacity,
+                                     size_t *count);
+
+/// The boundary of some of the cells of the plane, in closed chains of edges, which have these cells on their left: an outer
+/// boundary goes counter-clockwise, that of a hole clockwise.
+///
+/// mask: mask_count bytes, one for each cell in the order of deldrift_cells (mask_count must be deldrift_cell_count); a cell
+/// is in the set if its byte is not 0. Read during the call only. Buffers with room for capacity entries, one for each edge;
+/// one that is NULL is not filled. vertices: where the edge begins; it ends where the next edge of its chain begins, the last
+/// one where the first of its chain does. chains: which chain it is in: 0, 1, ..., ascending. segments: the segment at it,
+/// the lowest id if there are several, DELDRIFT_NONE if there is none. cells: the cell of the set beside it. corners: which
+/// of its corners (0, 1, 2) is opposite. count: receives the number of edges, which is also written when the buffers are too
+/// small. NULL for all with capacity 0 asks for the count alone.
+///
+/// No chain crosses another, or itself: where parts of the set touch in a vertex, each part has a chain of its own. Each
+/// chain begins with its least edge, by the ids of the edge's two vertices, and chains are in this order. So vertices,
+/// chains and segments depend only on the set.
+///
+/// Exact. Cost: m, e log e for e edges, and for each segment the cells around an end. After a change the first call also
+/// does what the first deldrift_cells does.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_boundary_chains(const deldrift_triangulation *t,
+                                         const uint8_t *mask,
+                                         size_t mask_count,
+                                         uint32_t *vertices,
+                                         uint32_t *chains,
+                                         uint32_t *segments,
+                                         uint32_t *cells,
+                                         uint8_t *corners,
+                                         size_t capacity,
+                                         size_t *count);
 
 /// The edges: rows of two vertex ids, the lower one first, each edge once, in lexicographic order. They are a
 /// function of positions and ids alone.

@@ -93,6 +93,11 @@ pub enum Error {
         /// How many ids have been given: valid ones are below it.
         ids: usize,
     },
+    /// A seed is on the boundary of several regions.
+    AmbiguousSeed {
+        /// Which entry of `seeds`.
+        index: usize,
+    },
     /// There is no cell of this index.
     NoSuchCell {
         /// Parameter at fault.
@@ -190,7 +195,7 @@ pub enum StagedEdit {
 }
 
 /// Why a segment cannot be an edge.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Conflict {
     /// Two segments cross at a place that is an end of neither.
     Crossing {
@@ -219,6 +224,11 @@ pub enum Conflict {
 }
 
 impl Conflict {
+    /// Two segments that cross.
+    pub(crate) fn crossing(one: SegmentId, other: SegmentId) -> Self {
+        Conflict::Crossing { segments: [one.min(other), one.max(other)] }
+    }
+
     /// The segment, or the first of two.
     pub(crate) fn segment(&self) -> SegmentId {
         match *self {
@@ -274,6 +284,9 @@ impl fmt::Display for Error {
                     f,
                     "{argument}[{index}] is {segment}, which is no segment that can be removed; {ids} ids have been given"
                 )
+            }
+            Error::AmbiguousSeed { index } => {
+                write!(f, "seeds[{index}] is on the boundary of several regions, so it names none of them")
             }
             Error::NoSuchCell { argument, index, cell, cells } => {
                 write!(f, "{argument}[{index}] is {cell}, but there are {cells} cells")

@@ -1,5 +1,6 @@
 //! Segments between vertices of the plane, which have to be edges.
 
+use super::domain::of_the_plane;
 use super::handle::{Changing, Reading, deldrift_triangulation};
 use super::pointers::{Array, Buffer, Output, fill_all, given, write_all};
 use super::query::DELDRIFT_NONE;
@@ -7,6 +8,7 @@ use super::status::{Failure, deldrift_status};
 use crate::either::AnyTriangulation;
 use crate::error::Conflict;
 use crate::ids::{SegmentId, VertexId};
+use crate::in_its_dimension;
 use crate::motion::Segment;
 
 /// Why a segment cannot be an edge.
@@ -140,7 +142,7 @@ pub unsafe extern "C" fn deldrift_segments(
     let ends = ends.cast::<[u32; 2]>();
     given!(t: Reading, segments[capacity]: Buffer, ends[capacity]: Buffer, markers[capacity]: Buffer, count: Output);
     t.read(|t| {
-        let AnyTriangulation::Plane(t) = t else { return Err(Failure::NotOfThePlane) };
+        let t = of_the_plane(t)?;
         let needed = t.segments().count();
         fill_all(count, needed, capacity, [segments.offer(), ends.offer(), markers.offer()], || {
             write_all(segments.places_if_any(needed)?, t.segments().map(|(id, _)| id.get()));
@@ -154,35 +156,28 @@ pub unsafe extern "C" fn deldrift_segments(
     })
 }
 
-/// For each cell and each of its corners the segment at the edge opposite it, in the order of deldrift_cells: the lowest id
-/// if there are several, DELDRIFT_NONE if there is none.
+/// Whether segments would stand against a commit of what is staged: moves, insertions, removals and segments. Returns what
+/// deldrift_commit_timestamp would return as far as segments are concerned, and commits nothing; what is staged stays so.
+/// deldrift_segment_conflicts then tells all conflicts, so that a solver can cut its step. Without segments, in force or
+/// staged, nothing is looked at, and in 3D there are none.
 ///
-/// segments: a buffer with room for capacity rows of 3 ids. count: receives the number of cells, which is also written when
-/// the buffer is too small. NULL with capacity 0 asks for the count alone.
+/// Cost: at most that of the commit, and of taking it back.
 ///
-/// Cost: m, and k log k for k segments. After a change the first call also does what the first deldrift_cells does.
-///
-/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: those of deldrift_commit_timestamp. Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn deldrift_segments_of_cells(
-    t: *const deldrift_triangulation,
-    segments: *mut u32,
-    capacity: usize,
-    count: *mut usize,
-) -> deldrift_status {
-    let segments = segments.cast::<[u32; 3]>();
-    given!(t: Reading, segments[capacity]: Buffer, count: Output);
-    t.read(|t| {
-        let AnyTriangulation::Plane(t) = t else { return Err(Failure::NotOfThePlane) };
-        segments.fill(count, t.cell_count(), || Ok(t.segments_of_cells()?.map(|row| row.map(SegmentId::get))))
-    })
+pub unsafe extern "C" fn deldrift_check_staged(t: *mut deldrift_triangulation) -> deldrift_status {
+    given!(t: Changing);
+    t.change(|t| in_its_dimension!(t => Ok(t.check_staged()?)))
 }
 
-/// The conflicts for which a change of t was refused last: all of them, however many segments they are of.
+/// The conflicts for which the latest change, or check, of t was refused: all of them, in ascending order of kind, segment
+/// and other. None if it was not refused for conflicts.
 ///
 /// conflicts: a buffer with room for capacity entries. count: receives their number, which is also written when the buffer
-/// is too small. NULL with capacity 0 asks for the count alone. A change that succeeds forgets them.
+/// is too small. NULL with capacity 0 asks for the count alone.
+///
+/// A segment of several ids has a conflict for each of them. Those of a segment without two ends, which are of the kinds
+/// DELDRIFT_CONFLICT_END_REMOVED and DELDRIFT_CONFLICT_ENDS_MEET, are all that is told of it.
 ///
 /// Cost: the number of conflicts.
 ///
@@ -197,7 +192,7 @@ pub unsafe extern "C" fn deldrift_segment_conflicts(
 ) -> deldrift_status {
     given!(t: Reading, conflicts[capacity]: Buffer, count: Output);
     t.read(|t| {
-        let AnyTriangulation::Plane(t) = t else { return Err(Failure::NotOfThePlane) };
+        let t = of_the_plane(t)?;
         let found = t.conflicts_of_segments();
         conflicts.fill(count, found.len(), || Ok(found.iter().map(deldrift_conflict::from)))
     })

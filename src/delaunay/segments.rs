@@ -23,14 +23,14 @@ use super::locate::{list_ring, next_of_three, previous_of_three};
 use super::{Delaunay, Dimension};
 use crate::complex::{Corners, Facet, INFINITE, Row};
 use crate::error::Result;
-use crate::ids::{SiteId, Slot};
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 
 /// What is in the way of a segment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum InTheWay {
-    /// A site on it.
-    Site(SiteId),
+    /// A vertex on it.
+    Site(VertexId),
     /// An edge that has to be there, too.
     Edge([SiteId; 2]),
 }
@@ -185,6 +185,49 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
+    /// Whether two segments, of ends that are apart, cross at a place that is an end of neither.
+    pub(crate) fn do_cross(&self, [a, b]: [SiteId; 2], [c, d]: [SiteId; 2]) -> bool {
+        let are_apart = |u, v, s, t| {
+            let [to_s, to_t] = [s, t].map(|s| self.turn([u, v, s]));
+            to_s.min(to_t) < 0.0 && to_s.max(to_t) > 0.0
+        };
+        let is_shared = [c, d].contains(&a) || [c, d].contains(&b);
+        !is_shared && are_apart(a, b, c, d) && are_apart(c, d, a, b)
+    }
+
+    /// The finite cells to the left and to the right of an edge, seen from its first site; their facets are the edge.
+    pub(crate) fn cells_beside(&self, [u, v]: [SiteId; 2]) -> Result<[Option<Facet>; 2]> {
+        let mut sides = [None; 2];
+        list_ring(&self.complex, self.site(u).cell, u, |slot, i| {
+            let cell = self.complex.cell(slot);
+            let [next, previous] = [next_of_three(i), previous_of_three(i)];
+            if cell.is_ghost() {
+                return Ok(());
+            }
+            if cell.corners[next] == v {
+                sides[0] = Some(Facet::new(slot, previous));
+            } else if cell.corners[previous] == v {
+                sides[1] = Some(Facet::new(slot, next));
+            }
+            Ok(())
+        })?;
+        Ok(sides)
+    }
+
+    /// Tells the finite cells around a site of the plane.
+    pub(crate) fn for_cells_around(&self, s: SiteId, mut told: impl FnMut(Slot) -> Result<()>) -> Result<()> {
+        list_ring(&self.complex, self.site(s).cell, s, |slot, _| {
+            if self.complex.cell(slot).is_ghost() { Ok(()) } else { told(slot) }
+        })
+    }
+
+    /// Whether a place is on the line through a facet of a finite cell of the plane.
+    pub(crate) fn is_on_facet(&self, facet: Facet, q: &G::Point) -> bool {
+        let filter = self.filter_for(q);
+        let corners = &self.complex.cell(facet.cell()).corners;
+        G::orientation_with(&filter, self.view(), corners, facet.index(), q) == 0.0
+    }
+
     /// Whether two sites share an edge.
     pub(crate) fn is_edge(&self, [u, v]: [SiteId; 2]) -> Result<bool> {
         let mut is_there = false;
@@ -209,7 +252,7 @@ impl<G: Dimension> Delaunay<G> {
             let found = match passed {
                 Passed::Cell(cell) => return memory::push(&mut cells, cell),
                 Passed::Edge(edge) if has_to_be(edge) => InTheWay::Edge(edge),
-                Passed::Site(site) => InTheWay::Site(site),
+                Passed::Site(site) => InTheWay::Site(self.site(site).id),
                 Passed::Edge(_) | Passed::End => return Ok(()),
             };
             is_free = false;
@@ -232,15 +275,14 @@ impl<G: Dimension> Delaunay<G> {
         replaced.rows.iter().for_each(|row| self.complex.set_mark(row.slot, 0));
     }
 
-    /// Enters a segment that has been [looked along](Self::look_along). What is in its way now is a segment that has been
-    /// entered since: that is told, and the segment is not entered.
+    /// Enters a segment that has been [looked along](Self::look_along), unless it crosses one that has been entered since.
+    /// Returns whether it is there.
     pub(crate) fn enter_segment(
         &mut self,
         ends: [SiteId; 2],
         has_to_be: impl Fn([SiteId; 2]) -> bool,
         crossing: &mut Crossing,
-        mut is_in_the_way: impl FnMut(InTheWay) -> Result<()>,
-    ) -> Result<()> {
+    ) -> Result<bool> {
         let Crossing { cells, left, right, .. } = crossing;
         cells.clear();
         left.clear();
@@ -249,10 +291,7 @@ impl<G: Dimension> Delaunay<G> {
         self.follow_segment(ends, |passed| match passed {
             Passed::Cell(cell) => memory::push(cells, cell),
             Passed::Edge([a, b]) => {
-                if has_to_be([a, b]) {
-                    is_free = false;
-                    is_in_the_way(InTheWay::Edge([a, b]))?;
-                }
+                is_free &= !has_to_be([a, b]);
                 for (side, s) in [(&mut *right, a), (&mut *left, b)] {
                     if side.last() != Some(&s) {
                         memory::push(side, s)?;
@@ -262,8 +301,8 @@ impl<G: Dimension> Delaunay<G> {
             }
             Passed::Site(_) | Passed::End => Ok(()),
         })?;
-        if !is_free || cells.is_empty() {
-            return Ok(());
+        if !is_free {
+            return Ok(false);
         }
         self.list_rim(ends, crossing)?;
         self.complex.note_all(crossing.cells.iter().copied())?;
@@ -276,7 +315,7 @@ impl<G: Dimension> Delaunay<G> {
         }
         debug_assert_eq!(n, crossing.cells.len());
         self.glue_made(crossing);
-        Ok(())
+        Ok(true)
     }
 
     /// Lists the boundary of the cells that a segment crosses: the edges that it does not cross.

@@ -40,6 +40,7 @@ mod ways;
 pub use crate::delaunay::{Level, Violation};
 pub use algorithms::{Algorithm, AlgorithmRow, Commits, Purpose};
 pub use options::{CoincidencePolicy, Monitor, Options, SwitchingRule};
+pub use reading::domain::ChainEdge;
 pub use reading::exporting::Field;
 pub use reading::geometry::{BoundaryFacet, Interpolation, OrderedStar, Rows, VertexValues};
 pub use reading::query::Location;

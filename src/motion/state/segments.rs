@@ -25,6 +25,24 @@ pub struct Segment {
     pub marker: i32,
 }
 
+/// What a change is made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::motion) enum Aim {
+    /// What is staged takes effect.
+    Commit,
+    /// As a commit, but nothing stays: it is cancelled when all conflicts are known.
+    Check,
+    /// What is staged still waits.
+    Other,
+}
+
+impl Aim {
+    /// Whether staged segments are laid.
+    fn takes_staged(self) -> bool {
+        matches!(self, Aim::Commit | Aim::Check)
+    }
+}
+
 /// The segments of a mesh.
 #[derive(Debug)]
 pub(in crate::motion) struct Segments<G: Dimension> {
@@ -43,8 +61,11 @@ pub(in crate::motion) struct Segments<G: Dimension> {
     conflicts: Vec<Conflict>,
     /// The edges that a kernel had to have before the change, while it has others.
     before: Option<Vec<[SiteId; 2]>>,
-    /// Whether the change lays what is staged: it is a commit.
-    takes_staged: bool,
+    /// The entries of `edges` that are no edges before segments are laid.
+    missing: Vec<usize>,
+    aim: Aim,
+    /// Whether a check has found that there are no conflicts.
+    is_checked: bool,
 }
 
 impl<G: Dimension> Default for Segments<G> {
@@ -59,7 +80,9 @@ impl<G: Dimension> Default for Segments<G> {
             edges: Vec::new(),
             conflicts: Vec::new(),
             before: None,
-            takes_staged: false,
+            missing: Vec::new(),
+            aim: Aim::Other,
+            is_checked: false,
         }
     }
 }
@@ -142,7 +165,7 @@ impl<G: Dimension> Segments<G> {
     /// A kernel has cells that were saved with these segments: it has to have them, and to be told what cells they have
     /// taken the place of. `site_of` is by vertex id.
     pub(in crate::motion) fn join(&mut self, kernel: &mut Delaunay<G>, site_of: &[SiteId]) -> Result<()> {
-        self.takes_staged = false;
+        self.aim = Aim::Other;
         self.conflicts.clear();
         self.list_edges(site_of)?;
         let mut required = self.required()?;
@@ -152,6 +175,12 @@ impl<G: Dimension> Segments<G> {
         } else {
             self.look_along_line(kernel)?;
         }
+        self.refuse_conflicts()
+    }
+
+    /// Tells of the conflicts that have been found.
+    fn refuse_conflicts(&mut self) -> Result<()> {
+        self.conflicts.sort_unstable();
         match self.conflicts.first() {
             Some(&conflict) => Err(Error::Conflict { conflict, others: self.conflicts.len() - 1 }),
             None => Ok(()),
@@ -181,22 +210,33 @@ impl<G: Dimension> Segments<G> {
         !self.replaced.is_empty()
     }
 
+    /// What the change is made for.
+    pub(in crate::motion) fn aim(&self) -> Aim {
+        self.aim
+    }
+
+    /// Whether the change was a check that has found no conflicts.
+    pub(in crate::motion) fn is_checked(&self) -> bool {
+        self.is_checked
+    }
+
     /// The conflicts of the last change that had some.
     pub(in crate::motion) fn conflicts(&self) -> &[Conflict] {
         &self.conflicts
     }
 
-    /// A change begins, which is a commit or not: puts back the cells that segments have taken the place of.
-    pub(in crate::motion) fn lift(&mut self, kernel: &mut Delaunay<G>, takes_staged: bool) -> Result<()> {
+    /// A change begins: puts back the cells that segments have taken the place of.
+    pub(in crate::motion) fn lift(&mut self, kernel: &mut Delaunay<G>, aim: Aim) -> Result<()> {
         self.next.clear();
-        self.takes_staged = takes_staged;
+        (self.aim, self.is_checked) = (aim, false);
+        self.conflicts.clear();
         kernel.put_back_replaced(&self.replaced)
     }
 
     /// Whether nothing that a segment depends on has changed, where no row of the kernel's cells has.
     pub(in crate::motion) fn are_at_rest(&self) -> bool {
         let are_staged = self.all.len() > self.n_laid || !self.leaving.is_empty();
-        self.replaced.is_empty() && !(self.takes_staged && are_staged)
+        self.replaced.is_empty() && !(self.aim.takes_staged() && are_staged)
     }
 
     /// Enters the segments that are missing in the Delaunay triangulation of a kernel: those in force, or, in a commit,
@@ -209,8 +249,8 @@ impl<G: Dimension> Segments<G> {
             let looked = self.look_along(kernel);
             kernel.end_looking(&self.next);
             looked?;
-            if self.conflicts.is_empty() {
-                self.enter(kernel)?;
+            if !self.conflicts.is_empty() || !self.enter(kernel)? {
+                self.cross_missing(kernel)?;
             }
         } else {
             self.look_along_line(kernel)?;
@@ -218,10 +258,12 @@ impl<G: Dimension> Segments<G> {
         let mut required = self.required()?;
         kernel.exchange_required(&mut required);
         self.before = Some(required);
-        match self.conflicts.first() {
-            Some(&conflict) => Err(Error::Conflict { conflict, others: self.conflicts.len() - 1 }),
-            None => Ok(()),
+        self.refuse_conflicts()?;
+        if self.aim == Aim::Check {
+            self.is_checked = true;
+            return Err(Error::Cancelled);
         }
+        Ok(())
     }
 
     /// Enters the segments that are missing in a new kernel, which takes the place of the old one if nothing conflicts.
@@ -237,14 +279,15 @@ impl<G: Dimension> Segments<G> {
 
     /// Lists the edges that have to be there, and the conflicts of ends alone.
     fn list_edges(&mut self, site_of: &[SiteId]) -> Result<()> {
-        let Segments { all, n_laid, leaving, edges, conflicts, takes_staged, .. } = self;
+        let Segments { all, n_laid, leaving, edges, conflicts, .. } = self;
+        let takes_staged = self.aim.takes_staged();
         edges.clear();
-        let n = if *takes_staged { all.len() } else { *n_laid };
+        let n = if takes_staged { all.len() } else { *n_laid };
         memory::reserve(edges, n)?;
         leaving.sort_unstable();
         for (id, segment) in SegmentId::range(0..n).zip(&*all) {
             let Some(segment) = segment else { continue };
-            if *takes_staged && leaving.binary_search(&id).is_ok() {
+            if takes_staged && leaving.binary_search(&id).is_ok() {
                 continue;
             }
             let sites = segment.ends.map(|v| site_of[v.index()]);
@@ -262,63 +305,72 @@ impl<G: Dimension> Segments<G> {
 
     /// Looks along all segments that are missing.
     fn look_along(&mut self, kernel: &mut Delaunay<G>) -> Result<()> {
-        let Segments { edges, next, conflicts, .. } = self;
+        let Segments { edges, next, conflicts, missing, .. } = self;
         let edges = &*edges;
+        missing.clear();
         for k in 0..edges.len() {
             let (edge, id) = edges[k];
-            // Several segments may be at one edge.
-            if (k > 0 && edges[k - 1].0 == edge) || kernel.is_edge(edge)? {
+            let is_told = k > 0 && edges[k - 1].0 == edge;
+            if is_told && missing.last().is_none_or(|&m| edges[m].0 != edge) {
                 continue;
             }
-            let mut sites = Vec::new();
+            if !is_told && kernel.is_edge(edge)? {
+                continue;
+            }
+            memory::push(missing, k)?;
             kernel.look_along(
                 edge,
                 |other| !at_edge(edges, other).is_empty(),
                 next,
                 |found| match found {
-                    InTheWay::Site(s) => memory::push(&mut sites, s),
-                    InTheWay::Edge(other) => at_edge(edges, other).iter().try_for_each(|&(_, other)| {
-                        memory::push(
-                            conflicts,
-                            Conflict::Crossing { segments: [id.min(other), id.max(other)] },
-                        )
-                    }),
+                    InTheWay::Site(vertex) => {
+                        memory::push(conflicts, Conflict::OnSegment { segment: id, vertex })
+                    }
+                    InTheWay::Edge(other) => at_edge(edges, other)
+                        .iter()
+                        .try_for_each(|&(_, other)| memory::push(conflicts, Conflict::crossing(id, other))),
                 },
             )?;
-            for s in sites {
-                let vertex = kernel.site(s).id;
-                memory::push(conflicts, Conflict::OnSegment { segment: id, vertex })?;
-            }
         }
         Ok(())
     }
 
-    /// Enters all segments that are missing.
-    fn enter(&mut self, kernel: &mut Delaunay<G>) -> Result<()> {
-        if self.next.is_empty() {
-            return Ok(());
-        }
-        let Segments { edges, crossing, conflicts, .. } = self;
+    /// Enters all segments that are missing, and of which nothing that is there is in the way. Returns whether none of
+    /// them crosses another.
+    fn enter(&mut self, kernel: &mut Delaunay<G>) -> Result<bool> {
+        let Segments { edges, crossing, missing, .. } = self;
         let edges = &*edges;
-        for k in 0..edges.len() {
-            let (edge, id) = edges[k];
-            if (k > 0 && edges[k - 1].0 == edge) || kernel.is_edge(edge)? {
+        for (i, &k) in missing.iter().enumerate() {
+            let edge = edges[k].0;
+            let is_entered = i > 0 && edges[missing[i - 1]].0 == edge;
+            if is_entered || kernel.is_edge(edge)? {
                 continue;
             }
-            kernel.enter_segment(
-                edge,
-                |other| !at_edge(edges, other).is_empty(),
-                crossing,
-                |found| match found {
-                    InTheWay::Site(_) => Ok(()),
-                    InTheWay::Edge(other) => at_edge(edges, other).iter().try_for_each(|&(_, other)| {
-                        memory::push(
-                            conflicts,
-                            Conflict::Crossing { segments: [id.min(other), id.max(other)] },
-                        )
-                    }),
-                },
-            )?;
+            if !kernel.enter_segment(edge, |other| !at_edge(edges, other).is_empty(), crossing)? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Finds all pairs of missing segments that cross: by a sweep over their ranges along the first axis.
+    fn cross_missing(&mut self, kernel: &Delaunay<G>) -> Result<()> {
+        let Segments { edges, conflicts, missing, .. } = self;
+        let range = |k: usize| {
+            let [p, q] = edges[k].0.map(|s| kernel.site(s).point[0]);
+            [p.min(q), p.max(q)]
+        };
+        missing.sort_unstable_by(|&j, &k| range(j)[0].total_cmp(&range(k)[0]));
+        let mut open: Vec<usize> = Vec::new();
+        for &k in &*missing {
+            let [from, _] = range(k);
+            open.retain(|&j| range(j)[1] >= from);
+            for &j in &open {
+                if kernel.do_cross(edges[j].0, edges[k].0) {
+                    memory::push(conflicts, Conflict::crossing(edges[j].1, edges[k].1))?;
+                }
+            }
+            memory::push(&mut open, k)?;
         }
         Ok(())
     }
@@ -417,6 +469,7 @@ impl<G: Dimension> Segments<G> {
             + self.next.memory_bytes()
             + self.crossing.memory_bytes()
             + memory::bytes_of(&self.edges)
+            + memory::bytes_of(&self.missing)
             + memory::bytes_of(&self.conflicts)
     }
 }
