@@ -88,6 +88,8 @@ enum Passed {
 #[derive(Debug, Default)]
 pub(crate) struct Crossing {
     cells: Vec<Slot>,
+    /// The edges between one of the cells and the next.
+    crossed: Vec<[SiteId; 2]>,
     /// The corners of the polygon to the left, from the first end to the second, both ends left out; and to the right.
     left: Vec<SiteId>,
     right: Vec<SiteId>,
@@ -102,6 +104,7 @@ pub(crate) struct Crossing {
 impl Crossing {
     pub(crate) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.cells)
+            + memory::bytes_of(&self.crossed)
             + memory::bytes_of(&self.left)
             + memory::bytes_of(&self.right)
             + memory::bytes_of(&self.rim)
@@ -228,14 +231,24 @@ impl<G: Dimension> Delaunay<G> {
         G::orientation_with(&filter, self.view(), corners, facet.index(), q) == 0.0
     }
 
-    /// Whether two sites share an edge.
-    pub(crate) fn is_edge(&self, [u, v]: [SiteId; 2]) -> Result<bool> {
-        let mut is_there = false;
+    /// Whether a slot, or none, holds a cell with this edge.
+    pub(crate) fn has_edge(&self, slot: Slot, [u, v]: [SiteId; 2]) -> bool {
+        slot.index() < self.complex.n_slots() && self.complex.is_live(slot) && {
+            let corners = self.complex.cell(slot).corners;
+            corners.as_ref().contains(&u) && corners.as_ref().contains(&v)
+        }
+    }
+
+    /// A cell with this edge, [`Slot::NONE`] if the sites share none.
+    pub(crate) fn find_edge(&self, [u, v]: [SiteId; 2]) -> Result<Slot> {
+        let mut found = Slot::NONE;
         list_ring(&self.complex, self.site(u).cell, u, |slot, _| {
-            is_there |= self.complex.cell(slot).corners.as_ref().contains(&v);
+            if self.complex.cell(slot).corners.as_ref().contains(&v) {
+                found = slot;
+            }
             Ok(())
         })?;
-        Ok(is_there)
+        Ok(found)
     }
 
     /// Looks along a segment that is missing, while no cell has been replaced. Tells what is in the way; if nothing is,
@@ -244,13 +257,15 @@ impl<G: Dimension> Delaunay<G> {
         &mut self,
         ends: [SiteId; 2],
         has_to_be: impl Fn([SiteId; 2]) -> bool,
+        crossing: &mut Crossing,
         replaced: &mut Replaced<G>,
         mut is_in_the_way: impl FnMut(InTheWay) -> Result<()>,
     ) -> Result<()> {
-        let (mut cells, mut is_free) = (Vec::new(), true);
+        let (cells, mut is_free) = (&mut crossing.cells, true);
+        cells.clear();
         self.follow_segment(ends, |passed| {
             let found = match passed {
-                Passed::Cell(cell) => return memory::push(&mut cells, cell),
+                Passed::Cell(cell) => return memory::push(cells, cell),
                 Passed::Edge(edge) if has_to_be(edge) => InTheWay::Edge(edge),
                 Passed::Site(site) => InTheWay::Site(self.site(site).id),
                 Passed::Edge(_) | Passed::End => return Ok(()),
@@ -260,7 +275,7 @@ impl<G: Dimension> Delaunay<G> {
         })?;
         if is_free {
             // A cell that two segments cross is marked the second time.
-            for cell in cells {
+            for &cell in &*cells {
                 if self.complex.mark(cell) == 0 {
                     memory::push(&mut replaced.rows, self.complex.row(cell))?;
                     self.complex.set_mark(cell, 1);
@@ -283,8 +298,9 @@ impl<G: Dimension> Delaunay<G> {
         has_to_be: impl Fn([SiteId; 2]) -> bool,
         crossing: &mut Crossing,
     ) -> Result<bool> {
-        let Crossing { cells, left, right, .. } = crossing;
+        let Crossing { cells, crossed, left, right, .. } = crossing;
         cells.clear();
+        crossed.clear();
         left.clear();
         right.clear();
         let mut is_free = true;
@@ -292,6 +308,7 @@ impl<G: Dimension> Delaunay<G> {
             Passed::Cell(cell) => memory::push(cells, cell),
             Passed::Edge([a, b]) => {
                 is_free &= !has_to_be([a, b]);
+                memory::push(crossed, [a, b])?;
                 for (side, s) in [(&mut *right, a), (&mut *left, b)] {
                     if side.last() != Some(&s) {
                         memory::push(side, s)?;
@@ -304,7 +321,7 @@ impl<G: Dimension> Delaunay<G> {
         if !is_free {
             return Ok(false);
         }
-        self.list_rim(ends, crossing)?;
+        self.list_rim(crossing)?;
         self.complex.note_all(crossing.cells.iter().copied())?;
         crossing.right.reverse();
         crossing.made.clear();
@@ -319,21 +336,18 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Lists the boundary of the cells that a segment crosses: the edges that it does not cross.
-    fn list_rim(&self, ends: [SiteId; 2], crossing: &mut Crossing) -> Result<()> {
-        let Crossing { cells, rim, .. } = crossing;
+    fn list_rim(&self, crossing: &mut Crossing) -> Result<()> {
+        let Crossing { cells, crossed, rim, .. } = crossing;
         rim.clear();
         memory::reserve(rim, cells.len() + 2)?;
-        // 0 for the ends, else on which side a site is.
-        let side = |s: SiteId| {
-            let turn = if ends.contains(&s) { 0.0 } else { self.turn([ends[0], ends[1], s]) };
-            i32::from(turn > 0.0) - i32::from(turn < 0.0)
-        };
-        for &slot in &*cells {
+        for (k, &slot) in cells.iter().enumerate() {
             let cell = self.complex.cell(slot);
+            // Entered through the one, left through the other.
+            let through = &crossed[k.saturating_sub(1)..crossed.len().min(k + 1)];
             for i in 0..3 {
-                let edge = [next_of_three(i), previous_of_three(i)].map(|k| cell.corners[k]);
-                if side(edge[0]) * side(edge[1]) >= 0 {
-                    memory::push(rim, (edge, cell.neighbour(i)))?;
+                let [a, b] = [next_of_three(i), previous_of_three(i)].map(|k| cell.corners[k]);
+                if !through.iter().any(|edge| edge.contains(&a) && edge.contains(&b)) {
+                    memory::push(rim, ([a, b], cell.neighbour(i)))?;
                 }
             }
         }

@@ -4,7 +4,7 @@ use crate::complex::Corners;
 use crate::damage::{Damage, LoadError};
 use crate::delaunay::{Delaunay, Dimension, Rows};
 use crate::error::{Error, Result};
-use crate::ids::{CellId, Id, SegmentId, VertexId};
+use crate::ids::{CellId, Id, SegmentId, Slot, VertexId};
 use crate::machine::memory;
 use crate::machine::threads::Threads;
 use crate::motion::options::Options;
@@ -221,7 +221,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             joined.map_err(of_segment)?;
             for (segment, ends) in segments.laid().map(|(id, segment)| (id, segment.ends)) {
                 let sites = ends.map(|v| t.mesh.site_of[v]);
-                if t.mesh.kernel.has_cells() && !t.mesh.kernel.is_edge(sites)? {
+                if t.mesh.kernel.has_cells() && t.mesh.kernel.find_edge(sites)? == Slot::NONE {
                     return Err(Damage::Segment { segment }.into());
                 }
             }
