@@ -63,6 +63,8 @@ pub(in crate::motion) struct Segments<G: Dimension> {
     conflicts: Vec<Conflict>,
     /// The edges that a kernel had to have before the change, while it has others.
     before: Option<Vec<[SiteId; 2]>>,
+    /// By site: whether it is an end of one of `edges`.
+    is_end: Vec<bool>,
     /// A cell that each of `edges` was seen at last.
     seen: Vec<Slot>,
     /// The entries of `edges` that are no edges before segments are laid.
@@ -84,6 +86,7 @@ impl<G: Dimension> Default for Segments<G> {
             edges: Vec::new(),
             conflicts: Vec::new(),
             before: None,
+            is_end: Vec::new(),
             seen: Vec::new(),
             missing: Vec::new(),
             aim: Aim::Other,
@@ -95,6 +98,11 @@ impl<G: Dimension> Default for Segments<G> {
 /// Two sites, the lower one first.
 fn ordered([s, t]: [SiteId; 2]) -> [SiteId; 2] {
     if s < t { [s, t] } else { [t, s] }
+}
+
+/// Whether an edge has to be there. `is_end`: whether a site is an end of a segment.
+fn has_to_be(edges: &[([SiteId; 2], SegmentId)], is_end: &[bool], edge: [SiteId; 2]) -> bool {
+    edge.iter().all(|s| is_end.get(s.index()) == Some(&true)) && !at_edge(edges, edge).is_empty()
 }
 
 /// The segments that have to be at an edge.
@@ -306,7 +314,7 @@ impl<G: Dimension> Segments<G> {
 
     /// Lists the edges that have to be there, and the conflicts of ends alone.
     fn list_edges(&mut self, site_of: &[SiteId]) -> Result<()> {
-        let Segments { all, n_laid, leaving, edges, seen, conflicts, .. } = self;
+        let Segments { all, n_laid, leaving, edges, is_end, seen, conflicts, .. } = self;
         let takes_staged = self.aim.takes_staged();
         edges.clear();
         let n = if takes_staged { all.len() } else { *n_laid };
@@ -327,14 +335,18 @@ impl<G: Dimension> Segments<G> {
             }
         }
         edges.sort_unstable();
+        is_end.clear();
+        let n_sites = edges.iter().map(|(edge, _)| edge[1].index() + 1).max().unwrap_or(0);
+        memory::lengthen(is_end, n_sites, false)?;
+        edges.iter().flat_map(|(edge, _)| edge).for_each(|s| is_end[s.index()] = true);
         seen.clear();
         memory::lengthen(seen, edges.len(), Slot::NONE)
     }
 
     /// Looks along all segments that are missing.
     fn look_along(&mut self, kernel: &mut Delaunay<G>) -> Result<()> {
-        let Segments { edges, seen, next, crossing, conflicts, missing, .. } = self;
-        let edges = &*edges;
+        let Segments { edges, is_end, seen, next, crossing, conflicts, missing, .. } = self;
+        let (edges, is_end) = (&*edges, &*is_end);
         missing.clear();
         for k in 0..edges.len() {
             let (edge, id) = edges[k];
@@ -353,7 +365,7 @@ impl<G: Dimension> Segments<G> {
             memory::push(missing, k)?;
             kernel.look_along(
                 edge,
-                |other| !at_edge(edges, other).is_empty(),
+                |other| has_to_be(edges, is_end, other),
                 crossing,
                 next,
                 |found| match found {
@@ -372,15 +384,15 @@ impl<G: Dimension> Segments<G> {
     /// Enters all segments that are missing, and of which nothing that is there is in the way. Returns whether none of
     /// them crosses another.
     fn enter(&mut self, kernel: &mut Delaunay<G>) -> Result<bool> {
-        let Segments { edges, crossing, missing, .. } = self;
-        let edges = &*edges;
+        let Segments { edges, is_end, crossing, missing, .. } = self;
+        let (edges, is_end) = (&*edges, &*is_end);
         for (i, &k) in missing.iter().enumerate() {
             let edge = edges[k].0;
             let is_entered = i > 0 && edges[missing[i - 1]].0 == edge;
             if is_entered || kernel.find_edge(edge)? != Slot::NONE {
                 continue;
             }
-            if !kernel.enter_segment(edge, |other| !at_edge(edges, other).is_empty(), crossing)? {
+            if !kernel.enter_segment(edge, |other| has_to_be(edges, is_end, other), crossing)? {
                 return Ok(false);
             }
         }
@@ -507,6 +519,7 @@ impl<G: Dimension> Segments<G> {
             + self.next.memory_bytes()
             + self.crossing.memory_bytes()
             + memory::bytes_of(&self.edges)
+            + memory::bytes_of(&self.is_end)
             + memory::bytes_of(&self.seen)
             + memory::bytes_of(&self.missing)
             + memory::bytes_of(&self.conflicts)
