@@ -187,11 +187,15 @@ pub unsafe extern "C" fn deldrift_boundary_chains(
         let n = edges.len();
         let offers = [vertices.offer(), chains.offer(), segments.offer(), cells.offer(), corners.offer()];
         fill_all(count, n, capacity, offers, || {
-            write_all(vertices.places_if_any(n)?, edges.iter().map(|edge| edge.vertex.get()));
-            write_all(chains.places_if_any(n)?, edges.iter().map(|edge| edge.chain));
-            write_all(segments.places_if_any(n)?, edges.iter().map(|edge| edge.segment.get()));
-            write_all(cells.places_if_any(n)?, edges.iter().map(|edge| edge.cell.get()));
-            write_all(corners.places_if_any(n)?, edges.iter().map(|edge| edge.corner as u8));
+            // Each of them is looked at before one is written.
+            let (vertices, chains) = (vertices.places_if_any(n)?, chains.places_if_any(n)?);
+            let (segments, cells) = (segments.places_if_any(n)?, cells.places_if_any(n)?);
+            let corners = corners.places_if_any(n)?;
+            write_all(vertices, edges.iter().map(|edge| edge.vertex.get()));
+            write_all(chains, edges.iter().map(|edge| edge.chain));
+            write_all(segments, edges.iter().map(|edge| edge.segment.get()));
+            write_all(cells, edges.iter().map(|edge| edge.cell.get()));
+            write_all(corners, edges.iter().map(|edge| edge.corner as u8));
             Ok(())
         })
     })

@@ -153,12 +153,12 @@ pub unsafe extern "C" fn deldrift_segments(
         let t = of_the_plane(t)?;
         let needed = t.segments().count();
         fill_all(count, needed, capacity, [segments.offer(), ends.offer(), markers.offer()], || {
-            write_all(segments.places_if_any(needed)?, t.segments().map(|(id, _)| id.get()));
-            write_all(
-                ends.places_if_any(needed)?,
-                t.segments().map(|(_, segment)| segment.ends.map(VertexId::get)),
-            );
-            write_all(markers.places_if_any(needed)?, t.segments().map(|(_, segment)| segment.marker));
+            // Each of them is looked at before one is written.
+            let (segments, ends) = (segments.places_if_any(needed)?, ends.places_if_any(needed)?);
+            let markers = markers.places_if_any(needed)?;
+            write_all(segments, t.segments().map(|(id, _)| id.get()));
+            write_all(ends, t.segments().map(|(_, segment)| segment.ends.map(VertexId::get)));
+            write_all(markers, t.segments().map(|(_, segment)| segment.marker));
             Ok(())
         })
     })
