@@ -1075,8 +1075,8 @@ deldrift_status deldrift_tolerance(const deldrift_triangulation *t,
 /// Checks the triangulation exactly, in time proportional to its size.
 ///
 /// level: 1 checks indices and adjacency; 2 also the orientation of the cells, and that the hull is
-/// convex and winds once; 3 also that no sphere through the vertices of a cell contains a vertex, or, with segments, that
-/// these are edges, and that no vertex in the circle of a cell is seen from within.
+/// convex and winds once; 3 also that no sphere through the vertices of a cell contains a vertex, or, with segments, none
+/// that can be seen from the cell's inside.
 ///
 /// Cost: n + m.
 ///

@@ -308,6 +308,39 @@ static void immediate_calls_are_refused(void) {
     }
 }
 
+// Vertices go by little, one at a time, beside a segment across all of them: tolerances are of the Delaunay triangulation, and
+// say nothing of the cells that the segment has made.
+static void vertices_beside_a_segment_do_not_slip_over_it(void) {
+    enum { COUNT = 400 };
+    deldrift_options options;
+    deldrift_options_init(&options);
+    options.algorithm = DELDRIFT_TOLERANCE;
+    double *p = random_positions(2, COUNT, 5);
+    memcpy(p, (double[]){-0.1, 0.5, 1.1, 0.5}, 4 * sizeof *p);
+    deldrift_triangulation *t = create(2, p, COUNT, &options);
+    uint32_t segment;
+    size_t n_refused = 0;
+    OK(deldrift_stage_segments(t, (uint32_t[]){0, 1}, NULL, 1, &segment));
+    for (int step = 0; step < 3; step++) {
+        for (size_t i = 4; i < 2 * COUNT; i++) p[i] += 1e-6 * next_random(&seed);
+        OK(deldrift_commit_positions(t, p, COUNT, NULL));
+    }
+    for (size_t k = 0; k < 8000; k++) {
+        const uint32_t v = 2 + (uint32_t)below(COUNT - 2);
+        double *at = p + 2 * v, to[2];
+        for (int i = 0; i < 2; i++) to[i] = at[i] + 1e-2 * (next_random(&seed) - 0.5);
+        const bool is_on = k % 2 == 0 && fabs(at[1] - 0.5) < 0.02;
+        if (is_on) to[1] = 0.5;
+        CHECK_STATUS(deldrift_relocate_vertex(t, v, to), is_on ? DELDRIFT_ON_SEGMENT : DELDRIFT_OK);
+        n_refused += is_on;
+        if (!is_on) memcpy(at, to, sizeof to);
+    }
+    OK(deldrift_validate(t, 3));
+    CHECK(has_edge(t, 0, 1) && n_refused > 100);
+    deldrift_destroy(t);
+    free(p);
+}
+
 static void segments_that_cross_are_refused(void) {
     uint32_t segment;
     deldrift_triangulation *t = kite(DELDRIFT_AUTO, &segment);
@@ -399,6 +432,7 @@ static void arguments_are_checked(void) {
 int main(void) {
     a_segment_comes_and_goes();
     immediate_calls_are_refused();
+    vertices_beside_a_segment_do_not_slip_over_it();
     segments_that_cross_are_refused();
     copies_have_segments();
     arguments_are_checked();
