@@ -206,7 +206,8 @@ enum
     DELDRIFT_CONFLICT_CROSSING = 0,
     /// A vertex is on the segment, and is not one of its ends: other is the lowest id at the place.
     DELDRIFT_CONFLICT_ON_SEGMENT = 1,
-    /// An end of the segment has been removed, or would be: other is the end.
+    /// An end of the segment has been removed, or would be: other is the end, DELDRIFT_NONE if deldrift_compact has been
+    /// called since.
     DELDRIFT_CONFLICT_END_REMOVED = 2,
     /// Both ends of the segment would be at the same place: other is DELDRIFT_NONE.
     DELDRIFT_CONFLICT_ENDS_MEET = 3,
