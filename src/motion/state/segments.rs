@@ -325,7 +325,8 @@ impl<G: Dimension> Segments<G> {
             if takes_staged && leaving.binary_search(&id).is_ok() {
                 continue;
             }
-            let sites = segment.ends.map(|v| site_of[v.index()]);
+            // An end that was removed before a compaction has no id any more.
+            let sites = segment.ends.map(|v| site_of.get(v.index()).copied().unwrap_or(SiteId::NONE));
             if let Some(k) = (0..2).find(|&k| sites[k] == SiteId::NONE) {
                 memory::push(conflicts, Conflict::EndRemoved { segment: id, vertex: segment.ends[k] })?;
             } else if sites[0] == sites[1] {
