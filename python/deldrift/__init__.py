@@ -15,10 +15,13 @@ from ._arrays import is_current
 from ._asking import Locations, in_sphere, orientation
 from ._delaunay import Delaunay, frombytes, load, tsearch
 from ._errors import (
+    AmbiguousSeed,
     Busy,
     Cancelled,
     Closed,
     Coincident,
+    ConflictError,
+    ConflictKind,
     DuplicateMove,
     Error,
     FileError,
@@ -30,6 +33,7 @@ from ._errors import (
     InvalidOption,
     InvalidShape,
     InvalidValue,
+    NoSuchSegment,
     NoSuchSimplex,
     NoSuchVertex,
     NotFinite,
@@ -42,17 +46,23 @@ from ._errors import (
 )
 from ._geometry import Boundary
 from ._library import Report, version
-from ._motion import Changes, Step
+from ._motion import Changes
+from ._segments import Chains, Segments
+from ._step import Step
 
 __version__ = "0.1.0"
 
 __all__ = [
+    "AmbiguousSeed",
     "Boundary",
     "Busy",
     "Cancelled",
+    "Chains",
     "Changes",
     "Closed",
     "Coincident",
+    "ConflictError",
+    "ConflictKind",
     "Delaunay",
     "DuplicateMove",
     "Error",
@@ -66,6 +76,7 @@ __all__ = [
     "InvalidShape",
     "InvalidValue",
     "Locations",
+    "NoSuchSegment",
     "NoSuchSimplex",
     "NoSuchVertex",
     "NotFinite",
@@ -73,6 +84,7 @@ __all__ = [
     "OutOfRange",
     "RemovedVertex",
     "Report",
+    "Segments",
     "StagedVertex",
     "Step",
     "TooMany",
