@@ -1,6 +1,7 @@
 """Exact Delaunay triangulations of moving points, in 2D and 3D.
 
 `Delaunay` has the attributes and methods of `scipy.spatial.Delaunay`; its points may move, be inserted and be removed.
+In the plane it takes segments, which stay edges; `Mesh` is the mesh of a domain within segments, which may move.
 
 Examples
 --------
@@ -46,6 +47,7 @@ from ._errors import (
 )
 from ._geometry import Boundary
 from ._library import Report, version
+from ._mesh import Mesh
 from ._motion import Changes
 from ._segments import Chains, Segments
 from ._step import Step
@@ -76,6 +78,7 @@ __all__ = [
     "InvalidShape",
     "InvalidValue",
     "Locations",
+    "Mesh",
     "NoSuchSegment",
     "NoSuchSimplex",
     "NoSuchVertex",

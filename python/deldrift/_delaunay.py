@@ -90,16 +90,27 @@ class Delaunay(Motion, Asking, Geometry, Files):
         segment_markers: Any = None,
     ) -> None:
         check_scipy_options(furthest_site, qhull_options)
-        rows = point_rows("points", points)
+        self._create(point_rows("points", points), algorithm, threads, coincidence, progress, cancel)
+        if segments is not None or segment_markers is not None:
+            with self.step():
+                self._stage_segments(() if segments is None else segments, segment_markers, *SEGMENT_ARGUMENTS)
+
+    def _create(
+        self,
+        rows: np.ndarray,
+        algorithm: str,
+        threads: int,
+        coincidence: str,
+        progress: Any,
+        cancel: Optional[Callable[[], bool]],
+        name: str = "points",
+    ) -> None:
         callbacks = _callbacks(progress, cancel)
         options = make_options(algorithm, threads, coincidence, callbacks)
         pointer = ctypes.c_void_p()
         status = _create(rows.shape[1], address(rows), len(rows), options, pointer)
-        check(status, {"positions": "points"}, callbacks)
+        check(status, {"positions": name}, callbacks)
         self._start(Handle(pointer.value or 0, callbacks), rows.shape[1], threads, coincidence, callbacks)
-        if segments is not None or segment_markers is not None:
-            with self.step():
-                self._stage_segments(() if segments is None else segments, segment_markers, *SEGMENT_ARGUMENTS)
 
     def add_points(self, points: Any, restart: bool = False) -> None:
         """Inserts points, whose ids follow those that have been given.

@@ -206,13 +206,16 @@ class Segmented(Core):
         """
         self._check_plane()
         places = point_rows("seeds", seeds, 2) if np.size(seeds) else np.empty((0, 2))
-        values, rest = numbers("labels", labels, len(places), "seeds"), one_number("other", other)
+        values = numbers("labels", labels, len(places), "seeds")
+        return self._labels_at(places, values, one_number("other", other), "seeds")
+
+    def _labels_at(self, places: np.ndarray, values: np.ndarray, rest: int, name: str) -> np.ndarray:
         with self._reading as t:
             found, count = np.empty(cell_count(t), I32), ctypes.c_size_t()
             status = _label_cells(
                 t, address(places), address(values), len(places), rest, address(found), len(found), count
             )
-            self._check(status, positions="seeds")
+            self._check(status, positions=name, seeds=name)
         return found
 
     def boundary_chains(self, mask: Any = None) -> Chains:
