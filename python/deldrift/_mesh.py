@@ -8,7 +8,7 @@ from typing import Any, Callable, Mapping, NamedTuple, Optional
 
 import numpy as np
 
-from ._arrays import floats, points as point_rows, real
+from ._arrays import floats, numbers, points as point_rows, real
 from ._core import fixed
 from ._delaunay import Delaunay
 from ._errors import ConflictError, InvalidShape, InvalidValue, NoSuchSegment
@@ -95,7 +95,7 @@ class Mesh:
         with tri.step():
             tri._stage_segments(segments, markers, "segments", "markers")
         self._holes = None if places is None else [side for side in self._sides(places, "holes") if side is not None]
-        sides = self._sides(labelled[:, :2], "regions")
+        sides = self._sides(np.ascontiguousarray(labelled[:, :2]), "regions")
         named = [k for k, side in enumerate(sides) if side is not None]
         self._regions = [side for side in sides if side is not None]
         # The last entry is that of triangles without a region.
@@ -146,8 +146,9 @@ class Mesh:
             regions = rows[:, :3]
         markers = data.get("segment_markers")
         if markers is not None:
-            markers = np.asarray(markers)
-            markers = markers.reshape(-1) if markers.shape[1:] == (1,) else markers
+            column = np.asarray(markers)
+            column = column.reshape(-1) if column.shape[1:] == (1,) else column
+            markers = numbers("segment_markers", column, len(data["segments"]), "segments")
         return cls(data["vertices"], data["segments"], markers, data.get("holes", ()), regions, **options)
 
     def _sides(self, places: np.ndarray, argument: str) -> list[Optional[_Side]]:
