@@ -8,7 +8,7 @@ from typing import Any, Callable, Mapping, NamedTuple, Optional
 
 import numpy as np
 
-from ._arrays import floats, numbers, points as point_rows, real
+from ._arrays import floats, numbers, pairs, points as point_rows, real
 from ._core import fixed
 from ._delaunay import Delaunay
 from ._errors import ConflictError, InvalidShape, InvalidValue, NoSuchSegment
@@ -148,7 +148,7 @@ class Mesh:
         if markers is not None:
             column = np.asarray(markers)
             column = column.reshape(-1) if column.shape[1:] == (1,) else column
-            markers = numbers("segment_markers", column, len(data["segments"]), "segments")
+            markers = numbers("segment_markers", column, len(pairs("segments", data["segments"])), "segments")
         return cls(data["vertices"], data["segments"], markers, data.get("holes", ()), regions, **options)
 
     def _sides(self, places: np.ndarray, argument: str) -> list[Optional[_Side]]:
