@@ -197,21 +197,24 @@ class Mesh:
 
     def _reached(self, starts: list[int]) -> np.ndarray:
         """For each simplex from which start, an index, it is reached without crossing a segment; -1 from none."""
-        tri = self._tri
-        neighbours = tri.neighbors
-        reached_from = np.full(len(neighbours), -1, np.int32)
-        if not starts:
-            return reached_from
-        may_cross = tri._once(
-            "open edges", lambda: (neighbours >= 0) & (tri.segments_of_cells() < 0)
-        )
-        for k, start in enumerate(starts):
-            front = np.array([start] if start >= 0 and reached_from[start] < 0 else [], np.int32)
-            while len(front):
+        neighbours = self._tri.neighbors
+        # The last entry is that of the neighbour -1, the outside.
+        reached_from = np.full(len(neighbours) + 1, -1, np.int32)
+        if starts:
+            reached_from[-1] = len(starts)
+            segments, place = self._tri.segments_of_cells(), np.empty_like(reached_from)
+            for k, start in enumerate(starts):
+                front = np.array([start] if reached_from[start] < 0 else [], np.int32)
                 reached_from[front] = k
-                across = neighbours[front][may_cross[front]]
-                front = np.unique(across[reached_from[across] < 0])
-        return reached_from
+                while len(front):
+                    across = neighbours[front][segments[front] < 0]
+                    across = across[reached_from[across] < 0]
+                    # Each once: the place that is written last is the one that stays.
+                    places = np.arange(len(across), dtype=np.int32)
+                    place[across] = places
+                    front = across[place[across] == places]
+                    reached_from[front] = k
+        return reached_from[:-1]
 
     @property
     def delaunay(self) -> Delaunay:
