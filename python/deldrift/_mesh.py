@@ -20,6 +20,10 @@ RESULTS = frozenset({"triangles", "triangle_attributes", "neighbors", "edges", "
 USED = frozenset({"vertices", "segments", "segment_markers", "holes", "regions"})
 
 
+FEW = 8
+"""Up to how many simplices are worked on one by one."""
+
+
 class _Side(NamedTuple):
     """What a region is known by while its segments move: a segment of its outer boundary, and on which side it is."""
 
@@ -202,18 +206,10 @@ class Mesh:
         reached_from = np.full(len(neighbours) + 1, -1, np.int32)
         if starts:
             reached_from[-1] = len(starts)
-            segments, place = self._tri.segments_of_cells(), np.empty_like(reached_from)
+            segments = self._tri.segments_of_cells()
             for k, start in enumerate(starts):
-                front = np.array([start] if reached_from[start] < 0 else [], np.int32)
-                reached_from[front] = k
-                while len(front):
-                    across = neighbours[front][segments[front] < 0]
-                    across = across[reached_from[across] < 0]
-                    # Each once: the place that is written last is the one that stays.
-                    places = np.arange(len(across), dtype=np.int32)
-                    place[across] = places
-                    front = across[place[across] == places]
-                    reached_from[front] = k
+                if reached_from[start] < 0:
+                    _flood(k, start, neighbours, segments, reached_from)
         return reached_from[:-1]
 
     @property
@@ -389,3 +385,35 @@ def _rows(argument: str, values: Any, width: int) -> np.ndarray:
     if array.ndim != 2 or array.shape[1] != width:
         raise InvalidShape(f"{argument} has the shape {array.shape}, and must have rows of {width} numbers", argument)
     return array
+
+
+def _flood(k: int, start: int, neighbours: np.ndarray, segments: np.ndarray, reached_from: np.ndarray) -> None:
+    """Writes k for all simplices that are reached from one without crossing a segment, in rounds of neighbours.
+
+    Rounds within a hole are many, of one or two simplices each, which a loop does in a fraction of the time that NumPy
+    takes for a round.
+    """
+    reached_from[start] = k
+    few, many = [start], np.empty(0, np.int32)
+    while few or len(many):
+        if few:
+            front = _beyond_few(k, few, neighbours, segments, reached_from)
+            few, many = (front, many) if len(front) <= FEW else ([], np.array(front, np.int32))
+        else:
+            many = neighbours[many][segments[many] < 0]
+            many = np.unique(many[reached_from[many] < 0])
+            reached_from[many] = k
+            few, many = (many.tolist(), many[:0]) if len(many) <= FEW else ([], many)
+
+
+def _beyond_few(
+    k: int, front: list[int], neighbours: np.ndarray, segments: np.ndarray, reached_from: np.ndarray
+) -> list[int]:
+    """The simplices of the next round, for which it writes k."""
+    beyond = []
+    for cell in front:
+        for across, segment in zip(neighbours[cell].tolist(), segments[cell].tolist()):
+            if segment < 0 and reached_from[across] < 0:
+                reached_from[across] = k
+                beyond.append(across)
+    return beyond
