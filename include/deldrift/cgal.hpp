@@ -30,6 +30,7 @@
 #include <cstddef>
 #include <ostream>
 
+#include "cgal/constrained.hpp"
 #include "cgal/plane.hpp"
 #include "cgal/space.hpp"
 
