@@ -86,8 +86,12 @@ fn headers_have_no_names_that_are_macros_of_others() {
     };
     let c = program(&headers_of_the_system(&["include"], "h"), "#include <deldrift/research.h>");
     let folders = ["include", "include/deldrift", "include/deldrift/cgal"];
-    let triangulations = [2, 3].map(|d| {
-        format!("template class deldrift::cgal::Delaunay_triangulation_{d}<deldrift::cgal::Kernel, int>;")
+    let triangulations = ["", "Constrained_"].map(|kind| {
+        let of_dimension = |d| {
+            let name = format!("{kind}Delaunay_triangulation_{d}");
+            format!("template class deldrift::cgal::{name}<deldrift::cgal::Kernel, int>;")
+        };
+        if kind.is_empty() { [2, 3].map(of_dimension).join("\n") } else { of_dimension(2) }
     });
     let uses = format!("#include <deldrift/cgal.hpp>\n{}", triangulations.join("\n"));
     let cpp = headers_of_the_system(&["include"], "h") + &headers_of_the_system(&folders, "hpp");

@@ -3,6 +3,7 @@
 // general position, so that the cells are unique; what has no order is sorted.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <iterator>
 #include <list>
@@ -183,8 +184,12 @@ static std::vector<std::pair<Point, Point>> segments_that_do_not_cross(std::size
 // Infos in the order of places, for vertices that the triangulation has made.
 template <class T>
 static void number(T &t) {
-    std::map<std::pair<double, double>, typename T::Vertex_handle> by_place;
-    for (typename T::Vertex_handle v : t.finite_vertex_handles()) by_place[{v->point().x(), v->point().y()}] = v;
+    // Crossings are rounded in different ways.
+    const auto rounded = [](double x) { return std::lround(1e9 * x); };
+    std::map<std::pair<long, long>, typename T::Vertex_handle> by_place;
+    for (typename T::Vertex_handle v : t.finite_vertex_handles()) {
+        by_place[{rounded(v->point().x()), rounded(v->point().y())}] = v;
+    }
     unsigned next = 0;
     for (auto &[place, v] : by_place) v->info() = next++;
     t.infinite_vertex()->info() = 9999;

@@ -388,7 +388,12 @@ private:
         const double along[] = {b[0] - a[0], b[1] - a[1]}, other[] = {d[0] - c[0], d[1] - c[1]};
         const double share = (c[0] - a[0]) * other[1] - (c[1] - a[1]) * other[0];
         const double whole = along[0] * other[1] - along[1] * other[0];
-        return detail::Coordinates<2, K>::point({a[0] + along[0] * share / whole, a[1] + along[1] * share / whole});
+        std::array<double, 2> place;
+        for (std::size_t k = 0; k < 2; k++) {
+            // Lines along an axis have a coordinate that is exact.
+            place[k] = other[k] == 0 ? c[k] : a[k] + along[k] * share / whole;
+        }
+        return detail::Coordinates<2, K>::point(place);
     }
 
     std::map<Ends, std::uint32_t> segment_at_{};
