@@ -151,6 +151,21 @@ static void show_all(const char *what, const T &t) {
     show("ends", ends);
 }
 
+// What an insertion would change: constraints end it.
+static void show_conflicts(const Cdt &t, double low, double high) {
+    for (int i = 0; i < 20; i++) {
+        const double x = low + (high - low) * anywhere();
+        std::vector<Cdt::Face_handle> faces;
+        t.get_conflicts(Point(x, low + (high - low) * anywhere()), std::back_inserter(faces));
+        std::vector<std::array<unsigned, 3>> rows;
+        for (Cdt::Face_handle f : faces) {
+            rows.push_back({f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()});
+            std::sort(rows.back().begin(), rows.back().end());
+        }
+        show("in conflict", rows);
+    }
+}
+
 template <class T>
 static typename T::Edge edge_between(const T &t, typename T::Vertex_handle a, typename T::Vertex_handle b) {
     typename T::Face_handle f;
@@ -218,6 +233,7 @@ static void sticks() {
     t.insert_constraints(ends.begin(), ends.end(), pairs.begin(), pairs.end());
     number(t);
     show_all("sticks", t);
+    show_conflicts(t, -0.2, 1.2);
 
     // Vertices on constraints divide them.
     for (std::size_t i = 0; i < 10; i++) t.insert(middle(segments[i].first, segments[i].second));
@@ -273,6 +289,7 @@ static void domains() {
     }
     number(t);
     show_all("domains", t);
+    show_conflicts(t, -2, 10);
     // Open chains bound nothing.
     const Cdt::Vertex_handle a = t.insert(island[0]), b = t.insert(island[1]);
     const Cdt::Edge e = edge_between(t, a, b);

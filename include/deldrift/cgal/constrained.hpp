@@ -298,7 +298,9 @@ private:
 
     // Until no vertex is on one of them, and none crosses another.
     void insert_edges(std::vector<Ends> edges) {
-        while (clean(edges), !edges.empty()) {
+        for (;;) {
+            clean(edges);
+            if (edges.empty()) return;
             std::vector<std::array<typename Mesh::Record *, 2>> ends;
             for (const Ends &e : edges) ends.push_back(records_of(e));
             std::uint32_t first = 0;
@@ -391,7 +393,8 @@ private:
         std::array<double, 2> place;
         for (std::size_t k = 0; k < 2; k++) {
             // Lines along an axis have a coordinate that is exact.
-            place[k] = other[k] == 0 ? c[k] : a[k] + along[k] * share / whole;
+            const bool is_sloped = other[k] < 0 || other[k] > 0;
+            place[k] = is_sloped ? a[k] + along[k] * share / whole : c[k];
         }
         return detail::Coordinates<2, K>::point(place);
     }
