@@ -21,6 +21,9 @@ template class deldrift::indexed_iterator<deldrift::Chains::All>;
 template class deldrift::indexed_iterator<deldrift::Chains::Edges>;
 template class deldrift::cgal::Delaunay_triangulation_2<Kernel>;
 template class deldrift::cgal::Delaunay_triangulation_2<Kernel, unsigned>;
+template class deldrift::cgal::Constrained_Delaunay_triangulation_2<Kernel>;
+template class deldrift::cgal::Constrained_Delaunay_triangulation_2<Kernel, deldrift::cgal::Infos<int, int>,
+                                                                    deldrift::cgal::Exact_predicates_tag>;
 template class deldrift::cgal::Delaunay_triangulation_3<Kernel>;
 template class deldrift::cgal::Delaunay_triangulation_3<Kernel, unsigned>;
 
