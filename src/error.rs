@@ -312,7 +312,9 @@ impl fmt::Display for Error {
                 write!(f, "vertices {vertex} and {other} are at the same place, which the options reject")
             }
             Error::Conflict { conflict, others: 0 } => write!(f, "{conflict}"),
-            Error::Conflict { conflict, others: 1 } => write!(f, "{conflict}, and there is one more conflict"),
+            Error::Conflict { conflict, others: 1 } => {
+                write!(f, "{conflict}, and there is one more conflict")
+            }
             Error::Conflict { conflict, others } => {
                 write!(f, "{conflict}, and there are {others} more conflicts")
             }

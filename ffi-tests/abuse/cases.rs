@@ -201,7 +201,14 @@ impl Cases<'_> {
                 let roles = self.roles();
                 if name == "seeds" {
                     let message = "\"seeds[0] is on the boundary of several regions\"";
-                    self.refused("value", at, "at the end of a segment", "on_fence()", "AMBIGUOUS_SEED", message);
+                    self.refused(
+                        "value",
+                        at,
+                        "at the end of a segment",
+                        "on_fence()",
+                        "AMBIGUOUS_SEED",
+                        message,
+                    );
                 }
                 let count = roles.iter().position(|&role| role == Role::Count || role == Role::FixedCount);
                 // Of several counts that of the points comes after them.

@@ -343,10 +343,8 @@ impl<G: Dimension> Delaunay<G> {
         beyond_left.reverse();
         cells.iter().for_each(|&cell| self.complex.set_mark(cell, 1));
         let (to_left, to_right) = cells.split_at(left.len());
-        let sides = [
-            (ends, to_left, &*left, &*beyond_left),
-            ([ends[1], ends[0]], to_right, &*right, &*beyond_right),
-        ];
+        let sides =
+            [(ends, to_left, &*left, &*beyond_left), ([ends[1], ends[0]], to_right, &*right, &*beyond_right)];
         for (base, cells, corners, beyond) in sides {
             self.fill_side(base, cells, corners, beyond, waiting, twice);
         }
