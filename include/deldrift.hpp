@@ -15,7 +15,8 @@
 // Positions come from any contiguous container of double, float, std::array or a program's own points, or with a
 // stride, or from arrays of x, y and z: see deldrift/positions.hpp. Cells, facets, stars and vertices are ranges with
 // iterators for <algorithm> and <ranges>: see deldrift/cells.hpp. Ranges end like the views that they are made of, with
-// the next change. Segments, and the error of a change that they refuse, are in deldrift/segments.hpp. deldrift/cgal.hpp has the names of CGAL's Delaunay_triangulation_2 and _3.
+// the next change. Segments, and the error of a change that they refuse, are in deldrift/segments.hpp.
+// deldrift/cgal.hpp has the names of CGAL's Delaunay_triangulation_2 and _3.
 #ifndef DELDRIFT_HPP
 #define DELDRIFT_HPP
 

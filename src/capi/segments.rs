@@ -132,8 +132,9 @@ pub unsafe extern "C" fn deldrift_stage_segment_removals(
 /// staged is in force until the commit.
 ///
 /// segments: a buffer with room for capacity ids; ends: for capacity rows of two vertex ids, in the order in which they were
-/// given, which is what left and right of a segment go by; markers: for capacity numbers. One that is NULL is not filled. count: receives the number of segments, which is also written when the
-/// buffers are too small. NULL for all with capacity 0 asks for the count alone.
+/// given, which is what left and right of a segment go by; markers: for capacity numbers. One that is NULL is not filled.
+/// count: receives the number of segments, which is also written when the buffers are too small.
+/// NULL for all with capacity 0 asks for the count alone.
 ///
 /// Cost: the ids of segments given so far.
 ///
