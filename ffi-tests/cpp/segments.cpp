@@ -65,6 +65,7 @@ static void errors_tell_conflicts() {
         CHECK(second.kind == DELDRIFT_CONFLICT_ENDS_MEET && second.segment == 2 && second.other == DELDRIFT_NONE);
         CHECK(std::strstr(error.what(), "segments 0 and 1 cross, and there is one more conflict") != nullptr);
     }
+    CHECK(ConflictError::is_conflict(DELDRIFT_CROSSING) && !ConflictError::is_conflict(DELDRIFT_COINCIDENT));
     CHECK(t.segment_conflicts().size() == 2);
     t.discard_moves();
     std::vector<double> positions = t.positions();
