@@ -495,3 +495,43 @@ fn conflicts_name_what_is_in_the_way() {
     t.discard_moves();
     assert_eq!(t.segments().count(), 0);
 }
+
+/// A vertex that is hidden, and goes from the place of one vertex to that of another, changes no cell.
+#[test]
+fn segments_go_with_hidden_vertices() {
+    let points = [[0.0, 0.0], [5.0, -1.0], [10.0, 0.0], [5.0, 1.0], [5.0, -1.0]];
+    for algorithm in [
+        Algorithm::Auto,
+        Algorithm::Rebuilding,
+        Algorithm::PlacementFlips,
+        Algorithm::Tolerance,
+        Algorithm::Repair,
+    ] {
+        let context = || format!("{algorithm:?}");
+        let mut t =
+            Triangulation::new(&points, Options { algorithm, ..Options::default() }).expect("good points");
+        let [left, _, right, _, hidden] = [0, 1, 2, 3, 4].map(VertexId::new);
+        t.stage_segments([Segment { ends: [hidden, right], marker: 0 }].into_iter()).expect("present");
+        t.commit_timestamp().expect("an edge of the outline");
+        t.move_vertices(&[hidden], &[points[0]]).expect("a good place");
+        t.commit_timestamp().expect("nothing is in the way");
+        let is_long = |t: &Triangulation| {
+            t.cells().expect("room").corners.iter().any(|row| row.contains(&left) && row.contains(&right))
+        };
+        assert!(is_long(&t), "{}", context());
+        check_definition(&t, &context);
+        t.move_vertices(&[hidden], &[points[2]]).expect("a good place");
+        t.commit_timestamp().expect_err("the ends meet");
+        assert_eq!(
+            t.conflicts_of_segments(),
+            [Conflict::EndsMeet { segment: SegmentId::new(0) }],
+            "{}",
+            context()
+        );
+        assert!(is_long(&t), "{}", context());
+        t.discard_moves();
+        t.move_vertices(&[hidden], &[points[1]]).expect("a good place");
+        t.commit_timestamp().expect("nothing is in the way");
+        assert!(!is_long(&t), "{}", context());
+    }
+}

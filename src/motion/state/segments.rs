@@ -251,7 +251,8 @@ impl<G: Dimension> Segments<G> {
         self.all.len() > self.n_laid || !self.leaving.is_empty()
     }
 
-    /// Whether nothing that a segment depends on has changed, where no row of the kernel's cells has.
+    /// Whether nothing that a segment depends on has changed, where no row of the kernel's cells has, and no vertex has
+    /// another site.
     pub(in crate::motion) fn are_at_rest(&self) -> bool {
         self.replaced.is_empty() && !(self.aim.takes_staged() && self.are_staged())
     }
