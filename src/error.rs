@@ -93,6 +93,11 @@ pub enum Error {
         /// How many ids have been given: valid ones are below it.
         ids: usize,
     },
+    /// A seed is on the boundary of several regions.
+    AmbiguousSeed {
+        /// Which entry of `seeds`.
+        index: usize,
+    },
     /// There is no cell of this index.
     NoSuchCell {
         /// Parameter at fault.
@@ -199,7 +204,7 @@ pub enum StagedEdit {
 }
 
 /// Why a segment cannot be an edge.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Conflict {
     /// Two segments cross at a place that is an end of neither.
     Crossing {
@@ -228,6 +233,11 @@ pub enum Conflict {
 }
 
 impl Conflict {
+    /// Two segments that cross.
+    pub(crate) fn crossing(one: SegmentId, other: SegmentId) -> Self {
+        Conflict::Crossing { segments: [one.min(other), one.max(other)] }
+    }
+
     /// The segment, or the first of two.
     pub(crate) fn segment(&self) -> SegmentId {
         match *self {
@@ -284,6 +294,9 @@ impl fmt::Display for Error {
                     "{argument}[{index}] is {segment}, which is no segment that can be removed; {ids} ids have been given"
                 )
             }
+            Error::AmbiguousSeed { index } => {
+                write!(f, "seeds[{index}] is on the boundary of several regions, so it names none of them")
+            }
             Error::NoSuchCell { argument, index, cell, cells } => {
                 write!(f, "{argument}[{index}] is {cell}, but there are {cells} cells")
             }
@@ -312,6 +325,9 @@ impl fmt::Display for Error {
                 write!(f, "vertices {vertex} and {other} are at the same place, which the options reject")
             }
             Error::Conflict { conflict, others: 0 } => write!(f, "{conflict}"),
+            Error::Conflict { conflict, others: 1 } => {
+                write!(f, "{conflict}, and there is one more conflict")
+            }
             Error::Conflict { conflict, others } => {
                 write!(f, "{conflict}, and there are {others} more conflicts")
             }

@@ -35,8 +35,10 @@ fn poly(domain: &Domain) -> String {
 }
 
 fn build(domain: &Domain) -> MovingTriangulation<Plane> {
-    let mut t = MovingTriangulation::new(&domain.points, Options { threads: 1, ..Options::default() }).expect("good points");
-    let segment = |(k, edge): (usize, &[usize; 2])| Segment { ends: edge.map(VertexId::at), marker: k as i32 };
+    let mut t = MovingTriangulation::new(&domain.points, Options { threads: 1, ..Options::default() })
+        .expect("good points");
+    let segment =
+        |(k, edge): (usize, &[usize; 2])| Segment { ends: edge.map(VertexId::at), marker: k as i32 };
     let segments: Vec<_> = domain.edges.iter().enumerate().map(segment).collect();
     t.stage_segments(segments.into_iter()).expect("present");
     t.commit_timestamp().expect("no conflict");
@@ -46,7 +48,7 @@ fn build(domain: &Domain) -> MovingTriangulation<Plane> {
 /// The cells that an odd number of loops is around.
 fn mask(t: &MovingTriangulation<Plane>, n_loops: usize) -> Vec<u8> {
     let cells = t.cells().expect("room");
-    let sides: Vec<_> = t.segments_of_cells().expect("room").collect();
+    let sides: Vec<_> = t.segments_of_cells().expect("room");
     let is_wall = |c: CellId, i: usize| {
         let side = sides[c.index()][i];
         side != SegmentId::NONE && t.original_segment(side).index() < n_loops
@@ -72,7 +74,7 @@ fn mask(t: &MovingTriangulation<Plane>, n_loops: usize) -> Vec<u8> {
     parity
 }
 
-pub fn main() {
+fn main() {
     let folder = std::env::args().skip(1).find(|argument| !argument.starts_with("--")).map(PathBuf::from);
     let mut table = String::from("domain,angle,area,cells,bad,seconds,again_seconds\n");
     for domain in domains() {
@@ -93,9 +95,15 @@ pub fn main() {
                 again = again.min(start.elapsed().as_secs_f64());
                 (cells, bad) = (after.iter().filter(|&&c| c == 1).count(), report.bad_cells);
             }
-            let row =
-                format!("{},{least_angle},{greatest_area:e},{cells},{bad},{best:.3e},{again:.3e}", domain.name);
-            println!("{row}  ({:.0} ns a cell, {:.1} when good)", best / cells as f64 * 1e9, again / cells as f64 * 1e9);
+            let row = format!(
+                "{},{least_angle},{greatest_area:e},{cells},{bad},{best:.3e},{again:.3e}",
+                domain.name
+            );
+            println!(
+                "{row}  ({:.0} ns a cell, {:.1} when good)",
+                best / cells as f64 * 1e9,
+                again / cells as f64 * 1e9
+            );
             writeln!(table, "{row}").expect("a string grows");
         }
         if let Some(folder) = &folder {

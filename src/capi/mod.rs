@@ -52,6 +52,7 @@
 #![allow(non_camel_case_types)]
 
 mod changes;
+mod domain;
 mod files;
 mod geometry;
 mod guard;
@@ -79,6 +80,7 @@ mod triangulation;
 mod voronoi;
 
 pub use changes::*;
+pub use domain::*;
 pub use geometry::*;
 pub use handle::deldrift_triangulation;
 pub use immediate::*;

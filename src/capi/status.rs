@@ -89,6 +89,8 @@ pub enum deldrift_status {
     DELDRIFT_END_REMOVED = 32,
     /// Both ends of a segment would be at the same place; deldrift_segment_conflicts tells all conflicts.
     DELDRIFT_ENDS_MEET = 33,
+    /// A seed is on the boundary of several regions.
+    DELDRIFT_AMBIGUOUS_SEED = 34,
 }
 
 use deldrift_status::*;
@@ -98,7 +100,7 @@ pub type StatusCode = u32;
 
 impl deldrift_status {
     /// Every status, in the order of their values.
-    const ALL: [deldrift_status; 34] = [
+    const ALL: [deldrift_status; 35] = [
         DELDRIFT_OK,
         DELDRIFT_NULL_ARGUMENT,
         DELDRIFT_MISALIGNED_ARGUMENT,
@@ -133,6 +135,7 @@ impl deldrift_status {
         DELDRIFT_ON_SEGMENT,
         DELDRIFT_END_REMOVED,
         DELDRIFT_ENDS_MEET,
+        DELDRIFT_AMBIGUOUS_SEED,
     ];
 
     fn text(self) -> &'static CStr {
@@ -171,6 +174,7 @@ impl deldrift_status {
             DELDRIFT_ON_SEGMENT => c"a vertex would be on a segment",
             DELDRIFT_END_REMOVED => c"an end of a segment would be removed",
             DELDRIFT_ENDS_MEET => c"both ends of a segment would be at the same place",
+            DELDRIFT_AMBIGUOUS_SEED => c"a seed is on the boundary of several regions",
         }
     }
 }
@@ -270,6 +274,7 @@ impl Failure {
                 Error::RemovedVertex { .. } => DELDRIFT_REMOVED_VERTEX,
                 Error::StagedVertex { .. } | Error::Staged { .. } => DELDRIFT_STAGED_VERTEX,
                 Error::NoSuchCell { .. } => DELDRIFT_NO_SUCH_FACET,
+                Error::AmbiguousSeed { .. } => DELDRIFT_AMBIGUOUS_SEED,
                 Error::NoSuchSegment { .. } => DELDRIFT_NO_SUCH_SEGMENT,
                 Error::Conflict { conflict, .. } => match conflict {
                     Conflict::Crossing { .. } => DELDRIFT_CROSSING,

@@ -38,11 +38,13 @@ mod triangulation;
 mod ways;
 
 pub use crate::delaunay::{Level, Violation};
-pub use algorithms::{Algorithm, AlgorithmRow, Commits, Purpose};
 pub use crate::refine::Kept;
+pub use algorithms::{Algorithm, AlgorithmRow, Commits, Purpose};
 pub use options::{
-    CoarsenOptions, CoincidencePolicy, MAX_LEAST_ANGLE, Monitor, Options, Quality, RefineOptions, SwitchingRule, TooLarge,
+    CoarsenOptions, CoincidencePolicy, MAX_LEAST_ANGLE, Monitor, Options, Quality, RefineOptions,
+    SwitchingRule, TooLarge,
 };
+pub use reading::domain::ChainEdge;
 pub use reading::exporting::Field;
 pub use reading::geometry::{BoundaryFacet, Interpolation, OrderedStar, Rows, VertexValues};
 pub use reading::query::Location;

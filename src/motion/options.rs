@@ -4,8 +4,8 @@ use std::fmt;
 
 use crate::delaunay::Dimension;
 pub use crate::machine::pace::Monitor;
-use crate::refine::Kept;
 use crate::motion::algorithms::Algorithm;
+use crate::refine::Kept;
 
 /// When *rebuilding + tolerance* swaps from the one to the other: by default as in the report. (`make calibrate`
 /// measures other values.)
@@ -156,13 +156,14 @@ pub struct CoarsenOptions {
     /// The share, up to 1, of the greatest areas and lengths that cells that come may have.
     pub share: f64,
     /// Two pieces of a segment are joined if the vertex between them is on the line through their other ends, or off it
-    /// by no more than this share of the distance of these. `None` joins none.
-    pub joins: Option<f64>,
+    /// by no more than this share of the distance of these. The default, 1e-9, is above what the rounding of motions adds
+    /// up to.
+    pub joins: f64,
 }
 
 impl Default for CoarsenOptions {
     fn default() -> Self {
-        CoarsenOptions { margin: 2.0, share: 0.9, joins: Some(0.0) }
+        CoarsenOptions { margin: 2.0, share: 0.9, joins: 1e-9 }
     }
 }
 

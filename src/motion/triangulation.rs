@@ -19,6 +19,7 @@ use crate::motion::state::hidden::Hidden;
 use crate::motion::state::made::Made;
 use crate::motion::state::mesh::Mesh;
 use crate::motion::state::repair::Repair;
+use crate::motion::state::segments::Aim;
 use crate::motion::state::staging::Staging;
 
 /// Greatest number of vertex ids.
@@ -185,7 +186,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         &mut self,
         change: impl FnOnce(&mut Self) -> Result<T>,
     ) -> Result<T> {
-        self.mesh.begin(false)?;
+        self.mesh.begin(Aim::Other)?;
         let done = change(self).and_then(|done| {
             self.mesh.lay_segments()?;
             self.mesh.views.prepare(&self.mesh.kernel)?;

@@ -20,7 +20,7 @@ pub(crate) struct Room {
     /// The share of the greatest areas and lengths that they may have.
     pub share: f64,
     /// A vertex between two pieces goes if it is off the line through their other ends by no more than this share of the
-    /// distance of these: 0 for those on it alone. None goes if it is negative.
+    /// distance of these: 0 for those on it alone.
     pub offset: f64,
 }
 
@@ -55,7 +55,12 @@ struct Coarsening<'a> {
 }
 
 /// Takes candidates away.
-pub(crate) fn coarsen(given: &Given, tests: Tests, room: Room, candidates: &[Candidate]) -> Result<Coarsened> {
+pub(crate) fn coarsen(
+    given: &Given,
+    tests: Tests,
+    room: Room,
+    candidates: &[Candidate],
+) -> Result<Coarsened> {
     let squared_cosine = tests.squared_cosine_above(room.angle);
     let mut into = Vec::new();
     memory::collect(&mut into, 0..given.segments.len() as u32)?;
@@ -83,7 +88,10 @@ impl Coarsening<'_> {
     /// were looked at.
     fn pass(&mut self, candidates: &[Candidate], is_touched: &mut [bool]) -> Result<Vec<Candidate>> {
         let mut ordered = Vec::new();
-        memory::collect(&mut ordered, candidates.iter().map(|&c| (self.shortest_edge(c.vertex).to_bits(), c)))?;
+        memory::collect(
+            &mut ordered,
+            candidates.iter().map(|&c| (self.shortest_edge(c.vertex).to_bits(), c)),
+        )?;
         ordered.sort_unstable_by_key(|&(square, c)| (square, c.vertex));
         for &(_, candidate) in &ordered {
             is_touched[candidate.vertex] = false;
@@ -147,7 +155,7 @@ impl Coarsening<'_> {
     }
 
     fn is_on_line(&self, vertex: VertexId, [a, b]: [VertexId; 2]) -> bool {
-        if a == b || self.room.offset < 0.0 {
+        if a == b {
             return false;
         }
         let [p, q, o] = [a, b, vertex].map(|v| self.mesh.point(v));
@@ -168,7 +176,8 @@ impl Coarsening<'_> {
             }
             let narrowest = narrowest(points);
             let square = squared_cosine(points, narrowest);
-            let may_mend = square > self.tests.squared_cosine && !self.is_between_segments(triangle, narrowest);
+            let may_mend =
+                square > self.tests.squared_cosine && !self.is_between_segments(triangle, narrowest);
             if may_mend { worst.max(square) } else { worst }
         });
         let sizes = self.tests.given_sizes();

@@ -230,5 +230,9 @@ pub(super) fn size_between(sizes: &[f64], corners: [VertexId; 3], weights: [f64;
     let sum: f64 = weights.iter().sum();
     let mixed: f64 = corners.iter().zip(weights).map(|(&v, weight)| sizes[v] * weight).sum();
     // A triangle without area to rounding has weights of nothing.
-    if sum > 0.0 && mixed > 0.0 { mixed / sum } else { corners.iter().map(|&v| sizes[v]).fold(f64::INFINITY, f64::min) }
+    if sum > 0.0 && mixed > 0.0 {
+        mixed / sum
+    } else {
+        corners.iter().map(|&v| sizes[v]).fold(f64::INFINITY, f64::min)
+    }
 }

@@ -218,8 +218,7 @@ impl Mesh {
                 let j = (0..3).find(|&j| beyond[previous(j)] == start).expect("neighbours share an edge");
                 Side::new(neighbour.get(), j)
             });
-            for i in 0..3 {
-                let (v, piece) = (corners[i], given.sides[t][i]);
+            for (i, (&v, &piece)) in corners.iter().zip(&given.sides[t]).enumerate() {
                 at[v] = t as u32;
                 for axis in 0..2 {
                     let x = given.points[v][axis];

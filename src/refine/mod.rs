@@ -58,5 +58,5 @@ mod removal;
 pub(crate) use coarsening::{Candidate, Room, coarsen};
 pub(crate) use criteria::{Criteria, Tests};
 pub(crate) use mesh::{Given, NONE, NOT_SELECTED};
-pub(crate) use refining::{Origins, refine};
 pub use refining::Kept;
+pub(crate) use refining::{Origins, refine};

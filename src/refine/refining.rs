@@ -154,7 +154,8 @@ impl Refinement<'_> {
             if piece == NONE {
                 continue;
             }
-            let is_too_long = self.tests.is_too_long(triangle.ends(i).map(|v| self.mesh.point(v)), triangle.label);
+            let is_too_long =
+                self.tests.is_too_long(triangle.ends(i).map(|v| self.mesh.point(v)), triangle.label);
             if (is_too_long || self.is_in_lens(Side::new(t, i))) && self.may_split(piece) {
                 self.enter(piece, is_too_long)?;
             }
@@ -245,8 +246,7 @@ impl Refinement<'_> {
                 let mut is_free = true;
                 for k in 0..self.mesh.rim.len() {
                     let side = self.mesh.rim[k];
-                    if side.piece != NONE
-                        && self.tests.is_in_lens(side.ends.map(|v| self.mesh.point(v)), &p)
+                    if side.piece != NONE && self.tests.is_in_lens(side.ends.map(|v| self.mesh.point(v)), &p)
                     {
                         is_free = false;
                         if self.may_split(side.piece) {
@@ -267,13 +267,14 @@ impl Refinement<'_> {
     /// the side by which a straight way there leaves the triangle, if it does.
     fn centre(&self, t: u32, narrowest: usize) -> Option<([f64; 2], Side)> {
         let corners = self.mesh.triangle(t).corners;
-        let [o, d, a] = [next(narrowest), previous(narrowest), narrowest].map(|i| self.mesh.point(corners[i]));
+        let [o, d, a] =
+            [next(narrowest), previous(narrowest), narrowest].map(|i| self.mesh.point(corners[i]));
         let (u, v) = (minus::<f64, 2>(d, o), minus::<f64, 2>(a, o));
         let (uu, vv) = (dot(&u, &u), dot(&v, &v));
         let half = 0.5 / self.mesh.turn([corners[next(narrowest)], corners[previous(narrowest)]], a);
         let mut w = [(v[1] * uu - u[1] * vv) * half, (u[0] * vv - v[0] * uu) * half];
         let off = [0.5 * u[0] - self.tests.off * u[1], 0.5 * u[1] + self.tests.off * u[0]];
-        if dot(&off, &off) < dot(&w, &w) || !(dot(&w, &w) < f64::INFINITY) {
+        if dot(&off, &off) < dot(&w, &w) || !dot(&w, &w).is_finite() {
             w = off;
         }
         let p = [o[0] + w[0] + 0.0, o[1] + w[1] + 0.0];
@@ -296,7 +297,8 @@ impl Refinement<'_> {
                 }
                 None => {
                     let corners = self.mesh.triangle(at).corners;
-                    let weights = [0, 1, 2].map(|i| self.mesh.turn(self.mesh.triangle(at).ends(i), &p).max(0.0));
+                    let weights =
+                        [0, 1, 2].map(|i| self.mesh.turn(self.mesh.triangle(at).ends(i), &p).max(0.0));
                     size_between(&self.sizes, corners, weights)
                 }
             };
@@ -358,12 +360,14 @@ impl Refinement<'_> {
             return Some(ends[end]);
         }
         let own = self.origins.of_segments[segment as usize];
-        let of_other = self.selected_sides(piece).filter(|&side| self.is_in_lens(side)).map(|side| self.mesh.apex(side));
+        let of_other =
+            self.selected_sides(piece).filter(|&side| self.is_in_lens(side)).map(|side| self.mesh.apex(side));
         of_other.filter(|&v| self.on[v] != NONE && self.on[v] != own).find_map(|v| {
             let apex = self.common_end(own, self.on[v])?;
             let [d, e] = ends.map(|v| distance(self.mesh.point(apex), self.mesh.point(v)));
             // One of pieces that have moved may go around its apex.
-            let is_outward = (d - e).abs() > 0.5 * distance(self.mesh.point(ends[0]), self.mesh.point(ends[1]));
+            let is_outward =
+                (d - e).abs() > 0.5 * distance(self.mesh.point(ends[0]), self.mesh.point(ends[1]));
             (is_outward && self.is_acute(apex, [ends[1], v])).then_some(apex)
         })
     }
@@ -425,7 +429,8 @@ impl Refinement<'_> {
     /// Numbers the vertices that have stayed, and lists what has become of the segments.
     fn tell(self, given: &Given, is_cut_short: bool) -> Result<Refined> {
         let n = self.mesh.triangles.len() as u32;
-        let n_bad = (0..n).filter(|&t| self.mesh.triangle(t).is_selected() && self.measure(t).flaw.is_some()).count();
+        let n_bad =
+            (0..n).filter(|&t| self.mesh.triangle(t).is_selected() && self.measure(t).flaw.is_some()).count();
         let mut told = Refined { is_cut_short, n_bad, n_unsplit: self.n_unsplit, ..Refined::default() };
         let mut segment_of = Vec::new();
         memory::lengthen(&mut segment_of, self.mesh.points.len() - self.n_given, NONE)?;
@@ -443,7 +448,8 @@ impl Refinement<'_> {
                 told.vertices.push((self.mesh.points[self.n_given + k], segment));
             }
         }
-        let renamed = |v: VertexId| if v.index() < self.n_given { v } else { number[v.index() - self.n_given] };
+        let renamed =
+            |v: VertexId| if v.index() < self.n_given { v } else { number[v.index() - self.n_given] };
         for segment in 0..given.segments.len() as u32 {
             let mut piece = &self.mesh.pieces[segment as usize];
             if piece.next == NONE {

@@ -49,8 +49,12 @@ impl Mesh {
             memory::push(&mut self.cells, t)?;
             let i = corner(self, t);
             let triangle = self.triangle(t);
-            let rim =
-                Rim { ends: triangle.ends(i), across: triangle.across[i], piece: triangle.pieces[i], label: triangle.label };
+            let rim = Rim {
+                ends: triangle.ends(i),
+                across: triangle.across[i],
+                piece: triangle.pieces[i],
+                label: triangle.label,
+            };
             // Counter-clockwise, across the side that ends in the vertex.
             let (across, piece) = (triangle.across[next(i)], triangle.pieces[next(i)]);
             if piece != NONE && !pieces.is_some_and(|pieces| pieces.contains(&piece)) {

@@ -8,6 +8,7 @@ use crate::motion::calls::editing::Edited;
 use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Moves;
+use crate::motion::state::segments::Aim;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::motion::ways::attempt::Start;
 use crate::motion::ways::outlook::Outlook;
@@ -46,8 +47,13 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn commit(&mut self, moves: &mut Moves<'_, G>) -> Result<CommitReport> {
         let mut report = CommitReport::default();
         let before = self.mesh.evaluations();
-        self.mesh.begin(true)?;
-        let advanced = self.edit_and_advance(moves, &mut report).and_then(|()| self.mesh.lay_segments());
+        let advanced = if self.rests_beside_segments(moves) {
+            self.mesh.begin(Aim::Rest)?;
+            self.mesh.reject_coincidence(self.options.coincidence)
+        } else {
+            self.mesh.begin(Aim::Commit)?;
+            self.edit_and_advance(moves, &mut report).and_then(|()| self.mesh.lay_segments())
+        };
         if let Err(error) = advanced.and_then(|()| self.mesh.views.prepare(&self.mesh.kernel)) {
             self.undo();
             return Err(error);
@@ -64,6 +70,49 @@ impl<G: Dimension> MovingTriangulation<G> {
         report.coincident = self.statistics.coincident;
         self.follow_commit(&report);
         Ok(report)
+    }
+
+    /// Whether segments would be in the way of a commit of what is staged: the commit is made and taken back. What is
+    /// staged stays so, and the [conflicts](Self::conflicts_of_segments) can be asked for. Without segments, in force or
+    /// staged, nothing is looked at.
+    ///
+    /// # Errors
+    /// Those of [`commit_timestamp`](Self::commit_timestamp).
+    pub fn check_staged(&mut self) -> Result<()> {
+        if self.mesh.segments.is_none() {
+            return Ok(());
+        }
+        let mut staging = std::mem::take(&mut self.staging);
+        let checked = self.check(&mut staging.moves(self.mesh.n_present));
+        self.staging = staging;
+        checked
+    }
+
+    /// Whether segments have taken the place of cells, which need not be put back, as nothing is going to change.
+    fn rests_beside_segments(&self, moves: &Moves<'_, G>) -> bool {
+        let Some(segments) = &self.mesh.segments else { return false };
+        segments.have_replaced_cells()
+            && !segments.are_staged()
+            && self.edits.are_none()
+            && self.options.algorithm != Algorithm::Rebuilding
+            && self.mesh.outlook(moves, false) == Outlook::AtRest
+    }
+
+    /// Makes these moves and the staged edits, and takes them back.
+    fn check(&mut self, moves: &mut Moves<'_, G>) -> Result<()> {
+        let mut report = CommitReport::default();
+        if self.rests_beside_segments(moves) {
+            self.mesh.begin(Aim::Rest)?;
+            self.undo();
+            return Ok(());
+        }
+        self.mesh.begin(Aim::Check)?;
+        let advanced = self.edit_and_advance(moves, &mut report).and_then(|()| self.mesh.lay_segments());
+        self.undo();
+        match advanced {
+            Err(Error::Cancelled) if self.mesh.segments.as_ref().is_some_and(|s| s.is_checked()) => Ok(()),
+            other => other,
+        }
     }
 
     /// Makes the positions given the next timestamp, in one call for [`move_all`](Self::move_all) and

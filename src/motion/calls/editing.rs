@@ -152,7 +152,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
             // Once more from the beginning.
             self.undo();
-            self.mesh.begin(true)?;
+            self.mesh.begin(self.mesh.aim())?;
             (report.inserted, report.removed) = (0, 0);
         }
         self.rebuild_edited(moves, report)?;

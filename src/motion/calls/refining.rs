@@ -77,12 +77,18 @@ impl MovingTriangulation<Plane> {
     /// [`Error::Staged`] if anything is staged; [`Error::InvalidValue`] for a quality that has no meaning or cannot be had,
     /// and for a selected cell at an edge beyond which none is selected and that is no segment; [`Error::WrongCount`];
     /// those of [`commit_timestamp`](Self::commit_timestamp).
-    pub fn refine(&mut self, quality: &Quality, options: &RefineOptions, mask: &[u8]) -> Result<QualityReport> {
+    pub fn refine(
+        &mut self,
+        quality: &Quality,
+        options: &RefineOptions,
+        mask: &[u8],
+    ) -> Result<QualityReport> {
         self.check_quality(quality, mask)?;
         let copied = self.copy_for_refinement(quality, mask)?;
         let areas = none_where_zero(quality.areas)?;
         let mut tests = Tests::new(criteria(quality, &areas), copied.extent);
-        let mut report = QualityReport { bad_cells: self.count_bad(quality, &tests, &copied)?, ..Default::default() };
+        let mut report =
+            QualityReport { bad_cells: self.count_bad(quality, &tests, &copied)?, ..Default::default() };
         if report.bad_cells == 0 || tests.are_none() {
             return Ok(report);
         }
@@ -134,7 +140,12 @@ impl MovingTriangulation<Plane> {
     ///
     /// # Errors
     /// Those of [`refine`](Self::refine).
-    pub fn coarsen(&mut self, quality: &Quality, options: &CoarsenOptions, mask: &[u8]) -> Result<QualityReport> {
+    pub fn coarsen(
+        &mut self,
+        quality: &Quality,
+        options: &CoarsenOptions,
+        mask: &[u8],
+    ) -> Result<QualityReport> {
         self.check_quality(quality, mask)?;
         check_coarsening(options)?;
         let mut report = QualityReport::default();
@@ -145,11 +156,10 @@ impl MovingTriangulation<Plane> {
         let areas = none_where_zero(quality.areas)?;
         let sizes = self.sizes_of_ids(quality)?;
         let tests = Tests::new(Criteria { sizes: &sizes, ..criteria(quality, &areas) }, copied.extent);
-        let candidates = self.candidates(&copied, options)?;
+        let candidates = self.candidates(&copied)?;
         let cells = self.cells()?;
         let given = copied.given(cells.corners, cells.neighbours);
-        let room =
-            Room { angle: options.margin, share: options.share, offset: options.joins.unwrap_or(0.0) };
+        let room = Room { angle: options.margin, share: options.share, offset: options.joins };
         let coarsened = refine::coarsen(&given, tests, room, &candidates)?;
         report.removed = coarsened.vertices.len();
         if report.removed == 0 {
@@ -191,7 +201,8 @@ impl MovingTriangulation<Plane> {
 
     /// Whether a call can be made with these arguments.
     fn check_quality(&self, quality: &Quality, mask: &[u8]) -> Result<()> {
-        let segments = self.mesh.segments.as_ref().map_or(0, |s| s.all().len() - s.n_laid() + s.leaving().len());
+        let segments =
+            self.mesh.segments.as_ref().map_or(0, |s| s.all().len() - s.n_laid() + s.leaving().len());
         let (moves, (coming, leaving)) = (self.staged_count(), self.staged_edits());
         if moves + coming + leaving + segments > 0 {
             return Err(Error::Staged { moves, edits: coming + leaving, segments });
@@ -294,7 +305,8 @@ impl MovingTriangulation<Plane> {
                 let beyond = cells.neighbours[c][i];
                 let ends = beyond == CellId::NONE || mask[beyond.index()] == 0;
                 if mask[c] != 0 && ends && found[i] == NONE {
-                    let wanted = "0, as the cell has an edge that is no segment and beyond which no cell is selected";
+                    let wanted =
+                        "0, as the cell has an edge that is no segment and beyond which no cell is selected";
                     let value = f64::from(mask[c]);
                     return Err(Error::InvalidValue { argument: "mask", index: c, value, wanted });
                 }
@@ -359,7 +371,7 @@ impl MovingTriangulation<Plane> {
     }
 
     /// The vertices that may go.
-    fn candidates(&self, copied: &Copied, options: &CoarsenOptions) -> Result<Vec<Candidate>> {
+    fn candidates(&self, copied: &Copied) -> Result<Vec<Candidate>> {
         let n = self.id_count();
         let (mut before, mut behind) = (Vec::new(), Vec::new());
         memory::lengthen(&mut before, n, NONE)?;
@@ -375,12 +387,11 @@ impl MovingTriangulation<Plane> {
                 continue;
             }
             let pieces = [before[vertex], behind[vertex]];
-            let between = match (on == SegmentId::NONE, options.joins) {
-                (true, _) => None,
-                (false, Some(_)) if !pieces.contains(&NONE) && self.are_of_one_origin(copied, pieces) => Some(pieces),
-                _ => continue,
-            };
-            memory::push(&mut candidates, Candidate { vertex, between })?;
+            if on == SegmentId::NONE {
+                memory::push(&mut candidates, Candidate { vertex, between: None })?;
+            } else if !pieces.contains(&NONE) && self.are_of_one_origin(copied, pieces) {
+                memory::push(&mut candidates, Candidate { vertex, between: Some(pieces) })?;
+            }
         }
         Ok(candidates)
     }
@@ -514,5 +525,5 @@ fn check_all(
 fn check_coarsening(options: &CoarsenOptions) -> Result<()> {
     check_all("margin", &[options.margin], |x| (0.0..=30.0).contains(&x), "from 0 to 30 degrees")?;
     check_all("share", &[options.share], |x| x > 0.0 && x <= 1.0, "above 0 and up to 1")?;
-    check_all("joins", options.joins.as_slice(), |x| (0.0..=1.0).contains(&x), "from 0 to 1")
+    check_all("joins", &[options.joins], |x| (0.0..=1.0).contains(&x), "from 0 to 1")
 }

@@ -2,7 +2,7 @@
 
 use crate::delaunay::Plane;
 use crate::error::{Conflict, Error, Result};
-use crate::ids::{SegmentId, VertexId};
+use crate::ids::SegmentId;
 use crate::machine::memory;
 use crate::motion::state::segments::Segment;
 use crate::motion::triangulation::MovingTriangulation;
@@ -60,31 +60,5 @@ impl MovingTriangulation<Plane> {
     /// Whether some cell is not one of the Delaunay triangulation.
     pub fn is_constrained(&self) -> bool {
         self.mesh.segments.as_ref().is_some_and(|segments| segments.have_replaced_cells())
-    }
-
-    /// For each cell and each of its corners the segment at the edge opposite it, in the order of
-    /// [`cells`](Self::cells): the lowest id if there are several, [`SegmentId::NONE`] if there is none.
-    ///
-    /// # Errors
-    /// [`Error::OutOfMemory`].
-    pub fn segments_of_cells(&self) -> Result<impl ExactSizeIterator<Item = [SegmentId; 3]> + '_> {
-        let mut edges = Vec::new();
-        let shown = |v: VertexId| self.mesh.kernel.site(self.mesh.site_of[v]).id;
-        memory::collect(
-            &mut edges,
-            self.segments().map(|(id, segment)| {
-                let [v, w] = segment.ends.map(shown);
-                ([v.min(w), v.max(w)], id)
-            }),
-        )?;
-        edges.sort_unstable();
-        edges.dedup_by_key(|&mut (edge, _)| edge);
-        let corners = self.mesh.views.cells(&self.mesh.kernel)?.corners();
-        Ok(corners.iter().map(move |row| {
-            [[1, 2], [2, 0], [0, 1]].map(|[i, j]| {
-                let edge = [row[i].min(row[j]), row[i].max(row[j])];
-                edges.binary_search_by_key(&edge, |&(edge, _)| edge).map_or(SegmentId::NONE, |k| edges[k].1)
-            })
-        }))
     }
 }

@@ -2,6 +2,7 @@
 
 pub(in crate::motion) mod cells;
 pub(in crate::motion) mod chunks;
+pub(in crate::motion) mod domain;
 pub(in crate::motion) mod exporting;
 pub(in crate::motion) mod geometry;
 pub(in crate::motion) mod near;

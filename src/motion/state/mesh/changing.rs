@@ -20,34 +20,42 @@ use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::motion::state::hidden::Hidden;
 use crate::motion::state::mesh::Mesh;
+use crate::motion::state::segments::Aim;
 use crate::motion::state::transaction::{Counts, Event, VertexBefore};
 
 /// After a repair, cells are sorted again if this many times as many as there are have been replaced.
 const REPLACED_TO_SORT: f64 = 2.0;
 
 impl<G: Dimension> Mesh<G> {
-    /// Begins a change, which is a commit or not.
-    pub(in crate::motion) fn begin(&mut self, is_commit: bool) -> Result<()> {
+    /// Begins a change.
+    pub(in crate::motion) fn begin(&mut self, aim: Aim) -> Result<()> {
         self.kernel.begin()?;
         self.transaction.begin(Counts {
             present: self.n_present,
             visibilities: self.views.visibilities_mut().shortened_len(self.site_of.len()),
         });
         let Some(segments) = &mut self.segments else { return Ok(()) };
-        let lifted = segments.lift(&mut self.kernel, is_commit);
+        let lifted = segments.lift(&mut self.kernel, aim);
         if lifted.is_err() {
             self.undo();
         }
         lifted
     }
 
+    /// What the change is made for.
+    pub(in crate::motion) fn aim(&self) -> Aim {
+        self.segments.as_ref().map_or(Aim::Commit, |segments| segments.aim())
+    }
+
     /// Lays the segments, when the vertices are where they go, unless a new kernel has them.
     pub(in crate::motion) fn lay_segments(&mut self) -> Result<()> {
         let Some(segments) = &mut self.segments else { return Ok(()) };
-        let is_new = self.transaction.has_rebuilt();
-        if is_new
-            || (segments.are_at_rest() && self.kernel.complex().rows().is_empty() && self.kernel.has_cells())
-        {
+        if self.transaction.has_rebuilt() {
+            return Ok(());
+        }
+        // A hidden vertex that goes to another place of vertices takes its segments along, and changes no cell.
+        let is_unchanged = self.kernel.complex().rows().is_empty() && !self.transaction.has_logged();
+        if is_unchanged && segments.are_at_rest() && self.kernel.has_cells() {
             return Ok(());
         }
         segments.lay(&mut self.kernel, &self.site_of)

@@ -9,6 +9,7 @@ use crate::motion::filters::store::Steps;
 use crate::motion::options::Options;
 use crate::motion::region_kind::RegionKind;
 use crate::motion::state::goals::Movers;
+use crate::motion::state::segments::Aim;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::random::Rng;
 
@@ -44,7 +45,7 @@ fn aimed<G: Dimension>(n: usize, rng: &mut Rng) -> (MovingTriangulation<G>, Vec<
     }
     let fixed = t.regions.fixed();
     let beyond = VertexId::range(0..n).filter(|&v| !fixed[v].holds(&places[v])).collect();
-    t.mesh.begin(true).expect("room");
+    t.mesh.begin(Aim::Commit).expect("room");
     (t, places, beyond)
 }
 
@@ -149,7 +150,7 @@ fn threads_share_the_moves() {
         let (first, second) =
             (points::<Space>(2_000, &mut Rng::new(1)), points::<Space>(2_000, &mut Rng::new(2)));
         let mut t = MovingTriangulation::<Space>::new(&first, options()).expect("room");
-        t.mesh.begin(true).expect("room");
+        t.mesh.begin(Aim::Commit).expect("room");
         assert_eq!(t.mesh.move_everything(&mut Moves::lent(&second)).expect("good places"), 2_000);
         assert_eq!([&positions(&t)[..], origins(&t)], [&second[..], &first[..]]);
     }

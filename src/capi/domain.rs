@@ -1,0 +1,202 @@
+//! What segments divide the plane into: levels, labels, and boundaries in chains.
+
+use super::handle::{Reading, deldrift_triangulation};
+use super::pointers::{Array, Buffer, Output, fill_all, given, write_all};
+use super::status::{Failure, deldrift_status};
+use crate::delaunay::Plane;
+use crate::either::AnyTriangulation;
+use crate::ids::{CellId, SegmentId};
+use crate::motion::MovingTriangulation;
+
+/// A triangulation of the plane.
+pub(super) fn of_the_plane(t: &AnyTriangulation) -> Result<&MovingTriangulation<Plane>, Failure> {
+    match t {
+        AnyTriangulation::Plane(t) => Ok(t),
+        AnyTriangulation::Space(_) => Err(Failure::NotOfThePlane),
+    }
+}
+
+/// For each cell and each of its corners the segment at the edge opposite it, in the order of deldrift_cells: the lowest id
+/// if there are several, DELDRIFT_NONE if there is none. Ids are not places in the lists of deldrift_segments once segments
+/// have been removed.
+///
+/// segments: a buffer with room for capacity rows of 3 ids. count: receives the number of cells, which is also written when
+/// the buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Cost: m, and for each segment the cells around an end. After a change the first call also does what the first
+/// deldrift_cells does.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_segments_of_cells(
+    t: *const deldrift_triangulation,
+    segments: *mut u32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    let segments = segments.cast::<[u32; 3]>();
+    given!(t: Reading, segments[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        let t = of_the_plane(t)?;
+        segments.fill(count, t.cell_count(), || {
+            Ok(t.segments_of_cells()?.into_iter().map(|row| row.map(SegmentId::get)))
+        })
+    })
+}
+
+/// The cells on both sides of each segment in force, in the order of deldrift_segments.
+///
+/// cells: a buffer with room for capacity rows of 2 cells: that on the left of the segment, as seen from its first end
+/// along it, and that on its right; DELDRIFT_NONE for the outside, and for both while there are no cells. count: receives
+/// the number of segments, which is also written when the buffer is too small. NULL with capacity 0 asks for the count
+/// alone.
+///
+/// Cost: for each segment the cells around an end. After a change the first call also does what the first deldrift_cells
+/// does.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_cells_of_segments(
+    t: *const deldrift_triangulation,
+    cells: *mut u32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    let cells = cells.cast::<[u32; 2]>();
+    given!(t: Reading, cells[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        let t = of_the_plane(t)?;
+        cells.fill(count, t.segments().count(), || {
+            Ok(t.cells_of_segments()?.into_iter().map(|row| row.map(CellId::get)))
+        })
+    })
+}
+
+/// For each cell how many segments at least a way crosses from it to the outside, in the order of deldrift_cells: its
+/// nesting level.
+///
+/// Cells outside of all closed chains of segments have 0, those of a domain 1, those of its holes 2, those of islands in
+/// these 3, and so on: the cells of the domain are those with an odd number. A segment with one region on both sides, such
+/// as a slit or an open chain, divides nothing, and several at the same edge count once. No seed is needed, and cells
+/// between the domain and the convex hull have 0. A domain that is divided in parts by further segments needs
+/// deldrift_label_cells: parts that do not touch the outside would have a higher level.
+///
+/// levels: a buffer with room for capacity numbers. count: receives the number of cells, which is also written when the
+/// buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Exact. Cost: m, and for each segment the cells around an end. After a change the first call also does what the first
+/// deldrift_cells does.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_nesting_levels(
+    t: *const deldrift_triangulation,
+    levels: *mut u32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    given!(t: Reading, levels[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        let t = of_the_plane(t)?;
+        levels.fill(count, t.cell_count(), || Ok(t.nesting_levels()?))
+    })
+}
+
+/// A label for each cell, in the order of deldrift_cells: that of the first seed in its region. A region is a set of cells
+/// that can be reached from each other without crossing a segment.
+///
+/// seeds: seed_count rows of 2 coordinates; labels: as many numbers, any. Both are read during the call only, and may be
+/// NULL if seed_count is 0. A seed outside of the convex hull labels nothing. other: the label of cells in whose region no
+/// seed is. label_of: a buffer with room for capacity numbers. count: receives the number of cells, which is also written
+/// when the buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Holes are regions, too: give their seeds a label of their own. Without segments there is one region. A seed on a segment
+/// with one region on both sides, or on the hull, is in that region.
+///
+/// Exact. Cost: m, for each segment the cells around an end, and for each seed that of deldrift_locate. After a change the
+/// first call also does what the first deldrift_cells does.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_AMBIGUOUS_SEED for one that is exactly on
+/// the boundary of several regions, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_label_cells(
+    t: *const deldrift_triangulation,
+    seeds: *const f64,
+    labels: *const i32,
+    seed_count: usize,
+    other: i32,
+    label_of: *mut i32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    let seeds = seeds.cast::<[f64; 2]>();
+    given!(t: Reading, seeds[seed_count]: Array, labels[seed_count]: Array, label_of[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        let t = of_the_plane(t)?;
+        let (seeds, labels) = (seeds.get()?, labels.get()?);
+        label_of.fill(count, t.cell_count(), || Ok(t.label_cells(seeds, labels, other)?))
+    })
+}
+
+/// The boundary of some of the cells of the plane, in closed chains of edges, which have these cells on their left: an outer
+/// boundary goes counter-clockwise, that of a hole clockwise. With the mask of the cells that have an odd nesting level it is
+/// the boundary of a domain, and the markers of its segments tell what holds there.
+///
+/// mask: mask_count bytes, one for each cell in the order of deldrift_cells (mask_count must be deldrift_cell_count); a cell
+/// is in the set if its byte is not 0. Read during the call only. Buffers with room for capacity entries, one for each edge;
+/// one that is NULL is not filled. vertices: where the edge begins; it ends where the next edge of its chain begins, the last
+/// one where the first of its chain does. chains: which chain it is in: 0, 1, ..., ascending. segments: the segment at it,
+/// the lowest id if there are several, DELDRIFT_NONE if there is none. cells: the cell of the set beside it. corners: which
+/// of its corners (0, 1, 2) is opposite. count: receives the number of edges, which is also written when the buffers are too
+/// small. NULL for all with capacity 0 asks for the count alone.
+///
+/// No chain crosses another, or itself: where parts of the set touch in a vertex, each part has a chain of its own. Each
+/// chain begins with its least edge, by the ids of the edge's two vertices, and chains are in this order. So vertices,
+/// chains and segments depend only on the set.
+///
+/// Exact. Cost: m, e log e for e edges, and for each segment the cells around an end. After a change the first call also
+/// does what the first deldrift_cells does.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_boundary_chains(
+    t: *const deldrift_triangulation,
+    mask: *const u8,
+    mask_count: usize,
+    vertices: *mut u32,
+    chains: *mut u32,
+    segments: *mut u32,
+    cells: *mut u32,
+    corners: *mut u8,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    given!(
+        t: Reading, mask[mask_count]: Array, vertices[capacity]: Buffer, chains[capacity]: Buffer,
+        segments[capacity]: Buffer, cells[capacity]: Buffer, corners[capacity]: Buffer, count: Output
+    );
+    t.read(|t| {
+        let t = of_the_plane(t)?;
+        t.check_mask(mask_count)?;
+        let edges = t.boundary_chains(mask.get()?)?;
+        let n = edges.len();
+        let offers = [vertices.offer(), chains.offer(), segments.offer(), cells.offer(), corners.offer()];
+        fill_all(count, n, capacity, offers, || {
+            // Each of them is looked at before one is written.
+            let (vertices, chains) = (vertices.places_if_any(n)?, chains.places_if_any(n)?);
+            let (segments, cells) = (segments.places_if_any(n)?, cells.places_if_any(n)?);
+            let corners = corners.places_if_any(n)?;
+            write_all(vertices, edges.iter().map(|edge| edge.vertex.get()));
+            write_all(chains, edges.iter().map(|edge| edge.chain));
+            write_all(segments, edges.iter().map(|edge| edge.segment.get()));
+            write_all(cells, edges.iter().map(|edge| edge.cell.get()));
+            write_all(corners, edges.iter().map(|edge| edge.corner as u8));
+            Ok(())
+        })
+    })
+}

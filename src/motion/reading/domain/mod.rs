@@ -1,0 +1,16 @@
+//! What segments divide the plane into.
+//!
+//! | file | |
+//! | --- | --- |
+//! | `beside` | the segment at each edge of a cell, and the cells on both sides of a segment |
+//! | `regions` | the cells that are reached without crossing a segment: by nesting level, or from seeds |
+//! | `chains` | the boundary of some of the cells, in closed chains |
+//!
+//! A *region* is a set of cells that are connected by edges at which there is no segment. Regions are functions of the
+//! cells and the segments alone, so none of this is kept: each call is a pass over the cells.
+
+mod beside;
+mod chains;
+mod regions;
+
+pub use chains::ChainEdge;

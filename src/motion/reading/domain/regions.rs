@@ -1,0 +1,140 @@
+//! Regions: the cells that are reached from each other without crossing a segment.
+
+use crate::delaunay::Plane;
+use crate::error::{Error, Result};
+use crate::ids::{CellId, SegmentId};
+use crate::machine::memory;
+use crate::motion::reading::query::Location;
+use crate::motion::state::cells::NO_CELL;
+use crate::motion::triangulation::MovingTriangulation;
+
+/// The level of a cell that has not been reached.
+const UNKNOWN: u32 = u32::MAX;
+
+/// An error about positions, which are those of seeds.
+fn of_seeds(mut error: Error) -> Error {
+    if let Error::NotFinite { argument, .. } | Error::OutOfRange { argument, .. } = &mut error {
+        *argument = "seeds";
+    }
+    error
+}
+
+impl MovingTriangulation<Plane> {
+    /// How many segments at least a way crosses from each cell to the outside, in the order of [`cells`](Self::cells).
+    /// Cells outside of all closed chains of segments have 0, those of a domain 1, those of a hole in it 2. A segment
+    /// with one region on both sides, such as a slit, divides nothing. That is how CGAL marks domains.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn nesting_levels(&self) -> Result<Vec<u32>> {
+        let cells = self.cell_arrays()?;
+        let at_edges = self.segments_of_cells()?;
+        let mut levels = Vec::new();
+        memory::lengthen(&mut levels, at_edges.len(), UNKNOWN)?;
+        let [mut here, mut further] = [Vec::new(), Vec::new()];
+        for (cell, neighbours) in CellId::range(0..at_edges.len()).zip(cells.neighbours()) {
+            for i in (0..3).filter(|&i| neighbours[i] == NO_CELL) {
+                let is_crossed = at_edges[cell.index()][i] != SegmentId::NONE;
+                memory::push(if is_crossed { &mut further } else { &mut here }, cell)?;
+            }
+        }
+        let mut level = 0;
+        while !(here.is_empty() && further.is_empty()) {
+            while let Some(cell) = here.pop() {
+                if std::mem::replace(&mut levels[cell.index()], level) != UNKNOWN {
+                    continue;
+                }
+                for (across, segment) in cells.neighbours()[cell].into_iter().zip(at_edges[cell.index()]) {
+                    if across != NO_CELL && levels[across.index()] == UNKNOWN {
+                        memory::push(
+                            if segment == SegmentId::NONE { &mut here } else { &mut further },
+                            across,
+                        )?;
+                    }
+                }
+            }
+            level += 1;
+            further.retain(|cell| levels[cell.index()] == UNKNOWN);
+            std::mem::swap(&mut here, &mut further);
+        }
+        Ok(levels)
+    }
+
+    /// The number of the region of each cell, in the order of [`cells`](Self::cells).
+    fn regions(&self) -> Result<Vec<u32>> {
+        let cells = self.cell_arrays()?;
+        let at_edges = self.segments_of_cells()?;
+        let (mut regions, mut waiting, mut n) = (Vec::new(), Vec::new(), 0);
+        memory::lengthen(&mut regions, at_edges.len(), UNKNOWN)?;
+        for first in CellId::range(0..at_edges.len()) {
+            if regions[first.index()] != UNKNOWN {
+                continue;
+            }
+            regions[first.index()] = n;
+            memory::push(&mut waiting, first)?;
+            while let Some(cell) = waiting.pop() {
+                for (across, segment) in cells.neighbours()[cell].into_iter().zip(at_edges[cell.index()]) {
+                    if across != NO_CELL && segment == SegmentId::NONE && regions[across.index()] == UNKNOWN {
+                        regions[across.index()] = n;
+                        memory::push(&mut waiting, across)?;
+                    }
+                }
+            }
+            n += 1;
+        }
+        Ok(regions)
+    }
+
+    /// The cells that a place is in, or on the boundary of: its position is `q`. None if it is outside.
+    fn cells_touching(&self, place: Location, q: &[f64; 2]) -> Result<Vec<CellId>> {
+        let (cells, kernel, mut found) = (self.cell_arrays()?, &self.mesh.kernel, Vec::new());
+        match place {
+            Location::Vertex(v) if kernel.has_cells() => {
+                kernel.for_cells_around(self.mesh.site_of[v], |slot| {
+                    memory::push(&mut found, cells.index_of()[slot])
+                })?;
+            }
+            Location::Cell(cell) => {
+                memory::push(&mut found, cell)?;
+                for i in 0..3 {
+                    let across = cells.neighbours()[cell][i];
+                    if across != NO_CELL && kernel.is_on_facet(cells.facet(cell, i), q) {
+                        memory::push(&mut found, across)?;
+                    }
+                }
+            }
+            Location::Vertex(_) | Location::Outside(_) | Location::NoCells => {}
+        }
+        Ok(found)
+    }
+
+    /// A label for each cell, in the order of [`cells`](Self::cells): that of the first seed in its region, or `other`
+    /// where there is none. A seed outside of the hull labels nothing.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`], [`Error::OutOfRange`]; [`Error::AmbiguousSeed`] for one on the boundary of several regions;
+    /// [`Error::OutOfMemory`].
+    pub fn label_cells(&self, seeds: &[[f64; 2]], labels: &[i32], other: i32) -> Result<Vec<i32>> {
+        let regions = self.regions()?;
+        let (mut label_of_region, mut places) = (Vec::new(), Vec::new());
+        let n_regions = regions.iter().max().map_or(0, |&most| most as usize + 1);
+        memory::lengthen(&mut label_of_region, n_regions, None)?;
+        memory::reserve(&mut places, seeds.len())?;
+        self.locate_points(seeds, None, |place| places.push(place)).map_err(of_seeds)?;
+        for (index, (seed, place)) in seeds.iter().zip(places).enumerate() {
+            let touching = self.cells_touching(place, seed)?;
+            let Some(first) = touching.first() else { continue };
+            let region = regions[first.index()];
+            if touching.iter().any(|cell| regions[cell.index()] != region) {
+                return Err(Error::AmbiguousSeed { index });
+            }
+            label_of_region[region as usize].get_or_insert(labels[index]);
+        }
+        let mut label_of = Vec::new();
+        memory::collect(
+            &mut label_of,
+            regions.iter().map(|&region| label_of_region[region as usize].unwrap_or(other)),
+        )?;
+        Ok(label_of)
+    }
+}
