@@ -621,3 +621,130 @@ fn a_cell_between_segments_has_the_tolerance_of_its_orientation() {
     let below = t.tolerance(VertexId::new(3)).expect("present");
     assert!(below <= 5e-4 && below > 4.9e-4, "{below}");
 }
+
+/// Brings labels up to date by the changes since they were right; returns how many cells have come, and are undecided.
+fn update_labels(t: &mut Triangulation, labels: &mut Vec<i32>) -> [usize; 2] {
+    let changes = t.take_changes().expect("room");
+    let created = changes.created.to_vec();
+    let old = labels.clone();
+    let renumbered: Vec<_> =
+        changes.renumbered_from.iter().copied().zip(changes.renumbered_to.iter().copied()).collect();
+    labels.resize(t.cell_count(), -99);
+    for (from, to) in renumbered {
+        labels[to.index()] = old[from.index()];
+    }
+    // Entries of cells that have come are not read.
+    created.iter().for_each(|&cell| labels[cell.index()] = -98);
+    let twice: Vec<_> = created.iter().chain(&created).copied().collect();
+    let (found, n_undecided) = t.labels_of(&twice, |cell| labels[cell.index()], -1).expect("cells");
+    assert_eq!(found.len(), created.len());
+    found.into_iter().for_each(|(cell, label)| labels[cell.index()] = label);
+    [created.len(), n_undecided]
+}
+
+/// Whether a place is to the left of a closed chain, by its crossings of a ray to the right.
+fn is_within(ring: &[[f64; 2]], p: [f64; 2]) -> bool {
+    let sides = (0..ring.len()).map(|k| (ring[k], ring[(k + 1) % ring.len()]));
+    let crossings = sides.filter(|&(a, b)| {
+        (a[1] > p[1]) != (b[1] > p[1]) && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
+    });
+    crossings.count() % 2 == 1
+}
+
+/// Labels that go with the changes are those of the loops that cells are in: two loops that turn and wander in a square, with
+/// vertices all around; and nesting levels likewise.
+#[test]
+fn labels_go_with_their_regions() {
+    let (mut n_created, mut n_undecided) = (0, 0);
+    for seed in seeds(20) {
+        let rng = &mut Rng::new(seed);
+        let ring = |centre: [f64; 2], turn: f64| {
+            (0..7).map(move |k| {
+                let angle = turn + std::f64::consts::TAU * f64::from(k) / 7.0;
+                // Not on one circle, of which all cells would be new in each step.
+                let radius = 0.1 + 0.03 * f64::from(k * k % 3);
+                [centre[0] + radius * angle.cos(), centre[1] + radius * angle.sin()]
+            })
+        };
+        let rings = |step: usize| -> Vec<[f64; 2]> {
+            let s = step as f64 * 0.03;
+            ring([0.3 + 0.01 * s.sin(), 0.3], s).chain(ring([0.7, 0.7 - 0.01 * s.sin()], -2.0 * s)).collect()
+        };
+        let mut points = rings(0);
+        // Where no segment comes by: labels go with regions while no vertex passes a segment.
+        let is_free = |p: &[f64; 2]| {
+            [0.3, 0.7]
+                .iter()
+                .all(|c| !(0.06..0.2).contains(&((p[0] - c).powi(2) + (p[1] - c).powi(2)).sqrt()))
+        };
+        points.extend((0..600).map(|_| [rng.unit(), rng.unit()]).filter(is_free));
+        let mut t = Triangulation::new(&points, Options::default()).expect("good points");
+        let side = |k: u32| Segment { ends: [k, k / 7 * 7 + (k + 1) % 7].map(VertexId::new), marker: 0 };
+        t.stage_segments((0..14).map(side)).expect("present");
+        t.commit_timestamp().expect("no vertex is exactly on a segment");
+        t.take_changes().expect("room");
+        let mut labels = t.label_cells(&[[0.3, 0.3], [0.7, 0.7]], &[5, 6], 0).expect("within");
+        let mut levels: Vec<i32> =
+            t.nesting_levels().expect("room").into_iter().map(|level| level as i32).collect();
+        for step in 1..60 {
+            let context = || format!("seed {seed}, step {step}");
+            let goals: Vec<[f64; 2]> = rings(step)
+                .into_iter()
+                .chain(points[14..].iter().map(|p| p.map(|x| x + 0.002 * (rng.unit() - 0.5))))
+                .collect();
+            t.move_all(&goals).expect("good places");
+            t.commit_timestamp().expect("no vertex is exactly on a segment");
+            points = goals;
+            let mut twin = t.try_clone(None).expect("room");
+            let counts = update_labels(&mut t, &mut labels);
+            assert_eq!(update_labels(&mut twin, &mut levels), counts, "{}", context());
+            n_created += counts[0];
+            n_undecided += counts[1];
+            let view = t.cells().expect("room");
+            let wanted_levels = t.nesting_levels().expect("room");
+            for (c, row) in view.corners.iter().enumerate() {
+                let corners = row.map(|v| points[v.index()]);
+                let centre = [0, 1].map(|axis| corners.iter().map(|p| p[axis]).sum::<f64>() / 3.0);
+                let loops = rings(step);
+                let wanted = match (is_within(&loops[..7], centre), is_within(&loops[7..], centre)) {
+                    (true, _) => 5,
+                    (_, true) => 6,
+                    _ => 0,
+                };
+                assert_eq!(labels[c], wanted, "{}: cell {c}", context());
+                assert_eq!(levels[c], wanted_levels[c] as i32, "{}: cell {c}", context());
+            }
+        }
+    }
+    assert!(n_created > 20_000 && n_undecided == 0, "{n_created} {n_undecided}");
+}
+
+/// Where a region has only new cells, or two have become one, labels are undecided.
+#[test]
+fn labels_that_nothing_tells_are_undecided() {
+    let points = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [1.5, 2.5], [2.5, 1.5]];
+    let mut t = Triangulation::new(&points, Options::default()).expect("good points");
+    let wall = [[0, 2], [0, 1], [1, 2]].map(|ends| Segment { ends: ends.map(VertexId::new), marker: 0 });
+    t.stage_segments(wall.into_iter()).expect("present");
+    t.commit_timestamp().expect("no conflict");
+    t.take_changes().expect("room");
+    let mut labels = t.label_cells(&[[0.5, 2.0], [3.5, 2.0]], &[1, 2], 0).expect("within");
+    assert!(labels.contains(&1) && labels.contains(&2) && !labels.contains(&0));
+    // Without the wall there are two cells between both sides.
+    let mut twin = t.try_clone(None).expect("room");
+    twin.take_changes().expect("room");
+    twin.stage_segment_removals(&[SegmentId::new(0)]).expect("in force");
+    twin.commit_timestamp().expect("no conflict");
+    let mut of_twin = twin.label_cells(&[[0.1, 2.0]], &[1], 0).expect("within");
+    assert_eq!(of_twin, [1; 6]);
+    of_twin = labels.clone();
+    assert_eq!(update_labels(&mut twin, &mut of_twin), [2, 2]);
+    of_twin.sort();
+    assert_eq!(of_twin, [-1, -1, 1, 1, 2, 2]);
+    // All cells to the right are new: their only inner vertex goes.
+    t.remove_vertex(VertexId::new(5)).expect("no end");
+    assert_eq!(update_labels(&mut t, &mut labels), [1, 1]);
+    assert_eq!(labels.iter().filter(|&&label| label == -1).count(), 1);
+    let error = t.labels_of(&[CellId::new(99)], |_| 0, 0).expect_err("no cell");
+    assert!(matches!(error, Error::NoSuchCell { index: 0, .. }), "{error}");
+}
