@@ -19,7 +19,7 @@ const N_FIRST: usize = 10;
 const N_BETWEEN: usize = 20;
 
 /// Steps of a motion before it goes back.
-const N_FORTH: usize = 50;
+const N_FORTH: usize = 200;
 
 /// How the vertices move, and by how many spacings in the mean, of those that do.
 #[derive(Clone, Copy, Debug)]

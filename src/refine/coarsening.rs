@@ -32,9 +32,8 @@ pub(crate) struct Candidate {
     pub vertex: VertexId,
     /// The segments before and behind it, if it is between two of one origin, in their direction.
     pub between: Option<[u32; 2]>,
-    /// Whether as many cells as come could be small enough, as far as that is known. Those that have no room are looked
-    /// at only when their cells have become others.
-    pub has_room: bool,
+    /// Whether it is known that it may not go: then it is only looked at when its cells have become others.
+    pub is_kept: bool,
 }
 
 /// What a coarsening has done.
@@ -46,6 +45,8 @@ pub(crate) struct Coarsened {
     pub replaced: Vec<u32>,
     /// Those that do, with a segment that is of one origin.
     pub joined: Vec<(u32, [VertexId; 2])>,
+    /// The candidates that could have gone first.
+    pub able: Vec<VertexId>,
 }
 
 struct Coarsening<'a> {
@@ -92,26 +93,35 @@ pub(crate) fn coarsen(
         is_touched,
         is_near_bad,
     };
-    let mut waiting = coarsening.pass(candidates)?;
+    let mut able = coarsening.list_able(candidates)?;
+    memory::collect(&mut coarsening.told.able, able.iter().map(|&(_, c)| c.vertex))?;
+    let mut waiting = coarsening.pass(candidates, &mut able)?;
     while !waiting.is_empty() {
-        waiting = coarsening.pass(&waiting)?;
+        able = coarsening.list_able(&waiting)?;
+        waiting = coarsening.pass(&waiting, &mut able)?;
     }
     coarsening.tell(given)
 }
 
 impl Coarsening<'_> {
-    /// Takes away those that may go, those at short edges first; returns those that stay and have other triangles than
-    /// when they were looked at.
-    fn pass(&mut self, candidates: &[Candidate]) -> Result<Vec<Candidate>> {
+    /// Lists those that may go, each with the square of a short edge.
+    fn list_able(&mut self, candidates: &[Candidate]) -> Result<Vec<(f64, Candidate)>> {
         let mut able = Vec::new();
         for &candidate in candidates {
             let is_touched = std::mem::take(&mut self.is_touched[candidate.vertex]);
-            if (is_touched || candidate.has_room) && self.may_go(candidate)? {
-                memory::push(&mut able, (self.shortest_edge(candidate.vertex).to_bits(), candidate))?;
+            if (is_touched || !candidate.is_kept) && self.may_go(candidate)? {
+                memory::push(&mut able, (self.shortest_edge(candidate.vertex), candidate))?;
             }
         }
-        able.sort_unstable_by_key(|&(square, c)| (square, c.vertex));
-        for (_, candidate) in able {
+        Ok(able)
+    }
+
+    /// Takes away those that may go, those at short edges first; returns the candidates that stay and have other triangles
+    /// than when they were looked at.
+    fn pass(&mut self, candidates: &[Candidate], able: &mut [(f64, Candidate)]) -> Result<Vec<Candidate>> {
+        able.sort_unstable_by(|(one, a), (other, b)| one.total_cmp(other).then(a.vertex.cmp(&b.vertex)));
+        for &(_, candidate) in &*able {
+            self.is_touched[candidate.vertex] = false;
             if self.may_go(candidate)? {
                 self.remove(candidate)?;
             }

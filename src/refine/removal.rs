@@ -391,3 +391,81 @@ fn opposite(one: [VertexId; 3], other: [VertexId; 3]) -> Option<(usize, usize)> 
         Some((i, j))
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::Rng;
+    use crate::refine::Given;
+
+    /// Polygons around a place, of corners on a lattice, so that many are on one circle or line: ears without corners in
+    /// their circles lead to what flips do, and a bad ear is found only where it is one of these triangles.
+    #[test]
+    fn ears_and_flips_agree() {
+        let mut n_by_ears = 0;
+        for seed in 0..4_000 {
+            let rng = &mut Rng::new(seed);
+            let size = *rng.pick(&[3, 5, 40]);
+            let mut points: Vec<[f64; 2]> = Vec::new();
+            for _ in 0..3 + rng.below(8) {
+                let p = [0, 1].map(|_| (rng.below(2 * size + 1) as f64) - size as f64);
+                let is_new_way = |q: &[f64; 2]| p[0] * q[1] != p[1] * q[0] || p[0] * q[0] + p[1] * q[1] < 0.0;
+                if p != [0.0; 2] && points.iter().all(is_new_way) {
+                    points.push(p);
+                }
+            }
+            points.sort_by(|p, q| p[1].atan2(p[0]).total_cmp(&q[1].atan2(q[0])));
+            let n = points.len();
+            let is_convex_there = |k: usize| {
+                let (p, q) = (points[k], points[(k + 1) % n]);
+                p[0] * q[1] - p[1] * q[0] > 0.0
+            };
+            if n < 3 || !(0..n).all(is_convex_there) {
+                continue;
+            }
+            // Ids break ties: in any order.
+            let mut ids: Vec<usize> = (0..n).collect();
+            rng.shuffle(&mut ids);
+            let mut by_id = vec![[0.0; 2]; n];
+            ids.iter().zip(&points).for_each(|(&id, &p)| by_id[id] = p);
+            let at = vec![NONE; n];
+            let given = Given {
+                lower: [-(size as f64); 2],
+                upper: [size as f64; 2],
+                corners: &[],
+                neighbours: &[],
+                at: &at,
+                mask: &[],
+                labels: None,
+                sides: &[],
+                segments: &[],
+            };
+            let mesh = Mesh::new(given, by_id).expect("room");
+            let polygon: Vec<_> = ids.iter().map(|&id| VertexId::at(id)).collect();
+            let mut by_flips = Hole { polygon: polygon.clone(), ..Hole::default() };
+            assert!(mesh.triangulate_by_flips(&mut by_flips, 0, &|_, _, _| true).expect("room"));
+            let sorted = |hole: &Hole| {
+                let mut all: Vec<_> = hole.triangles.iter().map(|&(row, _)| sorted_row(row)).collect();
+                all.sort_unstable();
+                all
+            };
+            let expected = sorted(&by_flips);
+            let mut by_ears = Hole { polygon: polygon.clone(), ..Hole::default() };
+            assert!(mesh.fill_polygon(&mut by_ears, 0, &|_, _, _| true).expect("room"));
+            assert_eq!(sorted(&by_ears), expected, "seed {seed}: {points:?}");
+            n_by_ears += usize::from((0..n).any(|k| mesh.is_delaunay_ear(&polygon, k)));
+            // Any triangle is refused if and only if it comes.
+            let bad = sorted_row([0, 0, 0].map(|_| polygon[rng.below(n)]));
+            let is_good = |_: &Mesh, row: [VertexId; 3], _: u32| sorted_row(row) != bad;
+            let mut hole = Hole { polygon: polygon.clone(), ..Hole::default() };
+            let is_filled = mesh.fill_polygon(&mut hole, 0, &is_good).expect("room");
+            assert_eq!(is_filled, !expected.contains(&bad), "seed {seed}: {points:?}, {bad:?}");
+        }
+        assert!(n_by_ears > 1_000, "{n_by_ears}");
+    }
+
+    fn sorted_row(mut row: [VertexId; 3]) -> [VertexId; 3] {
+        row.sort_unstable();
+        row
+    }
+}

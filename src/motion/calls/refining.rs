@@ -13,6 +13,7 @@ use crate::ids::{SegmentId, VertexId};
 use crate::machine::memory;
 use crate::motion::options::{CoarsenOptions, Quality, RefineOptions};
 use crate::motion::report::QualityReport;
+use crate::motion::state::looked::Looking;
 use crate::motion::state::made::Origin;
 use crate::motion::state::mesh::Standing;
 use crate::motion::state::segments::Segment;
@@ -122,18 +123,36 @@ impl MovingTriangulation<Plane> {
         self.check_quality(quality, mask)?;
         check_coarsening(options)?;
         let mut report = QualityReport::default();
-        if self.made.as_ref().is_none_or(|made| made.vertices().is_empty()) {
+        let Some(made) = self.made.as_mut().filter(|made| !made.vertices().is_empty()) else {
             return Ok(report);
-        }
+        };
+        // After an error nothing is known.
+        let mut looked = std::mem::take(&mut made.looked);
         let mut read = self.read_vertices()?;
         let areas = none_where_zero(quality.areas)?;
         let tests = Tests::new(criteria(quality, &areas), read.extent());
         self.read_cells(&mut read, &tests, mask, quality.labels, true)?;
-        let candidates = self.candidates(&read, options.share)?;
-        let points = std::mem::take(&mut read.points);
-        let given = read.given(self.cells()?, mask, quality.labels);
+        let cells = self.cells()?;
+        let asked = asked(quality, options)?;
+        let looking = Looking {
+            asked: &asked,
+            points: &read.points,
+            corners: cells.corners,
+            mask,
+            labels: quality.labels.unwrap_or_default(),
+        };
+        let has_numbers = !asked.is_empty();
+        let known = if has_numbers { looked.known(looking)? } else { Vec::new() };
+        let candidates = self.candidates(&read, options.share, &known)?;
+        let points = memory::copy_of(&read.points)?;
+        let given = read.given(cells, mask, quality.labels);
         let room = Room { angle: options.margin, share: options.share, offset: options.joins };
         let coarsened = refine::coarsen(given, points, tests, room, &read.bad, &candidates)?;
+        let stays = stays(&read, cells.corners, &candidates, &coarsened.able)?;
+        if has_numbers {
+            looked.remember(looking, stays)?;
+        }
+        memory::made(&mut self.made)?.looked = looked;
         report.removed = coarsened.vertices.len();
         if report.removed == 0 {
             return Ok(report);
@@ -197,8 +216,8 @@ impl MovingTriangulation<Plane> {
         Ok(origins)
     }
 
-    /// The vertices that may go, where cells that come may have this share of the greatest areas.
-    fn candidates(&self, read: &Read, share: f64) -> Result<Vec<Candidate>> {
+    /// The vertices that may go, where cells that come may have this share of the greatest areas, in the order of cells.
+    fn candidates(&self, read: &Read, share: f64, known: &[bool]) -> Result<Vec<Candidate>> {
         let n = self.id_count();
         let (mut before, mut behind) = (Vec::new(), Vec::new());
         memory::lengthen(&mut before, n, NONE)?;
@@ -211,17 +230,20 @@ impl MovingTriangulation<Plane> {
         for (vertex, on) in self.made_vertices() {
             let Standing::Shown(s) = self.mesh.standing(vertex) else { continue };
             let pieces = [before[vertex], behind[vertex]];
-            let between = (on != SegmentId::NONE).then_some(pieces);
-            let may_go = match between {
-                // A segment of the program's own keeps it.
-                None => pieces == [NONE; 2],
-                Some(_) => !pieces.contains(&NONE) && self.are_of_one_origin(read, pieces),
+            let (between, may_go) = match pieces {
+                // Also where the program has removed the segment that it was put on.
+                [NONE, NONE] => (None, true),
+                // A segment of the program's own ends there, or one goes through.
+                [NONE, _] | [_, NONE] => (None, false),
+                _ => (Some(pieces), on != SegmentId::NONE && self.are_of_one_origin(read, pieces)),
             };
             if may_go && !self.mesh.is_shared(s) {
-                let has_room = read.has_room(vertex, share, between.is_none());
-                memory::push(&mut candidates, Candidate { vertex, between, has_room })?;
+                let is_known = between.is_none() && known.get(vertex.index()) == Some(&true);
+                let is_kept = is_known || !read.has_room(vertex, share, between.is_none());
+                memory::push(&mut candidates, Candidate { vertex, between, is_kept })?;
             }
         }
+        read.sort_by_cell(&mut candidates, |candidate| candidate.vertex)?;
         Ok(candidates)
     }
 
@@ -231,6 +253,35 @@ impl MovingTriangulation<Plane> {
         let origin = |&(_, segment): &(_, SegmentId)| self.original_segment(segment);
         one.len() == other.len() && one.iter().all(|a| other.iter().any(|b| origin(a) == origin(b)))
     }
+}
+
+/// The bits of the numbers that are asked for; empty if it is more than numbers.
+fn asked(quality: &Quality, options: &CoarsenOptions) -> Result<Vec<u64>> {
+    let mut asked = Vec::new();
+    if quality.sizes.is_some() || quality.is_too_large.is_some() {
+        return Ok(asked);
+    }
+    let CoarsenOptions { margin, share, joins } = *options;
+    let numbers = [quality.least_angle, quality.greatest_area, margin, share, joins];
+    memory::collect(&mut asked, numbers.iter().chain(quality.areas).map(|x| x.to_bits()))?;
+    Ok(asked)
+}
+
+/// By vertex, whether it is a candidate on no segment that could not go, and has no cells at segments.
+fn stays(
+    read: &Read,
+    corners: &[[VertexId; 3]],
+    candidates: &[Candidate],
+    able: &[VertexId],
+) -> Result<Vec<bool>> {
+    let mut stays = Vec::new();
+    memory::lengthen(&mut stays, read.points.len(), false)?;
+    for candidate in candidates.iter().filter(|candidate| candidate.between.is_none()) {
+        stays[candidate.vertex] = true;
+    }
+    able.iter().for_each(|&v| stays[v] = false);
+    read.corners_at_sides(corners).for_each(|v| stays[v] = false);
+    Ok(stays)
 }
 
 /// The criteria of a quality.

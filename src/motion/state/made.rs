@@ -5,6 +5,7 @@
 use crate::error::Result;
 use crate::ids::{SegmentId, VertexId};
 use crate::machine::memory;
+use crate::motion::state::looked::Looked;
 
 /// The segment that a piece was made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,6 +21,8 @@ pub(in crate::motion) struct Made {
     vertices: Vec<(VertexId, SegmentId)>,
     /// Ascending.
     pieces: Vec<(SegmentId, Origin)>,
+    /// Copies know nothing of it.
+    pub(in crate::motion) looked: Looked,
 }
 
 impl Made {
@@ -62,7 +65,11 @@ impl Made {
 
     /// A copy.
     pub(in crate::motion) fn copied(&self) -> Result<Self> {
-        Ok(Made { vertices: memory::copy_of(&self.vertices)?, pieces: memory::copy_of(&self.pieces)? })
+        Ok(Made {
+            vertices: memory::copy_of(&self.vertices)?,
+            pieces: memory::copy_of(&self.pieces)?,
+            looked: Looked::default(),
+        })
     }
 
     /// A copy in which the vertices have other ids, in their order: by the old ones, [`VertexId::NONE`] for those removed.
@@ -77,6 +84,6 @@ impl Made {
     }
 
     pub(in crate::motion) fn memory_bytes(&self) -> usize {
-        memory::bytes_of(&self.vertices) + memory::bytes_of(&self.pieces)
+        memory::bytes_of(&self.vertices) + memory::bytes_of(&self.pieces) + self.looked.memory_bytes()
     }
 }

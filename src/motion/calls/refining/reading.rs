@@ -32,6 +32,8 @@ pub(super) struct Read {
     pub(super) bad: Vec<u32>,
     /// By vertex, what is around it; only for coarsening.
     around: Vec<Around>,
+    /// The vertices in the order in which cells have them first: those near each other are mostly soon after each other.
+    order: Vec<VertexId>,
 }
 
 /// The selected cells around a vertex.
@@ -83,6 +85,30 @@ impl Read {
         sum <= n_coming * share * (1.0 + ROUNDING)
     }
 
+    /// Puts the entries of a list, which has one at most for each vertex, in the order of the cells.
+    pub(super) fn sort_by_cell<T: Copy>(
+        &self,
+        list: &mut Vec<T>,
+        vertex: impl Fn(&T) -> VertexId,
+    ) -> Result<()> {
+        let mut place = Vec::new();
+        memory::lengthen(&mut place, self.at.len(), NONE)?;
+        for (k, entry) in (0..).zip(&*list) {
+            place[vertex(entry)] = k;
+        }
+        let mut sorted = Vec::new();
+        memory::reserve_exact(&mut sorted, list.len())?;
+        let places = self.order.iter().map(|&v| place[v]).filter(|&k| k != NONE);
+        sorted.extend(places.map(|k| list[k as usize]));
+        *list = sorted;
+        Ok(())
+    }
+
+    /// The corners of cells at segments.
+    pub(super) fn corners_at_sides(&self, corners: &[[VertexId; 3]]) -> impl Iterator<Item = VertexId> {
+        self.sides.iter().flat_map(move |&(cell, _)| corners[cell as usize])
+    }
+
     /// The edge between two corners that are ends.
     fn edge_between(&self, v: VertexId, w: VertexId) -> u32 {
         let edge = [v.min(w), v.max(w)];
@@ -107,6 +133,7 @@ impl MovingTriangulation<Plane> {
             at: Vec::new(),
             bad: Vec::new(),
             around: Vec::new(),
+            order: Vec::new(),
         };
         memory::lengthen(&mut read.points, n, [0.0; 2])?;
         memory::lengthen(&mut read.at, n, NONE)?;
@@ -159,14 +186,22 @@ impl MovingTriangulation<Plane> {
     ) -> Result<()> {
         let cells = self.cells()?;
         let mut at = std::mem::take(&mut read.at);
-        let (mut bad, mut sides, mut around) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut bad, mut sides, mut around, mut order) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         if wants_around {
             memory::lengthen(&mut around, at.len(), Around::default())?;
+            memory::reserve_exact(&mut order, at.len())?;
         }
         let given = read.given(cells, mask, labels);
         for (c, (row, neighbours)) in cells.corners.iter().zip(cells.neighbours).enumerate() {
             let cell = c as u32;
-            row.iter().for_each(|&v| at[v] = cell);
+            for &v in row {
+                if at[v] == NONE {
+                    at[v] = cell;
+                    if wants_around {
+                        order.push(v);
+                    }
+                }
+            }
             let is_end = row.map(|v| read.is_end[v]);
             let has_edge = is_end[0] as u8 + is_end[1] as u8 + is_end[2] as u8 >= 2;
             let mut edges = [NONE; 3];
@@ -209,7 +244,8 @@ impl MovingTriangulation<Plane> {
                 }
             }
         }
-        (read.at, read.bad, read.sides, read.around) = (at, bad, sides, around);
+        (read.at, read.bad, read.sides) = (at, bad, sides);
+        (read.around, read.order) = (around, order);
         Ok(())
     }
 }
