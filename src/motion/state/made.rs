@@ -6,6 +6,7 @@ use crate::error::Result;
 use crate::ids::{SegmentId, VertexId};
 use crate::machine::memory;
 use crate::motion::report::VertexWeights;
+use crate::motion::state::looked::Looked;
 
 /// The segment that a piece was made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,6 +26,8 @@ pub(in crate::motion) struct Made {
     weights: Vec<VertexWeights>,
     /// The timestamp that it reached.
     refined_at: u64,
+    /// Copies know nothing of it.
+    pub(in crate::motion) looked: Looked,
 }
 
 impl Made {
@@ -95,6 +98,7 @@ impl Made {
             pieces: memory::copy_of(&self.pieces)?,
             weights: memory::copy_of(&self.weights)?,
             refined_at: self.refined_at,
+            looked: Looked::default(),
         })
     }
 
@@ -111,6 +115,9 @@ impl Made {
     }
 
     pub(in crate::motion) fn memory_bytes(&self) -> usize {
-        memory::bytes_of(&self.vertices) + memory::bytes_of(&self.pieces) + memory::bytes_of(&self.weights)
+        memory::bytes_of(&self.vertices)
+            + memory::bytes_of(&self.pieces)
+            + memory::bytes_of(&self.weights)
+            + self.looked.memory_bytes()
     }
 }
