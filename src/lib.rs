@@ -54,7 +54,7 @@ mod simd;
 pub use damage::{Damage, LoadError};
 pub use delaunay::{Dimension, Plane, Shape, Space};
 pub use either::{AnyTriangulation, points_of};
-pub use error::{Conflict, Error, Result, StagedEdit};
+pub use error::{Conflict, Error, Passing, Result, StagedEdit};
 pub use ids::{CellId, SegmentId, VertexId};
 pub use predicates::Coordinates;
 
