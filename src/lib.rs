@@ -44,6 +44,9 @@ mod error;
 mod ids;
 mod machine;
 pub mod motion;
+#[cfg(test)]
+#[path = "../tests/common/passing_by_roots.rs"]
+mod passing_by_roots;
 mod predicates;
 #[cfg(test)]
 #[path = "../tests/common/random.rs"]

@@ -49,26 +49,25 @@ impl<G: Dimension> Steps<'_, G> {
         }
     }
 
-    fn n_movers(&self) -> usize {
+    fn move_something(&self) -> bool {
         match self {
-            Steps::All(goals) => goals.n_movers(),
-            Steps::Staged(staging) => staging.count(),
-            Steps::One(..) => 1,
+            Steps::All(_) | Steps::One(..) => true,
+            Steps::Staged(staging) => staging.count() > 0,
         }
     }
 
-    /// The vertices that move, where not all do.
-    fn listed(&self) -> Result<Vec<VertexId>> {
-        let mut listed = Vec::new();
+    /// The vertices that move, if they are listed and few of all.
+    fn few(&self, n_present: usize) -> Result<Option<Vec<VertexId>>> {
+        let mut few = Vec::new();
         match *self {
-            Steps::All(_) => {}
-            Steps::Staged(staging) => {
-                memory::reserve_exact(&mut listed, staging.count())?;
-                listed.extend(staging.listed());
+            Steps::Staged(staging) if !staging.is_whole() && staging.count() <= n_present / 4 => {
+                memory::reserve_exact(&mut few, staging.count())?;
+                few.extend(staging.listed());
             }
-            Steps::One(mover, _) => memory::push(&mut listed, mover)?,
+            Steps::One(mover, _) => memory::push(&mut few, mover)?,
+            _ => return Ok(None),
         }
-        Ok(listed)
+        Ok(Some(few))
     }
 }
 
@@ -78,8 +77,8 @@ pub(in crate::motion) fn find<G: Dimension>(
     edits: &Edits<G>,
     steps: &Steps<'_, G>,
 ) -> Result<Vec<Passing>> {
-    let (mut found, n_movers) = (Vec::new(), steps.n_movers());
-    if n_movers == 0 {
+    let mut found = Vec::new();
+    if !steps.move_something() {
         return Ok(found);
     }
     let step = Step { mesh, edits, steps };
@@ -87,16 +86,16 @@ pub(in crate::motion) fn find<G: Dimension>(
     if segments.is_empty() {
         return Ok(found);
     }
-    if n_movers > mesh.n_present / 4 && n_movers > FEW {
-        step.look_at_all(segments, &mut found)?;
-    } else {
+    if let Some(movers) = steps.few(mesh.n_present)? {
         // A segment that stays is passed by vertices that move alone.
         let mut still = Vec::new();
         memory::reserve(&mut still, segments.len())?;
         still.extend(segments.iter().filter(|segment| segment.is_still()).copied());
         segments.retain(|segment| !segment.is_still());
         step.look_at_all(segments, &mut found)?;
-        step.look_at_movers(still, &mut found)?;
+        step.look_at_movers(movers, still, &mut found)?;
+    } else {
+        step.look_at_all(segments, &mut found)?;
     }
     found.sort_unstable();
     Ok(found)
@@ -167,11 +166,15 @@ impl<G: Dimension> Step<'_, G> {
     }
 
     /// Looks at the vertices that move, of which there are few, and segments that stay.
-    fn look_at_movers(&self, segments: Vec<Swept>, found: &mut Vec<Passing>) -> Result<()> {
+    fn look_at_movers(
+        &self,
+        mut movers: Vec<VertexId>,
+        segments: Vec<Swept>,
+        found: &mut Vec<Passing>,
+    ) -> Result<()> {
         if segments.is_empty() {
             return Ok(());
         }
-        let mut movers = self.steps.listed()?;
         movers.sort_unstable_by_key(|&v| self.mesh.site_of[v]);
         let mut walkers = Vec::new();
         memory::reserve(&mut walkers, movers.len())?;

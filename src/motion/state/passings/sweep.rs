@@ -76,11 +76,7 @@ impl Swept {
 }
 
 /// Looks at each of some vertices with each of some segments.
-pub(super) fn look_at_pairs(
-    segments: &[Swept],
-    walkers: &[Walker],
-    found: &mut Vec<Passing>,
-) -> Result<()> {
+pub(super) fn look_at_pairs(segments: &[Swept], walkers: &[Walker], found: &mut Vec<Passing>) -> Result<()> {
     for segment in segments {
         for walker in walkers.iter().filter(|walker| segment.is_passed_by(walker)) {
             memory::push(found, Passing { segment: segment.id, vertex: walker.vertex })?;
