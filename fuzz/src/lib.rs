@@ -7,6 +7,8 @@ pub mod calls;
 pub mod driver;
 #[path = "../../tests/exact_oracle/mod.rs"]
 mod exact_oracle;
+#[path = "../../tests/common/passing_by_roots.rs"]
+mod passing_by_roots;
 pub mod loaders;
 pub mod predicates;
 pub mod source;

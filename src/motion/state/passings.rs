@@ -41,6 +41,7 @@ pub(in crate::motion) enum Steps<'a, G: Dimension> {
 }
 
 impl<G: Dimension> Steps<'_, G> {
+    #[inline(always)]
     fn goal(&self, vertex: VertexId) -> Option<G::Point> {
         match *self {
             Steps::All(goals) => Some(goals.of(vertex)),
@@ -111,9 +112,16 @@ struct Step<'a, G: Dimension> {
 impl<G: Dimension> Step<'_, G> {
     /// A vertex on its way, if it is there before and after.
     fn walker(&self, vertex: VertexId) -> Option<Walker> {
-        let site = self.mesh.site(vertex).filter(|_| !self.edits.is_leaving(vertex))?;
-        let from = self.mesh.kernel.site(site).point;
-        let to = self.steps.goal(vertex).unwrap_or(from);
+        self.walker_from(vertex, &self.mesh.kernel.site(self.mesh.site(vertex)?).point)
+    }
+
+    /// A vertex on its way from its place, if it is there after.
+    #[inline(always)]
+    fn walker_from(&self, vertex: VertexId, from: &G::Point) -> Option<Walker> {
+        if self.edits.is_leaving(vertex) {
+            return None;
+        }
+        let to = self.steps.goal(vertex).unwrap_or(*from);
         Some(Walker { vertex, path: Path { from: [from[0], from[1]], to: [to[0], to[1]] } })
     }
 
@@ -142,16 +150,17 @@ impl<G: Dimension> Step<'_, G> {
         let (mesh, mut block) = (self.mesh, Vec::new());
         memory::reserve(&mut block, BLOCK)?;
         for s in mesh.kernel.live_sites() {
-            let shown = mesh.kernel.site(s).id;
-            let mut taken = self.take(shown, &mut block);
-            if mesh.hidden.is_followed(shown) {
-                mesh.hidden.for_all_behind(shown, |v| {
+            let site = mesh.kernel.site(s);
+            self.take(site.id, &site.point, &mut block)?;
+            if mesh.hidden.is_followed(site.id) {
+                let mut taken = Ok(());
+                mesh.hidden.for_all_behind(site.id, |v| {
                     if taken.is_ok() {
-                        taken = self.take(v, &mut block);
+                        taken = self.take(v, &site.point, &mut block);
                     }
                 });
+                taken?;
             }
-            taken?;
             if block.len() >= BLOCK {
                 tree.look_at(&block, found)?;
                 block.clear();
@@ -161,8 +170,9 @@ impl<G: Dimension> Step<'_, G> {
     }
 
     /// Puts a vertex into a block.
-    fn take(&self, vertex: VertexId, block: &mut Vec<Walker>) -> Result<()> {
-        self.walker(vertex).map_or(Ok(()), |walker| memory::push(block, walker))
+    #[inline(always)]
+    fn take(&self, vertex: VertexId, from: &G::Point, block: &mut Vec<Walker>) -> Result<()> {
+        self.walker_from(vertex, from).map_or(Ok(()), |walker| memory::push(block, walker))
     }
 
     /// Looks at the vertices that move, of which there are few, and segments that stay.

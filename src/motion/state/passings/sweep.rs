@@ -97,37 +97,45 @@ impl MovingBox {
 
     /// The one around vertices on their ways.
     fn of(walkers: &[Walker]) -> Self {
-        walkers.iter().fold(Self::EMPTY, |mut grown, walker| {
-            for (time, place) in walker.path.places().into_iter().enumerate() {
-                for axis in 0..2 {
-                    grown.low[time][axis] = grown.low[time][axis].min(place[axis]);
-                    grown.high[time][axis] = grown.high[time][axis].max(place[axis]);
-                }
-            }
-            grown
+        walkers.iter().fold(Self::EMPTY, |grown, walker| {
+            let places = [walker.path.from, walker.path.to];
+            grown.with(&MovingBox { low: places, high: places })
         })
     }
 
     /// The one around both.
+    #[inline(always)]
     fn with(mut self, other: &Self) -> Self {
+        // Nothing is NaN, and an instruction each does without that.
+        let lower = |x: f64, y: f64| if x < y { x } else { y };
+        let higher = |x: f64, y: f64| if x > y { x } else { y };
         for time in 0..2 {
             for axis in 0..2 {
-                self.low[time][axis] = self.low[time][axis].min(other.low[time][axis]);
-                self.high[time][axis] = self.high[time][axis].max(other.high[time][axis]);
+                self.low[time][axis] = lower(self.low[time][axis], other.low[time][axis]);
+                self.high[time][axis] = higher(self.high[time][axis], other.high[time][axis]);
             }
         }
         self
     }
 
     /// Whether two may meet on their ways: false only if they certainly do not. Neither is empty.
+    #[inline(always)]
     fn may_meet(&self, other: &Self) -> bool {
+        let are_apart = |low: &Self, high: &Self, axis: usize| {
+            (low.high[0][axis] < high.low[0][axis]) & (low.high[1][axis] < high.low[1][axis])
+        };
+        let are_apart_along = |axis: usize| are_apart(self, other, axis) | are_apart(other, self, axis);
+        !are_apart_along(0) && !are_apart_along(1) && self.may_meet_between(other)
+    }
+
+    /// Whether two may meet that are not on one side of each other along an axis both before and after.
+    fn may_meet_between(&self, other: &Self) -> bool {
         let (mut from, mut to) = (0.0f64, 1.0f64);
         for axis in 0..2 {
             for (high, low) in [(&self.high, &other.low), (&other.high, &self.low)] {
                 let [before, after] = [0, 1].map(|time| high[time][axis] - low[time][axis]);
                 match (before < 0.0, after < 0.0) {
-                    (false, false) => {}
-                    (true, true) => return false,
+                    (false, false) | (true, true) => {}
                     (true, false) => from = from.max(crossing([before, after])[0]),
                     (false, true) => to = to.min(crossing([before, after])[1]),
                 }
@@ -157,8 +165,11 @@ pub(super) struct Tree {
 
 impl Tree {
     /// A tree of segments, of which there is one at least.
-    pub(super) fn new(mut segments: Vec<Swept>) -> Result<Self> {
-        segments.sort_unstable_by_key(|segment| segment.place);
+    pub(super) fn new(unsorted: Vec<Swept>) -> Result<Self> {
+        let (mut order, mut segments) = (Vec::new(), Vec::new());
+        memory::collect(&mut order, unsorted.iter().map(|segment| segment.place).zip(0u32..))?;
+        order.sort_unstable();
+        memory::collect(&mut segments, order.iter().map(|&(_, k)| unsorted[k as usize]))?;
         let mut boxes = Vec::new();
         // A geometric series, and one more box on each level at most.
         memory::reserve(&mut boxes, segments.len().div_ceil(FAN - 1) + LEVELS)?;
