@@ -7,9 +7,9 @@ pub mod calls;
 pub mod driver;
 #[path = "../../tests/exact_oracle/mod.rs"]
 mod exact_oracle;
+pub mod loaders;
 #[path = "../../tests/common/passing_by_roots.rs"]
 mod passing_by_roots;
-pub mod loaders;
 pub mod predicates;
 pub mod source;
 pub mod tally;
