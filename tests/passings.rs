@@ -264,6 +264,33 @@ fn near_pairs_are_found_among_many() {
     assert!(n_passing.iter().filter(|&&n| n > 0).count() >= 3, "{n_passing:?}");
 }
 
+/// At both ends of the range, and with numbers of all sizes in one step.
+#[test]
+fn near_pairs_are_found_at_all_sizes() {
+    let rng = &mut Rng::new(3);
+    let mut n_passing = [0; 3];
+    for k in 0..24 {
+        let sizes: &[f64] = [&[1e57][..], &[1e-321], &[1e57, 1.0, 1e-60, 1e-310]][k % 3];
+        let mut place = || [0; 2].map(|_| *rng.pick(sizes) * (2.0 * rng.unit() - 1.0));
+        let points: Vec<Place> = (0..60).map(|_| place()).collect();
+        let goals: Vec<Place> = (0..60).map(|_| place()).collect();
+        let mut t = Triangulation::new(&points, Options::default()).expect("good points");
+        for _ in 0..60 {
+            let ends = [0; 2].map(|_| VertexId::at(rng.below(60)));
+            t.stage_segments([Segment { ends, marker: 0 }].into_iter()).expect("present");
+            if t.commit_timestamp().is_err() {
+                t.discard_moves();
+            }
+        }
+        let paths = points.iter().zip(&goals).map(|(&p, &q)| Some([p, q])).collect();
+        let expected = all_passings(&paths, &t.segments().collect::<Vec<_>>(), |_, _| true);
+        t.move_all(&goals).expect("good places");
+        checked(&mut t, &expected, &|| format!("{sizes:?}, {k}"));
+        n_passing[k % 3] += expected.len();
+    }
+    assert!(n_passing.iter().all(|&n| n > 100), "{n_passing:?}");
+}
+
 /// Calls that move one vertex at once are refused as commits are.
 #[test]
 fn relocations_are_looked_at() {
