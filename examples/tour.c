@@ -290,6 +290,11 @@ static void ask_for_a_domain(void) {
     check(deldrift_commit_timestamp(t, NULL));
     check(deldrift_segments(t, NULL, NULL, NULL, 0, &count));
     expect(count == 4, "and four segments stay");
+    check(deldrift_move_vertex(t, 4, (double[]){5, -3}));
+    expect(deldrift_check_passings(t) == DELDRIFT_PASSES_SEGMENT, "a vertex does not jump across the kite unnoticed");
+    check(deldrift_passings(t, segments, beside, 4, &count));
+    expect(count > 0 && beside[0] == 4, "and it is told what it would pass");
+    check(deldrift_discard_moves(t));
     deldrift_destroy(t);
 }
 

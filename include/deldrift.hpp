@@ -150,6 +150,8 @@ public:
     //         }
     //     }
     void check_staged() { require_change(deldrift_check_staged(native())); }
+    // Throws PassingError if vertices would pass segments in a commit of what is staged, whatever the options say.
+    void check_passings() { require_change(deldrift_check_passings(native())); }
     void discard_moves() { require_ok(deldrift_discard_moves(native())); }
     deldrift_commit_report commit_timestamp() {
         deldrift_commit_report report;
@@ -331,6 +333,17 @@ public:
         std::vector<deldrift_conflict> conflicts(count);
         require_ok(deldrift_segment_conflicts(native(), conflicts.data(), count, &count));
         return conflicts;
+    }
+    // In the step that was looked at last: with DELDRIFT_PASSING_TELL those that have passed in the latest commit.
+    //     for (const auto [segment, vertex] : t.passings()) exchange_sides(vertex);
+    std::vector<Passing> passings() const {
+        std::size_t count = 0;
+        require_ok(deldrift_passings(native(), nullptr, nullptr, 0, &count));
+        std::vector<std::uint32_t> segments(count), vertices(count);
+        require_ok(deldrift_passings(native(), segments.data(), vertices.data(), count, &count));
+        std::vector<Passing> passings(count);
+        for (std::size_t k = 0; k < count; ++k) passings[k] = {segments[k], vertices[k]};
+        return passings;
     }
     // For each cell the segments opposite its corners, DELDRIFT_NONE where there is none.
     //     for (const auto &sides : t.segments_of_cells())
@@ -569,6 +582,10 @@ private:
     }
     // Of calls that segments may refuse.
     void require_change(deldrift_status status) const {
+        if (status == DELDRIFT_PASSES_SEGMENT) {
+            const std::string message = deldrift_last_error();
+            throw PassingError(message, passings());
+        }
         if (!ConflictError::is_conflict(status)) return require_ok(status);
         const std::string message = deldrift_last_error();
         throw ConflictError(status, message, segment_conflicts());

@@ -20,6 +20,7 @@ mod long_runs;
 mod maintenance;
 mod metamorphic;
 mod oracle;
+mod passings;
 mod predicates;
 mod predicates_range;
 mod predicates_suites;

@@ -81,6 +81,26 @@ std::vector<Call> segment_calls() {
              c.meter.time([&] { must(deldrift_segment_conflicts(c.t, conflicts.data(), conflicts.size(), &count)); });
              c.meter.count(double(count));
          }, 2},
+        {"deldrift_check_passings", "all nearby, with one edge in eight a segment", [](Context &c) {
+             lay(c);
+             must(deldrift_move_vertices(c.t, nullptr, c.all_nearby().data(), c.n));
+             // Some may pass.
+             c.meter.time([&] { deldrift_check_passings(c.t); });
+             c.meter.count(double(c.n));
+         }, 2},
+        {"deldrift_passings", "all change places, with one edge in eight a segment", [](Context &c) {
+             lay(c);
+             Points places = c.all_nearby();
+             std::rotate(places.begin(), places.begin() + 2, places.end());
+             must(deldrift_move_vertices(c.t, nullptr, places.data(), c.n));
+             deldrift_check_passings(c.t);
+             std::size_t count;
+             must(deldrift_passings(c.t, nullptr, nullptr, 0, &count));
+             Ids segments(count), vertices(count);
+             c.meter.reset();
+             c.meter.time([&] { must(deldrift_passings(c.t, segments.data(), vertices.data(), count, &count)); });
+             c.meter.count(double(count));
+         }, 2},
         {"deldrift_segments", "one edge in eight", [](Context &c) {
              fill<2, std::uint32_t>(c, lay(c), [&](std::uint32_t *to, std::size_t room, std::size_t *count) {
                  return deldrift_segments(c.t, nullptr, to, nullptr, room, count);

@@ -7,18 +7,23 @@ use super::roles::{Role, is_of_bytes, role};
 use super::rows::{ROWS, Row};
 
 /// Functions for triangulations of the plane alone.
-const OF_PLANE: [&str; 10] = [
+const OF_PLANE: [&str; 12] = [
     "deldrift_ordered_star",
     "deldrift_stage_segments",
     "deldrift_stage_segment_removals",
     "deldrift_segments",
     "deldrift_segment_conflicts",
+    "deldrift_check_passings",
+    "deldrift_passings",
     "deldrift_segments_of_cells",
     "deldrift_cells_of_segments",
     "deldrift_nesting_levels",
     "deldrift_label_cells",
     "deldrift_boundary_chains",
 ];
+
+/// Functions that list what there is not.
+const TELL_NOTHING: [&str; 2] = ["deldrift_segment_conflicts", "deldrift_passings"];
 
 /// The source of the program.
 pub fn program(functions: &[Declaration]) -> String {
@@ -185,8 +190,8 @@ impl Cases<'_> {
             Role::Handle if self.function.name == "deldrift_destroy" => "(deldrift_triangulation *)odd",
             _ => "odd",
         };
-        // There is no conflict to be written.
-        if role == Role::Buffer && self.function.name == "deldrift_segment_conflicts" {
+        // There is nothing to be written.
+        if role == Role::Buffer && TELL_NOTHING.contains(&self.function.name.as_str()) {
             return self.legal("misaligned", at, "an odd address", wrong);
         }
         let message = format!("\"{} is 0x\"", parameter.name);
@@ -553,11 +558,10 @@ impl Cases<'_> {
 
     fn capacity(&mut self, at: usize) {
         for (column, given, value) in [("zero", "0", "0"), ("value", "1", "1")] {
-            // There is one hidden vertex, and no conflict.
+            // There is one hidden vertex, and nothing is in the way of a segment, or passes one.
             let is_enough = match self.function.name.as_str() {
                 "deldrift_hidden_vertices" => value == "1",
-                "deldrift_segment_conflicts" => true,
-                _ => false,
+                name => TELL_NOTHING.contains(&name),
             };
             if is_enough {
                 self.legal(column, at, given, value);

@@ -40,6 +40,9 @@ pub const ROWS: &[Row] = &[
     row("deldrift_segments", &["t", "out.ids", "out.more_ids", "out.labels", "N_SEGMENTS", "&out.count"]),
     row("deldrift_check_staged", &["t"]),
     row("deldrift_segment_conflicts", &["t", "out.conflicts", "8", "&out.count"]),
+    // What is staged for others passes a segment.
+    Row { function: "deldrift_check_passings", arguments: &["t"], is_staged: false },
+    row("deldrift_passings", &["t", "out.ids", "out.more_ids", "8", "&out.count"]),
     row("deldrift_take_changes", &["t", "&out.changes"]),
     row("deldrift_vertex_count", &["t", "&out.count"]),
     row("deldrift_id_count", &["t", "&out.count"]),

@@ -49,7 +49,7 @@ enum { N_SETTINGS = sizeof SETTINGS / sizeof *SETTINGS };
 
 typedef enum { CREATE, RELOCATE, INSERT, REMOVE, MOVE, MOVE_SOME, MOVE_ALL, STAGE_INSERTIONS, STAGE_REMOVALS,
     STAGE_SEGMENTS, STAGE_SEGMENT_REMOVALS, COMMIT,
-    COMMIT_SOME, COMMIT_POSITIONS, CHECK_STAGED, COMPACT, TAKE_CHANGES, CELLS, COPY_CELLS, STAR, TOLERANCE, ANNULUS_WIDTHS,
+    COMMIT_SOME, COMMIT_POSITIONS, CHECK_STAGED, CHECK_PASSINGS, COMPACT, TAKE_CHANGES, CELLS, COPY_CELLS, STAR, TOLERANCE, ANNULUS_WIDTHS,
     DELIMITER, LOCATE, LOCATE_POINTS, NEAREST, CIRCUMCENTRES, VOLUMES, MASK_BY_CIRCUMRADIUS,
     MASK_BOUNDARY, HULL_FACETS, EDGES, VERTEX_NEIGHBOURS, VERTEX_CELLS, MIRROR_INDICES, MIRROR_INDEX, ORDERED_STAR,
     CELLS_AROUND, CELLS_AROUND_ALL, UPDATE_CIRCUMCENTRES, UPDATE_VOLUMES, UPDATE_MASK,
@@ -63,7 +63,7 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_move_vertex", "deldrift_move_vertices", "deldrift_move_vertices, all", "deldrift_stage_insertions",
     "deldrift_stage_removals", "deldrift_stage_segments", "deldrift_stage_segment_removals",
     "deldrift_commit_timestamp", "deldrift_commit_timestamp, some",
-    "deldrift_commit_positions", "deldrift_check_staged", "deldrift_compact", "deldrift_take_changes", "deldrift_cells", "deldrift_copy_cells",
+    "deldrift_commit_positions", "deldrift_check_staged", "deldrift_check_passings", "deldrift_compact", "deldrift_take_changes", "deldrift_cells", "deldrift_copy_cells",
     "deldrift_star", "deldrift_tolerance", "deldrift_research_annulus_widths", "deldrift_research_standard_delimiter",
     "deldrift_locate",
     "deldrift_locate_points", "deldrift_nearest_vertex", "deldrift_circumcentres",
@@ -95,7 +95,7 @@ static bool is_commit(kind k) {
 }
 
 static bool is_of_plane(kind k) {
-    return k == ORDERED_STAR || k == STAGE_SEGMENTS || k == STAGE_SEGMENT_REMOVALS ||
+    return k == ORDERED_STAR || k == CHECK_PASSINGS || k == STAGE_SEGMENTS || k == STAGE_SEGMENT_REMOVALS ||
            (SEGMENTS_OF_CELLS <= k && k <= BOUNDARY_CHAINS);
 }
 
@@ -277,7 +277,8 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
             memcpy(s.places + end * d, s.points + end * d, d * sizeof *s.places);
         }
     }
-    if (call.kind == COMMIT || call.kind == CHECK_STAGED) OK(deldrift_move_vertices(s.t, NULL, s.places, s.n));
+    const bool moves_all = call.kind == COMMIT || call.kind == CHECK_STAGED || call.kind == CHECK_PASSINGS;
+    if (moves_all) OK(deldrift_move_vertices(s.t, NULL, s.places, s.n));
     for (uint32_t w = 2; w < s.n; w += 3) {
         bool present;
         OK(deldrift_is_present(s.t, w, &present));
@@ -390,6 +391,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             status = deldrift_stage_segment_removals(s->t, (uint32_t[]){0, 1}, n_segments > 0 ? 2 : 0);
             break;
         case CHECK_STAGED: status = deldrift_check_staged(s->t); break;
+        case CHECK_PASSINGS: status = deldrift_check_passings(s->t); break;
         case COMMIT:
         case COMMIT_SOME: status = deldrift_commit_timestamp(s->t, &report); break;
         case COMMIT_POSITIONS: status = deldrift_commit_positions(s->t, s->places, s->n, &report); break;
@@ -481,6 +483,13 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         size_t n_conflicts;
         OK(deldrift_segment_conflicts(s->t, conflicts, 64, &n_conflicts));
         *given = mixed(status, digest_of(conflicts, n_conflicts * sizeof *conflicts));
+    }
+    if (status == DELDRIFT_PASSES_SEGMENT) {
+        static uint32_t passed[4000], passing[4000];
+        size_t n_passings;
+        OK(deldrift_passings(s->t, passed, passing, 4000, &n_passings));
+        *given = mixed(mixed(status, digest_of(passed, n_passings * sizeof *passed)),
+                       digest_of(passing, n_passings * sizeof *passing));
     }
     if (status != DELDRIFT_OK) {
         bool untouched = made == none && report.timestamp == 77 && out == 77 && ids_out[0] == 77 && more_out[0] == 77;

@@ -9,7 +9,7 @@
 
 #include <unistd.h>
 
-enum { TOUR_POINTS = 48, TOUR_STEPS = 288, TOUR_ROOM = 1 << 14, TOUR_FILE = 1 << 18 };
+enum { TOUR_POINTS = 48, TOUR_STEPS = 296, TOUR_ROOM = 1 << 14, TOUR_FILE = 1 << 18 };
 
 // What a tour is given.
 typedef struct {
@@ -320,6 +320,8 @@ static void keep(const deldrift_triangulation *t, const places *p, const deldrif
     CHECK(unlink(tour_path()) == 0);
 }
 
+static const double tour_far[] = {40, 40, 40};
+
 // Segments of which some may conflict, and some that are edges already.
 static void prescribe(deldrift_triangulation *t) {
     uint32_t segment = 0;
@@ -336,6 +338,11 @@ static void prescribe(deldrift_triangulation *t) {
     note(&segment, sizeof segment);
     TRY(deldrift_commit_timestamp(t, NULL));
     if (tour_status != DELDRIFT_OK) GO(deldrift_discard_moves(t));
+    TRY(deldrift_move_vertex(t, 5, tour_far));
+    TRY(deldrift_check_passings(t));
+    TRY(deldrift_passings(t, tour_out.ids, NULL, TOUR_ROOM, &count));
+    note(tour_out.ids, count * sizeof *tour_out.ids);
+    GO(deldrift_discard_moves(t));
     TRY(deldrift_stage_segment_removals(t, &segment, 1));
 }
 

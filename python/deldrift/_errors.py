@@ -134,6 +134,25 @@ class ConflictError(Error, ValueError):
         return type(self), (self.message, int(self.kind), self.conflicts)
 
 
+class PassingError(Error, ValueError):
+    """Vertices would pass segments, which passing="refuse" does not accept; the triangulation is as it was.
+
+    Attributes
+    ----------
+    passings : ndarray
+        All of them: a structured array with the fields `segment` and `vertex`, in ascending order.
+    """
+
+    passings: Any
+
+    def __init__(self, message: str, passings: Any) -> None:
+        super().__init__(message)
+        self.passings = passings
+
+    def __reduce__(self) -> Any:
+        return type(self), (self.message, self.passings)
+
+
 class TooMany(Error, OverflowError):
     """There would be more vertices or simplices than 32-bit ids can name."""
 

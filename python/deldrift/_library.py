@@ -15,9 +15,12 @@ NONE = 0xFFFFFFFF
 
 ALGORITHMS = ("auto", "rebuilding", "placement_flips", "tolerance", "repair")
 COINCIDENCES = ("merge", "reject")
+PASSINGS = ("ignore", "tell", "refuse")
 INTERPOLATIONS = ("linear", "natural")
 FIRST_CONFLICT = 30
 """DELDRIFT_CROSSING: the statuses from it on stand for kinds of conflicts, in their order."""
+PASSES_SEGMENT = 35
+"""DELDRIFT_PASSES_SEGMENT."""
 
 CancelCallback = ctypes.CFUNCTYPE(c_bool, c_void_p)
 ProgressCallback = ctypes.CFUNCTYPE(None, c_void_p, c_double)
@@ -31,7 +34,7 @@ class Options(ctypes.Structure):
         ("algorithm", c_uint32),
         ("threads", c_uint32),
         ("coincidence", c_uint32),
-        ("reserved", c_uint32),
+        ("passing", c_uint32),
         ("cancel", CancelCallback),
         ("progress", ProgressCallback),
         ("user_data", c_void_p),
@@ -202,6 +205,8 @@ PROTOTYPES = {
     "segments": (T, A, A, A, N, C),
     "check_staged": (T,),
     "segment_conflicts": (T, A, N, C),
+    "check_passings": (T,),
+    "passings": (T, A, A, N, C),
     "segments_of_cells": (T, A, N, C),
     "cells_of_segments": (T, A, N, C),
     "nesting_levels": (T, A, N, C),

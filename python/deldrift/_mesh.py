@@ -11,7 +11,7 @@ import numpy as np
 from ._arrays import floats, numbers, pairs, points as point_rows, real
 from ._core import fixed
 from ._delaunay import Delaunay
-from ._errors import ConflictError, InvalidShape, InvalidValue, NoSuchSegment
+from ._errors import ConflictError, InvalidShape, InvalidValue, NoSuchSegment, PassingError
 from ._library import Report
 from ._segments import Chains, Segments
 
@@ -61,7 +61,7 @@ class Mesh:
     regions : array_like, optional
         Rows of 2 coordinates and a label: `labels` has it for all triangles of the region where the place is. Of two in
         one region the first counts, and one outside of all chains has no effect.
-    algorithm, threads, coincidence, progress, cancel
+    algorithm, threads, coincidence, passing, progress, cancel
         As of `Delaunay`.
 
     Examples
@@ -88,6 +88,7 @@ class Mesh:
         algorithm: str = "auto",
         threads: int = 0,
         coincidence: str = "merge",
+        passing: str = "ignore",
         progress: Any = None,
         cancel: Optional[Callable[[], bool]] = None,
     ) -> None:
@@ -95,7 +96,7 @@ class Mesh:
         labelled = _rows("regions", regions, 3)
         self._tri = tri = Delaunay.__new__(Delaunay)
         rows = point_rows("vertices", vertices, 2)
-        tri._create(rows, algorithm, threads, coincidence, progress, cancel, "vertices")
+        tri._create(rows, algorithm, threads, coincidence, passing, progress, cancel, "vertices")
         with tri.step():
             tri._stage_segments(segments, markers, "segments", "markers")
         self._holes = None if places is None else [side for side in self._sides(places, "holes") if side is not None]
@@ -118,7 +119,7 @@ class Mesh:
         data : dict
             With `vertices`, `segments` and, optionally, `segment_markers`, `holes` and `regions`.
         **options
-            As of `Mesh`: `algorithm`, `threads`, `coincidence`, `progress` and `cancel`.
+            As of `Mesh`: `algorithm`, `threads`, `coincidence`, `passing`, `progress` and `cancel`.
 
         Returns
         -------
@@ -247,10 +248,16 @@ class Mesh:
         """The boundary of the domain, in closed chains of edges with markers; `simplices` are those of `delaunay`."""
         return self._tri._once("boundary", lambda: self._tri.boundary_chains(self.mask))
 
+    @property
+    def passings(self) -> np.ndarray:
+        """The vertices that have passed segments in the last move, with passing="tell": see `Delaunay.passings`."""
+        return self._tri.passings
+
     def move(self, points: Any, ids: Any = None) -> Report:
         """Moves vertices, and makes that the next timestamp.
 
-        What counts is where they are at the end: a vertex that has jumped over a segment is on its other side.
+        What counts is where they are at the end: a vertex that has jumped over a segment is on its other side. With
+        passing="tell" it is told by `passings`, with passing="refuse" `PassingError` is raised and nothing moves.
 
         Parameters
         ----------
@@ -267,7 +274,8 @@ class Mesh:
         return self._tri.move(points, ids)
 
     def advance(self, points: Any, ids: Any = None, cut: float = 0.5, least: float = 1e-3) -> float:
-        """Moves vertices towards places, as far as segments let them: cuts the step while it conflicts.
+        """Moves vertices towards places, as far as segments let them: cuts the step while it conflicts, or, with
+        passing="refuse", while a vertex would pass a segment.
 
         Parameters
         ----------
@@ -284,7 +292,7 @@ class Mesh:
         -------
         float
             The part of the way that was made, 1 for all of it. If even the least part conflicts, `ConflictError` is
-            raised, and nothing moves.
+            raised, or `PassingError`, and nothing moves.
 
         Examples
         --------
@@ -306,7 +314,7 @@ class Mesh:
             try:
                 self._tri.move(places, ids)
                 return part
-            except ConflictError:
+            except (ConflictError, PassingError):
                 part *= factor
                 if part < smallest:
                     raise

@@ -9,13 +9,14 @@ import numpy as np
 
 from . import _library
 from ._arrays import I32, address, ids, mask as mask_of, numbers, one_number, pairs, points as point_rows
-from ._core import Core, cell_count, count_of, fixed
+from ._core import PASSING, Core, cell_count, count_of, fixed
 from ._errors import InvalidDimension, NoSuchSegment, WrongCount
 
 _stage_segments = _library.function("stage_segments")
 _stage_segment_removals = _library.function("stage_segment_removals")
 _segments = _library.function("segments")
 _check_staged = _library.function("check_staged")
+_check_passings = _library.function("check_passings")
 _segments_of_cells = _library.function("segments_of_cells")
 _cells_of_segments = _library.function("cells_of_segments")
 _nesting_levels = _library.function("nesting_levels")
@@ -119,6 +120,34 @@ class Segmented(Core):
     def _check_staged(self) -> None:
         with self._committing as t:
             self._check(_check_staged(t))
+
+    def _check_passings(self) -> None:
+        self._check_plane()
+        with self._committing as t:
+            self._check(_check_passings(t))
+
+    @property
+    def passings(self) -> np.ndarray:
+        """The vertices that pass segments in the step that was looked at last: a structured array with the fields
+        `segment` and `vertex`, ascending. Read-only; none in 3D.
+
+        With passing="tell" those that have passed in the last change; `Step.passings` tells before.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> points = [[0, 0], [4, 0], [4, 4], [0, 4], [1, 2]]
+        >>> tri = deldrift.Delaunay(points, segments=[[0, 2]], passing="tell")
+        >>> tri.points[4].tolist(), tri.passings.tolist()
+        ([1.0, 2.0], [])
+        >>> report = tri.move(points[:4] + [[2, 1]])
+        >>> tri.passings.tolist()
+        [(0, 4)]
+        """
+        if self.ndim != 2:
+            return fixed(np.empty(0, PASSING))
+        with self._reading:
+            return self._told_passings()
 
     def segments_of_cells(self) -> np.ndarray:
         """The segment at each edge of each simplex.

@@ -9,8 +9,8 @@ import numpy as np
 
 from . import _library
 from ._arrays import I32, address, ids as listed_ids, points as point_rows
-from ._core import CONFLICT
-from ._errors import Busy, ConflictError
+from ._core import CONFLICT, PASSING
+from ._errors import Busy, ConflictError, PassingError
 from ._library import Report
 
 if TYPE_CHECKING:
@@ -144,7 +144,8 @@ class Step:
         -------
         ndarray
             The conflicts: a structured array with the fields `kind` (see `ConflictKind`), `segment` and `other`.
-            Without any the end of the step will not raise `ConflictError`.
+            Without any the end of the step will not raise `ConflictError`. With passing="refuse" `PassingError` is
+            raised for vertices that would pass segments, before conflicts are looked for.
 
         Examples
         --------
@@ -167,6 +168,37 @@ class Step:
             conflicts: np.ndarray = error.conflicts
             return conflicts
         return np.empty(0, CONFLICT)
+
+
+    def passings(self) -> np.ndarray:
+        """Which vertices would pass which segments with the step, as it is staged; nothing is committed, and all stays
+        staged.
+
+        Each vertex goes straight from its old place to its new one, and so do the ends of segments. A vertex passes a
+        segment if it goes through it and is not back on its side when the step ends, or exactly through an end.
+
+        Returns
+        -------
+        ndarray
+            A structured array with the fields `segment` and `vertex`, ascending.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 4], [0, 4], [1, 2]], segments=[[0, 2]])
+        >>> with tri.step() as step:
+        ...     step.move([[2, 1]], ids=[4])
+        ...     passings = step.passings()
+        >>> passings.tolist()
+        [(0, 4)]
+        """
+        self._check_open()
+        try:
+            self._owner._check_passings()
+        except PassingError as error:
+            passings: np.ndarray = error.passings
+            return passings
+        return np.empty(0, PASSING)
 
 
 def _discard(owner: Motion) -> None:

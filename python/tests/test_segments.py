@@ -465,3 +465,91 @@ def test_segments_are_drawn(rng):
     ax = deldrift.Delaunay(points, segments=segments).plot(Figure().add_subplot())
     (drawn,) = [artist for artist in ax.collections if isinstance(artist, LineCollection)]
     np.testing.assert_array_equal(drawn.get_segments(), points[segments])
+
+
+def passes_still(places, ends, start, goal):
+    """Whether a vertex passes a segment that stays: by the way of the vertex, which is a segment as well."""
+    a, b = (places[v] for v in ends)
+    if {start, goal} & {a, b}:
+        return False
+    is_through_an_end = exact.is_between(start, goal, a) or exact.is_between(start, goal, b)
+    return is_through_an_end or exact.is_between(a, b, goal) or exact.do_cross(start, goal, a, b)
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_passings_are_told_and_refused(seed):
+    """One vertex jumps, while all others stay, or go along with it by a way that is exact."""
+    rng = np.random.default_rng(seed)
+    steps = 16 if seed % 2 else 1 << 20
+    points = np.unique(rng.integers(0, steps, (30, 2)), axis=0) / steps
+    segments = draw_segments(rng, points, 12)
+    telling, refusing, ignoring = (
+        deldrift.Delaunay(points, segments=segments, passing=passing) for passing in ("tell", "refuse", "ignore")
+    )
+    n_passed = 0
+    for _ in range(25):
+        shift = rng.integers(-3, 4, 2).astype(float)
+        v, goal = int(rng.integers(len(points))), rng.integers(-steps, 2 * steps, 2) / steps
+        if v in segments:
+            continue
+        places, to = exact.fractions_of(points), exact.fractions_of(goal[None])[0]
+        expected = [(k, v) for k, ends in enumerate(segments) if passes_still(places, ends, places[v], to)]
+        after = points.copy()
+        after[v] = goal
+        for tri in telling, refusing, ignoring:
+            with pytest.raises(KeyboardInterrupt), tri.step() as step:
+                step.move(after + shift)
+                assert step.passings().tolist() == tri.passings.tolist() == expected
+                raise KeyboardInterrupt
+        before = state(refusing)
+        if expected:
+            with pytest.raises(deldrift.PassingError) as refused:
+                refusing.move(after + shift)
+            assert refused.value.passings.tolist() == refusing.passings.tolist() == expected
+            again = pickle.loads(pickle.dumps(refused.value))
+            assert str(again) == str(refused.value) and (again.passings == refused.value.passings).all()
+            assert state(refusing) == before
+            n_passed += 1
+        try:
+            telling.move(after + shift)
+        except deldrift.ConflictError:
+            assert telling.passings.tolist() == expected
+            continue
+        assert telling.passings.tolist() == expected
+        copied = copy.copy(telling)
+        ignoring.move(after + shift)
+        assert len(ignoring.passings) == len(copied.passings) == 0
+        np.testing.assert_array_equal(np.sort(ignoring.simplices), np.sort(telling.simplices))
+        points = after
+        for tri in telling, ignoring:
+            tri.move(points)
+        if not expected:
+            refusing.move(points)
+        else:
+            refusing = deldrift.Delaunay(points, segments=segments, passing="refuse")
+    assert n_passed > 2
+
+
+def test_passing_is_kept_with_a_triangulation(tmp_path):
+    square = [[0, 0], [4, 0], [4, 4], [0, 4], [1, 2]]
+    tri = deldrift.Delaunay(square, segments=[[0, 2]], passing="refuse")
+    tri.save(tmp_path / "square")
+    for other in copy.deepcopy(tri), pickle.loads(pickle.dumps(tri)), deldrift.load(tmp_path / "square", passing="refuse"):
+        with pytest.raises(deldrift.PassingError, match="vertex 4 passes segment 0"):
+            other.move([[2, 1]], ids=[4])
+    assert deldrift.load(tmp_path / "square").move([[2, 1]], ids=[4]).moved == 1
+    solid = deldrift.Delaunay(np.eye(4, 3))
+    assert len(solid.passings) == 0
+    with pytest.raises(deldrift.InvalidDimension), solid.step() as step:
+        step.passings()
+
+
+def test_a_mesh_advances_to_where_nothing_passes():
+    triangle = [[0, 1], [1, 2], [2, 0]]
+    mesh = deldrift.Mesh([[0, 0], [4, 0], [0, 4], [1, 1]], triangle, passing="refuse")
+    with pytest.raises(deldrift.PassingError):
+        mesh.move([[4, 4]], ids=[3])
+    assert mesh.advance([[4, 4]], ids=[3]) == 0.25
+    mesh = deldrift.Mesh([[0, 0], [4, 0], [0, 4], [1, 1]], triangle, passing="tell")
+    mesh.move([[4, 4]], ids=[3])
+    assert mesh.passings.tolist() == [(1, 3)]

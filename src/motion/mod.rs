@@ -41,8 +41,8 @@ pub use crate::delaunay::{Level, Violation};
 pub use crate::refine::Kept;
 pub use algorithms::{Algorithm, AlgorithmRow, Commits, Purpose};
 pub use options::{
-    CoarsenOptions, CoincidencePolicy, MAX_LEAST_ANGLE, Monitor, Options, Quality, RefineOptions,
-    SwitchingRule, TooLarge,
+    CoarsenOptions, CoincidencePolicy, MAX_LEAST_ANGLE, Monitor, Options, PassingPolicy, Quality,
+    RefineOptions, SwitchingRule, TooLarge,
 };
 pub use reading::domain::ChainEdge;
 pub use reading::exporting::Field;

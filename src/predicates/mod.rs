@@ -95,6 +95,7 @@ mod lifted;
 mod measures;
 #[cfg(test)]
 mod near_ties;
+mod passing;
 mod path;
 mod perturbation;
 mod plane;
@@ -123,6 +124,7 @@ pub use lanes::BiCells;
 pub use lattice::exact_filter;
 pub use lifted::{Lifted, seen_circle_bound, seen_circle_running_bound, side_of_seen_circle};
 pub use measures::Measures;
+pub use passing::passes;
 pub use path::{stays_positive2d, stays_positive3d};
 pub use perturbation::{incircle_perturbed, insphere_perturbed, is_inside_cospherical_on_lattice};
 pub use plane::{incircle, orient2d};

@@ -1,6 +1,7 @@
 //! Segments, compared with a model of them: what is in their way by all pairs, in exact arithmetic; and what they divide.
 
 use super::super::exact_oracle::{Tally, exact_sign};
+use super::super::passing_by_roots::passes_by_roots;
 use super::called::{c, note};
 use super::model::{NONE, Place, Row};
 use super::{History, flattened, message};
@@ -119,7 +120,10 @@ impl History<'_> {
         match self.s.below(8) {
             0..=2 => self.stage_segments(),
             3 => self.stage_segment_removals(),
-            4 => self.check_staged(),
+            4 => {
+                self.check_staged();
+                self.check_passings();
+            }
             5 => self.read_sides(),
             6 => self.read_regions(),
             _ => self.read_chains(),
@@ -177,6 +181,35 @@ impl History<'_> {
         let status = self.call(|| c!(deldrift_check_staged(t)));
         assert!(wanted.contains(&status) || is_free && status == DELDRIFT_OK, "{status:?}: {}", message());
         self.check_conflicts(status, &after, true);
+        self.check();
+    }
+
+    /// The vertices that pass segments, by all pairs.
+    fn check_passings(&mut self) {
+        let t = self.t;
+        if self.m.d != 2 {
+            return self.expect(DELDRIFT_INVALID_DIMENSION, || c!(deldrift_check_passings(t)));
+        }
+        let path = |v: u32| {
+            let from = self.m.at(v).filter(|_| !self.m.leaving.contains(&v))?;
+            Some([from, self.m.staged.get(&v).copied().unwrap_or(from)].map(|p| [p[0], p[1]]))
+        };
+        let mut wanted = Vec::new();
+        for (id, ends) in self.m.segments.laid().filter(|(id, _)| !self.m.segments.leaving.contains(id)) {
+            let [Some(a), Some(b)] = ends.map(path) else { continue };
+            for v in self.m.present().filter(|v| !ends.contains(v)) {
+                if path(v).is_some_and(|p| passes_by_roots(&[p, a, b])) {
+                    wanted.push((id, v));
+                }
+            }
+        }
+        let status = if wanted.is_empty() { DELDRIFT_OK } else { DELDRIFT_PASSES_SEGMENT };
+        self.expect(status, || c!(deldrift_check_passings(t)));
+        let n = wanted.len();
+        let (mut segments, mut vertices, mut count) = (vec![77; n], vec![77; n], 77);
+        let to = [segments.as_mut_ptr(), vertices.as_mut_ptr()];
+        self.is_ok(c!(deldrift_passings(t, to[0], to[1], n, &mut count)));
+        assert_eq!((count, segments.into_iter().zip(vertices).collect::<Vec<_>>()), (n, wanted), "passings");
         self.check();
     }
 

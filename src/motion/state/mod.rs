@@ -16,6 +16,7 @@ pub(in crate::motion) mod matching;
 pub(in crate::motion) mod mesh;
 pub(in crate::motion) mod ordering;
 pub(in crate::motion) mod origins;
+pub(in crate::motion) mod passings;
 pub(in crate::motion) mod places;
 pub(in crate::motion) mod repair;
 pub(in crate::motion) mod segments;

@@ -12,7 +12,7 @@
 //! `replaced` holds those of the Delaunay triangulation that are not among them.
 
 use crate::delaunay::{Crossing, Delaunay, Dimension, InTheWay, Replaced};
-use crate::error::{Conflict, Error, Result};
+use crate::error::{Conflict, Error, Passing, Result};
 use crate::ids::{SegmentId, SiteId, Slot, VertexId};
 use crate::machine::memory;
 
@@ -61,6 +61,8 @@ pub(in crate::motion) struct Segments<G: Dimension> {
     /// The sites of the ends of each segment, the lower one first, with its id; sorted.
     edges: Vec<([SiteId; 2], SegmentId)>,
     conflicts: Vec<Conflict>,
+    /// The vertices that passed segments in the last step that was looked at.
+    passings: Vec<Passing>,
     /// The edges that a kernel had to have before the change, while it has others.
     before: Option<Vec<[SiteId; 2]>>,
     /// By site: whether it is an end of one of `edges`.
@@ -85,6 +87,7 @@ impl<G: Dimension> Default for Segments<G> {
             crossing: Crossing::default(),
             edges: Vec::new(),
             conflicts: Vec::new(),
+            passings: Vec::new(),
             before: None,
             is_end: Vec::new(),
             seen: Vec::new(),
@@ -236,6 +239,16 @@ impl<G: Dimension> Segments<G> {
     /// The conflicts of the last change that had some.
     pub(in crate::motion) fn conflicts(&self) -> &[Conflict] {
         &self.conflicts
+    }
+
+    /// The vertices that passed segments in the last step that was looked at.
+    pub(in crate::motion) fn passings(&self) -> &[Passing] {
+        &self.passings
+    }
+
+    /// A step has been looked at, or has not been, and then there are none.
+    pub(in crate::motion) fn set_passings(&mut self, passings: Vec<Passing>) {
+        self.passings = passings;
     }
 
     /// A change begins: puts back the cells that segments have taken the place of.
@@ -525,5 +538,6 @@ impl<G: Dimension> Segments<G> {
             + memory::bytes_of(&self.seen)
             + memory::bytes_of(&self.missing)
             + memory::bytes_of(&self.conflicts)
+            + memory::bytes_of(&self.passings)
     }
 }
