@@ -88,9 +88,8 @@ mod tests {
     fn check([a, b, c, d]: [[f64; 2]; 4], p: [f64; 2]) {
         let number = Dyadic::from;
         let difference = |p: [f64; 2], q: [f64; 2]| [0, 1].map(|k| number(p[k]) - number(q[k]));
-        let cross = |u: &[Dyadic; 2], v: &[Dyadic; 2]| {
-            u[0].clone() * v[1].clone() - u[1].clone() * v[0].clone()
-        };
+        let cross =
+            |u: &[Dyadic; 2], v: &[Dyadic; 2]| u[0].clone() * v[1].clone() - u[1].clone() * v[0].clone();
         let (along, across, between) = (difference(b, a), difference(d, c), difference(c, a));
         let below = cross(&along, &across);
         let share = cross(&between, &across);
@@ -162,7 +161,9 @@ mod tests {
     fn crossings_half_way_are_even() {
         let one = 1.0f64;
         // Between one and the number above it, and between this and the next.
-        for (low, high, even) in [(one, one.next_up(), one), (one.next_up(), one.next_up().next_up(), one.next_up().next_up())] {
+        for (low, high, even) in
+            [(one, one.next_up(), one), (one.next_up(), one.next_up().next_up(), one.next_up().next_up())]
+        {
             let [a, b, c, d] = [[low, -1.0], [high, 1.0], [0.0, 0.0], [2.0, 0.0]];
             assert_eq!(crossing([&a, &b, &c, &d]), [even, 0.0]);
         }
@@ -172,7 +173,8 @@ mod tests {
     #[test]
     fn the_longest_crossings_have_room() {
         let (most, least) = (MAX_MAGNITUDE, f64::from_bits(1));
-        let points = [[-most, -most], [most, most.next_down()], [-most, most.next_down()], [most, least - most]];
+        let points =
+            [[-most, -most], [most, most.next_down()], [-most, most.next_down()], [most, least - most]];
         let [a, b, c, d] = points;
         check(points, crossing([&a, &b, &c, &d]));
     }

@@ -176,14 +176,15 @@ impl MovingTriangulation<Plane> {
         Ok(report)
     }
 
-    /// The vertices that [`refine`](Self::refine) has added and that are there, ascending, each with the segment that it
-    /// was put on, [`SegmentId::NONE`] if there is none. Neither this nor where pieces come from is saved in files.
+    /// The vertices that [`refine`](Self::refine) has added and that are there, ascending, each with the segment that it was
+    /// put on, [`SegmentId::NONE`] if there is none; not those of [`stage_splits`](Self::stage_splits). Neither this nor where pieces come from is saved in files.
     pub fn made_vertices(&self) -> impl Iterator<Item = (VertexId, SegmentId)> {
         let all = self.made.iter().flat_map(|made| made.vertices());
         all.copied().filter(|&(v, _)| self.mesh.is_present(v))
     }
 
-    /// The segment of which refinement has made this one a piece; the segment itself if it has not.
+    /// The segment of which refinement, or [`stage_splits`](Self::stage_splits), has made this one a piece; the segment itself
+    /// if they have not. From the commit on that makes the piece.
     pub fn original_segment(&self, segment: SegmentId) -> SegmentId {
         self.made.as_ref().and_then(|made| made.origin(segment)).map_or(segment, |origin| origin.segment)
     }
@@ -343,30 +344,28 @@ impl MovingTriangulation<Plane> {
     /// The original of each edge that is a segment, by its ends, and those of vertices that have been added.
     #[allow(clippy::type_complexity)]
     fn origins(&self, copied: &Copied) -> Result<(Vec<[VertexId; 2]>, Vec<u32>, Vec<(VertexId, u32)>)> {
-        let mut origins = Vec::new();
-        memory::collect(
-            &mut origins,
-            (0..copied.edges.len()).map(|edge| {
-                let origin = self.origin_of(copied.segments_at(edge)[0].1);
-                (origin.segment, origin.ends)
-            }),
-        )?;
-        let mut sorted = memory::copy_of(&origins)?;
+        let origin_at = |edge: usize| self.origin_of(copied.segments_at(edge)[0].1);
+        let mut sorted = Vec::new();
+        memory::collect(&mut sorted, (0..copied.edges.len()).map(origin_at))?;
         sorted.sort_unstable();
-        sorted.dedup_by_key(|&mut (segment, _)| segment);
-        let place = |segment: SegmentId| sorted.binary_search_by_key(&segment, |&(other, _)| other).ok();
+        sorted.dedup();
+        let place = |edge| sorted.binary_search(&origin_at(edge)).expect("it is listed") as u32;
         let mut of_segments = Vec::new();
-        memory::collect(
-            &mut of_segments,
-            origins.iter().map(|&(segment, _)| place(segment).expect("it is listed") as u32),
-        )?;
+        memory::collect(&mut of_segments, (0..copied.edges.len()).map(place))?;
+        // Parts of one segment, between vertices at which others have split it, are originals of their own. A vertex is on
+        // that of the pieces beside it.
         let mut of_vertices = Vec::new();
-        memory::collect(
-            &mut of_vertices,
-            self.made_vertices().filter_map(|(v, segment)| Some((v, place(segment)? as u32))),
-        )?;
+        let made_on = |v: VertexId| self.made.as_ref().and_then(|made| made.is_on(v));
+        for (edge, &ends) in copied.edges.iter().enumerate() {
+            for v in ends {
+                let Some(on) = made_on(v) else { continue };
+                if copied.segments_at(edge).iter().any(|&(_, id)| self.original_segment(id) == on) {
+                    memory::push(&mut of_vertices, (v, of_segments[edge]))?;
+                }
+            }
+        }
         let mut ends = Vec::new();
-        memory::collect(&mut ends, sorted.iter().map(|&(_, ends)| ends))?;
+        memory::collect(&mut ends, sorted.iter().map(|origin| origin.ends))?;
         Ok((ends, of_segments, of_vertices))
     }
 
@@ -399,7 +398,7 @@ impl MovingTriangulation<Plane> {
     /// Whether the segments at two edges come from the same ones.
     fn are_of_one_origin(&self, copied: &Copied, edges: [u32; 2]) -> bool {
         let [one, other] = edges.map(|edge| copied.segments_at(edge as usize));
-        let origin = |&(_, segment): &(_, SegmentId)| self.original_segment(segment);
+        let origin = |&(_, segment): &(_, SegmentId)| self.origin_of(segment);
         one.len() == other.len() && one.iter().all(|a| other.iter().any(|b| origin(a) == origin(b)))
     }
 
