@@ -11,6 +11,7 @@ const OF_PLANE: [&str; 10] = [
     "deldrift_ordered_star",
     "deldrift_stage_segments",
     "deldrift_stage_segment_removals",
+    "deldrift_stage_splits",
     "deldrift_segments",
     "deldrift_segment_conflicts",
     "deldrift_segments_of_cells",
@@ -480,6 +481,10 @@ impl Cases<'_> {
                 self.legal("zero", at, "0", "0");
             }
             Role::Whole => self.legal("value", at, "the least number", "INT32_MIN"),
+            Role::Limit => {
+                self.legal("zero", at, "0", "0");
+                self.legal("value", at, "SIZE_MAX", "SIZE_MAX");
+            }
             Role::Corners => {
                 for (given, value) in
                     [("0", "0"), ("two more than dimensions", "dimension + 2"), ("UINT32_MAX", "UINT32_MAX")]

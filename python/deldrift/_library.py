@@ -99,6 +99,20 @@ class Report(ctypes.Structure):
         return "Report(" + ", ".join(f"{name}={count}" for name, count in self.as_dict().items()) + ")"
 
 
+class SplitReport(ctypes.Structure):
+    """deldrift_split_report."""
+
+    _fields_ = [
+        ("inserted", c_uint64),
+        ("replaced_segments", c_uint64),
+        ("pieces", c_uint64),
+        ("rounds", c_uint64),
+        ("first_vertex", c_uint32),
+        ("first_piece", c_uint32),
+        ("reserved", c_uint64 * 3),
+    ]
+
+
 class ChangesView(ctypes.Structure):
     """deldrift_changes."""
 
@@ -201,6 +215,7 @@ PROTOTYPES = {
     "stage_segment_removals": (T, A, N),
     "segments": (T, A, A, A, N, C),
     "check_staged": (T,),
+    "stage_splits": (T, N, POINTER(SplitReport)),
     "segment_conflicts": (T, A, N, C),
     "segments_of_cells": (T, A, N, C),
     "cells_of_segments": (T, A, N, C),
