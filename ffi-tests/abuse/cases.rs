@@ -7,7 +7,7 @@ use super::roles::{Role, is_of_bytes, role};
 use super::rows::{ROWS, Row};
 
 /// Functions for triangulations of the plane alone.
-const OF_PLANE: [&str; 10] = [
+const OF_PLANE: [&str; 11] = [
     "deldrift_ordered_star",
     "deldrift_stage_segments",
     "deldrift_stage_segment_removals",

@@ -178,8 +178,8 @@ class Step:
         Parameters
         ----------
         limit : int, optional
-            How many vertices may be inserted at most; any number by default. With 0 only segments with vertices on them
-            are split.
+            How many vertices may be inserted at most; any number by default. With 0 segments are split only at vertices that
+            are there.
 
         Returns
         -------

@@ -49,14 +49,15 @@ impl From<SplitReport> for deldrift_split_report {
 ///
 /// Pieces have the marker and the direction of their segment. Segments that overlap have common pieces, with an id for each
 /// of them. A crossing is rounded correctly: each coordinate is the number nearest to that of the place where the segments,
-/// or pieces of them, cross. If a vertex will be at that place, it is taken; the lowest id of several. Pieces are straight
-/// between their own ends, so that a segment may bend by last places, and be in the way of another one that it was not before:
-/// then both are split again. Each coordinate of a vertex on a segment is off by at most rounds halves of a last place of the
-/// segment's greatest coordinates, and along the segment both coordinates go one way. This ends, as numbers between the ends of
-/// a segment do; mostly after one or two rounds.
+/// or pieces of them, cross. If a vertex will be at that place, it is taken, the lowest id of several; and where a place on a
+/// segment is rounded to that of an end of the other one, the segment is cut at that end. Pieces are straight between their
+/// own ends, so that a segment may bend by last places, and be in the way of another one that it was not before: then both are
+/// split again. Each coordinate of a vertex on a segment is off by at most rounds halves of a last place of the segment's
+/// greatest coordinates, and along the segment both coordinates go one way. This ends, as numbers between the ends of a
+/// segment do; mostly after one or two rounds, and after more where many segments go through nearly one place.
 ///
-/// limit: how many vertices may be inserted at most; SIZE_MAX for any number. With 0 only segments with vertices on them are
-/// split. report: receives what has been staged; may be NULL.
+/// limit: how many vertices may be inserted at most; SIZE_MAX for any number. With 0 segments are split only at vertices that
+/// are there. report: receives what has been staged; may be NULL.
 ///
 /// Places and ids of the new vertices, and the edges that are required, depend only on positions, vertex ids and segments:
 /// neither on the order and directions in which segments were given nor on what was before. All can be committed or

@@ -13,6 +13,10 @@
 //!   coordinate, in the order of the exact ones. A line along an axis keeps its coordinate.
 //! - It is off by at most half a last place along each axis.
 //!
+//! A segment *passes* a place of numbers if a place on it is rounded there and nowhere else: if it goes through the inside of
+//! the rectangle whose sides are half way to the neighbours of the coordinates. For two segments that cross, an end of one that
+//! the other passes will do for the crossing, with no greater error.
+//!
 //! Length of integers: a coordinate has 20 limbs, a difference one more, N and D up to 41, the numerator up to 62.
 
 use std::cmp::Ordering;
@@ -31,6 +35,41 @@ pub fn crossing([a, b, c, d]: [&[f64; 2]; 4]) -> [f64; 2] {
         // A zero has no sign.
         Quotient { room: &room, above, below, unit }.rounded() + 0.0
     })
+}
+
+/// Whether a place on the segment from `a` to `b`, which are apart, is rounded to `p` and nowhere else.
+pub fn passes([a, b]: [&[f64; 2]; 2], p: &[f64; 2]) -> bool {
+    // Between numbers on both sides of the middle to the next number there is that one.
+    if (0..2).any(|k| p[k] < a[k].min(b[k]) || p[k] > a[k].max(b[k])) {
+        return false;
+    }
+    let sides = p.map(|x| {
+        let (mantissa, exponent) = middle_above(-x);
+        [(-mantissa, exponent), middle_above(x)]
+    });
+    let room = Room::new();
+    let least = sides.iter().flatten().map(|&(_, exponent)| exponent).min();
+    let (unit, [a, b]) = differences_in_units(&room, &[0.0; 2], [a, b], least.unwrap_or(0));
+    let [x, y] = sides.map(|sides| {
+        sides.map(|(mantissa, exponent)| Integer::shifted(&room, mantissa, (exponent - unit) as u32))
+    });
+    let along = [b[0] - a[0], b[1] - a[1]];
+    // The corners that are farthest to the left and to the right.
+    let [is_right, is_up] = along.map(|d| d.sign() != Ordering::Less);
+    let turn = |x: Integer<'_>, y: Integer<'_>| (along[0] * (y - a[1]) - along[1] * (x - a[0])).sign();
+    let [left, right] = [
+        turn(x[usize::from(!is_up)], y[usize::from(is_right)]),
+        turn(x[usize::from(is_up)], y[usize::from(!is_right)]),
+    ];
+    left == Ordering::Greater && right == Ordering::Less
+}
+
+/// The place half way between a number and the next greater one: mantissa and exponent.
+fn middle_above(x: f64) -> (i64, i32) {
+    // The one of the two that is nearer to zero has the exponent of their last places.
+    let inner = if x >= 0.0 { x } else { -x.next_up() };
+    let (mantissa, exponent) = decode(inner);
+    (if x >= 0.0 { 2 * mantissa.abs() + 1 } else { -(2 * mantissa.abs() + 1) }, exponent - 1)
 }
 
 /// `above` / `below` 2^`unit`.
@@ -65,11 +104,8 @@ impl Quotient<'_> {
 
     /// How this compares with the place half way between a number and the next greater one.
     fn compare_with_middle_above(&self, x: f64) -> Ordering {
-        // The one of the two that is nearer to zero has the exponent of their last places.
-        let inner = if x >= 0.0 { x } else { -x.next_up() };
-        let (mantissa, exponent) = decode(inner);
-        let middle = if x >= 0.0 { 2 * mantissa + 1 } else { -(2 * mantissa + 1) };
-        let shift = exponent - 1 - self.unit;
+        let (middle, exponent) = middle_above(x);
+        let shift = exponent - self.unit;
         let power = |exponent: i32| Integer::shifted(self.room, 1, exponent.max(0) as u32);
         let middle = Integer::shifted(self.room, middle, shift.max(0) as u32);
         let (left, right) = (self.above * power(-shift), middle * self.below);
@@ -155,6 +191,59 @@ mod tests {
             }
         }
         assert!(n_crossed > 5000, "{n_crossed}");
+    }
+
+    /// By clipping (Liang and Barsky) in exact fractions.
+    #[test]
+    fn segments_pass_what_places_on_them_are_rounded_to() {
+        let rng = &mut Rng::new(2);
+        let mut counts = [0; 2];
+        for round in 0..40_000 {
+            // A few numbers around one, a power of two, with places of two lengths, or around zero.
+            let number = |rng: &mut Rng| match round % 3 {
+                0 => f64::from_bits(1.0f64.to_bits() + 4 - rng.below(9) as u64),
+                1 => f64::from_bits(rng.below(5) as u64) * if rng.one_in(2) { 1.0 } else { -1.0 } + 0.0,
+                _ => f64::from_bits(3.7f64.to_bits() + rng.below(7) as u64),
+            };
+            let [a, b, p] = [0; 3].map(|_| [number(rng), number(rng)]);
+            if a == b {
+                continue;
+            }
+            let least = if round % 3 == 1 { 1074 } else { 54 };
+            let whole = |x: f64| {
+                let (mantissa, exponent) = decode(x);
+                i128::from(mantissa) << (exponent + least)
+            };
+            let found = passes([&a, &b], &p);
+            let low = p.map(|x| whole(x.next_down()));
+            let high = p.map(|x| whole(x.next_up()));
+            let [a, b, p] = [a, b, p].map(|p| p.map(whole));
+            // Doubled, so that the sides are whole.
+            let box_of = [0, 1].map(|k| [low[k] + p[k], p[k] + high[k]]);
+            // Which part of the segment is inside: fractions of it.
+            let (mut from, mut to) = ((0i128, 1i128), (1i128, 1i128));
+            let mut is_in = true;
+            for k in 0..2 {
+                let d = 2 * (b[k] - a[k]);
+                let [below, above] = [box_of[k][0] - 2 * a[k], box_of[k][1] - 2 * a[k]];
+                if d == 0 {
+                    is_in &= below < 0 && above > 0;
+                    continue;
+                }
+                let (enter, leave) =
+                    if d > 0 { ((below, d), (above, d)) } else { ((-above, -d), (-below, -d)) };
+                if enter.0 * from.1 > from.0 * enter.1 {
+                    from = enter;
+                }
+                if leave.0 * to.1 < to.0 * leave.1 {
+                    to = leave;
+                }
+            }
+            let is_passed = is_in && from.0 * to.1 < to.0 * from.1;
+            assert_eq!(found, is_passed, "{a:?} {b:?} {p:?}");
+            counts[usize::from(is_passed)] += 1;
+        }
+        assert!(counts[0] > 1000 && counts[1] > 1000, "{counts:?}");
     }
 
     #[test]

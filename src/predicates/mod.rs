@@ -117,7 +117,7 @@ pub(crate) use bicells::{
 };
 pub use coordinates::Coordinates;
 pub use corners::{Meeting, sign_of_cross};
-pub use crossing::crossing;
+pub use crossing::{crossing, passes};
 pub use distance::{compare_distance, is_collinear3, is_within_distance};
 pub use filter::StaticFilter;
 pub use hull::{area, ray_and_segment, ray_and_triangle, volumes_over};

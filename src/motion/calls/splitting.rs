@@ -3,23 +3,29 @@
 //! ```text
 //! while the check of what is staged finds conflicts
 //!     a segment gets a cut at each vertex on it
-//!     two that cross get one each where they cross, rounded, at the vertex that is there or at a new one
+//!     two that cross get one at an end of the other that they pass, or else both
+//!         where they cross, rounded, at the vertex that is there or at a new one
 //!     pieces are staged in the place of each segment that has a cut
 //! ```
 //!
 //! # Why it ends
 //!
-//! Crossings are [rounded correctly](crate::predicates::crossing). So what is cut into a segment is in its box, and cuts are
-//! in the order of both coordinates at once: the boxes of pieces are those of a staircase in the box of the segment. Let the
+//! Crossings are [rounded correctly](crate::predicates::crossing), and a segment [passes](crate::predicates::passes) a vertex
+//! if a place on it is rounded to that of the vertex. So cuts are at rounded places of a segment: they are in its box, and in
+//! the order of both coordinates at once, and the boxes of pieces are those of a staircase in the box of the segment. Let the
 //! *length* of a segment be how many numbers there are from one end to the other along the axes, both together. The pieces
 //! have the lengths of their segments in all, and each has at least 1. Each round makes more pieces: a vertex on a segment is
-//! at neither end, and a crossing that is rounded to an end of one segment is at no end of the other. So the number of pieces
-//! grows up to the lengths at most. Rounds after the first are for what the bending of pieces brings about, of which there is
-//! little; the caller's limit is for what that argument leaves open.
+//! at neither end, and a place that is an end of one of two segments that cross is at no end of the other. So the number of
+//! pieces grows up to the lengths at most.
+//!
+//! That bound is out of reach. It is cuts at ends that are passed that keep the numbers small: otherwise chains that are nearly
+//! one, as those of two segments that cross at an angle of last places, cross anew wherever they have been bent, and get ever
+//! more vertices. So they are joined at the vertices that they have, as in snap rounding (Hobby,
+//! 10.1016/S0925-7721(99)00021-8), where a segment goes through all vertices that it passes.
 //!
 //! # How far pieces are from their segment
 //!
-//! A cut at a vertex is on the segment. A crossing is off by at most half a last place along each axis from where the pieces
+//! A cut at a vertex on it is on the segment. Another one is off by at most half a last place along each axis from where the pieces
 //! are, and a piece is nowhere farther from its segment than at an end. So in r rounds a vertex comes to be off by r halves of
 //! a last place of the greatest coordinates of the segment, at most, along each axis.
 //!
@@ -67,10 +73,10 @@ struct Cut {
     vertex: VertexId,
 }
 
-/// Two segments that cross, and where.
-struct Crossing {
+/// A segment that crosses another one, and the place where it is to be cut.
+struct Crossed {
+    of: SegmentId,
     place: [f64; 2],
-    segments: [SegmentId; 2],
 }
 
 fn compare(p: &[f64; 2], q: &[f64; 2]) -> std::cmp::Ordering {
@@ -85,7 +91,8 @@ impl MovingTriangulation<Plane> {
     /// and its id is not given again.
     ///
     /// Segments that overlap have common pieces, each with an id for each of them. A crossing that is rounded to the place of a
-    /// vertex gets that one.
+    /// vertex gets that one; where a segment crosses another one so near to an end of this that a place on it is rounded to that
+    /// of the end, it is cut there.
     ///
     /// ```
     /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options, Segment}};
@@ -153,8 +160,8 @@ impl MovingTriangulation<Plane> {
             if let Some(&conflict) = conflicts.iter().find(|conflict| !can_be_split(conflict)) {
                 return Err(Error::Conflict { conflict, others: conflicts.len() - 1 });
             }
-            let crossings = self.crossings(&conflicts)?;
-            let mut vertices = self.vertices_at_crossings(&crossings)?;
+            let crossed = self.crossed(&conflicts)?;
+            let mut vertices = self.vertices_at_crossings(&crossed)?;
             let mut places = Vec::new();
             let absent = vertices.iter().filter(|(_, v)| *v == VertexId::NONE);
             memory::collect(&mut places, absent.map(|&(place, _)| place))?;
@@ -169,7 +176,7 @@ impl MovingTriangulation<Plane> {
                 .for_each(|(id, (_, v))| *v = id);
             report.inserted += places.len();
             report.rounds += 1;
-            let cuts = self.cuts(&conflicts, &crossings, &vertices)?;
+            let cuts = self.cuts(&conflicts, &crossed, &vertices)?;
             pieces = self.divided(&pieces, &cuts, before.first_piece)?;
             report.replaced_segments = self.stage_pieces(before, &pieces)?;
             match self.check_staged() {
@@ -203,23 +210,32 @@ impl MovingTriangulation<Plane> {
         (ends, ends.map(|v| self.place_after(v).expect("a segment that has its ends")))
     }
 
-    fn crossings(&self, conflicts: &[Conflict]) -> Result<Vec<Crossing>> {
-        let mut crossings = Vec::new();
+    /// Where segments that cross are to be cut: at ends of the other one that they pass, or both where they cross.
+    fn crossed(&self, conflicts: &[Conflict]) -> Result<Vec<Crossed>> {
+        let mut crossed = Vec::new();
         for conflict in conflicts {
             let Conflict::Crossing { segments } = *conflict else { continue };
-            let [[a, b], [c, d]] = segments.map(|segment| self.ends_after(segment).1);
-            memory::push(
-                &mut crossings,
-                Crossing { place: predicates::crossing([&a, &b, &c, &d]), segments },
-            )?;
+            let ends = segments.map(|segment| self.ends_after(segment).1);
+            let n_before = crossed.len();
+            for (k, of) in segments.into_iter().enumerate() {
+                let [a, b] = &ends[k];
+                for place in ends[1 - k].into_iter().filter(|p| predicates::passes([a, b], p)) {
+                    memory::push(&mut crossed, Crossed { of, place })?;
+                }
+            }
+            if crossed.len() == n_before {
+                let [[a, b], [c, d]] = &ends;
+                let place = predicates::crossing([a, b, c, d]);
+                memory::collect(&mut crossed, segments.into_iter().map(|of| Crossed { of, place }))?;
+            }
         }
-        Ok(crossings)
+        Ok(crossed)
     }
 
-    /// The places of crossings, sorted, with the lowest vertex that will be there; [`VertexId::NONE`] if none will.
-    fn vertices_at_crossings(&self, crossings: &[Crossing]) -> Result<Vec<([f64; 2], VertexId)>> {
+    /// The places at which segments are to be cut where they cross, sorted, with the lowest vertex that will be there; [`VertexId::NONE`] if none will.
+    fn vertices_at_crossings(&self, crossed: &[Crossed]) -> Result<Vec<([f64; 2], VertexId)>> {
         let mut vertices = Vec::new();
-        memory::collect(&mut vertices, crossings.iter().map(|crossing| (crossing.place, VertexId::NONE)))?;
+        memory::collect(&mut vertices, crossed.iter().map(|crossed| (crossed.place, VertexId::NONE)))?;
         vertices.sort_unstable_by(|(p, _), (q, _)| compare(p, q));
         vertices.dedup_by_key(|(p, _)| *p);
         let n_ids = if vertices.is_empty() { 0 } else { self.id_count() };
@@ -236,7 +252,7 @@ impl MovingTriangulation<Plane> {
     fn cuts(
         &self,
         conflicts: &[Conflict],
-        crossings: &[Crossing],
+        crossed: &[Crossed],
         vertices: &[([f64; 2], VertexId)],
     ) -> Result<Vec<Cut>> {
         let cut = |of: SegmentId, place: [f64; 2], vertex: VertexId| {
@@ -250,12 +266,9 @@ impl MovingTriangulation<Plane> {
             let place = self.place_after(vertex).expect("a vertex on a segment");
             memory::collect(&mut cuts, cut(segment, place, vertex).into_iter())?;
         }
-        for &Crossing { place, segments } in crossings {
+        for &Crossed { of, place } in crossed {
             let at = vertices.binary_search_by(|(p, _)| compare(p, &place)).expect("it is listed");
-            let of_both = segments.into_iter().filter_map(|segment| cut(segment, place, vertices[at].1));
-            for cut in of_both {
-                memory::push(&mut cuts, cut)?;
-            }
+            memory::collect(&mut cuts, cut(of, place, vertices[at].1).into_iter())?;
         }
         cuts.sort_unstable_by(|a: &Cut, b| a.of.cmp(&b.of).then_with(|| compare(&a.along, &b.along)));
         cuts.dedup_by_key(|cut| (cut.of, cut.along));
