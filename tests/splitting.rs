@@ -151,7 +151,7 @@ fn check_chains(t: &Triangulation, parents: &Parents, report: &SplitReport, cont
     }
 }
 
-const N_KINDS: usize = 8;
+const N_KINDS: usize = 9;
 
 /// Points of some kind.
 fn draw(kind: usize, n: usize, rng: &mut Rng) -> Vec<[f64; 2]> {
@@ -178,7 +178,12 @@ fn draw(kind: usize, n: usize, rng: &mut Rng) -> Vec<[f64; 2]> {
         5 => [0; 2].map(|_| 1.0 + rng.below(9) as f64 * f64::EPSILON),
         // Of very different lengths, and close to zero.
         6 => [0; 2].map(|_| (rng.unit() - 0.5) * 10f64.powi(-(rng.below(40) as i32))),
-        _ => [0; 2].map(|_| f64::from_bits(rng.below(6) as u64)),
+        7 => [0; 2].map(|_| f64::from_bits(rng.below(6) as u64)),
+        // All but on a line, which no two numbers are on.
+        _ => {
+            let share = rng.unit();
+            [0.3 + share * 0.7, 0.1 + share / 3.0]
+        }
     };
     (0..n).map(&mut point).collect()
 }
@@ -231,7 +236,7 @@ fn run(kind: usize, algorithm: Algorithm, seed: u64) -> [usize; 3] {
         let mut goals: Vec<_> = positions(&t).into_iter().map(|p| p.expect("present")).collect();
         if batch == 1 {
             // All are halved, which is exact for all but the smallest numbers, and one goes anywhere.
-            if kind < 7 {
+            if kind != 7 {
                 goals.iter_mut().flatten().for_each(|x| *x *= 0.5);
                 t.move_all(&goals).expect("good places");
             }
