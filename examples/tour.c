@@ -295,6 +295,11 @@ static void ask_for_a_domain(void) {
     check(deldrift_passings(t, segments, beside, 4, &count));
     expect(count > 0 && beside[0] == 4, "and it is told what it would pass");
     check(deldrift_discard_moves(t));
+    deldrift_split_report report;
+    check(deldrift_stage_segments(t, (uint32_t[]){0, 2, 1, 4}, NULL, 2, &first));
+    check(deldrift_stage_splits(t, 1, &report));
+    expect(report.inserted == 0 && report.pieces == 4, "two that would cross where a vertex is are split there");
+    check(deldrift_commit_timestamp(t, NULL));
     deldrift_destroy(t);
 }
 

@@ -152,6 +152,17 @@ public:
     void check_staged() { require_change(deldrift_check_staged(native())); }
     // Throws PassingError if vertices would pass segments in a commit of what is staged, whatever the options say.
     void check_passings() { require_change(deldrift_check_passings(native())); }
+    // Splits segments with vertices on them, and, with at most limit new vertices, those that cross: to be committed then.
+    // Throws a ConflictError if more vertices are needed, or for ends that are removed or meet.
+    //     t.stage_segments(roads);
+    //     const deldrift_split_report split = t.stage_splits();
+    //     t.commit_timestamp();
+    //     for (std::uint32_t k = 0; k < split.inserted; k++) draw_crossing(t.position(split.first_vertex + k));
+    deldrift_split_report stage_splits(std::size_t limit = SIZE_MAX) {
+        deldrift_split_report report;
+        require_change(deldrift_stage_splits(native(), limit, &report));
+        return report;
+    }
     void discard_moves() { require_ok(deldrift_discard_moves(native())); }
     deldrift_commit_report commit_timestamp() {
         deldrift_commit_report report;

@@ -30,6 +30,7 @@ mod saving;
 mod saving_format;
 mod segments;
 mod small;
+mod splitting;
 mod suites;
 mod threads;
 mod tolerances;

@@ -70,6 +70,16 @@ std::vector<Call> segment_calls() {
              c.meter.time([&] { deldrift_check_staged(c.t); });
              c.meter.count(double(c.n + 2 * c.cells()));
          }, 2},
+        {"deldrift_stage_splits", "a segment from one vertex in eight to the next crosses others", [](Context &c) {
+             lay(c);
+             Ids ends;
+             for (std::size_t i = 0; i + 1 < c.some(); i += 2) ends.insert(ends.end(), {c.some_vertex(i), c.some_vertex(i + 1)});
+             stage(c, ends);
+             // Ends may be at one place.
+             deldrift_split_report report{};
+             c.meter.time([&] { deldrift_stage_splits(c.t, 8 * c.n, &report); });
+             c.meter.count(double(c.n + 2 * c.cells() + report.pieces));
+         }, 2},
         {"deldrift_segment_conflicts", "one vertex in eight is both ends of a segment", [](Context &c) {
              Ids ends;
              for (std::size_t i = 0; i < c.some(); ++i) ends.insert(ends.end(), 2, c.some_vertex(i));

@@ -7,10 +7,11 @@ use super::roles::{Role, is_of_bytes, role};
 use super::rows::{ROWS, Row};
 
 /// Functions for triangulations of the plane alone.
-const OF_PLANE: [&str; 12] = [
+const OF_PLANE: [&str; 13] = [
     "deldrift_ordered_star",
     "deldrift_stage_segments",
     "deldrift_stage_segment_removals",
+    "deldrift_stage_splits",
     "deldrift_segments",
     "deldrift_segment_conflicts",
     "deldrift_check_passings",
@@ -485,6 +486,10 @@ impl Cases<'_> {
                 self.legal("zero", at, "0", "0");
             }
             Role::Whole => self.legal("value", at, "the least number", "INT32_MIN"),
+            Role::Limit => {
+                self.legal("zero", at, "0", "0");
+                self.legal("value", at, "SIZE_MAX", "SIZE_MAX");
+            }
             Role::Corners => {
                 for (given, value) in
                     [("0", "0"), ("two more than dimensions", "dimension + 2"), ("UINT32_MAX", "UINT32_MAX")]

@@ -28,6 +28,7 @@ typedef struct {
     int32_t sign;
     bool flag;
     deldrift_commit_report report;
+    deldrift_split_report split;
     deldrift_changes changes;
     deldrift_cells_view cells;
     deldrift_location location, locations[8];

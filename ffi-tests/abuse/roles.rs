@@ -51,6 +51,8 @@ pub enum Role {
     Status,
     /// A number that is not negative, and may be infinite.
     Magnitude,
+    /// How much may be made at most: any number.
+    Limit,
     /// How many corners each of several simplices has.
     Corners,
     /// How many entries an array has that is read.
@@ -118,6 +120,8 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("size_t", "n_values" | "k") => Role::CountOfEach,
         ("size_t", "size") => Role::Size,
         ("size_t", "capacity") => Role::Capacity,
+        ("size_t", "limit") => Role::Limit,
+        ("deldrift_split_report *", "report") => Role::OutputIfAny,
         (c_type, "report") if is_commit && c_type.ends_with('*') => Role::OutputIfAny,
         (c_type, name) if c_type.ends_with('*') && !c_type.starts_with("const") => {
             if function.has("capacity") && name != "count" { Role::Buffer } else { Role::Output }

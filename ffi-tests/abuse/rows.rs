@@ -39,6 +39,7 @@ pub const ROWS: &[Row] = &[
     row("deldrift_stage_segment_removals", &["t", "segments", "2"]),
     row("deldrift_segments", &["t", "out.ids", "out.more_ids", "out.labels", "N_SEGMENTS", "&out.count"]),
     row("deldrift_check_staged", &["t"]),
+    row("deldrift_stage_splits", &["t", "9", "&out.split"]),
     row("deldrift_segment_conflicts", &["t", "out.conflicts", "8", "&out.count"]),
     // What is staged for others passes a segment.
     Row { function: "deldrift_check_passings", arguments: &["t"], is_staged: false },

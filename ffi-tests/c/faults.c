@@ -70,7 +70,7 @@ static control control_of(uint32_t dimension, call call, const setting *setting)
     OK(deldrift_statistics(s.t, &c.sums));
     c.status = make_call(&s, SIZE_MAX, NONE_LATER, &c.end.given, &wrong);
     c.n_requests = n_requests;
-    const bool has_conflicts = setting->conflicts && is_commit(call.kind);
+    const bool has_conflicts = setting->conflicts && is_commit(call.kind) && call.kind != STAGE_SPLITS;
     const deldrift_status other = call.kind == CHECK_PASSINGS ? DELDRIFT_PASSES_SEGMENT : DELDRIFT_NO_SUCH_FACET;
     CHECK(has_conflicts ? c.status == DELDRIFT_CROSSING : c.status == DELDRIFT_OK || c.status == other);
     if (wrong == NULL) wrong = end_of(&s, &c.end);
@@ -123,7 +123,8 @@ static const char *fault(scene *s, const control *c, size_t k, later too, bool l
 static void faults_of(uint32_t dimension, call call, size_t which, double share, size_t turn) {
     const setting *setting = &SETTINGS[which];
     // Segments are of the plane; a set without them has nothing to check.
-    if (setting->segments > 0 ? dimension == 3 : call.kind == CHECK_STAGED || call.kind == CHECK_PASSINGS) return;
+    const bool is_of_segments = call.kind == CHECK_STAGED || call.kind == CHECK_PASSINGS || call.kind == STAGE_SPLITS;
+    if (setting->segments > 0 ? dimension == 3 : is_of_segments) return;
     // There for what several threads build.
     bool builds = call.kind == CREATE || (call.kind == COMMIT && call.algorithm == DELDRIFT_REBUILDING);
     if (setting->n > 1000 && !builds) return;

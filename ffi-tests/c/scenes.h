@@ -49,7 +49,8 @@ enum { N_SETTINGS = sizeof SETTINGS / sizeof *SETTINGS };
 
 typedef enum { CREATE, RELOCATE, INSERT, REMOVE, MOVE, MOVE_SOME, MOVE_ALL, STAGE_INSERTIONS, STAGE_REMOVALS,
     STAGE_SEGMENTS, STAGE_SEGMENT_REMOVALS, COMMIT,
-    COMMIT_SOME, COMMIT_POSITIONS, CHECK_STAGED, CHECK_PASSINGS, COMPACT, TAKE_CHANGES, CELLS, COPY_CELLS, STAR, TOLERANCE, ANNULUS_WIDTHS,
+    COMMIT_SOME, COMMIT_POSITIONS, CHECK_STAGED, CHECK_PASSINGS, STAGE_SPLITS, COMPACT, TAKE_CHANGES, CELLS,
+    COPY_CELLS, STAR, TOLERANCE, ANNULUS_WIDTHS,
     DELIMITER, LOCATE, LOCATE_POINTS, NEAREST, CIRCUMCENTRES, VOLUMES, MASK_BY_CIRCUMRADIUS,
     MASK_BOUNDARY, HULL_FACETS, EDGES, VERTEX_NEIGHBOURS, VERTEX_CELLS, MIRROR_INDICES, MIRROR_INDEX, ORDERED_STAR,
     CELLS_AROUND, CELLS_AROUND_ALL, UPDATE_CIRCUMCENTRES, UPDATE_VOLUMES, UPDATE_MASK,
@@ -63,7 +64,8 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_move_vertex", "deldrift_move_vertices", "deldrift_move_vertices, all", "deldrift_stage_insertions",
     "deldrift_stage_removals", "deldrift_stage_segments", "deldrift_stage_segment_removals",
     "deldrift_commit_timestamp", "deldrift_commit_timestamp, some",
-    "deldrift_commit_positions", "deldrift_check_staged", "deldrift_check_passings", "deldrift_compact", "deldrift_take_changes", "deldrift_cells", "deldrift_copy_cells",
+    "deldrift_commit_positions", "deldrift_check_staged", "deldrift_check_passings", "deldrift_stage_splits",
+    "deldrift_compact", "deldrift_take_changes", "deldrift_cells", "deldrift_copy_cells",
     "deldrift_star", "deldrift_tolerance", "deldrift_research_annulus_widths", "deldrift_research_standard_delimiter",
     "deldrift_locate",
     "deldrift_locate_points", "deldrift_nearest_vertex", "deldrift_circumcentres",
@@ -91,11 +93,12 @@ typedef struct {
 } call;
 
 static bool is_commit(kind k) {
-    return k == COMMIT || k == COMMIT_SOME || k == COMMIT_POSITIONS || k == CHECK_STAGED;
+    return COMMIT <= k && k <= STAGE_SPLITS;
 }
 
 static bool is_of_plane(kind k) {
     return k == ORDERED_STAR || k == CHECK_PASSINGS || k == STAGE_SEGMENTS || k == STAGE_SEGMENT_REMOVALS ||
+           k == STAGE_SPLITS ||
            (SEGMENTS_OF_CELLS <= k && k <= BOUNDARY_CHAINS);
 }
 
@@ -277,7 +280,8 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
             memcpy(s.places + end * d, s.points + end * d, d * sizeof *s.places);
         }
     }
-    const bool moves_all = call.kind == COMMIT || call.kind == CHECK_STAGED || call.kind == CHECK_PASSINGS;
+    const bool moves_all = call.kind == COMMIT || call.kind == CHECK_STAGED || call.kind == CHECK_PASSINGS ||
+                           call.kind == STAGE_SPLITS;
     if (moves_all) OK(deldrift_move_vertices(s.t, NULL, s.places, s.n));
     for (uint32_t w = 2; w < s.n; w += 3) {
         bool present;
@@ -300,9 +304,9 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
             stage_pairs(&s, n_laid, n_laid);
             OK(deldrift_stage_segment_removals(s.t, (uint32_t[]){1}, 1));
         }
-        // An end goes, and segments cross.
+        // An end goes, which no split mends, and segments cross.
         if (n_laid > 0 && setting->conflicts && is_commit(call.kind)) {
-            OK(deldrift_stage_removals(s.t, s.pairs[0], 1));
+            if (call.kind != STAGE_SPLITS) OK(deldrift_stage_removals(s.t, s.pairs[0], 1));
             OK(deldrift_stage_segments(s.t, (uint32_t[]){1, 2, 4, 5, 7, 8, 11, 14, 17, 20}, NULL, 5, &v));
         }
     }
@@ -339,6 +343,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     deldrift_options options = options_of(s);
     deldrift_triangulation *const none = (deldrift_triangulation *)ids_out, *made = none;
     deldrift_commit_report report = {.timestamp = 77};
+    deldrift_split_report split = {.inserted = 77};
     deldrift_changes changes;
     deldrift_cells_view cells;
     deldrift_location location;
@@ -392,6 +397,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             break;
         case CHECK_STAGED: status = deldrift_check_staged(s->t); break;
         case CHECK_PASSINGS: status = deldrift_check_passings(s->t); break;
+        case STAGE_SPLITS: status = deldrift_stage_splits(s->t, 100, &split); break;
         case COMMIT:
         case COMMIT_SOME: status = deldrift_commit_timestamp(s->t, &report); break;
         case COMMIT_POSITIONS: status = deldrift_commit_positions(s->t, s->places, s->n, &report); break;
@@ -516,6 +522,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             renumber(&s->mirror, d + 1, ids_out);
             break;
         case TAKE_CHANGES: *wrong = follow(&s->mirror, &changes, s->t); break;
+        case STAGE_SPLITS: *given = digest_of(&split, sizeof split); break;
         case CELLS: *given = cells.count; break;
         case COPY_CELLS: {
             deldrift_cells_view view;

@@ -495,6 +495,57 @@ static void copies_have_segments(void) {
     free(positions);
 }
 
+// Segments that cross are split at a place that is rounded, and pieces of one laid before are removed ones; what is discarded
+// is forgotten, and what is refused has no effect.
+static void segments_are_split(void) {
+    uint32_t segment, ids[6], ends[12];
+    int32_t markers[6];
+    deldrift_triangulation *t = kite(DELDRIFT_AUTO, &segment);
+    deldrift_split_report report = {.inserted = 77}, other;
+    deldrift_conflict conflict;
+    size_t count;
+    OK(deldrift_stage_splits(t, 0, &report));
+    CHECK(report.inserted == 0 && report.pieces == 0 && report.rounds == 0);
+    CHECK(report.first_vertex == 4 && report.first_piece == segment + 1);
+    OK(deldrift_stage_segments(t, (uint32_t[]){3, 1}, (int32_t[]){8}, 1, &segment));
+    other = report;
+    CHECK_STATUS(deldrift_stage_splits(t, 0, &other), DELDRIFT_CROSSING);
+    CHECK_MESSAGE("segments 0 and 1 cross");
+    CHECK(memcmp(&report, &other, sizeof other) == 0);
+    OK(deldrift_segment_conflicts(t, &conflict, 1, &count));
+    CHECK(count == 1 && conflict.segment == 0 && conflict.other == 1);
+    for (int round = 0; round < 2; round++) {
+        OK(deldrift_stage_splits(t, 1, round == 0 ? NULL : &report));
+        if (round == 1) break;
+        OK(deldrift_discard_moves(t));
+        OK(deldrift_stage_segments(t, (uint32_t[]){3, 1}, (int32_t[]){8}, 1, &segment));
+        CHECK(segment == 1);
+    }
+    CHECK(report.inserted == 1 && report.replaced_segments == 2 && report.pieces == 4 && report.rounds == 1);
+    CHECK(report.first_vertex == 4 && report.first_piece == 2);
+    OK(deldrift_commit_timestamp(t, NULL));
+    OK(deldrift_segments(t, ids, ends, markers, 6, &count));
+    CHECK(count == 4 && ids[0] == 2 && ids[3] == 5);
+    CHECK(memcmp(ends, (uint32_t[]){0, 4, 4, 2, 3, 4, 4, 1}, 8 * sizeof *ends) == 0);
+    CHECK(markers[0] == markers[1] && markers[2] == 8 && markers[3] == 8);
+    OK(deldrift_validate(t, 3));
+    // A vertex that comes on a piece splits it; ends that meet are refused, and nothing is split.
+    double middle[2], end[2];
+    OK(deldrift_position(t, 4, middle));
+    OK(deldrift_position(t, 2, end));
+    OK(deldrift_stage_insertions(t, (double[]){(middle[0] + end[0]) / 2, (middle[1] + end[1]) / 2}, 1, &segment));
+    OK(deldrift_stage_segments(t, (uint32_t[]){4, 4}, NULL, 1, &segment));
+    CHECK_STATUS(deldrift_stage_splits(t, 9, NULL), DELDRIFT_ENDS_MEET);
+    CHECK_MESSAGE("both ends of segment 6 are at the same place, and there is one more conflict");
+    OK(deldrift_discard_moves(t));
+    OK(deldrift_stage_insertions(t, (double[]){(middle[0] + end[0]) / 2, (middle[1] + end[1]) / 2}, 1, &segment));
+    OK(deldrift_stage_splits(t, 0, &report));
+    CHECK(report.inserted == 0 && report.pieces == 2 && report.first_piece == 6);
+    OK(deldrift_commit_timestamp(t, NULL));
+    CHECK(has_edge(t, 4, 5) && has_edge(t, 5, 2));
+    deldrift_destroy(t);
+}
+
 static void arguments_are_checked(void) {
     uint32_t segment;
     deldrift_triangulation *t = kite(DELDRIFT_AUTO, &segment), *solid;
@@ -514,6 +565,8 @@ static void arguments_are_checked(void) {
     OK(deldrift_check_staged(solid));
     CHECK_STATUS(deldrift_check_passings(solid), DELDRIFT_INVALID_DIMENSION);
     CHECK_STATUS(deldrift_passings(solid, NULL, NULL, 0, &count), DELDRIFT_INVALID_DIMENSION);
+    CHECK_STATUS(deldrift_stage_splits(solid, 1, NULL), DELDRIFT_INVALID_DIMENSION);
+    CHECK_STATUS(deldrift_stage_splits(NULL, 1, NULL), DELDRIFT_NULL_ARGUMENT);
     OK(deldrift_stage_segments(t, (uint32_t[]){0, 1}, NULL, 1, &segment));
     OK(deldrift_commit_timestamp(t, NULL));
     CHECK_BUFFER(uint32_t, 2, 1, deldrift_segments(t, buffer, NULL, NULL, capacity, &count));
@@ -530,6 +583,7 @@ int main(void) {
     segments_that_cross_are_refused();
     vertices_that_pass_a_segment_are_told();
     copies_have_segments();
+    segments_are_split();
     arguments_are_checked();
     random_histories_are_as_the_definition_says();
     return 0;

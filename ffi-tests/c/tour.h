@@ -330,6 +330,7 @@ static void prescribe(deldrift_triangulation *t) {
     TRY(deldrift_check_staged(t));
     TRY(deldrift_segment_conflicts(t, tour_out.conflicts, TOUR_ROOM, &count));
     note(tour_out.conflicts, count * sizeof *tour_out.conflicts);
+    TRY(deldrift_stage_splits(t, 1, NULL));
     TRY(deldrift_commit_timestamp(t, NULL));
     if (tour_status != DELDRIFT_OK) GO(deldrift_discard_moves(t));
     GO(deldrift_edges(t, tour_out.ids, TOUR_ROOM / 2, &count));

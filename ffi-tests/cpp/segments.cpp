@@ -131,6 +131,20 @@ static void errors_tell_passings() {
     CHECK(telling.passings().size() == 1 && telling.passings()[0].vertex == 3 && telling.timestamp() == 2);
 }
 
+// What crosses is split, within a limit.
+static void segments_are_split() {
+    Triangulation t(2, kite);
+    t.stage_segments({Ends{0, 2}, Ends{1, 3}}, {4, 5});
+    const ConflictError error = conflicts_of([&] { t.stage_splits(0); });
+    CHECK(error.status() == DELDRIFT_CROSSING && error.conflicts().size() == 1);
+    const deldrift_split_report split = t.stage_splits();
+    CHECK(split.inserted == 1 && split.pieces == 4 && split.first_vertex == 4 && split.first_piece == 2);
+    CHECK(t.stage_splits().rounds == 0);
+    t.commit_timestamp();
+    const deldrift::Segments pieces = t.segments();
+    CHECK(pieces.size() == 4 && pieces[1].id == 3 && pieces[1].ends == (Ends{4, 2}) && pieces[3].marker == 5);
+}
+
 // A step that would put a vertex on a segment is cut until it does not.
 static void steps_are_cut() {
     Triangulation t(2, kite);
@@ -209,6 +223,7 @@ int main() {
     segments_are_kept();
     errors_tell_conflicts();
     errors_tell_passings();
+    segments_are_split();
     steps_are_cut();
     domains_are_known();
     return 0;

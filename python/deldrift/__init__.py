@@ -50,7 +50,7 @@ from ._geometry import Boundary
 from ._library import Report, version
 from ._mesh import Mesh
 from ._motion import Changes
-from ._segments import Chains, Segments
+from ._segments import Chains, Segments, Splits
 from ._step import Step
 
 __version__ = "0.1.0"
@@ -90,6 +90,7 @@ __all__ = [
     "RemovedVertex",
     "Report",
     "Segments",
+    "Splits",
     "StagedVertex",
     "Step",
     "TooMany",

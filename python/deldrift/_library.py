@@ -102,6 +102,20 @@ class Report(ctypes.Structure):
         return "Report(" + ", ".join(f"{name}={count}" for name, count in self.as_dict().items()) + ")"
 
 
+class SplitReport(ctypes.Structure):
+    """deldrift_split_report."""
+
+    _fields_ = [
+        ("inserted", c_uint64),
+        ("replaced_segments", c_uint64),
+        ("pieces", c_uint64),
+        ("rounds", c_uint64),
+        ("first_vertex", c_uint32),
+        ("first_piece", c_uint32),
+        ("reserved", c_uint64 * 3),
+    ]
+
+
 class ChangesView(ctypes.Structure):
     """deldrift_changes."""
 
@@ -204,6 +218,7 @@ PROTOTYPES = {
     "stage_segment_removals": (T, A, N),
     "segments": (T, A, A, A, N, C),
     "check_staged": (T,),
+    "stage_splits": (T, N, POINTER(SplitReport)),
     "segment_conflicts": (T, A, N, C),
     "check_passings": (T,),
     "passings": (T, A, A, N, C),

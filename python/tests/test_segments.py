@@ -256,6 +256,47 @@ def test_markers_and_ids(rng):
     assert tri.add_segments(np.empty((0, 2), int)).tolist() == [] and len(tri.segments.ids) == 3
 
 
+@pytest.mark.parametrize("seed", range(25))
+def test_steps_are_split(seed):
+    """No pair is in conflict, in fractions; pieces go from end to end of what was given."""
+    rng = np.random.default_rng(seed)
+    points = rng.random((12, 2)) if seed % 2 else grid_of(rng, 12)
+    ends = rng.choice(len(points), (8, 2))
+    ends = ends[ends[:, 0] != ends[:, 1]]
+    tri = deldrift.Delaunay(points)
+    with tri.step() as step:
+        given = step.add_segments(ends, markers=np.arange(len(ends)))
+        conflicts = step.check()
+        splits = step.split()
+        assert len(step.check()) == 0 and (splits.rounds > 0) == (len(conflicts) > 0)
+    assert tri.nvertices == 12 + len(splits.vertices)
+    assert set(splits.pieces.tolist()) == set(tri.segments.ids.tolist()) - set(given.tolist())
+    rows = {k: [] for k in range(len(ends))}
+    for id_, row, marker in zip(*(array.tolist() for array in tri.segments)):
+        rows[marker].append((id_, *row))
+    for k, (start, end) in enumerate(ends.tolist()):
+        chain = sorted(rows[k])
+        assert [chain[0][1], *(row[2] for row in chain)] == [*(row[1] for row in chain), end] and chain[0][1] == start
+    laid = dict(zip(tri.segments.ids.tolist(), map(tuple, tri.segments.ends.tolist())))
+    assert exact.conflicts_of(exact.fractions_of(tri.points), laid) == []
+
+
+def test_what_cannot_be_split_stays_staged():
+    square = [[0, 0], [4, 0], [4, 3], [0, 3]]
+    tri = deldrift.Delaunay(square)
+    with tri.step() as step:
+        step.add_segments([[0, 2], [1, 3]])
+        with pytest.raises(deldrift.ConflictError) as caught:
+            step.split(limit=0)
+        assert caught.value.kind is deldrift.ConflictKind.CROSSING and len(step.check()) == 1
+        assert step.split(limit=1).vertices.tolist() == [4]
+    assert tri.segments.ids.tolist() == [2, 3, 4, 5]
+    with pytest.raises(deldrift.ConflictError), tri.step() as step:
+        step.remove([0])
+        step.split()
+    assert tri.nvertices == 5
+
+
 def test_checks_change_nothing(rng):
     points, segments = scene(rng, 60, 30)
     tri = deldrift.Delaunay(points, segments=segments)

@@ -238,7 +238,7 @@ impl<'r> Integer<'r> {
     }
 
     /// How it compares with zero.
-    fn sign(&self) -> Ordering {
+    pub(super) fn sign(&self) -> Ordering {
         if self.is_negative { Ordering::Less } else { self.magnitude.len().cmp(&0) }
     }
 

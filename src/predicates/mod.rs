@@ -82,6 +82,7 @@ mod bicells;
 mod big;
 mod coordinates;
 mod corners;
+mod crossing;
 mod distance;
 #[cfg(test)]
 mod dyadic;
@@ -117,6 +118,7 @@ pub(crate) use bicells::{
 };
 pub use coordinates::Coordinates;
 pub use corners::{Meeting, sign_of_cross};
+pub use crossing::{crossing, passes_near};
 pub use distance::{compare_distance, is_collinear3, is_within_distance};
 pub use filter::StaticFilter;
 pub use hull::{area, ray_and_segment, ray_and_triangle, volumes_over};

@@ -67,6 +67,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         if let Some(segments) = &mut self.mesh.segments {
             segments.end_staging();
         }
+        if let Some(made) = &mut self.made {
+            made.end_staging();
+        }
         self.statistics.timestamp += 1;
         self.count(report);
         report.timestamp = self.statistics.timestamp;

@@ -10,4 +10,5 @@ pub(in crate::motion) mod moves;
 pub(in crate::motion) mod passings;
 pub(in crate::motion) mod refining;
 pub(in crate::motion) mod segments;
+pub(in crate::motion) mod splitting;
 mod weighing;

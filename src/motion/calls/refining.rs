@@ -176,7 +176,8 @@ impl MovingTriangulation<Plane> {
         Ok(report)
     }
 
-    /// The segment of which refinement has made this one a piece; the segment itself if it has not.
+    /// The segment of which refinement, or [`stage_splits`](Self::stage_splits), has made this one a piece; the segment itself
+    /// if they have not. From the commit on that makes the piece.
     pub fn original_segment(&self, segment: SegmentId) -> SegmentId {
         self.made.as_ref().and_then(|made| made.origin(segment)).map_or(segment, |origin| origin.segment)
     }
@@ -197,23 +198,26 @@ impl MovingTriangulation<Plane> {
         let mut of_edges = Vec::new();
         memory::collect(
             &mut of_edges,
-            (0..read.edges.len()).map(|edge| {
-                let origin = self.origin_of(read.segments_at(edge)[0].1);
-                (origin.segment, origin.ends)
-            }),
+            (0..read.edges.len()).map(|edge| self.origin_of(read.segments_at(edge)[0].1)),
         )?;
         let mut sorted = memory::copy_of(&of_edges)?;
         sorted.sort_unstable();
-        sorted.dedup_by_key(|&mut (segment, _)| segment);
-        let place = |segment: SegmentId| sorted.binary_search_by_key(&segment, |&(other, _)| other).ok();
+        sorted.dedup();
+        let place = |origin: &Origin| sorted.binary_search(origin).expect("it is listed") as u32;
         let mut origins = Origins::default();
-        let place_of = |&(segment, _): &(SegmentId, _)| place(segment).expect("it is listed") as u32;
-        memory::collect(&mut origins.of_segments, of_edges.iter().map(place_of))?;
-        memory::collect(
-            &mut origins.of_vertices,
-            self.made_vertices().filter_map(|(v, segment)| Some((v, place(segment)? as u32))),
-        )?;
-        memory::collect(&mut origins.ends, sorted.iter().map(|&(_, ends)| ends))?;
+        memory::collect(&mut origins.of_segments, of_edges.iter().map(place))?;
+        // Parts of one segment, between vertices at which others have split it, are originals of their own. A vertex is on
+        // that of the pieces beside it.
+        let made_on = |v: VertexId| self.made.as_ref().and_then(|made| made.is_on(v));
+        for (edge, &ends) in read.edges.iter().enumerate() {
+            for v in ends {
+                let Some(on) = made_on(v) else { continue };
+                if read.segments_at(edge).iter().any(|&(_, id)| self.original_segment(id) == on) {
+                    memory::push(&mut origins.of_vertices, (v, origins.of_segments[edge]))?;
+                }
+            }
+        }
+        memory::collect(&mut origins.ends, sorted.iter().map(|origin| origin.ends))?;
         Ok(origins)
     }
 
@@ -251,7 +255,7 @@ impl MovingTriangulation<Plane> {
     /// Whether the segments at two edges come from the same ones.
     fn are_of_one_origin(&self, read: &Read, edges: [u32; 2]) -> bool {
         let [one, other] = edges.map(|edge| read.segments_at(edge as usize));
-        let origin = |&(_, segment): &(_, SegmentId)| self.original_segment(segment);
+        let origin = |&(_, segment): &(_, SegmentId)| self.origin_of(segment);
         one.len() == other.len() && one.iter().all(|a| other.iter().any(|b| origin(a) == origin(b)))
     }
 }

@@ -48,7 +48,7 @@ impl Aim {
 /// The segments of a mesh.
 #[derive(Debug)]
 pub(in crate::motion) struct Segments<G: Dimension> {
-    /// By id; `None` for those removed. Those that are staged come behind.
+    /// By id; `None` for those removed. Those that are staged come behind; `None` for those that pieces are staged for.
     all: Vec<Option<Segment>>,
     /// How many of them are in force; those behind are staged.
     n_laid: usize,
@@ -147,6 +147,32 @@ impl<G: Dimension> Segments<G> {
     /// Takes the last removals out of what is staged, but for so many.
     pub(in crate::motion) fn truncate_removals(&mut self, n: usize) {
         self.leaving.truncate(n);
+    }
+
+    /// Puts what is staged back to what it was once.
+    pub(in crate::motion) fn restore_staged(&mut self, staged: &[Option<Segment>], leaving: &[SegmentId]) {
+        // There is room, as arrays never shrink.
+        self.all.truncate(self.n_laid);
+        self.all.extend_from_slice(staged);
+        self.leaving.clear();
+        self.leaving.extend_from_slice(leaving);
+    }
+
+    /// Takes a segment out of those that will be in force, and returns it: one that is staged is not there any more.
+    pub(in crate::motion) fn take_out(&mut self, segment: SegmentId) -> Result<Segment> {
+        let entry = &mut self.all[segment];
+        let taken = entry.expect("a segment that is to be in force");
+        if segment.index() < self.n_laid {
+            memory::push(&mut self.leaving, segment)?;
+        } else {
+            *entry = None;
+        }
+        Ok(taken)
+    }
+
+    /// Tells these as the conflicts of the last change.
+    pub(in crate::motion) fn tell(&mut self, conflicts: Vec<Conflict>) {
+        self.conflicts = conflicts;
     }
 
     /// How many removals are staged.
