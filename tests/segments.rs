@@ -535,3 +535,89 @@ fn segments_go_with_hidden_vertices() {
         assert!(!is_long(&t), "{}", context());
     }
 }
+
+/// Vertices at random, and segments between them of which none conflicts.
+fn random_domain(n: usize, n_segments: usize, rng: &mut Rng) -> Triangulation {
+    let points: Vec<[f64; 2]> = (0..n).map(|_| [rng.unit(), rng.unit()]).collect();
+    let mut t = Triangulation::new(&points, Options::default()).expect("good points");
+    for _ in 0..n_segments {
+        let ends = [rng.below(n), rng.below(n)];
+        if ends[0] != ends[1] {
+            t.stage_segments([Segment { ends: ends.map(VertexId::at), marker: 0 }].into_iter())
+                .expect("present");
+            if t.commit_timestamp().is_err() {
+                t.discard_moves();
+            }
+        }
+    }
+    t
+}
+
+/// While all vertices stay within their tolerances no cell changes: moved by just less, each towards or away from the line
+/// through the middle of some cell, which flattens that one the most.
+#[test]
+fn cells_at_segments_survive_what_is_within_tolerance() {
+    let (mut n_wide, mut n_at_segments) = (0, 0);
+    for seed in seeds(300) {
+        let rng = &mut Rng::new(seed);
+        let t = random_domain(5 + rng.below(30), 12, rng);
+        let context = || format!("seed {seed}");
+        let ids: Vec<_> = VertexId::range(0..t.id_count()).collect();
+        let places: Vec<[f64; 2]> = ids.iter().map(|&v| t.position(v).expect("present")).collect();
+        let tolerances: Vec<f64> = ids.iter().map(|&v| t.tolerance(v).expect("present")).collect();
+        let ends: BTreeSet<VertexId> = t.segments().flat_map(|(_, segment)| segment.ends).collect();
+        n_at_segments += ends.len();
+        n_wide += ends.iter().filter(|&&v| tolerances[v.index()] > 0.0).count();
+        let cells = t.cells().expect("room").corners.to_vec();
+        for _ in 0..20 {
+            let row = rng.pick(&cells).map(|v| places[v.index()]);
+            let k = rng.below(3);
+            let [a, b, c] = [row[k], row[(k + 1) % 3], row[(k + 2) % 3]];
+            let length = ((c[0] - b[0]).powi(2) + (c[1] - b[1]).powi(2)).sqrt();
+            let normal = [(b[1] - c[1]) / length, (c[0] - b[0]) / length];
+            let height = |p: &[f64; 2]| (p[0] - b[0]) * normal[0] + (p[1] - b[1]) * normal[1];
+            let middle = 0.5 * height(&a);
+            let sign = if rng.one_in(2) { 1.0 } else { -1.0 };
+            let goals: Vec<[f64; 2]> = places
+                .iter()
+                .zip(&tolerances)
+                .map(|(p, tolerance)| {
+                    let step = 0.999 * tolerance * sign * if height(p) < middle { 1.0 } else { -1.0 };
+                    [p[0] + step * normal[0], p[1] + step * normal[1]]
+                })
+                .collect();
+            let mut fresh = Triangulation::new(&goals, Options::default()).expect("good points");
+            let segments: Vec<_> = t.segments().map(|(_, segment)| segment).collect();
+            fresh.stage_segments(segments.into_iter()).expect("present");
+            fresh.commit_timestamp().unwrap_or_else(|error| panic!("{}: {error}", context()));
+            assert_same_cells(&cell_set(&t), &cell_set(&fresh), &context);
+        }
+    }
+    assert!(n_at_segments > 2_000 && n_wide > n_at_segments * 99 / 100, "{n_wide} of {n_at_segments}");
+}
+
+/// A triangle whose sides are segments may move until it is flat, whatever is beyond: by half its least height.
+#[test]
+fn a_cell_between_segments_has_the_tolerance_of_its_orientation() {
+    let points = [
+        [0.0, 0.0],
+        [8.0, 0.0],
+        [4.0, 2.0],
+        [4.0, -1e-3],
+        [4.0, 9.0],
+        [30.0, 0.0],
+        [-30.0, 0.0],
+        [4.0, -40.0],
+    ];
+    let mut t = Triangulation::new(&points, Options::default()).expect("good points");
+    let ends = [[0, 1], [1, 2], [2, 0], [0, 4], [1, 4], [2, 4]];
+    let sides = ends.map(|ends| Segment { ends: ends.map(VertexId::new), marker: 0 });
+    t.stage_segments(sides.into_iter()).expect("present");
+    t.commit_timestamp().expect("no conflict");
+    // The two other cells of vertex 2 have heights of more than 2.
+    let tolerance = t.tolerance(VertexId::new(2)).expect("present");
+    assert!(tolerance <= 1.0 && tolerance > 1.0 - 1e-12, "{tolerance}");
+    // Vertex 3 is just below the side between 0 and 1.
+    let below = t.tolerance(VertexId::new(3)).expect("present");
+    assert!(below <= 5e-4 && below > 4.9e-4, "{below}");
+}
