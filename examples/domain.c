@@ -8,7 +8,7 @@
 
 enum { WALLS = 4, ROTOR = 40, PIPE = 24, CORNERS = WALLS + ROTOR + PIPE };
 enum { INSULATED, HEATED, COOLED };  // markers
-static const double ANGLE = 0.02, HEATING = 2, TIME = 2e-5, TURN = 6.283185307179586;
+static const double ANGLE = 0.02, HEATING = 5, TIME = 2e-5, TURN = 6.283185307179586;
 
 static double areas[2 * ROOM], weights[3 * ROOM], lengths[3], area, total, least_angle;
 static uint32_t ids[3 * ROOM], ends[2 * ROOM];
