@@ -590,7 +590,7 @@ fn cells_at_segments_survive_what_is_within_tolerance() {
             let segments: Vec<_> = t.segments().map(|(_, segment)| segment).collect();
             fresh.stage_segments(segments.into_iter()).expect("present");
             fresh.commit_timestamp().unwrap_or_else(|error| panic!("{}: {error}", context()));
-            assert_same_cells(&cell_set(&t), &cell_set(&fresh), &context);
+            assert_same_cells(&cell_set(&t), &cell_set(&fresh), context);
         }
     }
     assert!(n_at_segments > 2_000 && n_wide > n_at_segments * 99 / 100, "{n_wide} of {n_at_segments}");
