@@ -245,7 +245,7 @@ static void keep_and_write(deldrift_triangulation *t) {
     check(deldrift_volumes(t, areas, MOST, &count));
     const deldrift_field place = {"place", positions, 2}, area = {"area", areas, 1};
     check(deldrift_write_vtu(t, "tour.vtu", &place, 1, &area, 1));  // for ParaView
-    check(deldrift_write_medit(t, "tour.mesh"));                    // for Mmg, FreeFem and Gmsh
+    check(deldrift_write_medit(t, "tour.mesh", NULL, 0));           // for Mmg, FreeFem and Gmsh
     expect(remove("tour.deldrift") + remove("tour.vtu") + remove("tour.mesh") == 0, "the files are there");
 }
 

@@ -612,7 +612,8 @@ typedef struct deldrift_quality_report {
 /// Numbers for each vertex, or for each cell, that deldrift_write_vtu writes along.
 typedef struct deldrift_field {
     /// What it is called: UTF-8, with a NUL at the end; without control characters, U+FFFE and U+FFFF, which XML does
-    /// not have. Fields of vertices have different names, none of them "vertex", and so have fields of cells.
+    /// not have. Fields of vertices have different names, none of them "vertex", and so have fields of cells, none of
+    /// them "marker" if there are segments.
     const char *name;
     /// components numbers for each vertex, by id (those of removed vertices are not written), or for each cell, by
     /// index.
@@ -2250,6 +2251,10 @@ deldrift_status deldrift_load_file(const char *path,
 /// "vertex". In 2D the third coordinate is 0. Its cells are those of deldrift_cells, in that order. path: of a file
 /// that is made, or replaced once the new one is complete, with what deldrift_save_file says of it.
 ///
+/// If there are segments in force, those of deldrift_segments are lines behind these cells, in that order; an end that
+/// is hidden is the vertex that represents it. Their markers are the cell data "marker", which is 0 for cells that are
+/// no lines, and cell_fields are NaN for lines.
+///
 /// vertex_fields, cell_fields: numbers to be written along as point data and cell data, vertex_field_count and
 /// cell_field_count of them; NULL if the count is 0. All of it is read during the call only.
 ///
@@ -2269,17 +2274,25 @@ deldrift_status deldrift_write_vtu(const deldrift_triangulation *t,
 /// Writes a file for Mmg, FreeFem, Gmsh and others: MEDIT's text format (.mesh).
 ///
 /// Its vertices are those that are present, hidden ones included, ascending by id and numbered from 1; the reference
-/// of each is its id. Its triangles or tetrahedra are the cells, in the order of deldrift_cells, with the reference 1.
-/// Reading the numbers gives the same doubles. path: of a file that is made, or replaced once the new one is complete,
+/// of each is its id. Its triangles or tetrahedra are the cells, in the order of deldrift_cells. If there are segments in
+/// force, those of deldrift_segments are its edges, in that order, behind the triangles; the reference of each is its
+/// marker, and an end that is hidden is the vertex that represents it. Reading the numbers gives the same doubles.
+///
+/// references: reference_count numbers, the reference of each cell in the order of deldrift_cells (reference_count must
+/// be deldrift_cell_count), such as those of deldrift_label_cells; NULL with reference_count 0 for 1. They are read
+/// during the call only. path: of a file that is made, or replaced once the new one is complete,
 /// with what deldrift_save_file says of it.
 ///
 /// Does what deldrift_cells does.
 ///
 /// Cost: n + m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_IO_ERROR,
+/// DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_write_medit(const deldrift_triangulation *t,
-                                     const char *path);
+                                     const char *path,
+                                     const int32_t *references,
+                                     size_t reference_count);
 
 /// The orientation of points, exactly, to *sign: 1, -1 or 0.
 ///

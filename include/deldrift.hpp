@@ -98,8 +98,14 @@ public:
         require_ok(deldrift_write_vtu(native(), path.c_str(), vertices.data(), vertices.size(), cells.data(),
                                       cells.size()));
     }
-    // For Mmg, FreeFem, Gmsh and others.
-    void write_medit(const std::string &path) const { require_ok(deldrift_write_medit(native(), path.c_str())); }
+    // For Mmg, FreeFem, Gmsh and others; the references of cells are numbers such as label_cells() gives, or 1.
+    //
+    //     t.write_medit("mesh.mesh", t.label_cells({0.5, 0.5}, {STEEL}, AIR));
+    void write_medit(const std::string &path) const { require_ok(deldrift_write_medit(native(), path.c_str(), nullptr, 0)); }
+    void write_medit(const std::string &path, span<const std::int32_t> references) const {
+        expect("references", references.size(), cell_count());
+        require_ok(deldrift_write_medit(native(), path.c_str(), references.data(), references.size()));
+    }
 
     // For the functions of deldrift.h; null when moved from.
     deldrift_triangulation *native() noexcept { return t_.get(); }

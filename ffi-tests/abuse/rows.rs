@@ -130,7 +130,7 @@ pub const ROWS: &[Row] = &[
     row("deldrift_save_file", &["t", "path"]),
     row("deldrift_load_file", &["path_saved", "&options", "&out.handle"]),
     row("deldrift_write_vtu", &["t", "path", "&field", "1", "&field", "1"]),
-    row("deldrift_write_medit", &["t", "path"]),
+    row("deldrift_write_medit", &["t", "path", "wholes", "n_cells"]),
     row("deldrift_orientation", &["dimension", "moved", "&out.sign"]),
     row("deldrift_in_sphere", &["dimension", "moved", "&out.sign"]),
     row("deldrift_options_init", &["&options"]),

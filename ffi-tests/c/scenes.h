@@ -471,7 +471,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case SAVE_FILE: status = deldrift_save_file(s->t, file); break;
         case LOAD_FILE: status = deldrift_load_file(file, &options, &made); break;
         case WRITE_VTU: status = deldrift_write_vtu(s->t, file, &field, 1, NULL, 0); break;
-        case WRITE_MEDIT: status = deldrift_write_medit(s->t, file); break;
+        case WRITE_MEDIT: status = deldrift_write_medit(s->t, file, labels, n_cells); break;
         case N_KINDS: break;
     }
     stop_counting();

@@ -315,7 +315,7 @@ static void keep(const deldrift_triangulation *t, const places *p, const deldrif
     const deldrift_field field = {"then", p->then, 1};
     TRY(deldrift_write_vtu(t, tour_path(), &field, 1, NULL, 0));
     if (tour_status == DELDRIFT_OK) note_file();
-    GO(deldrift_write_medit(t, tour_path()));
+    GO(deldrift_write_medit(t, tour_path(), NULL, 0));
     note_file();
     CHECK(unlink(tour_path()) == 0);
 }

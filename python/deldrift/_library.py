@@ -239,7 +239,7 @@ PROTOTYPES = {
     "save_file": (T, c_char_p),
     "load_file": (c_char_p, POINTER(Options), POINTER(T)),
     "write_vtu": (T, c_char_p, POINTER(Field), N, POINTER(Field), N),
-    "write_medit": (T, c_char_p),
+    "write_medit": (T, c_char_p, A, N),
     "orientation": (U32, A, POINTER(c_int32)),
     "in_sphere": (U32, A, POINTER(c_int32)),
 }

@@ -496,6 +496,29 @@ def test_lines_go_to_meshio_with_markers(rng, tmp_path):
     assert not mesh.cell_data["marker"][0].any()
 
 
+def test_lines_of_files_are_read_by_meshio(rng, tmp_path):
+    meshio = pytest.importorskip("meshio", reason="meshio is not installed")
+    points, segments = scene(rng, 30, 10)
+    tri = deldrift.Delaunay(points, segments=segments, segment_markers=np.arange(len(segments)) - 4)
+    tri.remove(next(v for v in range(30) if v not in segments))
+    heat, labels = rng.random(tri.nsimplex), tri.label_cells(points[:1] + 1e-3, [7], -2)
+    tri.write_vtu(tmp_path / "a.vtu", None, {"heat": heat})
+    tri.write_medit(tmp_path / "a.mesh", labels)
+    for path, ids, name in (("a.vtu", "vertex", "marker"), ("a.mesh", "medit:ref", "medit:ref")):
+        mesh = meshio.read(tmp_path / path)
+        assert [block.type for block in mesh.cells] == ["triangle", "line"]
+        names = mesh.point_data[ids].ravel().astype(int)
+        np.testing.assert_array_equal(names[mesh.cells[0].data], tri.simplices)
+        np.testing.assert_array_equal(names[mesh.cells[1].data], segments)
+        np.testing.assert_array_equal(mesh.cell_data[name][1].ravel(), tri.segments.markers)
+        np.testing.assert_array_equal(mesh.cell_data[name][0].ravel(), 0 if path == "a.vtu" else labels)
+        if path == "a.vtu":
+            np.testing.assert_array_equal(mesh.cell_data["heat"][0].ravel(), heat)
+            assert np.isnan(mesh.cell_data["heat"][1]).all()
+    with pytest.raises(deldrift.InvalidField, match="marker"):
+        tri.write_vtu(tmp_path / "a.vtu", None, {"marker": heat})
+
+
 def test_segments_are_drawn(rng):
     matplotlib = pytest.importorskip("matplotlib", reason="matplotlib is not installed")
     matplotlib.use("Agg")
