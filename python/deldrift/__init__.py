@@ -46,9 +46,10 @@ from ._errors import (
     WrongCount,
 )
 from ._geometry import Boundary
-from ._library import Report, version
+from ._library import QualityReport, Report, version
 from ._mesh import Mesh
 from ._motion import Changes
+from ._refining import MadeVertices, RefinedWeights
 from ._segments import Chains, Segments
 from ._step import Step
 
@@ -78,6 +79,7 @@ __all__ = [
     "InvalidShape",
     "InvalidValue",
     "Locations",
+    "MadeVertices",
     "Mesh",
     "NoSuchSegment",
     "NoSuchSimplex",
@@ -85,6 +87,8 @@ __all__ = [
     "NotFinite",
     "OutOfMemory",
     "OutOfRange",
+    "QualityReport",
+    "RefinedWeights",
     "RemovedVertex",
     "Report",
     "Segments",
