@@ -118,8 +118,8 @@ class Mesh:
         Parameters
         ----------
         data : dict
-            With `vertices`, `segments` and, optionally, `segment_markers`, `holes` and `regions`, rows of a place, a label
-            and a greatest area.
+            With `vertices`, `segments` and, optionally, `segment_markers`, `holes` and `regions`, which are rows of x, y,
+            label and greatest area.
         switches : str, optional
             As of `triangle.triangulate`, those for which the mesh is refined: `q`, with the least angle behind it or 20
             degrees; `a`, with a greatest area behind it, or alone for those of regions; `Y` to keep the boundary of the
