@@ -1160,7 +1160,8 @@ deldrift_status deldrift_star(const deldrift_triangulation *t,
 ///
 /// It is a certified lower bound: rounding can make it smaller, but never too large. It is 0 where nothing
 /// is certain and for vertices that share their place, and infinite, without a meaning, while there are no
-/// cells. Computed from the star of the vertex, whatever the algorithm in force.
+/// cells. Computed from the star of the vertex, whatever the algorithm in force. At segments it is what the orientation of
+/// the cells on both sides allows.
 ///
 /// Cost: the cells of the star.
 ///
@@ -1550,6 +1551,36 @@ deldrift_status deldrift_label_cells(const deldrift_triangulation *t,
                                      int32_t *label_of,
                                      size_t capacity,
                                      size_t *count);
+
+/// Computes the labels of some cells again, in an array that deldrift_label_cells has filled, or that is filled with
+/// nesting levels: each listed cell gets the label of the cells that it is reached from without crossing a segment, and that
+/// are not listed. Other entries are not touched.
+///
+/// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once: the created ones of
+/// deldrift_take_changes. NULL if cell_count is 0. other: the label of cells that are reached from the outside of the hull alone,
+/// from no cell that is not listed, or from some of different labels. label_of: an array of capacity numbers, of which those
+/// of cells that are not listed are read. capacity: at least deldrift_cell_count. undecided: receives the number of cells of
+/// the last two kinds: if it is not 0, a region has new cells only, or touches two labels, and it is time for
+/// deldrift_label_cells.
+///
+/// deldrift_update_circumcentres has the steps by which an array for all cells is brought up to date. While segments stay,
+/// and vertices move without passing any, labels stay with their regions: that is what deldrift_label_cells would give for
+/// seeds that move with these. Where a commit adds segments, both parts of a region have its label; where it removes some
+/// between regions of different labels, either label may go on: label anew then.
+///
+/// Exact. Cost: of k cells k log k, and k log s for s segments. After a change the first call also does what the first
+/// deldrift_cells does.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_update_labels(const deldrift_triangulation *t,
+                                       const uint32_t *cells,
+                                       size_t cell_count,
+                                       int32_t other,
+                                       int32_t *label_of,
+                                       size_t capacity,
+                                       size_t *undecided);
 
 /// The boundary of some of the cells of the plane, in closed chains of edges, which have these cells on their left: an outer
 /// boundary goes counter-clockwise, that of a hole clockwise. With the mask of the cells that have an odd nesting level it is
