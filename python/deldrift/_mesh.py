@@ -512,15 +512,6 @@ class Mesh:
     def __deepcopy__(self, _memo: Any) -> "Mesh":
         return self.copy()
 
-    def __getstate__(self) -> dict[str, Any]:
-        # What segments are pieces of is not saved: sides are then known by a piece.
-        def saved(sides: list[_Side]) -> list[_Side]:
-            rows, ids = self._rows_of(sides), self._tri.segments.ids
-            return [side if row < 0 else _Side(int(ids[row]), side.column) for side, row in zip(sides, rows)]
-
-        holes = None if self._holes is None else saved(self._holes)
-        return {**self.__dict__, "_holes": holes, "_regions": saved(self._regions)}
-
     def __repr__(self) -> str:
         return f"<deldrift.Mesh of {len(self.triangles)} triangles within {len(self.segments.ids)} segments>"
 

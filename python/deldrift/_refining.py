@@ -283,8 +283,6 @@ class Refining(Segmented):
     def made_vertices(self) -> MadeVertices:
         """The vertices that `refine` has inserted and that are there, ascending, in 2D.
 
-        This, and what segments are pieces of, is not saved in files.
-
         Returns
         -------
         MadeVertices
