@@ -15,7 +15,8 @@
 // Positions come from any contiguous container of double, float, std::array or a program's own points, or with a
 // stride, or from arrays of x, y and z: see deldrift/positions.hpp. Cells, facets, stars and vertices are ranges with
 // iterators for <algorithm> and <ranges>: see deldrift/cells.hpp. Ranges end like the views that they are made of, with
-// the next change. Segments, and the error of a change that they refuse, are in deldrift/segments.hpp.
+// the next change. Segments, and the error of a change that they refuse, are in deldrift/segments.hpp; the quality of
+// cells that refine() works towards is in deldrift/refining.hpp.
 // deldrift/cgal.hpp has the names of CGAL's Delaunay_triangulation_2 and _3.
 #ifndef DELDRIFT_HPP
 #define DELDRIFT_HPP
@@ -36,6 +37,7 @@
 #include "deldrift/cells.hpp"
 #include "deldrift/orientation.hpp"
 #include "deldrift/positions.hpp"
+#include "deldrift/refining.hpp"
 #include "deldrift/results.hpp"
 #include "deldrift/segments.hpp"
 #include "deldrift/span.hpp"
@@ -423,6 +425,62 @@ public:
         return chains;
     }
 
+    // Inserts vertices until cells are of a quality, in one commit: those in the mask, which has to end at segments, or,
+    // if it is empty, those of an odd nesting level.
+    //     for (;;) {
+    //         t.commit_positions(positions_after_step());
+    //         t.coarsen(quality);
+    //         t.refine(quality);
+    //         t.carry(temperatures);
+    //     }
+    deldrift_quality_report refine(const Quality &quality, span<const std::uint8_t> mask = {}) {
+        return improve(deldrift_refine, quality, mask);
+    }
+    // Removes vertices that refine() has inserted and that are not needed any more.
+    deldrift_quality_report coarsen(const Quality &quality, span<const std::uint8_t> mask = {}) {
+        return improve(deldrift_coarsen, quality, mask);
+    }
+    MadeVertices made_vertices() const {
+        std::size_t count = 0;
+        require_ok(deldrift_made_vertices(native(), nullptr, nullptr, 0, &count));
+        MadeVertices made{std::vector<std::uint32_t>(count), std::vector<std::uint32_t>(count)};
+        require_ok(deldrift_made_vertices(native(), made.vertices.data(), made.segments.data(), count, &count));
+        return made;
+    }
+    // For each of segments() the one that it is a piece of; itself if it is whole.
+    std::vector<std::uint32_t> original_segments() const {
+        std::size_t count = 0;
+        require_ok(deldrift_original_segments(native(), nullptr, 0, &count));
+        std::vector<std::uint32_t> originals(count);
+        require_ok(deldrift_original_segments(native(), originals.data(), count, &count));
+        return originals;
+    }
+    // None unless the quality of the last change, a refine(), asked for them.
+    RefinedWeights refined_weights() const {
+        std::size_t count = 0;
+        require_ok(deldrift_refined_weights(native(), nullptr, nullptr, 0, &count));
+        RefinedWeights rows;
+        if (count == 0) return rows;
+        rows.vertices.resize(count);
+        rows.weights.resize(count);
+        require_ok(deldrift_refined_weights(native(), rows.vertices.front().data(), rows.weights.front().data(), count,
+                                            &count));
+        return rows;
+    }
+    // Appends to values, n_values numbers for each id that there was before the last refine(), those of the vertices that
+    // it has inserted. Numbers that are linear in the position stay so.
+    void carry(std::vector<double> &values, std::size_t n_values = 1) const {
+        const RefinedWeights rows = refined_weights();
+        const std::size_t wanted = (id_count() - rows.size()) * n_values;
+        if (values.size() != wanted) {
+            throw Error(DELDRIFT_WRONG_COUNT, "values has " + std::to_string(values.size()) +
+                                                  " numbers, but must have " + std::to_string(wanted) +
+                                                  ", as weights are known of " + std::to_string(rows.size()) +
+                                                  " new vertices");
+        }
+        rows.carry(values, n_values);
+    }
+
     // Rows of two ids, the lower one first, in lexicographic order.
     std::vector<std::uint32_t> edges() const {
         std::size_t count = 0;
@@ -606,6 +664,21 @@ private:
         if (!ConflictError::is_conflict(status)) return require_ok(status);
         const std::string message = deldrift_last_error();
         throw ConflictError(status, message, segment_conflicts());
+    }
+    template <class Call>
+    deldrift_quality_report improve(Call call, const Quality &quality, span<const std::uint8_t> mask) {
+        detail::GivenQuality given(quality);
+        deldrift_triangulation *before = nullptr;
+        if (given.has_function()) require_ok(deldrift_clone(native(), &before));
+        std::unique_ptr<deldrift_triangulation, Destroy> unchanged(before);
+        deldrift_quality_report report;
+        const deldrift_status status = call(native(), given.get(), mask.data(), mask.size(), &report);
+        if (given.has_thrown()) {
+            if (status == DELDRIFT_OK) t_.swap(unchanged);
+            given.throw_again();
+        }
+        require_change(status);
+        return report;
     }
     static void expect(const char *argument, std::size_t given, std::size_t wanted) {
         if (given == wanted) return;

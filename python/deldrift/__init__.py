@@ -47,9 +47,10 @@ from ._errors import (
     WrongCount,
 )
 from ._geometry import Boundary
-from ._library import Report, version
+from ._library import QualityReport, Report, version
 from ._mesh import Mesh
 from ._motion import Changes
+from ._refining import MadeVertices, RefinedWeights
 from ._segments import Chains, Segments, Splits
 from ._step import Step
 
@@ -79,6 +80,7 @@ __all__ = [
     "InvalidShape",
     "InvalidValue",
     "Locations",
+    "MadeVertices",
     "Mesh",
     "NoSuchSegment",
     "NoSuchSimplex",
@@ -87,6 +89,8 @@ __all__ = [
     "OutOfMemory",
     "OutOfRange",
     "PassingError",
+    "QualityReport",
+    "RefinedWeights",
     "RemovedVertex",
     "Report",
     "Segments",

@@ -15,6 +15,7 @@ from ._core import check, make_options
 from ._files import Files, Path, file_name
 from ._geometry import Geometry
 from ._motion import Motion
+from ._refining import Refining
 from ._scipy import check_scipy_options
 
 _create = _library.function("create")
@@ -28,7 +29,7 @@ _load_file = _library.function("load_file")
 SEGMENT_ARGUMENTS = "segments", "segment_markers"
 
 
-class Delaunay(Motion, Asking, Geometry, Files):
+class Delaunay(Motion, Refining, Asking, Geometry, Files):
     """The Delaunay triangulation of points in the plane or in space, whose points may move.
 
     Simplices are exact, and a function of positions and ids alone: ties between cocircular and cospherical points are

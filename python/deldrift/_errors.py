@@ -221,8 +221,10 @@ KINDS = {
 }
 """Classes by deldrift_status. What is not here comes of a defect, as a pointer of this package that is NULL."""
 
-# "positions[12], coordinate 1, is inf", "cells[3] is 99, but ...", "squared_radius is -1"
-PLACE = re.compile(r"(?P<argument>\w+)(?:\[(?P<index>\d+)\])?(?:, coordinate \d+,)? is (?P<value>[^\s,]+)")
+# "positions[12], coordinate 1, is inf", "cells[3] is 99, but ...", "squared_radius is -1", "quality.sizes[3] is 0"
+PLACE = re.compile(
+    r"(?:quality\.)?(?P<argument>\w+)(?:\[(?P<index>\d+)\])?(?:, coordinate \d+,)? is (?P<value>[^\s,]+)"
+)
 
 
 def _number(text: str) -> Number:
