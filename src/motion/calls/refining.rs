@@ -87,12 +87,10 @@ impl MovingTriangulation<Plane> {
         let copied = self.copy_for_refinement(quality, mask)?;
         let areas = none_where_zero(quality.areas)?;
         let mut tests = Tests::new(criteria(quality, &areas), copied.extent);
-        if let Some(made) = &mut self.made {
-            made.set_weights(Vec::new(), 0);
-        }
         let mut report =
             QualityReport { bad_cells: self.count_bad(quality, &tests, &copied)?, ..Default::default() };
         if report.bad_cells == 0 || tests.are_none() {
+            self.forget_weights();
             return Ok(report);
         }
         let sizes = self.sizes_of_ids(quality)?;
@@ -108,6 +106,7 @@ impl MovingTriangulation<Plane> {
         report.is_cut_short = refined.is_cut_short;
         report.bad_cells = refined.n_bad;
         if report.inserted == 0 {
+            self.forget_weights();
             return Ok(report);
         }
         let mut changes = SegmentChanges::default();
@@ -196,6 +195,13 @@ impl MovingTriangulation<Plane> {
         self.made.as_ref().and_then(|made| made.origin(segment)).map_or(segment, |origin| origin.segment)
     }
 
+    /// The last refinement has inserted nothing.
+    fn forget_weights(&mut self) {
+        if let Some(made) = &mut self.made {
+            made.set_weights(Vec::new(), 0);
+        }
+    }
+
     /// Where a segment that is in force comes from.
     fn origin_of(&self, segment: SegmentId) -> Origin {
         let found = self.made.as_ref().and_then(|made| made.origin(segment));
@@ -233,7 +239,13 @@ impl MovingTriangulation<Plane> {
         }
         check_all("greatest_area", &[quality.greatest_area], |x| x >= 0.0, "0 or more")?;
         check_all("areas", quality.areas, |x| x >= 0.0, "0 or more")?;
-        check_all("sizes", quality.sizes.unwrap_or_default(), |x| x > 0.0, "above 0")
+        let mut sizes = quality.sizes.unwrap_or_default().iter().enumerate();
+        let is_bad = |&(v, &size): &(usize, &f64)| {
+            (size.is_nan() || size <= 0.0) && self.mesh.is_present(VertexId::new(v as u32))
+        };
+        sizes.find(is_bad).map_or(Ok(()), |(index, &value)| {
+            Err(Error::InvalidValue { argument: "sizes", index, value, wanted: "above 0" })
+        })
     }
 
     /// Copies what refinement reads, but for the cells themselves, and checks that those selected end at segments.
