@@ -323,7 +323,8 @@ fn random_domains_are_refined() {
             ..Quality::default()
         };
         let keeps = *rng.pick(&[Kept::None, Kept::None, Kept::Outer, Kept::All]);
-        let options = RefineOptions { keeps, limit: if rng.one_in(4) { rng.below(60) } else { 100_000 } };
+        let limit = if rng.one_in(4) { rng.below(60) } else { 100_000 };
+        let options = RefineOptions { keeps, limit, has_weights: rng.one_in(2) };
         let before: BTreeSet<Vec<VertexId>> = cells_of(&t, &selected, 0);
         let ends: BTreeSet<SegmentId> = t.segments().map(|(id, _)| id).collect();
         let mut twin = t.try_clone(None).expect("room");

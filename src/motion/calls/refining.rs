@@ -183,13 +183,6 @@ impl MovingTriangulation<Plane> {
         Ok(report)
     }
 
-    /// The vertices that [`refine`](Self::refine) has added and that are there, ascending, each with the segment that it
-    /// was put on, [`SegmentId::NONE`] if there is none. Neither this nor where pieces come from is saved in files.
-    pub fn made_vertices(&self) -> impl Iterator<Item = (VertexId, SegmentId)> {
-        let all = self.made.iter().flat_map(|made| made.vertices());
-        all.copied().filter(|&(v, _)| self.mesh.is_present(v))
-    }
-
     /// The segment of which refinement has made this one a piece; the segment itself if it has not.
     pub fn original_segment(&self, segment: SegmentId) -> SegmentId {
         self.made.as_ref().and_then(|made| made.origin(segment)).map_or(segment, |origin| origin.segment)

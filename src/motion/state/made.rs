@@ -33,6 +33,19 @@ impl Made {
         &self.vertices
     }
 
+    /// The pieces, ascending, with where they come from.
+    pub(in crate::motion) fn pieces(&self) -> &[(SegmentId, Origin)] {
+        &self.pieces
+    }
+
+    /// Those of saved lists, each ascending.
+    pub(in crate::motion) fn of_lists(
+        vertices: Vec<(VertexId, SegmentId)>,
+        pieces: Vec<(SegmentId, Origin)>,
+    ) -> Self {
+        Made { vertices, pieces, ..Made::default() }
+    }
+
     /// Where a segment comes from, if it is a piece.
     pub(in crate::motion) fn origin(&self, piece: SegmentId) -> Option<Origin> {
         let at = self.pieces.binary_search_by_key(&piece, |&(piece, _)| piece).ok()?;
