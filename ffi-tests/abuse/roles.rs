@@ -35,6 +35,7 @@ pub enum Role {
     Hint,
     Options,
     ResearchOptions,
+    Quality,
     Data,
     Path,
     Fields,
@@ -73,7 +74,7 @@ pub enum Role {
 
 /// From its type and its name.
 pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
-    let is_commit = function.name.starts_with("deldrift_commit");
+    let is_commit = function.name.starts_with("deldrift_commit") || function.has("quality");
     match (parameter.c_type.as_str(), parameter.name.as_str()) {
         ("deldrift_triangulation *" | "const deldrift_triangulation *", "t") => Role::Handle,
         ("deldrift_released_cells *", "owner") => Role::Owner,
@@ -99,6 +100,7 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("const deldrift_location *", "hint") => Role::Hint,
         ("const deldrift_options *" | "deldrift_options *", "options") => Role::Options,
         ("const deldrift_research_options *", "options") => Role::ResearchOptions,
+        ("const deldrift_quality *", _) => Role::Quality,
         ("const void *", "data") => Role::Data,
         ("const char *", "path") => Role::Path,
         ("const deldrift_field *", _) => Role::Fields,

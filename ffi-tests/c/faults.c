@@ -197,6 +197,8 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     double position[3];
     deldrift_commit_report report;
     deldrift_released_cells *const owner = released_cells(s.t);
+    scene refined = make_scene(2, (call){COARSEN, DELDRIFT_AUTO, 0}, &SETTINGS[0]);
+    size_t n_made, n_segments, n_weights;
     count_requests(0, ALL_LATER);
     deldrift_free_cells(owner);
     deldrift_options options;
@@ -223,6 +225,11 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
         OK(deldrift_segment_conflicts(s.t, NULL, 0, &count));
         OK(deldrift_passings(s.t, NULL, NULL, 0, &count));
     }
+    OK(deldrift_made_vertices(refined.t, ids_out, more_out, ROOM, &n_made));
+    OK(deldrift_original_segments(refined.t, ids_out, ROOM, &n_segments));
+    OK(deldrift_refined_weights(refined.t, ids_out, numbers_out, ROOM / 3, &n_weights));
+    deldrift_quality quality;
+    OK(deldrift_quality_init(&quality));
     OK(deldrift_validate(s.t, 3));
     int32_t sign;
     static const double flat[15] = {0, 0, 0, 1, 1e-300, 0, 0, 1, 0, 1, 1, 1e-300, 1, 1e-300, 1};
@@ -235,6 +242,8 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     deldrift_destroy(s.t);
     stop_counting();
     CHECK(n_requests == 0 && n_written == 0);
+    CHECK(n_made > 0 && n_segments > 3 && n_weights == n_made);
+    end_scene(&refined);
     s.t = NULL;
     end_scene(&s);
 }

@@ -57,7 +57,7 @@ typedef enum { CREATE, RELOCATE, INSERT, REMOVE, MOVE, MOVE_SOME, MOVE_ALL, STAG
     VORONOI_VOLUMES, VORONOI_FACETS, INTERPOLATE, INTERPOLATE_NATURAL,
     NEAREST_VERTICES, VERTICES_IN_BALL, VERTICES_IN_BOX, CONFLICTS, FIND_SIMPLICES, FIND_SIMPLICES_ALL,
     CELL_OF_EACH_VERTEX, BARYCENTRIC, MASK_WITHOUT_FLAT_CELLS, SEGMENTS_OF_CELLS, CELLS_OF_SEGMENTS, NESTING_LEVELS,
-    LABEL_CELLS, BOUNDARY_CHAINS, RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT, N_KINDS } kind;
+    LABEL_CELLS, BOUNDARY_CHAINS, REFINE, COARSEN, RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
     "deldrift_create", "deldrift_relocate_vertex", "deldrift_insert_vertex", "deldrift_remove_vertex",
@@ -79,6 +79,7 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_find_simplices", "deldrift_find_simplices, all", "deldrift_cell_of_each_vertex", "deldrift_barycentric",
     "deldrift_mask_without_flat_cells", "deldrift_segments_of_cells", "deldrift_cells_of_segments",
     "deldrift_nesting_levels", "deldrift_label_cells", "deldrift_boundary_chains",
+    "deldrift_refine", "deldrift_coarsen",
     "deldrift_release_cells", "deldrift_clone", "deldrift_save", "deldrift_load", "deldrift_save_file",
     "deldrift_load_file", "deldrift_write_vtu", "deldrift_write_medit",
 };
@@ -99,7 +100,7 @@ static bool is_commit(kind k) {
 static bool is_of_plane(kind k) {
     return k == ORDERED_STAR || k == CHECK_PASSINGS || k == STAGE_SEGMENTS || k == STAGE_SEGMENT_REMOVALS ||
            k == STAGE_SPLITS ||
-           (SEGMENTS_OF_CELLS <= k && k <= BOUNDARY_CHAINS);
+           (SEGMENTS_OF_CELLS <= k && k <= COARSEN);
 }
 
 typedef struct {
@@ -114,6 +115,8 @@ typedef struct {
     // Pairs of vertices of which no two cross; how many are segments, or staged.
     uint32_t pairs[MOST_PAIRS][2];
     size_t n_pairs;
+    // Of the cell that is refined.
+    double area;
 } scene;
 
 // Room for what calls give, made before.
@@ -231,6 +234,33 @@ static void stage_pairs(scene *s, size_t first, size_t count) {
     CHECK(segment == first);
 }
 
+// Lays segments at the edges of the largest cell of which no corner goes before the call, and refines it a little.
+static void lay_domain(scene *s) {
+    const deldrift_cells_view view = cells_of(s->t);
+    uint32_t ends[6], segment;
+    for (size_t c = 0; c < view.count; c++) {
+        const uint32_t *row = view.vertices + 3 * c;
+        bool stays = true;
+        for (int i = 0; i < 3; i++) stays = stays && (row[i] < 7 || row[i] > 9);
+        const double area = side_of(s->points + 2 * row[0], s->points + 2 * row[1], s->points + 2 * row[2]) / 2;
+        if (!stays || area <= s->area) continue;
+        s->area = area;
+        for (int i = 0; i < 6; i++) ends[i] = row[(i + 1) / 2 % 3];
+    }
+    if (s->area == 0) return;
+    OK(deldrift_stage_segments(s->t, ends, NULL, 3, &segment));
+    OK(deldrift_commit_timestamp(s->t, NULL));
+    deldrift_quality quality;
+    deldrift_quality_report report;
+    OK(deldrift_quality_init(&quality));
+    quality.greatest_area = s->area / 4;
+    quality.limit = 8;
+    quality.has_weights = 1;
+    OK(deldrift_refine(s->t, &quality, NULL, 0, &report));
+    CHECK(report.inserted > 0);
+    OK(deldrift_copy_positions(s->t, s->points, s->n + report.inserted, &s->n));
+}
+
 // The same each time.
 static scene make_scene(uint32_t dimension, call call, const setting *setting) {
     scene s = {.dimension = dimension, .call = call, .setting = setting, .n = setting->n};
@@ -258,6 +288,7 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
         stage_pairs(&s, 0, n_laid);
         OK(deldrift_commit_timestamp(s.t, NULL));
     }
+    if (call.kind == REFINE || call.kind == COARSEN) lay_domain(&s);
     if (setting->takes) CHECK(take(&s) == NULL);
     if (setting->edits) {
         OK(deldrift_insert_vertex(s.t, s.points + s.n++ * d, &v));
@@ -370,6 +401,12 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     const deldrift_field field = {"field", numbers_out, 1};
     deldrift_cells_view released = {77, 0, NULL, NULL};
     deldrift_released_cells *owner = NULL;
+    deldrift_quality quality;
+    deldrift_quality_report improved = {.inserted = 77};
+    OK(deldrift_quality_init(&quality));
+    // Without a criterion all goes that has been made.
+    if (s->call.kind == REFINE) quality.greatest_area = s->area / 40;
+    quality.has_weights = 1;
     const char *file = file_of_test();
     int32_t *const labels = (int32_t *)(void *)ids_out;
     static uint32_t segments_out[ROOM], chains_out[ROOM];
@@ -464,6 +501,8 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             status = deldrift_boundary_chains(s->t, mask, n_cells, ids_out, more_out, segments_out, chains_out, bytes_out,
                                               ROOM, &count);
             break;
+        case REFINE: status = deldrift_refine(s->t, &quality, NULL, 0, &improved); break;
+        case COARSEN: status = deldrift_coarsen(s->t, &quality, NULL, 0, &improved); break;
         case RELEASE_CELLS: status = deldrift_release_cells(s->t, &released, &owner); break;
         case CLONE: status = deldrift_clone(s->t, &made); break;
         case SAVE: status = deldrift_save(s->t, bytes_out, sizeof bytes_out, &count); break;
@@ -500,6 +539,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     if (status != DELDRIFT_OK) {
         bool untouched = made == none && report.timestamp == 77 && out == 77 && ids_out[0] == 77 && more_out[0] == 77;
         if (owner != NULL || released.count != 77) *wrong = "an owner is given";
+        untouched = untouched && improved.inserted == 77;
         if (!untouched || bytes_out[0] != 77 || numbers_out[0] != 77 || count != 0) *wrong = "an output is written";
         return status;
     }
@@ -587,6 +627,11 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             for (size_t i = 0; i < count; i++) *given += ids_out[i];
             break;
         case BOUNDARY_CHAINS: *given = digest_of(ids_out, count * sizeof *ids_out); break;
+        case REFINE:
+        case COARSEN:
+            if (s->area > 0 && improved.inserted + improved.removed == 0) *wrong = "nothing is done";
+            *given = digest_of(&improved, sizeof improved);
+            break;
         case UPDATE_MASK: count = n_cells; // fall through
         case MASK_WITHOUT_FLAT_CELLS:
         case MASK_BY_CIRCUMRADIUS:

@@ -68,4 +68,4 @@ pub(crate) use criteria::{Criteria, Tests};
 pub(crate) use given::Given;
 pub(crate) use parts::NONE;
 pub use refining::Kept;
-pub(crate) use refining::{Origins, refine};
+pub(crate) use refining::{Origins, Refined, refine};

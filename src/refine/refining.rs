@@ -58,6 +58,9 @@ pub(crate) struct Refined {
 const SHELL: f64 = 0.001;
 const MOVED_SHELL: f64 = 0.2;
 
+/// Vertices that are added between two questions whether to go on: each takes some ten cells.
+const ADDED_BETWEEN: usize = 1000;
+
 pub(super) struct Refinement<'a> {
     pub(super) mesh: Mesh<'a>,
     tests: Tests<'a>,
@@ -85,6 +88,7 @@ pub(crate) fn refine(
     tests: Tests,
     origins: Origins,
     (kept, limit): (Kept, usize),
+    ask: &mut dyn FnMut() -> Result<()>,
 ) -> Result<Refined> {
     let mut on = Vec::new();
     let n_given = points.len();
@@ -109,14 +113,19 @@ pub(crate) fn refine(
         let t = refinement.mesh.copy(cell)?;
         refinement.examine(t)?;
     }
-    let is_cut_short = refinement.go_on(limit)?;
+    let is_cut_short = refinement.go_on(limit, ask)?;
     refinement.tell(given, is_cut_short)
 }
 
 impl Refinement<'_> {
     /// Adds vertices; whether there would be more than the limit.
-    fn go_on(&mut self, limit: usize) -> Result<bool> {
+    fn go_on(&mut self, limit: usize, ask: &mut dyn FnMut() -> Result<()>) -> Result<bool> {
+        let mut n_asked = 0;
         loop {
+            if self.n_added >= n_asked {
+                n_asked = self.n_added + ADDED_BETWEEN;
+                ask()?;
+            }
             let mut k = 0;
             while k < self.encroached.len() {
                 if self.n_added >= limit {

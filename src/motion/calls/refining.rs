@@ -18,7 +18,7 @@ use crate::motion::state::made::Origin;
 use crate::motion::state::mesh::Standing;
 use crate::motion::state::segments::Segment;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::refine::{self, Candidate, Criteria, NONE, Origins, Room, Tests};
+use crate::refine::{self, Candidate, Criteria, NONE, Origins, Refined, Room, Tests};
 use checks::check_coarsening;
 use reading::Read;
 use staging::SegmentChanges;
@@ -62,26 +62,25 @@ impl MovingTriangulation<Plane> {
         self.check_quality(quality, mask)?;
         let mut read = self.read_vertices()?;
         let areas = none_where_zero(quality.areas)?;
-        if let Some(made) = &mut self.made {
-            made.set_weights(Vec::new(), 0);
-        }
         let tests = Tests::new(criteria(quality, &areas), read.extent());
         self.read_cells(&mut read, &tests, mask, quality.labels, false)?;
         let mut report = QualityReport { bad_cells: read.bad.len(), ..Default::default() };
         if report.bad_cells == 0 || tests.are_none() {
+            self.forget_weights();
             return Ok(report);
         }
-        let points = std::mem::take(&mut read.points);
-        let given = read.given(self.cells()?, mask, quality.labels);
-        let origins = self.origins(&read)?;
-        let refined =
-            refine::refine(given, points, &read.bad, tests, origins, (options.keeps, options.limit))?;
+        let mut pace = std::mem::take(self.mesh.kernel.pace_mut());
+        pace.begin();
+        let refined = self.find_refined((&mut read, mask, quality), tests, options, &mut || pace.ask_again());
+        *self.mesh.kernel.pace_mut() = pace;
+        let refined = refined?;
         report.inserted = refined.vertices.len();
         report.on_segments = refined.vertices.iter().filter(|(_, segment)| *segment != NONE).count();
         report.unsplit = refined.n_unsplit;
         report.is_cut_short = refined.is_cut_short;
         report.bad_cells = refined.n_bad;
         if report.inserted == 0 {
+            self.forget_weights();
             return Ok(report);
         }
         let mut changes = SegmentChanges::default();
@@ -109,6 +108,20 @@ impl MovingTriangulation<Plane> {
         let timestamp = self.timestamp();
         self.made.as_mut().expect("it has been made").set_weights(weights, timestamp);
         Ok(report)
+    }
+
+    /// Finds what is to be inserted. `ask` is called now and then, and ends it by an error.
+    fn find_refined(
+        &self,
+        (read, mask, quality): (&mut Read, &[u8], &Quality),
+        tests: Tests,
+        options: &RefineOptions,
+        ask: &mut dyn FnMut() -> Result<()>,
+    ) -> Result<Refined> {
+        let points = std::mem::take(&mut read.points);
+        let given = read.given(self.cells()?, mask, quality.labels);
+        let origins = self.origins(read)?;
+        refine::refine(given, points, &read.bad, tests, origins, (options.keeps, options.limit), ask)
     }
 
     /// Removes vertices that [`refine`](Self::refine) has added and that are not needed any more: those around which the
@@ -180,6 +193,13 @@ impl MovingTriangulation<Plane> {
     /// if they have not. From the commit on that makes the piece.
     pub fn original_segment(&self, segment: SegmentId) -> SegmentId {
         self.made.as_ref().and_then(|made| made.origin(segment)).map_or(segment, |origin| origin.segment)
+    }
+
+    /// The last refinement has inserted nothing.
+    fn forget_weights(&mut self) {
+        if let Some(made) = &mut self.made {
+            made.set_weights(Vec::new(), 0);
+        }
     }
 
     /// Where a segment that is in force comes from.

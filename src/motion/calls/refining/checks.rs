@@ -2,6 +2,7 @@
 
 use crate::delaunay::Plane;
 use crate::error::{Error, Result};
+use crate::ids::VertexId;
 use crate::motion::options::{CoarsenOptions, MAX_LEAST_ANGLE, Quality};
 use crate::motion::triangulation::MovingTriangulation;
 
@@ -32,7 +33,13 @@ impl MovingTriangulation<Plane> {
         }
         check_all("greatest_area", &[quality.greatest_area], |x| x >= 0.0, "0 or more")?;
         check_all("areas", quality.areas, |x| x >= 0.0, "0 or more")?;
-        check_all("sizes", quality.sizes.unwrap_or_default(), |x| x > 0.0, "above 0")
+        let mut sizes = quality.sizes.unwrap_or_default().iter().enumerate();
+        let is_bad = |&(v, &size): &(usize, &f64)| {
+            (size.is_nan() || size <= 0.0) && self.mesh.is_present(VertexId::new(v as u32))
+        };
+        sizes.find(is_bad).map_or(Ok(()), |(index, &value)| {
+            Err(Error::InvalidValue { argument: "sizes", index, value, wanted: "above 0" })
+        })
     }
 }
 
