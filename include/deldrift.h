@@ -187,6 +187,8 @@ enum
     DELDRIFT_ENDS_MEET = 33,
     /// A seed is on the boundary of several regions.
     DELDRIFT_AMBIGUOUS_SEED = 34,
+    /// A vertex would pass a segment; deldrift_passings tells all that would.
+    DELDRIFT_PASSES_SEGMENT = 35,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -344,6 +346,27 @@ typedef uint32_t deldrift_kept;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+/// What happens when a vertex would pass a segment: deldrift_check_passings says what that is.
+enum
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  deldrift_passing : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /// Nothing: it is not looked for, except by deldrift_check_passings.
+    DELDRIFT_PASSING_IGNORE = 0,
+    /// The call goes on, and deldrift_passings then tells which vertices have passed which segments.
+    DELDRIFT_PASSING_TELL = 1,
+    /// The call fails with DELDRIFT_PASSES_SEGMENT and has no effect; deldrift_passings then tells all of them.
+    DELDRIFT_PASSING_REFUSE = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum deldrift_passing deldrift_passing;
+#else
+typedef uint32_t deldrift_passing;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
 /// Arrays of cells that a program has taken over: opaque, made by deldrift_release_cells, unmade by
 /// deldrift_free_cells.
 typedef struct deldrift_released_cells deldrift_released_cells;
@@ -382,8 +405,9 @@ typedef struct deldrift_options {
     uint32_t threads;
     /// Default DELDRIFT_COINCIDENCE_MERGE.
     deldrift_coincidence coincidence;
-    /// Zero; later versions may have an option here.
-    uint32_t reserved;
+    /// What commits, deldrift_check_staged and deldrift_relocate_vertex do when a vertex would pass a segment. Default
+    /// DELDRIFT_PASSING_IGNORE.
+    deldrift_passing passing;
     /// Called now and then during long calls: at least once for some ten thousand cells that are made, or looked at
     /// around single vertices. Passes over all vertices or cells, each of which takes a part of a build, are not
     /// interrupted. When it returns true, the call ends in DELDRIFT_CANCELLED and has had no effect. NULL, the default,
@@ -804,7 +828,8 @@ deldrift_status deldrift_discard_moves(deldrift_triangulation *t);
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_COINCIDENT (if the options
 /// reject it), DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT, DELDRIFT_END_REMOVED, DELDRIFT_ENDS_MEET (see
-/// deldrift_segment_conflicts), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation
+/// deldrift_segment_conflicts), DELDRIFT_PASSES_SEGMENT (if the options refuse it; looked at before all that segments
+/// are refused for else), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation
 /// stays at its timestamp, and what is staged stays so. Not to be called at the same time as any other call
 /// on t.
 deldrift_status deldrift_commit_timestamp(deldrift_triangulation *t,
@@ -842,8 +867,8 @@ deldrift_status deldrift_commit_positions(deldrift_triangulation *t,
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
 /// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_DUPLICATE_MOVE if a move of
 /// this vertex is staged, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it),
-/// DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT, DELDRIFT_ENDS_MEET, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY,
-/// DELDRIFT_CANCELLED. Not to be called at the same time as any other call on t.
+/// DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT, DELDRIFT_ENDS_MEET, DELDRIFT_PASSES_SEGMENT (if the options refuse it),
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other call on t.
 deldrift_status deldrift_relocate_vertex(deldrift_triangulation *t,
                                          uint32_t vertex,
                                          const double *position);
@@ -916,7 +941,7 @@ deldrift_status deldrift_compact(deldrift_triangulation *t,
 /// it goes to the one that represents them. Nothing is looked at before the commit, which is refused, as is
 /// deldrift_check_staged, where segments cross, a vertex is on one, an end is removed, or both ends are at the same place:
 /// see deldrift_segment_conflicts. Only the positions that it leads to count: a vertex may have gone from one side of a
-/// segment to the other. Segments that are in force are kept by calls that change one vertex at once, too, which are
+/// segment to the other, unless the options refuse that: see deldrift_check_passings. Segments that are in force are kept by calls that change one vertex at once, too, which are
 /// refused for the same reasons. deldrift_discard_moves forgets what is staged of segments, too, and the ids of staged
 /// ones are given again. deldrift_staged_count does not count segments.
 ///
@@ -977,7 +1002,7 @@ deldrift_status deldrift_segments(const deldrift_triangulation *t,
 ///
 /// Errors: those of deldrift_commit_timestamp: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_CROSSING,
 /// DELDRIFT_ON_SEGMENT, DELDRIFT_END_REMOVED and DELDRIFT_ENDS_MEET for conflicts, of which the first is told,
-/// DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not
+/// DELDRIFT_PASSES_SEGMENT (if the options refuse it; then conflicts have not been looked for), DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not
 /// to be called at the same time as any other call on t.
 deldrift_status deldrift_check_staged(deldrift_triangulation *t);
 
@@ -999,6 +1024,56 @@ deldrift_status deldrift_segment_conflicts(const deldrift_triangulation *t,
                                            deldrift_conflict *conflicts,
                                            size_t capacity,
                                            size_t *count);
+
+/// Whether vertices would pass segments in a commit of what is staged, whatever the options say of it. Commits nothing, and
+/// what is staged stays so. deldrift_passings then tells all that would. A program that asks before each commit knows
+/// which values to take over from the other side, or cuts its step; with an option, commits ask by themselves.
+///
+/// A commit compares positions at two timestamps, and accepts a vertex that has jumped across a segment, or a whole loop of
+/// segments that has jumped across a vertex. What has happened in between is defined so: each vertex goes straight from its
+/// old place to its new one, at constant speed, and so do both ends of each segment that is in force before and after. A
+/// vertex passes a segment, of which it is no end, if it goes through it and is not back on its side when the step ends:
+/// at f(s, t) = p(t) - a(t) - s (b(t) - a(t)) = 0, for s and t from 0 to 1, vertex p is on the segment from a to b, and it
+/// passes if the number of zeros, each counted as 1 or -1 by the direction, is not 0. That is the number of times that the
+/// quadrilateral p0 - a0, p0 - b0, p1 - b1, p1 - a1 winds around the origin. It also passes if the origin is on the
+/// quadrilateral: then it goes exactly through an end on its way, or stops on the segment. All of this is exact, at all
+/// positions.
+///
+/// Not told are: a vertex that goes through a segment and back in one step, as the end of the step is legal; one that is at
+/// the place of an end of the segment before or after, as it is on no side there; vertices that are inserted or removed by
+/// the commit, which do not move; and segments that are staged, or whose removal is, with their vertices. Ends of segments
+/// are vertices as others, so that two segments that go through each other are told by their ends, and so are hidden
+/// vertices, which move with those that represent them, or part from them. A vertex that goes around the end of a slit is
+/// told if it goes through the slit on its straight way: what passes is a matter of the step, not of the region that a
+/// vertex is in. One that enters a loop through one segment and leaves it through another is told for both.
+///
+/// Cost: where many vertices move, a pass over them, and for each near segments at any time of the step the test; less than
+/// a commit of small moves. Where some move, and no ends of segments, that of looking at them and the segments.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_PASSES_SEGMENT if
+/// a vertex would pass a segment, of which the message names the first, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same
+/// time as any other call on t.
+deldrift_status deldrift_check_passings(deldrift_triangulation *t);
+
+/// The vertices that pass segments in the step that was looked at last, by deldrift_check_passings, or by the latest
+/// commit, deldrift_check_staged or deldrift_relocate_vertex: in ascending order of segment and vertex. With
+/// DELDRIFT_PASSING_TELL those that have passed in the latest commit, with DELDRIFT_PASSING_REFUSE those for which it was
+/// refused; with DELDRIFT_PASSING_IGNORE a commit leaves none. Staging, discarding and questions keep them, and so do calls
+/// that insert or remove a vertex at once.
+///
+/// segments: a buffer with room for capacity ids; vertices: for capacity ids; entry k says that vertices[k] passes
+/// segments[k]. One that is NULL is not filled. count: receives their number, which is also written when the buffers are
+/// too small. NULL for both with capacity 0 asks for the count alone.
+///
+/// Cost: their number.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL.
+deldrift_status deldrift_passings(const deldrift_triangulation *t,
+                                  uint32_t *segments,
+                                  uint32_t *vertices,
+                                  size_t capacity,
+                                  size_t *count);
 
 /// Splits segments, staged ones and those in force, for which a commit of what is staged would be refused: to be called
 /// before the commit. A segment with a vertex on it is replaced by pieces between its ends and such vertices, and two that
@@ -1720,7 +1795,10 @@ deldrift_status deldrift_refine(deldrift_triangulation *t,
 /// Cost: that of deldrift_refine where all is good, and for each vertex that deldrift_refine has inserted at most that of
 /// looking at the cells around it.
 ///
-/// Errors: those of deldrift_refine. Not to be called at the same time as any other call on t.
+/// Errors: those of deldrift_refine but for keeps: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT,
+/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS for struct_size, DELDRIFT_WRONG_COUNT,
+/// DELDRIFT_INVALID_VALUE, DELDRIFT_STAGED_VERTEX, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED,
+/// DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING. Not to be called at the same time as any other call on t.
 deldrift_status deldrift_coarsen(deldrift_triangulation *t,
                                  const deldrift_quality *quality,
                                  const uint8_t *mask,

@@ -37,7 +37,7 @@ const TURNING: [f64; 2] = [0.2, 0.3];
 impl Motion {
     /// Where a place goes in a step, if it moves.
     fn goal(self, [x, y]: [f64; 2], step: usize, spacing: f64) -> Option<[f64; 2]> {
-        let sign = if step / N_FORTH % 2 == 0 { 1.0 } else { -1.0 };
+        let sign = if (step / N_FORTH).is_multiple_of(2) { 1.0 } else { -1.0 };
         match self {
             Motion::Squeeze(share) => {
                 // The mean of |x| is a half.

@@ -7,7 +7,8 @@ use super::roles::{Role, is_of_bytes, role};
 use super::rows::{ROWS, Row};
 
 /// Functions for triangulations of the plane alone.
-const OF_PLANE: [&str; 18] = [
+const OF_PLANE: [&str; 19] = [
+    "deldrift_update_labels",
     "deldrift_ordered_star",
     "deldrift_stage_segments",
     "deldrift_stage_segment_removals",

@@ -124,6 +124,7 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("size_t", "capacity") => Role::Capacity,
         ("size_t", "limit") => Role::Limit,
         ("deldrift_split_report *", "report") => Role::OutputIfAny,
+        ("size_t *", "undecided") => Role::Output,
         (c_type, "report") if is_commit && c_type.ends_with('*') => Role::OutputIfAny,
         (c_type, name) if c_type.ends_with('*') && !c_type.starts_with("const") => {
             if function.has("capacity") && name != "count" { Role::Buffer } else { Role::Output }

@@ -49,7 +49,7 @@ pub const ROWS: &[Row] = &[
     row("deldrift_stage_splits", &["t", "9", "&out.split"]),
     row("deldrift_segment_conflicts", &["t", "out.conflicts", "8", "&out.count"]),
     // What is staged for others passes a segment.
-    Row { function: "deldrift_check_passings", arguments: &["t"], is_staged: false },
+    Row { function: "deldrift_check_passings", arguments: &["t"], base: "WITHOUT_EDITS" },
     row("deldrift_passings", &["t", "out.ids", "out.more_ids", "8", "&out.count"]),
     row("deldrift_take_changes", &["t", "&out.changes"]),
     row("deldrift_vertex_count", &["t", "&out.count"]),
@@ -93,6 +93,7 @@ pub const ROWS: &[Row] = &[
     row("deldrift_cells_of_segments", &["t", "out.ids", "N_SEGMENTS", "&out.count"]),
     row("deldrift_nesting_levels", &["t", "out.ids", "n_cells", "&out.count"]),
     row("deldrift_label_cells", &["t", "inside", "wholes", "3", "-1", "out.labels", "n_cells", "&out.count"]),
+    row("deldrift_update_labels", &["t", "ids", "3", "-1", "out.labels", "n_cells", "&out.count"]),
     row(
         "deldrift_boundary_chains",
         &[

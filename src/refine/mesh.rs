@@ -145,9 +145,9 @@ impl<'a> Mesh<'a> {
             across[i] = Side::new(beyond, j);
             self.triangles[beyond as usize].across[j] = Side::new(t, i);
         }
-        for i in 0..3 {
-            if pieces[i] != NONE {
-                self.pieces[pieces[i] as usize].side = Side::new(t, i);
+        for (i, &piece) in pieces.iter().enumerate() {
+            if piece != NONE {
+                self.pieces[piece as usize].side = Side::new(t, i);
             }
         }
         self.copies[cell as usize] = t;

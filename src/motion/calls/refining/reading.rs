@@ -141,9 +141,9 @@ impl MovingTriangulation<Plane> {
         for (v, standing) in self.mesh.standings() {
             let (Standing::Shown(s) | Standing::Hidden(s)) = standing else { continue };
             let p = self.mesh.kernel.site(s).point;
-            for axis in 0..2 {
-                read.lower[axis] = read.lower[axis].min(p[axis]);
-                read.upper[axis] = read.upper[axis].max(p[axis]);
+            for (axis, x) in p.into_iter().enumerate() {
+                read.lower[axis] = read.lower[axis].min(x);
+                read.upper[axis] = read.upper[axis].max(x);
             }
             read.points[v] = p;
         }
