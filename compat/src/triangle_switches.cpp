@@ -2,13 +2,13 @@
 
 #include <cctype>
 #include <cstring>
+#include <utility>
 
 namespace compat {
 
 // What neither adds to nor takes from the results here: messages (Q, V, C, h, H), files (I, g), the choice of the
-// algorithm (i, F, l), exact arithmetic (X), how segments are inserted (s), limits to the points that refinement adds
-// (Y, S), and what is done with holes and regions (O, A), of which there are none.
-static constexpr char without_effect[] = "QVChHIgiFlXsYSOA";
+// algorithm (i, F, l), exact arithmetic (X), and limits to the points that refinement adds (Y, S).
+static constexpr char without_effect[] = "QVChHIgiFlXYS";
 
 // Digits, dashes, braces and spaces are passed over by the original as well.
 static bool is_without_effect(char which) {
@@ -24,6 +24,9 @@ TriangleSwitches::TriangleSwitches(const char *switches) {
         case 'v': voronoi = true; break;
         case 'p': planar_graph = true; break;
         case 'c': convex = true; break;
+        case 'A': regions = true; break;
+        case 'O': holes = false; break;
+        case 's': conforming = true; break;
         case 'j': jettison = true; break;
         case 'B': markers = false; break;
         case 'N': points = false; break;
@@ -36,16 +39,15 @@ TriangleSwitches::TriangleSwitches(const char *switches) {
 }
 
 const char *TriangleSwitches::unserved_input(const triangulateio &in) const {
-    if (!planar_graph) return nullptr;
-    if (in.numberofsegments > 0) return "switch p with segments";
-    if (in.numberofholes > 0) return "switch p with holes";
-    if (in.numberofregions > 0) return "switch p with regions";
-    return nullptr;
+    return planar_graph && conforming && in.numberofsegments > 0 ? "switch s with segments" : nullptr;
 }
 
 std::string TriangleSwitches::for_cells() const {
-    const char *graph = !planar_graph ? "" : convex ? "pc" : "p";
-    return std::string("Qzn") + graph + (edges ? "e" : "") + (voronoi ? "v" : "");
+    std::string result = "Qzn";
+    for (const auto &[is_given, which] : {std::pair{planar_graph, 'p'}, {convex, 'c'}, {regions, 'A'}, {!holes, 'O'},
+                                          {edges, 'e'}, {voronoi, 'v'}})
+        if (is_given) result += which;
+    return result;
 }
 
 } // namespace compat

@@ -14,6 +14,9 @@ struct TriangleSwitches {
     bool voronoi = false;      // v
     bool planar_graph = false; // p: the input has lists of segments, holes and regions
     bool convex = false;       // c: the edges of the hull are segments
+    bool regions = false;      // A: triangles have the attributes of regions
+    bool holes = true;         // not O
+    bool conforming = false;   // s: segments may be cut so that the triangulation stays Delaunay
     bool jettison = false;     // j: points that are in no triangle are left out
     bool markers = true;       // not B
     bool points = true;        // not N
@@ -26,12 +29,11 @@ struct TriangleSwitches {
     // What of the input deldrift does not serve, or null.
     const char *unserved_input(const triangulateio &in) const;
 
-    // Whether no triangle stays: Triangle takes away what no segment separates from the outside, and there are none.
-    bool carves_all() const { return planar_graph && !convex; }
-    bool lists_segments() const { return (planar_graph || convex) && segments; }
+    bool has_segments() const { return planar_graph || convex; }
+    bool lists_segments() const { return has_segments() && segments; }
 
     // For the original, to give cells that can be compared: from zero, with neighbours, quiet, and what else is
-    // computed. Without p, c changes no triangle.
+    // computed.
     std::string for_cells() const;
 };
 

@@ -85,7 +85,7 @@ void check_name_of_cxx(const Original &original, const Points &points) {
     std::free(result.pointlist);
 }
 
-// With p the lists of the input decide whether a call is passed on.
+// With p the lists of the input are served, but for s with segments.
 void check_lists_of_graph(const Original &original, const Points &points) {
     std::vector<int> segment{0, 1};
     std::vector<double> place{0.5, 0.5, 0, 0};
@@ -98,12 +98,16 @@ void check_lists_of_graph(const Original &original, const Points &points) {
                              &triangulateio::numberofregions}) {
         for (const int n : {0, 1}) {
             in.*count = n;
-            const int before = *original.calls;
-            char switches[] = "QpczNB";
-            triangulateio out{};
-            original.call_triangulate(switches, &in, &out, nullptr);
-            CHECK(*original.calls == before + n);
-            for (int *array : {out.trianglelist, out.neighborlist, out.segmentlist}) std::free(array);
+            for (const char *switches : {"QpczNB", "QpczNBA", "QpsczNB"}) {
+                const int before = *original.calls;
+                std::string text(switches);
+                triangulateio out{};
+                original.call_triangulate(text.data(), &in, &out, nullptr);
+                const bool is_passed_on = in.numberofsegments == 1 && text.find('s') != std::string::npos;
+                CHECK(*original.calls == before + is_passed_on);
+                for (int *array : {out.trianglelist, out.neighborlist, out.segmentlist}) std::free(array);
+                std::free(out.triangleattributelist);
+            }
         }
         in.*count = 0;
     }
