@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -161,20 +162,31 @@ std::string Graph::settle(deldrift_triangulation *t) {
     }
 }
 
-// The place where two pieces cross: between two neighbouring points of the one that comes first, and of the other.
+// Two pieces that cross, and how far along the later one that is.
 struct Graph::Crossing {
-    std::uint32_t earlier, later; // pieces
-    std::uint32_t start, end;     // the part of the earlier one
-    double along, along_later;    // 0 to 1
+    std::uint32_t earlier, later;
+    double along_later;
 };
 
 void Graph::resolve(const std::vector<deldrift_conflict> &conflicts) {
     is_plain_ = false;
     std::vector<std::vector<std::uint32_t>> on_pieces(count());
-    for (const deldrift_conflict &each : conflicts)
+    std::vector<Crossing> crossings;
+    for (const deldrift_conflict &each : conflicts) {
         if (each.kind == DELDRIFT_CONFLICT_ON_SEGMENT) on_pieces[each.segment].push_back(each.other);
+        if (each.kind != DELDRIFT_CONFLICT_CROSSING) continue;
+        const std::uint32_t earlier = std::min(each.segment, each.other), later = std::max(each.segment, each.other);
+        crossings.push_back({earlier, later, crossing_along(at(ends_[std::size_t{2} * later]),
+                                                            at(ends_[std::size_t{2} * later + 1]),
+                                                            at(ends_[std::size_t{2} * earlier]),
+                                                            at(ends_[std::size_t{2} * earlier + 1]))});
+    }
     for (std::size_t i = 0; i < count(); i++) sort_along(ends_[2 * i], ends_[2 * i + 1], on_pieces[i]);
-    std::vector<Crossing> crossings = crossings_of(conflicts, on_pieces);
+    // In the order in which the later pieces come upon them, as Triangle numbers them.
+    const auto before = [](const Crossing &a, const Crossing &b) {
+        return std::tie(a.later, a.along_later, a.earlier) < std::tie(b.later, b.along_later, b.earlier);
+    };
+    std::sort(crossings.begin(), crossings.end(), before);
     add_points(crossings, on_pieces);
     cut_chains(on_pieces);
     find_pieces();
@@ -189,45 +201,27 @@ int Graph::side(std::uint32_t start, std::uint32_t end, std::uint32_t point) con
     return sign;
 }
 
-// The first point on a piece, or its end, that is not strictly on the side of its start, as seen from another piece.
-std::size_t Graph::part_across(std::uint32_t piece, const std::vector<std::uint32_t> &on_piece,
+// The part of a piece that another one crosses, between neighbouring points on it.
+struct Graph::Part {
+    std::size_t index; // of its end among the points on the piece
+    std::uint32_t start, end;
+    bool is_crossed; // and not met at its end
+};
+
+Graph::Part Graph::part_across(std::uint32_t piece, const std::vector<std::uint32_t> &on_piece,
                                std::uint32_t across) const {
-    const std::uint32_t *line = &ends_[std::size_t{2} * across];
-    const int of_start = side(line[0], line[1], ends_[std::size_t{2} * piece]);
+    const std::uint32_t *ends = &ends_[std::size_t{2} * piece], *line = &ends_[std::size_t{2} * across];
+    const int of_start = side(line[0], line[1], ends[0]);
     const auto stays = [&](std::uint32_t point) { return side(line[0], line[1], point) == of_start; };
-    return static_cast<std::size_t>(std::partition_point(on_piece.begin(), on_piece.end(), stays) - on_piece.begin());
+    const auto found = std::partition_point(on_piece.begin(), on_piece.end(), stays);
+    const std::uint32_t start = found == on_piece.begin() ? ends[0] : found[-1];
+    const std::uint32_t end = found == on_piece.end() ? ends[1] : *found;
+    return {static_cast<std::size_t>(found - on_piece.begin()), start, end, side(line[0], line[1], end) != 0};
 }
 
-std::vector<Graph::Crossing> Graph::crossings_of(const std::vector<deldrift_conflict> &conflicts,
-                                                 const std::vector<std::vector<std::uint32_t>> &on_pieces) const {
-    // The ends of the part of a piece that another one crosses; false where it crosses at a point on it.
-    const auto part = [&](std::uint32_t piece, std::uint32_t across, std::uint32_t (&ends)[2]) {
-        const std::vector<std::uint32_t> &on_piece = on_pieces[piece];
-        const std::size_t i = part_across(piece, on_piece, across);
-        ends[0] = i == 0 ? ends_[std::size_t{2} * piece] : on_piece[i - 1];
-        ends[1] = i == on_piece.size() ? ends_[std::size_t{2} * piece + 1] : on_piece[i];
-        return side(ends_[std::size_t{2} * across], ends_[std::size_t{2} * across + 1], ends[1]) != 0;
-    };
-    std::vector<Crossing> crossings;
-    for (const deldrift_conflict &each : conflicts) {
-        if (each.kind != DELDRIFT_CONFLICT_CROSSING) continue;
-        const std::uint32_t earlier = std::min(each.segment, each.other), later = std::max(each.segment, each.other);
-        std::uint32_t a[2], b[2];
-        if (!part(earlier, later, a) || !part(later, earlier, b)) continue;
-        const double *whole[2] = {at(ends_[std::size_t{2} * later]), at(ends_[std::size_t{2} * later + 1])};
-        crossings.push_back({earlier, later, a[0], a[1], crossing_along(at(a[0]), at(a[1]), at(b[0]), at(b[1])),
-                             crossing_along(whole[0], whole[1], at(a[0]), at(a[1]))});
-    }
-    // In the order in which the later pieces come upon them, as Triangle numbers them.
-    const auto before = [](const Crossing &a, const Crossing &b) {
-        return std::pair(a.later, a.along_later) < std::pair(b.later, b.along_later);
-    };
-    std::sort(crossings.begin(), crossings.end(), before);
-    return crossings;
-}
-
-// Adds the crossings as points, unless there is one at the place already, to those on both pieces.
-void Graph::add_points(std::vector<Crossing> &crossings, std::vector<std::vector<std::uint32_t>> &on_pieces) {
+// Adds the crossings to the points on both pieces: as points of their own, unless there is one at the place already.
+// Where a piece is met at a point on it, this is on the other piece too.
+void Graph::add_points(const std::vector<Crossing> &crossings, std::vector<std::vector<std::uint32_t>> &on_pieces) {
     if (crossings.empty()) return;
     if (n_added_ == 0) {
         points_.assign(in_.pointlist, in_.pointlist + 2 * n_points_);
@@ -235,15 +229,19 @@ void Graph::add_points(std::vector<Crossing> &crossings, std::vector<std::vector
             attributes_.assign(in_.pointattributelist, in_.pointattributelist + n_attributes_ * n_points_);
     }
     std::unordered_map<Place, std::uint32_t, HashPlace> taken;
-    taken.reserve(n_points_ + n_added_ + crossings.size());
+    taken.reserve(n_points() + crossings.size());
     for (std::size_t i = 0; i < n_points_ + n_added_; i++)
         taken.emplace(Place{points_[2 * i], points_[2 * i + 1]}, static_cast<std::uint32_t>(i));
-    std::vector<std::uint32_t> cut;
     for (const Crossing &each : crossings) {
-        const auto between = [&](double start, double end) { return start + each.along * (end - start); };
-        const std::size_t start = each.start, end = each.end;
-        const Place place{between(points_[2 * start], points_[2 * end]),
-                          between(points_[2 * start + 1], points_[2 * end + 1])};
+        const Part earlier = part_across(each.earlier, on_pieces[each.earlier], each.later);
+        const Part later = part_across(each.later, on_pieces[each.later], each.earlier);
+        if (!earlier.is_crossed || !later.is_crossed) continue;
+        const std::size_t start = earlier.start, end = earlier.end;
+        const double *from = &points_[2 * start], *to = &points_[2 * end];
+        const double along = crossing_along(from, to, &points_[std::size_t{2} * later.start],
+                                            &points_[std::size_t{2} * later.end]);
+        const auto between = [along](double first, double last) { return first + along * (last - first); };
+        const Place place{between(from[0], to[0]), between(from[1], to[1])};
         const auto [entry, is_new] = taken.emplace(place, static_cast<std::uint32_t>(n_points_ + n_added_));
         if (is_new) {
             points_.insert(points_.end(), {place.x, place.y});
@@ -251,14 +249,14 @@ void Graph::add_points(std::vector<Crossing> &crossings, std::vector<std::vector
                 attributes_.push_back(between(attributes_[start * n_attributes_ + k], attributes_[end * n_attributes_ + k]));
             n_added_++;
         }
-        for (std::uint32_t piece : {each.earlier, each.later}) {
-            on_pieces[piece].push_back(entry->second);
-            cut.push_back(piece);
+        const std::uint32_t point = entry->second;
+        for (const auto &[piece, part] : {std::pair{each.earlier, earlier}, {each.later, later}}) {
+            std::vector<std::uint32_t> &on_piece = on_pieces[piece];
+            if (point == ends_[std::size_t{2} * piece] || point == ends_[std::size_t{2} * piece + 1]) continue;
+            if (std::find(on_piece.begin(), on_piece.end(), point) != on_piece.end()) continue;
+            on_piece.insert(on_piece.begin() + static_cast<std::ptrdiff_t>(part.index), point);
         }
     }
-    std::sort(cut.begin(), cut.end());
-    cut.erase(std::unique(cut.begin(), cut.end()), cut.end());
-    for (std::size_t piece : cut) sort_along(ends_[2 * piece], ends_[2 * piece + 1], on_pieces[piece]);
 }
 
 // In the order from start to end, which is exact for points that are exactly on the segment. Each once, and the ends

@@ -50,6 +50,7 @@ public:
 
 private:
     struct Crossing;
+    struct Part;
     static constexpr std::uint32_t no_piece = UINT32_MAX;
 
     std::size_t n_added() const { return n_added_; }
@@ -57,13 +58,11 @@ private:
     void find_pieces();
     deldrift_status stage(deldrift_triangulation *t) const;
     void resolve(const std::vector<deldrift_conflict> &conflicts);
-    std::vector<Crossing> crossings_of(const std::vector<deldrift_conflict> &conflicts,
-                                       const std::vector<std::vector<std::uint32_t>> &on_pieces) const;
-    void add_points(std::vector<Crossing> &crossings, std::vector<std::vector<std::uint32_t>> &on_pieces);
+    void add_points(const std::vector<Crossing> &crossings, std::vector<std::vector<std::uint32_t>> &on_pieces);
     void cut_chains(const std::vector<std::vector<std::uint32_t>> &on_pieces);
     void sort_along(std::uint32_t start, std::uint32_t end, std::vector<std::uint32_t> &points) const;
     int side(std::uint32_t start, std::uint32_t end, std::uint32_t point) const;
-    std::size_t part_across(std::uint32_t piece, const std::vector<std::uint32_t> &on_piece, std::uint32_t across) const;
+    Part part_across(std::uint32_t piece, const std::vector<std::uint32_t> &on_piece, std::uint32_t across) const;
     const double *at(std::uint32_t point) const { return points() + std::size_t{2} * point; }
 
     triangulateio in_;
