@@ -261,6 +261,38 @@ static void ask_for_signs(void) {
     expect(sign == 1, "and inside, if it is moved by a last bit");
 }
 
+// A kite that segments divide: a slit along it, which a third vertex cannot pass, and its outline.
+static void ask_for_a_domain(void) {
+    const double kite[] = {0, 0, 5, -1, 10, 0, 5, 1, 5, 3};
+    const uint32_t ends[] = {0, 1, 1, 2, 2, 3, 3, 0, 0, 2};
+    uint32_t first, segments[3 * 4], beside[2 * 5];
+    int32_t labels[4];
+    deldrift_conflict conflict;
+    size_t count;
+    deldrift_triangulation *t;
+    check(deldrift_create(2, kite, 5, NULL, &t));
+    check(deldrift_stage_segments(t, ends, NULL, 5, &first));
+    check(deldrift_commit_timestamp(t, NULL));
+    check(deldrift_cells_of_segments(t, beside, 5, &count));
+    expect(count == 5 && beside[8] != DELDRIFT_NONE && beside[8] != beside[9], "cells are on both sides of the slit");
+    check(deldrift_segments_of_cells(t, segments, 4, &count));
+    int n_slits = 0;
+    for (size_t k = 0; k < 3 * count; k++) n_slits += segments[k] == first + 4;
+    expect(n_slits == 2, "and it is an edge of two cells");
+    check(deldrift_label_cells(t, (double[]){5, 0.5, 5, -0.5}, (int32_t[]){7, 8}, 2, 0, labels, 4, &count));
+    expect(count == 4 && labels[beside[8]] == 7 && labels[beside[9]] == 8, "which have labels of their own");
+    check(deldrift_move_vertex(t, 3, (double[]){5, 0}));
+    expect(deldrift_check_staged(t) == DELDRIFT_ON_SEGMENT, "a vertex does not come on a segment");
+    check(deldrift_segment_conflicts(t, &conflict, 1, &count));
+    expect(count == 1 && conflict.segment == first + 4 && conflict.other == 3, "and it is told which");
+    check(deldrift_stage_segment_removals(t, &conflict.segment, 1));
+    expect(deldrift_check_staged(t) == DELDRIFT_OK, "unless the segment goes");
+    check(deldrift_commit_timestamp(t, NULL));
+    check(deldrift_segments(t, NULL, NULL, NULL, 0, &count));
+    expect(count == 4, "and four segments stay");
+    deldrift_destroy(t);
+}
+
 int main(void) {
     static double positions[2 * VERTICES];
     for (int i = 0; i < VERTICES; i++) {
@@ -281,6 +313,7 @@ int main(void) {
     ask_for_geometry(t);
     keep_and_write(t);
     ask_for_signs();
+    ask_for_a_domain();
     check(deldrift_validate(t, 3));
     check(deldrift_dimension(t, &dimension));
     check(deldrift_memory_bytes(t, &bytes));

@@ -79,6 +79,21 @@ fn the_turned_plate_has_its_temperature_without_flat_cells() {
     }
 }
 
+/// Its area is that of the square less the rotor, and no temperature is beyond those of the boundary.
+#[test]
+fn the_domain_with_a_rotor_keeps_its_area() {
+    let folder = fresh_folder("domain");
+    let program = build(&repository("examples/domain.c"), &folder, Linkage::Static, &[]);
+    let picture = folder.join("picture.svg");
+    let said = succeed(command(program).arg(&picture));
+    assert_eq!(number_after("", &said), 200.0, "{said}");
+    assert!(number_after("area within ", &said) < 1e-12, "{said}");
+    assert_eq!([number_after("from ", &said), number_after(" to ", &said)], [0.0, 1.0], "{said}");
+    let drawn = std::fs::read_to_string(&picture).expect("the example has written it");
+    assert!(drawn.starts_with("<svg ") && drawn.ends_with("</svg>\n") && drawn.len() < 200_000);
+    assert_eq!((drawn.matches("class='b'").count(), drawn.matches("zM").count()), (3, 3), "{said}");
+}
+
 #[test]
 fn algorithms_of_research_have_the_same_triangles() {
     let folder = fresh_folder("comparison");

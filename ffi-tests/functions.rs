@@ -42,7 +42,7 @@ fn table_of_functions_is_what_the_header_says() {
 /// that it has written.
 #[test]
 fn every_function_says_what_it_costs_and_is_measured() {
-    let rows: String = ["changing", "reading", "geometry", "files"]
+    let rows: String = ["changing", "reading", "geometry", "segments", "files"]
         .map(|part| text_of(&format!("benches/costs/{part}.cpp")))
         .concat();
     let page = text_of("docs/COSTS.md");

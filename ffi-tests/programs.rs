@@ -78,22 +78,25 @@ fn cpp_programs_are_cpp20_too() {
     }
 }
 
-/// A program for CGAL writes the same with deldrift in its place.
+/// Programs for CGAL write the same with deldrift in its place.
 #[test]
 #[ignore = "needs CGAL"]
-fn program_for_cgal_writes_the_same() {
-    let source = repository("ffi-tests/cgal/both.cpp");
-    let run = |name: &str, flags: &[&str]| {
-        // CGAL takes a while to compile, less so without optimisation.
-        let flags = [flags, &["-O0", "-g0"]].concat();
-        succeed(&mut command(build(&source, &fresh_folder(name), Linkage::Shared, &flags)))
-    };
-    // CGAL's headers have warnings of their own, and need libraries of big numbers, here before the program does.
-    let cgal = ["-w", "-Wl,--no-as-needed", "-lgmp", "-lmpfr"];
-    let with_cgal = run("with_cgal", &[&["-DWITH_CGAL"], &cgal[..]].concat());
-    assert!(with_cgal.lines().count() > 4000, "{with_cgal}");
-    assert_eq!(run("with_deldrift", &[]), with_cgal);
-    assert_eq!(run("with_points_of_cgal", &[&["-DCGAL_KERNEL"], &cgal[..]].concat()), with_cgal);
+fn programs_for_cgal_write_the_same() {
+    for program in ["both", "constrained"] {
+        let source = repository(&format!("ffi-tests/cgal/{program}.cpp"));
+        let run = |name: &str, flags: &[&str]| {
+            // CGAL takes a while to compile, less so without optimisation.
+            let flags = [flags, &["-O0", "-g0"]].concat();
+            let folder = fresh_folder(&format!("{program}_{name}"));
+            succeed(&mut command(build(&source, &folder, Linkage::Shared, &flags)))
+        };
+        // CGAL's headers have warnings of their own, and need libraries of big numbers, here before the program does.
+        let cgal = ["-w", "-Wl,--no-as-needed", "-lgmp", "-lmpfr"];
+        let with_cgal = run("with_cgal", &[&["-DWITH_CGAL"], &cgal[..]].concat());
+        assert!(with_cgal.lines().count() > 4000, "{with_cgal}");
+        assert_eq!(run("with_deldrift", &[]), with_cgal);
+        assert_eq!(run("with_points_of_cgal", &[&["-DCGAL_KERNEL"], &cgal[..]].concat()), with_cgal);
+    }
 }
 
 /// The example of a solver carries its data to the end, and checks them.

@@ -86,9 +86,10 @@ fn headers_have_no_names_that_are_macros_of_others() {
     };
     let c = program(&headers_of_the_system(&["include"], "h"), "#include <deldrift/research.h>");
     let folders = ["include", "include/deldrift", "include/deldrift/cgal"];
-    let triangulations = [2, 3].map(|d| {
-        format!("template class deldrift::cgal::Delaunay_triangulation_{d}<deldrift::cgal::Kernel, int>;")
-    });
+    let names =
+        ["Delaunay_triangulation_2", "Constrained_Delaunay_triangulation_2", "Delaunay_triangulation_3"];
+    let triangulations =
+        names.map(|name| format!("template class deldrift::cgal::{name}<deldrift::cgal::Kernel, int>;"));
     let uses = format!("#include <deldrift/cgal.hpp>\n{}", triangulations.join("\n"));
     let cpp = headers_of_the_system(&["include"], "h") + &headers_of_the_system(&folders, "hpp");
     let (c, cpp) = (write(&folder, "c.c", &c), write(&folder, "cpp.cpp", &program(&cpp, &uses)));

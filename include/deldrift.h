@@ -7,7 +7,8 @@
  * deldrift_compact gives new ids. Then the points move: stage the moves, commit them as the next
  * timestamp, read the cells. After every commit the cells are exactly those of the Delaunay triangulation
  * of the current positions. Ties (cocircular and cospherical points) are broken by vertex id, so the cells
- * depend only on positions and ids.
+ * depend only on positions and ids. In 2D edges can be prescribed: with segments (deldrift_stage_segments) the
+ * triangulation is the constrained Delaunay triangulation.
  *
  *     #include <deldrift.h>
  *     #include <stdio.h>
@@ -205,7 +206,8 @@ enum
     DELDRIFT_CONFLICT_CROSSING = 0,
     /// A vertex is on the segment, and is not one of its ends: other is the lowest id at the place.
     DELDRIFT_CONFLICT_ON_SEGMENT = 1,
-    /// An end of the segment has been removed, or would be: other is the end.
+    /// An end of the segment has been removed, or would be: other is the end, DELDRIFT_NONE if deldrift_compact has been
+    /// called since.
     DELDRIFT_CONFLICT_END_REMOVED = 2,
     /// Both ends of the segment would be at the same place: other is DELDRIFT_NONE.
     DELDRIFT_CONFLICT_ENDS_MEET = 3,
@@ -409,13 +411,13 @@ typedef struct deldrift_commit_report {
     uint64_t reserved[3];
 } deldrift_commit_report;
 
-/// What is in the way of a segment.
+/// What is in the way of a segment: see deldrift_segment_conflicts.
 typedef struct deldrift_conflict {
     /// What other names.
     deldrift_conflict_kind kind;
-    /// The segment.
+    /// The id of the segment; of two that cross the lower one.
     uint32_t segment;
-    /// A segment or a vertex.
+    /// The id of a segment or a vertex, or DELDRIFT_NONE, as kind says.
     uint32_t other;
 } deldrift_conflict;
 
@@ -666,7 +668,7 @@ deldrift_status deldrift_stage_removals(deldrift_triangulation *t,
                                         const uint32_t *vertices,
                                         size_t count);
 
-/// Forgets all staged moves, insertions and removals.
+/// Forgets all staged moves, insertions and removals, of vertices and of segments.
 ///
 /// Cost: what is staged.
 ///
@@ -674,18 +676,20 @@ deldrift_status deldrift_stage_removals(deldrift_triangulation *t,
 deldrift_status deldrift_discard_moves(deldrift_triangulation *t);
 
 /// Makes the staged positions the next timestamp. The cells become those of the Delaunay triangulation
-/// of the new positions, whatever the algorithm; ids stay. A commit without staged moves counts as a
-/// timestamp too.
+/// of the new positions, whatever the algorithm, or of the constrained one if there are segments; ids stay. A commit
+/// without staged moves counts as a timestamp too.
 ///
 /// report: receives what was done; may be NULL. Ends all views.
 ///
 /// Cost: of k staged moves, insertions and removals at most k times that of deldrift_relocate_vertex, or that of
 /// deldrift_create, whichever the algorithm chooses; of none, constant. While there are no cells, that of
-/// deldrift_create.
+/// deldrift_create. With segments, for each also the cells around an end, and those that it crosses in the Delaunay
+/// triangulation, of k of them up to k².
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_COINCIDENT (if the options
-/// reject it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation
-/// stays at its timestamp and the moves stay staged. Not to be called at the same time as any other call
+/// reject it), DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT, DELDRIFT_END_REMOVED, DELDRIFT_ENDS_MEET (see
+/// deldrift_segment_conflicts), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation
+/// stays at its timestamp, and what is staged stays so. Not to be called at the same time as any other call
 /// on t.
 deldrift_status deldrift_commit_timestamp(deldrift_triangulation *t,
                                           deldrift_commit_report *report);
@@ -702,9 +706,10 @@ deldrift_status deldrift_commit_timestamp(deldrift_triangulation *t,
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
 /// DELDRIFT_WRONG_COUNT if there are fewer or more, DELDRIFT_DUPLICATE_MOVE if a move is staged, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_CELLS,
-/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation stays at its timestamp, no move is
-/// staged, and insertions and removals are staged as before. Not to be called at the same time as any other call on t.
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT,
+/// DELDRIFT_END_REMOVED, DELDRIFT_ENDS_MEET, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the
+/// triangulation stays at its timestamp, no move is staged, and insertions, removals and segments are staged as before.
+/// Not to be called at the same time as any other call on t.
 deldrift_status deldrift_commit_positions(deldrift_triangulation *t,
                                           const double *positions,
                                           size_t count,
@@ -721,8 +726,8 @@ deldrift_status deldrift_commit_positions(deldrift_triangulation *t,
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
 /// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_DUPLICATE_MOVE if a move of
 /// this vertex is staged, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it),
-/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other
-/// call on t.
+/// DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT, DELDRIFT_ENDS_MEET, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY,
+/// DELDRIFT_CANCELLED. Not to be called at the same time as any other call on t.
 deldrift_status deldrift_relocate_vertex(deldrift_triangulation *t,
                                          uint32_t vertex,
                                          const double *position);
@@ -735,9 +740,9 @@ deldrift_status deldrift_relocate_vertex(deldrift_triangulation *t,
 /// Cost: that of deldrift_locate, and the cells created and removed.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_VERTICES,
-/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other
-/// call on t.
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_ON_SEGMENT,
+/// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at
+/// the same time as any other call on t.
 deldrift_status deldrift_insert_vertex(deldrift_triangulation *t,
                                        const double *position,
                                        uint32_t *out_vertex);
@@ -750,14 +755,14 @@ deldrift_status deldrift_insert_vertex(deldrift_triangulation *t,
 /// ten to twenty thousand of them the callbacks are called.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its
-/// insertion is staged, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the
-/// same time as any other call on t.
+/// insertion is staged, DELDRIFT_END_REMOVED for an end of a segment in force, DELDRIFT_TOO_MANY_CELLS,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other call on t.
 deldrift_status deldrift_remove_vertex(deldrift_triangulation *t,
                                        uint32_t vertex);
 
 /// Frees the memory that has served removed vertices, and gives the others new ids: 0, 1, ... in the order
 /// of those that they have. Ties between cocircular or cospherical points are broken by the order of ids, so
-/// the cells stay the same, with their indices in deldrift_cells; so do positions, staged moves and the
+/// the cells stay the same, with their indices in deldrift_cells; so do positions, staged moves, the ids of segments and the
 /// timestamp. Memory and the time of commits are those of a fresh triangulation then. Ends all views.
 ///
 /// map: receives the new id of each old one, DELDRIFT_NONE for removed vertices: a buffer with room for
@@ -782,22 +787,28 @@ deldrift_status deldrift_compact(deldrift_triangulation *t,
 /// with the staged moves, insertions and removals, each is an edge, and the cells are the constrained Delaunay
 /// triangulation of vertices and segments: the circle of a cell has no vertex inside that can be seen from the cell's
 /// inside, where segments are opaque. Ties are broken by id as everywhere, so the cells depend only on positions, ids and
-/// segments. Segments move with their ends.
+/// segments. Segments move with their ends, and stay until their removal is staged and committed. docs/SEGMENTS.md says
+/// more.
 ///
 /// ends: count rows of two vertex ids, in any order, of vertices that are present or whose insertion is staged. markers:
-/// count numbers, which are kept with the segments; NULL for zeros. Both are read during the call only, and may be NULL if
-/// count is 0. first_segment: receives the id of the first, which is one above the highest given so far; the others follow
-/// it in their order. It must not be NULL.
+/// count numbers, which are kept with the segments, such as the kind of a boundary condition; NULL for zeros. Both are read
+/// during the call only, and may be NULL if count is 0. first_segment: receives the id of the first, which is one above the
+/// highest given so far; the others follow it in their order. It must not be NULL, even if count is 0: then it receives
+/// the id that would be given next. Ids of segments stay, also through deldrift_compact, and are not given again.
 ///
 /// A segment may be given twice, and be a part of the hull; many may share a vertex. Where vertices are at the same place
-/// it goes to the one that represents them. deldrift_discard_moves forgets staged segments, too, and their ids are given
-/// again.
+/// it goes to the one that represents them. Nothing is looked at before the commit, which is refused, as is
+/// deldrift_check_staged, where segments cross, a vertex is on one, an end is removed, or both ends are at the same place:
+/// see deldrift_segment_conflicts. Only the positions that it leads to count: a vertex may have gone from one side of a
+/// segment to the other. Segments that are in force are kept by calls that change one vertex at once, too, which are
+/// refused for the same reasons. deldrift_discard_moves forgets what is staged of segments, too, and the ids of staged
+/// ones are given again. deldrift_staged_count does not count segments.
 ///
 /// Cost: count.
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_OUT_OF_MEMORY. Not to be called at
-/// the same time as any other call on t.
+/// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX (the message counts ids in ends: that of row
+/// k is ends[2 k] or ends[2 k + 1]), DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
 deldrift_status deldrift_stage_segments(deldrift_triangulation *t,
                                         const uint32_t *ends,
                                         const int32_t *markers,
@@ -805,9 +816,10 @@ deldrift_status deldrift_stage_segments(deldrift_triangulation *t,
                                         uint32_t *first_segment);
 
 /// Stages the removal of segments: all of them, or none if it fails. From the next commit on they need not be edges any
-/// more. Their vertices stay.
+/// more. Their vertices stay. A vertex that is an end of segments can be removed by the commit that removes these.
 ///
-/// segments: count ids, each at most once, read during the call only; may be NULL if count is 0.
+/// segments: count ids of segments in force, each at most once, read during the call only; may be NULL if count is 0.
+/// Segments that are staged can only be forgotten, by deldrift_discard_moves.
 ///
 /// Cost: count, and that of looking for each among those staged before.
 ///
@@ -818,11 +830,13 @@ deldrift_status deldrift_stage_segment_removals(deldrift_triangulation *t,
                                                 const uint32_t *segments,
                                                 size_t count);
 
-/// The segments in force, ascending by id: those of the last commit, and not what is staged.
+/// The segments in force, ascending by id: those of the last commit, and not what is staged. A segment whose removal is
+/// staged is in force until the commit.
 ///
-/// segments: a buffer with room for capacity ids; ends: for capacity rows of two vertex ids, as they were given; markers: for
-/// capacity numbers. One that is NULL is not filled. count: receives the number of segments, which is also written when the
-/// buffers are too small. NULL for all with capacity 0 asks for the count alone.
+/// segments: a buffer with room for capacity ids; ends: for capacity rows of two vertex ids, in the order in which they were
+/// given, which is what left and right of a segment go by; markers: for capacity numbers. One that is NULL is not filled.
+/// count: receives the number of segments, which is also written when the buffers are too small.
+/// NULL for all with capacity 0 asks for the count alone.
 ///
 /// Cost: the ids of segments given so far.
 ///
@@ -836,17 +850,24 @@ deldrift_status deldrift_segments(const deldrift_triangulation *t,
                                   size_t *count);
 
 /// Whether segments would stand against a commit of what is staged: moves, insertions, removals and segments. Returns what
-/// deldrift_commit_timestamp would return as far as segments are concerned, and commits nothing; what is staged stays so.
+/// deldrift_commit_timestamp would return as far as segments are concerned, and commits nothing: what is staged stays so.
 /// deldrift_segment_conflicts then tells all conflicts, so that a solver can cut its step. Without segments, in force or
-/// staged, nothing is looked at, and in 3D there are none.
+/// staged, nothing is looked at, and in 3D there are none. Ends all views, as a commit does.
+///
+/// A program that commits at once where nothing conflicts need not check first: a commit that is refused has no effect, and
+/// tells the conflicts as well.
 ///
 /// Cost: at most that of the commit, and of taking it back.
 ///
-/// Errors: those of deldrift_commit_timestamp. Not to be called at the same time as any other call on t.
+/// Errors: those of deldrift_commit_timestamp: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_CROSSING,
+/// DELDRIFT_ON_SEGMENT, DELDRIFT_END_REMOVED and DELDRIFT_ENDS_MEET for conflicts, of which the first is told,
+/// DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not
+/// to be called at the same time as any other call on t.
 deldrift_status deldrift_check_staged(deldrift_triangulation *t);
 
 /// The conflicts for which the latest change, or check, of t was refused: all of them, in ascending order of kind, segment
-/// and other. None if it was not refused for conflicts.
+/// and other. None if it was not refused for conflicts. Staging, discarding and questions keep them. Ids of segments and
+/// vertices may be of such as were staged, and have been discarded since.
 ///
 /// conflicts: a buffer with room for capacity entries. count: receives their number, which is also written when the buffer
 /// is too small. NULL with capacity 0 asks for the count alone.
@@ -1056,13 +1077,15 @@ deldrift_status deldrift_tolerance(const deldrift_triangulation *t,
 /// Checks the triangulation exactly, in time proportional to its size.
 ///
 /// level: 1 checks indices and adjacency; 2 also the orientation of the cells, and that the hull is
-/// convex and winds once; 3 also that no sphere through the vertices of a cell contains a vertex.
+/// convex and winds once; 3 also that no sphere through the vertices of a cell contains a vertex, or, with segments, none
+/// that can be seen from the cell's inside.
 ///
 /// Cost: n + m.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_INVALID_LEVEL, DELDRIFT_INVALID if something is wrong:
 /// deldrift_last_error then gives the first violation.
-deldrift_status deldrift_validate(const deldrift_triangulation *t, uint32_t level);
+deldrift_status deldrift_validate(const deldrift_triangulation *t,
+                                  uint32_t level);
 
 /// Where a point lies, exactly, to *location.
 ///
@@ -1351,7 +1374,8 @@ deldrift_status deldrift_hull_facets(const deldrift_triangulation *t,
                                      size_t *count);
 
 /// For each cell and each of its corners the segment at the edge opposite it, in the order of deldrift_cells: the lowest id
-/// if there are several, DELDRIFT_NONE if there is none.
+/// if there are several, DELDRIFT_NONE if there is none. Ids are not places in the lists of deldrift_segments once segments
+/// have been removed.
 ///
 /// segments: a buffer with room for capacity rows of 3 ids. count: receives the number of cells, which is also written when
 /// the buffer is too small. NULL with capacity 0 asks for the count alone.
@@ -1383,11 +1407,14 @@ deldrift_status deldrift_cells_of_segments(const deldrift_triangulation *t,
                                            size_t capacity,
                                            size_t *count);
 
-/// For each cell how many segments at least a way crosses from it to the outside, in the order of deldrift_cells.
+/// For each cell how many segments at least a way crosses from it to the outside, in the order of deldrift_cells: its
+/// nesting level.
 ///
 /// Cells outside of all closed chains of segments have 0, those of a domain 1, those of its holes 2, those of islands in
 /// these 3, and so on: the cells of the domain are those with an odd number. A segment with one region on both sides, such
-/// as a slit or an open chain, divides nothing. No seed is needed, and cells between the domain and the convex hull have 0.
+/// as a slit or an open chain, divides nothing, and several at the same edge count once. No seed is needed, and cells
+/// between the domain and the convex hull have 0. A domain that is divided in parts by further segments needs
+/// deldrift_label_cells: parts that do not touch the outside would have a higher level.
 ///
 /// levels: a buffer with room for capacity numbers. count: receives the number of cells, which is also written when the
 /// buffer is too small. NULL with capacity 0 asks for the count alone.
@@ -1410,7 +1437,8 @@ deldrift_status deldrift_nesting_levels(const deldrift_triangulation *t,
 /// seed is. label_of: a buffer with room for capacity numbers. count: receives the number of cells, which is also written
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone.
 ///
-/// Holes are regions, too: give their seeds a label of its own. Without segments there is one region.
+/// Holes are regions, too: give their seeds a label of their own. Without segments there is one region. A seed on a segment
+/// with one region on both sides, or on the hull, is in that region.
 ///
 /// Exact. Cost: m, for each segment the cells around an end, and for each seed that of deldrift_locate. After a change the
 /// first call also does what the first deldrift_cells does.
@@ -1428,7 +1456,8 @@ deldrift_status deldrift_label_cells(const deldrift_triangulation *t,
                                      size_t *count);
 
 /// The boundary of some of the cells of the plane, in closed chains of edges, which have these cells on their left: an outer
-/// boundary goes counter-clockwise, that of a hole clockwise.
+/// boundary goes counter-clockwise, that of a hole clockwise. With the mask of the cells that have an odd nesting level it is
+/// the boundary of a domain, and the markers of its segments tell what holds there.
 ///
 /// mask: mask_count bytes, one for each cell in the order of deldrift_cells (mask_count must be deldrift_cell_count); a cell
 /// is in the set if its byte is not 0. Read during the call only. Buffers with room for capacity entries, one for each edge;
@@ -1827,7 +1856,7 @@ deldrift_status deldrift_barycentric(const deldrift_triangulation *t,
 /// Makes an independent triangulation that is as this one, to *out, which the caller has to hand to
 /// deldrift_destroy; it is written on success only.
 ///
-/// Positions, ids, cells with their indices, hidden vertices, staged moves, insertions and removals, the timestamp,
+/// Positions, ids, segments, cells with their indices, hidden vertices, staged moves, insertions and removals, the timestamp,
 /// statistics, options, the changes that deldrift_take_changes has not given yet, and what the algorithm keeps between
 /// commits are those of t: after the same calls both have the same cells. The callbacks of the options are called for
 /// either, so what user_data points to must live as long as both. Views, and changes that have been taken, belong to t
@@ -1844,7 +1873,7 @@ deldrift_status deldrift_clone(const deldrift_triangulation *t,
 
 /// Saves the triangulation: writes bytes from which deldrift_load makes one like it, on this machine or any other.
 ///
-/// Saved are positions, ids, removed and hidden vertices, cells with their indices, staged moves, insertions and
+/// Saved are positions, ids, segments, removed and hidden vertices, cells with their indices, staged moves, insertions and
 /// removals, the timestamp and statistics. Not saved are the options, what the algorithm keeps between commits, and
 /// which changes have been taken. docs/FORMAT.md describes the bytes.
 ///

@@ -15,7 +15,8 @@
 // Positions come from any contiguous container of double, float, std::array or a program's own points, or with a
 // stride, or from arrays of x, y and z: see deldrift/positions.hpp. Cells, facets, stars and vertices are ranges with
 // iterators for <algorithm> and <ranges>: see deldrift/cells.hpp. Ranges end like the views that they are made of, with
-// the next change. deldrift/cgal.hpp has the names of CGAL's Delaunay_triangulation_2 and _3.
+// the next change. Segments, and the error of a change that they refuse, are in deldrift/segments.hpp.
+// deldrift/cgal.hpp has the names of CGAL's Delaunay_triangulation_2 and _3.
 #ifndef DELDRIFT_HPP
 #define DELDRIFT_HPP
 
@@ -36,6 +37,7 @@
 #include "deldrift/orientation.hpp"
 #include "deldrift/positions.hpp"
 #include "deldrift/results.hpp"
+#include "deldrift/segments.hpp"
 #include "deldrift/span.hpp"
 #include "deldrift/vertices.hpp"
 
@@ -121,10 +123,37 @@ public:
         expect("positions", numbers.size(), vertices.size() * dimension_);
         require_ok(deldrift_move_vertices(native(), vertices.data(), numbers.data(), vertices.size()));
     }
+    // Edges that have to be there from the next commit on, each from a vertex to another; the id of the first one is returned,
+    // which those of the others follow. In 2D, as all about segments. markers: one for each, or none.
+    //     const std::vector<deldrift::Ends> walls{{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+    //     t.stage_segments(walls);
+    //     t.commit_timestamp();  // throws deldrift::ConflictError if something is in the way
+    std::uint32_t stage_segments(span<const Ends> ends, span<const std::int32_t> markers = {}) {
+        static_assert(sizeof(Ends) == 2 * sizeof(std::uint32_t));
+        if (!markers.empty()) expect("markers", markers.size(), ends.size());
+        std::uint32_t first;
+        require_ok(deldrift_stage_segments(native(), ends.empty() ? nullptr : ends.data()->data(), markers.data(),
+                                           ends.size(), &first));
+        return first;
+    }
+    void stage_segment_removals(span<const std::uint32_t> segments) {
+        require_ok(deldrift_stage_segment_removals(native(), segments.data(), segments.size()));
+    }
+    // Throws what the commit would throw, as far as segments are concerned: a step can be cut until it does not.
+    //     for (double step = 1;; step /= 2) {
+    //         t.move_vertices(positions_after(step));
+    //         try {
+    //             t.check_staged();
+    //             break;
+    //         } catch (const deldrift::ConflictError &) {
+    //             t.discard_moves();
+    //         }
+    //     }
+    void check_staged() { require_change(deldrift_check_staged(native())); }
     void discard_moves() { require_ok(deldrift_discard_moves(native())); }
     deldrift_commit_report commit_timestamp() {
         deldrift_commit_report report;
-        require_ok(deldrift_commit_timestamp(native(), &report));
+        require_change(deldrift_commit_timestamp(native(), &report));
         return report;
     }
 
@@ -133,7 +162,7 @@ public:
     deldrift_commit_report commit_positions(const Positions &positions) {
         const span<const double> numbers = gathered(positions);
         deldrift_commit_report report;
-        require_ok(deldrift_commit_positions(native(), numbers.data(), count_of("positions", numbers), &report));
+        require_change(deldrift_commit_positions(native(), numbers.data(), count_of("positions", numbers), &report));
         return report;
     }
     // For the next commit; returns the id of the first one, which those of the others follow.
@@ -148,14 +177,14 @@ public:
     }
 
     void relocate_vertex(std::uint32_t vertex, span<const double> position) {
-        require_ok(deldrift_relocate_vertex(native(), vertex, point(position)));
+        require_change(deldrift_relocate_vertex(native(), vertex, point(position)));
     }
     std::uint32_t insert_vertex(span<const double> position) {
         std::uint32_t vertex;
-        require_ok(deldrift_insert_vertex(native(), point(position), &vertex));
+        require_change(deldrift_insert_vertex(native(), point(position), &vertex));
         return vertex;
     }
-    void remove_vertex(std::uint32_t vertex) { require_ok(deldrift_remove_vertex(native(), vertex)); }
+    void remove_vertex(std::uint32_t vertex) { require_change(deldrift_remove_vertex(native(), vertex)); }
     // The new id of each old one, DELDRIFT_NONE for removed vertices.
     std::vector<std::uint32_t> compact() {
         std::size_t count = id_count();
@@ -285,6 +314,83 @@ public:
                           std::size_t *count) {
             return deldrift_hull_facets(native(), vertices, cells, corners, capacity, count);
         });
+    }
+
+    Segments segments() const {
+        std::size_t count = 0;
+        require_ok(deldrift_segments(native(), nullptr, nullptr, nullptr, 0, &count));
+        Segments segments{std::vector<std::uint32_t>(count), std::vector<Ends>(count), std::vector<std::int32_t>(count)};
+        std::uint32_t *const ends = count == 0 ? nullptr : segments.ends.front().data();
+        require_ok(deldrift_segments(native(), segments.ids.data(), ends, segments.markers.data(), count, &count));
+        return segments;
+    }
+    // For which the latest change, or check, was refused; ConflictError has them, too.
+    std::vector<deldrift_conflict> segment_conflicts() const {
+        std::size_t count = 0;
+        require_ok(deldrift_segment_conflicts(native(), nullptr, 0, &count));
+        std::vector<deldrift_conflict> conflicts(count);
+        require_ok(deldrift_segment_conflicts(native(), conflicts.data(), count, &count));
+        return conflicts;
+    }
+    // For each cell the segments opposite its corners, DELDRIFT_NONE where there is none.
+    //     for (const auto &sides : t.segments_of_cells())
+    //         for (const std::uint32_t segment : sides) n += segment != DELDRIFT_NONE;
+    std::vector<std::array<std::uint32_t, 3>> segments_of_cells() const {
+        std::size_t count = cell_count();
+        std::vector<std::array<std::uint32_t, 3>> rows(count);
+        std::uint32_t *const numbers = count == 0 ? nullptr : rows.front().data();
+        require_ok(deldrift_segments_of_cells(native(), numbers, count, &count));
+        return rows;
+    }
+    // For each segment the cells on its left and on its right, in the order of segments().
+    std::vector<std::array<std::uint32_t, 2>> cells_of_segments() const {
+        std::size_t count = 0;
+        require_ok(deldrift_cells_of_segments(native(), nullptr, 0, &count));
+        std::vector<std::array<std::uint32_t, 2>> rows(count);
+        std::uint32_t *const numbers = count == 0 ? nullptr : rows.front().data();
+        require_ok(deldrift_cells_of_segments(native(), numbers, count, &count));
+        return rows;
+    }
+    // For each cell 0 if it is outside of all closed chains of segments, 1 in a domain, 2 in its holes.
+    //     const std::vector<std::uint32_t> levels = t.nesting_levels();
+    //     const auto is_in_domain = [&](std::size_t cell) { return levels[cell] % 2 == 1; };
+    std::vector<std::uint32_t> nesting_levels() const {
+        std::size_t count = cell_count();
+        std::vector<std::uint32_t> levels(count);
+        require_ok(deldrift_nesting_levels(native(), levels.data(), count, &count));
+        return levels;
+    }
+    // For each cell the label of the first seed in its region, or the other one.
+    //     const std::vector<std::int32_t> materials = t.label_cells({0.5, 0.5, 3.0, 1.0}, {STEEL, WATER}, AIR);
+    std::vector<std::int32_t> label_cells(const Positions &seeds, span<const std::int32_t> labels,
+                                          std::int32_t other) const {
+        std::vector<double> room;
+        const span<const double> numbers = seeds.numbers("seeds", dimension_, room);
+        expect("labels", labels.size(), count_of("seeds", numbers));
+        std::size_t count = cell_count();
+        std::vector<std::int32_t> label_of(count);
+        require_ok(deldrift_label_cells(native(), numbers.data(), labels.data(), labels.size(), other, label_of.data(),
+                                        count, &count));
+        return label_of;
+    }
+    // The boundary of the cells in a mask, which are on the left of the edges of its chains.
+    Chains boundary_chains(span<const std::uint8_t> mask) const {
+        std::size_t count = 0;
+        require_ok(deldrift_boundary_chains(native(), mask.data(), mask.size(), nullptr, nullptr, nullptr, nullptr, nullptr,
+                                            0, &count));
+        Chains chains;
+        std::vector<std::uint32_t> chain_of(count);
+        chains.vertices.resize(count);
+        chains.segments.resize(count);
+        chains.cells.resize(count);
+        chains.corners.resize(count);
+        require_ok(deldrift_boundary_chains(native(), mask.data(), mask.size(), chains.vertices.data(), chain_of.data(),
+                                            chains.segments.data(), chains.cells.data(), chains.corners.data(), count,
+                                            &count));
+        for (std::size_t k = 1; k <= count; k++) {
+            if (k == count || chain_of[k] != chain_of[k - 1]) chains.offsets.push_back(k);
+        }
+        return chains;
     }
 
     // Rows of two ids, the lower one first, in lexicographic order.
@@ -460,6 +566,12 @@ private:
 
     static void require_ok(deldrift_status status) {
         if (status != DELDRIFT_OK) throw Error(status);
+    }
+    // Of calls that segments may refuse.
+    void require_change(deldrift_status status) const {
+        if (!ConflictError::is_conflict(status)) return require_ok(status);
+        const std::string message = deldrift_last_error();
+        throw ConflictError(status, message, segment_conflicts());
     }
     static void expect(const char *argument, std::size_t given, std::size_t wanted) {
         if (given == wanted) return;

@@ -129,6 +129,15 @@ pub enum Error {
         /// How many of these are for vertices whose insertion is staged.
         coming: usize,
     },
+    /// Something is staged, and the call commits what it makes by itself.
+    Staged {
+        /// Number of staged moves.
+        moves: usize,
+        /// Number of staged insertions and removals.
+        edits: usize,
+        /// Number of segments whose coming or going is staged.
+        segments: usize,
+    },
     /// A number that has no meaning for its argument.
     InvalidValue {
         /// Parameter at fault.
@@ -302,6 +311,10 @@ impl fmt::Display for Error {
                     n => write!(f, ", with {n} vertices whose insertion is staged"),
                 }
             }
+            Error::Staged { moves, edits, segments } => write!(
+                f,
+                "{moves} moves, {edits} insertions and removals and {segments} changes of segments are staged, but nothing may be"
+            ),
             Error::InvalidValue { argument, index, value, wanted } => {
                 write!(f, "{argument}[{index}] is {value}, but must be {wanted}")
             }
@@ -312,6 +325,9 @@ impl fmt::Display for Error {
                 write!(f, "vertices {vertex} and {other} are at the same place, which the options reject")
             }
             Error::Conflict { conflict, others: 0 } => write!(f, "{conflict}"),
+            Error::Conflict { conflict, others: 1 } => {
+                write!(f, "{conflict}, and there is one more conflict")
+            }
             Error::Conflict { conflict, others } => {
                 write!(f, "{conflict}, and there are {others} more conflicts")
             }

@@ -31,9 +31,9 @@
 //! Programs that know the dimension use [`MovingTriangulation`](motion::MovingTriangulation); bindings, which do not,
 //! use [`AnyTriangulation`].
 //!
-//! Reading order, each layer using only those after it: [`capi`] → [`motion`] → `delaunay` → `complex` → `predicates` →
-//! `machine`. What is public in the last four is so for the layers above: it trusts its arguments, so none of it leaves
-//! the crate.
+//! Reading order, each layer using only those after it: [`capi`] → [`motion`] → `refine` → `delaunay` → `complex` →
+//! `predicates` → `machine`. What is public in the last five is so for the layers above: it trusts its arguments, so none of
+//! it leaves the crate.
 
 pub mod capi;
 mod complex;
@@ -48,6 +48,7 @@ mod predicates;
 #[cfg(test)]
 #[path = "../tests/common/random.rs"]
 mod random;
+mod refine;
 mod simd;
 
 pub use damage::{Damage, LoadError};

@@ -13,11 +13,12 @@ use std::fs;
 use std::path::Path;
 
 /// The layers of src, from the top: each uses only those after it.
-const LAYERS: [&str; 12] = [
+const LAYERS: [&str; 13] = [
     "lib",
     "capi",
     "either",
     "motion",
+    "refine",
     "delaunay",
     "complex",
     "predicates",

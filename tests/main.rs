@@ -23,6 +23,7 @@ mod oracle;
 mod predicates;
 mod predicates_range;
 mod predicates_suites;
+mod refining;
 mod repair;
 mod saving;
 mod saving_format;

@@ -6,7 +6,7 @@ use crate::common::inputs::{KINDS, Kind, QUANTUM, draw, draw_one, to_grid};
 use crate::common::{Rng, assert_same_cells, cell_set, check_adjacency, seeds, sorted};
 use deldrift::motion::{Algorithm, Location, MovingTriangulation, NO_CELL, Options, Saved, Segment};
 use deldrift::{CellId, Conflict, Error, Plane, SegmentId, VertexId};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 type Triangulation = MovingTriangulation<Plane>;
 
@@ -202,26 +202,167 @@ fn is_between(a: &Grid, b: &Grid, p: &Grid) -> bool {
     cross(a, b, p) == 0 && dot < 0
 }
 
-/// Whether there is any conflict, by all pairs.
-fn has_conflict(t: &Triangulation, place: impl Fn(VertexId) -> Option<Grid>, segments: &[Segment]) -> bool {
-    let Some(ends) =
-        segments.iter().map(|s| Some([place(s.ends[0])?, place(s.ends[1])?])).collect::<Option<Vec<_>>>()
-    else {
-        return true;
-    };
-    let all: Vec<Grid> = VertexId::range(0..t.id_count()).filter_map(&place).collect();
-    for (k, [a, b]) in ends.iter().enumerate() {
-        if a == b || all.iter().any(|p| is_between(a, b, p)) {
-            return true;
-        }
-        for [c, d] in &ends[..k] {
-            let apart = |x: i128, y: i128| x.signum() * y.signum() < 0;
-            if apart(cross(a, b, c), cross(a, b, d)) && apart(cross(c, d, a), cross(c, d, b)) {
-                return true;
-            }
+/// All conflicts, by all pairs.
+fn all_conflicts(
+    ids: usize,
+    place: impl Fn(VertexId) -> Option<Grid>,
+    segments: &[(SegmentId, Segment)],
+) -> Vec<Conflict> {
+    let mut conflicts = Vec::new();
+    // Vertices at one place are told by the lowest id.
+    let mut lowest = BTreeMap::new();
+    for v in VertexId::range(0..ids) {
+        if let Some(p) = place(v) {
+            lowest.entry(p).or_insert(v);
         }
     }
-    false
+    let mut whole: Vec<(SegmentId, [Grid; 2])> = Vec::new();
+    for &(segment, Segment { ends, .. }) in segments {
+        if let Some(&vertex) = ends.iter().find(|&&v| place(v).is_none()) {
+            conflicts.push(Conflict::EndRemoved { segment, vertex });
+            continue;
+        }
+        let [a, b] = ends.map(|v| place(v).expect("present"));
+        if a == b {
+            conflicts.push(Conflict::EndsMeet { segment });
+            continue;
+        }
+        for (p, &vertex) in &lowest {
+            if is_between(&a, &b, p) {
+                conflicts.push(Conflict::OnSegment { segment, vertex });
+            }
+        }
+        for (other, [c, d]) in &whole {
+            let apart = |x: i128, y: i128| x.signum() * y.signum() < 0;
+            if apart(cross(&a, &b, c), cross(&a, &b, d)) && apart(cross(c, d, &a), cross(c, d, &b)) {
+                conflicts.push(Conflict::Crossing { segments: [segment.min(*other), segment.max(*other)] });
+            }
+        }
+        whole.push((segment, [a, b]));
+    }
+    conflicts.sort();
+    conflicts
+}
+
+/// Levels, labels, chains and the cells beside segments: against an index of the edges.
+fn check_domain(t: &Triangulation, rng: &mut Rng, context: &dyn Fn() -> String) {
+    let view = t.cells().expect("room");
+    let m = view.corners.len();
+    let shown = |v| t.coincident_representative(v).expect("present");
+    // By directed edge: the cell on its left. By undirected edge: the lowest segment.
+    let (mut left, mut at_edge) = (BTreeMap::new(), BTreeMap::new());
+    for (cell, row) in CellId::range(0..m).zip(view.corners) {
+        (0..3).for_each(|i| _ = left.insert([row[(i + 1) % 3], row[(i + 2) % 3]], (cell, i)));
+    }
+    for (id, segment) in t.segments() {
+        let [v, w] = segment.ends.map(shown);
+        at_edge.entry([v.min(w), v.max(w)]).or_insert(id);
+    }
+    let segment_at = |[v, w]: [VertexId; 2]| at_edge.get(&[v.min(w), v.max(w)]).copied();
+    let beside = t.cells_of_segments().expect("room");
+    for ((_, segment), sides) in t.segments().zip(beside) {
+        let [v, w] = segment.ends.map(shown);
+        let wanted = [[v, w], [w, v]].map(|edge| left.get(&edge).map_or(NO_CELL, |&(cell, _)| cell));
+        assert_eq!(sides, wanted, "{}", context());
+    }
+    // Levels and regions by relaxation until nothing changes.
+    let mut levels = vec![u32::MAX; m];
+    let mut regions: Vec<usize> = (0..m).collect();
+    loop {
+        let before = (levels.clone(), regions.clone());
+        for (&[v, w], &(cell, _)) in &left {
+            let segment = segment_at([v, w]);
+            let across = left.get(&[w, v]).map(|&(cell, _)| cell.index());
+            let beyond = across.map_or(0, |cell| levels[cell]).saturating_add(u32::from(segment.is_some()));
+            levels[cell.index()] = levels[cell.index()].min(beyond);
+            if let (Some(across), None) = (across, segment) {
+                regions[cell.index()] = regions[cell.index()].min(regions[across]);
+            }
+        }
+        if before == (levels.clone(), regions.clone()) {
+            break;
+        }
+    }
+    assert_eq!(t.nesting_levels().expect("room"), levels, "{}", context());
+    let rows = t.segments_of_cells().expect("room");
+    for (&edge, &(cell, i)) in &left {
+        assert_eq!(rows[cell.index()][i], segment_at(edge).unwrap_or(SegmentId::NONE), "{}", context());
+    }
+    if m == 0 {
+        return;
+    }
+    check_labels(t, &regions, rng, context);
+    let mask: Vec<u8> = (0..m).map(|_| u8::from(rng.one_in(2))).collect();
+    let chains = t.boundary_chains(&mask).expect("a mask");
+    let mut bounds = BTreeSet::new();
+    for (&[v, w], &(cell, _)) in &left {
+        let is_in = |cell: CellId| mask[cell.index()] != 0;
+        if is_in(cell) && !left.get(&[w, v]).is_some_and(|&(across, _)| is_in(across)) {
+            bounds.insert([v, w]);
+        }
+    }
+    assert_eq!(chains.len(), bounds.len(), "{}", context());
+    let mut first_edges = Vec::new();
+    for chain in chains.chunk_by(|one, next| one.chain == next.chain) {
+        assert_eq!(chain[0].chain as usize, first_edges.len(), "{}", context());
+        let edges: Vec<_> =
+            (0..chain.len()).map(|k| [chain[k].vertex, chain[(k + 1) % chain.len()].vertex]).collect();
+        for (edge, told) in edges.iter().zip(chain) {
+            assert!(bounds.remove(edge), "{}: {edge:?}", context());
+            assert_eq!(left[edge], (told.cell, told.corner), "{}", context());
+            assert_eq!(told.segment, segment_at(*edge).unwrap_or(SegmentId::NONE), "{}", context());
+        }
+        assert_eq!(edges.iter().min(), edges.first(), "{}", context());
+        first_edges.push(edges[0]);
+    }
+    assert!(first_edges.is_sorted(), "{}", context());
+}
+
+/// Seeds in some cells, on edges and at vertices.
+fn check_labels(t: &Triangulation, regions: &[usize], rng: &mut Rng, context: &dyn Fn() -> String) {
+    let view = t.cells().expect("room");
+    let (mut seeds, mut labels, mut expected) = (Vec::new(), Vec::new(), vec![-1; regions.len()]);
+    for label in 0..3 {
+        // Twice the quantum leaves room for a middle.
+        let cell = rng.below(regions.len());
+        let at = view.corners[CellId::at(cell)].map(|v| t.position(v).expect("present"));
+        let middle = |a: [f64; 2], b: [f64; 2]| [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0];
+        let seed = match rng.below(4) {
+            0 => at[0],
+            1 => middle(at[0], at[1]),
+            _ => middle(at[0], middle(at[1], at[2])),
+        };
+        // All cells that have the seed inside or on the boundary, in units that hold the middles.
+        let unit = QUANTUM / 4.0;
+        let scaled = |p: [f64; 2]| p.map(|x| (x / unit) as i64);
+        let touching: BTreeSet<usize> = (0..regions.len())
+            .filter(|&other| {
+                let row = view.corners[CellId::at(other)].map(|v| scaled(t.position(v).expect("present")));
+                let p = scaled(seed);
+                (0..3).all(|i| {
+                    let ([a, b], [c, d], [e, f]) = (row[i], row[(i + 1) % 3], p);
+                    i128::from(c - a) * i128::from(f - b) - i128::from(d - b) * i128::from(e - a) >= 0
+                })
+            })
+            .collect();
+        let around: BTreeSet<usize> = touching.iter().map(|&other| regions[other]).collect();
+        seeds.push(seed);
+        labels.push(label);
+        let told = t.label_cells(&seeds, &labels, -1);
+        if around.len() > 1 {
+            assert_eq!(told, Err(Error::AmbiguousSeed { index: seeds.len() - 1 }), "{}", context());
+            seeds.pop();
+            labels.pop();
+            continue;
+        }
+        for (entry, region) in expected.iter_mut().zip(regions) {
+            if *entry == -1 && around.contains(region) {
+                *entry = label;
+            }
+        }
+        assert_eq!(told.expect("good seeds"), expected, "{}", context());
+    }
+    assert_eq!(t.label_cells(&[[9e5, 9e5]], &[4], -1).expect("a good seed"), vec![-1; regions.len()]);
 }
 
 /// A random history: segments come and go, vertices move by little or far, come and go; what conflicts is refused.
@@ -236,7 +377,7 @@ fn run(kind: Kind, algorithm: Algorithm, seed: u64) -> [usize; 3] {
         let before = (cell_set(&t), t.segments().collect::<Vec<_>>());
         let mut goals: Vec<Option<[f64; 2]>> =
             VertexId::range(0..t.id_count()).map(|v| t.position(v).ok()).collect();
-        let mut segments: Vec<Segment> = t.segments().map(|(_, segment)| segment).collect();
+        let mut segments: Vec<(SegmentId, Segment)> = t.segments().collect();
         match rng.below(3) {
             0 => {}
             how => {
@@ -273,36 +414,41 @@ fn run(kind: Kind, algorithm: Algorithm, seed: u64) -> [usize; 3] {
             let ends = [0; 2].map(|_| VertexId::at(rng.below(goals.len())));
             if ends.iter().all(|v| goals[v.index()].is_some()) {
                 let segment = Segment { ends, marker: step };
-                t.stage_segments([segment].into_iter()).expect("present");
-                segments.push(segment);
+                let id = t.stage_segments([segment].into_iter()).expect("present");
+                segments.push((id, segment));
             }
         }
         if rng.one_in(3)
-            && let Some(&(id, segment)) = before.1.get(rng.below(before.1.len().max(1)))
+            && let Some(&(id, _)) = before.1.get(rng.below(before.1.len().max(1)))
         {
             t.stage_segment_removals(&[id]).expect("in force");
-            let at = segments.iter().position(|other| *other == segment).expect("in force");
-            segments.remove(at);
+            segments.retain(|&(other, _)| other != id);
         }
         let place = |v: VertexId| goals[v.index()].as_ref().map(to_grid::<Plane>);
-        let expected = has_conflict(&t, place, &segments);
+        let expected = all_conflicts(goals.len(), place, &segments);
+        if rng.one_in(2) {
+            let checked = t.check_staged();
+            assert_eq!(checked.is_ok(), expected.is_empty(), "{}: {checked:?}", context());
+            assert_eq!(t.conflicts_of_segments(), expected, "{}", context());
+            assert_eq!(before, (cell_set(&t), t.segments().collect::<Vec<_>>()), "{}", context());
+        }
         match t.commit_timestamp() {
             Ok(_) => {
-                assert!(!expected, "{}: a conflict was not seen", context());
                 n_laid += t.segments().count();
                 n_constrained += usize::from(t.is_constrained());
             }
-            Err(Error::Conflict { .. }) => {
-                assert!(expected, "{}: {:?} is no conflict", context(), t.conflicts_of_segments());
-                n_refused += 1;
-                t.discard_moves();
-                assert_eq!(before, (cell_set(&t), t.segments().collect::<Vec<_>>()), "{}", context());
-            }
+            Err(Error::Conflict { .. }) => n_refused += 1,
             Err(error) => panic!("{}: {error}", context()),
+        }
+        assert_eq!(t.conflicts_of_segments(), expected, "{}", context());
+        if !expected.is_empty() {
+            t.discard_moves();
+            assert_eq!(before, (cell_set(&t), t.segments().collect::<Vec<_>>()), "{}", context());
         }
         check_definition(&t, &context);
         check_fresh(&t, &context);
         check_places(&t, rng, &context);
+        check_domain(&t, rng, &context);
         check_others(&t, &context);
     }
     [n_laid, n_refused, n_constrained]
@@ -348,4 +494,44 @@ fn conflicts_name_what_is_in_the_way() {
     let _ = third;
     t.discard_moves();
     assert_eq!(t.segments().count(), 0);
+}
+
+/// A vertex that is hidden, and goes from the place of one vertex to that of another, changes no cell.
+#[test]
+fn segments_go_with_hidden_vertices() {
+    let points = [[0.0, 0.0], [5.0, -1.0], [10.0, 0.0], [5.0, 1.0], [5.0, -1.0]];
+    for algorithm in [
+        Algorithm::Auto,
+        Algorithm::Rebuilding,
+        Algorithm::PlacementFlips,
+        Algorithm::Tolerance,
+        Algorithm::Repair,
+    ] {
+        let context = || format!("{algorithm:?}");
+        let mut t =
+            Triangulation::new(&points, Options { algorithm, ..Options::default() }).expect("good points");
+        let [left, _, right, _, hidden] = [0, 1, 2, 3, 4].map(VertexId::new);
+        t.stage_segments([Segment { ends: [hidden, right], marker: 0 }].into_iter()).expect("present");
+        t.commit_timestamp().expect("an edge of the outline");
+        t.move_vertices(&[hidden], &[points[0]]).expect("a good place");
+        t.commit_timestamp().expect("nothing is in the way");
+        let is_long = |t: &Triangulation| {
+            t.cells().expect("room").corners.iter().any(|row| row.contains(&left) && row.contains(&right))
+        };
+        assert!(is_long(&t), "{}", context());
+        check_definition(&t, &context);
+        t.move_vertices(&[hidden], &[points[2]]).expect("a good place");
+        t.commit_timestamp().expect_err("the ends meet");
+        assert_eq!(
+            t.conflicts_of_segments(),
+            [Conflict::EndsMeet { segment: SegmentId::new(0) }],
+            "{}",
+            context()
+        );
+        assert!(is_long(&t), "{}", context());
+        t.discard_moves();
+        t.move_vertices(&[hidden], &[points[1]]).expect("a good place");
+        t.commit_timestamp().expect("nothing is in the way");
+        assert!(!is_long(&t), "{}", context());
+    }
 }

@@ -31,7 +31,7 @@ constexpr rlim_t most_memory = rlim_t(6) << 30;
 
 std::vector<Call> all_calls() {
     std::vector<Call> calls;
-    for (auto part : {changing_calls, reading_calls, geometry_calls, file_calls})
+    for (auto part : {changing_calls, reading_calls, geometry_calls, segment_calls, file_calls})
         for (const Call &call : part()) calls.push_back(call);
     return calls;
 }

@@ -223,6 +223,7 @@ struct Call {
 std::vector<Call> changing_calls();
 std::vector<Call> reading_calls();
 std::vector<Call> geometry_calls();
+std::vector<Call> segment_calls();
 std::vector<Call> file_calls();
 
 }  // namespace costs

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "domains.hpp"
 #include "environment.hpp"
 #include "options.hpp"
 #include "report.hpp"
@@ -31,12 +32,17 @@ int perform(const bench::Options &options, const std::string &command) {
         case bench::Task::memory: bench::run_memory(options); environment += "_memory"; break;
         case bench::Task::large: bench::run_large(options); environment += "_large"; break;
         case bench::Task::structured: bench::run_structured(options); environment += structured; break;
+        case bench::Task::domains: bench::run_domains(options); environment += "_domains"; break;
         case bench::Task::targets: bench::run_targets(options); environment += "_targets"; break;
-        case bench::Task::run: bench::run_scenarios(options); break;
+        case bench::Task::run:
+            bench::run_scenarios(options);
+            if (options.with_structured) bench::run_domains(options);
+            break;
     }
     bench::write_environment(options.results + "/" + environment + ".txt", command);
     if (options.with_structured)
-        bench::write_environment(options.results + "/environment" + structured + ".txt", command);
+        for (const std::string &part : {structured, std::string("_domains")})
+            bench::write_environment(options.results + "/environment" + part + ".txt", command);
     return 0;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options.hpp"
 
+#include "domains.hpp"
 #include "engine.hpp"
 #include "structured.hpp"
 
@@ -16,11 +17,12 @@ namespace {
 
 const std::map<std::string, Preset> presets = {
     {"quick",
-     {"quick", 1000, 50, 5, 10, 3, {1'000, 10'000, 100'000, 1'000'000}, {1'000, 10'000, 100'000}, {10'000}, false}},
+     {"quick", 1000, 50, 5, 10, 3, {1'000, 10'000, 100'000, 1'000'000}, {1'000, 10'000, 100'000}, {10'000},
+      {10'000, 100'000}, false}},
     {"full",
      {"full", 1000, 1000, 20, 20, 3, {1'000, 10'000, 100'000, 1'000'000}, {1'000, 10'000, 100'000},
-      {5'000, 40'000, 200'000}, true}},
-    {"smoke", {"smoke", 20, 5, 2, 2, 1, {1'000}, {1'000}, {500}, true}},
+      {5'000, 40'000, 200'000}, {10'000, 100'000}, true}},
+    {"smoke", {"smoke", 20, 5, 2, 2, 1, {1'000}, {1'000}, {500}, {1'000}, true}},
 };
 
 const std::vector<std::string> scenario_names = {"lloyd_2d_uniform", "walk_3d", "static_2d",
@@ -116,6 +118,9 @@ private:
             "repeated")
             ->take_all()
             ->check(CLI::IsMember(point_set_names()));
+        add("--domain", "NAME", options_.domains, "with --domains: only this one; may be repeated")
+            ->take_all()
+            ->check(CLI::IsMember(domain_names()));
         add_number("--threads", options_.threads, 1, "number of threads deldrift may use, default 1; may be repeated")
             ->take_all();
         add_number("--seed", options_.seed, 0, "of the generated positions, default 1");
@@ -166,6 +171,9 @@ private:
                  "point sets such as solvers have: lattices, layers, surfaces, graded and clustered clouds,\n"
                  "built and moved, to structured.csv; the last part of a run without --scenario or --series.\n"
                  "With --preset full all sets at three sizes, to structured_full.csv");
+        add_task("--domains", Task::domains,
+                 "domains whose boundaries are segments, and move, beside CGAL's constrained triangulations,\n"
+                 "to domains.csv; a part of a run without --scenario or --series, too");
         add_task("--targets", Task::targets,
                  "special cases beside the speed-up wanted, to targets.csv: within nine minutes");
         add_task("--self-test", Task::self_test, "test the benchmark's own checks");
@@ -195,6 +203,8 @@ private:
                                                      options_.task == Task::report ? "without" : "with"));
         if (!options_.targets.empty() && options_.task != Task::targets)
             throw std::runtime_error("--target is for runs with --targets");
+        if (!options_.domains.empty() && options_.task != Task::domains)
+            throw std::runtime_error("--domain is for runs with --domains");
         if (!(options_.point_sets.empty() && point_set_sizes_.empty()) && options_.task != Task::structured)
             throw std::runtime_error("--point-set and --point-set-size are for runs with --structured");
         if (!point_set_sizes_.empty()) options_.preset.structured_sizes = point_set_sizes_;
@@ -208,7 +218,8 @@ private:
     bool is_part() const {
         if (options_.task == Task::report) return false;
         const bool is_chosen = !(options_.scenarios.empty() && options_.engines.empty() && options_.targets.empty() &&
-                                 options_.point_sets.empty() && options_.series.empty() && point_set_sizes_.empty());
+                                 options_.point_sets.empty() && options_.domains.empty() &&
+                                 options_.series.empty() && point_set_sizes_.empty());
         const bool is_shortened = preset_ == "smoke" || n_repeats_ > 0 || n_timestamps_ > 0 || n_checks_ > 0 ||
                                   n_slow_timestamps_ > 0;
         const Options whole{};

@@ -20,6 +20,7 @@ struct Preset {
     std::vector<std::size_t> static_sizes;
     std::vector<std::size_t> step_sizes;
     std::vector<std::size_t> structured_sizes;
+    std::vector<std::size_t> domain_sizes;
     bool has_all_point_sets;  // of structured.hpp: else the most telling ones
 };
 
@@ -29,7 +30,7 @@ struct SeriesFile {
     std::size_t n_steps = 0;
 };
 
-enum class Task { run, report, memory, large, structured, targets, self_test, help };
+enum class Task { run, report, memory, large, structured, domains, targets, self_test, help };
 
 struct Options {
     Task task = Task::run;
@@ -39,7 +40,8 @@ struct Options {
     std::vector<std::string> engines;     // empty: all
     std::vector<std::string> targets;     // empty: all
     std::vector<std::string> point_sets;  // of Task::structured; empty: the preset's
-    bool with_structured = false;         // Task::run ends with structured point sets
+    std::vector<std::string> domains;     // of Task::domains; empty: all
+    bool with_structured = false;         // Task::run ends with structured point sets and domains
     std::vector<SeriesFile> series;
     std::size_t n_series_checks = SIZE_MAX;           // as n_checks, for series files
     std::size_t n_series_slow_timestamps = SIZE_MAX;  // as n_slow_timestamps, for series files

@@ -6,6 +6,20 @@ use super::declarations::{Declaration, Parameter, statuses};
 use super::roles::{Role, is_of_bytes, role};
 use super::rows::{ROWS, Row};
 
+/// Functions for triangulations of the plane alone.
+const OF_PLANE: [&str; 10] = [
+    "deldrift_ordered_star",
+    "deldrift_stage_segments",
+    "deldrift_stage_segment_removals",
+    "deldrift_segments",
+    "deldrift_segment_conflicts",
+    "deldrift_segments_of_cells",
+    "deldrift_cells_of_segments",
+    "deldrift_nesting_levels",
+    "deldrift_label_cells",
+    "deldrift_boundary_chains",
+];
+
 /// The source of the program.
 pub fn program(functions: &[Declaration]) -> String {
     let names = statuses().iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
@@ -23,7 +37,7 @@ pub fn program(functions: &[Declaration]) -> String {
             "the row of {} has another number of arguments",
             function.name
         );
-        let is_of_plane = function.name == "deldrift_ordered_star";
+        let is_of_plane = OF_PLANE.contains(&function.name.as_str());
         let has_count = function.tells_count();
         let _ = writeln!(text, "#define IS_STAGED {}\n#define HAS_COUNT {has_count}", row.is_staged);
         let _ = writeln!(text, "static void of_{}(void) {{", function.name);
@@ -147,7 +161,8 @@ impl Cases<'_> {
             | Role::Options
             | Role::ResearchOptions
             | Role::OutputIfAny
-            | Role::NumbersIfAny => true,
+            | Role::NumbersIfAny
+            | Role::WholesIfAny => true,
             Role::Ids => self.function.name == "deldrift_move_vertices",
             Role::Buffer => {
                 self.function.name != "deldrift_compact" && n_buffers > 1 && (!is_list || name == "offsets")
@@ -170,6 +185,10 @@ impl Cases<'_> {
             Role::Handle if self.function.name == "deldrift_destroy" => "(deldrift_triangulation *)odd",
             _ => "odd",
         };
+        // There is no conflict to be written.
+        if role == Role::Buffer && self.function.name == "deldrift_segment_conflicts" {
+            return self.legal("misaligned", at, "an odd address", wrong);
+        }
         let message = format!("\"{} is 0x\"", parameter.name);
         self.refused("misaligned", at, "an odd address", wrong, "MISALIGNED_ARGUMENT", &message);
     }
@@ -180,6 +199,17 @@ impl Cases<'_> {
         match role {
             Role::Points => {
                 let roles = self.roles();
+                if name == "seeds" {
+                    let message = "\"seeds[0] is on the boundary of several regions\"";
+                    self.refused(
+                        "value",
+                        at,
+                        "at the end of a segment",
+                        "on_fence()",
+                        "AMBIGUOUS_SEED",
+                        message,
+                    );
+                }
                 let count = roles.iter().position(|&role| role == Role::Count || role == Role::FixedCount);
                 // Of several counts that of the points comes after them.
                 let count = if self.function.has("n_values") { Some(at + 1) } else { count };
@@ -210,6 +240,11 @@ impl Cases<'_> {
                 self.legal("infinite", at, "infinity", &format!("bad({valid}, 0, INFINITY)"));
             }
             Role::Ids => self.ids(at),
+            Role::Ends => self.ends(at),
+            Role::SegmentIds => self.segments(at),
+            Role::Wholes | Role::WholesIfAny => {
+                self.legal("value", at, "the least number", "bad_wholes(1, INT32_MIN)");
+            }
             Role::CellIds | Role::CellIdsIfAny => {
                 self.legal("value", at, "one twice", "bad_ids(1, 0)");
                 for (given, value) in
@@ -332,6 +367,35 @@ impl Cases<'_> {
         }
     }
 
+    /// Ends of segments may be to be inserted, and even to be removed: that is a conflict of the commit.
+    fn ends(&mut self, at: usize) {
+        for (column, given, value, status, said) in [
+            ("id", "the number of ids", "(uint32_t)n_ids", "NO_SUCH_VERTEX", "%u\", (unsigned)n_ids"),
+            ("id", "UINT32_MAX", "UINT32_MAX", "NO_SUCH_VERTEX", "4294967295\""),
+            ("removed", "a removed vertex", "REMOVED", "REMOVED_VERTEX", "5\""),
+        ] {
+            let message = format!("\"ends[5] is {said}");
+            self.refused(column, at, given, &format!("bad_ends({value})"), status, &message);
+        }
+        self.legal("removed", at, "one to be removed", "bad_ends(LEAVING)");
+        self.legal("removed", at, "one to be inserted", "bad_ends(COMING)");
+        self.legal("value", at, "both ends at one vertex", "bad_ends(ends[4])");
+    }
+
+    fn segments(&mut self, at: usize) {
+        for (column, given, value) in [
+            ("id", "the number of ids", "N_SEGMENT_IDS"),
+            ("id", "UINT32_MAX", "UINT32_MAX"),
+            ("removed", "a removed segment", "REMOVED_SEGMENT"),
+            ("removed", "one to be removed", "LEAVING_SEGMENT"),
+            ("removed", "one to be laid", "COMING_SEGMENT"),
+            ("value", "one twice", "segments[0]"),
+        ] {
+            let message = format!("\"segments[1] is %u\", (unsigned){value}");
+            self.refused(column, at, given, &format!("bad_segments({value})"), "NO_SUCH_SEGMENT", &message);
+        }
+    }
+
     fn fields(&mut self, at: usize, name: &str) {
         for (column, given, wrong, status, said) in [
             ("null", "a name that is NULL", "NULL, values, 1", "INVALID_FIELD", "name of {}[0]"),
@@ -415,6 +479,7 @@ impl Cases<'_> {
                 self.legal("infinite", at, "infinity", "INFINITY");
                 self.legal("zero", at, "0", "0");
             }
+            Role::Whole => self.legal("value", at, "the least number", "INT32_MIN"),
             Role::Corners => {
                 for (given, value) in
                     [("0", "0"), ("two more than dimensions", "dimension + 2"), ("UINT32_MAX", "UINT32_MAX")]
@@ -488,8 +553,13 @@ impl Cases<'_> {
 
     fn capacity(&mut self, at: usize) {
         for (column, given, value) in [("zero", "0", "0"), ("value", "1", "1")] {
-            // There is one hidden vertex.
-            if value == "1" && self.function.name == "deldrift_hidden_vertices" {
+            // There is one hidden vertex, and no conflict.
+            let is_enough = match self.function.name.as_str() {
+                "deldrift_hidden_vertices" => value == "1",
+                "deldrift_segment_conflicts" => true,
+                _ => false,
+            };
+            if is_enough {
                 self.legal(column, at, given, value);
                 continue;
             }
@@ -519,7 +589,8 @@ impl Cases<'_> {
             let role = roles[k];
             let is_read = matches!(role, Role::Points | Role::BoxCorner | Role::OpenBoxCorner)
                 || matches!(role, Role::Numbers | Role::NumbersIfAny);
-            is_read || matches!(role, Role::Mask | Role::Hint | Role::Buffer | Role::Output)
+            let is_list = matches!(role, Role::Ends | Role::SegmentIds | Role::Wholes | Role::WholesIfAny);
+            is_read || is_list || matches!(role, Role::Mask | Role::Hint | Role::Buffer | Role::Output)
         };
         let element = |k: usize| {
             let c_type = self.function.parameters[k].c_type.as_str();

@@ -12,6 +12,10 @@
 #include <stdarg.h>
 #include <unistd.h>
 
+// Segments in the plane: a fence around a cell, two more at one of its edges, of which one is removed and the other is to be,
+// and one that is staged.
+enum { N_SEGMENTS = 4, LEAVING_SEGMENT = 3, REMOVED_SEGMENT = 4, COMING_SEGMENT = 5, N_SEGMENT_IDS = 6 };
+
 enum { COUNT = 13, REMOVED = 5, HIDDEN = 12, STAGED = 7, LEAVING = 6, COMING = COUNT, ROOM = 1024, BYTES = 16384 };
 
 // All that calls write to.
@@ -28,7 +32,9 @@ typedef struct {
     deldrift_cells_view cells;
     deldrift_location location, locations[8];
     double numbers[ROOM], more_numbers[ROOM], few_numbers[8];
-    uint32_t ids[ROOM], more_ids[ROOM];
+    uint32_t ids[ROOM], more_ids[ROOM], few_ids[ROOM / 8], fewer_ids[ROOM / 8];
+    int32_t labels[ROOM];
+    deldrift_conflict conflicts[8];
     uint8_t bytes[BYTES];
 } outputs;
 
@@ -39,12 +45,13 @@ static outputs out, untouched;
 static uint32_t dimension;
 static deldrift_triangulation *bases[2], *t;
 static size_t n_ids, n_cells, n_edges;
-static uint32_t inner_cell, inner_corner;
+static uint32_t inner_cell, inner_corner, fence[3];
 
 // Arguments, which are made again before each call.
 static double points[(COUNT + 2) * 3], moved[(COUNT + 2) * 3], values[(COUNT + 2) * 3], inside[(COUNT + 2) * 3];
 static double outside[ROOM], low[ROOM], high[ROOM];
-static uint32_t ids[3];
+static uint32_t ids[3], ends[6], segments[2];
+static int32_t wholes[3];
 static uint8_t mask[ROOM], saved[BYTES];
 static size_t saved_size;
 static deldrift_options options;
@@ -99,6 +106,36 @@ static uint32_t *bad_ids(size_t at, uint32_t value) {
     static uint32_t made[3];
     memcpy(made, ids, sizeof made);
     made[at] = value;
+    return made;
+}
+
+// The last end another one.
+static uint32_t *bad_ends(uint32_t value) {
+    static uint32_t made[6];
+    memcpy(made, ends, sizeof made);
+    made[5] = value;
+    return made;
+}
+
+static uint32_t *bad_segments(uint32_t value) {
+    static uint32_t made[2];
+    made[0] = segments[0];
+    made[1] = value;
+    return made;
+}
+
+static int32_t *bad_wholes(size_t at, int32_t value) {
+    static int32_t made[3];
+    memcpy(made, wholes, sizeof made);
+    made[at] = value;
+    return made;
+}
+
+// Seeds of which the first is at a corner of the fence.
+static double *on_fence(void) {
+    static double made[(COUNT + 2) * 3];
+    memcpy(made, inside, sizeof made);
+    memcpy(made, points + fence[0] * dimension, dimension * sizeof *made);
     return made;
 }
 
@@ -186,7 +223,10 @@ static void before(void) {
         low[i] = -1;
         high[i] = 2;
         ids[i] = (uint32_t[]){0, 1, 4}[i];
+        wholes[i] = -5 * (int32_t)i;
     }
+    for (size_t i = 0; i < 6; i++) ends[i] = (uint32_t[]){0, 1, 4, 2, 8, 11}[i];
+    for (size_t i = 0; i < 2; i++) segments[i] = (uint32_t)(2 - 2 * i);
     outside[0] = outside[1] = 7;
     memset(mask, 1, sizeof mask);
     mask[0] = 0;
@@ -393,6 +433,35 @@ static void poisoned_ones_can_be_destroyed(void) {
     t = NULL;
 }
 
+// A cell none of whose corners moves or goes.
+static void choose_fence(const deldrift_triangulation *base) {
+    const deldrift_cells_view view = cells_of(base);
+    for (size_t c = 0; c < view.count; c++) {
+        bool is_fit = true;
+        for (int i = 0; i < 3; i++) {
+            const uint32_t v = fence[i] = view.vertices[3 * c + (size_t)i];
+            is_fit = is_fit && v != 1 && v != REMOVED && v != LEAVING && v != STAGED && v != HIDDEN && v != 3;
+        }
+        if (is_fit) return;
+    }
+    CHECK(!"a cell for the fence");
+}
+
+static void stage_segment(deldrift_triangulation *base, int side, uint32_t wanted) {
+    const uint32_t ends_of[] = {fence[side], fence[(side + 1) % 3]};
+    uint32_t segment;
+    OK(deldrift_stage_segments(base, ends_of, NULL, 1, &segment));
+    CHECK(segment == wanted);
+}
+
+static void lay_segments(deldrift_triangulation *base) {
+    choose_fence(base);
+    for (uint32_t k = 0; k < 5; k++) stage_segment(base, (int)(k % 3), k);
+    OK(deldrift_commit_timestamp(base, NULL));
+    OK(deldrift_stage_segment_removals(base, (uint32_t[]){REMOVED_SEGMENT}, 1));
+    OK(deldrift_commit_timestamp(base, NULL));
+}
+
 static void make_bases(void) {
     deldrift_options_init(&options);
     options.cancel = intrude;
@@ -401,10 +470,15 @@ static void make_bases(void) {
     OK(deldrift_create(dimension, points, COUNT, &options, &bases[0]));
     OK(deldrift_remove_vertex(bases[0], REMOVED));
     OK(deldrift_commit_timestamp(bases[0], NULL));
+    if (dimension == 2) lay_segments(bases[0]);
     OK(deldrift_clone(bases[0], &bases[1]));
     OK(deldrift_move_vertex(bases[0], STAGED, moved));
     OK(deldrift_stage_insertions(bases[0], moved, 1, &first));
     OK(deldrift_stage_removals(bases[0], (uint32_t[]){LEAVING}, 1));
+    if (dimension == 2) {
+        OK(deldrift_stage_segment_removals(bases[0], (uint32_t[]){LEAVING_SEGMENT}, 1));
+        stage_segment(bases[0], 0, COMING_SEGMENT);
+    }
     for (int k = 0; k < 2; k++) look(bases[k], &kept[k]);
     OK(deldrift_save(bases[0], saved, BYTES, &saved_size));
     OK(deldrift_save_file(bases[0], path_saved));

@@ -21,6 +21,13 @@ pub enum Role {
     /// Numbers of any value, or none.
     NumbersIfAny,
     Ids,
+    /// Ids of vertices that are ends of segments, and ids of segments.
+    Ends,
+    SegmentIds,
+    /// Whole numbers of any value; an array of them, and one that may be left out.
+    Whole,
+    Wholes,
+    WholesIfAny,
     /// Indices of cells, and of cells if there are any.
     CellIds,
     CellIdsIfAny,
@@ -69,6 +76,7 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("deldrift_triangulation *" | "const deldrift_triangulation *", "t") => Role::Handle,
         ("deldrift_released_cells *", "owner") => Role::Owner,
         ("const double *", "position" | "positions" | "centre") => Role::Points,
+        ("const double *", "seeds") => Role::Points,
         ("const double *", "points") if function.name == "deldrift_in_sphere" => Role::PointsOfSphere,
         ("const double *", "points") => Role::PointsOfSimplex,
         ("const double *", "low" | "high") if function.name == "deldrift_vertices_in_box" => {
@@ -78,6 +86,11 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("const double *", "values") => Role::Numbers,
         ("const double *", "outside") => Role::NumbersIfAny,
         ("const uint32_t *", "vertices") => Role::Ids,
+        ("const uint32_t *", "ends") => Role::Ends,
+        ("const uint32_t *", "segments") => Role::SegmentIds,
+        ("const int32_t *", "labels") => Role::Wholes,
+        ("const int32_t *", "markers") => Role::WholesIfAny,
+        ("int32_t", "other") => Role::Whole,
         ("const uint32_t *", "cells") if function.name == "deldrift_barycentric" => Role::CellIdsIfAny,
         ("const uint32_t *", "cells") => Role::CellIds,
         ("const uint8_t *", "mask") => Role::Mask,
@@ -99,7 +112,7 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("uint32_t", "corners_per_simplex") => Role::Corners,
         ("double", "squared_radius" | "tolerance") => Role::Magnitude,
         ("size_t", "count") if function.name == "deldrift_commit_positions" => Role::FixedCount,
-        ("size_t", "count" | "vertex_count" | "cell_count") => Role::Count,
+        ("size_t", "count" | "vertex_count" | "cell_count" | "seed_count") => Role::Count,
         ("size_t", "vertex_field_count" | "cell_field_count") => Role::Count,
         ("size_t", "value_count" | "mask_count" | "offset_count") => Role::FixedCount,
         ("size_t", "n_values" | "k") => Role::CountOfEach,

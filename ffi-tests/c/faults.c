@@ -39,6 +39,8 @@ typedef struct {
 
 static const char *end_of(scene *s, ending *end) {
     const char *wrong = NULL;
+    // What conflicts would do so again.
+    if (s->setting->conflicts) OK(deldrift_discard_moves(s->t));
     end->now = numbers_of(s->t);
     end->cells = arrays_of(s->t).cells;
     if (s->setting->takes) wrong = take(s);
@@ -68,7 +70,8 @@ static control control_of(uint32_t dimension, call call, const setting *setting)
     OK(deldrift_statistics(s.t, &c.sums));
     c.status = make_call(&s, SIZE_MAX, NONE_LATER, &c.end.given, &wrong);
     c.n_requests = n_requests;
-    CHECK(c.status == DELDRIFT_OK || c.status == DELDRIFT_NO_SUCH_FACET);
+    const bool has_conflicts = setting->conflicts && is_commit(call.kind);
+    CHECK(has_conflicts ? c.status == DELDRIFT_CROSSING : c.status == DELDRIFT_OK || c.status == DELDRIFT_NO_SUCH_FACET);
     if (wrong == NULL) wrong = end_of(&s, &c.end);
     if (wrong != NULL) fprintf(stderr, "%s without a fault: %s\n", NAMES[call.kind], wrong);
     CHECK(wrong == NULL);
@@ -118,6 +121,8 @@ static const char *fault(scene *s, const control *c, size_t k, later too, bool l
 
 static void faults_of(uint32_t dimension, call call, size_t which, double share, size_t turn) {
     const setting *setting = &SETTINGS[which];
+    // Segments are of the plane; a set without them has nothing to check.
+    if (setting->segments > 0 ? dimension == 3 : call.kind == CHECK_STAGED) return;
     // There for what several threads build.
     bool builds = call.kind == CREATE || (call.kind == COMMIT && call.algorithm == DELDRIFT_REBUILDING);
     if (setting->n > 1000 && !builds) return;
@@ -211,6 +216,10 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     OK(deldrift_copy_positions(s.t, numbers_out, ROOM / 3, &count));
     OK(deldrift_coincident_representative(s.t, 30, &number));
     OK(deldrift_hidden_vertices(s.t, ids_out, more_out, ROOM, &count));
+    if (dimension == 2) {
+        OK(deldrift_segments(s.t, ids_out, NULL, NULL, ROOM, &count));
+        OK(deldrift_segment_conflicts(s.t, NULL, 0, &count));
+    }
     OK(deldrift_validate(s.t, 3));
     int32_t sign;
     static const double flat[15] = {0, 0, 0, 1, 1e-300, 0, 0, 1, 0, 1, 1, 1e-300, 1, 1e-300, 1};
@@ -282,7 +291,7 @@ int main(void) {
                                  k == NEAREST || k == NEAREST_VERTICES || k == CONFLICTS;
                 // Moves and edits that are staged already would be in the way.
                 if (SETTINGS[which].edits && (k == STAGE_REMOVALS || k == MOVE_ALL)) continue;
-                if (dimension == 3 && k == ORDERED_STAR) continue;
+                if (dimension == 3 && is_of_plane(k)) continue;
                 if (is_commit(k)) {
                     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
                         faults_of(dimension, (call){k, all[i], 0}, which, factor, turn++);

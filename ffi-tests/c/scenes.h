@@ -21,6 +21,9 @@ typedef struct {
     int warm;
     // All points around one of them; all in a line, until they move; all in a line once they have moved.
     bool is_hub, is_flat, flattens;
+    // Segments, in the plane alone: half of them in force, the others staged with a commit; what is staged conflicts.
+    size_t segments;
+    bool conflicts;
 } setting;
 
 static const setting SETTINGS[] = {
@@ -37,24 +40,30 @@ static const setting SETTINGS[] = {
     {.n = 3000, .threads = 2},
     {.n = 700, .threads = 3},
     {.n = 700, .threads = 3, .hides = true, .reads = true, .takes = true, .warm = 1, .stages = 16},
+    {.n = 60, .threads = 1, .hides = true, .reads = true, .takes = true, .warm = 1, .stages = 3, .segments = 8},
+    {.n = 60, .threads = 1, .takes = true, .edits = true, .segments = 6},
+    {.n = 60, .threads = 1, .reads = true, .takes = true, .stages = 2, .segments = 8, .conflicts = true},
+    {.n = 700, .threads = 3, .reads = true, .warm = 1, .stages = 16, .segments = 16},
 };
 enum { N_SETTINGS = sizeof SETTINGS / sizeof *SETTINGS };
 
-typedef enum { CREATE, RELOCATE, INSERT, REMOVE, MOVE, MOVE_SOME, MOVE_ALL, STAGE_INSERTIONS, STAGE_REMOVALS, COMMIT,
-    COMMIT_SOME, COMMIT_POSITIONS, COMPACT, TAKE_CHANGES, CELLS, COPY_CELLS, STAR, TOLERANCE, ANNULUS_WIDTHS,
+typedef enum { CREATE, RELOCATE, INSERT, REMOVE, MOVE, MOVE_SOME, MOVE_ALL, STAGE_INSERTIONS, STAGE_REMOVALS,
+    STAGE_SEGMENTS, STAGE_SEGMENT_REMOVALS, COMMIT,
+    COMMIT_SOME, COMMIT_POSITIONS, CHECK_STAGED, COMPACT, TAKE_CHANGES, CELLS, COPY_CELLS, STAR, TOLERANCE, ANNULUS_WIDTHS,
     DELIMITER, LOCATE, LOCATE_POINTS, NEAREST, CIRCUMCENTRES, VOLUMES, MASK_BY_CIRCUMRADIUS,
     MASK_BOUNDARY, HULL_FACETS, EDGES, VERTEX_NEIGHBOURS, VERTEX_CELLS, MIRROR_INDICES, MIRROR_INDEX, ORDERED_STAR,
     CELLS_AROUND, CELLS_AROUND_ALL, UPDATE_CIRCUMCENTRES, UPDATE_VOLUMES, UPDATE_MASK,
     VORONOI_VOLUMES, VORONOI_FACETS, INTERPOLATE, INTERPOLATE_NATURAL,
     NEAREST_VERTICES, VERTICES_IN_BALL, VERTICES_IN_BOX, CONFLICTS, FIND_SIMPLICES, FIND_SIMPLICES_ALL,
-    CELL_OF_EACH_VERTEX, BARYCENTRIC, MASK_WITHOUT_FLAT_CELLS,
-    RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT, N_KINDS } kind;
+    CELL_OF_EACH_VERTEX, BARYCENTRIC, MASK_WITHOUT_FLAT_CELLS, SEGMENTS_OF_CELLS, CELLS_OF_SEGMENTS, NESTING_LEVELS,
+    LABEL_CELLS, BOUNDARY_CHAINS, RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
     "deldrift_create", "deldrift_relocate_vertex", "deldrift_insert_vertex", "deldrift_remove_vertex",
     "deldrift_move_vertex", "deldrift_move_vertices", "deldrift_move_vertices, all", "deldrift_stage_insertions",
-    "deldrift_stage_removals", "deldrift_commit_timestamp", "deldrift_commit_timestamp, some",
-    "deldrift_commit_positions", "deldrift_compact", "deldrift_take_changes", "deldrift_cells", "deldrift_copy_cells",
+    "deldrift_stage_removals", "deldrift_stage_segments", "deldrift_stage_segment_removals",
+    "deldrift_commit_timestamp", "deldrift_commit_timestamp, some",
+    "deldrift_commit_positions", "deldrift_check_staged", "deldrift_compact", "deldrift_take_changes", "deldrift_cells", "deldrift_copy_cells",
     "deldrift_star", "deldrift_tolerance", "deldrift_research_annulus_widths", "deldrift_research_standard_delimiter",
     "deldrift_locate",
     "deldrift_locate_points", "deldrift_nearest_vertex", "deldrift_circumcentres",
@@ -66,10 +75,13 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_interpolate", "deldrift_interpolate, natural",
     "deldrift_nearest_vertices", "deldrift_vertices_in_ball", "deldrift_vertices_in_box", "deldrift_conflicts",
     "deldrift_find_simplices", "deldrift_find_simplices, all", "deldrift_cell_of_each_vertex", "deldrift_barycentric",
-    "deldrift_mask_without_flat_cells",
-    "deldrift_release_cells", "deldrift_clone", "deldrift_save", "deldrift_load", "deldrift_save_file", "deldrift_load_file", "deldrift_write_vtu",
-    "deldrift_write_medit",
+    "deldrift_mask_without_flat_cells", "deldrift_segments_of_cells", "deldrift_cells_of_segments",
+    "deldrift_nesting_levels", "deldrift_label_cells", "deldrift_boundary_chains",
+    "deldrift_release_cells", "deldrift_clone", "deldrift_save", "deldrift_load", "deldrift_save_file",
+    "deldrift_load_file", "deldrift_write_vtu", "deldrift_write_medit",
 };
+
+enum { MOST_PAIRS = 24 };
 
 // A call: `goal` is for those of one vertex, which goes near, far, or to a place that is taken.
 typedef struct {
@@ -79,7 +91,12 @@ typedef struct {
 } call;
 
 static bool is_commit(kind k) {
-    return k == COMMIT || k == COMMIT_SOME || k == COMMIT_POSITIONS;
+    return k == COMMIT || k == COMMIT_SOME || k == COMMIT_POSITIONS || k == CHECK_STAGED;
+}
+
+static bool is_of_plane(kind k) {
+    return k == ORDERED_STAR || k == STAGE_SEGMENTS || k == STAGE_SEGMENT_REMOVALS ||
+           (SEGMENTS_OF_CELLS <= k && k <= BOUNDARY_CHAINS);
 }
 
 typedef struct {
@@ -91,6 +108,9 @@ typedef struct {
     double *points, *places;
     size_t n;
     mirror mirror;
+    // Pairs of vertices of which no two cross; how many are segments, or staged.
+    uint32_t pairs[MOST_PAIRS][2];
+    size_t n_pairs;
 } scene;
 
 // Room for what calls give, made before.
@@ -174,9 +194,44 @@ static const char *take(scene *s) {
     return follow(&s->mirror, &changes, s->t);
 }
 
+static double side_of(const double *a, const double *b, const double *c) {
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+static bool pairs_cross(const double *points, const uint32_t *e, const uint32_t *f) {
+    const double *a = points + 2 * e[0], *b = points + 2 * e[1], *c = points + 2 * f[0], *d = points + 2 * f[1];
+    if (e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1]) return false;
+    return (side_of(a, b, c) > 0) != (side_of(a, b, d) > 0) && (side_of(c, d, a) > 0) != (side_of(c, d, b) > 0);
+}
+
+// Whether a vertex may be an end of segments: it stays where it is.
+static bool may_end(uint32_t v) {
+    return v % 3 == 0 && v != 3 && v != 9 && v != 12 && v != 30 && v < 60;
+}
+
+// Takes pairs of vertices that stay, long ones first, of which no two cross.
+static void pair_up(scene *s) {
+    for (uint32_t span = 30; span > 0; span--) {
+        for (uint32_t v = 0; v + 3 * span < s->n && s->n_pairs < MOST_PAIRS; v++) {
+            const uint32_t pair[] = {v, v + 3 * span};
+            bool is_free = may_end(pair[0]) && may_end(pair[1]);
+            for (size_t k = 0; k < s->n_pairs && is_free; k++) is_free = !pairs_cross(s->points, s->pairs[k], pair);
+            if (is_free) memcpy(s->pairs[s->n_pairs++], pair, sizeof pair);
+        }
+    }
+}
+
+static void stage_pairs(scene *s, size_t first, size_t count) {
+    uint32_t segment;
+    CHECK(first + count <= s->n_pairs);
+    OK(deldrift_stage_segments(s->t, s->pairs[first], NULL, count, &segment));
+    CHECK(segment == first);
+}
+
 // The same each time.
 static scene make_scene(uint32_t dimension, call call, const setting *setting) {
-    scene s = {dimension, call, setting, NULL, NULL, NULL, setting->n, {0, 0, NULL}};
+    scene s = {.dimension = dimension, .call = call, .setting = setting, .n = setting->n};
+    const size_t n_laid = dimension == 2 ? setting->segments / 2 : 0;
     uint64_t state = 5;
     uint32_t d = dimension, v = 0;
     size_t room = (setting->n + 40) * d;
@@ -195,6 +250,11 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
         OK(deldrift_move_vertices(s.t, NULL, s.points, s.n));
         OK(deldrift_commit_timestamp(s.t, NULL));
     }
+    if (d == 2) pair_up(&s);
+    if (n_laid > 0) {
+        stage_pairs(&s, 0, n_laid);
+        OK(deldrift_commit_timestamp(s.t, NULL));
+    }
     if (setting->takes) CHECK(take(&s) == NULL);
     if (setting->edits) {
         OK(deldrift_insert_vertex(s.t, s.points + s.n++ * d, &v));
@@ -211,7 +271,13 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
     memcpy(s.places, s.points, room * sizeof *s.places);
     nudge(s.places, s.n * d, 0.3 * spacing, &state);
     if (setting->flattens) flatten(s.places, s.n + 20, d);
-    if (call.kind == COMMIT) OK(deldrift_move_vertices(s.t, NULL, s.places, s.n));
+    for (size_t k = 0; k < s.n_pairs && n_laid > 0; k++) {
+        for (int i = 0; i < 2; i++) {
+            const uint32_t end = s.pairs[k][i];
+            memcpy(s.places + end * d, s.points + end * d, d * sizeof *s.places);
+        }
+    }
+    if (call.kind == COMMIT || call.kind == CHECK_STAGED) OK(deldrift_move_vertices(s.t, NULL, s.places, s.n));
     for (uint32_t w = 2; w < s.n; w += 3) {
         bool present;
         OK(deldrift_is_present(s.t, w, &present));
@@ -229,6 +295,15 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
         OK(deldrift_stage_insertions(s.t, s.places + s.n * d, setting->stages, &v));
         OK(deldrift_stage_removals(s.t, leaving, setting->stages));
         s.n += setting->stages;
+        if (n_laid > 0) {
+            stage_pairs(&s, n_laid, n_laid);
+            OK(deldrift_stage_segment_removals(s.t, (uint32_t[]){1}, 1));
+        }
+        // An end goes, and segments cross.
+        if (n_laid > 0 && setting->conflicts && is_commit(call.kind)) {
+            OK(deldrift_stage_removals(s.t, s.pairs[0], 1));
+            OK(deldrift_stage_segments(s.t, (uint32_t[]){1, 2, 4, 5, 7, 8, 11, 14, 17, 20}, NULL, 5, &v));
+        }
     }
     return s;
 }
@@ -290,6 +365,11 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     deldrift_cells_view released = {77, 0, NULL, NULL};
     deldrift_released_cells *owner = NULL;
     const char *file = file_of_test();
+    int32_t *const labels = (int32_t *)(void *)ids_out;
+    static uint32_t segments_out[ROOM], chains_out[ROOM];
+    // After all that may be staged, but in flat sets, where vertices are on them.
+    const bool is_flat = s->setting->is_flat || s->setting->flattens;
+    const size_t n_segments = d == 2 ? s->setting->segments : 0, n_more = is_flat ? 0 : 5;
     if (s->call.kind == LOAD) OK(deldrift_save(s->t, saved, sizeof saved, &size));
     if (s->call.kind == LOAD_FILE) OK(deldrift_save_file(s->t, file));
     count_requests(first, too);
@@ -303,6 +383,13 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case MOVE_ALL: status = deldrift_move_vertices(s->t, NULL, s->places, s->n); break;
         case STAGE_INSERTIONS: status = deldrift_stage_insertions(s->t, s->points, 20, &out); break;
         case STAGE_REMOVALS: status = deldrift_stage_removals(s->t, (uint32_t[]){10, 20, 21, 22}, 4); break;
+        case STAGE_SEGMENTS:
+            status = deldrift_stage_segments(s->t, s->pairs[n_segments / 2], NULL, n_more, &out);
+            break;
+        case STAGE_SEGMENT_REMOVALS:
+            status = deldrift_stage_segment_removals(s->t, (uint32_t[]){0, 1}, n_segments > 0 ? 2 : 0);
+            break;
+        case CHECK_STAGED: status = deldrift_check_staged(s->t); break;
         case COMMIT:
         case COMMIT_SOME: status = deldrift_commit_timestamp(s->t, &report); break;
         case COMMIT_POSITIONS: status = deldrift_commit_positions(s->t, s->places, s->n, &report); break;
@@ -361,6 +448,14 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case MASK_WITHOUT_FLAT_CELLS:
             status = deldrift_mask_without_flat_cells(s->t, 0.1, bytes_out, ROOM, &count);
             break;
+        case SEGMENTS_OF_CELLS: status = deldrift_segments_of_cells(s->t, ids_out, ROOM / 3, &count); break;
+        case CELLS_OF_SEGMENTS: status = deldrift_cells_of_segments(s->t, ids_out, ROOM / 2, &count); break;
+        case NESTING_LEVELS: status = deldrift_nesting_levels(s->t, ids_out, ROOM, &count); break;
+        case LABEL_CELLS: status = deldrift_label_cells(s->t, at, (int32_t[]){5}, 1, 2, labels, ROOM, &count); break;
+        case BOUNDARY_CHAINS:
+            status = deldrift_boundary_chains(s->t, mask, n_cells, ids_out, more_out, segments_out, chains_out, bytes_out,
+                                              ROOM, &count);
+            break;
         case RELEASE_CELLS: status = deldrift_release_cells(s->t, &released, &owner); break;
         case CLONE: status = deldrift_clone(s->t, &made); break;
         case SAVE: status = deldrift_save(s->t, bytes_out, sizeof bytes_out, &count); break;
@@ -381,6 +476,12 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     }
     *wrong = NULL;
     *given = status;
+    if (DELDRIFT_CROSSING <= status && status <= DELDRIFT_ENDS_MEET) {
+        deldrift_conflict conflicts[64];
+        size_t n_conflicts;
+        OK(deldrift_segment_conflicts(s->t, conflicts, 64, &n_conflicts));
+        *given = mixed(status, digest_of(conflicts, n_conflicts * sizeof *conflicts));
+    }
     if (status != DELDRIFT_OK) {
         bool untouched = made == none && report.timestamp == 77 && out == 77 && ids_out[0] == 77 && more_out[0] == 77;
         if (owner != NULL || released.count != 77) *wrong = "an owner is given";
@@ -455,6 +556,21 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             for (size_t i = 0; i < count; i++) *given = mixed(*given, ids_out[i] == DELDRIFT_NONE);
             break;
         case BARYCENTRIC: *given = isnan(numbers_out[0]) != 0; break;
+        // The order of cells is not the scene's; which edges of a cell have segments is told by sums.
+        case SEGMENTS_OF_CELLS:
+            for (size_t i = 0; i < 3 * count; i++) *given += mixed(5, ids_out[i]);
+            break;
+        case CELLS_OF_SEGMENTS:
+            for (size_t i = 0; i < 2 * count; i++) {
+                const bool is_cell = ids_out[i] != DELDRIFT_NONE;
+                *given = mixed(*given, is_cell ? digest_of_cells(s->t, &ids_out[i], 1) : 9);
+            }
+            break;
+        case LABEL_CELLS:
+        case NESTING_LEVELS:
+            for (size_t i = 0; i < count; i++) *given += ids_out[i];
+            break;
+        case BOUNDARY_CHAINS: *given = digest_of(ids_out, count * sizeof *ids_out); break;
         case UPDATE_MASK: count = n_cells; // fall through
         case MASK_WITHOUT_FLAT_CELLS:
         case MASK_BY_CIRCUMRADIUS:

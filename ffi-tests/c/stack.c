@@ -109,6 +109,10 @@ static void many_points(void) {
         GO(deldrift_stage_insertions(t, then, 5, &v));
         GO(deldrift_stage_removals(t, leaving, 3));
         GO(deldrift_commit_timestamp(t, NULL));
+        TRY(deldrift_stage_segments(t, (const uint32_t[]){20, 220, 21, 171}, NULL, 2, &v));
+        TRY(deldrift_check_staged(t));
+        TRY(deldrift_commit_timestamp(t, NULL));
+        if (tour_status != DELDRIFT_OK) GO(deldrift_discard_moves(t));
         GO(deldrift_relocate_vertex(t, 12, then));
         GO(deldrift_remove_vertex(t, 12));
         GO(deldrift_clone(t, &other));

@@ -33,8 +33,8 @@ static inline uint64_t digest_of_row(const uint32_t *row, uint32_t corners) {
 typedef struct {
     size_t ids, vertices, cells, staged;
     uint64_t timestamp;
-    // Bits of all positions; of each vertex the one that stands for its place.
-    uint64_t positions, representatives;
+    // Bits of all positions; of each vertex the one that stands for its place; segments in force.
+    uint64_t positions, representatives, segments;
 } numbers;
 
 typedef struct {
@@ -43,6 +43,19 @@ typedef struct {
     // The arrays as they are.
     uint64_t rows, neighbours;
 } arrays;
+
+// The segments in force, with their ends and markers; in space there are none.
+static inline uint64_t digest_of_segments(const deldrift_triangulation *t, uint32_t dimension) {
+    size_t count = 0;
+    if (dimension != 2) return 0;
+    OK(deldrift_segments(t, NULL, NULL, NULL, 0, &count));
+    uint32_t *rows = malloc((count + 1) * 4 * sizeof *rows);
+    CHECK(rows != NULL);
+    OK(deldrift_segments(t, rows, rows + count, (int32_t *)(rows + 3 * count), count, &count));
+    const uint64_t digest = digest_of(rows, count * 4 * sizeof *rows);
+    free(rows);
+    return digest;
+}
 
 // What can be read without cells being made for the one who reads.
 static inline numbers numbers_of(const deldrift_triangulation *t) {
@@ -68,6 +81,7 @@ static inline numbers numbers_of(const deldrift_triangulation *t) {
         if (present) OK(deldrift_coincident_representative(t, v, &representative));
         n.representatives = mixed(n.representatives, representative);
     }
+    n.segments = digest_of_segments(t, dimension);
     return n;
 }
 
@@ -103,6 +117,7 @@ static inline const char *difference(const numbers *a, const numbers *b) {
     if (a->timestamp != b->timestamp) return "another timestamp";
     if (a->positions != b->positions) return "other positions";
     if (a->representatives != b->representatives) return "other vertices hidden";
+    if (a->segments != b->segments) return "other segments";
     return NULL;
 }
 

@@ -9,7 +9,7 @@
 
 #include <unistd.h>
 
-enum { TOUR_POINTS = 48, TOUR_STEPS = 224, TOUR_ROOM = 1 << 14, TOUR_FILE = 1 << 18 };
+enum { TOUR_POINTS = 48, TOUR_STEPS = 288, TOUR_ROOM = 1 << 14, TOUR_FILE = 1 << 18 };
 
 // What a tour is given.
 typedef struct {
@@ -97,6 +97,8 @@ static void tour_progress(void *user_data, double fraction) {
 // Room for what calls give.
 static struct {
     uint32_t ids[TOUR_ROOM], more_ids[TOUR_ROOM];
+    int32_t labels[TOUR_ROOM];
+    deldrift_conflict conflicts[TOUR_ROOM];
     double numbers[TOUR_ROOM], more_numbers[TOUR_ROOM];
     uint8_t bytes[TOUR_ROOM], saved[TOUR_FILE];
     deldrift_location locations[TOUR_POINTS];
@@ -116,6 +118,31 @@ static void note_file(void) {
     size_t n = fread(tour_out.saved, 1, TOUR_FILE, file);
     CHECK(n > 0 && n < TOUR_FILE && fclose(file) == 0);
     note(tour_out.saved, n);
+}
+
+// What can be asked about segments, and what they divide: in space that is refused.
+static void ask_about_segments(const deldrift_triangulation *t, const places *p, size_t n_cells) {
+    uint32_t *ids = tour_out.ids, *ends = tour_out.more_ids;
+    uint8_t *bytes = tour_out.bytes;
+    size_t count = 0;
+    TRY(deldrift_segments(t, ids, ends, tour_out.labels, TOUR_ROOM / 2, &count));
+    note(ids, count * sizeof *ids);
+    note(ends, count * 2 * sizeof *ends);
+    note(tour_out.labels, count * sizeof *tour_out.labels);
+    TRY(deldrift_segments_of_cells(t, ids, TOUR_ROOM / 3, &count));
+    note(ids, count * 3 * sizeof *ids);
+    TRY(deldrift_cells_of_segments(t, ids, TOUR_ROOM / 2, &count));
+    note(ids, count * 2 * sizeof *ids);
+    TRY(deldrift_label_cells(t, p->later, (const int32_t[]){5, -6, 7}, 3, 8, tour_out.labels, TOUR_ROOM, &count));
+    note(tour_out.labels, count * sizeof *tour_out.labels);
+    TRY(deldrift_nesting_levels(t, ids, TOUR_ROOM, &count));
+    note(ids, count * sizeof *ids);
+    for (size_t k = 0; k < n_cells; k++) bytes[k] = k % 3 == 0 || (p->dimension == 2 && ids[k] == 1);
+    uint32_t *more = ids + TOUR_ROOM / 2, *most = ends + TOUR_ROOM / 2;
+    TRY(deldrift_boundary_chains(t, bytes, n_cells, ids, more, ends, most, bytes + TOUR_ROOM / 2, TOUR_ROOM / 2, &count));
+    note(ids, count * sizeof *ids);
+    note(more, count * sizeof *more);
+    note(ends, count * sizeof *ends);
 }
 
 // What can be asked about the cells and vertices of any triangulation.
@@ -146,6 +173,7 @@ static void ask_about(const deldrift_triangulation *t, const places *p) {
     deldrift_commit_report sums;
     GO(deldrift_statistics(t, &sums));
     note(&sums, sizeof sums);
+    ask_about_segments(t, p, n_cells);
     GO(deldrift_research_within_safe_region(t, &timestamp));
     note(&timestamp, sizeof timestamp);
     bool present = false;
@@ -292,6 +320,25 @@ static void keep(const deldrift_triangulation *t, const places *p, const deldrif
     CHECK(unlink(tour_path()) == 0);
 }
 
+// Segments of which some may conflict, and some that are edges already.
+static void prescribe(deldrift_triangulation *t) {
+    uint32_t segment = 0;
+    size_t count = 0;
+    TRY(deldrift_stage_segments(t, (const uint32_t[]){0, 9, 3, 11, 4, 13, 6, 15}, NULL, 4, &segment));
+    TRY(deldrift_check_staged(t));
+    TRY(deldrift_segment_conflicts(t, tour_out.conflicts, TOUR_ROOM, &count));
+    note(tour_out.conflicts, count * sizeof *tour_out.conflicts);
+    TRY(deldrift_commit_timestamp(t, NULL));
+    if (tour_status != DELDRIFT_OK) GO(deldrift_discard_moves(t));
+    GO(deldrift_edges(t, tour_out.ids, TOUR_ROOM / 2, &count));
+    for (size_t k = 0; k < count; k++) tour_out.labels[k] = (int32_t)k - 3;
+    TRY(deldrift_stage_segments(t, tour_out.ids, tour_out.labels, count < 9 ? count : 9, &segment));
+    note(&segment, sizeof segment);
+    TRY(deldrift_commit_timestamp(t, NULL));
+    if (tour_status != DELDRIFT_OK) GO(deldrift_discard_moves(t));
+    TRY(deldrift_stage_segment_removals(t, &segment, 1));
+}
+
 // All of it.
 static void make_tour(const places *p, record *made) {
     const uint32_t d = p->dimension;
@@ -357,6 +404,7 @@ static void make_tour(const places *p, record *made) {
     CHECK(count <= n + 1);
     GO(deldrift_commit_positions(t, p->at, count, &report));
     note(&report, sizeof report);
+    prescribe(t);
     keep(t, p, &options);
     DO(deldrift_destroy(t));
 

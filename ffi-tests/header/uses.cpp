@@ -16,8 +16,14 @@ template class deldrift::indexed_iterator<deldrift::Cells::Rows>;
 template class deldrift::selecting_iterator<deldrift::Cells::Facets<true>>;
 template class deldrift::selecting_iterator<deldrift::Cells::Facets<false>>;
 template class deldrift::selecting_iterator<deldrift::Vertices::Ids>;
+template class deldrift::indexed_iterator<deldrift::Segments::Rows>;
+template class deldrift::indexed_iterator<deldrift::Chains::All>;
+template class deldrift::indexed_iterator<deldrift::Chains::Edges>;
 template class deldrift::cgal::Delaunay_triangulation_2<Kernel>;
 template class deldrift::cgal::Delaunay_triangulation_2<Kernel, unsigned>;
+template class deldrift::cgal::Constrained_Delaunay_triangulation_2<Kernel>;
+template class deldrift::cgal::Constrained_Delaunay_triangulation_2<Kernel, deldrift::cgal::Infos<int, int>,
+                                                                    deldrift::cgal::Exact_predicates_tag>;
 template class deldrift::cgal::Delaunay_triangulation_3<Kernel>;
 template class deldrift::cgal::Delaunay_triangulation_3<Kernel, unsigned>;
 
@@ -60,7 +66,7 @@ std::size_t arrangements(const std::vector<Particle> &particles) {
 std::size_t ranges(const deldrift::Triangulation &t) {
     const deldrift::Cells cells = t.cells();
     return size_of(cells) + size_of(cells.rows<3>()) + size_of(cells.facets()) + size_of(cells.hull_facets()) +
-           size_of(t.vertices()) + size_of(t.cells_of(0)) + t.edges().size() + t.voronoi_volumes().size();
+           size_of(t.vertices()) + size_of(t.segments()) + size_of(t.boundary_chains({})) + size_of(t.cells_of(0)) + t.edges().size() + t.voronoi_volumes().size();
 }
 
 template <class Dt>

@@ -1,4 +1,5 @@
-// CGAL's names for deldrift: Delaunay_triangulation_2 and Delaunay_triangulation_3, so far as common programs use them.
+// CGAL's names for deldrift: Delaunay_triangulation_2, Delaunay_triangulation_3 and
+// Constrained_Delaunay_triangulation_2, so far as common programs use them.
 //
 //     using K = deldrift::cgal::Kernel;  // or any kernel of CGAL's with coordinates in double
 //     using Dt = deldrift::cgal::Delaunay_triangulation_2<K, unsigned>;  // unsigned: the info of vertices
@@ -11,11 +12,13 @@
 //
 // - Where points are cocircular or cospherical, and cells not unique, other cells may be chosen than CGAL chooses.
 // - Handles are small values, not pointers. Those of vertices are valid until the vertex is removed; those of cells
-//   until the triangulation changes. Cells have no info: what has changed is told by take_changes().
+//   until the triangulation changes. Cells have no info: what has changed is told by take_changes(). Faces of constrained
+//   triangulations may have one, until the triangulation changes.
 // - Where the vertices are on a line (in space: in a plane), there are no faces or cells, and no edges or facets.
 // - Cells in conflict with a point have it inside of their circle or sphere: what is on it exactly is not in conflict.
 //   Only they can be given to star_hole and insert_in_hole.
 // - A call that fails throws deldrift::Error and has no effect. Coordinates are finite and of magnitude up to 1e57.
+// - Constraints that cross are an exception, or, with Exact_predicates_tag, get a vertex there, rounded.
 //
 // Besides the functions of CGAL there are stage_move() and commit_timestamp(), by which many vertices move at the
 // cost of what changes, and triangulation(), the arrays and queries of deldrift.hpp.
@@ -30,6 +33,7 @@
 #include <cstddef>
 #include <ostream>
 
+#include "cgal/constrained.hpp"
 #include "cgal/plane.hpp"
 #include "cgal/space.hpp"
 

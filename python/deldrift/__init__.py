@@ -1,6 +1,7 @@
 """Exact Delaunay triangulations of moving points, in 2D and 3D.
 
 `Delaunay` has the attributes and methods of `scipy.spatial.Delaunay`; its points may move, be inserted and be removed.
+In the plane it takes segments, which stay edges; `Mesh` is the mesh of a domain within segments, which may move.
 
 Examples
 --------
@@ -15,10 +16,13 @@ from ._arrays import is_current
 from ._asking import Locations, in_sphere, orientation
 from ._delaunay import Delaunay, frombytes, load, tsearch
 from ._errors import (
+    AmbiguousSeed,
     Busy,
     Cancelled,
     Closed,
     Coincident,
+    ConflictError,
+    ConflictKind,
     DuplicateMove,
     Error,
     FileError,
@@ -30,6 +34,7 @@ from ._errors import (
     InvalidOption,
     InvalidShape,
     InvalidValue,
+    NoSuchSegment,
     NoSuchSimplex,
     NoSuchVertex,
     NotFinite,
@@ -42,17 +47,24 @@ from ._errors import (
 )
 from ._geometry import Boundary
 from ._library import Report, version
-from ._motion import Changes, Step
+from ._mesh import Mesh
+from ._motion import Changes
+from ._segments import Chains, Segments
+from ._step import Step
 
 __version__ = "0.1.0"
 
 __all__ = [
+    "AmbiguousSeed",
     "Boundary",
     "Busy",
     "Cancelled",
+    "Chains",
     "Changes",
     "Closed",
     "Coincident",
+    "ConflictError",
+    "ConflictKind",
     "Delaunay",
     "DuplicateMove",
     "Error",
@@ -66,6 +78,8 @@ __all__ = [
     "InvalidShape",
     "InvalidValue",
     "Locations",
+    "Mesh",
+    "NoSuchSegment",
     "NoSuchSimplex",
     "NoSuchVertex",
     "NotFinite",
@@ -73,6 +87,7 @@ __all__ = [
     "OutOfRange",
     "RemovedVertex",
     "Report",
+    "Segments",
     "StagedVertex",
     "Step",
     "TooMany",

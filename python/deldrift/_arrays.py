@@ -10,7 +10,7 @@ from typing import Any, Optional
 import numpy as np
 
 from . import _library
-from ._errors import InvalidDimension, InvalidShape, InvalidValue, NoSuchSimplex, NoSuchVertex
+from ._errors import InvalidDimension, InvalidShape, InvalidValue, NoSuchSimplex, NoSuchVertex, WrongCount
 
 F64 = np.dtype(np.float64)
 U32 = np.dtype(np.uint32)
@@ -122,6 +122,66 @@ def ids(argument: str, values: Any, missing: type = NoSuchVertex) -> np.ndarray:
                 f"{argument}[{index}] is {array[index]}, which was never given", argument, index, int(array[index])
             )
     return contiguous(array, U32)
+
+
+def pairs(argument: str, values: Any) -> np.ndarray:
+    """Rows of two ids of vertices."""
+    array = np.asarray(values)
+    if array.size == 0 and array.ndim < 3:
+        return np.empty((0, 2), U32)
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise InvalidShape(f"{argument} has the shape {array.shape}, and must have rows of two ids", argument)
+    if isinstance(values, np.ma.MaskedArray):
+        array = values
+    return ids(argument, array.reshape(-1)).reshape(-1, 2)
+
+
+def numbers(argument: str, values: Any, count: int, entries: str) -> np.ndarray:
+    """Whole numbers of 32 bits with a sign, one for each of some entries; a single one stands for all."""
+    if isinstance(values, np.ma.MaskedArray):
+        raise InvalidShape(
+            f"{argument} is a masked array, of which it is not known what its masked entries are", argument
+        )
+    array = np.asarray(values)
+    if array.ndim > 1:
+        raise InvalidShape(f"{argument} has the shape {array.shape}, and must be a list", argument)
+    if array.ndim == 1 and len(array) != count:
+        raise WrongCount(
+            f"{argument} has {len(array)} entries, and there are {count} {entries}", argument, None, len(array)
+        )
+    if array.size and array.dtype.kind not in "iu":
+        raise TypeError(f"{argument} has the type {array.dtype}, and must have whole numbers")
+    range_of = np.iinfo(I32)
+    wrong = (array < range_of.min) | (array > range_of.max)
+    if wrong.any():
+        index = int(np.argmax(wrong))
+        value = int(array.reshape(-1)[index])
+        raise InvalidValue(
+            f"{argument}[{index}] is {value}, and must be a number of 32 bits with a sign", argument, index, value
+        )
+    return contiguous(np.broadcast_to(array, (count,)), I32)
+
+
+def one_number(argument: str, value: Any) -> int:
+    """A whole number of 32 bits with a sign."""
+    number = whole(argument, value)
+    if not -(1 << 31) <= number < 1 << 31:
+        raise InvalidValue(
+            f"{argument} is {number}, and must be a number of 32 bits with a sign", argument, None, number
+        )
+    return number
+
+
+def mask(argument: str, values: Any) -> np.ndarray:
+    """True or false for each simplex."""
+    array = np.asarray(values)
+    if array.ndim != 1:
+        raise InvalidShape(f"{argument} has the shape {array.shape}, and must have an entry for each simplex", argument)
+    if array.size == 0:
+        return np.empty(0, np.bool_)
+    if array.dtype.kind not in "biu":
+        raise TypeError(f"{argument} has the type {array.dtype}, and must have true or false for each simplex")
+    return contiguous(array, np.dtype(np.bool_))
 
 
 def whole(argument: str, value: Any) -> int:

@@ -12,14 +12,18 @@ import numpy as np
 from . import _library
 from ._arrays import COUNTS_REFERENCES, Handle, Lease, Released, Version, address, choice, taken, whole
 from ._callbacks import Callbacks
-from ._errors import Busy, Closed, InternalError, InvalidOption, raise_for
+from ._errors import Busy, Closed, ConflictError, ConflictKind, InternalError, InvalidOption, raise_for
 
 Made = TypeVar("Made")
+
+CONFLICT = np.dtype([("kind", np.uint32), ("segment", np.int32), ("other", np.int32)])
+"""deldrift_conflict, with -1 for none."""
 
 NO_NAMES: Mapping[str, str] = {}
 
 _release_cells = _library.function("release_cells")
 _cells = _library.function("cells")
+_segment_conflicts = _library.function("segment_conflicts")
 _discard_moves = _library.function("discard_moves")
 _id_count = _library.function("id_count")
 _cell_count = _library.function("cell_count")
@@ -209,9 +213,21 @@ class Core:
         return made
 
     def _check(self, status: int, **names: str) -> None:
-        """`check` with the callbacks of this triangulation."""
+        """`check` with the callbacks of this triangulation, and with its conflicts."""
         if status:
+            kind = status - _library.FIRST_CONFLICT
+            if 0 <= kind < len(ConflictKind):
+                message = _library.last_error()
+                raise ConflictError(message, kind, self._told_conflicts())
             check(status, names, self._callbacks)
+
+    def _told_conflicts(self) -> np.ndarray:
+        """The conflicts for which the last change, or check, was refused."""
+        t, count = self._handle.pointer, ctypes.c_size_t()
+        check(_segment_conflicts(t, None, 0, count))
+        conflicts = np.empty(count.value, CONFLICT)
+        check(_segment_conflicts(t, address(conflicts), len(conflicts), count))
+        return fixed(conflicts)
 
 
 def count_of(function: Any, t: int) -> int:

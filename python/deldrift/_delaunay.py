@@ -25,6 +25,9 @@ _load = _library.function("load")
 _load_file = _library.function("load_file")
 
 
+SEGMENT_ARGUMENTS = "segments", "segment_markers"
+
+
 class Delaunay(Motion, Asking, Geometry, Files):
     """The Delaunay triangulation of points in the plane or in space, whose points may move.
 
@@ -54,6 +57,11 @@ class Delaunay(Motion, Asking, Geometry, Files):
         tqdm, or `tqdm.tqdm`.
     cancel : callable, optional
         Called during long calls; when it returns true, the call raises `Cancelled` and has no effect.
+    segments : array_like of int, optional
+        In 2D: rows of two vertex ids. Each is to be an edge, also when its ends move; the timestamp is then 1, as
+        segments are laid by a commit.
+    segment_markers : array_like of int, optional
+        A number of 32 bits to keep with each segment, or one for all; 0 by default.
 
     Examples
     --------
@@ -78,14 +86,30 @@ class Delaunay(Motion, Asking, Geometry, Files):
         coincidence: str = "merge",
         progress: Any = None,
         cancel: Optional[Callable[[], bool]] = None,
+        segments: Any = None,
+        segment_markers: Any = None,
     ) -> None:
         check_scipy_options(furthest_site, qhull_options)
-        rows = point_rows("points", points)
+        self._create(point_rows("points", points), algorithm, threads, coincidence, progress, cancel)
+        if segments is not None or segment_markers is not None:
+            with self.step():
+                self._stage_segments(() if segments is None else segments, segment_markers, *SEGMENT_ARGUMENTS)
+
+    def _create(
+        self,
+        rows: np.ndarray,
+        algorithm: str,
+        threads: int,
+        coincidence: str,
+        progress: Any,
+        cancel: Optional[Callable[[], bool]],
+        name: str = "points",
+    ) -> None:
         callbacks = _callbacks(progress, cancel)
         options = make_options(algorithm, threads, coincidence, callbacks)
         pointer = ctypes.c_void_p()
         status = _create(rows.shape[1], address(rows), len(rows), options, pointer)
-        check(status, {"positions": "points"}, callbacks)
+        check(status, {"positions": name}, callbacks)
         self._start(Handle(pointer.value or 0, callbacks), rows.shape[1], threads, coincidence, callbacks)
 
     def add_points(self, points: Any, restart: bool = False) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import enum
 import re
 from typing import Any, Mapping, Optional, Union
 
@@ -90,6 +91,49 @@ class NoSuchSimplex(Error, IndexError):
     """There is no simplex of this index."""
 
 
+class NoSuchSegment(Error, IndexError):
+    """No segment of this id is in force, or its removal is staged."""
+
+
+class AmbiguousSeed(Error, ValueError):
+    """A seed is on the boundary of several regions, so that it names none of them."""
+
+
+class ConflictKind(enum.IntEnum):
+    """Why a segment cannot be an edge; what the field `other` of a conflict has."""
+
+    CROSSING = 0
+    """It crosses another segment at a place that is an end of neither: `other` is that segment, of the higher id."""
+    ON_SEGMENT = 1
+    """A vertex is on it, and is not one of its ends: `other` is that vertex."""
+    END_REMOVED = 2
+    """An end has been removed, or would be: `other` is the end."""
+    ENDS_MEET = 3
+    """Both ends would be at the same place: `other` is -1."""
+
+
+class ConflictError(Error, ValueError):
+    """Segments cannot be edges where vertices would be; the triangulation is as it was.
+
+    Attributes
+    ----------
+    kind : ConflictKind
+        That of the first conflict.
+    conflicts : ndarray
+        All of them: a structured array with the fields `kind`, `segment` and `other`, in ascending order.
+    """
+
+    kind: ConflictKind
+    conflicts: Any
+
+    def __init__(self, message: str, kind: int, conflicts: Any) -> None:
+        super().__init__(message)
+        self.kind, self.conflicts = ConflictKind(kind), conflicts
+
+    def __reduce__(self) -> Any:
+        return type(self), (self.message, int(self.kind), self.conflicts)
+
+
 class TooMany(Error, OverflowError):
     """There would be more vertices or simplices than 32-bit ids can name."""
 
@@ -153,6 +197,8 @@ KINDS = {
     26: FileError,
     27: InvalidField,
     28: StagedVertex,
+    29: NoSuchSegment,
+    34: AmbiguousSeed,
 }
 """Classes by deldrift_status. What is not here comes of a defect, as a pointer of this package that is NULL."""
 

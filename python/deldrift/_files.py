@@ -13,6 +13,7 @@ from ._arrays import address, floats
 from ._core import cell_count, id_count
 from ._errors import InvalidDimension, InvalidField, WrongCount
 from ._scipy import Scipy
+from ._segments import Segmented
 
 Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
 
@@ -22,7 +23,7 @@ _write_vtu = _library.function("write_vtu")
 _write_medit = _library.function("write_medit")
 
 
-class Files(Scipy):
+class Files(Scipy, Segmented):
     """Saving, and other forms of a triangulation."""
 
     def tobytes(self) -> bytes:
@@ -43,8 +44,8 @@ class Files(Scipy):
     def save(self, path: Path) -> None:
         """Saves the triangulation to a file, from which `deldrift.load` makes one like it on any machine.
 
-        Positions, ids, simplices with their indices and the timestamp are saved, options are not. The file is replaced
-        when the new one is complete.
+        Positions, ids, simplices with their indices, segments and the timestamp are saved, options are not. The file is
+        replaced when the new one is complete.
 
         Parameters
         ----------
@@ -97,28 +98,31 @@ class Files(Scipy):
         Returns
         -------
         meshio.Mesh
-            Its points are the vertices that are present; their ids are the point data "vertex".
+            Its points are the vertices that are present; their ids are the point data "vertex". Segments are cells of
+            the type "line", behind the simplices: their markers are the cell data "marker", which is 0 for simplices.
         """
         import meshio
 
         is_present = ~np.isnan(self.points[:, 0])
         rows = np.cumsum(is_present) - 1
         kind = "triangle" if self.ndim == 2 else "tetra"
+        cells, data, segments = [(kind, rows[self.simplices])], {}, self.segments
+        if len(segments.ids):
+            cells.append(("line", rows[segments.ends]))
+            data["marker"] = [np.zeros(len(self.simplices), np.int32), segments.markers]
         return meshio.Mesh(
-            self.points[is_present],
-            [(kind, rows[self.simplices])],
-            point_data={"vertex": np.flatnonzero(is_present)},
+            self.points[is_present], cells, point_data={"vertex": np.flatnonzero(is_present)}, cell_data=data
         )
 
     def plot(self, ax: Any = None, **style: Any) -> Any:
-        """Draws the triangles with matplotlib, which must be installed; in 2D.
+        """Draws triangles, and segments above them, with matplotlib, which must be installed; in 2D.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
             Where; the current axes by default.
         **style
-            What `Axes.triplot` takes.
+            What `Axes.triplot` takes, for the triangles. Segments are black lines of a width of 2.
 
         Returns
         -------
@@ -136,6 +140,12 @@ class Files(Scipy):
             # matplotlib looks at all points, and cannot take NaN.
             used, rows = np.unique(self.simplices, return_inverse=True)
             ax.triplot(points[used, 0], points[used, 1], rows.reshape(self.simplices.shape), **style)
+        ends = self.segments.ends
+        if len(ends):
+            from matplotlib.collections import LineCollection
+
+            ax.add_collection(LineCollection(points[ends], colors="black", linewidths=2, zorder=3))
+            ax.autoscale_view()
         ax.set_aspect("equal")
         return ax
 

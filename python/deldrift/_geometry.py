@@ -18,6 +18,7 @@ from ._arrays import (
     contiguous,
     floats,
     ids,
+    mask as mask_of,
     places,
     real,
     simplex_ids,
@@ -149,7 +150,7 @@ class Geometry(Scipy):
         Boundary
             Facets, seen from outside, with the simplex and the corner of each.
         """
-        chosen = None if mask is None else _mask("mask", mask)
+        chosen = None if mask is None else mask_of("mask", mask)
         with self._reading as t:
             count = ctypes.c_size_t()
             if chosen is not None and len(chosen) != cell_count(t):
@@ -389,17 +390,6 @@ class Geometry(Scipy):
             )
             self._check(status, positions="xi", value_count="values")
         return results.reshape(shape + given.shape[1:])
-
-
-def _mask(argument: str, values: Any) -> np.ndarray:
-    array = np.asarray(values)
-    if array.ndim != 1:
-        raise InvalidShape(f"{argument} has the shape {array.shape}, and must have an entry for each simplex", argument)
-    if array.size == 0:
-        return np.empty(0, np.bool_)
-    if array.dtype.kind not in "biu":
-        raise TypeError(f"{argument} has the type {array.dtype}, and must have true or false for each simplex")
-    return contiguous(array, np.dtype(np.bool_))
 
 
 def _fill(argument: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:

@@ -16,6 +16,8 @@ NONE = 0xFFFFFFFF
 ALGORITHMS = ("auto", "rebuilding", "placement_flips", "tolerance", "repair")
 COINCIDENCES = ("merge", "reject")
 INTERPOLATIONS = ("linear", "natural")
+FIRST_CONFLICT = 30
+"""DELDRIFT_CROSSING: the statuses from it on stand for kinds of conflicts, in their order."""
 
 CancelCallback = ctypes.CFUNCTYPE(c_bool, c_void_p)
 ProgressCallback = ctypes.CFUNCTYPE(None, c_void_p, c_double)
@@ -195,6 +197,16 @@ PROTOTYPES = {
     "mirror_indices": (T, A, N, C),
     "ordered_star": (T, U32, A, N, C),
     "cells_around": (T, A, N, A, N, C),
+    "stage_segments": (T, A, A, N, POINTER(U32)),
+    "stage_segment_removals": (T, A, N),
+    "segments": (T, A, A, A, N, C),
+    "check_staged": (T,),
+    "segment_conflicts": (T, A, N, C),
+    "segments_of_cells": (T, A, N, C),
+    "cells_of_segments": (T, A, N, C),
+    "nesting_levels": (T, A, N, C),
+    "label_cells": (T, A, A, N, c_int32, A, N, C),
+    "boundary_chains": (T, A, N, A, A, A, A, A, N, C),
     "update_circumcentres": (T, A, N, A, A, N),
     "update_volumes": (T, A, N, A, N),
     "update_mask_by_circumradius": (T, A, N, F64, A, N),

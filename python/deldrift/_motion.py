@@ -9,14 +9,13 @@ import numpy as np
 
 from . import _library
 from ._arrays import I32, address, choice, ids, one_id, one_point, points, taken
-from ._core import Core, fixed, id_count
-from ._errors import Busy, InvalidOption, WrongCount
+from ._core import fixed, id_count
+from ._errors import InvalidOption, WrongCount
 from ._library import Report
+from ._segments import Segmented
+from ._step import Step
 
 _move_vertices = _library.function("move_vertices")
-_stage_insertions = _library.function("stage_insertions")
-_stage_removals = _library.function("stage_removals")
-_commit_timestamp = _library.function("commit_timestamp")
 _commit_positions = _library.function("commit_positions")
 _relocate_vertex = _library.function("relocate_vertex")
 _insert_vertex = _library.function("insert_vertex")
@@ -57,93 +56,7 @@ class Changes(NamedTuple):
     """Vertices that were hidden and are not."""
 
 
-class Step:
-    """Moves, insertions and removals that `Delaunay.step` commits together."""
-
-    def __init__(self, owner: "Motion") -> None:
-        self._owner = owner
-        self._is_open = False
-
-    def __enter__(self) -> "Step":
-        owner = self._owner
-        with owner._taking:
-            owner._has_step = self._is_open = True
-        return self
-
-    def __exit__(self, kind: Any, *_: Any) -> None:
-        owner = self._owner
-        self._is_open = False
-        owner._must_discard = True
-        try:
-            if kind is None:
-                self._commit(owner)
-        finally:
-            owner._has_step = False
-            if owner._must_discard:
-                _discard(owner)
-
-    def _commit(self, owner: "Motion") -> None:
-        with owner._committing as t:
-            report = Report()
-            status = _commit_timestamp(t, report)
-            owner._check(status)
-            owner._must_discard = False
-            owner._last_report = report
-
-    def _check_open(self) -> None:
-        if not self._is_open:
-            raise Busy("the step is not open: use it in `with tri.step() as step`")
-
-    def move(self, points: Any, ids: Any = None) -> None:
-        """Moves vertices to new places.
-
-        Parameters
-        ----------
-        points : array_like
-            A row of coordinates for each vertex.
-        ids : array_like of int, optional
-            The vertices, each at most once in a step; all by default.
-        """
-        self._check_open()
-        self._owner._stage_moves(points, ids)
-
-    def insert(self, points: Any) -> np.ndarray:
-        """Inserts vertices.
-
-        Parameters
-        ----------
-        points : array_like
-            A row of coordinates for each new vertex.
-
-        Returns
-        -------
-        ndarray of int
-            Their ids.
-        """
-        self._check_open()
-        owner = self._owner
-        positions = _rows(points, owner.ndim)
-        with owner._staging as t:
-            first = ctypes.c_uint32()
-            owner._check(_stage_insertions(t, address(positions), len(positions), first), positions="points")
-        return np.arange(first.value, first.value + len(positions), dtype=I32)
-
-    def remove(self, ids: Any) -> None:
-        """Removes vertices.
-
-        Parameters
-        ----------
-        ids : array_like of int
-            The vertices, each at most once in a step.
-        """
-        self._check_open()
-        owner = self._owner
-        vertices = _ids(ids)
-        with owner._staging as t:
-            owner._check(_stage_removals(t, address(vertices), len(vertices)), vertices="ids", vertex="ids")
-
-
-class Motion(Core):
+class Motion(Segmented):
     """Changes of a triangulation."""
 
     def move(self, points: Any, ids: Any = None) -> Report:
@@ -188,14 +101,14 @@ class Motion(Core):
         return report
 
     def step(self) -> Step:
-        """A step: moves, insertions and removals that are committed together at the end of a `with` block.
+        """A step: changes that are committed together at the end of a `with` block.
 
         All or nothing: an exception in the block, or of the commit, leaves the triangulation as it was.
 
         Returns
         -------
         Step
-            What has `move`, `insert` and `remove`.
+            What has `move`, `insert`, `remove`, `add_segments`, `remove_segments` and `check`.
 
         Examples
         --------
@@ -211,6 +124,81 @@ class Motion(Core):
         (2, 1, 1)
         """
         return Step(self)
+
+    def add_segments(self, ends: Any, markers: Any = None) -> np.ndarray:
+        """Adds segments between vertices, in 2D, and makes that the next timestamp.
+
+        Each is an edge from now on, and moves with its ends: a change for which that cannot be raises `ConflictError`.
+
+        Parameters
+        ----------
+        ends : array_like of int
+            Rows of two vertex ids, in any order. A segment may be given twice, and many may share a vertex.
+        markers : array_like of int, optional
+            A number of 32 bits to keep with each, or one for all; 0 by default.
+
+        Returns
+        -------
+        ndarray of int
+            Their ids, which follow those that have been given.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3], [2, 1]])
+        >>> tri.add_segments([[0, 2]])
+        array([0], dtype=int32)
+        >>> try:
+        ...     tri.move([[2, 1.5]], ids=[4])
+        ... except deldrift.ConflictError as error:
+        ...     print(error, "|", error.kind.name, error.conflicts.tolist())
+        vertex 4 is on segment 0 | ON_SEGMENT [(1, 0, 4)]
+        """
+        with self.step() as step:
+            added = step.add_segments(ends, markers)
+        return added
+
+    def remove_segments(self, ids: Any) -> None:
+        """Removes segments, and makes that the next timestamp. Their vertices stay.
+
+        Parameters
+        ----------
+        ids : array_like of int
+            Segments that are in force, each once.
+        """
+        with self.step() as step:
+            step.remove_segments(ids)
+
+    def check(self, points: Any, ids: Any = None) -> np.ndarray:
+        """What segments would have against a move, which is not made.
+
+        Parameters
+        ----------
+        points : array_like
+            A row of coordinates for each vertex, as for `move`.
+        ids : array_like of int, optional
+            The vertices, each at most once; all by default.
+
+        Returns
+        -------
+        ndarray
+            The conflicts: a structured array with the fields `kind` (see `ConflictKind`), `segment` and `other`.
+            Without any `move` will not raise `ConflictError`.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3], [2, 1]], segments=[[0, 2]])
+        >>> tri.check([[2, 1.5]], ids=[4])["other"]
+        array([4], dtype=int32)
+        >>> len(tri.check([[1, 2]], ids=[4]))
+        0
+        """
+        with self.step() as step:
+            step.move(points, ids)
+            conflicts = step.check()
+            step._is_kept = False
+        return conflicts
 
     def _stage_moves(self, values: Any, vertices: Any) -> None:
         positions = _rows(values, self.ndim)
@@ -405,15 +393,6 @@ NO_CHANGES = {
     for corners in (3, 4)
 }
 """What is told where nothing has changed, by the number of corners of a simplex."""
-
-
-def _discard(owner: Motion) -> None:
-    """Forgets what is staged: at once, or with the next change where another thread is reading."""
-    try:
-        with owner._taking:
-            pass
-    except Busy:
-        pass
 
 
 def _check_rows(t: int, rows: int) -> None:

@@ -1,7 +1,7 @@
 """Calls with wrong arguments, and the table of what comes of them: `python tests/bad_input.py` writes BAD_INPUT.md.
 
 Each call is evaluated with a triangulation `tri` of the plane that has the ids 0 to 6: vertex 5 is hidden by vertex 4,
-and vertex 6 has been removed.
+and vertex 6 has been removed. `bound` has segments around a square and one inside, and `mesh` is the mesh of the square.
 """
 
 import pathlib
@@ -35,6 +35,21 @@ Delaunay(POINTS, coincidence="ignore")
 Delaunay([[0, 0], [1, 0], [0, 0]], coincidence="reject")
 Delaunay(POINTS, progress=3)
 Delaunay(POINTS, cancel=3)
+Delaunay(POINTS, segments=[0, 1])
+Delaunay(POINTS, segments=[[0, 1, 2]])
+Delaunay(POINTS, segments=[[0, 3]])
+Delaunay(POINTS, segments=[[0, -1]])
+Delaunay(POINTS, segments=[[0, 0.5]])
+Delaunay(POINTS, segments=np.ma.masked_all((1, 2), int))
+Delaunay(POINTS, segments=[[0, 0]])
+Delaunay(POINTS, segments=3)
+Delaunay(POINTS, segments=[[0, 1]], segment_markers=[1, 2])
+Delaunay(POINTS, segments=[[0, 1]], segment_markers=[1 << 31])
+Delaunay(POINTS, segments=[[0, 1]], segment_markers=[0.5])
+Delaunay(POINTS, segments=[[0, 1]], segment_markers=np.ma.masked_all(1, int))
+Delaunay(POINTS, segments=[[0, 1]], segment_markers=[[1]])
+Delaunay(POINTS, segment_markers=[1])
+Delaunay(np.eye(3), segments=[[0, 1]])
 load("nowhere/file")
 load("a\\0b")
 load(POINTS)
@@ -73,7 +88,35 @@ in_step(tri, lambda step: step.remove([1, 1]))
 in_step(tri, lambda step: step.remove([99]))
 in_step(tri, lambda step: tri.relocate(1, [0, 0]))
 in_step(tri, lambda step: (step.insert([[2, 2]]), tri.star(7)))
+in_step(tri, lambda step: step.add_segments([[0, 9]]))
+in_step(tri, lambda step: step.add_segments([[0, 1], [6, 2]]))
+in_step(tri, lambda step: step.add_segments([[0, 1]], markers=[1, 2]))
+in_step(bound, lambda step: step.remove_segments([9]))
+in_step(bound, lambda step: step.remove_segments([3, 3]))
+in_step(bound, lambda step: step.remove_segments([-1]))
+in_step(bound, lambda step: step.add_segments([[1, 3]]))
+in_step(bound, lambda step: step.remove([0]))
+in_step(bound, lambda step: bound.check(SQUARE))
 tri.step().move([[0, 0]], [1])
+tri.step().add_segments([[0, 1]])
+tri.step().remove_segments([0])
+tri.step().check()
+tri.add_segments([[0, 2], [1, 3]])
+tri.add_segments([[0, 7]])
+tri.add_segments([[0, 1]], markers=[1 << 40])
+tri.add_segments([[4, 5]])
+space.add_segments([[0, 1]])
+tri.remove_segments([0])
+tri.remove_segments([0.5])
+bound.remove_segments([[0]])
+space.remove_segments([0])
+tri.check(POINTS)
+tri.check([[nan, 0]], ids=[3])
+tri.check([[0, 0], [1, 1]], ids=[3, 3])
+bound.move([[2, 0]], ids=[4])
+bound.move([[4, 0]], ids=[0])
+bound.relocate(4, [2, 0])
+bound.remove(0)
 tri.relocate(7, [0, 0])
 tri.relocate(-1, [0, 0])
 tri.relocate(6, [0, 0])
@@ -129,6 +172,20 @@ tri.mask_without_flat(-1)
 tri.boundary([True])
 tri.boundary(np.zeros(TRIANGLES, float))
 tri.boundary(True)
+tri.boundary_chains([True])
+tri.boundary_chains(np.zeros(TRIANGLES, float))
+space.boundary_chains()
+bound.label_cells([[2, 0.5], [1, 1], [2, nan]], [1, 2, 3])
+bound.label_cells([[2, 0.5], [1, 1]], [1, 2])
+bound.label_cells([2, 1], [1])
+tri.label_cells([[2, 1]], [1, 2])
+tri.label_cells([[2, 1]], ["a"])
+tri.label_cells([[2, 1]], [1], other=0.5)
+tri.label_cells([[2, 1]], [1], other=1 << 31)
+space.label_cells([[0, 0, 0]], [1])
+space.nesting_levels()
+space.segments_of_cells()
+space.cells_of_segments()
 tri.simplices_around([99])
 tri.simplices_around([6])
 tri.update_volumes([99], np.zeros(TRIANGLES))
@@ -157,7 +214,34 @@ tri.write_vtu("file", {"a\\0b": np.zeros(7)})
 tri.write_vtu("file", None, {"speed": np.zeros(1)})
 tri.write_medit("nowhere/file")
 space.plot()
+Mesh([[0, 0, 0]], [[0, 1]])
+Mesh([[0, 0], [1, nan]], [[0, 1]])
+Mesh(SQUARE, [[0, 9]])
+Mesh(SQUARE, [[0, 1, 2]])
+Mesh(SQUARE, None)
+Mesh(SQUARE, [[0, 2], [1, 3]])
+Mesh(SQUARE, AROUND, markers=[1])
+Mesh(SQUARE, AROUND, holes=[1, 2])
+Mesh(SQUARE, AROUND, holes=[[nan, 2]])
+Mesh(SQUARE, AROUND, holes=[[1, 2], ["a", 2]])
+Mesh(SQUARE, AROUND + [[0, 2]], holes=[[1, 2], [2, 2]])
+Mesh(SQUARE, AROUND, regions=[[1, 2]])
+Mesh(SQUARE, AROUND + [[0, 2]], regions=[[2, 2, 1]])
+Mesh(SQUARE, AROUND, algorithm="fast")
+Mesh.from_triangle(SQUARE)
+Mesh.from_triangle({"vertices": SQUARE})
+Mesh.from_triangle({"vertices": SQUARE, "segments": AROUND, "regions": [[1, 1, 1]]})
+Mesh.from_triangle({"vertices": SQUARE, "segments": AROUND, "segment_markers": [[1, 2]]})
+mesh.move(POINTS)
+mesh.move([[9, 9]], ids=[7])
+mesh.move([[2, 0]], ids=[4])
+mesh.advance([[2, inf]], ids=[4])
+mesh.advance([[2, 0]], ids=[4], cut=1)
+mesh.advance([[2, 0]], ids=[4], cut="a half")
+mesh.advance([[2, 0]], ids=[4], least=0)
+mesh.advance([[2, 0]], ids=[4], least=1)
 closed(tri).move(np.zeros((7, 2)))
+closed(tri).add_segments([[0, 1]])
 closed(tri).add_points([[0, 0]])
 """.strip()
     .replace("\\\\", "\\")
@@ -165,7 +249,18 @@ closed(tri).add_points([[0, 0]])
 )
 
 
+SQUARE = [[0, 0], [4, 0], [4, 4], [0, 4], [2, 1]]
+AROUND = [[0, 1], [1, 2], [2, 3], [3, 0]]
+
+
 def make():
+    """What calls are made with, by name."""
+    space = deldrift.Delaunay(np.vstack([np.zeros(3), np.eye(3)]))
+    bound = deldrift.Delaunay(SQUARE, segments=AROUND + [[0, 2]])
+    return {"tri": make_tri(), "space": space, "bound": bound, "mesh": deldrift.Mesh(SQUARE, AROUND)}
+
+
+def make_tri():
     tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3], [1, 1], [1, 1], [2, 2]])
     tri.remove(6)
     return tri
@@ -181,12 +276,12 @@ def closed(tri):
     return tri
 
 
-def call(text, tri):
-    """The exception that a call raises."""
+def call(text, made):
+    """The exception that a call raises with what `make` has made."""
     names = {name: getattr(deldrift, name) for name in deldrift.__all__}
-    names.update(np=np, nan=np.nan, inf=np.inf, tri=tri, in_step=in_step, closed=closed)
-    names.update(POINTS=[[0, 0], [1, 0], [0, 1]], TRIANGLES=tri.nsimplex)
-    names["space"] = deldrift.Delaunay(np.vstack([np.zeros(3), np.eye(3)]))
+    names.update(made, np=np, nan=np.nan, inf=np.inf, in_step=in_step, closed=closed)
+    names.update(SQUARE=SQUARE, AROUND=AROUND)
+    names.update(POINTS=[[0, 0], [1, 0], [0, 1]], TRIANGLES=made["tri"].nsimplex)
     try:
         eval(text, names)
     except Exception as error:
@@ -214,7 +309,8 @@ def page():
         "changes the triangulation. [tests/bad_input.py](tests/bad_input.py) writes this page, and a test compares it.",
         "",
         "`tri` has the ids 0 to 6: vertex 5 is at the place of vertex 4, and vertex 6 has been removed. `space` is a",
-        "tetrahedron.",
+        "tetrahedron. `bound` is a square `SQUARE` with the vertex 4 inside, segments `AROUND` it, and one from corner 0",
+        "to corner 2; `mesh` is the mesh of the square.",
         "",
         "| call | exception | message | argument, index, value |",
         "|---|---|---|---|",

@@ -72,6 +72,23 @@ def test_distmesh_goes_as_with_scipy():
     assert distmesh.qualities(ours, triangles).mean() > 0.9
 
 
+def test_the_hole_turns_and_loses_no_vertex():
+    """The example of a mesh: at each step the triangles are those of a mesh from nothing."""
+    import turning_hole
+
+    stirrer = turning_hole.Stirrer(n_free=120, n_outer=30, n_hole=24)
+    first = stirrer.mesh.delaunay.timestamp
+    count = len(stirrer.mesh.triangles)
+    for _ in range(40):
+        stirrer.step(0.03)
+        mesh = stirrer.mesh
+        fresh = deldrift.Mesh(mesh.points, mesh.segments.ends, mesh.segments.markers, holes=[[0, 0]])
+        assert as_sets(mesh.triangles) == as_sets(fresh.triangles) and len(mesh.triangles) == count
+        assert [set(mesh.boundary.markers[mesh.boundary.chains == k]) for k in (0, 1)] == [{1}, {2}]
+    assert stirrer.angle > 1 and mesh.delaunay.timestamp == first + 80
+    np.testing.assert_allclose(mesh.points[30:54], stirrer.hole_at(stirrer.angle), atol=1e-3)
+
+
 def test_an_optimiser_moves_all_points(rng):
     """As radiance meshes are trained: Adam on positions, tetrahedra of each step; here for equal volumes."""
     spatial = pytest.importorskip("scipy.spatial", reason="scipy is not installed")

@@ -78,6 +78,28 @@ def test_an_array_keeps_what_it_showed(rng, ndim):
         assert not np.array_equal(tri.simplices, before)
 
 
+@counted
+def test_arrays_of_segments_keep_what_they_showed(rng):
+    tri = deldrift.Delaunay(rng.random((50, 2)), segments=[[0, 1], [0, 2], [0, 3]], segment_markers=[1, 2, 3])
+    rows, ends, markers = tri.simplices, tri.segments.ends, tri.segments.markers
+    copies = [array.copy() for array in (rows, ends, markers)]
+    for change in (
+        lambda: tri.check(rng.random((50, 2))),
+        lambda: tri.remove_segments([1]),
+        lambda: tri.remove_segments([0, 2]),
+        lambda: tri.move(rng.random((50, 2))),
+        lambda: tri.add_segments([[4, 5]]),
+    ):
+        change()
+        assert not deldrift.is_current(rows)
+        for array, expected in zip((rows, ends, markers), copies):
+            np.testing.assert_array_equal(array, expected)
+    del tri
+    gc.collect()
+    for array, expected in zip((rows, ends, markers), copies):
+        np.testing.assert_array_equal(array, expected)
+
+
 def test_copies_do_not_know_their_triangulation(rng, ndim):
     tri = deldrift.Delaunay(rng.random((50, ndim)))
     with pytest.raises(deldrift.InvalidValue, match="array is no array of a triangulation"):
@@ -86,7 +108,7 @@ def test_copies_do_not_know_their_triangulation(rng, ndim):
 
 def change(tri, rng):
     """One change of a random kind, some of which fail."""
-    kind = rng.integers(9)
+    kind = rng.integers(12 if tri.ndim == 2 else 9)
     if kind == 0:
         tri.move(np.nan_to_num(tri.points) + 0.1 * rng.standard_normal(tri.points.shape))
     elif kind == 1:
@@ -113,13 +135,25 @@ def change(tri, rng):
             tri.insert(np.full(tri.ndim, np.nan))
     elif kind == 7:
         tri.algorithm = str(rng.choice(["auto", "tolerance", "repair"]))
-    else:
+    elif kind == 8:
         tri.add_points(rng.random((2, tri.ndim)))
+    else:
+        change_segments(tri, rng, kind)
+
+
+def change_segments(tri, rng, kind):
+    """Segments come and go, or are asked about."""
+    if kind == 9:
+        tri.add_segments(rng.choice(tri.npoints, (2, 2)))
+    elif kind == 10:
+        tri.remove_segments(tri.segments.ids[::2])
+    else:
+        tri.check(np.nan_to_num(tri.points) + 0.3 * rng.standard_normal(tri.points.shape))
 
 
 def look(tri, rng):
     """An array that may show the library's memory, in one of the forms in which programs keep it."""
-    array = tri.simplices if rng.random() < 0.5 else tri.neighbors
+    array = (tri.simplices, tri.neighbors, tri.segments.ends)[rng.integers(3)]
     form = rng.integers(6)
     if form == 0:
         return array
@@ -149,7 +183,10 @@ def test_random_interleavings(seed):
                 held.pop(int(rng.integers(len(held))))
             if rng.random() < 0.1:
                 tri = copy.copy(tri)
-            change(tri, rng)
+            try:
+                change(tri, rng)
+            except (deldrift.ConflictError, deldrift.RemovedVertex):
+                pass
             for array, expected in held:
                 np.testing.assert_array_equal(np.asarray(array), expected)
         del tri

@@ -17,7 +17,8 @@ pub(super) fn of_the_plane(t: &AnyTriangulation) -> Result<&MovingTriangulation<
 }
 
 /// For each cell and each of its corners the segment at the edge opposite it, in the order of deldrift_cells: the lowest id
-/// if there are several, DELDRIFT_NONE if there is none.
+/// if there are several, DELDRIFT_NONE if there is none. Ids are not places in the lists of deldrift_segments once segments
+/// have been removed.
 ///
 /// segments: a buffer with room for capacity rows of 3 ids. count: receives the number of cells, which is also written when
 /// the buffer is too small. NULL with capacity 0 asks for the count alone.
@@ -73,11 +74,14 @@ pub unsafe extern "C" fn deldrift_cells_of_segments(
     })
 }
 
-/// For each cell how many segments at least a way crosses from it to the outside, in the order of deldrift_cells.
+/// For each cell how many segments at least a way crosses from it to the outside, in the order of deldrift_cells: its
+/// nesting level.
 ///
 /// Cells outside of all closed chains of segments have 0, those of a domain 1, those of its holes 2, those of islands in
 /// these 3, and so on: the cells of the domain are those with an odd number. A segment with one region on both sides, such
-/// as a slit or an open chain, divides nothing. No seed is needed, and cells between the domain and the convex hull have 0.
+/// as a slit or an open chain, divides nothing, and several at the same edge count once. No seed is needed, and cells
+/// between the domain and the convex hull have 0. A domain that is divided in parts by further segments needs
+/// deldrift_label_cells: parts that do not touch the outside would have a higher level.
 ///
 /// levels: a buffer with room for capacity numbers. count: receives the number of cells, which is also written when the
 /// buffer is too small. NULL with capacity 0 asks for the count alone.
@@ -109,7 +113,8 @@ pub unsafe extern "C" fn deldrift_nesting_levels(
 /// seed is. label_of: a buffer with room for capacity numbers. count: receives the number of cells, which is also written
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone.
 ///
-/// Holes are regions, too: give their seeds a label of its own. Without segments there is one region.
+/// Holes are regions, too: give their seeds a label of their own. Without segments there is one region. A seed on a segment
+/// with one region on both sides, or on the hull, is in that region.
 ///
 /// Exact. Cost: m, for each segment the cells around an end, and for each seed that of deldrift_locate. After a change the
 /// first call also does what the first deldrift_cells does.
@@ -138,7 +143,8 @@ pub unsafe extern "C" fn deldrift_label_cells(
 }
 
 /// The boundary of some of the cells of the plane, in closed chains of edges, which have these cells on their left: an outer
-/// boundary goes counter-clockwise, that of a hole clockwise.
+/// boundary goes counter-clockwise, that of a hole clockwise. With the mask of the cells that have an odd nesting level it is
+/// the boundary of a domain, and the markers of its segments tell what holds there.
 ///
 /// mask: mask_count bytes, one for each cell in the order of deldrift_cells (mask_count must be deldrift_cell_count); a cell
 /// is in the set if its byte is not 0. Read during the call only. Buffers with room for capacity entries, one for each edge;
@@ -181,11 +187,15 @@ pub unsafe extern "C" fn deldrift_boundary_chains(
         let n = edges.len();
         let offers = [vertices.offer(), chains.offer(), segments.offer(), cells.offer(), corners.offer()];
         fill_all(count, n, capacity, offers, || {
-            write_all(vertices.places_if_any(n)?, edges.iter().map(|edge| edge.vertex.get()));
-            write_all(chains.places_if_any(n)?, edges.iter().map(|edge| edge.chain));
-            write_all(segments.places_if_any(n)?, edges.iter().map(|edge| edge.segment.get()));
-            write_all(cells.places_if_any(n)?, edges.iter().map(|edge| edge.cell.get()));
-            write_all(corners.places_if_any(n)?, edges.iter().map(|edge| edge.corner as u8));
+            // Each of them is looked at before one is written.
+            let (vertices, chains) = (vertices.places_if_any(n)?, chains.places_if_any(n)?);
+            let (segments, cells) = (segments.places_if_any(n)?, cells.places_if_any(n)?);
+            let corners = corners.places_if_any(n)?;
+            write_all(vertices, edges.iter().map(|edge| edge.vertex.get()));
+            write_all(chains, edges.iter().map(|edge| edge.chain));
+            write_all(segments, edges.iter().map(|edge| edge.segment.get()));
+            write_all(cells, edges.iter().map(|edge| edge.cell.get()));
+            write_all(corners, edges.iter().map(|edge| edge.corner as u8));
             Ok(())
         })
     })

@@ -17,8 +17,8 @@ use crate::in_its_dimension;
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
 /// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_DUPLICATE_MOVE if a move of
 /// this vertex is staged, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it),
-/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other
-/// call on t.
+/// DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT, DELDRIFT_ENDS_MEET, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY,
+/// DELDRIFT_CANCELLED. Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_relocate_vertex(
     t: *mut deldrift_triangulation,
@@ -49,9 +49,9 @@ fn relocate_in_guard(t: Changing<'_>, vertex: VertexId, position: Point<'_>) -> 
 /// Cost: that of deldrift_locate, and the cells created and removed.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_VERTICES,
-/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other
-/// call on t.
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_ON_SEGMENT,
+/// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at
+/// the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_insert_vertex(
     t: *mut deldrift_triangulation,
@@ -74,8 +74,8 @@ pub unsafe extern "C" fn deldrift_insert_vertex(
 /// ten to twenty thousand of them the callbacks are called.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its
-/// insertion is staged, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the
-/// same time as any other call on t.
+/// insertion is staged, DELDRIFT_END_REMOVED for an end of a segment in force, DELDRIFT_TOO_MANY_CELLS,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_remove_vertex(
     t: *mut deldrift_triangulation,
@@ -87,7 +87,7 @@ pub unsafe extern "C" fn deldrift_remove_vertex(
 
 /// Frees the memory that has served removed vertices, and gives the others new ids: 0, 1, ... in the order
 /// of those that they have. Ties between cocircular or cospherical points are broken by the order of ids, so
-/// the cells stay the same, with their indices in deldrift_cells; so do positions, staged moves and the
+/// the cells stay the same, with their indices in deldrift_cells; so do positions, staged moves, the ids of segments and the
 /// timestamp. Memory and the time of commits are those of a fresh triangulation then. Ends all views.
 ///
 /// map: receives the new id of each old one, DELDRIFT_NONE for removed vertices: a buffer with room for

@@ -197,7 +197,7 @@ pub unsafe extern "C" fn deldrift_stage_removals(
     })
 }
 
-/// Forgets all staged moves, insertions and removals.
+/// Forgets all staged moves, insertions and removals, of vertices and of segments.
 ///
 /// Cost: what is staged.
 ///
@@ -212,18 +212,20 @@ pub unsafe extern "C" fn deldrift_discard_moves(t: *mut deldrift_triangulation) 
 }
 
 /// Makes the staged positions the next timestamp. The cells become those of the Delaunay triangulation
-/// of the new positions, whatever the algorithm; ids stay. A commit without staged moves counts as a
-/// timestamp too.
+/// of the new positions, whatever the algorithm, or of the constrained one if there are segments; ids stay. A commit
+/// without staged moves counts as a timestamp too.
 ///
 /// report: receives what was done; may be NULL. Ends all views.
 ///
 /// Cost: of k staged moves, insertions and removals at most k times that of deldrift_relocate_vertex, or that of
 /// deldrift_create, whichever the algorithm chooses; of none, constant. While there are no cells, that of
-/// deldrift_create.
+/// deldrift_create. With segments, for each also the cells around an end, and those that it crosses in the Delaunay
+/// triangulation, of k of them up to k².
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_COINCIDENT (if the options
-/// reject it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation
-/// stays at its timestamp and the moves stay staged. Not to be called at the same time as any other call
+/// reject it), DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT, DELDRIFT_END_REMOVED, DELDRIFT_ENDS_MEET (see
+/// deldrift_segment_conflicts), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation
+/// stays at its timestamp, and what is staged stays so. Not to be called at the same time as any other call
 /// on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_commit_timestamp(
@@ -253,9 +255,10 @@ pub unsafe extern "C" fn deldrift_commit_timestamp(
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
 /// DELDRIFT_WRONG_COUNT if there are fewer or more, DELDRIFT_DUPLICATE_MOVE if a move is staged, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_CELLS,
-/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation stays at its timestamp, no move is
-/// staged, and insertions and removals are staged as before. Not to be called at the same time as any other call on t.
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT,
+/// DELDRIFT_END_REMOVED, DELDRIFT_ENDS_MEET, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the
+/// triangulation stays at its timestamp, no move is staged, and insertions, removals and segments are staged as before.
+/// Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_commit_positions(
     t: *mut deldrift_triangulation,

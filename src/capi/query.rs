@@ -204,7 +204,8 @@ pub unsafe extern "C" fn deldrift_tolerance(
 /// Checks the triangulation exactly, in time proportional to its size.
 ///
 /// level: 1 checks indices and adjacency; 2 also the orientation of the cells, and that the hull is
-/// convex and winds once; 3 also that no sphere through the vertices of a cell contains a vertex.
+/// convex and winds once; 3 also that no sphere through the vertices of a cell contains a vertex, or, with segments, none
+/// that can be seen from the cell's inside.
 ///
 /// Cost: n + m.
 ///

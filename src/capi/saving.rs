@@ -18,7 +18,7 @@ use crate::motion::{Field, Saved};
 /// Makes an independent triangulation that is as this one, to *out, which the caller has to hand to
 /// deldrift_destroy; it is written on success only.
 ///
-/// Positions, ids, cells with their indices, hidden vertices, staged moves, insertions and removals, the timestamp,
+/// Positions, ids, segments, cells with their indices, hidden vertices, staged moves, insertions and removals, the timestamp,
 /// statistics, options, the changes that deldrift_take_changes has not given yet, and what the algorithm keeps between
 /// commits are those of t: after the same calls both have the same cells. The callbacks of the options are called for
 /// either, so what user_data points to must live as long as both. Views, and changes that have been taken, belong to t
@@ -44,7 +44,7 @@ pub unsafe extern "C" fn deldrift_clone(
 
 /// Saves the triangulation: writes bytes from which deldrift_load makes one like it, on this machine or any other.
 ///
-/// Saved are positions, ids, removed and hidden vertices, cells with their indices, staged moves, insertions and
+/// Saved are positions, ids, segments, removed and hidden vertices, cells with their indices, staged moves, insertions and
 /// removals, the timestamp and statistics. Not saved are the options, what the algorithm keeps between commits, and
 /// which changes have been taken. docs/FORMAT.md describes the bytes.
 ///

@@ -19,21 +19,22 @@ pub enum deldrift_conflict_kind {
     DELDRIFT_CONFLICT_CROSSING = 0,
     /// A vertex is on the segment, and is not one of its ends: other is the lowest id at the place.
     DELDRIFT_CONFLICT_ON_SEGMENT = 1,
-    /// An end of the segment has been removed, or would be: other is the end.
+    /// An end of the segment has been removed, or would be: other is the end, DELDRIFT_NONE if deldrift_compact has been
+    /// called since.
     DELDRIFT_CONFLICT_END_REMOVED = 2,
     /// Both ends of the segment would be at the same place: other is DELDRIFT_NONE.
     DELDRIFT_CONFLICT_ENDS_MEET = 3,
 }
 
-/// What is in the way of a segment.
+/// What is in the way of a segment: see deldrift_segment_conflicts.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct deldrift_conflict {
     /// What other names.
     pub kind: deldrift_conflict_kind,
-    /// The segment.
+    /// The id of the segment; of two that cross the lower one.
     pub segment: u32,
-    /// A segment or a vertex.
+    /// The id of a segment or a vertex, or DELDRIFT_NONE, as kind says.
     pub other: u32,
 }
 
@@ -56,22 +57,28 @@ impl From<&Conflict> for deldrift_conflict {
 /// with the staged moves, insertions and removals, each is an edge, and the cells are the constrained Delaunay
 /// triangulation of vertices and segments: the circle of a cell has no vertex inside that can be seen from the cell's
 /// inside, where segments are opaque. Ties are broken by id as everywhere, so the cells depend only on positions, ids and
-/// segments. Segments move with their ends.
+/// segments. Segments move with their ends, and stay until their removal is staged and committed. docs/SEGMENTS.md says
+/// more.
 ///
 /// ends: count rows of two vertex ids, in any order, of vertices that are present or whose insertion is staged. markers:
-/// count numbers, which are kept with the segments; NULL for zeros. Both are read during the call only, and may be NULL if
-/// count is 0. first_segment: receives the id of the first, which is one above the highest given so far; the others follow
-/// it in their order. It must not be NULL.
+/// count numbers, which are kept with the segments, such as the kind of a boundary condition; NULL for zeros. Both are read
+/// during the call only, and may be NULL if count is 0. first_segment: receives the id of the first, which is one above the
+/// highest given so far; the others follow it in their order. It must not be NULL, even if count is 0: then it receives
+/// the id that would be given next. Ids of segments stay, also through deldrift_compact, and are not given again.
 ///
 /// A segment may be given twice, and be a part of the hull; many may share a vertex. Where vertices are at the same place
-/// it goes to the one that represents them. deldrift_discard_moves forgets staged segments, too, and their ids are given
-/// again.
+/// it goes to the one that represents them. Nothing is looked at before the commit, which is refused, as is
+/// deldrift_check_staged, where segments cross, a vertex is on one, an end is removed, or both ends are at the same place:
+/// see deldrift_segment_conflicts. Only the positions that it leads to count: a vertex may have gone from one side of a
+/// segment to the other. Segments that are in force are kept by calls that change one vertex at once, too, which are
+/// refused for the same reasons. deldrift_discard_moves forgets what is staged of segments, too, and the ids of staged
+/// ones are given again. deldrift_staged_count does not count segments.
 ///
 /// Cost: count.
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_OUT_OF_MEMORY. Not to be called at
-/// the same time as any other call on t.
+/// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX (the message counts ids in ends: that of row
+/// k is ends[2 k] or ends[2 k + 1]), DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_stage_segments(
     t: *mut deldrift_triangulation,
@@ -98,9 +105,10 @@ pub unsafe extern "C" fn deldrift_stage_segments(
 }
 
 /// Stages the removal of segments: all of them, or none if it fails. From the next commit on they need not be edges any
-/// more. Their vertices stay.
+/// more. Their vertices stay. A vertex that is an end of segments can be removed by the commit that removes these.
 ///
-/// segments: count ids, each at most once, read during the call only; may be NULL if count is 0.
+/// segments: count ids of segments in force, each at most once, read during the call only; may be NULL if count is 0.
+/// Segments that are staged can only be forgotten, by deldrift_discard_moves.
 ///
 /// Cost: count, and that of looking for each among those staged before.
 ///
@@ -120,11 +128,13 @@ pub unsafe extern "C" fn deldrift_stage_segment_removals(
     })
 }
 
-/// The segments in force, ascending by id: those of the last commit, and not what is staged.
+/// The segments in force, ascending by id: those of the last commit, and not what is staged. A segment whose removal is
+/// staged is in force until the commit.
 ///
-/// segments: a buffer with room for capacity ids; ends: for capacity rows of two vertex ids, as they were given; markers: for
-/// capacity numbers. One that is NULL is not filled. count: receives the number of segments, which is also written when the
-/// buffers are too small. NULL for all with capacity 0 asks for the count alone.
+/// segments: a buffer with room for capacity ids; ends: for capacity rows of two vertex ids, in the order in which they were
+/// given, which is what left and right of a segment go by; markers: for capacity numbers. One that is NULL is not filled.
+/// count: receives the number of segments, which is also written when the buffers are too small.
+/// NULL for all with capacity 0 asks for the count alone.
 ///
 /// Cost: the ids of segments given so far.
 ///
@@ -145,25 +155,31 @@ pub unsafe extern "C" fn deldrift_segments(
         let t = of_the_plane(t)?;
         let needed = t.segments().count();
         fill_all(count, needed, capacity, [segments.offer(), ends.offer(), markers.offer()], || {
-            write_all(segments.places_if_any(needed)?, t.segments().map(|(id, _)| id.get()));
-            write_all(
-                ends.places_if_any(needed)?,
-                t.segments().map(|(_, segment)| segment.ends.map(VertexId::get)),
-            );
-            write_all(markers.places_if_any(needed)?, t.segments().map(|(_, segment)| segment.marker));
+            // Each of them is looked at before one is written.
+            let (segments, ends) = (segments.places_if_any(needed)?, ends.places_if_any(needed)?);
+            let markers = markers.places_if_any(needed)?;
+            write_all(segments, t.segments().map(|(id, _)| id.get()));
+            write_all(ends, t.segments().map(|(_, segment)| segment.ends.map(VertexId::get)));
+            write_all(markers, t.segments().map(|(_, segment)| segment.marker));
             Ok(())
         })
     })
 }
 
 /// Whether segments would stand against a commit of what is staged: moves, insertions, removals and segments. Returns what
-/// deldrift_commit_timestamp would return as far as segments are concerned, and commits nothing; what is staged stays so.
+/// deldrift_commit_timestamp would return as far as segments are concerned, and commits nothing: what is staged stays so.
 /// deldrift_segment_conflicts then tells all conflicts, so that a solver can cut its step. Without segments, in force or
-/// staged, nothing is looked at, and in 3D there are none.
+/// staged, nothing is looked at, and in 3D there are none. Ends all views, as a commit does.
+///
+/// A program that commits at once where nothing conflicts need not check first: a commit that is refused has no effect, and
+/// tells the conflicts as well.
 ///
 /// Cost: at most that of the commit, and of taking it back.
 ///
-/// Errors: those of deldrift_commit_timestamp. Not to be called at the same time as any other call on t.
+/// Errors: those of deldrift_commit_timestamp: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_CROSSING,
+/// DELDRIFT_ON_SEGMENT, DELDRIFT_END_REMOVED and DELDRIFT_ENDS_MEET for conflicts, of which the first is told,
+/// DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not
+/// to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_check_staged(t: *mut deldrift_triangulation) -> deldrift_status {
     given!(t: Changing);
@@ -171,7 +187,8 @@ pub unsafe extern "C" fn deldrift_check_staged(t: *mut deldrift_triangulation) -
 }
 
 /// The conflicts for which the latest change, or check, of t was refused: all of them, in ascending order of kind, segment
-/// and other. None if it was not refused for conflicts.
+/// and other. None if it was not refused for conflicts. Staging, discarding and questions keep them. Ids of segments and
+/// vertices may be of such as were staged, and have been discarded since.
 ///
 /// conflicts: a buffer with room for capacity entries. count: receives their number, which is also written when the buffer
 /// is too small. NULL with capacity 0 asks for the count alone.

@@ -272,7 +272,7 @@ impl Failure {
                 Error::OutOfRange { .. } => DELDRIFT_OUT_OF_RANGE,
                 Error::NoSuchVertex { .. } => DELDRIFT_NO_SUCH_VERTEX,
                 Error::RemovedVertex { .. } => DELDRIFT_REMOVED_VERTEX,
-                Error::StagedVertex { .. } => DELDRIFT_STAGED_VERTEX,
+                Error::StagedVertex { .. } | Error::Staged { .. } => DELDRIFT_STAGED_VERTEX,
                 Error::NoSuchCell { .. } => DELDRIFT_NO_SUCH_FACET,
                 Error::AmbiguousSeed { .. } => DELDRIFT_AMBIGUOUS_SEED,
                 Error::NoSuchSegment { .. } => DELDRIFT_NO_SUCH_SEGMENT,

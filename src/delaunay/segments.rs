@@ -84,29 +84,43 @@ enum Passed {
     End,
 }
 
+/// An edge with a polygon to its left that waits for its triangles.
+#[derive(Clone, Copy, Debug)]
+struct Waiting {
+    edge: [SiteId; 2],
+    /// Which part of the list of corners the polygon has.
+    part: [usize; 2],
+    /// The facet at the edge of the triangle that has been made on its other side.
+    facet: Facet,
+}
+
 /// Scratch memory of one segment after the other.
 #[derive(Debug, Default)]
 pub(crate) struct Crossing {
     cells: Vec<Slot>,
+    /// The edges between one of the cells and the next.
+    crossed: Vec<[SiteId; 2]>,
     /// The corners of the polygon to the left, from the first end to the second, both ends left out; and to the right.
     left: Vec<SiteId>,
     right: Vec<SiteId>,
-    /// Directed edges on the boundary of the cells, with the facets that they touch.
-    rim: Vec<([SiteId; 2], Facet)>,
-    /// Directed edges of the cells that are made.
-    made: Vec<([SiteId; 2], Facet)>,
-    /// Edges with a polygon to their left, and which part of the list of corners that is.
-    waiting: Vec<([SiteId; 2], [usize; 2])>,
+    /// The facets beyond the boundary of the cells to the left, from the first end to the second; and to the right.
+    beyond_left: Vec<Facet>,
+    beyond_right: Vec<Facet>,
+    waiting: Vec<Waiting>,
+    /// Edges with cells on both sides that the segment crosses, and the facets that have been made there.
+    twice: Vec<([SiteId; 2], Facet)>,
 }
 
 impl Crossing {
     pub(crate) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.cells)
+            + memory::bytes_of(&self.crossed)
             + memory::bytes_of(&self.left)
             + memory::bytes_of(&self.right)
-            + memory::bytes_of(&self.rim)
-            + memory::bytes_of(&self.made)
+            + memory::bytes_of(&self.beyond_left)
+            + memory::bytes_of(&self.beyond_right)
             + memory::bytes_of(&self.waiting)
+            + memory::bytes_of(&self.twice)
     }
 }
 
@@ -228,14 +242,24 @@ impl<G: Dimension> Delaunay<G> {
         G::orientation_with(&filter, self.view(), corners, facet.index(), q) == 0.0
     }
 
-    /// Whether two sites share an edge.
-    pub(crate) fn is_edge(&self, [u, v]: [SiteId; 2]) -> Result<bool> {
-        let mut is_there = false;
+    /// Whether a slot, or none, holds a cell with this edge.
+    pub(crate) fn has_edge(&self, slot: Slot, [u, v]: [SiteId; 2]) -> bool {
+        slot.index() < self.complex.n_slots() && self.complex.is_live(slot) && {
+            let corners = self.complex.cell(slot).corners;
+            corners.as_ref().contains(&u) && corners.as_ref().contains(&v)
+        }
+    }
+
+    /// A cell with this edge, [`Slot::NONE`] if the sites share none.
+    pub(crate) fn find_edge(&self, [u, v]: [SiteId; 2]) -> Result<Slot> {
+        let mut found = Slot::NONE;
         list_ring(&self.complex, self.site(u).cell, u, |slot, _| {
-            is_there |= self.complex.cell(slot).corners.as_ref().contains(&v);
+            if self.complex.cell(slot).corners.as_ref().contains(&v) {
+                found = slot;
+            }
             Ok(())
         })?;
-        Ok(is_there)
+        Ok(found)
     }
 
     /// Looks along a segment that is missing, while no cell has been replaced. Tells what is in the way; if nothing is,
@@ -244,13 +268,15 @@ impl<G: Dimension> Delaunay<G> {
         &mut self,
         ends: [SiteId; 2],
         has_to_be: impl Fn([SiteId; 2]) -> bool,
+        crossing: &mut Crossing,
         replaced: &mut Replaced<G>,
         mut is_in_the_way: impl FnMut(InTheWay) -> Result<()>,
     ) -> Result<()> {
-        let (mut cells, mut is_free) = (Vec::new(), true);
+        let (cells, mut is_free) = (&mut crossing.cells, true);
+        cells.clear();
         self.follow_segment(ends, |passed| {
             let found = match passed {
-                Passed::Cell(cell) => return memory::push(&mut cells, cell),
+                Passed::Cell(cell) => return memory::push(cells, cell),
                 Passed::Edge(edge) if has_to_be(edge) => InTheWay::Edge(edge),
                 Passed::Site(site) => InTheWay::Site(self.site(site).id),
                 Passed::Edge(_) | Passed::End => return Ok(()),
@@ -260,7 +286,7 @@ impl<G: Dimension> Delaunay<G> {
         })?;
         if is_free {
             // A cell that two segments cross is marked the second time.
-            for cell in cells {
+            for &cell in &*cells {
                 if self.complex.mark(cell) == 0 {
                     memory::push(&mut replaced.rows, self.complex.row(cell))?;
                     self.complex.set_mark(cell, 1);
@@ -283,8 +309,9 @@ impl<G: Dimension> Delaunay<G> {
         has_to_be: impl Fn([SiteId; 2]) -> bool,
         crossing: &mut Crossing,
     ) -> Result<bool> {
-        let Crossing { cells, left, right, .. } = crossing;
+        let Crossing { cells, crossed, left, right, .. } = crossing;
         cells.clear();
+        crossed.clear();
         left.clear();
         right.clear();
         let mut is_free = true;
@@ -292,6 +319,7 @@ impl<G: Dimension> Delaunay<G> {
             Passed::Cell(cell) => memory::push(cells, cell),
             Passed::Edge([a, b]) => {
                 is_free &= !has_to_be([a, b]);
+                memory::push(crossed, [a, b])?;
                 for (side, s) in [(&mut *right, a), (&mut *left, b)] {
                     if side.last() != Some(&s) {
                         memory::push(side, s)?;
@@ -304,99 +332,108 @@ impl<G: Dimension> Delaunay<G> {
         if !is_free {
             return Ok(false);
         }
-        self.list_rim(ends, crossing)?;
-        self.complex.note_all(crossing.cells.iter().copied())?;
-        crossing.right.reverse();
-        crossing.made.clear();
-        memory::reserve(&mut crossing.made, 3 * crossing.cells.len())?;
-        let mut n = 0;
-        for (corners, base) in [(0, ends), (1, [ends[1], ends[0]])] {
-            n = self.fill_side(base, corners, n, crossing)?;
+        self.list_beyond(crossing)?;
+        let Crossing { cells, left, right, beyond_left, beyond_right, waiting, twice, .. } = crossing;
+        self.complex.note_all(cells.iter().copied())?;
+        memory::reserve(waiting, cells.len() + 1)?;
+        twice.clear();
+        memory::reserve(twice, beyond_left.len() + beyond_right.len())?;
+        // The corners of each side in counter-clockwise order, and what is beyond them in the order of `fill_side`.
+        right.reverse();
+        beyond_left.reverse();
+        cells.iter().for_each(|&cell| self.complex.set_mark(cell, 1));
+        let (to_left, to_right) = cells.split_at(left.len());
+        let sides =
+            [(ends, to_left, &*left, &*beyond_left), ([ends[1], ends[0]], to_right, &*right, &*beyond_right)];
+        for (base, cells, corners, beyond) in sides {
+            self.fill_side(base, cells, corners, beyond, waiting, twice);
         }
-        debug_assert_eq!(n, crossing.cells.len());
-        self.glue_made(crossing);
+        cells.iter().for_each(|&cell| self.complex.set_mark(cell, 0));
+        self.complex.glue(Facet::new(to_left[0], 2), Facet::new(to_right[0], 2));
+        for &([a, b], facet) in &*twice {
+            let other = twice.iter().find(|(edge, _)| *edge == [b, a]);
+            self.complex.glue(facet, other.expect("a polygon goes there and back").1);
+        }
+        self.recent = cells[0];
+        self.is_constrained = true;
         Ok(true)
     }
 
-    /// Lists the boundary of the cells that a segment crosses: the edges that it does not cross.
-    fn list_rim(&self, ends: [SiteId; 2], crossing: &mut Crossing) -> Result<()> {
-        let Crossing { cells, rim, .. } = crossing;
-        rim.clear();
-        memory::reserve(rim, cells.len() + 2)?;
-        // 0 for the ends, else on which side a site is.
-        let side = |s: SiteId| {
-            let turn = if ends.contains(&s) { 0.0 } else { self.turn([ends[0], ends[1], s]) };
-            i32::from(turn > 0.0) - i32::from(turn < 0.0)
-        };
-        for &slot in &*cells {
+    /// Lists what is beyond the cells that a segment crosses.
+    fn list_beyond(&self, crossing: &mut Crossing) -> Result<()> {
+        let Crossing { cells, crossed, beyond_left, beyond_right, .. } = crossing;
+        beyond_left.clear();
+        beyond_right.clear();
+        memory::reserve(beyond_left, cells.len())?;
+        memory::reserve(beyond_right, cells.len())?;
+        for (k, &slot) in cells.iter().enumerate() {
             let cell = self.complex.cell(slot);
-            for i in 0..3 {
-                let edge = [next_of_three(i), previous_of_three(i)].map(|k| cell.corners[k]);
-                if side(edge[0]) * side(edge[1]) >= 0 {
-                    memory::push(rim, (edge, cell.neighbour(i)))?;
-                }
+            let beyond = |opposite| cell.neighbour(cell.index_of(opposite));
+            if k == 0 || k == crossed.len() {
+                let [a, b] = crossed[k.min(crossed.len() - 1)];
+                beyond_left.push(beyond(a));
+                beyond_right.push(beyond(b));
+            } else if crossed[k][0] == crossed[k - 1][0] {
+                beyond_left.push(beyond(crossed[k][0]));
+            } else {
+                beyond_right.push(beyond(crossed[k][1]));
             }
         }
-        rim.sort_unstable_by_key(|&(edge, _)| edge);
         Ok(())
     }
 
-    /// Triangulates the polygon to the left of an edge into the slots from the `n`-th of the crossing on; returns the
-    /// next one. `corners`: 0 for the list to the left of the segment, 1 for that to the right, reversed.
+    /// Triangulates the polygon to the left of an edge into as many slots as it has corners beside the edge's ends. The
+    /// facet of the first triangle that is the edge, which is opposite its last corner, is left as it is. `beyond`: what is
+    /// beyond the other edges, from the end of `base` to its beginning.
     fn fill_side(
         &mut self,
         base: [SiteId; 2],
-        corners: usize,
-        mut n: usize,
-        crossing: &mut Crossing,
-    ) -> Result<usize> {
-        let Crossing { cells, left, right, made, waiting, .. } = crossing;
-        let corners = if corners == 0 { &*left } else { &*right };
-        waiting.clear();
-        memory::reserve(waiting, corners.len() + 1)?;
-        waiting.push((base, [0, corners.len()]));
-        while let Some(([a, b], [first, end])) = waiting.pop() {
-            if first == end {
+        slots: &[Slot],
+        corners: &[SiteId],
+        beyond: &[Facet],
+        waiting: &mut Vec<Waiting>,
+        twice: &mut Vec<([SiteId; 2], Facet)>,
+    ) {
+        let (mut slots, mut beyond) = (slots.iter(), beyond.iter());
+        let first = slots.as_slice()[0];
+        waiting.push(Waiting { edge: base, part: [0, corners.len()], facet: Facet::new(first, 2) });
+        while let Some(Waiting { edge: [a, b], part: [from, end], facet }) = waiting.pop() {
+            if from == end {
+                let other = *beyond.next().expect("a facet beyond each edge");
+                if self.complex.mark(other.cell()) == 0 {
+                    self.complex.glue(facet, other);
+                } else {
+                    twice.push(([a, b], facet));
+                }
                 continue;
             }
-            let mut best = first;
-            for k in first + 1..end {
-                let mut cell = G::Corners::filled(a);
-                (cell[1], cell[2]) = (b, corners[best]);
-                let (place, id) = (*self.place(corners[k]), self.site(corners[k]).id);
-                if G::is_in_sphere(&self.filter, self.view(), &cell, &place, id) {
-                    best = k;
-                }
-            }
-            let (slot, c) = (cells[n], corners[best]);
-            n += 1;
+            let best = self.apex_of([a, b], corners, [from, end]);
+            let (slot, c) = (*slots.next().expect("a slot for each corner"), corners[best]);
             let mut row = G::Corners::filled(a);
             (row[1], row[2]) = (b, c);
             self.complex.put(slot, row);
-            for (i, s) in [a, b, c].into_iter().enumerate() {
-                self.sites[s].cell = slot;
-                let edge = [next_of_three(i), previous_of_three(i)].map(|k| row[k]);
-                made.push((edge, Facet::new(slot, i)));
+            self.complex.set_mark(slot, 1);
+            if slot != first {
+                self.complex.glue(facet, Facet::new(slot, 2));
             }
-            waiting.push(([a, c], [first, best]));
-            waiting.push(([c, b], [best + 1, end]));
+            [a, b, c].into_iter().for_each(|s| self.sites[s].cell = slot);
+            waiting.push(Waiting { edge: [a, c], part: [from, best], facet: Facet::new(slot, 1) });
+            waiting.push(Waiting { edge: [c, b], part: [best + 1, end], facet: Facet::new(slot, 0) });
         }
-        Ok(n)
     }
 
-    /// Glues the cells that have been made to each other and to those around them.
-    fn glue_made(&mut self, crossing: &mut Crossing) {
-        let Crossing { rim, made, .. } = crossing;
-        made.sort_unstable_by_key(|&(edge, _)| edge);
-        let find = |list: &[([SiteId; 2], Facet)], edge: [SiteId; 2]| {
-            list.binary_search_by_key(&edge, |&(edge, _)| edge).ok().map(|k| list[k].1)
-        };
-        for &(edge @ [x, y], facet) in &*made {
-            let other = find(made, [y, x]).or_else(|| find(rim, edge)).expect("an edge has two sides");
-            self.complex.glue(facet, other);
+    /// Which of some corners makes a triangle with an edge whose circle has no other of them inside.
+    fn apex_of(&self, [a, b]: [SiteId; 2], corners: &[SiteId], [from, end]: [usize; 2]) -> usize {
+        let mut best = from;
+        for k in from + 1..end {
+            let mut cell = G::Corners::filled(a);
+            (cell[1], cell[2]) = (b, corners[best]);
+            let (place, id) = (*self.place(corners[k]), self.site(corners[k]).id);
+            if G::is_in_sphere(&self.filter, self.view(), &cell, &place, id) {
+                best = k;
+            }
         }
-        self.recent = made[0].1.cell();
-        self.is_constrained = true;
+        best
     }
 
     /// Exchanges the edges that have to be there, each with the lower site first, sorted.

@@ -5,6 +5,7 @@ use std::fmt;
 use crate::delaunay::Dimension;
 pub use crate::machine::pace::Monitor;
 use crate::motion::algorithms::Algorithm;
+use crate::refine::Kept;
 
 /// When *rebuilding + tolerance* swaps from the one to the other: by default as in the report. (`make calibrate`
 /// measures other values.)
@@ -85,6 +86,84 @@ impl fmt::Debug for Options {
             .field("coincidence", &self.coincidence)
             .field("monitor", &self.monitor.is_some())
             .finish()
+    }
+}
+
+/// Says whether a cell with corners at these places is too large.
+pub type TooLarge<'a> = &'a dyn Fn([[f64; 2]; 3]) -> bool;
+
+/// What [`refine`](super::MovingTriangulation::refine) and [`coarsen`](super::MovingTriangulation::coarsen) work towards.
+///
+/// ```
+/// use deldrift::motion::Quality;
+///
+/// let quality = Quality { least_angle: 30.0, greatest_area: 0.01, ..Quality::default() };
+/// assert!(quality.sizes.is_none());
+/// ```
+#[derive(Clone, Copy, Default)]
+pub struct Quality<'a> {
+    /// The least angle of a cell in degrees, up to [`MAX_LEAST_ANGLE`]; 0 for any.
+    pub least_angle: f64,
+    /// The greatest area of a cell; 0 for any.
+    pub greatest_area: f64,
+    /// A label for each cell, in the order of [`cells`](super::MovingTriangulation::cells).
+    pub labels: Option<&'a [u32]>,
+    /// The greatest area of cells by label, 0 for any; labels beyond may have any.
+    pub areas: &'a [f64],
+    /// By vertex id the greatest length of edges there: no edge of a cell is longer than the mean at its corners. New
+    /// vertices have what is between.
+    pub sizes: Option<&'a [f64]>,
+    /// Another criterion, which has to be the same for the same corners. All cells have to be small enough at some size.
+    pub is_too_large: Option<TooLarge<'a>>,
+}
+
+/// Greatest [`least_angle`](Quality::least_angle): above, refinement often has no end.
+pub const MAX_LEAST_ANGLE: f64 = 34.0;
+
+impl fmt::Debug for Quality<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Quality")
+            .field("least_angle", &self.least_angle)
+            .field("greatest_area", &self.greatest_area)
+            .field("labels", &self.labels.map(<[u32]>::len))
+            .field("areas", &self.areas)
+            .field("sizes", &self.sizes.map(<[f64]>::len))
+            .field("is_too_large", &self.is_too_large.is_some())
+            .finish()
+    }
+}
+
+/// How [`refine`](super::MovingTriangulation::refine) may reach the quality.
+#[derive(Clone, Copy, Debug)]
+pub struct RefineOptions {
+    /// Which segments stay whole. Cells at them may then stay bad.
+    pub keeps: Kept,
+    /// Greatest number of vertices added.
+    pub limit: usize,
+}
+
+impl Default for RefineOptions {
+    fn default() -> Self {
+        RefineOptions { keeps: Kept::None, limit: usize::MAX }
+    }
+}
+
+/// Which vertices [`coarsen`](super::MovingTriangulation::coarsen) may take away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CoarsenOptions {
+    /// By how many degrees the angles of the cells that come have to be above the least one.
+    pub margin: f64,
+    /// The share, up to 1, of the greatest areas and lengths that cells that come may have.
+    pub share: f64,
+    /// Two pieces of a segment are joined if the vertex between them is on the line through their other ends, or off it
+    /// by no more than this share of the distance of these. The default, 1e-9, is above what the rounding of motions adds
+    /// up to.
+    pub joins: f64,
+}
+
+impl Default for CoarsenOptions {
+    fn default() -> Self {
+        CoarsenOptions { margin: 2.0, share: 0.9, joins: 1e-9 }
     }
 }
 

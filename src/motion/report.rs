@@ -69,3 +69,25 @@ impl Evaluations {
         }
     }
 }
+
+/// What a [`refine`](super::MovingTriangulation::refine) or [`coarsen`](super::MovingTriangulation::coarsen) did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct QualityReport {
+    /// Vertices inserted, with the highest ids of all.
+    pub inserted: usize,
+    /// How many of them are on segments.
+    pub on_segments: usize,
+    /// Vertices removed.
+    pub removed: usize,
+    /// Segments that pieces took the place of, or pieces that one took the place of.
+    pub replaced_segments: usize,
+    /// Segments that came, with the highest ids of all.
+    pub new_segments: usize,
+    /// Pieces that had to be split and are whole, as there is no room for a vertex between their ends.
+    pub unsplit: usize,
+    /// Cells that are still bad, of those selected: at small angles between segments, at segments that are kept whole, and
+    /// where the limit was reached.
+    pub bad_cells: usize,
+    /// Whether the limit was reached.
+    pub is_cut_short: bool,
+}

@@ -16,6 +16,7 @@ use crate::motion::state::checking::{are_good, first_bad};
 use crate::motion::state::edits::Edits;
 use crate::motion::state::foreseen::Foreseen;
 use crate::motion::state::hidden::Hidden;
+use crate::motion::state::made::Made;
 use crate::motion::state::mesh::Mesh;
 use crate::motion::state::repair::Repair;
 use crate::motion::state::segments::Aim;
@@ -49,6 +50,8 @@ pub struct MovingTriangulation<G: Dimension> {
     pub(in crate::motion) foreseen: Foreseen,
     /// The changes taken last.
     pub(in crate::motion) taken: Option<Box<Taken<G::Vertices>>>,
+    /// What refinement has made, once it has made something.
+    pub(in crate::motion) made: Option<Box<Made>>,
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
@@ -105,6 +108,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             n_moved: 0,
             foreseen: Foreseen::default(),
             taken: None,
+            made: None,
         }
     }
 

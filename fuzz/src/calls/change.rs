@@ -15,11 +15,13 @@ use std::slice;
 impl History<'_> {
     pub(super) fn insert(&mut self) {
         let p = self.place();
-        let occupied = self.options.coincidence == 1 && self.m.first_at(&p).is_some();
         let (t, mut id) = (self.t, 77);
-        let wanted = if occupied { DELDRIFT_COINCIDENT } else { DELDRIFT_OK };
-        self.expect(wanted, || c!(deldrift_insert_vertex(t, p.as_ptr(), &mut id)));
-        if !occupied {
+        let mut after = self.m.positions.clone();
+        after.push(Some(p));
+        let wanted = self.status_after(&after, false);
+        let status = self.expect_one(&wanted, || c!(deldrift_insert_vertex(t, p.as_ptr(), &mut id)));
+        self.check_conflicts(status, &after, false);
+        if status == DELDRIFT_OK {
             assert_eq!(id as usize, self.m.positions.len(), "the id of an insertion");
             self.m.positions.push(Some(p));
             self.fresh = None;
@@ -29,7 +31,16 @@ impl History<'_> {
 
     pub(super) fn remove(&mut self) {
         let (t, Some(v)) = (self.t, self.some()) else { return };
-        self.ok(|| c!(deldrift_remove_vertex(t, v)));
+        let mut after = self.m.positions.clone();
+        after[v as usize] = None;
+        // Vertices that share a place do so already.
+        let is_an_end = self.m.segments.is_an_end(v);
+        let wanted = if is_an_end { DELDRIFT_END_REMOVED } else { DELDRIFT_OK };
+        self.expect(wanted, || c!(deldrift_remove_vertex(t, v)));
+        self.check_conflicts(wanted, &after, false);
+        if is_an_end {
+            return self.check();
+        }
         self.m.positions[v as usize] = None;
         self.m.staged.remove(&v);
         self.m.leaving.remove(&v);
@@ -41,15 +52,17 @@ impl History<'_> {
         let (t, Some(v)) = (self.t, self.some()) else { return };
         let q = if self.s.below(2) == 0 { self.place() } else { self.nudged(v) };
         let other = self.m.positions.iter().enumerate().any(|(w, p)| w != v as usize && *p == Some(q));
+        let mut after = self.m.positions.clone();
+        after[v as usize] = Some(q);
         let wanted = if self.m.staged.contains_key(&v) {
-            DELDRIFT_DUPLICATE_MOVE
+            vec![DELDRIFT_DUPLICATE_MOVE]
         } else if other && self.options.coincidence == 1 && self.m.at(v) != Some(q) {
-            DELDRIFT_COINCIDENT
+            vec![DELDRIFT_COINCIDENT]
         } else {
-            DELDRIFT_OK
+            self.status_after(&after, false)
         };
-        self.expect(wanted, || c!(deldrift_relocate_vertex(t, v, q.as_ptr())));
-        if wanted == DELDRIFT_OK {
+        let status = self.expect_one(&wanted, || c!(deldrift_relocate_vertex(t, v, q.as_ptr())));
+        if status == DELDRIFT_OK {
             self.m.positions[v as usize] = Some(q);
             self.fresh = None;
         }
@@ -176,10 +189,11 @@ impl History<'_> {
 
     pub(super) fn commit(&mut self) {
         let (t, after) = (self.t, self.m.committed());
-        let wanted = if self.is_rejected(&after) { DELDRIFT_COINCIDENT } else { DELDRIFT_OK };
+        let wanted = self.status_after(&after, true);
         let mut report = deldrift_commit_report::default();
-        self.expect(wanted, || c!(deldrift_commit_timestamp(t, &mut report)));
-        if wanted == DELDRIFT_OK {
+        let status = self.expect_one(&wanted, || c!(deldrift_commit_timestamp(t, &mut report)));
+        self.check_conflicts(status, &after, true);
+        if status == DELDRIFT_OK {
             self.committed(after, &report);
         }
         self.check();
@@ -198,6 +212,7 @@ impl History<'_> {
         let wanted = [self.m.timestamp, moved, inserted, removed, hidden];
         let found = [report.timestamp, report.moved, report.inserted, report.removed, report.coincident];
         assert_eq!(found, wanted, "timestamp, moved, inserted, removed, coincident");
+        self.m.segments.commit();
         self.m.forget_staged();
     }
 
@@ -219,16 +234,15 @@ impl History<'_> {
                 after[v as usize] = Some(q);
             }
         }
-        let wanted = if !self.m.staged.is_empty() {
-            DELDRIFT_DUPLICATE_MOVE
-        } else if self.is_rejected(&after) {
-            DELDRIFT_COINCIDENT
+        let wanted = if self.m.staged.is_empty() {
+            self.status_after(&after, true)
         } else {
-            DELDRIFT_OK
+            vec![DELDRIFT_DUPLICATE_MOVE]
         };
         let mut report = deldrift_commit_report::default();
-        self.expect(wanted, || c!(deldrift_commit_positions(t, numbers.as_ptr(), n, &mut report)));
-        if wanted == DELDRIFT_OK {
+        let status =
+            self.expect_one(&wanted, || c!(deldrift_commit_positions(t, numbers.as_ptr(), n, &mut report)));
+        if status == DELDRIFT_OK {
             self.committed(after, &report);
         }
         self.check();
@@ -271,6 +285,7 @@ impl History<'_> {
         self.m.staged = self.m.staged.iter().map(|(&v, &q)| (new(v), q)).collect();
         self.m.coming.iter_mut().for_each(|(v, _)| *v = new(*v));
         self.m.leaving = self.m.leaving.iter().map(|&v| new(v)).collect();
+        self.m.segments.renumber(new);
         self.carried.rows.iter_mut().for_each(|r| *r = row(r));
         self.carried.hidden = self.carried.hidden.iter().map(|&v| new(v)).filter(|&v| v != NONE).collect();
         self.fresh = None;

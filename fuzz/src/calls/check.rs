@@ -33,14 +33,23 @@ pub fn cells_of(t: *const deldrift_triangulation) -> (Vec<Row>, Vec<Row>) {
     (vertices, neighbours)
 }
 
-/// The cells of a fresh build of these vertices, each row and all of them in ascending order.
-pub fn fresh_cells(positions: &[Option<Place>], d: usize) -> Vec<Row> {
+/// The cells of a fresh build of these vertices and segments, each row and all of them in ascending order.
+pub fn fresh_cells(positions: &[Option<Place>], segments: &[[u32; 2]], d: usize) -> Vec<Row> {
     let present = positions.iter().enumerate().filter_map(|(v, p)| p.map(|p| (v as u32, p)));
     let (ids, places): (Vec<u32>, Vec<Place>) = present.unzip();
     let numbers = flattened(&places, d);
     let mut t = std::ptr::null_mut();
     let status = c!(deldrift_create(d as u32, numbers.as_ptr(), places.len(), null(), &mut t));
     assert_eq!(status, DELDRIFT_OK, "a fresh build: {}", message());
+    if !segments.is_empty() {
+        let new = |v: u32| ids.binary_search(&v).expect("an end is present") as u32;
+        let ends: Vec<[u32; 2]> = segments.iter().map(|ends| ends.map(new)).collect();
+        let (start, n, mut first) = (ends.as_ptr().cast(), ends.len(), 77);
+        let status = c!(deldrift_stage_segments(t, start, null(), n, &mut first));
+        assert_eq!((status, first), (DELDRIFT_OK, 0), "segments of a fresh build: {}", message());
+        let status = c!(deldrift_commit_timestamp(t, std::ptr::null_mut()));
+        assert_eq!(status, DELDRIFT_OK, "segments of a fresh build: {}", message());
+    }
     let (rows, _) = cells_of(t);
     c!(deldrift_destroy(t));
     let named = |row: &Row| sorted(row.map(|v| if v == NONE { NONE } else { ids[v as usize] }));
@@ -81,7 +90,10 @@ impl History<'_> {
     /// The cells that there should be.
     pub(super) fn wanted_cells(&mut self) -> &[Row] {
         let m = &self.m;
-        self.fresh.get_or_insert_with(|| fresh_cells(&m.positions, m.d))
+        self.fresh.get_or_insert_with(|| {
+            let segments: Vec<[u32; 2]> = m.segments.laid().map(|(_, ends)| ends).collect();
+            fresh_cells(&m.positions, &segments, m.d)
+        })
     }
 
     /// Compares all that there is.
@@ -89,6 +101,7 @@ impl History<'_> {
         tally::COMPARISONS.add(1);
         self.check_numbers();
         self.check_vertices();
+        self.check_segments();
         let (rows, neighbours) = self.cells();
         let mut found: Vec<Row> = rows.iter().map(|&row| sorted(row)).collect();
         found.sort_unstable();

@@ -10,6 +10,7 @@ mod near;
 pub mod places;
 mod read;
 mod refuse;
+mod segments;
 
 use super::allocator::Fault;
 use super::source::Source;
@@ -110,6 +111,8 @@ struct History<'a> {
     within: u64,
     /// Whether cells are compared with the definition at the end.
     proves: bool,
+    /// Whether there are segments.
+    has_segments: bool,
 }
 
 /// The numbers of places, for C.
@@ -211,6 +214,7 @@ impl<'a> History<'a> {
             carried: Carried::default(),
             within: 0,
             proves: flags & 0x3e == 0 && n < 60,
+            has_segments: d == 2 && flags & 0x40 != 0,
         };
         for _ in 0..n {
             let p = history.place();
@@ -242,6 +246,16 @@ impl<'a> History<'a> {
             self.cancel_after = Some(u32::from(self.s.byte() % 8));
             self.callback.calls_back.set(choice & 0x10 == 0);
         }
+        if self.has_segments && choice & 0x28 == 0x20 {
+            self.change_segments();
+        } else {
+            self.change_or_read(choice);
+        }
+        (self.fault, self.cancel_after) = (None, None);
+        self.callback.calls_back.set(false);
+    }
+
+    fn change_or_read(&mut self, choice: u8) {
         match choice % 32 {
             0 => self.insert(),
             1 => self.remove(),
@@ -263,8 +277,6 @@ impl<'a> History<'a> {
             30 => self.refuse(),
             _ => self.read_near(),
         }
-        (self.fault, self.cancel_after) = (None, None);
-        self.callback.calls_back.set(false);
     }
 
     /// Makes a call, first with what is to befall it. If that makes it fail, nothing may have changed, and the call is
@@ -318,6 +330,17 @@ impl<'a> History<'a> {
         assert!(wanted == DELDRIFT_OK || !message().is_empty());
     }
 
+    /// A call that must end in one of several; that.
+    fn expect_one(
+        &mut self,
+        wanted: &[deldrift_status],
+        call: impl FnMut() -> deldrift_status,
+    ) -> deldrift_status {
+        let status = self.call(call);
+        assert!(wanted.contains(&status), "{status:?}, not {wanted:?}: {}", message());
+        status
+    }
+
     fn ok(&mut self, call: impl FnMut() -> deldrift_status) {
         self.expect(DELDRIFT_OK, call);
     }
@@ -364,7 +387,7 @@ impl<'a> History<'a> {
     }
 
     fn end(&mut self) {
-        if self.proves && self.m.present().count() < 60 {
+        if self.proves && !self.has_segments && self.m.present().count() < 60 {
             tally::PROOFS.add(1);
             let (rows, neighbours) = self.cells();
             self.m.prove(&rows, &neighbours);

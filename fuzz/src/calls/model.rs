@@ -1,6 +1,7 @@
 //! What a triangulation should say, by the simplest means.
 
 use super::super::exact_oracle::{Tally, exact_sign, is_inside_by_polynomial};
+use super::segments::Segments;
 use std::array::from_fn;
 use std::cmp::Ordering::{Equal, Greater, Less};
 use std::collections::{BTreeMap, BTreeSet};
@@ -26,6 +27,7 @@ pub struct Model {
     pub staged: BTreeMap<u32, Place>,
     pub coming: Vec<(u32, Place)>,
     pub leaving: BTreeSet<u32>,
+    pub segments: Segments,
     pub timestamp: u64,
 }
 
@@ -79,6 +81,7 @@ impl Model {
         self.staged.clear();
         self.leaving.clear();
         self.coming.clear();
+        self.segments.forget_staged();
     }
 
     /// Whether vertices of which moves are not staged, or anything else, share a place.

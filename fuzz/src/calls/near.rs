@@ -142,7 +142,11 @@ impl History<'_> {
         };
         let (rows, _) = self.cells();
         let wanted: Vec<u32> = (0..).zip(&rows).filter(|(_, row)| is_in(row)).map(|(cell, _)| cell).collect();
-        assert_eq!(found, wanted, "in conflict with {q:?}");
+        // Segments hide the place from some of them.
+        let is_hidden = self.m.segments.laid().next().is_some();
+        let is_right =
+            if is_hidden { found.iter().all(|cell| wanted.contains(cell)) } else { found == wanted };
+        assert!(is_right, "{found:?}, not {wanted:?}, in conflict with {q:?}");
     }
 
     /// Corners of cells in any order, and vertices of no cell.

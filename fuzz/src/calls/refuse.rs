@@ -280,5 +280,36 @@ impl History<'_> {
             });
         }
         assert_eq!((count, mirror, result), (77, 77, 77.0), "an output of a call that failed");
+        self.refuse_segments();
+    }
+
+    /// In space there are none; in the plane ids and seeds may be wrong.
+    fn refuse_segments(&mut self) {
+        let (t, n) = (self.t, self.m.positions.len() as u32);
+        let (ends, seed, mut count, mut first) = ([n; 2], [f64::NAN, 0.0], 77, 77);
+        let [bad_end, bad_id, bad_seed, in_space] = if self.m.d == 2 {
+            [DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_NO_SUCH_SEGMENT, DELDRIFT_NOT_FINITE, DELDRIFT_WRONG_COUNT]
+        } else {
+            [DELDRIFT_INVALID_DIMENSION; 4]
+        };
+        self.expect(bad_end, || c!(deldrift_stage_segments(t, ends.as_ptr(), null(), 1, &mut first)));
+        self.expect(bad_id, || c!(deldrift_stage_segment_removals(t, &DELDRIFT_NONE, 1)));
+        let mut cells = 0;
+        self.is_ok(c!(deldrift_cell_count(t, &mut cells)));
+        let (mut labels, start) = (vec![77; cells + 1], seed.as_ptr());
+        let to = labels.as_mut_ptr();
+        self.expect(bad_seed, || c!(deldrift_label_cells(t, start, &1, 1, 2, to, cells + 1, &mut count)));
+        let (mask, none) = (vec![1; cells + 1], null_mut::<u32>());
+        self.expect(in_space, || {
+            let (mask, corners) = (mask.as_ptr(), null_mut());
+            c!(deldrift_boundary_chains(t, mask, cells + 1, none, none, none, none, corners, 0, &mut count))
+        });
+        if self.m.d == 3 {
+            let wanted = DELDRIFT_INVALID_DIMENSION;
+            self.expect(wanted, || c!(deldrift_nesting_levels(t, none, 0, &mut count)));
+            self.expect(wanted, || c!(deldrift_segments(t, none, none, null_mut(), 0, &mut count)));
+            self.ok(|| c!(deldrift_check_staged(t)));
+        }
+        assert!((count, first) == (77, 77) && labels.iter().all(|&label| label == 77));
     }
 }

@@ -148,6 +148,8 @@ protected:
     using Cell = detail::Cell_handle<Mesh, D>;
 
     const Mesh *mesh() const noexcept { return mesh_.get(); }
+    Mesh &mesh_to_change() noexcept { return *mesh_; }
+    static typename Mesh::Record *record_of(Vertex_handle v) noexcept { return v.record_; }
     template <template <class, std::uint32_t> class Source>
     handles<Source<Mesh, D>> all(std::size_t n) const {
         return {{{mesh()}, 0, n}, {{mesh()}, n, n}};

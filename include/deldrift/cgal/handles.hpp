@@ -140,6 +140,15 @@ public:
         return (i + 2) % 3;
     }
 
+    // In the plane: whether the edge opposite corner i is a constraint, or a piece of one.
+    bool is_constrained(int i) const {
+        static_assert(D == 2);
+        if (is_infinite() && static_cast<std::uint32_t>(i) != hull_corner_) return false;
+        return mesh_->segments_of_cells()[std::size_t{cell_} * corners + static_cast<std::uint32_t>(i)] != DELDRIFT_NONE;
+    }
+    // Of constrained triangulations: a value that the program gives to the face, until the triangulation changes.
+    typename Mesh::Face_info &info() const { return mesh_->face_info(cell_, hull_corner_); }
+
     bool is_infinite() const noexcept { return hull_corner_ < corners; }
     // The index in deldrift's arrays; of a ghost cell, that of the finite cell behind it.
     std::uint32_t id() const noexcept { return cell_; }

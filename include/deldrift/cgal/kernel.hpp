@@ -19,6 +19,9 @@ template <class R>
 class Projection_traits_yz_3;
 template <class Tag>
 struct Location_policy;
+struct Default;
+struct Exact_intersections_tag;
+struct Exact_predicates_tag;
 }  // namespace CGAL
 
 namespace deldrift::cgal {
@@ -50,6 +53,10 @@ public:
 private:
     std::array<Point, N> points_{};
 };
+
+// The infos of vertices and of faces, of which either may be void.
+template <class Vertices, class Faces>
+struct Infos {};
 
 namespace detail {
 
@@ -168,6 +175,30 @@ struct Info_of<T, std::void_t<typename T::Vertex>> : Info_of_vertex<typename T::
 template <class Tag>
 struct Info_of<CGAL::Location_policy<Tag>> {
     using type = void;
+};
+template <>
+struct Info_of<CGAL::Default> {
+    using type = void;
+};
+
+// That of faces, which only one of CGAL's data structures has.
+template <class T, class = void>
+struct Info_of_faces {
+    using type = void;
+};
+template <class T>
+struct Info_of_faces<T, std::void_t<typename T::Face>> : Info_of_vertex<typename T::Face> {};
+
+// Infos, or that of vertices alone.
+template <class Info>
+struct Parts_of {
+    using Vertices = Info;
+    using Faces = void;
+};
+template <class V, class F>
+struct Parts_of<Infos<V, F>> {
+    using Vertices = V;
+    using Faces = F;
 };
 
 }  // namespace detail

@@ -21,6 +21,8 @@
 namespace deldrift::cgal::detail {
 
 struct No_info {};
+template <class Info>
+using Info_or_none = std::conditional_t<std::is_void_v<Info>, No_info, Info>;
 
 // What a vertex handle points to. It stays where it is until the vertex is removed.
 template <std::uint32_t D, class K, class Info>
@@ -28,7 +30,7 @@ class Mesh;
 template <std::uint32_t D, class K, class Info>
 struct Record {
     typename Coordinates<D, K>::Point point;
-    std::conditional_t<std::is_void_v<Info>, No_info, Info> info;
+    Info_or_none<typename Parts_of<Info>::Vertices> info;
     // Null for one that is not in use, and for the infinite vertex its mesh.
     const Mesh<D, K, Info> *mesh;
     std::uint32_t id;
@@ -42,6 +44,7 @@ public:
     using Numbers = std::array<double, D>;
     using Record = detail::Record<D, K, Info>;
     using Given_info = decltype(Record::info);
+    using Face_info = Info_or_none<typename Parts_of<Info>::Faces>;
     using Vertices = std::vector<std::pair<Point, Given_info>>;
 
     Mesh() : t_(D, Positions(), options()), infinite_{Coordinates<D, K>::point({}), {}, this, DELDRIFT_NONE} {}
@@ -107,6 +110,24 @@ public:
         std::size_t n_ = 0;
     };
 
+    // The segment at the edge opposite each corner of each cell, DELDRIFT_NONE where there is none.
+    const std::vector<std::uint32_t> &segments_of_cells() const {
+        return fresh(has_segments_, segments_, [&] {
+            std::size_t n = cells().count;
+            segments_.resize(3 * n);
+            require_ok(deldrift_segments_of_cells(t_.native(), segments_.data(), n, &n));
+        });
+    }
+    // Of a finite cell, or, with a corner, of the ghost cell opposite it: until the next change.
+    Face_info &face_info(std::uint32_t cell, std::uint32_t hull_corner) const {
+        auto &infos = fresh(has_face_infos_, face_infos_, [&] {
+            face_infos_.clear();
+            face_infos_.resize(cells().count * (D + 2));
+        });
+        const bool is_ghost = hull_corner <= D;
+        return infos[is_ghost ? cells().count + std::size_t{cell} * (D + 1) + hull_corner : cell];
+    }
+
     // The vertex at a place; null where there is none.
     Record *nearest(const Point &p) const {
         const std::uint32_t id = t_.nearest_vertex(numbers_of(p));
@@ -166,6 +187,46 @@ public:
         t_.discard_moves();
         staged_.clear();
     }
+
+    // New segments between vertices, and the removal of others. What else is staged waits. first: receives the id that
+    // the first new one has, or would have if there were no conflicts.
+    void exchange_segments(const std::vector<std::array<Record *, 2>> &ends,
+                           const std::vector<std::uint32_t> &removals, std::uint32_t &first) {
+        std::vector<std::array<std::uint32_t, 2>> ids;
+        for (const auto &[a, b] : ends) ids.push_back({a->id, b->id});
+        commit_alone([&] {
+            require_ok(deldrift_stage_segments(t_.native(), ids.empty() ? nullptr : ids.front().data(), nullptr,
+                                               ids.size(), &first));
+            require_ok(deldrift_stage_segment_removals(t_.native(), removals.data(), removals.size()));
+        });
+    }
+    // A vertex on a segment, of which two come to be; and the id of the first.
+    std::pair<Record *, std::uint32_t> split_segment(const Point &p, const std::array<Record *, 2> &ends,
+                                                     std::uint32_t segment) {
+        Record *record = add(p, {});
+        std::uint32_t first = 0;
+        try {
+            commit_alone([&] {
+                const Numbers place = numbers_of(p);
+                const std::uint32_t id = t_.stage_insertions(place);
+                const std::uint32_t pieces[] = {ends[0]->id, id, id, ends[1]->id};
+                require_ok(deldrift_stage_segments(t_.native(), pieces, nullptr, 2, &first));
+                require_ok(deldrift_stage_segment_removals(t_.native(), &segment, 1));
+            });
+        } catch (...) {
+            drop_last();
+            throw;
+        }
+        return {record, first};
+    }
+    // Why the last change was refused.
+    std::vector<deldrift_conflict> conflicts_of_segments() const {
+        std::size_t n = 0;
+        require_ok(deldrift_segment_conflicts(t_.native(), nullptr, 0, &n));
+        std::vector<deldrift_conflict> conflicts(n);
+        require_ok(deldrift_segment_conflicts(t_.native(), conflicts.data(), n, &n));
+        return conflicts;
+    }
     deldrift_commit_report commit_timestamp() {
         const deldrift_commit_report report = t_.commit_timestamp();
         changed();
@@ -177,6 +238,8 @@ public:
 private:
     void changed() noexcept {
         is_fresh_ = false;
+        has_segments_ = false;
+        has_face_infos_ = false;
         has_stars_ = false;
         n_stars_asked_ = 0;
     }
@@ -191,6 +254,39 @@ private:
             has_stars_.store(true, std::memory_order_release);
         }
         return &stars_;
+    }
+
+    // What is made once after a change, by any thread.
+    template <class List, class Make>
+    List &fresh(std::atomic<bool> &is_made, List &list, Make make) const {
+        if (!is_made.load(std::memory_order_acquire)) {
+            cells();
+            const std::lock_guard<std::mutex> lock(mutex_);
+            if (!is_made.load(std::memory_order_relaxed)) make();
+            is_made.store(true, std::memory_order_release);
+        }
+        return list;
+    }
+
+    // Commits what `stage` stages. Moves that wait are taken back before, and staged again.
+    template <class Stage>
+    void commit_alone(Stage stage) {
+        t_.discard_moves();
+        try {
+            stage();
+            t_.commit_timestamp();
+        } catch (...) {
+            t_.discard_moves();
+            stage_again();
+            throw;
+        }
+        changed();
+        stage_again();
+    }
+    void stage_again() {
+        for (const auto &[record, p] : staged_) {
+            require_ok(deldrift_move_vertex(t_.native(), record->id, numbers_of(p).data()));
+        }
     }
 
     static deldrift_options options() noexcept {
@@ -323,6 +419,10 @@ private:
     mutable std::mutex mutex_{};
     mutable std::atomic<bool> is_fresh_{false};
     mutable deldrift_cells_view cells_{};
+    mutable std::atomic<bool> has_segments_{false};
+    mutable std::vector<std::uint32_t> segments_{};
+    mutable std::atomic<bool> has_face_infos_{false};
+    mutable std::vector<Face_info> face_infos_{};
     mutable std::atomic<bool> has_stars_{false};
     mutable std::atomic<std::size_t> n_stars_asked_{0};
     mutable Lists stars_{};

@@ -2,6 +2,7 @@
 
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::machine::memory;
 use crate::motion::options::{Monitor, Options};
 use crate::motion::state::views::Views;
 use crate::motion::triangulation::MovingTriangulation;
@@ -45,6 +46,10 @@ impl<G: Dimension> MovingTriangulation<G> {
             n_moved: self.n_moved,
             foreseen: Default::default(),
             taken: None,
+            made: match &self.made {
+                Some(made) => Some(memory::boxed(made.copied()?)?),
+                None => None,
+            },
         })
     }
 

@@ -47,8 +47,13 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn commit(&mut self, moves: &mut Moves<'_, G>) -> Result<CommitReport> {
         let mut report = CommitReport::default();
         let before = self.mesh.evaluations();
-        self.mesh.begin(Aim::Commit)?;
-        let advanced = self.edit_and_advance(moves, &mut report).and_then(|()| self.mesh.lay_segments());
+        let advanced = if self.rests_beside_segments(moves) {
+            self.mesh.begin(Aim::Rest)?;
+            self.mesh.reject_coincidence(self.options.coincidence)
+        } else {
+            self.mesh.begin(Aim::Commit)?;
+            self.edit_and_advance(moves, &mut report).and_then(|()| self.mesh.lay_segments())
+        };
         if let Err(error) = advanced.and_then(|()| self.mesh.views.prepare(&self.mesh.kernel)) {
             self.undo();
             return Err(error);
@@ -83,9 +88,24 @@ impl<G: Dimension> MovingTriangulation<G> {
         checked
     }
 
+    /// Whether segments have taken the place of cells, which need not be put back, as nothing is going to change.
+    fn rests_beside_segments(&self, moves: &Moves<'_, G>) -> bool {
+        let Some(segments) = &self.mesh.segments else { return false };
+        segments.have_replaced_cells()
+            && !segments.are_staged()
+            && self.edits.are_none()
+            && self.options.algorithm != Algorithm::Rebuilding
+            && self.mesh.outlook(moves, false) == Outlook::AtRest
+    }
+
     /// Makes these moves and the staged edits, and takes them back.
     fn check(&mut self, moves: &mut Moves<'_, G>) -> Result<()> {
         let mut report = CommitReport::default();
+        if self.rests_beside_segments(moves) {
+            self.mesh.begin(Aim::Rest)?;
+            self.undo();
+            return Ok(());
+        }
         self.mesh.begin(Aim::Check)?;
         let advanced = self.edit_and_advance(moves, &mut report).and_then(|()| self.mesh.lay_segments());
         self.undo();

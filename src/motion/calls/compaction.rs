@@ -59,6 +59,10 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
             None => None,
         };
+        let made = match &self.made {
+            Some(made) => Some(memory::boxed(made.renumbered(&ids)?)?),
+            None => None,
+        };
         let staging = self.staging.renumbered(&ids, n)?;
         let edits = self.edits.renumbered(&ids, n)?;
         let views =
@@ -66,7 +70,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         // From here on nothing fails.
         site_of.resize(n, SiteId::NONE);
         self.note_tolerances_dropped();
-        self.mesh.segments = segments;
+        (self.mesh.segments, self.made) = (segments, made);
         (self.mesh.site_of, self.staging, self.edits, self.mesh.views) = (site_of, staging, edits, views);
         let stride = kernel.mean_stride();
         self.adopt(kernel, hidden, stride);

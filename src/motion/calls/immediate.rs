@@ -29,7 +29,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::DuplicateMove`] if a move of the vertex is staged; [`Error::Coincident`] if the options reject that.
     #[inline]
     pub fn relocate_vertex(&mut self, vertex: VertexId, position: &G::Point) -> Result<()> {
-        if self.mesh.segments.is_none() && self.relocate_within_tolerance(vertex, position) {
+        if self.relocate_within_tolerance(vertex, position) {
             return Ok(());
         }
         self.relocate_checked(vertex, position)
@@ -164,7 +164,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     #[inline(always)]
     pub(crate) fn relocate_within_tolerance(&mut self, vertex: VertexId, position: &G::Point) -> bool {
         let v = vertex.index();
-        let Some(tolerances) = self.regions.tolerances() else {
+        // Tolerances are of the Delaunay triangulation, which has other cells beside segments.
+        let Some(tolerances) = self.regions.tolerances().filter(|_| self.mesh.segments.is_none()) else {
             return false;
         };
         let (Some(s), Some(fixed)) = (self.mesh.site(vertex), tolerances.fixed().get(v)) else {

@@ -10,6 +10,7 @@ use crate::motion::report::CommitReport;
 use crate::motion::state::cells::Cells;
 use crate::motion::state::changes::Taken;
 use crate::motion::state::checking::check_position;
+use crate::motion::state::made::Made;
 use crate::motion::state::mesh::Standing;
 use crate::motion::state::repair::Repair;
 use crate::motion::triangulation::MovingTriangulation;
@@ -316,5 +317,6 @@ impl<G: Dimension> MovingTriangulation<G> {
             + memory::bytes_of_made(&self.repair, Repair::memory_bytes)
             + self.edits.memory_bytes()
             + memory::bytes_of_made(&self.taken, Taken::memory_bytes)
+            + memory::bytes_of_made(&self.made, Made::memory_bytes)
     }
 }

@@ -296,6 +296,12 @@ impl<G: Dimension> Cells<G> {
         Facet::new(self.slots[index], in_slot)
     }
 
+    /// The cell of a facet, and the corner opposite it as it is shown.
+    pub(in crate::motion) fn shown(&self, facet: Facet) -> (CellId, usize) {
+        let index = self.index_of[facet.cell()];
+        (index, self.orderings[index].place(facet.index()))
+    }
+
     /// A copy of arrays that are up to date, in which vertices have other ids and cells other slots, `n_slots` in all:
     /// those listed by the old ones. Every cell keeps its index.
     pub(in crate::motion) fn renumbered(

@@ -9,6 +9,7 @@ pub(in crate::motion) mod edits;
 pub(in crate::motion) mod foreseen;
 pub(in crate::motion) mod goals;
 pub(in crate::motion) mod hidden;
+pub(in crate::motion) mod made;
 pub(in crate::motion) mod marks;
 pub(in crate::motion) mod matching;
 pub(in crate::motion) mod mesh;

@@ -34,6 +34,8 @@ pub(in crate::motion) enum Aim {
     Check,
     /// What is staged still waits.
     Other,
+    /// Nothing will change: neither a vertex moves nor is an edit or a segment staged.
+    Rest,
 }
 
 impl Aim {
@@ -61,6 +63,10 @@ pub(in crate::motion) struct Segments<G: Dimension> {
     conflicts: Vec<Conflict>,
     /// The edges that a kernel had to have before the change, while it has others.
     before: Option<Vec<[SiteId; 2]>>,
+    /// By site: whether it is an end of one of `edges`.
+    is_end: Vec<bool>,
+    /// A cell that each of `edges` was seen at last.
+    seen: Vec<Slot>,
     /// The entries of `edges` that are no edges before segments are laid.
     missing: Vec<usize>,
     aim: Aim,
@@ -80,6 +86,8 @@ impl<G: Dimension> Default for Segments<G> {
             edges: Vec::new(),
             conflicts: Vec::new(),
             before: None,
+            is_end: Vec::new(),
+            seen: Vec::new(),
             missing: Vec::new(),
             aim: Aim::Other,
             is_checked: false,
@@ -90,6 +98,11 @@ impl<G: Dimension> Default for Segments<G> {
 /// Two sites, the lower one first.
 fn ordered([s, t]: [SiteId; 2]) -> [SiteId; 2] {
     if s < t { [s, t] } else { [t, s] }
+}
+
+/// Whether an edge has to be there. `is_end`: whether a site is an end of a segment.
+fn has_to_be(edges: &[([SiteId; 2], SegmentId)], is_end: &[bool], edge: [SiteId; 2]) -> bool {
+    edge.iter().all(|s| is_end.get(s.index()) == Some(&true)) && !at_edge(edges, edge).is_empty()
 }
 
 /// The segments that have to be at an edge.
@@ -230,13 +243,18 @@ impl<G: Dimension> Segments<G> {
         self.next.clear();
         (self.aim, self.is_checked) = (aim, false);
         self.conflicts.clear();
-        kernel.put_back_replaced(&self.replaced)
+        if aim == Aim::Rest { Ok(()) } else { kernel.put_back_replaced(&self.replaced) }
     }
 
-    /// Whether nothing that a segment depends on has changed, where no row of the kernel's cells has.
+    /// Whether some are staged, or the removal of some.
+    pub(in crate::motion) fn are_staged(&self) -> bool {
+        self.all.len() > self.n_laid || !self.leaving.is_empty()
+    }
+
+    /// Whether nothing that a segment depends on has changed, where no row of the kernel's cells has, and no vertex has
+    /// another site.
     pub(in crate::motion) fn are_at_rest(&self) -> bool {
-        let are_staged = self.all.len() > self.n_laid || !self.leaving.is_empty();
-        self.replaced.is_empty() && !(self.aim.takes_staged() && are_staged)
+        self.replaced.is_empty() && !(self.aim.takes_staged() && self.are_staged())
     }
 
     /// Enters the segments that are missing in the Delaunay triangulation of a kernel: those in force, or, in a commit,
@@ -244,7 +262,10 @@ impl<G: Dimension> Segments<G> {
     pub(in crate::motion) fn lay(&mut self, kernel: &mut Delaunay<G>, site_of: &[SiteId]) -> Result<()> {
         self.next.clear();
         self.conflicts.clear();
-        self.list_edges(site_of)?;
+        let is_new = !self.are_listed(site_of);
+        if is_new {
+            self.list_edges(site_of)?;
+        }
         if kernel.has_cells() {
             let looked = self.look_along(kernel);
             kernel.end_looking(&self.next);
@@ -255,9 +276,11 @@ impl<G: Dimension> Segments<G> {
         } else {
             self.look_along_line(kernel)?;
         }
-        let mut required = self.required()?;
-        kernel.exchange_required(&mut required);
-        self.before = Some(required);
+        if is_new {
+            let mut required = self.required()?;
+            kernel.exchange_required(&mut required);
+            self.before = Some(required);
+        }
         self.refuse_conflicts()?;
         if self.aim == Aim::Check {
             self.is_checked = true;
@@ -272,14 +295,27 @@ impl<G: Dimension> Segments<G> {
         kernel: &mut Delaunay<G>,
         site_of: &[SiteId],
     ) -> Result<()> {
+        // A new kernel has none yet.
+        self.edges.clear();
         let laid = self.lay(kernel, site_of);
         self.before = None;
         laid
     }
 
+    /// Whether the list of edges is still the right one.
+    fn are_listed(&self, site_of: &[SiteId]) -> bool {
+        let is_right = |&(edge, id): &([SiteId; 2], SegmentId)| {
+            let segment = self.all.get(id.index()).copied().flatten();
+            segment.is_some_and(|segment| ordered(segment.ends.map(|v| site_of[v.index()])) == edge)
+        };
+        !(self.aim.takes_staged() && self.are_staged())
+            && self.edges.len() == self.laid().count()
+            && self.edges.iter().all(is_right)
+    }
+
     /// Lists the edges that have to be there, and the conflicts of ends alone.
     fn list_edges(&mut self, site_of: &[SiteId]) -> Result<()> {
-        let Segments { all, n_laid, leaving, edges, conflicts, .. } = self;
+        let Segments { all, n_laid, leaving, edges, is_end, seen, conflicts, .. } = self;
         let takes_staged = self.aim.takes_staged();
         edges.clear();
         let n = if takes_staged { all.len() } else { *n_laid };
@@ -290,7 +326,8 @@ impl<G: Dimension> Segments<G> {
             if takes_staged && leaving.binary_search(&id).is_ok() {
                 continue;
             }
-            let sites = segment.ends.map(|v| site_of[v.index()]);
+            // An end that was removed before a compaction has no id any more.
+            let sites = segment.ends.map(|v| site_of.get(v.index()).copied().unwrap_or(SiteId::NONE));
             if let Some(k) = (0..2).find(|&k| sites[k] == SiteId::NONE) {
                 memory::push(conflicts, Conflict::EndRemoved { segment: id, vertex: segment.ends[k] })?;
             } else if sites[0] == sites[1] {
@@ -300,13 +337,18 @@ impl<G: Dimension> Segments<G> {
             }
         }
         edges.sort_unstable();
-        Ok(())
+        is_end.clear();
+        let n_sites = edges.iter().map(|(edge, _)| edge[1].index() + 1).max().unwrap_or(0);
+        memory::lengthen(is_end, n_sites, false)?;
+        edges.iter().flat_map(|(edge, _)| edge).for_each(|s| is_end[s.index()] = true);
+        seen.clear();
+        memory::lengthen(seen, edges.len(), Slot::NONE)
     }
 
     /// Looks along all segments that are missing.
     fn look_along(&mut self, kernel: &mut Delaunay<G>) -> Result<()> {
-        let Segments { edges, next, conflicts, missing, .. } = self;
-        let edges = &*edges;
+        let Segments { edges, is_end, seen, next, crossing, conflicts, missing, .. } = self;
+        let (edges, is_end) = (&*edges, &*is_end);
         missing.clear();
         for k in 0..edges.len() {
             let (edge, id) = edges[k];
@@ -314,13 +356,19 @@ impl<G: Dimension> Segments<G> {
             if is_told && missing.last().is_none_or(|&m| edges[m].0 != edge) {
                 continue;
             }
-            if !is_told && kernel.is_edge(edge)? {
-                continue;
+            if !is_told {
+                if !kernel.has_edge(seen[k], edge) {
+                    seen[k] = kernel.find_edge(edge)?;
+                }
+                if seen[k] != Slot::NONE {
+                    continue;
+                }
             }
             memory::push(missing, k)?;
             kernel.look_along(
                 edge,
-                |other| !at_edge(edges, other).is_empty(),
+                |other| has_to_be(edges, is_end, other),
+                crossing,
                 next,
                 |found| match found {
                     InTheWay::Site(vertex) => {
@@ -338,15 +386,15 @@ impl<G: Dimension> Segments<G> {
     /// Enters all segments that are missing, and of which nothing that is there is in the way. Returns whether none of
     /// them crosses another.
     fn enter(&mut self, kernel: &mut Delaunay<G>) -> Result<bool> {
-        let Segments { edges, crossing, missing, .. } = self;
-        let edges = &*edges;
+        let Segments { edges, is_end, crossing, missing, .. } = self;
+        let (edges, is_end) = (&*edges, &*is_end);
         for (i, &k) in missing.iter().enumerate() {
             let edge = edges[k].0;
             let is_entered = i > 0 && edges[missing[i - 1]].0 == edge;
-            if is_entered || kernel.is_edge(edge)? {
+            if is_entered || kernel.find_edge(edge)? != Slot::NONE {
                 continue;
             }
-            if !kernel.enter_segment(edge, |other| !at_edge(edges, other).is_empty(), crossing)? {
+            if !kernel.enter_segment(edge, |other| has_to_be(edges, is_end, other), crossing)? {
                 return Ok(false);
             }
         }
@@ -396,14 +444,18 @@ impl<G: Dimension> Segments<G> {
         if let Some(mut before) = self.before.take() {
             kernel.exchange_required(&mut before);
         }
+        // They are those of the change.
+        self.edges.clear();
         kernel.set_constrained(!self.replaced.is_empty());
     }
 
     /// The change stays.
     pub(in crate::motion) fn keep(&mut self) {
         self.before = None;
-        std::mem::swap(&mut self.replaced, &mut self.next);
-        self.next.clear();
+        if self.aim != Aim::Rest {
+            std::mem::swap(&mut self.replaced, &mut self.next);
+            self.next.clear();
+        }
     }
 
     /// A commit has laid what was staged.
@@ -469,6 +521,8 @@ impl<G: Dimension> Segments<G> {
             + self.next.memory_bytes()
             + self.crossing.memory_bytes()
             + memory::bytes_of(&self.edges)
+            + memory::bytes_of(&self.is_end)
+            + memory::bytes_of(&self.seen)
             + memory::bytes_of(&self.missing)
             + memory::bytes_of(&self.conflicts)
     }

@@ -75,6 +75,11 @@ impl<G: Dimension> Transaction<G> {
         self.vertices.push(before);
     }
 
+    /// Whether a vertex has got another site.
+    pub(in crate::motion) fn has_logged(&self) -> bool {
+        !self.vertices.is_empty()
+    }
+
     /// Takes where a vertex was out of the log, the last one first.
     pub(in crate::motion) fn pop_logged(&mut self) -> Option<VertexBefore> {
         self.vertices.pop()

@@ -77,15 +77,15 @@ impl<G: Dimension> Mesh<G> {
     /// How many of these vertices, from the first on, are where they are to go.
     #[inline(always)]
     fn leading_at_rest(&self, vertices: impl Iterator<Item = VertexId> + Clone, goals: &[G::Point]) -> usize {
-        let sites = self.kernel.sites();
-        let is_there = |v: VertexId| sites[self.site_of[v]].point == goals[v];
+        let (sites, site_of) = (self.kernel.sites(), &*self.site_of);
+        let is_there = |v: VertexId| sites[site_of[v]].point == goals[v];
         if !self.kernel.is_far() {
             return vertices.take_while(|&v| is_there(v)).count();
         }
         let mut ahead = vertices.clone().skip(AHEAD);
         let announced = vertices.inspect(|_| {
             if let Some(next) = ahead.next() {
-                prefetch(sites, self.site_of[next].index());
+                prefetch(sites, site_of[next].index());
             }
         });
         announced.take_while(|&v| is_there(v)).count()

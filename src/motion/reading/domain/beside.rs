@@ -36,7 +36,8 @@ impl MovingTriangulation<Plane> {
         memory::lengthen(&mut rows, cells.corners().len(), [SegmentId::NONE; 3])?;
         for (id, sides) in self.facets_beside_segments()? {
             for facet in sides.into_iter().flatten() {
-                let entry = &mut rows[cells.index_of()[facet.cell()].index()][facet.index()];
+                let (cell, corner) = cells.shown(facet);
+                let entry = &mut rows[cell.index()][corner];
                 *entry = id.min(*entry);
             }
         }

@@ -11,6 +11,14 @@ use crate::motion::triangulation::MovingTriangulation;
 /// The level of a cell that has not been reached.
 const UNKNOWN: u32 = u32::MAX;
 
+/// An error about positions, which are those of seeds.
+fn of_seeds(mut error: Error) -> Error {
+    if let Error::NotFinite { argument, .. } | Error::OutOfRange { argument, .. } = &mut error {
+        *argument = "seeds";
+    }
+    error
+}
+
 impl MovingTriangulation<Plane> {
     /// How many segments at least a way crosses from each cell to the outside, in the order of [`cells`](Self::cells).
     /// Cells outside of all closed chains of segments have 0, those of a domain 1, those of a hole in it 2. A segment
@@ -112,7 +120,7 @@ impl MovingTriangulation<Plane> {
         let n_regions = regions.iter().max().map_or(0, |&most| most as usize + 1);
         memory::lengthen(&mut label_of_region, n_regions, None)?;
         memory::reserve(&mut places, seeds.len())?;
-        self.locate_points(seeds, None, |place| places.push(place))?;
+        self.locate_points(seeds, None, |place| places.push(place)).map_err(of_seeds)?;
         for (index, (seed, place)) in seeds.iter().zip(places).enumerate() {
             let touching = self.cells_touching(place, seed)?;
             let Some(first) = touching.first() else { continue };

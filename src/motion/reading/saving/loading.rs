@@ -4,7 +4,7 @@ use crate::complex::Corners;
 use crate::damage::{Damage, LoadError};
 use crate::delaunay::{Delaunay, Dimension, Rows};
 use crate::error::{Error, Result};
-use crate::ids::{CellId, Id, SegmentId, VertexId};
+use crate::ids::{CellId, Id, SegmentId, Slot, VertexId};
 use crate::machine::memory;
 use crate::machine::threads::Threads;
 use crate::motion::options::Options;
@@ -75,9 +75,11 @@ impl Reader<'_> {
         memory::reserve_exact(&mut all, ids)?;
         for (id, row) in SegmentId::range(0..ids).zip(self.entries::<4>(3 * ids).chunks_exact(3)) {
             let [v, w] = [row[0], row[1]].map(|bytes| VertexId::new(u32::from_le_bytes(bytes)));
-            let is_there = v != VertexId::NONE;
-            let is_good = if is_there { v.index().max(w.index()) < header.ids } else { w == VertexId::NONE };
-            if !is_good || (!is_there && id.index() >= laid) {
+            // A staged one may have an end that was removed before a compaction.
+            let is_staged = id.index() >= laid;
+            let is_known = |v: VertexId| v.index() < header.ids || (is_staged && v == VertexId::NONE);
+            let is_there = is_staged || v != VertexId::NONE;
+            if !(if is_there { is_known(v) && is_known(w) } else { w == VertexId::NONE }) {
                 return Err(Damage::Segment { segment: id }.into());
             }
             all.push(is_there.then_some(Segment { ends: [v, w], marker: i32::from_le_bytes(row[2]) }));
@@ -221,7 +223,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             joined.map_err(of_segment)?;
             for (segment, ends) in segments.laid().map(|(id, segment)| (id, segment.ends)) {
                 let sites = ends.map(|v| t.mesh.site_of[v]);
-                if t.mesh.kernel.has_cells() && !t.mesh.kernel.is_edge(sites)? {
+                if t.mesh.kernel.has_cells() && t.mesh.kernel.find_edge(sites)? == Slot::NONE {
                     return Err(Damage::Segment { segment }.into());
                 }
             }

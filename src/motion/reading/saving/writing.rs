@@ -42,7 +42,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             moves: self.staged_count(),
             insertions,
             removals,
-            segment_bytes: self.mesh.segments.as_ref().map_or(0, |segments| counts_of(segments).bytes()),
+            segment_bytes: self.segments_to_save().map_or(0, |segments| counts_of(segments).bytes()),
             statistics: self.statistics(),
         }
     }
@@ -105,7 +105,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.staged_vertices().try_for_each(|v| chunks.numbers(&[v.get()]))?;
         insertions.iter().try_for_each(|(id, _)| chunks.numbers(&[id.get()]))?;
         chunks.numbers(VertexId::numbers_of(self.edits.removals()))?;
-        self.mesh.segments.as_ref().map_or(Ok(()), |segments| save_segments(segments, chunks))
+        self.segments_to_save().map_or(Ok(()), |segments| save_segments(segments, chunks))
+    }
+
+    /// The segments, if there ever was one that was not discarded.
+    fn segments_to_save(&self) -> Option<&Segments<G>> {
+        self.mesh.segments.as_deref().filter(|segments| segments.n_ids() > 0)
     }
 
     /// The vertices of which moves are staged, in the order of the calls.

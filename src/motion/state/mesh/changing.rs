@@ -50,10 +50,12 @@ impl<G: Dimension> Mesh<G> {
     /// Lays the segments, when the vertices are where they go, unless a new kernel has them.
     pub(in crate::motion) fn lay_segments(&mut self) -> Result<()> {
         let Some(segments) = &mut self.segments else { return Ok(()) };
-        let is_new = self.transaction.has_rebuilt();
-        if is_new
-            || (segments.are_at_rest() && self.kernel.complex().rows().is_empty() && self.kernel.has_cells())
-        {
+        if self.transaction.has_rebuilt() {
+            return Ok(());
+        }
+        // A hidden vertex that goes to another place of vertices takes its segments along, and changes no cell.
+        let is_unchanged = self.kernel.complex().rows().is_empty() && !self.transaction.has_logged();
+        if is_unchanged && segments.are_at_rest() && self.kernel.has_cells() {
             return Ok(());
         }
         segments.lay(&mut self.kernel, &self.site_of)

@@ -1,0 +1,138 @@
+// Calls about segments, and about what they divide the plane into.
+#include "measure.hpp"
+
+namespace costs {
+namespace {
+
+/// One in eight of the edges, which are no conflicts.
+Ids some_edges(const Context &c) {
+    std::size_t count;
+    must(deldrift_edges(c.t, nullptr, 0, &count));
+    Ids edges(2 * count + 2), some;
+    must(deldrift_edges(c.t, edges.data(), count, &count));
+    for (std::size_t k = 0; k < count; k += 8) some.insert(some.end(), {edges[2 * k], edges[2 * k + 1]});
+    return some;
+}
+
+void stage(const Context &c, const Ids &ends) {
+    std::uint32_t first;
+    must(deldrift_stage_segments(c.t, ends.data(), nullptr, ends.size() / 2, &first));
+}
+
+/// How many segments there are then.
+std::size_t lay(Context &c) {
+    const Ids ends = some_edges(c);
+    stage(c, ends);
+    must(deldrift_commit_timestamp(c.t, nullptr));
+    c.view();
+    c.meter.reset();
+    return ends.size() / 2;
+}
+
+/// A call that fills rows of so many numbers, one for each cell or segment, where there are segments.
+template <std::size_t per_entry, typename Number, typename One>
+void fill(Context &c, std::size_t entries, One one) {
+    std::vector<Number> room(per_entry * entries + 1);
+    std::size_t count;
+    c.meter.time([&] { must(one(room.data(), entries, &count)); });
+    c.meter.count(double(c.n + c.cells()));
+}
+
+Ids all(std::size_t count) {
+    Ids ids(count);
+    for (std::size_t k = 0; k < count; ++k) ids[k] = std::uint32_t(count - 1 - k);
+    return ids;
+}
+
+}  // namespace
+
+std::vector<Call> segment_calls() {
+    return {
+        {"deldrift_stage_segments", "one edge in eight", [](Context &c) {
+             const Ids ends = some_edges(c);
+             c.meter.time([&] { stage(c, ends); });
+             c.meter.count(double(c.n));
+         }, 2},
+        {"deldrift_stage_segment_removals", "all of one edge in eight", [](Context &c) {
+             const Ids segments = all(lay(c));
+             c.meter.time([&] { must(deldrift_stage_segment_removals(c.t, segments.data(), segments.size())); });
+             c.meter.count(double(segments.size()));
+         }, 2},
+        {"deldrift_commit_timestamp", "one edge in eight becomes a segment", [](Context &c) {
+             stage(c, some_edges(c));
+             c.meter.time([&] { must(deldrift_commit_timestamp(c.t, nullptr)); });
+             c.meter.count(double(c.n + c.cells()));
+         }, 2},
+        {"deldrift_check_staged", "all nearby, with one edge in eight a segment", [](Context &c) {
+             lay(c);
+             must(deldrift_move_vertices(c.t, nullptr, c.all_nearby().data(), c.n));
+             // Segments may cross where vertices are in lines.
+             c.meter.time([&] { deldrift_check_staged(c.t); });
+             c.meter.count(double(c.n + 2 * c.cells()));
+         }, 2},
+        {"deldrift_segment_conflicts", "one vertex in eight is both ends of a segment", [](Context &c) {
+             Ids ends;
+             for (std::size_t i = 0; i < c.some(); ++i) ends.insert(ends.end(), 2, c.some_vertex(i));
+             stage(c, ends);
+             deldrift_check_staged(c.t);
+             c.meter.reset();
+             std::vector<deldrift_conflict> conflicts(c.some());
+             std::size_t count;
+             c.meter.time([&] { must(deldrift_segment_conflicts(c.t, conflicts.data(), conflicts.size(), &count)); });
+             c.meter.count(double(count));
+         }, 2},
+        {"deldrift_segments", "one edge in eight", [](Context &c) {
+             fill<2, std::uint32_t>(c, lay(c), [&](std::uint32_t *to, std::size_t room, std::size_t *count) {
+                 return deldrift_segments(c.t, nullptr, to, nullptr, room, count);
+             });
+         }, 2},
+        {"deldrift_cells_of_segments", "one edge in eight", [](Context &c) {
+             fill<2, std::uint32_t>(c, lay(c), [&](std::uint32_t *to, std::size_t room, std::size_t *count) {
+                 return deldrift_cells_of_segments(c.t, to, room, count);
+             });
+         }, 2},
+        {"deldrift_segments_of_cells", "one edge in eight", [](Context &c) {
+             lay(c);
+             fill<3, std::uint32_t>(c, c.cells(), [&](std::uint32_t *to, std::size_t room, std::size_t *count) {
+                 return deldrift_segments_of_cells(c.t, to, room, count);
+             });
+         }, 2},
+        {"deldrift_nesting_levels", "one edge in eight", [](Context &c) {
+             lay(c);
+             fill<1, std::uint32_t>(c, c.cells(), [&](std::uint32_t *to, std::size_t room, std::size_t *count) {
+                 return deldrift_nesting_levels(c.t, to, room, count);
+             });
+         }, 2},
+        {"deldrift_label_cells", "one edge in eight, and a seed within one cell in eight", [](Context &c) {
+             lay(c);
+             const deldrift_cells_view view = c.view();
+             Points seeds;
+             for (std::size_t cell = 0; cell < view.count; cell += 8) {
+                 // Seeds at the corners of cells are not in one region.
+                 Points middle(2);
+                 for (std::size_t i = 0; i < 6; ++i) middle[i % 2] += c.place(view.vertices[3 * cell + i / 2])[i % 2] / 3;
+                 deldrift_location location;
+                 must(deldrift_locate(c.t, middle.data(), &location));
+                 if (location.kind == DELDRIFT_LOCATION_CELL && location.index == cell) Context::append(seeds, middle);
+             }
+             const std::vector<std::int32_t> labels(seeds.size() / 2 + 1, 1);
+             fill<1, std::int32_t>(c, c.cells(), [&](std::int32_t *to, std::size_t room, std::size_t *count) {
+                 // In flat cells the middle may be on an edge.
+                 const deldrift_status status =
+                     deldrift_label_cells(c.t, seeds.data(), labels.data(), seeds.size() / 2, 0, to, room, count);
+                 return status == DELDRIFT_AMBIGUOUS_SEED ? DELDRIFT_OK : status;
+             });
+         }, 2},
+        {"deldrift_boundary_chains", "one edge in eight, and every second cell", [](Context &c) {
+             lay(c);
+             std::vector<std::uint8_t> mask(c.cells() + 1);
+             for (std::size_t cell = 0; cell < mask.size(); cell += 2) mask[cell] = 1;
+             fill<1, std::uint32_t>(c, 3 * c.cells(), [&](std::uint32_t *to, std::size_t room, std::size_t *count) {
+                 return deldrift_boundary_chains(c.t, mask.data(), c.cells(), to, nullptr, nullptr, nullptr, nullptr, room,
+                                                 count);
+             });
+         }, 2},
+    };
+}
+
+}  // namespace costs

@@ -1,0 +1,390 @@
+//! Segments, compared with a model of them: what is in their way by all pairs, in exact arithmetic; and what they divide.
+
+use super::super::exact_oracle::{Tally, exact_sign};
+use super::called::{c, note};
+use super::model::{NONE, Place, Row};
+use super::{History, flattened, message};
+use deldrift::capi::deldrift_conflict_kind::*;
+use deldrift::capi::deldrift_status::*;
+use deldrift::capi::*;
+use std::cmp::Ordering::{self, Equal, Less};
+use std::collections::BTreeSet;
+use std::ptr::null_mut;
+
+/// What is known of segments.
+#[derive(Clone, Debug, Default)]
+pub struct Segments {
+    /// The ends by id; none where the segment has been removed. Those from `n_laid` on are staged.
+    all: Vec<Option<[u32; 2]>>,
+    n_laid: usize,
+    leaving: BTreeSet<u32>,
+}
+
+impl Segments {
+    /// Those in force.
+    pub fn laid(&self) -> impl Iterator<Item = (u32, [u32; 2])> {
+        (0..).zip(&self.all[..self.n_laid]).filter_map(|(id, ends)| ends.map(|ends| (id, ends)))
+    }
+
+    /// Those after a commit.
+    fn coming(&self) -> Vec<(u32, [u32; 2])> {
+        let all = (0..).zip(&self.all).filter_map(|(id, ends)| ends.map(|ends| (id, ends)));
+        all.filter(|(id, _)| !self.leaving.contains(id)).collect()
+    }
+
+    pub fn forget_staged(&mut self) {
+        self.all.truncate(self.n_laid);
+        self.leaving.clear();
+    }
+
+    pub fn commit(&mut self) {
+        for id in std::mem::take(&mut self.leaving) {
+            self.all[id as usize] = None;
+        }
+        self.n_laid = self.all.len();
+    }
+
+    pub fn renumber(&mut self, new: impl Fn(u32) -> u32) {
+        self.all.iter_mut().flatten().for_each(|ends| *ends = ends.map(&new));
+    }
+
+    pub fn is_an_end(&self, v: u32) -> bool {
+        self.laid().any(|(_, ends)| ends.contains(&v))
+    }
+}
+
+fn turn(a: &Place, b: &Place, p: &Place) -> Ordering {
+    exact_sign::<2, 3>(&[a, b, p].map(|p| [p[0], p[1]]), &mut Tally::default())
+}
+
+fn is_between(a: &Place, b: &Place, p: &Place) -> bool {
+    let is_in = |k: usize| a[k].min(b[k]) <= p[k] && p[k] <= a[k].max(b[k]);
+    turn(a, b, p) == Equal && is_in(0) && is_in(1) && p != a && p != b
+}
+
+fn are_apart(a: &Place, b: &Place, [p, q]: [&Place; 2]) -> bool {
+    let [one, other] = [p, q].map(|p| turn(a, b, p));
+    one != Equal && other != Equal && one != other
+}
+
+/// A conflict as the numbers of `deldrift_conflict`.
+type Conflict = (u32, u32, u32);
+
+/// All conflicts of segments, where vertices are at these positions.
+fn conflicts(segments: &[(u32, [u32; 2])], positions: &[Option<Place>]) -> Vec<Conflict> {
+    let at = |v: u32| positions.get(v as usize).copied().flatten();
+    let shown = |p: Place| positions.iter().position(|q| *q == Some(p)).expect("a vertex is there") as u32;
+    let kinds = [
+        DELDRIFT_CONFLICT_CROSSING,
+        DELDRIFT_CONFLICT_ON_SEGMENT,
+        DELDRIFT_CONFLICT_END_REMOVED,
+        DELDRIFT_CONFLICT_ENDS_MEET,
+    ];
+    let [crossing, on_segment, end_removed, ends_meet] = kinds.map(|kind| kind as u32);
+    let (mut found, mut edges) = (BTreeSet::new(), Vec::new());
+    for &(id, ends) in segments {
+        match ends.map(at) {
+            [Some(p), Some(q)] if p == q => _ = found.insert((ends_meet, id, NONE)),
+            [Some(p), Some(q)] => edges.push((id, p, q)),
+            [None, _] => _ = found.insert((end_removed, id, ends[0])),
+            [_, None] => _ = found.insert((end_removed, id, ends[1])),
+        }
+    }
+    for (k, (id, a, b)) in edges.iter().enumerate() {
+        for p in positions.iter().flatten().filter(|p| is_between(a, b, p)) {
+            found.insert((on_segment, *id, shown(*p)));
+        }
+        for (other, p, q) in &edges[..k] {
+            if are_apart(a, b, [p, q]) && are_apart(p, q, [a, b]) {
+                found.insert((crossing, *id.min(other), *id.max(other)));
+            }
+        }
+    }
+    found.into_iter().collect()
+}
+
+fn status_of(conflicts: &[Conflict]) -> deldrift_status {
+    match conflicts.first() {
+        None => DELDRIFT_OK,
+        Some((0, ..)) => DELDRIFT_CROSSING,
+        Some((1, ..)) => DELDRIFT_ON_SEGMENT,
+        Some((2, ..)) => DELDRIFT_END_REMOVED,
+        Some(_) => DELDRIFT_ENDS_MEET,
+    }
+}
+
+impl History<'_> {
+    /// Segments come, go, and are asked about.
+    pub(super) fn change_segments(&mut self) {
+        match self.s.below(8) {
+            0..=2 => self.stage_segments(),
+            3 => self.stage_segment_removals(),
+            4 => self.check_staged(),
+            5 => self.read_sides(),
+            6 => self.read_regions(),
+            _ => self.read_chains(),
+        }
+    }
+
+    fn stage_segments(&mut self) {
+        let (t, count) = (self.t, self.s.below(4));
+        let coming: Vec<u32> = self.m.coming.iter().map(|&(v, _)| v).collect();
+        let known: Vec<u32> = self.m.present().chain(coming).collect();
+        let count = if known.is_empty() { 0 } else { count };
+        let ends: Vec<[u32; 2]> =
+            (0..count).map(|_| [0; 2].map(|_| known[self.s.below(known.len())])).collect();
+        let first_id = self.m.segments.all.len() as u32;
+        let markers: Vec<i32> = (first_id..).take(count).map(marker).collect();
+        let mut first = 77;
+        self.ok(|| c!(deldrift_stage_segments(t, ends.as_ptr().cast(), markers.as_ptr(), count, &mut first)));
+        assert_eq!(first, first_id, "the id of staged segments");
+        self.m.segments.all.extend(ends.into_iter().map(Some));
+        self.check();
+        // Most are committed at once, and what is refused is forgotten.
+        if self.s.below(4) != 0 {
+            self.commit();
+            if !self.m.segments.coming().is_empty() && self.s.below(2) == 0 {
+                self.discard();
+            }
+        }
+    }
+
+    fn stage_segment_removals(&mut self) {
+        let t = self.t;
+        let Some(id) = self.some_segment() else {
+            self.expect(DELDRIFT_NO_SUCH_SEGMENT, || c!(deldrift_stage_segment_removals(t, &0, 1)));
+            return;
+        };
+        let wanted =
+            if self.m.segments.leaving.contains(&id) { DELDRIFT_NO_SUCH_SEGMENT } else { DELDRIFT_OK };
+        self.expect(wanted, || c!(deldrift_stage_segment_removals(t, &id, 1)));
+        self.m.segments.leaving.insert(id);
+        self.expect(DELDRIFT_NO_SUCH_SEGMENT, || c!(deldrift_stage_segment_removals(t, &id, 1)));
+        self.check();
+    }
+
+    /// A segment in force.
+    fn some_segment(&mut self) -> Option<u32> {
+        let laid: Vec<u32> = self.m.segments.laid().map(|(id, _)| id).collect();
+        if laid.is_empty() { None } else { Some(laid[self.s.below(laid.len())]) }
+    }
+
+    /// A check does not see that vertices share a place where there are no segments.
+    fn check_staged(&mut self) {
+        let (t, after) = (self.t, self.m.committed());
+        let wanted = self.status_after(&after, true);
+        let is_free = self.m.segments.coming().is_empty() && self.m.segments.leaving.is_empty();
+        let status = self.call(|| c!(deldrift_check_staged(t)));
+        assert!(wanted.contains(&status) || is_free && status == DELDRIFT_OK, "{status:?}: {}", message());
+        self.check_conflicts(status, &after, true);
+        self.check();
+    }
+
+    /// What a change to these positions may give: that vertices share a place or, where that is refused, that something is
+    /// in the way of segments, if there are both.
+    pub(super) fn status_after(&self, after: &[Option<Place>], is_commit: bool) -> Vec<deldrift_status> {
+        let conflicts = self.conflicts_after(after, is_commit);
+        let is_rejected = self.is_rejected(after).then_some(DELDRIFT_COINCIDENT);
+        let in_the_way = Some(status_of(&conflicts)).filter(|&status| status != DELDRIFT_OK);
+        let refused: Vec<_> = is_rejected.into_iter().chain(in_the_way).collect();
+        if refused.is_empty() { vec![DELDRIFT_OK] } else { refused }
+    }
+
+    fn conflicts_after(&self, after: &[Option<Place>], is_commit: bool) -> Vec<Conflict> {
+        let segments = &self.m.segments;
+        let wanted = if is_commit { segments.coming() } else { segments.laid().collect() };
+        conflicts(&wanted, after)
+    }
+
+    /// The conflicts of a change that has given this status.
+    pub(super) fn check_conflicts(
+        &mut self,
+        status: deldrift_status,
+        after: &[Option<Place>],
+        is_commit: bool,
+    ) {
+        if self.m.d != 2 {
+            return;
+        }
+        let mut wanted = self.conflicts_after(after, is_commit);
+        if status != status_of(&wanted) {
+            wanted.clear();
+        }
+        let mut n = 0;
+        self.is_ok(c!(deldrift_segment_conflicts(self.t, null_mut(), 0, &mut n)));
+        let none = deldrift_conflict { kind: DELDRIFT_CONFLICT_CROSSING, segment: 77, other: 77 };
+        let mut told = vec![none; n];
+        self.is_ok(c!(deldrift_segment_conflicts(self.t, told.as_mut_ptr(), n, &mut n)));
+        let told: Vec<Conflict> = told.iter().map(|one| (one.kind as u32, one.segment, one.other)).collect();
+        assert_eq!(told, wanted, "conflicts");
+    }
+
+    /// The list of segments.
+    pub(super) fn check_segments(&self) {
+        if self.m.d != 2 {
+            return;
+        }
+        let wanted: Vec<(u32, [u32; 2])> = self.m.segments.laid().collect();
+        let n = wanted.len();
+        let (mut ids, mut ends, mut markers, mut count) = (vec![77; n], vec![[77; 2]; n], vec![77; n], 77);
+        let (to, to_ends) = (ids.as_mut_ptr(), ends.as_mut_ptr().cast());
+        self.is_ok(c!(deldrift_segments(self.t, to, to_ends, markers.as_mut_ptr(), n, &mut count)));
+        assert_eq!((count, ids.iter().copied().zip(ends).collect::<Vec<_>>()), (n, wanted), "segments");
+        assert!(ids.iter().zip(markers).all(|(&id, found)| found == marker(id)), "markers");
+    }
+
+    /// For each cell the segments at its edges, looked for among all.
+    fn wanted_sides(&self) -> (Vec<Row>, Vec<Row>, Vec<[u32; 3]>) {
+        let (rows, neighbours) = self.cells();
+        let shown = self.m.representatives();
+        let edges: Vec<(u32, [u32; 2])> =
+            self.m.segments.laid().map(|(id, ends)| (id, ends.map(|v| shown[v as usize]))).collect();
+        let at = |row: &Row, i: usize| {
+            let edge = [row[(i + 1) % 3], row[(i + 2) % 3]];
+            let is_there = |ends: &[u32; 2]| *ends == edge || [ends[1], ends[0]] == edge;
+            edges.iter().find(|(_, ends)| is_there(ends)).map_or(NONE, |&(id, _)| id)
+        };
+        let sides = rows.iter().map(|row| [0, 1, 2].map(|i| at(row, i))).collect();
+        (rows, neighbours, sides)
+    }
+
+    fn read_sides(&mut self) {
+        let t = self.t;
+        let found = self.copied(77, 3, |to, room, count| c!(deldrift_segments_of_cells(t, to, room, count)));
+        let beside = self.copied(77, 2, |to, room, count| c!(deldrift_cells_of_segments(t, to, room, count)));
+        let (rows, _, sides) = self.wanted_sides();
+        assert_eq!(found, sides.concat(), "segments of cells");
+        let shown = self.m.representatives();
+        for ((id, ends), found) in self.m.segments.laid().zip(beside.chunks(2)) {
+            let [a, b] = ends.map(|v| shown[v as usize]);
+            let left_of = |a: u32, b: u32| {
+                let has = |row: &Row| (0..3).any(|i| row[(i + 1) % 3] == a && row[(i + 2) % 3] == b);
+                rows.iter().position(has).map_or(NONE, |cell| cell as u32)
+            };
+            assert_eq!(found, [left_of(a, b), left_of(b, a)], "cells beside segment {id}");
+        }
+    }
+
+    /// Levels are the least that agree with those of the neighbours; cells without a segment between them have one label.
+    fn read_regions(&mut self) {
+        let (t, n_seeds) = (self.t, self.s.below(4));
+        let levels = self.copied(77, 1, |to, room, count| c!(deldrift_nesting_levels(t, to, room, count)));
+        let (_, neighbours, sides) = self.wanted_sides();
+        let (mut wanted, mut region) = (vec![NONE; sides.len()], (0..sides.len()).collect::<Vec<_>>());
+        let mut has_changed = true;
+        while std::mem::take(&mut has_changed) {
+            for (cell, (across, at)) in neighbours.iter().zip(&sides).enumerate() {
+                for i in 0..3 {
+                    let (other, is_crossed) = (across[i], at[i] != NONE);
+                    let from = if other == NONE { 0 } else { wanted[other as usize] };
+                    let level = from.saturating_add(u32::from(is_crossed));
+                    if level < wanted[cell] {
+                        (wanted[cell], has_changed) = (level, true);
+                    }
+                    if other != NONE && !is_crossed && region[other as usize] < region[cell] {
+                        (region[cell], has_changed) = (region[other as usize], true);
+                    }
+                }
+            }
+        }
+        assert_eq!(levels, wanted, "levels");
+        let seeds: Vec<Place> = (0..n_seeds).map(|_| self.place()).collect();
+        let (numbers, labels) = (flattened(&seeds, 2), [5, -5, i32::MAX]);
+        let mut told = vec![77; sides.len()];
+        let (start, to, n) = (numbers.as_ptr(), told.as_mut_ptr(), sides.len());
+        let mut count = 0;
+        let status =
+            self.call(|| c!(deldrift_label_cells(t, start, labels.as_ptr(), n_seeds, 9, to, n, &mut count)));
+        let touched =
+            |q: &Place| -> BTreeSet<usize> { self.touching(q).iter().map(|&cell| region[cell]).collect() };
+        let regions: Vec<BTreeSet<usize>> = seeds.iter().map(touched).collect();
+        if regions.iter().any(|regions| regions.len() > 1) {
+            assert_eq!((status, count), (DELDRIFT_AMBIGUOUS_SEED, 0), "{}", message());
+            return;
+        }
+        assert_eq!((status, count), (DELDRIFT_OK, n), "{}", message());
+        for (cell, label) in told.into_iter().enumerate() {
+            let seed = regions.iter().position(|regions| regions.contains(&region[cell]));
+            assert_eq!(label, seed.map_or(9, |k| labels[k]), "label of cell {cell}");
+        }
+    }
+
+    /// The cells that have a place inside or on their boundary.
+    fn touching(&self, q: &Place) -> Vec<usize> {
+        let (rows, _) = self.cells();
+        let at = |v: u32| self.m.at(v).expect("present");
+        let has = |row: &Row| (0..3).all(|i| turn(&at(row[i]), &at(row[(i + 1) % 3]), q) != Less);
+        rows.iter().enumerate().filter(|(_, row)| has(row)).map(|(cell, _)| cell).collect()
+    }
+
+    /// Chains are closed, have the edges of the boundary, and begin in order.
+    fn read_chains(&mut self) {
+        let t = self.t;
+        let (rows, neighbours, sides) = self.wanted_sides();
+        let n = rows.len();
+        let mask: Vec<u8> = (0..n).map(|_| self.s.byte() & 1).collect();
+        let none = null_mut::<u32>;
+        let vertices = self.copied(77, 1, |to, room, count| {
+            c!(deldrift_boundary_chains(
+                t,
+                mask.as_ptr(),
+                n,
+                to,
+                none(),
+                none(),
+                none(),
+                null_mut(),
+                room,
+                count
+            ))
+        });
+        let e = vertices.len();
+        let [mut chains, mut segments, mut cells] = [0; 3].map(|_| vec![77; e]);
+        let (mut corners, mut count) = (vec![77; e], 0);
+        let [to_chains, to_segments, to_cells] =
+            [&mut chains, &mut segments, &mut cells].map(|list| list.as_mut_ptr());
+        let to_corners = corners.as_mut_ptr();
+        self.ok(|| {
+            let (start, none) = (mask.as_ptr(), none());
+            c!(deldrift_boundary_chains(
+                t,
+                start,
+                n,
+                none,
+                to_chains,
+                to_segments,
+                to_cells,
+                to_corners,
+                e,
+                &mut count
+            ))
+        });
+        let is_out = |cell: u32| cell == NONE || mask[cell as usize] == 0;
+        let mut wanted = BTreeSet::new();
+        for (cell, across) in neighbours.iter().enumerate().filter(|(cell, _)| mask[*cell] != 0) {
+            wanted.extend((0..3).filter(|&i| is_out(across[i])).map(|i| (cell, i)));
+        }
+        let mut last_start = None;
+        for k in 0..e {
+            let (cell, i) = (cells[k] as usize, usize::from(corners[k]));
+            assert!(wanted.remove(&(cell, i)), "edge {i} of cell {cell} in a chain");
+            assert_eq!(segments[k], sides[cell][i], "the segment of an edge");
+            let edge = [rows[cell][(i + 1) % 3], rows[cell][(i + 2) % 3]];
+            let is_first = k == 0 || chains[k] != chains[k - 1];
+            let is_last = k + 1 == e || chains[k + 1] != chains[k];
+            let first = chains.partition_point(|&chain| chain < chains[k]);
+            assert_eq!(edge, [vertices[k], vertices[if is_last { first } else { k + 1 }]], "edge {k}");
+            if is_first {
+                assert!(last_start < Some(edge) && chains[k] == if k == 0 { 0 } else { chains[k - 1] + 1 });
+                last_start = Some(edge);
+            }
+            assert!(last_start <= Some(edge), "a chain begins with its least edge");
+        }
+        assert!(wanted.is_empty() && count == e, "edges in no chain: {wanted:?}");
+    }
+}
+
+/// What a segment is marked with.
+fn marker(id: u32) -> i32 {
+    3 - 7 * id as i32
+}

@@ -1,0 +1,419 @@
+"""The mesh of a domain of the plane that moves."""
+
+from __future__ import annotations
+
+import copy
+import warnings
+from typing import Any, Callable, Mapping, NamedTuple, Optional
+
+import numpy as np
+
+from ._arrays import floats, numbers, pairs, points as point_rows, real
+from ._core import fixed
+from ._delaunay import Delaunay
+from ._errors import ConflictError, InvalidShape, InvalidValue, NoSuchSegment
+from ._library import Report
+from ._segments import Chains, Segments
+
+# What PyPI's triangle has in its dictionaries and a mesh makes anew.
+RESULTS = frozenset({"triangles", "triangle_attributes", "neighbors", "edges", "edge_markers"})
+USED = frozenset({"vertices", "segments", "segment_markers", "holes", "regions"})
+
+
+FEW = 8
+"""Up to how many simplices are worked on one by one."""
+
+
+class _Side(NamedTuple):
+    """What a region is known by while its segments move: a segment of its outer boundary, and on which side it is."""
+
+    segment: int
+    column: int
+    """0 for the left, as seen from the segment's first end along it, 1 for the right."""
+
+
+class _Domain(NamedTuple):
+    """Which simplices the domain has at some moment."""
+
+    mask: np.ndarray
+    region_of: np.ndarray
+    """For each simplex the region, an index; -1 for none."""
+
+
+class Mesh:
+    """The triangles of a domain of the plane, whose vertices may move.
+
+    Segments bound the domain: they are edges, and move with their ends. The triangles are those of the constrained
+    Delaunay triangulation that are in the domain. What seeds name is a region, all that can be reached without crossing
+    a segment; it moves with its segments, so seeds need not be given again.
+
+    Parameters
+    ----------
+    vertices : array_like
+        Rows of 2 coordinates. Row i is vertex i.
+    segments : array_like of int
+        Rows of two vertex ids, in any order.
+    markers : array_like of int, optional
+        A number of 32 bits to keep with each segment, or one for all; 0 by default.
+    holes : array_like, optional
+        Rows of 2 coordinates, a place in each hole. The domain is then all within closed chains of segments but the
+        holes; one outside of all chains has no effect. By default the domain is what an odd number of chains encloses.
+    regions : array_like, optional
+        Rows of 2 coordinates and a label: `labels` has it for all triangles of the region where the place is. Of two in
+        one region the first counts, and one outside of all chains has no effect.
+    algorithm, threads, coincidence, progress, cancel
+        As of `Delaunay`.
+
+    Examples
+    --------
+    >>> import deldrift
+    >>> square, hole = [[0, 0], [4, 0], [4, 4], [0, 4]], [[1, 1], [2, 1], [2, 2]]
+    >>> segments = [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 4]]
+    >>> mesh = deldrift.Mesh(square + hole, segments, markers=[1, 1, 1, 1, 2, 2, 2])
+    >>> len(mesh.triangles), mesh.boundary.markers.tolist()
+    (7, [1, 1, 1, 1, 2, 2, 2])
+    >>> report = mesh.move(square + [[2, 1], [3, 2], [2, 2]])
+    >>> len(mesh.triangles)
+    7
+    """
+
+    def __init__(
+        self,
+        vertices: Any,
+        segments: Any,
+        markers: Any = None,
+        holes: Any = None,
+        regions: Any = None,
+        *,
+        algorithm: str = "auto",
+        threads: int = 0,
+        coincidence: str = "merge",
+        progress: Any = None,
+        cancel: Optional[Callable[[], bool]] = None,
+    ) -> None:
+        places = None if holes is None else _rows("holes", holes, 2)
+        labelled = _rows("regions", regions, 3)
+        self._tri = tri = Delaunay.__new__(Delaunay)
+        rows = point_rows("vertices", vertices, 2)
+        tri._create(rows, algorithm, threads, coincidence, progress, cancel, "vertices")
+        with tri.step():
+            tri._stage_segments(segments, markers, "segments", "markers")
+        self._holes = None if places is None else [side for side in self._sides(places, "holes") if side is not None]
+        sides = self._sides(np.ascontiguousarray(labelled[:, :2]), "regions")
+        named = [k for k, side in enumerate(sides) if side is not None]
+        self._regions = [side for side in sides if side is not None]
+        # The last entry is that of triangles without a region.
+        self._labels = np.append(labelled[named, 2], 0.0)
+
+    @classmethod
+    def from_triangle(cls, data: Mapping[str, Any], **options: Any) -> "Mesh":
+        """The mesh of a dictionary as PyPI's `triangle` takes and gives it, and as `to_dict` does.
+
+        As there the domain is all within closed chains of segments but the holes. Regions have a label, and a greatest
+        area that is not used. Other attributes, and markers of vertices, have no counterpart: they are left out with a
+        warning.
+
+        Parameters
+        ----------
+        data : dict
+            With `vertices`, `segments` and, optionally, `segment_markers`, `holes` and `regions`.
+        **options
+            As of `Mesh`: `algorithm`, `threads`, `coincidence`, `progress` and `cancel`.
+
+        Returns
+        -------
+        Mesh
+            Vertices and segments have the ids of their rows.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> square = {"vertices": [[0, 0], [4, 0], [4, 4], [0, 4]], "segments": [[0, 1], [1, 2], [2, 3], [3, 0]]}
+        >>> len(deldrift.Mesh.from_triangle(square).triangles)
+        2
+        """
+        if not isinstance(data, Mapping):
+            raise TypeError(f"data is a {type(data).__name__}, and must be a dictionary as of PyPI's triangle")
+        for name in "vertices", "segments":
+            if name not in data:
+                raise InvalidValue(f"data has no {name!r}, which a mesh needs", "data")
+        unused = sorted(map(str, set(data) - USED - RESULTS))
+        if unused:
+            warnings.warn("from_triangle leaves out what a mesh does not have: " + ", ".join(unused), stacklevel=2)
+        regions = data.get("regions")
+        if regions is not None and np.size(regions):
+            rows = floats("regions", regions)
+            if rows.ndim != 2 or rows.shape[1] != 4:
+                raise InvalidShape(
+                    f"regions has the shape {rows.shape}, and must have rows of x, y, label and greatest area", "regions"
+                )
+            regions = rows[:, :3]
+        markers = data.get("segment_markers")
+        if markers is not None:
+            column = np.asarray(markers)
+            column = column.reshape(-1) if column.shape[1:] == (1,) else column
+            markers = numbers("segment_markers", column, len(pairs("segments", data["segments"])), "segments")
+        return cls(data["vertices"], data["segments"], markers, data.get("holes", ()), regions, **options)
+
+    def _sides(self, places: np.ndarray, argument: str) -> list[Optional[_Side]]:
+        """What the regions around some places are known by; None for those outside, and in the region of another."""
+        tri = self._tri
+        region_of = tri._labels_at(places, np.arange(len(places), dtype=np.int32), -1, argument)
+        region_of[tri.nesting_levels() == 0] = -1
+        beyond = np.append(region_of, -1)[tri.neighbors]
+        cells, corners = np.nonzero((region_of >= 0)[:, None] & (beyond != region_of[:, None]))
+        # An edge at the leftmost vertex of a region is one of its outer boundary.
+        x, y = tri.points[tri.simplices[cells, (corners + 1) % 3]].T
+        order = np.lexsort((y, x, region_of[cells]))
+        regions, first = np.unique(region_of[cells[order]], return_index=True)
+        cells, corners = cells[order[first]], corners[order[first]]
+        segments = tri.segments_of_cells()[cells, corners]
+        beside = tri.cells_of_segments()[np.searchsorted(tri.segments.ids, segments)]
+        sides: list[Optional[_Side]] = [None] * len(places)
+        for region, segment, column in zip(regions, segments, beside[:, 1] == cells):
+            sides[region] = _Side(int(segment), int(column))
+        return sides
+
+    def _domain(self) -> _Domain:
+        levels = self._tri.nesting_levels()
+        if self._holes is None:
+            mask = levels % 2 == 1
+        else:
+            mask = (levels > 0) & (self._reached(self._beside(self._holes)) < 0)
+        return _Domain(fixed(mask), fixed(self._reached(self._beside(self._regions))))
+
+    def _found(self) -> _Domain:
+        return self._tri._once("domain", self._domain)
+
+    def _beside(self, sides: list[_Side]) -> list[int]:
+        """A simplex of each region; -1 if it is now outside of the convex hull."""
+        if not sides:
+            return []
+        ids, beside = self._tri.segments.ids, self._tri.cells_of_segments()
+        segments, columns = np.array(sides).T
+        rows = np.searchsorted(ids, segments)
+        is_gone = np.append(ids, -1)[rows] != segments
+        if is_gone.any():
+            raise NoSuchSegment(
+                f"segment {segments[is_gone][0]}, by which a hole or region of the mesh is known, has been removed"
+            )
+        return list(map(int, beside[rows, columns]))
+
+    def _reached(self, starts: list[int]) -> np.ndarray:
+        """For each simplex from which start, an index, it is reached without crossing a segment; -1 from none."""
+        neighbours = self._tri.neighbors
+        # The last entry is that of the neighbour -1, the outside.
+        reached_from = np.full(len(neighbours) + 1, -1, np.int32)
+        if starts:
+            reached_from[-1] = len(starts)
+            segments = self._tri.segments_of_cells()
+            for k, start in enumerate(starts):
+                if reached_from[start] < 0:
+                    _flood(k, start, neighbours, segments, reached_from)
+        return reached_from[:-1]
+
+    @property
+    def delaunay(self) -> Delaunay:
+        """The constrained Delaunay triangulation, of the whole convex hull: what else can be asked, and steps."""
+        return self._tri
+
+    @property
+    def points(self) -> np.ndarray:
+        """The positions of all vertices, a row for each id. Read-only."""
+        return self._tri.points
+
+    @property
+    def segments(self) -> Segments:
+        """The segments: `ids`, `ends` and `markers`. Read-only."""
+        return self._tri.segments
+
+    @property
+    def mask(self) -> np.ndarray:
+        """Which simplices of `delaunay` are in the domain. Read-only."""
+        return self._found().mask
+
+    @property
+    def triangles(self) -> np.ndarray:
+        """The triangles of the domain: rows of vertex ids, counter-clockwise. Read-only."""
+        return self._tri._once("triangles", lambda: fixed(self._tri.simplices[self.mask]))
+
+    @property
+    def labels(self) -> np.ndarray:
+        """For each of `triangles` the label of its region; 0 where none was given. Read-only."""
+        return self._tri._once("labels", lambda: fixed(self._labels[self._found().region_of[self.mask]]))
+
+    @property
+    def boundary(self) -> Chains:
+        """The boundary of the domain, in closed chains of edges with markers; `simplices` are those of `delaunay`."""
+        return self._tri._once("boundary", lambda: self._tri.boundary_chains(self.mask))
+
+    def move(self, points: Any, ids: Any = None) -> Report:
+        """Moves vertices, and makes that the next timestamp.
+
+        What counts is where they are at the end: a vertex that has jumped over a segment is on its other side.
+
+        Parameters
+        ----------
+        points : array_like
+            A row of coordinates for each vertex.
+        ids : array_like of int, optional
+            The vertices that move, each at most once; all by default.
+
+        Returns
+        -------
+        Report
+            What was done. If segments would cross, or a vertex be on one, `ConflictError` is raised and nothing moves.
+        """
+        return self._tri.move(points, ids)
+
+    def advance(self, points: Any, ids: Any = None, cut: float = 0.5, least: float = 1e-3) -> float:
+        """Moves vertices towards places, as far as segments let them: cuts the step while it conflicts.
+
+        Parameters
+        ----------
+        points : array_like
+            A row of coordinates for each vertex: where it is to go, on a straight line.
+        ids : array_like of int, optional
+            The vertices that move, each at most once; all by default.
+        cut : float, optional
+            What a step that conflicts is multiplied by, between 0 and 1.
+        least : float, optional
+            The least part of the step to try.
+
+        Returns
+        -------
+        float
+            The part of the way that was made, 1 for all of it. If even the least part conflicts, `ConflictError` is
+            raised, and nothing moves.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> triangle = [[0, 1], [1, 2], [2, 0]]
+        >>> mesh = deldrift.Mesh([[0, 0], [4, 0], [0, 4], [1, 1]], triangle)
+        >>> mesh.advance([[3, 1]], ids=[3])
+        0.5
+        >>> mesh.points[3]
+        array([2., 1.])
+        """
+        factor, smallest = real("cut", cut), real("least", least)
+        if not 0 < factor < 1:
+            raise InvalidValue(f"cut is {factor:g}, and must be between 0 and 1", "cut", None, factor)
+        if not 0 < smallest <= 1:
+            raise InvalidValue(f"least is {smallest:g}, and must be above 0 and at most 1", "least", None, smallest)
+        part, places = 1.0, points
+        while True:
+            try:
+                self._tri.move(places, ids)
+                return part
+            except ConflictError:
+                part *= factor
+                if part < smallest:
+                    raise
+                goals = point_rows("points", points, 2)
+                start = self._tri.points if ids is None else self._tri.points[np.asarray(ids)]
+                places = start + part * (goals - start)
+
+    def to_dict(self) -> dict[str, np.ndarray]:
+        """The mesh as a dictionary in the manner of PyPI's `triangle`.
+
+        Returns
+        -------
+        dict of ndarray
+            `vertices` (those that are present), `triangles` of the domain, `segments`, `segment_markers`; `holes`, a
+            place in each, if there are some; `regions` and `triangle_attributes`, their labels, if there are regions.
+            Places are rounded centroids of the largest triangles.
+        """
+        tri, (mask, region_of) = self._tri, self._found()
+        is_present = ~np.isnan(tri.points[:, 0])
+        rows = (np.cumsum(is_present) - 1).astype(np.int32)
+        segments = tri.segments
+        data = {
+            "vertices": tri.points[is_present],
+            "triangles": rows[self.triangles],
+            "segments": rows[segments.ends],
+            "segment_markers": segments.markers.reshape(-1, 1).copy(),
+        }
+        holes = [self._place_in(hole) for hole in self._hole_masks(mask)]
+        if holes:
+            data["holes"] = np.array(holes)
+        of_regions = [(k, region_of == k) for k in range(len(self._regions))]
+        regions = [(*self._place_in(of), self._labels[k], 0) for k, of in of_regions if of.any()]
+        if self._regions:
+            data["regions"] = np.array(regions, np.float64).reshape(-1, 4)
+            data["triangle_attributes"] = self.labels.reshape(-1, 1).copy()
+        return data
+
+    def _hole_masks(self, mask: np.ndarray) -> list[np.ndarray]:
+        """The simplices of each hole: of each region within chains of segments that is not in the domain."""
+        masks, is_left = [], ~mask & (self._tri.nesting_levels() > 0)
+        while is_left.any():
+            masks.append(self._reached([int(np.argmax(is_left))]) == 0)
+            is_left &= ~masks[-1]
+        return masks
+
+    def _place_in(self, mask: np.ndarray) -> tuple[float, float]:
+        """The centroid of the largest simplex of a region."""
+        tri = self._tri
+        chosen = np.flatnonzero(mask)
+        largest = chosen[np.argmax(tri._once("volumes", tri.volumes)[chosen])]
+        x, y = tri.points[tri.simplices[largest]].mean(axis=0)
+        return float(x), float(y)
+
+    def copy(self) -> "Mesh":
+        """An independent mesh that is as this one.
+
+        Returns
+        -------
+        Mesh
+            After the same moves it has the same triangles.
+        """
+        return copy.deepcopy(self)
+
+    def __copy__(self) -> "Mesh":
+        return self.copy()
+
+    def __repr__(self) -> str:
+        return f"<deldrift.Mesh of {len(self.triangles)} triangles within {len(self.segments.ids)} segments>"
+
+
+def _rows(argument: str, values: Any, width: int) -> np.ndarray:
+    """Rows of some numbers; none for None."""
+    if values is None or not np.size(values):
+        return np.empty((0, width))
+    array = floats(argument, values)
+    if array.ndim != 2 or array.shape[1] != width:
+        raise InvalidShape(f"{argument} has the shape {array.shape}, and must have rows of {width} numbers", argument)
+    return array
+
+
+def _flood(k: int, start: int, neighbours: np.ndarray, segments: np.ndarray, reached_from: np.ndarray) -> None:
+    """Writes k for all simplices that are reached from one without crossing a segment, in rounds of neighbours.
+
+    Rounds within a hole are many, of one or two simplices each, which a loop does in a fraction of the time that NumPy
+    takes for a round.
+    """
+    reached_from[start] = k
+    few, many = [start], np.empty(0, np.int32)
+    while few or len(many):
+        if few:
+            front = _beyond_few(k, few, neighbours, segments, reached_from)
+            few, many = (front, many) if len(front) <= FEW else ([], np.array(front, np.int32))
+        else:
+            many = neighbours[many][segments[many] < 0]
+            many = np.unique(many[reached_from[many] < 0])
+            reached_from[many] = k
+            few, many = (many.tolist(), many[:0]) if len(many) <= FEW else ([], many)
+
+
+def _beyond_few(
+    k: int, front: list[int], neighbours: np.ndarray, segments: np.ndarray, reached_from: np.ndarray
+) -> list[int]:
+    """The simplices of the next round, for which it writes k."""
+    beyond = []
+    for cell in front:
+        for across, segment in zip(neighbours[cell].tolist(), segments[cell].tolist()):
+            if segment < 0 and reached_from[across] < 0:
+                reached_from[across] = k
+                beyond.append(across)
+    return beyond

@@ -1,0 +1,178 @@
+"""A step: what is changed together, all or nothing."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _library
+from ._arrays import I32, address, ids as listed_ids, points as point_rows
+from ._core import CONFLICT
+from ._errors import Busy, ConflictError
+from ._library import Report
+
+if TYPE_CHECKING:
+    from ._motion import Motion
+
+_stage_insertions = _library.function("stage_insertions")
+_stage_removals = _library.function("stage_removals")
+_commit_timestamp = _library.function("commit_timestamp")
+
+
+class Step:
+    """Moves, insertions, removals and segments that `Delaunay.step` commits together."""
+
+    def __init__(self, owner: "Motion") -> None:
+        self._owner = owner
+        self._is_open = False
+        # Whether the end of the block commits what is staged.
+        self._is_kept = True
+
+    def __enter__(self) -> "Step":
+        owner = self._owner
+        with owner._taking:
+            owner._has_step = self._is_open = True
+        return self
+
+    def __exit__(self, kind: Any, *_: Any) -> None:
+        owner = self._owner
+        self._is_open = False
+        owner._must_discard = True
+        try:
+            if kind is None and self._is_kept:
+                self._commit(owner)
+        finally:
+            owner._has_step = False
+            if owner._must_discard:
+                _discard(owner)
+
+    def _commit(self, owner: "Motion") -> None:
+        with owner._committing as t:
+            report = Report()
+            status = _commit_timestamp(t, report)
+            owner._check(status)
+            owner._must_discard = False
+            owner._last_report = report
+
+    def _check_open(self) -> None:
+        if not self._is_open:
+            raise Busy("the step is not open: use it in `with tri.step() as step`")
+
+    def move(self, points: Any, ids: Any = None) -> None:
+        """Moves vertices to new places.
+
+        Parameters
+        ----------
+        points : array_like
+            A row of coordinates for each vertex.
+        ids : array_like of int, optional
+            The vertices, each at most once in a step; all by default.
+        """
+        self._check_open()
+        self._owner._stage_moves(points, ids)
+
+    def insert(self, points: Any) -> np.ndarray:
+        """Inserts vertices.
+
+        Parameters
+        ----------
+        points : array_like
+            A row of coordinates for each new vertex.
+
+        Returns
+        -------
+        ndarray of int
+            Their ids.
+        """
+        self._check_open()
+        owner = self._owner
+        positions = point_rows("points", points, owner.ndim)
+        with owner._staging as t:
+            first = ctypes.c_uint32()
+            owner._check(_stage_insertions(t, address(positions), len(positions), first), positions="points")
+        return np.arange(first.value, first.value + len(positions), dtype=I32)
+
+    def remove(self, ids: Any) -> None:
+        """Removes vertices.
+
+        Parameters
+        ----------
+        ids : array_like of int
+            The vertices, each at most once in a step.
+        """
+        self._check_open()
+        owner = self._owner
+        vertices = listed_ids("ids", ids)
+        with owner._staging as t:
+            owner._check(_stage_removals(t, address(vertices), len(vertices)), vertices="ids", vertex="ids")
+
+    def add_segments(self, ends: Any, markers: Any = None) -> np.ndarray:
+        """Adds segments between vertices, in 2D: each is an edge from the end of the step on, and moves with its ends.
+
+        Parameters
+        ----------
+        ends : array_like of int
+            Rows of two vertex ids, in any order. Vertices that the step inserts are among them.
+        markers : array_like of int, optional
+            A number of 32 bits to keep with each, or one for all; 0 by default.
+
+        Returns
+        -------
+        ndarray of int
+            Ids of the segments, which follow those that have been given.
+        """
+        self._check_open()
+        return self._owner._stage_segments(ends, markers, "ends", "markers")
+
+    def remove_segments(self, ids: Any) -> None:
+        """Removes segments: they need not be edges any more. Their vertices stay.
+
+        Parameters
+        ----------
+        ids : array_like of int
+            Segments that are in force, each at most once in a step.
+        """
+        self._check_open()
+        self._owner._stage_segment_removals(ids)
+
+    def check(self) -> np.ndarray:
+        """What segments would have against the step, as it is staged; nothing is committed, and all stays staged.
+
+        Returns
+        -------
+        ndarray
+            The conflicts: a structured array with the fields `kind` (see `ConflictKind`), `segment` and `other`.
+            Without any the end of the step will not raise `ConflictError`.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3], [2, 1]], segments=[[0, 2]])
+        >>> with tri.step() as step:
+        ...     step.move([[1, 2]], ids=[4])
+        ...     crossing = step.add_segments([[3, 1]])
+        ...     conflicts = step.check()
+        ...     step.remove_segments([0])
+        >>> conflicts.tolist()
+        [(0, 0, 1)]
+        >>> tri.segments.ids
+        array([1], dtype=int32)
+        """
+        self._check_open()
+        try:
+            self._owner._check_staged()
+        except ConflictError as error:
+            conflicts: np.ndarray = error.conflicts
+            return conflicts
+        return np.empty(0, CONFLICT)
+
+
+def _discard(owner: Motion) -> None:
+    """Forgets what is staged: at once, or with the next change where another thread is reading."""
+    try:
+        with owner._taking:
+            pass
+    except Busy:
+        pass

@@ -1,0 +1,62 @@
+//! Delaunay refinement and coarsening of constrained triangulations in the plane.
+//!
+//! Cells of a domain are to have no small angles, and not to be large. Vertices are added until that is so: in the middle of
+//! a bad triangle's circle, or nearer to its shortest edge, and in the middle of segments that are in the way (Ruppert,
+//! 10.1006/jagm.1995.1021; Chew, 10.1145/160985.161150; off-centres: Üngör, 10.1016/j.comgeo.2008.06.002; small angles of the
+//! input: Shewchuk, 10.1016/S0925-7721(01)00047-5).
+//!
+//! ```text
+//! while a piece of a segment is encroached: split it
+//! take the bad triangle with the shortest edge; find its centre, walking straight
+//!     a segment is in between: split it; the triangle waits again
+//!     it would encroach pieces: split them; the triangle waits again
+//!     otherwise: insert it
+//! ```
+//!
+//! A piece is *encroached* by a vertex in its diametral lens, that sees its ends under more than 180 degrees less twice the
+//! least angle. Before it is split, vertices of this call in its diametral circle are taken away.
+//!
+//! | file | what |
+//! |---|---|
+//! | `mesh` | triangles of their own, insertion, splitting |
+//! | `removal` | removal of a vertex, from within or between two pieces |
+//! | `criteria` | what is bad, what is encroached |
+//! | `queue` | bad triangles in order |
+//! | `refining` | refinement |
+//! | `coarsening` | vertices that are not needed any more leave |
+//!
+//! # What is exact
+//!
+//! All signs are ([`predicates`](crate::predicates)), ties are broken by vertex id. So at any time the triangles that
+//! are refined are those of a fresh constrained build of all vertices and pieces; the caller builds them by its own means.
+//! Places of new vertices are rounded. One in a triangle may be anywhere in it. One on a segment need not be exactly on
+//! it: then its pieces are straight between their own ends, and the segment bends by a last bit. It is refused where a
+//! piece would touch or cross anything else.
+//!
+//! # Why it ends
+//!
+//! Without input angles below 60 degrees between segments, and for a least angle up to 26.5 degrees, Chew's second algorithm
+//! ends by Shewchuk's proof: no edge becomes shorter than the *local feature size* of the input there allows. The order of
+//! the queue and off-centres keep that: an off-centre is no nearer to other vertices than the shortest edge of its
+//! triangle is long. Above, it ends in practice up to some 34 degrees, which is why more is refused.
+//!
+//! At an apex of segments with a smaller angle, segments are split at powers of two from it, and a triangle across the angle
+//! stays as it is if its shortest edge is between two vertices on one shell: that is as long as the angle makes it, and what
+//! would come of it is smaller by the same factor each time. Other triangles have angles that refinement mends.
+//!
+//! A bad triangle waits again only after a piece has been split, and vertices on pieces stay. Pieces that cannot be split,
+//! since they are kept whole or there is no number between their ends, are left, and so are triangles that need it.
+//! Sizes that shrink towards a place without a bound have no end; the limit on insertions is for those.
+
+mod coarsening;
+mod criteria;
+mod mesh;
+mod queue;
+mod refining;
+mod removal;
+
+pub(crate) use coarsening::{Candidate, Room, coarsen};
+pub(crate) use criteria::{Criteria, Tests};
+pub(crate) use mesh::{Given, NONE, NOT_SELECTED};
+pub use refining::Kept;
+pub(crate) use refining::{Origins, refine};

@@ -1,0 +1,497 @@
+//! Refinement: vertices are added until no triangle is bad and no piece of a segment encroached.
+
+use super::criteria::{Flaw, Measured, Tests, is_in_diametral_circle, size_between};
+use super::mesh::{Given, Mesh, NONE, Piece, Place, Side, next, previous};
+use super::queue::{Queues, Waiting};
+use super::removal::Hole;
+use crate::error::Result;
+use crate::ids::VertexId;
+use crate::machine::memory;
+use crate::predicates::{dot, is_in_range, minus};
+
+/// Which segments stay whole.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Kept {
+    /// None.
+    #[default]
+    None,
+    /// Those with cells that are to be refined on one side only.
+    Outer,
+    /// All.
+    All,
+}
+
+/// Where segments come from.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Origins<'a> {
+    /// Ends of each original segment.
+    pub ends: &'a [[VertexId; 2]],
+    /// The original of each segment.
+    pub of_segments: &'a [u32],
+    /// Vertices that earlier calls have added, with the original that they are on.
+    pub of_vertices: &'a [(VertexId, u32)],
+}
+
+/// What a refinement has done.
+#[derive(Debug, Default)]
+pub(crate) struct Refined {
+    /// The new vertices in the order of their numbers, the first of which is the number of those given; each with the
+    /// segment that it is on, or [`NONE`].
+    pub vertices: Vec<([f64; 2], u32)>,
+    /// The segments that have been split, ascending, each with where its vertices end in `chain`.
+    pub split: Vec<(u32, usize)>,
+    /// The vertices of the split segments, from end to end.
+    pub chain: Vec<VertexId>,
+    /// Pieces that had to be split and could not, as there is no room for a vertex on them.
+    pub n_unsplit: usize,
+    /// Selected triangles that are bad.
+    pub n_bad: usize,
+    /// Whether the limit was reached.
+    pub is_cut_short: bool,
+}
+
+/// Two vertices are on one shell around the apex of an input angle if their distances from it differ by no more than this
+/// share: rounded powers of two do, and those that vertices of an earlier call have after they have moved.
+const SHELL: f64 = 0.001;
+const MOVED_SHELL: f64 = 0.2;
+
+/// Squared cosine of an angle between segments from which on they are split at shells: that of 60 degrees.
+const SHARP: f64 = 0.25;
+
+struct Refinement<'a> {
+    mesh: Mesh,
+    tests: Tests<'a>,
+    origins: Origins<'a>,
+    kept: Kept,
+    queues: Queues,
+    /// Pieces to be split, each with its ends when it was entered, and whether something was behind it.
+    encroached: Vec<(u32, [VertexId; 2], bool)>,
+    /// The original that each vertex is on, [`NONE`] if there is none.
+    on: Vec<u32>,
+    /// The greatest length of edges at each vertex, if that is given.
+    sizes: Vec<f64>,
+    n_given: usize,
+    n_added: usize,
+    n_unsplit: usize,
+    hole: Hole,
+}
+
+/// Refines the cells with labels.
+pub(crate) fn refine(
+    given: &Given,
+    tests: Tests,
+    origins: Origins,
+    kept: Kept,
+    limit: usize,
+) -> Result<Refined> {
+    let mut on = Vec::new();
+    memory::lengthen(&mut on, given.points.len(), NONE)?;
+    origins.of_vertices.iter().for_each(|&(v, original)| on[v] = original);
+    let sizes = memory::copy_of(tests.given_sizes())?;
+    let mut refinement = Refinement {
+        mesh: Mesh::new(given)?,
+        tests,
+        origins,
+        kept,
+        queues: Queues::new()?,
+        encroached: Vec::new(),
+        on,
+        sizes,
+        n_given: given.points.len(),
+        n_added: 0,
+        n_unsplit: 0,
+        hole: Hole::default(),
+    };
+    for t in 0..given.corners.len() {
+        refinement.examine(t as u32)?;
+    }
+    let is_cut_short = refinement.go_on(limit)?;
+    refinement.tell(given, is_cut_short)
+}
+
+impl Refinement<'_> {
+    /// Adds vertices; whether there would be more than the limit.
+    fn go_on(&mut self, limit: usize) -> Result<bool> {
+        loop {
+            let mut k = 0;
+            while k < self.encroached.len() {
+                if self.n_added >= limit {
+                    return Ok(true);
+                }
+                let (piece, ends, is_forced) = self.encroached[k];
+                k += 1;
+                if self.mesh.pieces[piece as usize].ends == ends && (is_forced || self.is_encroached(piece)) {
+                    self.split(piece)?;
+                }
+            }
+            self.encroached.clear();
+            let Some(waiting) = self.queues.pop() else { return Ok(false) };
+            if self.mesh.triangle(waiting.triangle).corners != waiting.corners {
+                continue;
+            }
+            if self.n_added >= limit {
+                return Ok(true);
+            }
+            self.improve(waiting)?;
+        }
+    }
+
+    fn measure(&self, t: u32) -> Measured {
+        let triangle = self.mesh.triangle(t);
+        let corners = triangle.corners;
+        let points = corners.map(|v| self.mesh.point(v));
+        self.tests.measure(points, triangle.label, |i| self.sizes[corners[i]])
+    }
+
+    /// Enters a triangle if it is bad, and the pieces at its sides that its corners encroach.
+    fn examine(&mut self, t: u32) -> Result<()> {
+        let triangle = *self.mesh.triangle(t);
+        if !triangle.is_live() || !triangle.is_selected() {
+            return Ok(());
+        }
+        for i in 0..3 {
+            let piece = triangle.pieces[i];
+            if piece == NONE {
+                continue;
+            }
+            let is_too_long =
+                self.tests.is_too_long(triangle.ends(i).map(|v| self.mesh.point(v)), triangle.label);
+            if (is_too_long || self.is_in_lens(Side::new(t, i))) && self.may_split(piece) {
+                self.enter(piece, is_too_long)?;
+            }
+        }
+        let measured = self.measure(t);
+        match measured.flaw {
+            None => Ok(()),
+            Some(Flaw::Angle) if self.is_hopeless(t, measured.narrowest) => Ok(()),
+            Some(_) => {
+                let waiting = Waiting { triangle: t, corners: triangle.corners };
+                self.queues.enter(waiting, measured.shortest)
+            }
+        }
+    }
+
+    /// Enters a piece that has to be split.
+    fn enter(&mut self, piece: u32, is_forced: bool) -> Result<()> {
+        let ends = self.mesh.pieces[piece as usize].ends;
+        memory::push(&mut self.encroached, (piece, ends, is_forced))
+    }
+
+    /// Whether the corner opposite a side is in the lens of the side.
+    fn is_in_lens(&self, side: Side) -> bool {
+        let triangle = self.mesh.triangle(side.triangle());
+        let ends = triangle.ends(side.index()).map(|v| self.mesh.point(v));
+        self.tests.is_in_lens(ends, self.mesh.point(triangle.corners[side.index()]))
+    }
+
+    fn is_encroached(&self, piece: u32) -> bool {
+        self.selected_sides(piece).any(|side| self.is_in_lens(side))
+    }
+
+    /// The sides of a piece on which triangles are to be refined.
+    fn selected_sides(&self, piece: u32) -> impl Iterator<Item = Side> {
+        let sides = self.mesh.sides_of(piece);
+        sides
+            .into_iter()
+            .filter(|&side| side != Side::NONE && self.mesh.triangle(side.triangle()).is_selected())
+    }
+
+    fn may_split(&self, piece: u32) -> bool {
+        !self.mesh.pieces[piece as usize].is_fixed
+            && match self.kept {
+                Kept::None => true,
+                Kept::Outer => self.selected_sides(piece).count() == 2,
+                Kept::All => false,
+            }
+    }
+
+    /// Whether a small angle is one between two segments, or one that these bring about: the edge opposite it is between
+    /// vertices on one shell.
+    fn is_hopeless(&self, t: u32, narrowest: usize) -> bool {
+        let triangle = self.mesh.triangle(t);
+        if [next(narrowest), previous(narrowest)].iter().all(|&i| triangle.pieces[i] != NONE) {
+            return true;
+        }
+        let ends = triangle.ends(narrowest);
+        let [one, other] = ends.map(|v| self.on[v]);
+        if one == NONE || other == NONE || one == other {
+            return false;
+        }
+        let Some(apex) = self.common_end(one, other) else { return false };
+        let [d, e] = ends.map(|v| {
+            let u = minus::<f64, 2>(self.mesh.point(v), self.mesh.point(apex));
+            dot(&u, &u)
+        });
+        let are_new = ends.iter().all(|v| v.index() >= self.n_given);
+        let tolerance = 2.0 * if are_new { SHELL } else { MOVED_SHELL };
+        (d - e).abs() <= tolerance * d.max(e)
+    }
+
+    /// Adds a vertex in the place of a bad triangle, or enters the pieces that are in the way.
+    fn improve(&mut self, waiting: Waiting) -> Result<()> {
+        let t = waiting.triangle;
+        let measured = self.measure(t);
+        let Some((p, from)) = self.centre(t, measured.narrowest) else { return Ok(()) };
+        let id = VertexId::at(self.mesh.points.len());
+        let n_before = self.encroached.len();
+        match self.mesh.walk(from, &p) {
+            Place::Nowhere => return Ok(()),
+            Place::Behind(piece) => {
+                if self.may_split(piece) {
+                    self.enter(piece, true)?;
+                }
+            }
+            Place::Inside(at) => {
+                self.mesh.dig(at, &p, id)?;
+                let mut is_free = true;
+                for k in 0..self.mesh.rim.len() {
+                    let side = self.mesh.rim[k];
+                    if side.piece != NONE && self.tests.is_in_lens(side.ends.map(|v| self.mesh.point(v)), &p)
+                    {
+                        is_free = false;
+                        if self.may_split(side.piece) {
+                            self.enter(side.piece, true)?;
+                        }
+                    }
+                }
+                if is_free {
+                    return self.add(p, at, None);
+                }
+            }
+        }
+        // What cannot be split is not asked again.
+        if self.encroached.len() > n_before { self.queues.enter(waiting, measured.shortest) } else { Ok(()) }
+    }
+
+    /// Where a bad triangle gets a vertex: its circumcentre, or the off-centre of its shortest edge if that is nearer; and
+    /// the side by which a straight way there leaves the triangle, if it does.
+    fn centre(&self, t: u32, narrowest: usize) -> Option<([f64; 2], Side)> {
+        let corners = self.mesh.triangle(t).corners;
+        let [o, d, a] =
+            [next(narrowest), previous(narrowest), narrowest].map(|i| self.mesh.point(corners[i]));
+        let (u, v) = (minus::<f64, 2>(d, o), minus::<f64, 2>(a, o));
+        let (uu, vv) = (dot(&u, &u), dot(&v, &v));
+        let half = 0.5 / self.mesh.turn([corners[next(narrowest)], corners[previous(narrowest)]], a);
+        let mut w = [(v[1] * uu - u[1] * vv) * half, (u[0] * vv - v[0] * uu) * half];
+        let off = [0.5 * u[0] - self.tests.off * u[1], 0.5 * u[1] + self.tests.off * u[0]];
+        if dot(&off, &off) < dot(&w, &w) || !dot(&w, &w).is_finite() {
+            w = off;
+        }
+        let p = [o[0] + w[0] + 0.0, o[1] + w[1] + 0.0];
+        // The longest edge is one of the two at the narrowest corner: the other end of each is opposite.
+        let x = minus::<f64, 2>(a, d);
+        let longest = if dot(&x, &x) > vv { next(narrowest) } else { previous(narrowest) };
+        p.iter().all(|&x| is_in_range(x)).then_some((p, Side::new(t, longest)))
+    }
+
+    /// Fills the cavity around a new vertex, which is in a triangle, or on a piece.
+    fn add(&mut self, p: [f64; 2], at: u32, piece: Option<u32>) -> Result<()> {
+        memory::reserve(&mut self.on, 1)?;
+        memory::reserve(&mut self.sizes, 1)?;
+        if self.tests.has_sizes() {
+            let size = match piece {
+                Some(piece) => {
+                    let [a, b] = self.mesh.pieces[piece as usize].ends;
+                    let [to_a, to_b] = [a, b].map(|v| distance(self.mesh.point(v), &p));
+                    size_between(&self.sizes, [a, b, b], [to_b, to_a, 0.0])
+                }
+                None => {
+                    let corners = self.mesh.triangle(at).corners;
+                    let weights =
+                        [0, 1, 2].map(|i| self.mesh.turn(self.mesh.triangle(at).ends(i), &p).max(0.0));
+                    size_between(&self.sizes, corners, weights)
+                }
+            };
+            self.sizes.push(size);
+        }
+        let original = piece.map_or(NONE, |piece| {
+            let segment = self.mesh.pieces[piece as usize].segment;
+            self.origins.of_segments[segment as usize]
+        });
+        self.mesh.fill(p, piece)?;
+        self.on.push(original);
+        self.n_added += 1;
+        self.examine_made()
+    }
+
+    fn examine_made(&mut self) -> Result<()> {
+        for k in 0..self.mesh.made.len() {
+            self.examine(self.mesh.made[k])?;
+        }
+        Ok(())
+    }
+
+    /// Splits a piece: in the middle, or, at a small angle with another segment, at a round distance from its apex, so that
+    /// what is on both is on common shells.
+    fn split(&mut self, piece: u32) -> Result<()> {
+        if !self.may_split(piece) {
+            return Ok(());
+        }
+        let ends = self.mesh.pieces[piece as usize].ends;
+        let [p, q] = ends.map(|v| *self.mesh.point(v));
+        let share = match self.apex_of_shells(piece) {
+            None => {
+                self.clear_circle(piece)?;
+                0.5
+            }
+            Some(apex) => {
+                let [d, e] = [p, q].map(|p| distance(self.mesh.point(apex), &p));
+                (round_between(d.min(e), d.max(e)) - d) / (e - d)
+            }
+        };
+        let middle = [0, 1].map(|axis| {
+            let x = p[axis] + share * (q[axis] - p[axis]);
+            x.clamp(p[axis].min(q[axis]), p[axis].max(q[axis])) + 0.0
+        });
+        let id = VertexId::at(self.mesh.points.len());
+        if middle == p || middle == q || !self.mesh.dig_at_piece(piece, &middle, id)? {
+            self.mesh.pieces[piece as usize].is_fixed = true;
+            self.n_unsplit += 1;
+            return Ok(());
+        }
+        self.add(middle, NONE, Some(piece))
+    }
+
+    /// Where a piece makes a small angle with another segment: at one of its ends, with a triangle in between, or further
+    /// along the segments, where a vertex of the other one encroaches it.
+    fn apex_of_shells(&self, piece: u32) -> Option<VertexId> {
+        let Piece { ends, segment, .. } = self.mesh.pieces[piece as usize];
+        if let Some(end) = [1, 0].into_iter().find(|&end| self.is_sharp(piece, end)) {
+            return Some(ends[end]);
+        }
+        let own = self.origins.of_segments[segment as usize];
+        let of_other =
+            self.selected_sides(piece).filter(|&side| self.is_in_lens(side)).map(|side| self.mesh.apex(side));
+        of_other.filter(|&v| self.on[v] != NONE && self.on[v] != own).find_map(|v| {
+            let apex = self.common_end(own, self.on[v])?;
+            let [d, e] = ends.map(|v| distance(self.mesh.point(apex), self.mesh.point(v)));
+            // One of pieces that have moved may go around its apex.
+            let is_outward =
+                (d - e).abs() > 0.5 * distance(self.mesh.point(ends[0]), self.mesh.point(ends[1]));
+            (is_outward && self.is_acute(apex, [ends[1], v])).then_some(apex)
+        })
+    }
+
+    /// The vertex at which two originals meet.
+    fn common_end(&self, one: u32, other: u32) -> Option<VertexId> {
+        let [one, other] = [one, other].map(|original| self.origins.ends[original as usize]);
+        let is_there = |v: &VertexId| self.mesh.at.get(v.index()).is_some_and(|&t| t != NONE);
+        one.into_iter().find(|v| other.contains(v)).filter(is_there)
+    }
+
+    /// Whether two vertices are seen from a third one under less than 60 degrees.
+    fn is_acute(&self, apex: VertexId, others: [VertexId; 2]) -> bool {
+        let [u, v] = others.map(|v| minus::<f64, 2>(self.mesh.point(v), self.mesh.point(apex)));
+        let cosine = dot(&u, &v);
+        cosine > 0.0 && cosine * cosine > SHARP * (dot(&u, &u) * dot(&v, &v))
+    }
+
+    /// Whether a piece makes a small angle at one of its ends with another one, with a triangle in between.
+    fn is_sharp(&self, piece: u32, end: usize) -> bool {
+        let Piece { ends, .. } = self.mesh.pieces[piece as usize];
+        self.selected_sides(piece).any(|side| {
+            let triangle = self.mesh.triangle(side.triangle());
+            // The side at that end is opposite the other end.
+            let other = (0..3).find(|&i| triangle.corners[i] == ends[1 - end]).expect("it is an end");
+            if triangle.pieces[other] == NONE {
+                return false;
+            }
+            self.is_acute(ends[end], [ends[1 - end], triangle.corners[side.index()]])
+        })
+    }
+
+    /// Takes away vertices of this call that are on no segment, next to a piece and in its diametral circle: they are nearer
+    /// to it than the vertex that it gets (Chew, 10.1145/160985.161150).
+    fn clear_circle(&mut self, piece: u32) -> Result<()> {
+        for k in 0..2 {
+            loop {
+                let side = self.mesh.sides_of(piece)[k];
+                if side == Side::NONE || !self.mesh.triangle(side.triangle()).is_selected() {
+                    break;
+                }
+                let apex = self.mesh.apex(side);
+                let ends = self.mesh.pieces[piece as usize].ends.map(|v| self.mesh.point(v));
+                let is_free = apex.index() >= self.n_given && self.on[apex] == NONE;
+                if !is_free
+                    || !is_in_diametral_circle(ends, self.mesh.point(apex))
+                    || !self.mesh.find_hole(apex, &mut self.hole)?
+                {
+                    break;
+                }
+                self.mesh.replace(apex, &self.hole)?;
+                self.n_added -= 1;
+                self.examine_made()?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Numbers the vertices that have stayed, and lists what has become of the segments.
+    fn tell(self, given: &Given, is_cut_short: bool) -> Result<Refined> {
+        let n = self.mesh.triangles.len() as u32;
+        let n_bad =
+            (0..n).filter(|&t| self.mesh.triangle(t).is_selected() && self.measure(t).flaw.is_some()).count();
+        let mut told = Refined { is_cut_short, n_bad, n_unsplit: self.n_unsplit, ..Refined::default() };
+        let mut segment_of = Vec::new();
+        memory::lengthen(&mut segment_of, self.mesh.points.len() - self.n_given, NONE)?;
+        for piece in &self.mesh.pieces {
+            for v in piece.ends.into_iter().filter(|v| v.index() >= self.n_given) {
+                segment_of[v.index() - self.n_given] = piece.segment;
+            }
+        }
+        let mut number = Vec::new();
+        memory::lengthen(&mut number, segment_of.len(), VertexId::NONE)?;
+        memory::reserve(&mut told.vertices, self.n_added)?;
+        for (k, &segment) in segment_of.iter().enumerate() {
+            if self.mesh.at[self.n_given + k] != NONE {
+                number[k] = VertexId::at(self.n_given + told.vertices.len());
+                told.vertices.push((self.mesh.points[self.n_given + k], segment));
+            }
+        }
+        let renamed =
+            |v: VertexId| if v.index() < self.n_given { v } else { number[v.index() - self.n_given] };
+        for segment in 0..given.segments.len() as u32 {
+            let mut piece = &self.mesh.pieces[segment as usize];
+            if piece.next == NONE {
+                continue;
+            }
+            memory::push(&mut told.chain, renamed(piece.ends[0]))?;
+            loop {
+                memory::push(&mut told.chain, renamed(piece.ends[1]))?;
+                match piece.next {
+                    NONE => break,
+                    next => piece = &self.mesh.pieces[next as usize],
+                }
+            }
+            memory::push(&mut told.split, (segment, told.chain.len()))?;
+        }
+        Ok(told)
+    }
+}
+
+fn distance(p: &[f64; 2], q: &[f64; 2]) -> f64 {
+    let u = minus::<f64, 2>(p, q);
+    dot(&u, &u).sqrt()
+}
+
+/// The number between two others, away from both by a quarter of their difference, that is a multiple of the greatest
+/// power of two.
+fn round_between(low: f64, high: f64) -> f64 {
+    let quarter = 0.25 * (high - low);
+    let (low, high) = (low + quarter, high - quarter);
+    let mut step = power_of_two_below(high);
+    // Halves of steps soon fit, unless there is no number between.
+    for _ in 0..128 {
+        let round = (low / step).ceil() * step;
+        if round <= high {
+            return round;
+        }
+        step *= 0.5;
+    }
+    0.5 * (low + high)
+}
+
+/// The greatest power of two that is not above `x`, which is a normal number.
+fn power_of_two_below(x: f64) -> f64 {
+    f64::from_bits(x.to_bits() & 0x7FF0_0000_0000_0000)
+}
