@@ -38,6 +38,7 @@ const MAIN: Header = Header {
         "near",
         "geometry",
         "domain",
+        "refining",
         "incidence",
         "listed",
         "voronoi",

@@ -323,6 +323,27 @@ typedef uint32_t deldrift_interpolation;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+/// Which segments deldrift_refine keeps whole.
+enum
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  deldrift_kept : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /// None: the quality is reached wherever angles between segments allow it.
+    DELDRIFT_KEPT_NONE = 0,
+    /// Those with cells to be refined on one side only: the boundary of the cells that are refined.
+    DELDRIFT_KEPT_OUTER = 1,
+    /// All.
+    DELDRIFT_KEPT_ALL = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum deldrift_kept deldrift_kept;
+#else
+typedef uint32_t deldrift_kept;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
 /// Arrays of cells that a program has taken over: opaque, made by deldrift_release_cells, unmade by
 /// deldrift_free_cells.
 typedef struct deldrift_released_cells deldrift_released_cells;
@@ -493,6 +514,81 @@ typedef struct deldrift_location {
     /// A vertex or a cell.
     uint32_t index;
 } deldrift_location;
+
+/// What deldrift_refine and deldrift_coarsen work towards, and how. Initialise it with deldrift_quality_init, then set what
+/// should differ from the defaults: without a criterion nothing is done.
+///
+/// The structure may grow in later versions, as deldrift_options does: struct_size says how much of it the program knows.
+///
+/// Arrays are read during the call only.
+typedef struct deldrift_quality {
+    /// sizeof(deldrift_quality) as the program sees it.
+    size_t struct_size;
+    /// The least angle of a cell in degrees, up to 34; 0, the default, for any. Up to 26.5 degrees refinement ends wherever
+    /// angles between segments are at least 60 degrees, as is proved; above it does in practice.
+    double least_angle;
+    /// The greatest area of a cell; 0, the default, for any.
+    double greatest_area;
+    /// A label for each cell, in the order of deldrift_cells, as deldrift_label_cells gives them; NULL, the default, for 0.
+    const int32_t *labels;
+    /// How many labels there are: as many as cells, or 0.
+    size_t label_count;
+    /// The greatest area of cells by label, 0 for any: that of label k is areas[k], and labels below 0 and beyond have none.
+    /// New cells have the label of the region that they are in. NULL by default.
+    const double *areas;
+    /// How many areas there are.
+    size_t area_count;
+    /// By vertex id the greatest length of edges there: no edge of a cell is longer than the mean at its corners. New
+    /// vertices have what is between. Above 0; entries of removed vertices are not used. NULL, the default, for any.
+    const double *sizes;
+    /// How many sizes there are: as many as ids, or 0.
+    size_t size_count;
+    /// Another criterion: whether a cell is too large, with the coordinates of its corners, 6 numbers, counter-clockwise. It
+    /// has to give the same answer for the same corners, and to be false for cells that are small enough. It is called from
+    /// inside the call as the callbacks of deldrift_options are. NULL, the default, for none.
+    bool (*is_too_large)(void *user_data, const double *corners);
+    /// Handed to is_too_large as it is.
+    void *user_data;
+    /// Which segments deldrift_refine keeps whole: default DELDRIFT_KEPT_NONE. Cells at those that it keeps may stay bad.
+    deldrift_kept keeps;
+    /// Not 0 if deldrift_refined_weights will be asked for. Default 0.
+    uint32_t has_weights;
+    /// Greatest number of vertices that deldrift_refine inserts: default SIZE_MAX.
+    size_t limit;
+    /// By how many degrees the angles of cells that come by deldrift_coarsen have to be above the least one, so that the
+    /// vertex that went is not missed at once: from 0 to 30, default 2.
+    double margin;
+    /// The share of the greatest areas and lengths that cells that come by deldrift_coarsen may have: above 0 and at most 1,
+    /// default 0.9.
+    double share;
+    /// Two pieces of a segment are joined by deldrift_coarsen if the vertex between them is on the line through their other
+    /// ends, or off it by no more than this share of the distance of these: from 0 to 1. The default, 1e-9, is above what
+    /// the rounding of motions adds up to.
+    double joins;
+} deldrift_quality;
+
+/// What deldrift_refine or deldrift_coarsen did.
+typedef struct deldrift_quality_report {
+    /// Vertices inserted. Their ids are the last ones below deldrift_id_count.
+    uint64_t inserted;
+    /// How many of them are on segments.
+    uint64_t on_segments;
+    /// Vertices removed.
+    uint64_t removed;
+    /// Segments removed, as pieces took the place of one, or one that of pieces.
+    uint64_t replaced_segments;
+    /// Segments that came. Their ids are the last ones that have been given.
+    uint64_t new_segments;
+    /// Pieces that had to be split and are whole, as there is no room for a vertex between their ends.
+    uint64_t unsplit;
+    /// Cells that are still bad, of those that were to be refined: at small angles between segments, at segments that are
+    /// kept whole, and where the limit was reached.
+    uint64_t bad_cells;
+    /// 1 if the limit was reached, otherwise 0.
+    uint64_t is_cut_short;
+    /// Zero; later versions may count more.
+    uint64_t reserved[4];
+} deldrift_quality_report;
 
 /// Numbers for each vertex, or for each cell, that deldrift_write_vtu writes along.
 typedef struct deldrift_field {
@@ -1484,6 +1580,118 @@ deldrift_status deldrift_boundary_chains(const deldrift_triangulation *t,
                                          uint32_t *segments,
                                          uint32_t *cells,
                                          uint8_t *corners,
+                                         size_t capacity,
+                                         size_t *count);
+
+/// Sets a quality to the defaults: no criterion.
+///
+/// Cost: constant.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT.
+deldrift_status deldrift_quality_init(deldrift_quality *quality);
+
+/// Inserts vertices into cells of the plane, and on segments at these, until the cells there are of a quality: one commit of
+/// its own, all or nothing, of which deldrift_take_changes tells what it changed. docs/SEGMENTS.md has a loop that moves,
+/// commits, coarsens and refines.
+///
+/// quality: what is wanted. mask: mask_count bytes, one for each cell in the order of deldrift_cells (mask_count must be
+/// deldrift_cell_count): cells are refined if their byte is not 0. They have to end at segments: at an edge beyond which
+/// there is no cell, or one that is not refined, there has to be one. NULL with mask_count 0 for the domain: the cells that
+/// have an odd nesting level (see deldrift_nesting_levels). Read during the call only. report: receives what was done; may
+/// be NULL. Ends all views if anything was inserted.
+///
+/// A segment that gets a vertex is removed, and pieces take its place, with its marker: see deldrift_original_segments. The
+/// places of new vertices are rounded, and pieces are straight between their own ends. Cells where the quality cannot be had
+/// stay: between segments at a small angle, at segments that stay whole, and where there is no room for a vertex. The report
+/// tells how many.
+///
+/// Where all is good already, nothing is committed.
+///
+/// Cost: m, s log s for s segments, and for each vertex inserted, on the average, a constant.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
+/// DELDRIFT_INVALID_OPTIONS for struct_size and keeps, DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE for a number of quality
+/// that has no meaning and for a mask that does not end at segments, DELDRIFT_STAGED_VERTEX if anything is staged,
+/// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED, and
+/// DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING where pieces that are bent by rounding would touch others (see
+/// deldrift_segment_conflicts). Not to be called at the same time as any other call on t.
+deldrift_status deldrift_refine(deldrift_triangulation *t,
+                                const deldrift_quality *quality,
+                                const uint8_t *mask,
+                                size_t mask_count,
+                                deldrift_quality_report *report);
+
+/// Removes vertices that deldrift_refine has inserted and that are not needed any more: those around which the cells would
+/// still be of the quality, by a margin. Pieces of a segment are joined again. One commit of its own, all or nothing, of
+/// which deldrift_take_changes tells what it changed.
+///
+/// Arguments are those of deldrift_refine. keeps, has_weights and limit of the quality are not used.
+///
+/// Around cells that are of lower quality already, those that come may have angles as small: call it before deldrift_refine,
+/// which then has less to insert.
+///
+/// Cost: that of deldrift_refine where all is good, and for each vertex that deldrift_refine has inserted at most that of
+/// looking at the cells around it.
+///
+/// Errors: those of deldrift_refine. Not to be called at the same time as any other call on t.
+deldrift_status deldrift_coarsen(deldrift_triangulation *t,
+                                 const deldrift_quality *quality,
+                                 const uint8_t *mask,
+                                 size_t mask_count,
+                                 deldrift_quality_report *report);
+
+/// The vertices that deldrift_refine has inserted and that are present, ascending by id.
+///
+/// vertices: a buffer with room for capacity ids; segments: for as many: the segment that the vertex was put on, by the id
+/// that it had before it was split, DELDRIFT_NONE if there is none. One that is NULL is not filled. count: receives the
+/// number of vertices, which is also written when the buffers are too small. NULL for both with capacity 0 asks for the
+/// count alone.
+///
+/// Cost: the vertices inserted so far.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL.
+deldrift_status deldrift_made_vertices(const deldrift_triangulation *t,
+                                       uint32_t *vertices,
+                                       uint32_t *segments,
+                                       size_t capacity,
+                                       size_t *count);
+
+/// For each segment in force, in the order of deldrift_segments, the id of the segment of which deldrift_refine has made it
+/// a piece, which is not in force any more; its own id if it is whole.
+///
+/// originals: a buffer with room for capacity ids. count: receives the number of segments, which is also written when the
+/// buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Cost: the ids of segments given so far, and of s segments s log s.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL.
+deldrift_status deldrift_original_segments(const deldrift_triangulation *t,
+                                           uint32_t *originals,
+                                           size_t capacity,
+                                           size_t *count);
+
+/// For each vertex that the last deldrift_refine inserted, in the order of their ids, how linear values there follow from
+/// those at the vertices before: the sum of the values of three vertices by their weights. So
+///
+///     value[id_count - inserted + k] = sum of weights[3 k + i] * value[vertices[3 k + i]] for i = 0, 1, 2
+///
+/// carries values at vertices over. It has to have been called with has_weights, and neither a commit nor a compaction must
+/// have come since; otherwise there are none.
+///
+/// vertices: a buffer with room for capacity rows of 3 ids, those of the corners of the cell that the vertex was put into;
+/// on a segment its two ends, the first one twice. weights: for as many rows of 3 numbers, from 0 to 1, with a sum of 1 but
+/// for rounding. One that is NULL is not filled. count: receives the number of vertices, which is also written when the
+/// buffers are too small. NULL for both with capacity 0 asks for the count alone.
+///
+/// Cost: the vertices inserted.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL.
+deldrift_status deldrift_refined_weights(const deldrift_triangulation *t,
+                                         uint32_t *vertices,
+                                         double *weights,
                                          size_t capacity,
                                          size_t *count);
 

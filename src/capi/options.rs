@@ -1,6 +1,7 @@
 //! Options: a structure that can grow, read as far as the caller's header knows it.
 
 use std::ffi::c_void;
+use std::marker::PhantomData;
 use std::mem::{MaybeUninit, offset_of};
 use std::ptr;
 
@@ -128,39 +129,72 @@ impl deldrift_options {
     }
 }
 
-/// Options as a call is given them: as much of the structure as the program's header knows.
-#[derive(Clone, Copy)]
-pub(super) struct GivenOptions<'a> {
-    size: Input<'a, usize>,
-    bytes: *const u8,
+/// A structure that may grow: the program's header may know less of it, or more.
+pub(super) trait Growing: Copy {
+    /// All fields at their defaults, the size at the library's own.
+    const DEFAULT: Self;
+    /// Where a `struct_size` may end: behind any field.
+    const ENDS: &'static [usize];
+    /// The name of the size, for messages, and what it should be.
+    const SIZE: &'static str;
+    const SIZE_OF: &'static str;
 }
 
-impl<'a> GivenOptions<'a> {
+impl Growing for deldrift_options {
+    const DEFAULT: Self = deldrift_options::DEFAULT;
+    const ENDS: &'static [usize] = &deldrift_options::ENDS;
+    const SIZE: &'static str = "options.struct_size";
+    const SIZE_OF: &'static str = "sizeof(deldrift_options)";
+}
+
+/// Options as a call is given them.
+pub(super) type GivenOptions<'a> = Given<'a, deldrift_options>;
+
+/// A structure as a call is given it: as much of it as the program's header knows. Its size comes first.
+#[derive(Clone, Copy)]
+pub(super) struct Given<'a, T> {
+    argument: &'static str,
+    size: Input<'a, usize>,
+    bytes: *const u8,
+    whole: PhantomData<T>,
+}
+
+impl<'a, T: Growing> Given<'a, T> {
     /// # Safety
-    /// `options` is NULL, misaligned, or points to as many bytes as its first field says.
-    pub(super) unsafe fn new(argument: &'static str, options: *const deldrift_options) -> Self {
+    /// `structure` is NULL, misaligned, or points to as many bytes as its first field says.
+    pub(super) unsafe fn new(argument: &'static str, structure: *const T) -> Self {
         // SAFETY: the caller's promise: the size comes first, with the alignment of the whole.
-        GivenOptions { size: unsafe { Input::new(argument, options.cast()) }, bytes: options.cast() }
+        let size = unsafe { Input::new(argument, structure.cast()) };
+        Given { argument, size, bytes: structure.cast(), whole: PhantomData }
+    }
+
+    /// Reads what is there, which must not be NULL.
+    pub(super) fn get(self) -> Result<T, Failure> {
+        self.size.get()?;
+        self.read()
     }
 
     /// The bytes of the structure, if there is one and its size may be right.
     fn bytes(&self) -> Result<Option<&'a [u8]>, Failure> {
         let Some(&size) = self.size.if_any()? else { return Ok(None) };
-        let least = deldrift_options::DEFAULT.struct_size;
-        if size > GREATEST_SIZE || (size < least && !deldrift_options::ENDS.contains(&size)) {
-            return Err(misfit(size, "sizeof(deldrift_options)"));
+        if size > GREATEST_SIZE || (size < size_of::<T>() && !T::ENDS.contains(&size)) {
+            return Err(misfit::<T>(size, T::SIZE_OF));
         }
         // SAFETY: so many bytes were promised to `new`.
-        unsafe { Array::new("options", self.bytes, size) }.get().map(Some)
+        unsafe { Array::new(self.argument, self.bytes, size) }.get().map(Some)
     }
 
-    /// Reads the part that the library knows, and checks that beyond it there is nothing but zeros.
-    pub(super) fn read(self) -> Result<deldrift_options, Failure> {
-        let mut read = MaybeUninit::new(deldrift_options::DEFAULT);
-        let Some(given) = self.bytes()? else { return Ok(deldrift_options::DEFAULT) };
-        let (known, beyond) = given.split_at(given.len().min(deldrift_options::DEFAULT.struct_size));
+    /// Reads the part that the library knows, and checks that beyond it there is nothing but zeros. The defaults if it is
+    /// NULL.
+    pub(super) fn read(self) -> Result<T, Failure> {
+        let mut read = MaybeUninit::new(T::DEFAULT);
+        let Some(given) = self.bytes()? else { return Ok(T::DEFAULT) };
+        let (known, beyond) = given.split_at(given.len().min(size_of::<T>()));
         if beyond.iter().any(|&byte| byte != 0) {
-            return Err(misfit(given.len(), "no more than this version's sizeof, or all zero beyond it"));
+            return Err(misfit::<T>(
+                given.len(),
+                "no more than this version's sizeof, or all zero beyond it",
+            ));
         }
         // SAFETY: `known` is no longer than the structure and ends behind a field, so that what is
         // assembled has whole fields from either side; numbers and nullable pointers allow any bits.
@@ -171,8 +205,8 @@ impl<'a> GivenOptions<'a> {
     }
 }
 
-fn misfit(size: usize, wanted: &'static str) -> Failure {
-    Failure::Option { field: "options.struct_size", value: size as u64, wanted }
+fn misfit<T: Growing>(size: usize, wanted: &'static str) -> Failure {
+    Failure::Option { field: T::SIZE, value: size as u64, wanted }
 }
 
 /// The callbacks of one triangulation.

@@ -50,7 +50,7 @@ pub use reading::geometry::{BoundaryFacet, Interpolation, OrderedStar, Rows, Ver
 pub use reading::query::Location;
 pub(crate) use reading::query::cells_at;
 pub use reading::saving::Saved;
-pub use report::{CommitReport, QualityReport};
+pub use report::{CommitReport, QualityReport, VertexWeights};
 pub use state::cells::{NO_CELL, NO_CORNER, OwnedCells};
 pub use state::changes::{Changes, NO_VERTEX};
 pub(crate) use state::checking::{check_not_negative, check_position};

@@ -140,11 +140,13 @@ pub struct RefineOptions {
     pub keeps: Kept,
     /// Greatest number of vertices added.
     pub limit: usize,
+    /// Whether [`refined_weights`](super::MovingTriangulation::refined_weights) is to be known.
+    pub has_weights: bool,
 }
 
 impl Default for RefineOptions {
     fn default() -> Self {
-        RefineOptions { keeps: Kept::None, limit: usize::MAX }
+        RefineOptions { keeps: Kept::None, limit: usize::MAX, has_weights: false }
     }
 }
 

@@ -1,4 +1,6 @@
-//! What a commit reports.
+//! What a commit reports, and a refinement.
+
+use crate::ids::VertexId;
 
 /// What one commit did; summed over all commits and immediate calls in
 /// [`statistics`](super::MovingTriangulation::statistics).
@@ -68,6 +70,16 @@ impl Evaluations {
             link_sites: self.link_sites - before.link_sites,
         }
     }
+}
+
+/// How linear values at a vertex that a [`refine`](super::MovingTriangulation::refine) has inserted follow from those at
+/// vertices that were there: the sum of their values by these weights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VertexWeights {
+    /// The corners of the cell that it was put into; on a segment its two ends, the first one twice.
+    pub vertices: [VertexId; 3],
+    /// From 0 to 1, with a sum of 1 but for rounding.
+    pub weights: [f64; 3],
 }
 
 /// What a [`refine`](super::MovingTriangulation::refine) or [`coarsen`](super::MovingTriangulation::coarsen) did.

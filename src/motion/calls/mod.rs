@@ -9,3 +9,4 @@ pub(in crate::motion) mod immediate;
 pub(in crate::motion) mod moves;
 pub(in crate::motion) mod refining;
 pub(in crate::motion) mod segments;
+mod weighing;

@@ -87,6 +87,9 @@ impl MovingTriangulation<Plane> {
         let copied = self.copy_for_refinement(quality, mask)?;
         let areas = none_where_zero(quality.areas)?;
         let mut tests = Tests::new(criteria(quality, &areas), copied.extent);
+        if let Some(made) = &mut self.made {
+            made.set_weights(Vec::new(), 0);
+        }
         let mut report =
             QualityReport { bad_cells: self.count_bad(quality, &tests, &copied)?, ..Default::default() };
         if report.bad_cells == 0 || tests.are_none() {
@@ -125,7 +128,12 @@ impl MovingTriangulation<Plane> {
         };
         let mut on_segments = Vec::new();
         memory::collect(&mut on_segments, refined.vertices.iter().map(|&(_, edge)| on(edge)))?;
+        let edges =
+            refined.vertices.iter().map(|&(_, edge)| (edge != NONE).then(|| copied.edges[edge as usize]));
+        let weights = if options.has_weights { self.weights_of(&points, edges)? } else { Vec::new() };
         self.commit_quality(&points, &on_segments, &[], changes, &mut report)?;
+        let timestamp = self.timestamp();
+        self.made.as_mut().expect("it has been made").set_weights(weights, timestamp);
         Ok(report)
     }
 

@@ -5,6 +5,7 @@
 use crate::error::Result;
 use crate::ids::{SegmentId, VertexId};
 use crate::machine::memory;
+use crate::motion::report::VertexWeights;
 
 /// The segment that a piece was made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,6 +21,10 @@ pub(in crate::motion) struct Made {
     vertices: Vec<(VertexId, SegmentId)>,
     /// Ascending.
     pieces: Vec<(SegmentId, Origin)>,
+    /// Those of the vertices that the last refinement inserted.
+    weights: Vec<VertexWeights>,
+    /// The timestamp that it reached.
+    refined_at: u64,
 }
 
 impl Made {
@@ -32,6 +37,16 @@ impl Made {
     pub(in crate::motion) fn origin(&self, piece: SegmentId) -> Option<Origin> {
         let at = self.pieces.binary_search_by_key(&piece, |&(piece, _)| piece).ok()?;
         Some(self.pieces[at].1)
+    }
+
+    /// How values at the vertices that the refinement of a timestamp inserted follow from others, if that was the last one.
+    pub(in crate::motion) fn weights(&self, timestamp: u64) -> &[VertexWeights] {
+        if self.refined_at == timestamp { &self.weights } else { &[] }
+    }
+
+    /// Remembers the weights of a refinement that has reached a timestamp.
+    pub(in crate::motion) fn set_weights(&mut self, weights: Vec<VertexWeights>, timestamp: u64) {
+        (self.weights, self.refined_at) = (weights, timestamp);
     }
 
     /// Makes room for more.
@@ -62,12 +77,18 @@ impl Made {
 
     /// A copy.
     pub(in crate::motion) fn copied(&self) -> Result<Self> {
-        Ok(Made { vertices: memory::copy_of(&self.vertices)?, pieces: memory::copy_of(&self.pieces)? })
+        Ok(Made {
+            vertices: memory::copy_of(&self.vertices)?,
+            pieces: memory::copy_of(&self.pieces)?,
+            weights: memory::copy_of(&self.weights)?,
+            refined_at: self.refined_at,
+        })
     }
 
     /// A copy in which the vertices have other ids, in their order: by the old ones, [`VertexId::NONE`] for those removed.
     pub(in crate::motion) fn renumbered(&self, ids: &[VertexId]) -> Result<Self> {
         let mut copy = self.copied()?;
+        copy.weights = Vec::new();
         copy.vertices.iter_mut().for_each(|(v, _)| *v = ids[*v]);
         copy.vertices.retain(|&(v, _)| v != VertexId::NONE);
         copy.pieces.iter_mut().for_each(|(_, origin)| {
@@ -77,6 +98,6 @@ impl Made {
     }
 
     pub(in crate::motion) fn memory_bytes(&self) -> usize {
-        memory::bytes_of(&self.vertices) + memory::bytes_of(&self.pieces)
+        memory::bytes_of(&self.vertices) + memory::bytes_of(&self.pieces) + memory::bytes_of(&self.weights)
     }
 }

@@ -1,0 +1,454 @@
+//! Refinement and coarsening of the cells of a domain.
+
+use std::ffi::c_void;
+use std::mem::offset_of;
+use std::ptr;
+
+use super::domain::of_the_plane;
+use super::guard;
+use super::handle::{Changing, Reading, deldrift_triangulation};
+use super::options::{Given, Growing, invalid};
+use super::pointers::{Array, Buffer, Output, fill_all, given, write_all};
+use super::status::{Failure, deldrift_status};
+use crate::delaunay::Plane;
+use crate::either::AnyTriangulation;
+use crate::error::Error;
+use crate::ids::VertexId;
+use crate::machine::memory;
+use crate::machine::tally;
+use crate::motion::{
+    CoarsenOptions, Kept, MovingTriangulation, Quality, QualityReport, RefineOptions, TooLarge,
+};
+
+/// Which segments deldrift_refine keeps whole.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum deldrift_kept {
+    /// None: the quality is reached wherever angles between segments allow it.
+    DELDRIFT_KEPT_NONE = 0,
+    /// Those with cells to be refined on one side only: the boundary of the cells that are refined.
+    DELDRIFT_KEPT_OUTER = 1,
+    /// All.
+    DELDRIFT_KEPT_ALL = 2,
+}
+
+/// Which segments are kept whole as it arrives from C, where any number may be passed.
+pub type KeptCode = u32;
+
+/// What deldrift_refine and deldrift_coarsen work towards, and how. Initialise it with deldrift_quality_init, then set what
+/// should differ from the defaults: without a criterion nothing is done.
+///
+/// The structure may grow in later versions, as deldrift_options does: struct_size says how much of it the program knows.
+///
+/// Arrays are read during the call only.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct deldrift_quality {
+    /// sizeof(deldrift_quality) as the program sees it.
+    pub struct_size: usize,
+    /// The least angle of a cell in degrees, up to 34; 0, the default, for any. Up to 26.5 degrees refinement ends wherever
+    /// angles between segments are at least 60 degrees, as is proved; above it does in practice.
+    pub least_angle: f64,
+    /// The greatest area of a cell; 0, the default, for any.
+    pub greatest_area: f64,
+    /// A label for each cell, in the order of deldrift_cells, as deldrift_label_cells gives them; NULL, the default, for 0.
+    pub labels: *const i32,
+    /// How many labels there are: as many as cells, or 0.
+    pub label_count: usize,
+    /// The greatest area of cells by label, 0 for any: that of label k is areas[k], and labels below 0 and beyond have none.
+    /// New cells have the label of the region that they are in. NULL by default.
+    pub areas: *const f64,
+    /// How many areas there are.
+    pub area_count: usize,
+    /// By vertex id the greatest length of edges there: no edge of a cell is longer than the mean at its corners. New
+    /// vertices have what is between. Above 0; entries of removed vertices are not used. NULL, the default, for any.
+    pub sizes: *const f64,
+    /// How many sizes there are: as many as ids, or 0.
+    pub size_count: usize,
+    /// Another criterion: whether a cell is too large, with the coordinates of its corners, 6 numbers, counter-clockwise. It
+    /// has to give the same answer for the same corners, and to be false for cells that are small enough. It is called from
+    /// inside the call as the callbacks of deldrift_options are. NULL, the default, for none.
+    pub is_too_large: Option<unsafe extern "C" fn(user_data: *mut c_void, corners: *const f64) -> bool>,
+    /// Handed to is_too_large as it is.
+    pub user_data: *mut c_void,
+    /// Which segments deldrift_refine keeps whole: default DELDRIFT_KEPT_NONE. Cells at those that it keeps may stay bad.
+    pub keeps: KeptCode,
+    /// Not 0 if deldrift_refined_weights will be asked for. Default 0.
+    pub has_weights: u32,
+    /// Greatest number of vertices that deldrift_refine inserts: default SIZE_MAX.
+    pub limit: usize,
+    /// By how many degrees the angles of cells that come by deldrift_coarsen have to be above the least one, so that the
+    /// vertex that went is not missed at once: from 0 to 30, default 2.
+    pub margin: f64,
+    /// The share of the greatest areas and lengths that cells that come by deldrift_coarsen may have: above 0 and at most 1,
+    /// default 0.9.
+    pub share: f64,
+    /// Two pieces of a segment are joined by deldrift_coarsen if the vertex between them is on the line through their other
+    /// ends, or off it by no more than this share of the distance of these: from 0 to 1. The default, 1e-9, is above what
+    /// the rounding of motions adds up to.
+    pub joins: f64,
+}
+
+impl Growing for deldrift_quality {
+    const DEFAULT: Self = deldrift_quality {
+        struct_size: size_of::<deldrift_quality>(),
+        least_angle: 0.0,
+        greatest_area: 0.0,
+        labels: ptr::null(),
+        label_count: 0,
+        areas: ptr::null(),
+        area_count: 0,
+        sizes: ptr::null(),
+        size_count: 0,
+        is_too_large: None,
+        user_data: ptr::null_mut(),
+        keeps: 0,
+        has_weights: 0,
+        limit: usize::MAX,
+        margin: 2.0,
+        share: 0.9,
+        joins: 1e-9,
+    };
+    const ENDS: &'static [usize] = &[
+        offset_of!(deldrift_quality, greatest_area),
+        offset_of!(deldrift_quality, labels),
+        offset_of!(deldrift_quality, label_count),
+        offset_of!(deldrift_quality, areas),
+        offset_of!(deldrift_quality, area_count),
+        offset_of!(deldrift_quality, sizes),
+        offset_of!(deldrift_quality, size_count),
+        offset_of!(deldrift_quality, is_too_large),
+        offset_of!(deldrift_quality, user_data),
+        offset_of!(deldrift_quality, keeps),
+        offset_of!(deldrift_quality, has_weights),
+        offset_of!(deldrift_quality, limit),
+        offset_of!(deldrift_quality, margin),
+        offset_of!(deldrift_quality, share),
+        offset_of!(deldrift_quality, joins),
+        size_of::<deldrift_quality>(),
+    ];
+    const SIZE: &'static str = "quality.struct_size";
+    const SIZE_OF: &'static str = "sizeof(deldrift_quality)";
+}
+
+/// What deldrift_refine or deldrift_coarsen did.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct deldrift_quality_report {
+    /// Vertices inserted. Their ids are the last ones below deldrift_id_count.
+    pub inserted: u64,
+    /// How many of them are on segments.
+    pub on_segments: u64,
+    /// Vertices removed.
+    pub removed: u64,
+    /// Segments removed, as pieces took the place of one, or one that of pieces.
+    pub replaced_segments: u64,
+    /// Segments that came. Their ids are the last ones that have been given.
+    pub new_segments: u64,
+    /// Pieces that had to be split and are whole, as there is no room for a vertex between their ends.
+    pub unsplit: u64,
+    /// Cells that are still bad, of those that were to be refined: at small angles between segments, at segments that are
+    /// kept whole, and where the limit was reached.
+    pub bad_cells: u64,
+    /// 1 if the limit was reached, otherwise 0.
+    pub is_cut_short: u64,
+    /// Zero; later versions may count more.
+    pub reserved: [u64; 4],
+}
+
+impl From<QualityReport> for deldrift_quality_report {
+    fn from(report: QualityReport) -> Self {
+        Self {
+            inserted: report.inserted as u64,
+            on_segments: report.on_segments as u64,
+            removed: report.removed as u64,
+            replaced_segments: report.replaced_segments as u64,
+            new_segments: report.new_segments as u64,
+            unsplit: report.unsplit as u64,
+            bad_cells: report.bad_cells as u64,
+            is_cut_short: u64::from(report.is_cut_short),
+            reserved: [0; 4],
+        }
+    }
+}
+
+/// Sets a quality to the defaults: no criterion.
+///
+/// Cost: constant.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_quality_init(quality: *mut deldrift_quality) -> deldrift_status {
+    given!(quality: Output);
+    guard::enter(|| {
+        quality.place()?.write(deldrift_quality::DEFAULT);
+        Ok(())
+    })
+}
+
+/// Inserts vertices into cells of the plane, and on segments at these, until the cells there are of a quality: one commit of
+/// its own, all or nothing, of which deldrift_take_changes tells what it changed. docs/SEGMENTS.md has a loop that moves,
+/// commits, coarsens and refines.
+///
+/// quality: what is wanted. mask: mask_count bytes, one for each cell in the order of deldrift_cells (mask_count must be
+/// deldrift_cell_count): cells are refined if their byte is not 0. They have to end at segments: at an edge beyond which
+/// there is no cell, or one that is not refined, there has to be one. NULL with mask_count 0 for the domain: the cells that
+/// have an odd nesting level (see deldrift_nesting_levels). Read during the call only. report: receives what was done; may
+/// be NULL. Ends all views if anything was inserted.
+///
+/// A segment that gets a vertex is removed, and pieces take its place, with its marker: see deldrift_original_segments. The
+/// places of new vertices are rounded, and pieces are straight between their own ends. Cells where the quality cannot be had
+/// stay: between segments at a small angle, at segments that stay whole, and where there is no room for a vertex. The report
+/// tells how many.
+///
+/// Where all is good already, nothing is committed.
+///
+/// Cost: m, s log s for s segments, and for each vertex inserted, on the average, a constant.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
+/// DELDRIFT_INVALID_OPTIONS for struct_size and keeps, DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE for a number of quality
+/// that has no meaning and for a mask that does not end at segments, DELDRIFT_STAGED_VERTEX if anything is staged,
+/// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED, and
+/// DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING where pieces that are bent by rounding would touch others (see
+/// deldrift_segment_conflicts). Not to be called at the same time as any other call on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_refine(
+    t: *mut deldrift_triangulation,
+    quality: *const deldrift_quality,
+    mask: *const u8,
+    mask_count: usize,
+    report: *mut deldrift_quality_report,
+) -> deldrift_status {
+    given!(t: Changing, quality: Given, mask[mask_count]: Array, report: Output);
+    improve(t, quality, mask, mask_count, report, |t, given, quality, mask| {
+        let options = RefineOptions {
+            keeps: kept_of(given.keeps)?,
+            limit: given.limit,
+            has_weights: given.has_weights != 0,
+        };
+        Ok(t.refine(quality, &options, mask)?)
+    })
+}
+
+/// Removes vertices that deldrift_refine has inserted and that are not needed any more: those around which the cells would
+/// still be of the quality, by a margin. Pieces of a segment are joined again. One commit of its own, all or nothing, of
+/// which deldrift_take_changes tells what it changed.
+///
+/// Arguments are those of deldrift_refine. keeps, has_weights and limit of the quality are not used.
+///
+/// Around cells that are of lower quality already, those that come may have angles as small: call it before deldrift_refine,
+/// which then has less to insert.
+///
+/// Cost: that of deldrift_refine where all is good, and for each vertex that deldrift_refine has inserted at most that of
+/// looking at the cells around it.
+///
+/// Errors: those of deldrift_refine. Not to be called at the same time as any other call on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_coarsen(
+    t: *mut deldrift_triangulation,
+    quality: *const deldrift_quality,
+    mask: *const u8,
+    mask_count: usize,
+    report: *mut deldrift_quality_report,
+) -> deldrift_status {
+    given!(t: Changing, quality: Given, mask[mask_count]: Array, report: Output);
+    improve(t, quality, mask, mask_count, report, |t, given, quality, mask| {
+        let options = CoarsenOptions { margin: given.margin, share: given.share, joins: given.joins };
+        Ok(t.coarsen(quality, &options, mask)?)
+    })
+}
+
+/// The vertices that deldrift_refine has inserted and that are present, ascending by id.
+///
+/// vertices: a buffer with room for capacity ids; segments: for as many: the segment that the vertex was put on, by the id
+/// that it had before it was split, DELDRIFT_NONE if there is none. One that is NULL is not filled. count: receives the
+/// number of vertices, which is also written when the buffers are too small. NULL for both with capacity 0 asks for the
+/// count alone.
+///
+/// Cost: the vertices inserted so far.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_made_vertices(
+    t: *const deldrift_triangulation,
+    vertices: *mut u32,
+    segments: *mut u32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    given!(t: Reading, vertices[capacity]: Buffer, segments[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        let t = of_the_plane(t)?;
+        let n = t.made_vertices().count();
+        fill_all(count, n, capacity, [vertices.offer(), segments.offer()], || {
+            let (vertices, segments) = (vertices.places_if_any(n)?, segments.places_if_any(n)?);
+            write_all(vertices, t.made_vertices().map(|(v, _)| v.get()));
+            write_all(segments, t.made_vertices().map(|(_, segment)| segment.get()));
+            Ok(())
+        })
+    })
+}
+
+/// For each segment in force, in the order of deldrift_segments, the id of the segment of which deldrift_refine has made it
+/// a piece, which is not in force any more; its own id if it is whole.
+///
+/// originals: a buffer with room for capacity ids. count: receives the number of segments, which is also written when the
+/// buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Cost: the ids of segments given so far, and of s segments s log s.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_original_segments(
+    t: *const deldrift_triangulation,
+    originals: *mut u32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    given!(t: Reading, originals[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        let t = of_the_plane(t)?;
+        originals.fill(count, t.segments().count(), || {
+            Ok(t.segments().map(|(id, _)| t.original_segment(id).get()))
+        })
+    })
+}
+
+/// For each vertex that the last deldrift_refine inserted, in the order of their ids, how linear values there follow from
+/// those at the vertices before: the sum of the values of three vertices by their weights. So
+///
+///     value[id_count - inserted + k] = sum of weights[3 k + i] * value[vertices[3 k + i]] for i = 0, 1, 2
+///
+/// carries values at vertices over. It has to have been called with has_weights, and neither a commit nor a compaction must
+/// have come since; otherwise there are none.
+///
+/// vertices: a buffer with room for capacity rows of 3 ids, those of the corners of the cell that the vertex was put into;
+/// on a segment its two ends, the first one twice. weights: for as many rows of 3 numbers, from 0 to 1, with a sum of 1 but
+/// for rounding. One that is NULL is not filled. count: receives the number of vertices, which is also written when the
+/// buffers are too small. NULL for both with capacity 0 asks for the count alone.
+///
+/// Cost: the vertices inserted.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_refined_weights(
+    t: *const deldrift_triangulation,
+    vertices: *mut u32,
+    weights: *mut f64,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    let (vertices, weights) = (vertices.cast::<[u32; 3]>(), weights.cast::<[f64; 3]>());
+    given!(t: Reading, vertices[capacity]: Buffer, weights[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        let rows = of_the_plane(t)?.refined_weights();
+        fill_all(count, rows.len(), capacity, [vertices.offer(), weights.offer()], || {
+            let (vertices, weights) =
+                (vertices.places_if_any(rows.len())?, weights.places_if_any(rows.len())?);
+            write_all(vertices, rows.iter().map(|row| row.vertices.map(VertexId::get)));
+            write_all(weights, rows.iter().map(|row| row.weights));
+            Ok(())
+        })
+    })
+}
+
+/// Runs a call that improves the cells of a mask.
+fn improve(
+    t: Changing<'_>,
+    quality: Given<'_, deldrift_quality>,
+    mask: Array<'_, u8>,
+    mask_count: usize,
+    report: Output<'_, deldrift_quality_report>,
+    body: impl FnOnce(
+        &mut MovingTriangulation<Plane>,
+        &deldrift_quality,
+        &Quality,
+        &[u8],
+    ) -> Result<QualityReport, Failure>,
+) -> deldrift_status {
+    t.change(|t| {
+        let AnyTriangulation::Plane(t) = t else { return Err(Failure::NotOfThePlane) };
+        let given = quality.get()?;
+        let report = report.if_any()?;
+        let is_whole_domain = mask.is_null() && mask_count == 0;
+        if !is_whole_domain {
+            t.check_mask(mask_count)?;
+        }
+        let domain = if is_whole_domain { domain_of(t)? } else { Vec::new() };
+        let mask = if is_whole_domain { &domain } else { mask.get()? };
+        let is_too_large = given.is_too_large.map(|is_too_large| {
+            move |corners: [[f64; 2]; 3]| {
+                // SAFETY: the caller set both, the one for the other, and the corners are 6 numbers.
+                let ask = || unsafe { is_too_large(given.user_data, corners.as_ptr().cast()) };
+                tally::uncounted(|| guard::call_back(ask))
+            }
+        });
+        let quality = Quality {
+            least_angle: given.least_angle,
+            greatest_area: given.greatest_area,
+            labels: array("quality.labels", given.labels.cast(), given.label_count)?,
+            areas: array("quality.areas", given.areas, given.area_count)?.unwrap_or_default(),
+            sizes: array("quality.sizes", given.sizes, given.size_count)?,
+            is_too_large: is_too_large.as_ref().map(|is_too_large| is_too_large as TooLarge),
+        };
+        let done = body(t, &given, &quality, mask).map_err(of_quality)?;
+        if let Some(report) = report {
+            report.write(done.into());
+        }
+        Ok(())
+    })
+}
+
+/// An array that a quality names: none if its pointer is NULL and its count 0.
+fn array<'a, T>(argument: &'static str, pointer: *const T, count: usize) -> Result<Option<&'a [T]>, Failure> {
+    if pointer.is_null() && count == 0 {
+        return Ok(None);
+    }
+    // SAFETY: the header has the caller promise that it is NULL, misaligned, or to so many values.
+    let values = unsafe { Array::new(argument, pointer, count) }.get()?;
+    Ok(Some(values))
+}
+
+/// The cells of an odd nesting level.
+fn domain_of(t: &MovingTriangulation<Plane>) -> Result<Vec<u8>, Failure> {
+    let mut mask = Vec::new();
+    memory::collect(&mut mask, t.nesting_levels()?.into_iter().map(|level| (level % 2) as u8))?;
+    Ok(mask)
+}
+
+fn kept_of(code: KeptCode) -> Result<Kept, Failure> {
+    use deldrift_kept::*;
+    [(DELDRIFT_KEPT_NONE, Kept::None), (DELDRIFT_KEPT_OUTER, Kept::Outer), (DELDRIFT_KEPT_ALL, Kept::All)]
+        .into_iter()
+        .find(|&(known, _)| known as u32 == code)
+        .map(|(_, kept)| kept)
+        .ok_or_else(|| invalid("quality.keeps", code, "a deldrift_kept"))
+}
+
+/// An error about a quality, in the names of its fields.
+fn of_quality(failure: Failure) -> Failure {
+    let name = |argument: &'static str, is_count: bool| match (argument, is_count) {
+        ("labels", true) => "quality.label_count",
+        ("sizes", true) => "quality.size_count",
+        ("sizes", false) => "quality.sizes",
+        ("areas", false) => "quality.areas",
+        ("least_angle", false) => "quality.least_angle",
+        ("greatest_area", false) => "quality.greatest_area",
+        ("margin", false) => "quality.margin",
+        ("share", false) => "quality.share",
+        ("joins", false) => "quality.joins",
+        (other, _) => other,
+    };
+    match failure {
+        Failure::Call(Error::InvalidValue { argument, index, value, wanted }) => {
+            Error::InvalidValue { argument: name(argument, false), index, value, wanted }.into()
+        }
+        Failure::Call(Error::WrongCount { argument, given, wanted, coming }) => {
+            Error::WrongCount { argument: name(argument, true), given, wanted, coming }.into()
+        }
+        other => other,
+    }
+}
