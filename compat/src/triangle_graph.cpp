@@ -172,9 +172,16 @@ void Graph::resolve(const std::vector<deldrift_conflict> &conflicts) {
     is_plain_ = false;
     std::vector<std::vector<std::uint32_t>> on_pieces(count());
     std::vector<Crossing> crossings;
+    bool has_points = false;
     for (const deldrift_conflict &each : conflicts) {
-        if (each.kind == DELDRIFT_CONFLICT_ON_SEGMENT) on_pieces[each.segment].push_back(each.other);
-        if (each.kind != DELDRIFT_CONFLICT_CROSSING) continue;
+        if (each.kind != DELDRIFT_CONFLICT_ON_SEGMENT) continue;
+        on_pieces[each.segment].push_back(each.other);
+        has_points = true;
+    }
+    // Crossings wait for the next round where there are points on segments: what overlaps is one piece then, which is
+    // crossed once.
+    for (const deldrift_conflict &each : conflicts) {
+        if (has_points || each.kind != DELDRIFT_CONFLICT_CROSSING) continue;
         const std::uint32_t earlier = std::min(each.segment, each.other), later = std::max(each.segment, each.other);
         crossings.push_back({earlier, later, crossing_along(at(ends_[std::size_t{2} * later]),
                                                             at(ends_[std::size_t{2} * later + 1]),
