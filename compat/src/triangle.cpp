@@ -19,6 +19,7 @@
 #include "triangle_graph.hpp"
 #include "triangle_mesh.hpp"
 #include "triangle_original.hpp"
+#include "triangle_refining.hpp"
 #include "triangle_switches.hpp"
 #include "triangle_writer.hpp"
 
@@ -59,6 +60,7 @@ bool is_valid(const Call &call, const TriangleSwitches &switches) {
         complain(name, "%s", what);
         return false;
     };
+    if (!switches.wrong.empty()) return reject(switches.wrong.c_str());
     if (call.in == nullptr) return reject("in is NULL");
     if (call.out == nullptr) return reject("out is NULL");
     if (switches.voronoi && call.vorout == nullptr) return reject("vorout is NULL, and switch v needs it");
@@ -104,7 +106,10 @@ public:
             return;
         }
         const Cells cells{3, view.count, view.vertices, view.neighbours};
-        mesh_ = switches.has_segments() ? carve(switches, in_, graph_, triangulation_.get(), cells) : plain_mesh(cells);
+        if (!switches.has_segments()) mesh_ = plain_mesh(cells);
+        else if (switches.refines && cells.count > 0)
+            message_ = refine(switches, in_, graph_, triangulation_.get(), refined_, mesh_);
+        else mesh_ = carved_mesh(switches, cells);
     }
 
     // Why the call cannot be served; empty if it was.
@@ -128,6 +133,13 @@ private:
         if (message_.empty() && graph_.is_plain()) triangulation_.has_segments();
     }
 
+    Mesh carved_mesh(const TriangleSwitches &switches, const Cells &cells) const {
+        Carver carver(in_, outline_of(graph_, in_), triangulation_.get(), cells);
+        if (switches.encloses()) carver.enclose();
+        carver.carve(switches);
+        return carver.finish(switches);
+    }
+
     Mesh plain_mesh(const Cells &cells) const {
         Mesh mesh;
         mesh.n_points = graph_.n_points();
@@ -142,6 +154,7 @@ private:
     triangulateio in_;
     Graph graph_;
     Borrowed triangulation_;
+    Triangulation refined_;
     Mesh mesh_;
     std::string message_;
 };
@@ -215,7 +228,7 @@ int pass_on(const Call &call, const std::string &unserved, Function original) {
 
 // Empty if deldrift serves the call.
 std::string what_is_unserved(const TriangleSwitches &switches, const triangulateio *in) {
-    if (switches.unserved != '\0') return std::string("switch ") + switches.unserved;
+    if (!switches.unserved.empty()) return switches.unserved;
     const char *of_input = in != nullptr ? switches.unserved_input(*in) : nullptr;
     return of_input != nullptr ? of_input : "";
 }
@@ -231,6 +244,8 @@ int dispatch(const Call &call, const void *caller) {
         static std::once_flag once;
         std::call_once(once, complain, name, "DELDRIFT_COMPAT asks for Triangle, and there is none; deldrift serves");
     }
+    // Refined cells of two libraries are never the same, so there is nothing to compare or to sort.
+    if (switches.refines && original != nullptr) return pass_on(call, "", original);
     if (mode() == Mode::original && original != nullptr) return serve_by_original(call, switches, original);
     return is_valid(call, switches) ? serve(call, switches, original) : give_nothing(call);
 }

@@ -36,7 +36,9 @@ struct Mesh {
     bool has_cell_attributes = false;
     std::vector<double> cell_attributes;
 
-    OwnedCells own; // where cells are not someone else's
+    // Where they are not someone else's.
+    OwnedCells own;
+    std::vector<double> own_points, own_attributes;
 };
 
 // Everything in an order that depends on points and their numbers alone.
