@@ -7,15 +7,11 @@
 #include <utility>
 
 #include "triangle_carving.hpp"
-#include "triangle_splitting.hpp"
+#include "triangle_encroached.hpp"
 
 namespace compat {
 
 namespace {
-
-// Rounds of splitting for D and of refining the triangles that come by it. Each makes pieces half as long, so there is no
-// room left long before.
-constexpr int most_rounds = 1000;
 
 void require(deldrift_status status) {
     if (status == DELDRIFT_OUT_OF_MEMORY) throw std::bad_alloc();
@@ -69,12 +65,16 @@ public:
             origins_.push_back({outline.segments.markers[i], label(segments.cells[2 * i]), label(segments.cells[2 * i + 1])});
     }
 
+    // For D triangles at encroached segments are too large. The circumcentre of such a triangle is behind the segment,
+    // which is split then.
     void run() {
-        for (int round = 0; round < most_rounds; round++) {
-            reach_quality();
-            if (!switches_.conforms || left_ == 0 || !split()) return;
+        if (has_criterion()) insert_points(nullptr);
+        if (!switches_.conforms) return;
+        std::size_t n_inserted = 1;
+        while (n_inserted > 0) {
+            Encroached encroached = find_encroached();
+            n_inserted = encroached.is_empty() ? 0 : insert_points(&encroached);
         }
-        throw std::runtime_error("switch D: segments are encroached, however often they are split");
     }
 
     const std::vector<std::int32_t> &labels() const { return labels_; }
@@ -116,8 +116,9 @@ private:
         return kinds[std::min(switches_.n_kept, 2)];
     }
 
-    void reach_quality() {
-        if (!has_criterion() || left_ == 0) return;
+    // Until the quality is reached; how many.
+    std::size_t insert_points(Encroached *encroached) {
+        if (left_ == 0) return 0;
         deldrift_quality quality{};
         require(deldrift_quality_init(&quality));
         quality.least_angle = switches_.least_angle;
@@ -129,14 +130,18 @@ private:
         quality.keeps = keeps();
         quality.has_weights = outline_.n_attributes > 0;
         quality.limit = left_;
+        quality.is_too_large = encroached == nullptr ? nullptr : Encroached::has;
+        quality.user_data = encroached;
         std::vector<std::uint8_t> mask(labels_.size());
         for (std::size_t c = 0; c < mask.size(); c++) mask[c] = labels_[c] != eaten;
         deldrift_quality_report report{};
         require(deldrift_refine(t_, &quality, mask.data(), mask.size(), &report));
-        if (report.inserted == 0) return;
-        left_ -= static_cast<std::size_t>(report.inserted);
-        add_points(static_cast<std::size_t>(report.inserted));
+        const std::size_t n_inserted = static_cast<std::size_t>(report.inserted);
+        if (n_inserted == 0) return 0;
+        left_ -= n_inserted;
+        add_points(n_inserted);
         follow();
+        return n_inserted;
     }
 
     // Places, attributes and markers of the points that were inserted last.
@@ -209,55 +214,22 @@ private:
         std::replace(labels_.begin(), labels_.end(), unknown, eaten);
     }
 
-    // Splits the pieces of which a triangle's corner is in the diametral circle. False if there is none.
-    bool split() {
+    // Triangles at encroached segments that may be split.
+    Encroached find_encroached() const {
         const InForce segments(t_);
         const Cells cells = cells_of(t_);
-        Splitting splitting(segments.ends, outline_.own_points);
-        for (std::size_t i = 0; i < segments.count() && splitting.count() < left_; i++) {
-            bool is_encroached = false, is_outer = false;
-            for (const std::uint32_t cell : {segments.cells[2 * i], segments.cells[2 * i + 1]}) {
-                const bool is_taken = cell == no_cell || labels_[cell] == eaten;
-                is_outer |= is_taken;
-                is_encroached |= !is_taken && splitting.is_encroached(i, cells.vertices + std::size_t{3} * cell);
-            }
-            const bool may_be_split = switches_.n_kept == 0 || (switches_.n_kept == 1 && !is_outer);
-            if (is_encroached && may_be_split) splitting.add(i);
+        Encroached encroached;
+        for (std::size_t i = 0; i < segments.count(); i++) {
+            const auto is_taken = [&](std::uint32_t cell) { return cell == no_cell || labels_[cell] == eaten; };
+            const std::uint32_t *sides = &segments.cells[2 * i];
+            const bool is_outer = is_taken(sides[0]) || is_taken(sides[1]);
+            if (switches_.n_kept > 1 || (switches_.n_kept == 1 && is_outer)) continue;
+            for (int side = 0; side < 2; side++)
+                if (!is_taken(sides[side]))
+                    encroached.add_if_encroached(cells.vertices + std::size_t{3} * sides[side], &segments.ends[2 * i],
+                                                 outline_.own_points);
         }
-        if (splitting.count() > 0) commit(segments, splitting);
-        return splitting.count() > 0;
-    }
-
-    void commit(const InForce &segments, const Splitting &splitting) {
-        std::vector<std::uint32_t> removed, ends;
-        const std::size_t n_before = outline_.own_points.size() / 2;
-        for (std::size_t k = 0; k < splitting.count(); k++) {
-            const std::size_t i = splitting.segments()[k];
-            const std::uint32_t start = segments.ends[2 * i], end = segments.ends[2 * i + 1];
-            const std::uint32_t point = static_cast<std::uint32_t>(n_before + k);
-            removed.push_back(segments.ids[i]);
-            ends.insert(ends.end(), {start, point, point, end});
-            const Origin origin = origins_[segments.ids[i]];
-            outline_.point_markers.push_back(origin.marker);
-            const std::size_t width = outline_.n_attributes;
-            std::vector<double> &values = outline_.own_attributes;
-            for (std::size_t c = 0; c < width; c++) {
-                const double from = values[start * width + c], to = values[end * width + c];
-                values.push_back(from + splitting.along()[k] * (to - from));
-            }
-            for (int piece = 0; piece < 2; piece++) new_origins_.push_back(origin);
-        }
-        outline_.own_points.insert(outline_.own_points.end(), splitting.places().begin(), splitting.places().end());
-        std::uint32_t first_point = 0, first_segment = 0;
-        require(deldrift_stage_insertions(t_, splitting.places().data(), splitting.count(), &first_point));
-        require(deldrift_stage_segment_removals(t_, removed.data(), removed.size()));
-        require(deldrift_stage_segments(t_, ends.data(), nullptr, ends.size() / 2, &first_segment));
-        require(deldrift_commit_timestamp(t_, nullptr));
-        left_ -= splitting.count();
-        origins_.resize(first_segment, origins_.front());
-        origins_.insert(origins_.end(), new_origins_.begin(), new_origins_.end());
-        new_origins_.clear();
-        label(InForce(t_));
+        return encroached;
     }
 
     const TriangleSwitches &switches_;
@@ -266,7 +238,7 @@ private:
     std::vector<std::int32_t> labels_;
     std::size_t left_; // how many points may be added
     std::vector<double> areas_;
-    std::vector<Origin> origins_, new_origins_; // by the id of the segment
+    std::vector<Origin> origins_; // by the id of the segment
 };
 
 // Brings the segments of the outline that the hull has been given into the triangulation.

@@ -288,9 +288,12 @@ def compare_areas(own, other, places, first):
     check_delaunay(own[0], places[0], first)
 
 
-def check_delaunay(out, points, first):
-    """No corner opposite an edge that is no segment is inside the circle at the other side."""
-    segments = {tuple(sorted(row)) for row in rows(out.segmentlist, out.numberofsegments, 2).astype(int).tolist()}
+def check_delaunay(out, points, first, opaque=None):
+    """No corner opposite an edge that is not opaque, as segments are, is inside the circle at the other side."""
+    segments = opaque
+    if opaque is None:
+        ends = rows(out.segmentlist, out.numberofsegments, 2).astype(int)
+        segments = {tuple(sorted(row)) for row in ends.tolist()}
     corners = rows(out.trianglelist, out.numberoftriangles, 3).astype(int)
     opposite = {}
     for row in corners.tolist():
