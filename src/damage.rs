@@ -151,6 +151,11 @@ pub enum Damage {
     },
     /// The hull is in several parts, winds more than once, or turns its outer side inwards.
     NotATriangulation,
+    /// A vertex that refinement is said to have made is not there, or not in order, or on a segment that there never was.
+    Made {
+        /// The id.
+        vertex: VertexId,
+    },
     /// A staged insertion has an id that is taken, or not above that of the insertion before.
     Insertion {
         /// The id.
@@ -195,6 +200,12 @@ impl fmt::Display for Damage {
             }
             Representative { vertex, given } => {
                 write!(f, "vertex {given} cannot stand for the place of vertex {vertex}")
+            }
+            Made { vertex } => {
+                write!(
+                    f,
+                    "vertex {vertex}, which refinement is said to have made, is not there, out of order, or on no segment"
+                )
             }
             Apart { vertex, representative } => {
                 write!(f, "vertex {vertex} is not at the place of vertex {representative}, which hides it")

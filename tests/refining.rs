@@ -1,5 +1,7 @@
 //! Refinement and coarsening of domains: against fresh builds, and against their criteria in exact integers.
 
+mod coarsening;
+
 use crate::common::{Rng, assert_same_cells, cell_set, check_adjacency, seeds};
 use deldrift::motion::{
     CoarsenOptions, Kept, Level, MovingTriangulation, NO_CELL, Options, Quality, QualityReport,
@@ -323,7 +325,8 @@ fn random_domains_are_refined() {
             ..Quality::default()
         };
         let keeps = *rng.pick(&[Kept::None, Kept::None, Kept::Outer, Kept::All]);
-        let options = RefineOptions { keeps, limit: if rng.one_in(4) { rng.below(60) } else { 100_000 } };
+        let limit = if rng.one_in(4) { rng.below(60) } else { 100_000 };
+        let options = RefineOptions { keeps, limit, has_weights: rng.one_in(2) };
         let before: BTreeSet<Vec<VertexId>> = cells_of(&t, &selected, 0);
         let ends: BTreeSet<SegmentId> = t.segments().map(|(id, _)| id).collect();
         let mut twin = t.try_clone(None).expect("room");

@@ -7,18 +7,30 @@ use super::roles::{Role, is_of_bytes, role};
 use super::rows::{ROWS, Row};
 
 /// Functions for triangulations of the plane alone.
-const OF_PLANE: [&str; 10] = [
+const OF_PLANE: [&str; 19] = [
+    "deldrift_update_labels",
     "deldrift_ordered_star",
     "deldrift_stage_segments",
     "deldrift_stage_segment_removals",
+    "deldrift_stage_splits",
     "deldrift_segments",
     "deldrift_segment_conflicts",
+    "deldrift_check_passings",
+    "deldrift_passings",
     "deldrift_segments_of_cells",
     "deldrift_cells_of_segments",
     "deldrift_nesting_levels",
     "deldrift_label_cells",
     "deldrift_boundary_chains",
+    "deldrift_refine",
+    "deldrift_coarsen",
+    "deldrift_made_vertices",
+    "deldrift_original_segments",
+    "deldrift_refined_weights",
 ];
+
+/// Functions that list what there is not.
+const TELL_NOTHING: [&str; 2] = ["deldrift_segment_conflicts", "deldrift_passings"];
 
 /// The source of the program.
 pub fn program(functions: &[Declaration]) -> String {
@@ -39,7 +51,7 @@ pub fn program(functions: &[Declaration]) -> String {
         );
         let is_of_plane = OF_PLANE.contains(&function.name.as_str());
         let has_count = function.tells_count();
-        let _ = writeln!(text, "#define IS_STAGED {}\n#define HAS_COUNT {has_count}", row.is_staged);
+        let _ = writeln!(text, "#define BASE {}\n#define HAS_COUNT {has_count}", row.base);
         let _ = writeln!(text, "static void of_{}(void) {{", function.name);
         let mut cases = Cases { function, row, text: &mut text };
         if is_of_plane {
@@ -54,12 +66,12 @@ pub fn program(functions: &[Declaration]) -> String {
             cases.line("if (dimension == 3) return;");
         }
         cases.all();
-        text += "}\n#undef IS_STAGED\n#undef HAS_COUNT\n\n";
+        text += "}\n#undef BASE\n#undef HAS_COUNT\n\n";
         let takes_t = function.takes_t();
         let _ = writeln!(
             list,
             "    {{\"{0}\", {takes_t}, {is_of_plane}, {1}, {has_count}, of_{0}}},",
-            function.name, row.is_staged
+            function.name, row.base
         );
         let _ = writeln!(calls, "        case {k}: return {};", call(function, row.arguments));
     }
@@ -185,8 +197,8 @@ impl Cases<'_> {
             Role::Handle if self.function.name == "deldrift_destroy" => "(deldrift_triangulation *)odd",
             _ => "odd",
         };
-        // There is no conflict to be written.
-        if role == Role::Buffer && self.function.name == "deldrift_segment_conflicts" {
+        // There is nothing to be written.
+        if role == Role::Buffer && TELL_NOTHING.contains(&self.function.name.as_str()) {
             return self.legal("misaligned", at, "an odd address", wrong);
         }
         let message = format!("\"{} is 0x\"", parameter.name);
@@ -286,6 +298,13 @@ impl Cases<'_> {
                 self.refused("value", at, "an algorithm that is none", &wrong, "INVALID_OPTIONS", message);
             }
             Role::ResearchOptions => self.research_options(at),
+            Role::Quality => self.quality(at),
+            Role::Mask if self.function.has("quality") => {
+                let message = "\"no segment\"";
+                self.refused("value", at, "one that ends between segments", "mask", "INVALID_VALUE", message);
+                let none = [(at, "NULL".to_string()), (at + 1, "0".to_string())];
+                self.add("null", "NULL, and 0", "OK", "", &none, "");
+            }
             Role::Data => {
                 self.legal("misaligned", at, "an odd address", "shifted(saved, saved_size)");
                 for (given, place) in [("damaged at its start", "0"), ("damaged within", "saved_size / 2")] {
@@ -325,6 +344,140 @@ impl Cases<'_> {
         ] {
             let (wrong, message) = (format!("bad_research({wrong})"), format!("\"{said}\""));
             self.refused(column, at, given, &wrong, "INVALID_OPTIONS", &message);
+        }
+    }
+
+    /// A member of a quality is another one; some are of use to one of the functions alone.
+    fn quality(&mut self, at: usize) {
+        let valid = self.row.arguments[at];
+        let refines = self.function.name == "deldrift_refine";
+        for (column, given, change, status, said) in [
+            ("zero", "a struct_size of 0", "struct_size = 0", "INVALID_OPTIONS", "struct_size is 0"),
+            (
+                "huge",
+                "a struct_size of SIZE_MAX",
+                "struct_size = SIZE_MAX",
+                "INVALID_OPTIONS",
+                "struct_size is 18446744073709551615",
+            ),
+            (
+                "value",
+                "a kind to keep that is none",
+                "keeps = (deldrift_kept)999",
+                "INVALID_OPTIONS",
+                "keeps is 999",
+            ),
+            ("nan", "an angle", "least_angle = NAN", "INVALID_VALUE", "least_angle[0] is NaN"),
+            ("infinite", "an angle", "least_angle = INFINITY", "INVALID_VALUE", "least_angle[0] is inf"),
+            ("value", "an angle above 34", "least_angle = 34.5", "INVALID_VALUE", "least_angle[0] is 34.5"),
+            ("nan", "an area", "greatest_area = NAN", "INVALID_VALUE", "greatest_area[0] is NaN"),
+            ("infinite", "an area", "greatest_area = INFINITY", "OK", ""),
+            ("value", "an area below 0", "greatest_area = -1", "INVALID_VALUE", "greatest_area[0] is -1"),
+            ("nan", "a margin", "margin = NAN", "INVALID_VALUE", "margin[0] is NaN"),
+            ("value", "a margin above 30", "margin = 31", "INVALID_VALUE", "margin[0] is 31"),
+            ("nan", "a share", "share = NAN", "INVALID_VALUE", "share[0] is NaN"),
+            ("zero", "a share of 0", "share = 0", "INVALID_VALUE", "share[0] is 0"),
+            ("nan", "what is joined", "joins = NAN", "INVALID_VALUE", "joins[0] is NaN"),
+            ("value", "what is joined, above 1", "joins = 2", "INVALID_VALUE", "joins[0] is 2"),
+            ("zero", "a limit of 0", "limit = 0", "OK", ""),
+            ("huge", "labels, SIZE_MAX", "label_count = SIZE_MAX", "NULL_ARGUMENT", "labels is NULL"),
+            ("null", "labels", "label_count = n_cells", "NULL_ARGUMENT", "labels is NULL"),
+            ("null", "areas", "area_count = 2", "NULL_ARGUMENT", "areas is NULL"),
+            ("null", "sizes", "size_count = n_ids", "NULL_ARGUMENT", "sizes is NULL"),
+            (
+                "misaligned",
+                "labels",
+                "labels = odd, bad_quality.label_count = n_cells",
+                "MISALIGNED_ARGUMENT",
+                "labels is 0x",
+            ),
+            (
+                "misaligned",
+                "areas",
+                "areas = odd, bad_quality.area_count = 2",
+                "MISALIGNED_ARGUMENT",
+                "areas is 0x",
+            ),
+            (
+                "misaligned",
+                "sizes",
+                "sizes = odd, bad_quality.size_count = n_ids",
+                "MISALIGNED_ARGUMENT",
+                "sizes is 0x",
+            ),
+            (
+                "huge",
+                "areas, SIZE_MAX",
+                "areas = values, bad_quality.area_count = SIZE_MAX",
+                "SIZE_OVERFLOW",
+                "areas cannot have 18446744073709551615 entries",
+            ),
+            (
+                "zero",
+                "sizes, 0",
+                "sizes = sizes, bad_quality.size_count = 0",
+                "WRONG_COUNT",
+                "size_count is 0, but must be",
+            ),
+            (
+                "value",
+                "sizes, one less",
+                "sizes = sizes, bad_quality.size_count = n_ids - 1",
+                "WRONG_COUNT",
+                "size_count is",
+            ),
+            (
+                "value",
+                "labels, one less",
+                "labels = wholes, bad_quality.label_count = 1",
+                "WRONG_COUNT",
+                "label_count is 1, but must be",
+            ),
+            (
+                "nan",
+                "the area of a label",
+                "areas = bad(values, 1, NAN), bad_quality.area_count = 2",
+                "INVALID_VALUE",
+                "areas[1] is NaN",
+            ),
+            (
+                "value",
+                "the area of a label below 0",
+                "areas = bad(values, 1, -1), bad_quality.area_count = 2",
+                "INVALID_VALUE",
+                "areas[1] is -1",
+            ),
+            (
+                "nan",
+                "a size",
+                "sizes = bad_sizes(4, NAN), bad_quality.size_count = n_ids",
+                "INVALID_VALUE",
+                "sizes[4] is NaN",
+            ),
+            (
+                "value",
+                "a size of 0",
+                "sizes = bad_sizes(4, 0), bad_quality.size_count = n_ids",
+                "INVALID_VALUE",
+                "sizes[4] is 0",
+            ),
+            (
+                "removed",
+                "the size of a removed vertex",
+                "sizes = bad_sizes(REMOVED, NAN), bad_quality.size_count = n_ids",
+                "OK",
+                "",
+            ),
+        ] {
+            let is_of_refining = change.starts_with("keeps");
+            let is_of_coarsening = ["margin", "share", "joins"].iter().any(|name| change.starts_with(name));
+            let is_used = if refines { !is_of_coarsening } else { !is_of_refining };
+            let wrong = format!("(bad_quality = *({valid}), bad_quality.{change}, &bad_quality)");
+            if status == "OK" || !is_used {
+                self.legal(column, at, given, &wrong);
+            } else {
+                self.refused(column, at, given, &wrong, status, &format!("\"quality.{said}\""));
+            }
         }
     }
 
@@ -480,6 +633,10 @@ impl Cases<'_> {
                 self.legal("zero", at, "0", "0");
             }
             Role::Whole => self.legal("value", at, "the least number", "INT32_MIN"),
+            Role::Limit => {
+                self.legal("zero", at, "0", "0");
+                self.legal("value", at, "SIZE_MAX", "SIZE_MAX");
+            }
             Role::Corners => {
                 for (given, value) in
                     [("0", "0"), ("two more than dimensions", "dimension + 2"), ("UINT32_MAX", "UINT32_MAX")]
@@ -553,11 +710,10 @@ impl Cases<'_> {
 
     fn capacity(&mut self, at: usize) {
         for (column, given, value) in [("zero", "0", "0"), ("value", "1", "1")] {
-            // There is one hidden vertex, and no conflict.
+            // There is one hidden vertex, and nothing is in the way of a segment, or passes one.
             let is_enough = match self.function.name.as_str() {
                 "deldrift_hidden_vertices" => value == "1",
-                "deldrift_segment_conflicts" => true,
-                _ => false,
+                name => TELL_NOTHING.contains(&name),
             };
             if is_enough {
                 self.legal(column, at, given, value);

@@ -18,6 +18,10 @@ enum { N_SEGMENTS = 4, LEAVING_SEGMENT = 3, REMOVED_SEGMENT = 4, COMING_SEGMENT 
 
 enum { COUNT = 13, REMOVED = 5, HIDDEN = 12, STAGED = 7, LEAVING = 6, COMING = COUNT, ROOM = 1024, BYTES = 16384 };
 
+// The triangulations that calls are made on: with moves, insertions and removals staged; without; and that, with the cell
+// within the fence refined.
+typedef enum { WITH_EDITS, WITHOUT_EDITS, REFINED, N_BASES } base;
+
 // All that calls write to.
 typedef struct {
     deldrift_triangulation *handle;
@@ -28,6 +32,7 @@ typedef struct {
     int32_t sign;
     bool flag;
     deldrift_commit_report report;
+    deldrift_split_report split;
     deldrift_changes changes;
     deldrift_cells_view cells;
     deldrift_location location, locations[8];
@@ -35,15 +40,16 @@ typedef struct {
     uint32_t ids[ROOM], more_ids[ROOM], few_ids[ROOM / 8], fewer_ids[ROOM / 8];
     int32_t labels[ROOM];
     deldrift_conflict conflicts[8];
+    deldrift_quality quality;
+    deldrift_quality_report quality_report;
     uint8_t bytes[BYTES];
 } outputs;
 
 static outputs out, untouched;
 
-// The triangulations that calls are made on: with moves, insertions and removals staged, and without; the one in use;
-// what is in it.
+// The bases; the one in use; what is in it.
 static uint32_t dimension;
-static deldrift_triangulation *bases[2], *t;
+static deldrift_triangulation *bases[N_BASES], *t;
 static size_t n_ids, n_cells, n_edges;
 static uint32_t inner_cell, inner_corner, fence[3];
 
@@ -51,10 +57,12 @@ static uint32_t inner_cell, inner_corner, fence[3];
 static double points[(COUNT + 2) * 3], moved[(COUNT + 2) * 3], values[(COUNT + 2) * 3], inside[(COUNT + 2) * 3];
 static double outside[ROOM], low[ROOM], high[ROOM];
 static uint32_t ids[3], ends[6], segments[2];
-static int32_t wholes[3];
-static uint8_t mask[ROOM], saved[BYTES];
+static int32_t wholes[ROOM];
+static uint8_t mask[ROOM], fenced[ROOM], saved[BYTES];
 static size_t saved_size;
 static deldrift_options options;
+static deldrift_quality finer, coarser;
+static double sizes[ROOM];
 static deldrift_location near_by[8];
 static deldrift_field field;
 static char path[300], path_saved[320];
@@ -72,7 +80,7 @@ typedef struct {
     uint8_t saved[BYTES];
 } state;
 
-static state kept[2], now;
+static state kept[N_BASES], now;
 
 static void look(const deldrift_triangulation *at, state *s) {
     memset(s, 0, sizeof *s);
@@ -125,7 +133,7 @@ static uint32_t *bad_segments(uint32_t value) {
 }
 
 static int32_t *bad_wholes(size_t at, int32_t value) {
-    static int32_t made[3];
+    static int32_t made[ROOM];
     memcpy(made, wholes, sizeof made);
     made[at] = value;
     return made;
@@ -145,6 +153,16 @@ static deldrift_options *bad_options(size_t size, deldrift_algorithm algorithm) 
     made.struct_size = size;
     made.algorithm = algorithm;
     return &made;
+}
+
+// A quality that differs in a member.
+static deldrift_quality bad_quality;
+
+static double *bad_sizes(size_t at, double value) {
+    static double changed[ROOM];
+    memcpy(changed, sizes, sizeof changed);
+    changed[at] = value;
+    return changed;
 }
 
 static deldrift_field *bad_field(const char *name, const double *numbers, size_t components) {
@@ -223,10 +241,14 @@ static void before(void) {
         low[i] = -1;
         high[i] = 2;
         ids[i] = (uint32_t[]){0, 1, 4}[i];
-        wholes[i] = -5 * (int32_t)i;
     }
+    for (size_t i = 0; i < ROOM; i++) wholes[i] = -5 * (int32_t)i;
     for (size_t i = 0; i < 6; i++) ends[i] = (uint32_t[]){0, 1, 4, 2, 8, 11}[i];
     for (size_t i = 0; i < 2; i++) segments[i] = (uint32_t)(2 - 2 * i);
+    for (size_t i = 0; i < ROOM; i++) sizes[i] = 1;
+    OK(deldrift_quality_init(&finer));
+    coarser = finer;
+    finer.greatest_area = 0.001;
     outside[0] = outside[1] = 7;
     memset(mask, 1, sizeof mask);
     mask[0] = 0;
@@ -267,11 +289,20 @@ static void report(const char *function, const char *argument, const char *colum
     printf("%u\t%s\t%s\t%s\t%s\t%s\t%s\n", dimension, function, argument, column, given, name_of(status), said);
 }
 
-static void use_base(bool is_staged) {
+// The cells within the fence.
+static void mask_fence(const deldrift_triangulation *of) {
+    uint32_t levels[ROOM];
+    OK(deldrift_nesting_levels(of, levels, ROOM, &n_cells));
+    for (size_t c = 0; c < n_cells; c++) fenced[c] = levels[c] == 1;
+}
+
+static void use_base(base which) {
     if (t != NULL) deldrift_destroy(t);
     t = NULL;
-    OK(deldrift_clone(bases[!is_staged], &t));
+    OK(deldrift_clone(bases[which], &t));
     OK(deldrift_id_count(t, &n_ids));
+    OK(deldrift_cell_count(t, &n_cells));
+    if (dimension == 2) mask_fence(t);
 }
 
 // Ends what a call has handed out.
@@ -282,22 +313,22 @@ static void end_outputs(void) {
 
 // After a call: `message` is what has to be said, NULL if the call is legal.
 static void after(const char *function, const char *argument, const char *column, const char *given,
-                  deldrift_status status, deldrift_status expected, const char *message, bool is_staged,
+                  deldrift_status status, deldrift_status expected, const char *message, base which,
                   bool has_count) {
     report(function, argument, column, given, status);
     if (expected == DELDRIFT_OK) {
         if (status != DELDRIFT_OK) wrong(function, argument, given, deldrift_last_error());
         if (status == DELDRIFT_OK) end_outputs();
         // What it may have changed is made again.
-        use_base(is_staged);
+        use_base(which);
         return;
     }
     check_refusal(function, argument, given, status, expected, message, has_count);
     look(t, &now);
-    if (memcmp(&now, &kept[!is_staged], sizeof now) != 0) {
-        const char *what = difference(&now.numbers, &kept[!is_staged].numbers);
+    if (memcmp(&now, &kept[which], sizeof now) != 0) {
+        const char *what = difference(&now.numbers, &kept[which].numbers);
         wrong(function, argument, given, what != NULL ? what : "another state");
-        use_base(is_staged);
+        use_base(which);
     }
 }
 
@@ -306,14 +337,16 @@ static void after(const char *function, const char *argument, const char *column
         before();                                                                                  \
         const char *wanted = (message);                                                            \
         deldrift_status status = (call);                                                           \
-        after(function, argument, column, given, status, expected, wanted, IS_STAGED, HAS_COUNT);  \
+        after(function, argument, column, given, status, expected, wanted, BASE, HAS_COUNT);       \
     } while (0)
 
 // Of the generated part: the functions, which of them take a triangulation, and a call of each with arguments that
 // are all right.
 typedef struct {
     const char *name;
-    bool takes_t, of_plane, is_staged, has_count;
+    bool takes_t, of_plane;
+    base base;
+    bool has_count;
     void (*cases)(void);
 } function;
 
@@ -359,7 +392,7 @@ static void *from_a_thread(void *unused) {
     for (size_t k = 0; k < n_functions; k++) {
         const function *f = &functions[k];
         if (f->of_plane && dimension == 3) continue;
-        use_base(f->is_staged);
+        use_base(f->base);
         before();
         deldrift_status status = call(k);
         report(f->name, "", "thread", "between calls", status);
@@ -388,7 +421,7 @@ static bool intrude(void *user_data) {
 
 // Calls from a callback of a commit, and meanwhile from another thread: the commit then does what it would have done.
 static void calls_during_a_commit(void) {
-    use_base(true);
+    use_base(WITH_EDITS);
     deldrift_triangulation *control = spare();
     OK(deldrift_commit_timestamp(control, NULL));
     is_intruding = true;
@@ -420,7 +453,7 @@ static uint8_t *poison(void) {
 }
 
 static void poisoned_ones_can_be_destroyed(void) {
-    use_base(true);
+    use_base(WITH_EDITS);
     uint8_t *flag = poison();
     all_are_refused("poisoned", "poisoned", DELDRIFT_POISONED, "t is unusable");
     *flag = 0;
@@ -462,6 +495,16 @@ static void lay_segments(deldrift_triangulation *base) {
     OK(deldrift_commit_timestamp(base, NULL));
 }
 
+static void refine_fence(deldrift_triangulation *of) {
+    deldrift_quality quality = finer;
+    deldrift_quality_report report;
+    quality.greatest_area = 0.005;
+    quality.has_weights = 1;
+    mask_fence(of);
+    OK(deldrift_refine(of, &quality, fenced, n_cells, &report));
+    CHECK(report.inserted > 2);
+}
+
 static void make_bases(void) {
     deldrift_options_init(&options);
     options.cancel = intrude;
@@ -471,7 +514,9 @@ static void make_bases(void) {
     OK(deldrift_remove_vertex(bases[0], REMOVED));
     OK(deldrift_commit_timestamp(bases[0], NULL));
     if (dimension == 2) lay_segments(bases[0]);
-    OK(deldrift_clone(bases[0], &bases[1]));
+    OK(deldrift_clone(bases[0], &bases[WITHOUT_EDITS]));
+    OK(deldrift_clone(bases[0], &bases[REFINED]));
+    if (dimension == 2) refine_fence(bases[REFINED]);
     OK(deldrift_move_vertex(bases[0], STAGED, moved));
     OK(deldrift_stage_insertions(bases[0], moved, 1, &first));
     OK(deldrift_stage_removals(bases[0], (uint32_t[]){LEAVING}, 1));
@@ -479,7 +524,7 @@ static void make_bases(void) {
         OK(deldrift_stage_segment_removals(bases[0], (uint32_t[]){LEAVING_SEGMENT}, 1));
         stage_segment(bases[0], 0, COMING_SEGMENT);
     }
-    for (int k = 0; k < 2; k++) look(bases[k], &kept[k]);
+    for (int k = 0; k < N_BASES; k++) look(bases[k], &kept[k]);
     OK(deldrift_save(bases[0], saved, BYTES, &saved_size));
     OK(deldrift_save_file(bases[0], path_saved));
     OK(deldrift_cell_count(bases[0], &n_cells));
@@ -495,7 +540,7 @@ static void make_bases(void) {
 
 // Whatever has been tried, what is pending is still there: changes, and moves to be committed.
 static void nothing_is_lost(void) {
-    use_base(true);
+    use_base(WITH_EDITS);
     deldrift_triangulation *both[2] = {t, bases[0]};
     size_t created[2], stars[2];
     static state ends[2];
@@ -522,7 +567,7 @@ static void try_all(void) {
     for (dimension = 2; dimension <= 3; dimension++) {
         make_bases();
         for (size_t k = 0; k < n_functions; k++) {
-            use_base(functions[k].is_staged);
+            use_base(functions[k].base);
             functions[k].cases();
         }
         calls_during_a_commit();
@@ -531,8 +576,7 @@ static void try_all(void) {
         nothing_is_lost();
         deldrift_destroy(t);
         t = NULL;
-        deldrift_destroy(bases[0]);
-        deldrift_destroy(bases[1]);
+        for (int k = 0; k < N_BASES; k++) deldrift_destroy(bases[k]);
     }
     unlink(path);
     unlink(path_saved);

@@ -1,14 +1,21 @@
 //! For every function of the headers a call with arguments that are all right, in the words of `harness.h`.
 
-/// A function, its arguments in the order of its declaration, and whether moves, insertions and removals are staged.
+/// A function, its arguments in the order of its declaration, and the triangulation that it is called on: as `harness.h`
+/// names it.
 pub struct Row {
     pub function: &'static str,
     pub arguments: &'static [&'static str],
-    pub is_staged: bool,
+    pub base: &'static str,
 }
 
+/// On one with moves, insertions and removals staged.
 const fn row(function: &'static str, arguments: &'static [&'static str]) -> Row {
-    Row { function, arguments, is_staged: true }
+    Row { function, arguments, base: "WITH_EDITS" }
+}
+
+/// On one that has been refined, with nothing staged.
+const fn refined(function: &'static str, arguments: &'static [&'static str]) -> Row {
+    Row { function, arguments, base: "REFINED" }
 }
 
 pub const ROWS: &[Row] = &[
@@ -29,7 +36,7 @@ pub const ROWS: &[Row] = &[
     Row {
         function: "deldrift_commit_positions",
         arguments: &["t", "moved", "n_ids", "&out.report"],
-        is_staged: false,
+        base: "WITHOUT_EDITS",
     },
     row("deldrift_relocate_vertex", &["t", "1", "moved"]),
     row("deldrift_insert_vertex", &["t", "moved", "&out.number"]),
@@ -39,7 +46,11 @@ pub const ROWS: &[Row] = &[
     row("deldrift_stage_segment_removals", &["t", "segments", "2"]),
     row("deldrift_segments", &["t", "out.ids", "out.more_ids", "out.labels", "N_SEGMENTS", "&out.count"]),
     row("deldrift_check_staged", &["t"]),
+    row("deldrift_stage_splits", &["t", "9", "&out.split"]),
     row("deldrift_segment_conflicts", &["t", "out.conflicts", "8", "&out.count"]),
+    // What is staged for others passes a segment.
+    Row { function: "deldrift_check_passings", arguments: &["t"], base: "WITHOUT_EDITS" },
+    row("deldrift_passings", &["t", "out.ids", "out.more_ids", "8", "&out.count"]),
     row("deldrift_take_changes", &["t", "&out.changes"]),
     row("deldrift_vertex_count", &["t", "&out.count"]),
     row("deldrift_id_count", &["t", "&out.count"]),
@@ -82,6 +93,7 @@ pub const ROWS: &[Row] = &[
     row("deldrift_cells_of_segments", &["t", "out.ids", "N_SEGMENTS", "&out.count"]),
     row("deldrift_nesting_levels", &["t", "out.ids", "n_cells", "&out.count"]),
     row("deldrift_label_cells", &["t", "inside", "wholes", "3", "-1", "out.labels", "n_cells", "&out.count"]),
+    row("deldrift_update_labels", &["t", "ids", "3", "-1", "out.labels", "n_cells", "&out.count"]),
     row(
         "deldrift_boundary_chains",
         &[
@@ -97,6 +109,12 @@ pub const ROWS: &[Row] = &[
             "&out.count",
         ],
     ),
+    row("deldrift_quality_init", &["&out.quality"]),
+    refined("deldrift_refine", &["t", "&finer", "fenced", "n_cells", "&out.quality_report"]),
+    refined("deldrift_coarsen", &["t", "&coarser", "fenced", "n_cells", "&out.quality_report"]),
+    refined("deldrift_made_vertices", &["t", "out.ids", "out.more_ids", "ROOM", "&out.count"]),
+    refined("deldrift_original_segments", &["t", "out.ids", "ROOM", "&out.count"]),
+    refined("deldrift_refined_weights", &["t", "out.ids", "out.numbers", "ROOM / 3", "&out.count"]),
     row("deldrift_edges", &["t", "out.ids", "n_edges", "&out.count"]),
     row(
         "deldrift_vertex_neighbours",
@@ -126,7 +144,7 @@ pub const ROWS: &[Row] = &[
     row("deldrift_save_file", &["t", "path"]),
     row("deldrift_load_file", &["path_saved", "&options", "&out.handle"]),
     row("deldrift_write_vtu", &["t", "path", "&field", "1", "&field", "1"]),
-    row("deldrift_write_medit", &["t", "path"]),
+    row("deldrift_write_medit", &["t", "path", "wholes", "n_cells"]),
     row("deldrift_orientation", &["dimension", "moved", "&out.sign"]),
     row("deldrift_in_sphere", &["dimension", "moved", "&out.sign"]),
     row("deldrift_options_init", &["&options"]),

@@ -49,21 +49,23 @@ enum { N_SETTINGS = sizeof SETTINGS / sizeof *SETTINGS };
 
 typedef enum { CREATE, RELOCATE, INSERT, REMOVE, MOVE, MOVE_SOME, MOVE_ALL, STAGE_INSERTIONS, STAGE_REMOVALS,
     STAGE_SEGMENTS, STAGE_SEGMENT_REMOVALS, COMMIT,
-    COMMIT_SOME, COMMIT_POSITIONS, CHECK_STAGED, COMPACT, TAKE_CHANGES, CELLS, COPY_CELLS, STAR, TOLERANCE, ANNULUS_WIDTHS,
+    COMMIT_SOME, COMMIT_POSITIONS, CHECK_STAGED, CHECK_PASSINGS, STAGE_SPLITS, COMPACT, TAKE_CHANGES, CELLS,
+    COPY_CELLS, STAR, TOLERANCE, ANNULUS_WIDTHS,
     DELIMITER, LOCATE, LOCATE_POINTS, NEAREST, CIRCUMCENTRES, VOLUMES, MASK_BY_CIRCUMRADIUS,
     MASK_BOUNDARY, HULL_FACETS, EDGES, VERTEX_NEIGHBOURS, VERTEX_CELLS, MIRROR_INDICES, MIRROR_INDEX, ORDERED_STAR,
     CELLS_AROUND, CELLS_AROUND_ALL, UPDATE_CIRCUMCENTRES, UPDATE_VOLUMES, UPDATE_MASK,
     VORONOI_VOLUMES, VORONOI_FACETS, INTERPOLATE, INTERPOLATE_NATURAL,
     NEAREST_VERTICES, VERTICES_IN_BALL, VERTICES_IN_BOX, CONFLICTS, FIND_SIMPLICES, FIND_SIMPLICES_ALL,
     CELL_OF_EACH_VERTEX, BARYCENTRIC, MASK_WITHOUT_FLAT_CELLS, SEGMENTS_OF_CELLS, CELLS_OF_SEGMENTS, NESTING_LEVELS,
-    LABEL_CELLS, BOUNDARY_CHAINS, RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT, N_KINDS } kind;
+    LABEL_CELLS, BOUNDARY_CHAINS, REFINE, COARSEN, RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
     "deldrift_create", "deldrift_relocate_vertex", "deldrift_insert_vertex", "deldrift_remove_vertex",
     "deldrift_move_vertex", "deldrift_move_vertices", "deldrift_move_vertices, all", "deldrift_stage_insertions",
     "deldrift_stage_removals", "deldrift_stage_segments", "deldrift_stage_segment_removals",
     "deldrift_commit_timestamp", "deldrift_commit_timestamp, some",
-    "deldrift_commit_positions", "deldrift_check_staged", "deldrift_compact", "deldrift_take_changes", "deldrift_cells", "deldrift_copy_cells",
+    "deldrift_commit_positions", "deldrift_check_staged", "deldrift_check_passings", "deldrift_stage_splits",
+    "deldrift_compact", "deldrift_take_changes", "deldrift_cells", "deldrift_copy_cells",
     "deldrift_star", "deldrift_tolerance", "deldrift_research_annulus_widths", "deldrift_research_standard_delimiter",
     "deldrift_locate",
     "deldrift_locate_points", "deldrift_nearest_vertex", "deldrift_circumcentres",
@@ -77,6 +79,7 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_find_simplices", "deldrift_find_simplices, all", "deldrift_cell_of_each_vertex", "deldrift_barycentric",
     "deldrift_mask_without_flat_cells", "deldrift_segments_of_cells", "deldrift_cells_of_segments",
     "deldrift_nesting_levels", "deldrift_label_cells", "deldrift_boundary_chains",
+    "deldrift_refine", "deldrift_coarsen",
     "deldrift_release_cells", "deldrift_clone", "deldrift_save", "deldrift_load", "deldrift_save_file",
     "deldrift_load_file", "deldrift_write_vtu", "deldrift_write_medit",
 };
@@ -91,12 +94,13 @@ typedef struct {
 } call;
 
 static bool is_commit(kind k) {
-    return k == COMMIT || k == COMMIT_SOME || k == COMMIT_POSITIONS || k == CHECK_STAGED;
+    return COMMIT <= k && k <= STAGE_SPLITS;
 }
 
 static bool is_of_plane(kind k) {
-    return k == ORDERED_STAR || k == STAGE_SEGMENTS || k == STAGE_SEGMENT_REMOVALS ||
-           (SEGMENTS_OF_CELLS <= k && k <= BOUNDARY_CHAINS);
+    return k == ORDERED_STAR || k == CHECK_PASSINGS || k == STAGE_SEGMENTS || k == STAGE_SEGMENT_REMOVALS ||
+           k == STAGE_SPLITS ||
+           (SEGMENTS_OF_CELLS <= k && k <= COARSEN);
 }
 
 typedef struct {
@@ -111,6 +115,8 @@ typedef struct {
     // Pairs of vertices of which no two cross; how many are segments, or staged.
     uint32_t pairs[MOST_PAIRS][2];
     size_t n_pairs;
+    // Of the cell that is refined.
+    double area;
 } scene;
 
 // Room for what calls give, made before.
@@ -228,6 +234,33 @@ static void stage_pairs(scene *s, size_t first, size_t count) {
     CHECK(segment == first);
 }
 
+// Lays segments at the edges of the largest cell of which no corner goes before the call, and refines it a little.
+static void lay_domain(scene *s) {
+    const deldrift_cells_view view = cells_of(s->t);
+    uint32_t ends[6], segment;
+    for (size_t c = 0; c < view.count; c++) {
+        const uint32_t *row = view.vertices + 3 * c;
+        bool stays = true;
+        for (int i = 0; i < 3; i++) stays = stays && (row[i] < 7 || row[i] > 9);
+        const double area = side_of(s->points + 2 * row[0], s->points + 2 * row[1], s->points + 2 * row[2]) / 2;
+        if (!stays || area <= s->area) continue;
+        s->area = area;
+        for (int i = 0; i < 6; i++) ends[i] = row[(i + 1) / 2 % 3];
+    }
+    if (s->area == 0) return;
+    OK(deldrift_stage_segments(s->t, ends, NULL, 3, &segment));
+    OK(deldrift_commit_timestamp(s->t, NULL));
+    deldrift_quality quality;
+    deldrift_quality_report report;
+    OK(deldrift_quality_init(&quality));
+    quality.greatest_area = s->area / 4;
+    quality.limit = 8;
+    quality.has_weights = 1;
+    OK(deldrift_refine(s->t, &quality, NULL, 0, &report));
+    CHECK(report.inserted > 0);
+    OK(deldrift_copy_positions(s->t, s->points, s->n + report.inserted, &s->n));
+}
+
 // The same each time.
 static scene make_scene(uint32_t dimension, call call, const setting *setting) {
     scene s = {.dimension = dimension, .call = call, .setting = setting, .n = setting->n};
@@ -255,6 +288,7 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
         stage_pairs(&s, 0, n_laid);
         OK(deldrift_commit_timestamp(s.t, NULL));
     }
+    if (call.kind == REFINE || call.kind == COARSEN) lay_domain(&s);
     if (setting->takes) CHECK(take(&s) == NULL);
     if (setting->edits) {
         OK(deldrift_insert_vertex(s.t, s.points + s.n++ * d, &v));
@@ -277,7 +311,9 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
             memcpy(s.places + end * d, s.points + end * d, d * sizeof *s.places);
         }
     }
-    if (call.kind == COMMIT || call.kind == CHECK_STAGED) OK(deldrift_move_vertices(s.t, NULL, s.places, s.n));
+    const bool moves_all = call.kind == COMMIT || call.kind == CHECK_STAGED || call.kind == CHECK_PASSINGS ||
+                           call.kind == STAGE_SPLITS;
+    if (moves_all) OK(deldrift_move_vertices(s.t, NULL, s.places, s.n));
     for (uint32_t w = 2; w < s.n; w += 3) {
         bool present;
         OK(deldrift_is_present(s.t, w, &present));
@@ -299,9 +335,9 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
             stage_pairs(&s, n_laid, n_laid);
             OK(deldrift_stage_segment_removals(s.t, (uint32_t[]){1}, 1));
         }
-        // An end goes, and segments cross.
+        // An end goes, which no split mends, and segments cross.
         if (n_laid > 0 && setting->conflicts && is_commit(call.kind)) {
-            OK(deldrift_stage_removals(s.t, s.pairs[0], 1));
+            if (call.kind != STAGE_SPLITS) OK(deldrift_stage_removals(s.t, s.pairs[0], 1));
             OK(deldrift_stage_segments(s.t, (uint32_t[]){1, 2, 4, 5, 7, 8, 11, 14, 17, 20}, NULL, 5, &v));
         }
     }
@@ -338,6 +374,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     deldrift_options options = options_of(s);
     deldrift_triangulation *const none = (deldrift_triangulation *)ids_out, *made = none;
     deldrift_commit_report report = {.timestamp = 77};
+    deldrift_split_report split = {.inserted = 77};
     deldrift_changes changes;
     deldrift_cells_view cells;
     deldrift_location location;
@@ -364,6 +401,12 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     const deldrift_field field = {"field", numbers_out, 1};
     deldrift_cells_view released = {77, 0, NULL, NULL};
     deldrift_released_cells *owner = NULL;
+    deldrift_quality quality;
+    deldrift_quality_report improved = {.inserted = 77};
+    OK(deldrift_quality_init(&quality));
+    // Without a criterion all goes that has been made.
+    if (s->call.kind == REFINE) quality.greatest_area = s->area / 40;
+    quality.has_weights = 1;
     const char *file = file_of_test();
     int32_t *const labels = (int32_t *)(void *)ids_out;
     static uint32_t segments_out[ROOM], chains_out[ROOM];
@@ -390,6 +433,8 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             status = deldrift_stage_segment_removals(s->t, (uint32_t[]){0, 1}, n_segments > 0 ? 2 : 0);
             break;
         case CHECK_STAGED: status = deldrift_check_staged(s->t); break;
+        case CHECK_PASSINGS: status = deldrift_check_passings(s->t); break;
+        case STAGE_SPLITS: status = deldrift_stage_splits(s->t, 100, &split); break;
         case COMMIT:
         case COMMIT_SOME: status = deldrift_commit_timestamp(s->t, &report); break;
         case COMMIT_POSITIONS: status = deldrift_commit_positions(s->t, s->places, s->n, &report); break;
@@ -456,6 +501,8 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             status = deldrift_boundary_chains(s->t, mask, n_cells, ids_out, more_out, segments_out, chains_out, bytes_out,
                                               ROOM, &count);
             break;
+        case REFINE: status = deldrift_refine(s->t, &quality, NULL, 0, &improved); break;
+        case COARSEN: status = deldrift_coarsen(s->t, &quality, NULL, 0, &improved); break;
         case RELEASE_CELLS: status = deldrift_release_cells(s->t, &released, &owner); break;
         case CLONE: status = deldrift_clone(s->t, &made); break;
         case SAVE: status = deldrift_save(s->t, bytes_out, sizeof bytes_out, &count); break;
@@ -463,7 +510,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case SAVE_FILE: status = deldrift_save_file(s->t, file); break;
         case LOAD_FILE: status = deldrift_load_file(file, &options, &made); break;
         case WRITE_VTU: status = deldrift_write_vtu(s->t, file, &field, 1, NULL, 0); break;
-        case WRITE_MEDIT: status = deldrift_write_medit(s->t, file); break;
+        case WRITE_MEDIT: status = deldrift_write_medit(s->t, file, labels, n_cells); break;
         case N_KINDS: break;
     }
     stop_counting();
@@ -482,9 +529,17 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         OK(deldrift_segment_conflicts(s->t, conflicts, 64, &n_conflicts));
         *given = mixed(status, digest_of(conflicts, n_conflicts * sizeof *conflicts));
     }
+    if (status == DELDRIFT_PASSES_SEGMENT) {
+        static uint32_t passed[4000], passing[4000];
+        size_t n_passings;
+        OK(deldrift_passings(s->t, passed, passing, 4000, &n_passings));
+        *given = mixed(mixed(status, digest_of(passed, n_passings * sizeof *passed)),
+                       digest_of(passing, n_passings * sizeof *passing));
+    }
     if (status != DELDRIFT_OK) {
         bool untouched = made == none && report.timestamp == 77 && out == 77 && ids_out[0] == 77 && more_out[0] == 77;
         if (owner != NULL || released.count != 77) *wrong = "an owner is given";
+        untouched = untouched && improved.inserted == 77;
         if (!untouched || bytes_out[0] != 77 || numbers_out[0] != 77 || count != 0) *wrong = "an output is written";
         return status;
     }
@@ -507,6 +562,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             renumber(&s->mirror, d + 1, ids_out);
             break;
         case TAKE_CHANGES: *wrong = follow(&s->mirror, &changes, s->t); break;
+        case STAGE_SPLITS: *given = digest_of(&split, sizeof split); break;
         case CELLS: *given = cells.count; break;
         case COPY_CELLS: {
             deldrift_cells_view view;
@@ -571,6 +627,11 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             for (size_t i = 0; i < count; i++) *given += ids_out[i];
             break;
         case BOUNDARY_CHAINS: *given = digest_of(ids_out, count * sizeof *ids_out); break;
+        case REFINE:
+        case COARSEN:
+            if (s->area > 0 && improved.inserted + improved.removed == 0) *wrong = "nothing is done";
+            *given = digest_of(&improved, sizeof improved);
+            break;
         case UPDATE_MASK: count = n_cells; // fall through
         case MASK_WITHOUT_FLAT_CELLS:
         case MASK_BY_CIRCUMRADIUS:

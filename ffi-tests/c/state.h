@@ -33,8 +33,8 @@ static inline uint64_t digest_of_row(const uint32_t *row, uint32_t corners) {
 typedef struct {
     size_t ids, vertices, cells, staged;
     uint64_t timestamp;
-    // Bits of all positions; of each vertex the one that stands for its place; segments in force.
-    uint64_t positions, representatives, segments;
+    // Bits of all positions; of each vertex the one that stands for its place; segments in force; what refinement has made.
+    uint64_t positions, representatives, segments, made;
 } numbers;
 
 typedef struct {
@@ -54,6 +54,26 @@ static inline uint64_t digest_of_segments(const deldrift_triangulation *t, uint3
     OK(deldrift_segments(t, rows, rows + count, (int32_t *)(rows + 3 * count), count, &count));
     const uint64_t digest = digest_of(rows, count * 4 * sizeof *rows);
     free(rows);
+    return digest;
+}
+
+// Vertices that refinement has inserted, with their weights, and what segments are pieces of; in space there are none.
+static inline uint64_t digest_of_made(const deldrift_triangulation *t, uint32_t dimension) {
+    size_t n_made = 0, n_segments = 0, n_weights = 0;
+    if (dimension != 2) return 0;
+    OK(deldrift_made_vertices(t, NULL, NULL, 0, &n_made));
+    OK(deldrift_original_segments(t, NULL, 0, &n_segments));
+    OK(deldrift_refined_weights(t, NULL, NULL, 0, &n_weights));
+    const size_t n_ids = 2 * n_made + n_segments + 3 * n_weights, bytes = n_ids * sizeof(uint32_t);
+    uint32_t *ids = malloc(bytes + 1);
+    double *weights = malloc(3 * n_weights * sizeof *weights + 1);
+    CHECK(ids != NULL && weights != NULL);
+    OK(deldrift_made_vertices(t, ids, ids + n_made, n_made, &n_made));
+    OK(deldrift_original_segments(t, ids + 2 * n_made, n_segments, &n_segments));
+    OK(deldrift_refined_weights(t, ids + 2 * n_made + n_segments, weights, n_weights, &n_weights));
+    const uint64_t digest = mixed(digest_of(ids, bytes), digest_of(weights, 3 * n_weights * sizeof *weights));
+    free(ids);
+    free(weights);
     return digest;
 }
 
@@ -82,6 +102,7 @@ static inline numbers numbers_of(const deldrift_triangulation *t) {
         n.representatives = mixed(n.representatives, representative);
     }
     n.segments = digest_of_segments(t, dimension);
+    n.made = digest_of_made(t, dimension);
     return n;
 }
 
@@ -118,6 +139,7 @@ static inline const char *difference(const numbers *a, const numbers *b) {
     if (a->positions != b->positions) return "other positions";
     if (a->representatives != b->representatives) return "other vertices hidden";
     if (a->segments != b->segments) return "other segments";
+    if (a->made != b->made) return "other origins of vertices and segments, or weights";
     return NULL;
 }
 

@@ -2,7 +2,7 @@
 
 use crate::delaunay::{Dimension, IndexSet, Level, Place, Violation};
 use crate::error::Result;
-use crate::ids::{CellId, Slot, VertexId};
+use crate::ids::{CellId, SegmentId, Slot, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
 use crate::motion::algorithms::Algorithm;
@@ -306,6 +306,13 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Timestamp reached: 0 at creation.
     pub fn timestamp(&self) -> u64 {
         self.statistics.timestamp
+    }
+
+    /// The vertices that `refine` has added and that are there, ascending, each with the segment that it was put
+    /// on, [`SegmentId::NONE`] if there is none; not those of `stage_splits`.
+    pub fn made_vertices(&self) -> impl Iterator<Item = (VertexId, SegmentId)> {
+        let all = self.made.iter().flat_map(|made| made.vertices());
+        all.copied().filter(|&(v, _)| self.mesh.is_present(v))
     }
 
     /// Bytes held, views included.

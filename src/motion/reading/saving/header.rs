@@ -11,11 +11,17 @@ const MAGIC: [u8; 8] = *b"\x89DLD\r\n\x1a\n";
 const VERSION: u32 = 1;
 const WITH_SEGMENTS: u32 = 2;
 
-/// Bytes that segments begin with: how many ids there are, how many of these are in force, and how many are to go.
-const SEGMENT_COUNTS: usize = 24;
+/// Bytes that segments begin with: their five counts.
+const SEGMENT_COUNTS: usize = 40;
 
 /// Bytes of a segment: its ends and its marker.
 const SEGMENT: usize = 12;
+
+/// Bytes of a vertex that refinement has made: its id, and the segment that it is on.
+const MADE_VERTEX: usize = 8;
+
+/// Bytes of a piece of a segment: its id, that of the segment, and the ends of that.
+const PIECE: usize = 16;
 
 /// Bytes of the header.
 pub(super) const SIZE: usize = 72 + 8 * N_SUMS;
@@ -131,28 +137,39 @@ impl Header {
 }
 
 /// How many segments there are in saved data: ids given, those in force among them, which are the first, and removals that
-/// are staged.
+/// are staged; vertices that refinement has made, and pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct SegmentCounts {
     pub(super) ids: usize,
     pub(super) laid: usize,
     pub(super) removals: usize,
+    pub(super) made_vertices: usize,
+    pub(super) pieces: usize,
 }
 
 impl SegmentCounts {
-    /// Bytes of all that is about segments.
-    pub(super) fn bytes(&self) -> usize {
-        SEGMENT_COUNTS + SEGMENT * self.ids + 4 * self.removals
+    /// In the order in which they are saved.
+    pub(super) fn numbers(&self) -> [u64; 5] {
+        [self.ids, self.laid, self.removals, self.made_vertices, self.pieces].map(|n| n as u64)
     }
 
-    /// Those of three numbers, if they take as many bytes as there are.
-    pub(super) fn of(numbers: [u64; 3], bytes: usize) -> Result<Self, Damage> {
-        let [ids, laid, removals] = numbers;
-        let wanted = u128::from(ids) * SEGMENT as u128 + 4 * u128::from(removals) + SEGMENT_COUNTS as u128;
-        if wanted != bytes as u128 || laid > ids {
+    /// Bytes of all that is about segments.
+    pub(super) fn bytes(&self) -> usize {
+        let entries = SEGMENT * self.ids + 4 * self.removals;
+        SEGMENT_COUNTS + entries + MADE_VERTEX * self.made_vertices + PIECE * self.pieces
+    }
+
+    /// Those of five numbers, if they take as many bytes as there are.
+    pub(super) fn of(numbers: [u64; 5], bytes: usize) -> Result<Self, Damage> {
+        let [ids, _, removals, made_vertices, pieces] = numbers;
+        let sizes = [(ids, SEGMENT), (removals, 4), (made_vertices, MADE_VERTEX), (pieces, PIECE)];
+        let entries: u128 = sizes.iter().map(|&(n, size)| u128::from(n) * size as u128).sum();
+        // As many entries as fit into so many bytes are no more than a number can tell.
+        let [ids, laid, removals, made_vertices, pieces] = numbers.map(|n| n as usize);
+        if entries + SEGMENT_COUNTS as u128 != bytes as u128 || laid > ids {
             return Err(Damage::Counts);
         }
-        Ok(SegmentCounts { ids: ids as usize, laid: laid as usize, removals: removals as usize })
+        Ok(SegmentCounts { ids, laid, removals, made_vertices, pieces })
     }
 }
 

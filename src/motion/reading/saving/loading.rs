@@ -13,6 +13,7 @@ use crate::motion::reading::saving::header::{Header, SIZE, SegmentCounts};
 use crate::motion::state::cells::Cells;
 use crate::motion::state::checking::check_position;
 use crate::motion::state::hidden::Hidden;
+use crate::motion::state::made::{Made, Origin};
 use crate::motion::state::segments::{Segment, Segments};
 use crate::motion::triangulation::{MAX_VERTICES, MovingTriangulation};
 use crate::predicates::is_in_range;
@@ -59,18 +60,22 @@ impl<'d> Reader<'d> {
     }
 }
 
+/// Segments, and what refinement has made.
+type SavedSegments<G> = (Box<Segments<G>>, Option<Box<Made>>);
+
 impl Reader<'_> {
-    /// The segments, if there are any; ends of those that are staged may be staged, too.
-    fn segments<G: Dimension>(&mut self, header: &Header) -> Result<Option<Box<Segments<G>>>, LoadError> {
+    /// The segments, if there are any, and what refinement has made of them; ends of those that are staged may be staged, too.
+    fn segments<G: Dimension>(&mut self, header: &Header) -> Result<Option<SavedSegments<G>>, LoadError> {
         if header.segment_bytes == 0 {
             return Ok(None);
         }
         if G::D != 2 {
             return Err(Damage::Counts.into());
         }
-        let numbers = self.entries::<8>(3);
-        let counts = [0, 1, 2].map(|k| u64::from_le_bytes(numbers[k]));
-        let SegmentCounts { ids, laid, removals } = SegmentCounts::of(counts, header.segment_bytes)?;
+        let numbers = self.entries::<8>(5);
+        let counts = [0, 1, 2, 3, 4].map(|k| u64::from_le_bytes(numbers[k]));
+        let counts = SegmentCounts::of(counts, header.segment_bytes)?;
+        let SegmentCounts { ids, laid, removals, .. } = counts;
         let mut all = Vec::new();
         memory::reserve_exact(&mut all, ids)?;
         for (id, row) in SegmentId::range(0..ids).zip(self.entries::<4>(3 * ids).chunks_exact(3)) {
@@ -92,7 +97,49 @@ impl Reader<'_> {
         if let Some(&segment) = sorted.iter().find(is_bad).or(twice) {
             return Err(Damage::Segment { segment }.into());
         }
-        Ok(Some(memory::boxed(Segments::of_saved(all, laid, leaving))?))
+        let segments = memory::boxed(Segments::of_saved(all, laid, leaving))?;
+        let made = self.made(counts, header.ids, &segments)?;
+        Ok(Some((segments, made)))
+    }
+
+    /// What refinement has made.
+    fn made<G: Dimension>(
+        &mut self,
+        counts: SegmentCounts,
+        n_vertices: usize,
+        segments: &Segments<G>,
+    ) -> Result<Option<Box<Made>>, LoadError> {
+        let is_original = |segment: SegmentId| segment == SegmentId::NONE || segment.index() < counts.laid;
+        let mut vertices: Vec<(VertexId, SegmentId)> = Vec::new();
+        memory::reserve_exact(&mut vertices, counts.made_vertices)?;
+        for row in self.entries::<4>(2 * counts.made_vertices).chunks_exact(2) {
+            let [vertex, segment] = [row[0], row[1]].map(u32::from_le_bytes);
+            let (vertex, segment) = (VertexId::new(vertex), SegmentId::new(segment));
+            let follows = vertices.last().is_none_or(|&(last, _)| last < vertex);
+            if !follows || vertex.index() >= n_vertices || !is_original(segment) {
+                return Err(Damage::Made { vertex }.into());
+            }
+            vertices.push((vertex, segment));
+        }
+        let mut pieces: Vec<(SegmentId, Origin)> = Vec::new();
+        memory::reserve_exact(&mut pieces, counts.pieces)?;
+        for row in self.entries::<4>(4 * counts.pieces).chunks_exact(4) {
+            let [piece, segment, v, w] = [row[0], row[1], row[2], row[3]].map(u32::from_le_bytes);
+            let (piece, segment) = (SegmentId::new(piece), SegmentId::new(segment));
+            let ends = [v, w].map(VertexId::new);
+            let follows = pieces.last().is_none_or(|&(last, _)| last < piece);
+            let is_there = segments.all().get(piece.index()).is_some_and(Option::is_some);
+            let is_piece = is_there && segment.index() < piece.index();
+            let are_known = ends.iter().all(|&v| v == VertexId::NONE || v.index() < n_vertices);
+            if !follows || !is_piece || !are_known {
+                return Err(Damage::Segment { segment: piece }.into());
+            }
+            pieces.push((piece, Origin { segment, ends }));
+        }
+        if vertices.is_empty() && pieces.is_empty() {
+            return Ok(None);
+        }
+        Ok(Some(memory::boxed(Made::of_lists(vertices, pieces, counts.laid)?)?))
     }
 }
 
@@ -194,7 +241,13 @@ impl<G: Dimension> MovingTriangulation<G> {
         let corners = reader.rows::<VertexId, G::Vertices>(header.cells)?;
         let neighbours = reader.rows::<CellId, G::Neighbours>(header.cells)?;
         let mut later = Reader(&reader.0[4 * (header.moves + header.insertions + header.removals)..]);
-        let segments = later.segments::<G>(header)?;
+        let (segments, made) = later.segments::<G>(header)?.unzip();
+        let made = made.flatten();
+        if let Some(&(vertex, _)) =
+            made.iter().flat_map(|made| made.vertices()).find(|&&(v, _)| representatives[v] == VertexId::NONE)
+        {
+            return Err(Damage::Made { vertex }.into());
+        }
         let ends = ends_of(segments.as_deref(), &representatives)?;
         let rows = Rows { corners: &corners, neighbours: &neighbours, segments: &ends };
         let is_site = |v: VertexId| representatives[v] == v;
@@ -227,7 +280,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                     return Err(Damage::Segment { segment }.into());
                 }
             }
-            t.mesh.segments = Some(segments);
+            (t.mesh.segments, t.made) = (Some(segments), made);
         }
         t.statistics = header.statistics;
         t.statistics.coincident = t.mesh.hidden.count() as u64;

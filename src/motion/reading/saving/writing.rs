@@ -6,23 +6,19 @@ use crate::ids::{CellId, SegmentId, VertexId};
 use crate::machine::memory;
 use crate::motion::reading::chunks::Chunks;
 use crate::motion::reading::saving::header::{Header, SegmentCounts};
+use crate::motion::state::made::Origin;
 use crate::motion::state::segments::{Segment, Segments};
 use crate::motion::state::views::CellsView;
 use crate::motion::triangulation::MovingTriangulation;
 
-/// How many segments there are to be saved.
-fn counts_of<G: Dimension>(segments: &Segments<G>) -> SegmentCounts {
-    SegmentCounts { ids: segments.n_ids(), laid: segments.n_laid(), removals: segments.n_leaving() }
-}
-
 /// Writes segments: how many there are, the ends and the marker of each, and which are to go.
 fn save_segments<G: Dimension, E>(
     segments: &Segments<G>,
+    counts: SegmentCounts,
     chunks: &mut Chunks<impl FnMut(&[u8]) -> Result<(), E>>,
 ) -> Result<(), E> {
-    let SegmentCounts { ids, laid, removals } = counts_of(segments);
-    for count in [ids, laid, removals] {
-        chunks.numbers(&[count as u64 as u32, (count as u64 >> 32) as u32])?;
+    for count in counts.numbers() {
+        chunks.numbers(&[count as u32, (count >> 32) as u32])?;
     }
     for segment in segments.all() {
         let none = Segment { ends: [VertexId::NONE; 2], marker: 0 };
@@ -42,7 +38,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             moves: self.staged_count(),
             insertions,
             removals,
-            segment_bytes: self.segments_to_save().map_or(0, |segments| counts_of(segments).bytes()),
+            segment_bytes: self.segments_to_save().map_or(0, |segments| self.counts_of(segments).bytes()),
             statistics: self.statistics(),
         }
     }
@@ -105,7 +101,32 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.staged_vertices().try_for_each(|v| chunks.numbers(&[v.get()]))?;
         insertions.iter().try_for_each(|(id, _)| chunks.numbers(&[id.get()]))?;
         chunks.numbers(VertexId::numbers_of(self.edits.removals()))?;
-        self.segments_to_save().map_or(Ok(()), |segments| save_segments(segments, chunks))
+        let Some(segments) = self.segments_to_save() else { return Ok(()) };
+        save_segments(segments, self.counts_of(segments), chunks)?;
+        for (vertex, segment) in self.made_vertices() {
+            chunks.numbers(&[vertex.get(), segment.get()])?;
+        }
+        for (piece, Origin { segment, ends }) in self.pieces_of(segments) {
+            chunks.numbers(&[piece.get(), segment.get(), ends[0].get(), ends[1].get()])?;
+        }
+        Ok(())
+    }
+
+    /// How many segments there are to be saved.
+    fn counts_of(&self, segments: &Segments<G>) -> SegmentCounts {
+        SegmentCounts {
+            ids: segments.n_ids(),
+            laid: segments.n_laid(),
+            removals: segments.n_leaving(),
+            made_vertices: self.made_vertices().count(),
+            pieces: self.pieces_of(segments).count(),
+        }
+    }
+
+    /// The pieces in force, and those that are staged, with where they come from.
+    fn pieces_of<'a>(&'a self, segments: &'a Segments<G>) -> impl Iterator<Item = (SegmentId, Origin)> + 'a {
+        let all = self.made.iter().flat_map(|made| made.pieces());
+        all.copied().filter(|&(piece, _)| segments.all()[piece.index()].is_some())
     }
 
     /// The segments, if there ever was one that was not discarded.
