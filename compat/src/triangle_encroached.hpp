@@ -24,7 +24,7 @@ public:
             if (corners[i] != ends[0] && corners[i] != ends[1] && is_obtuse(places, i)) triangles_.insert(key(places));
     }
 
-    bool is_empty() const { return triangles_.empty(); }
+    std::size_t count() const { return triangles_.size(); }
 
     // As deldrift_quality has it; the first argument is the set.
     static bool has(void *encroached, const double *places) {

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "settings.hpp"
 #include "triangle_carving.hpp"
 #include "triangle_encroached.hpp"
 
@@ -70,10 +71,13 @@ public:
     void run() {
         if (has_criterion()) insert_points(nullptr);
         if (!switches_.conforms) return;
-        std::size_t n_inserted = 1;
-        while (n_inserted > 0) {
+        for (;;) {
             Encroached encroached = find_encroached();
-            n_inserted = encroached.is_empty() ? 0 : insert_points(&encroached);
+            if (encroached.count() == 0 || left_ == 0) return;
+            if (insert_points(&encroached) > 0) continue;
+            complain("triangulate", "switch D: rounding leaves no room to split the segments at %zu triangles",
+                     encroached.count());
+            return;
         }
     }
 

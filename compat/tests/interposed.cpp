@@ -69,11 +69,11 @@ void check_name_of_cxx(const Original &original, const Points &points) {
     triangulateio in{}, out{};
     in.pointlist = const_cast<double *>(points.data());
     in.numberofpoints = static_cast<int>(points.size() / 2);
-    char refined[] = "Qzq", plain[] = "Qz";
+    char unserved[] = "Qzu", plain[] = "Qz";
     const int before = *original.cxx_calls;
     *original.returns = 5;
-    CHECK(original.call_triangulate_of_cxx(refined, &in, &out, nullptr) == 5 && *original.cxx_calls == before + 1);
-    original.call_triangulate(refined, &in, &out, nullptr);
+    CHECK(original.call_triangulate_of_cxx(unserved, &in, &out, nullptr) == 5 && *original.cxx_calls == before + 1);
+    original.call_triangulate(unserved, &in, &out, nullptr);
     CHECK(*original.cxx_calls == before + 1);
     for (int *array : {out.trianglelist, out.neighborlist}) std::free(array);
     triangulateio result{};
@@ -124,7 +124,10 @@ int main(int count, char **arguments) {
     CellSet cells;
     // Own calls come from the original only where it was asked for; others always go to it.
     CHECK(reaches_original(original, "Qzn", points, cells) == !is_default && cells == expected);
-    CHECK(reaches_original(original, "Qzq", points, cells) && cells == expected);
+    CHECK(reaches_original(original, "Qzu", points, cells) && cells == expected);
+    CHECK(reaches_original(original, "Qzq35", points, cells) && cells == expected);
+    // Refined cells are not compared.
+    CHECK(reaches_original(original, "Qzq", points, cells) == !is_default && (cells == expected) == !is_default);
     *original.is_wrong = 1;
     reaches_original(original, "Qzn", points, cells);
     CHECK((cells == expected) == is_default);
