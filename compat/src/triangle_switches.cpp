@@ -36,11 +36,17 @@ void TriangleSwitches::read_area(const std::string &number) {
     if (!number.empty() && !(greatest_area > 0)) wrong = "switch a" + number + ": an area above 0 was expected";
 }
 
+void TriangleSwitches::read_order(const std::string &number) {
+    has_middles = number == "2";
+    if (!has_middles && !number.empty() && number != "1" && unserved.empty()) unserved = "switch o" + number;
+}
+
 TriangleSwitches::TriangleSwitches(const char *switches) {
     for (const char *each = switches; *each != '\0'; each++) {
         switch (*each) {
         case 'q': read_angle(number_behind(each)); break;
         case 'a': read_area(number_behind(each)); break;
+        case 'o': read_order(number_behind(each)); break;
         case 'D': refines = conforms = true; break;
         case 'Y': n_kept++; break;
         case 'S': limit = std::strtoull(("0" + number_behind(each)).c_str(), nullptr, 10); break;

@@ -20,6 +20,7 @@ struct TriangleSwitches {
     bool holes = true;         // not O
     bool splits = false;       // s: segments may be cut so that the triangulation stays Delaunay
     bool jettison = false;     // j: points that are in no triangle are left out
+    bool has_middles = false;  // o2: the middles of edges are points, triangles have six
     bool markers = true;       // not B
     bool points = true;        // not N
     bool triangles = true;     // not E
@@ -51,6 +52,7 @@ struct TriangleSwitches {
 private:
     void read_angle(const std::string &number);
     void read_area(const std::string &number);
+    void read_order(const std::string &number);
 };
 
 } // namespace compat

@@ -22,16 +22,18 @@ public:
         n_segments_ = mesh.has_segments ? mesh.segments.count() : n_hull;
         n_shown_ = n_points_;
         if (switches.jettison) leave_out(mesh.representative);
+        if (switches.has_middles) n_middles_ = n_edges_;
     }
 
     void allocate(const triangulateio &out, const triangulateio *vorout) {
         if (switches_.points) {
-            points_.allocate(out.pointlist, 2 * n_shown_);
-            if (n_attributes_ > 0) attributes_.allocate(out.pointattributelist, n_shown_ * n_attributes_);
-            if (switches_.markers) markers_.allocate(out.pointmarkerlist, n_shown_);
+            const std::size_t n = n_shown_ + n_middles_;
+            points_.allocate(out.pointlist, 2 * n);
+            if (n_attributes_ > 0) attributes_.allocate(out.pointattributelist, n * n_attributes_);
+            if (switches_.markers) markers_.allocate(out.pointmarkerlist, n);
         }
         if (switches_.triangles) {
-            triangles_.allocate(out.trianglelist, 3 * cells_.count);
+            triangles_.allocate(out.trianglelist, n_corners() * cells_.count);
             if (mesh_.has_cell_attributes) triangle_attributes_.allocate(out.triangleattributelist, cells_.count);
         }
         if (switches_.neighbours) neighbours_.allocate(out.neighborlist, 3 * cells_.count);
@@ -54,6 +56,7 @@ public:
     void fill() {
         if (triangles_) number(cells_.vertices, triangles_.data());
         if (triangles_ && !number_of_.empty()) renumber(triangles_.data(), 3 * cells_.count);
+        if (triangles_ && switches_.has_middles) add_middles_to_triangles();
         if (triangle_attributes_)
             std::copy(mesh_.cell_attributes.begin(), mesh_.cell_attributes.end(), triangle_attributes_.data());
         if (neighbours_) number(cells_.neighbours, neighbours_.data());
@@ -65,6 +68,7 @@ public:
         }
         // Last, as the caller's array may be that of the input, from which points are left out then.
         if (points_) fill_points();
+        if (points_ && switches_.has_middles) fill_middles();
     }
 
     void hand_over(triangulateio &out, triangulateio *vorout) {
@@ -78,10 +82,10 @@ public:
         edge_markers_.hand_over(out.edgemarkerlist);
         segments_.hand_over(out.segmentlist);
         segment_markers_.hand_over(out.segmentmarkerlist);
-        out.numberofpoints = static_cast<int>(n_shown_);
+        out.numberofpoints = static_cast<int>(n_shown_ + n_middles_);
         out.numberofpointattributes = in_.numberofpointattributes;
         out.numberoftriangles = static_cast<int>(cells_.count);
-        out.numberofcorners = 3;
+        out.numberofcorners = static_cast<int>(n_corners());
         out.numberoftriangleattributes = mesh_.has_cell_attributes;
         out.numberofedges = static_cast<int>(n_edges_);
         out.numberofsegments = static_cast<int>(n_segments_);
@@ -195,6 +199,39 @@ private:
             if (number_of_[i] != left_out) to = std::copy_n(from + i * width, width, to);
     }
 
+    std::size_t n_corners() const { return switches_.has_middles ? 6 : 3; }
+
+    // Rows of three become rows of six, from the last one on: behind each the middle of the edge opposite each corner.
+    // Middles have the numbers after those of points, in the order of edges.
+    void add_middles_to_triangles() {
+        for (std::size_t c = cells_.count; c-- > 0;)
+            for (std::size_t i = 3; i-- > 0;) triangles_[6 * c + i] = triangles_[3 * c + i];
+        for_each_edge([&](std::size_t n, std::uint32_t cell, unsigned corner, std::uint32_t neighbour) {
+            if (neighbour < cell) return;
+            const int number = numbered(static_cast<std::uint32_t>(n_shown_ + n));
+            triangles_[std::size_t{6} * cell + 3 + corner] = number;
+            if (neighbour == no_cell) return;
+            unsigned across = 0;
+            while (cells_.neighbours[std::size_t{3} * neighbour + across] != cell ||
+                   edge_start(neighbour, across) != edge_end(cell, corner))
+                across++;
+            triangles_[std::size_t{6} * neighbour + 3 + across] = number;
+        });
+    }
+
+    void fill_middles() {
+        for_each_edge([&](std::size_t n, std::uint32_t cell, unsigned corner, std::uint32_t neighbour) {
+            if (neighbour < cell) return;
+            const std::uint32_t start = edge_start(cell, corner), end = edge_end(cell, corner);
+            const std::size_t row = n_shown_ + n;
+            for (std::size_t axis = 0; axis < 2; axis++)
+                points_[2 * row + axis] = 0.5 * (position(start)[axis] + position(end)[axis]);
+            for (std::size_t k = 0; attributes_ && k < n_attributes_; k++)
+                attributes_[row * n_attributes_ + k] = 0.5 * (attribute(start, k) + attribute(end, k));
+            if (markers_) markers_[row] = edge_marker(cell, corner, neighbour);
+        });
+    }
+
     void fill_segments() {
         for (std::size_t i = 0; i < 2 * n_segments_; i++) segments_[i] = number_of_point(mesh_.segments.ends[i]);
         if (segment_markers_)
@@ -257,7 +294,7 @@ private:
     const Cells &cells_;
     const triangulateio &in_;
     int first_;
-    std::size_t n_points_, n_attributes_, n_segments_ = 0, n_edges_ = 0, n_shown_ = 0;
+    std::size_t n_points_, n_attributes_, n_segments_ = 0, n_edges_ = 0, n_shown_ = 0, n_middles_ = 0;
     static constexpr int left_out = -1;
     std::vector<int> number_of_; // of each point in the output, or left_out; empty where none is left out
     MallocArray<double> points_, attributes_, centres_, centre_attributes_, norms_, triangle_attributes_;
