@@ -9,7 +9,7 @@
 
 #include <unistd.h>
 
-enum { TOUR_POINTS = 48, TOUR_STEPS = 288, TOUR_ROOM = 1 << 14, TOUR_FILE = 1 << 18 };
+enum { TOUR_POINTS = 48, TOUR_STEPS = 320, TOUR_ROOM = 1 << 14, TOUR_FILE = 1 << 18 };
 
 // What a tour is given.
 typedef struct {
@@ -94,6 +94,15 @@ static void tour_progress(void *user_data, double fraction) {
     if (in_callback != NULL) in_callback();
 }
 
+// An answer for a cell that depends on its corners alone, whatever their order.
+static bool tour_is_too_large(void *user_data, const double *corners) {
+    (void)user_data;
+    if (in_callback != NULL) in_callback();
+    uint64_t sum = 0;
+    for (size_t i = 0; i < 6; i++) sum += digest_of(corners + i, sizeof *corners);
+    return sum % 4 == 0;
+}
+
 // Room for what calls give.
 static struct {
     uint32_t ids[TOUR_ROOM], more_ids[TOUR_ROOM];
@@ -143,6 +152,65 @@ static void ask_about_segments(const deldrift_triangulation *t, const places *p,
     note(ids, count * sizeof *ids);
     note(more, count * sizeof *more);
     note(ends, count * sizeof *ends);
+}
+
+// What refinement has made.
+static void ask_what_was_made(const deldrift_triangulation *t) {
+    uint32_t *ids = tour_out.ids, *more = tour_out.more_ids;
+    size_t count = 0;
+    TRY(deldrift_made_vertices(t, ids, more, TOUR_ROOM, &count));
+    note(ids, count * sizeof *ids);
+    note(more, count * sizeof *more);
+    TRY(deldrift_original_segments(t, ids, TOUR_ROOM, &count));
+    note(ids, count * sizeof *ids);
+    TRY(deldrift_refined_weights(t, ids, tour_out.numbers, TOUR_ROOM / 3, &count));
+    note(ids, count * 3 * sizeof *ids);
+    note(tour_out.numbers, count * 3 * sizeof *tour_out.numbers);
+    if (deldrift_copy_positions(t, tour_out.numbers, TOUR_ROOM / 3, &count) == DELDRIFT_OK) {
+        note(tour_out.numbers, count * 2 * sizeof *tour_out.numbers);
+    }
+}
+
+// Cells within segments are refined, by length, by angle and by what a callback says, and coarsened.
+static void improve(const deldrift_triangulation *of) {
+    static double sizes[2 * TOUR_POINTS];
+    deldrift_triangulation *t = NULL;
+    deldrift_quality quality;
+    deldrift_quality_report report;
+    size_t n_ids = 0;
+    uint32_t segment = 0;
+    GO(deldrift_clone(of, &t));
+    GO(deldrift_discard_moves(t));
+    TRY(deldrift_hull_facets(t, tour_out.ids, NULL, NULL, TOUR_ROOM / 3, &n_ids));
+    TRY(deldrift_stage_segments(t, tour_out.ids, NULL, n_ids, &segment));
+    TRY(deldrift_commit_timestamp(t, NULL));
+    if (tour_status != DELDRIFT_OK) GO(deldrift_discard_moves(t));
+    GO(deldrift_quality_init(&quality));
+    note(&quality.share, sizeof quality.share);
+    GO(deldrift_id_count(t, &n_ids));
+    CHECK(n_ids <= 2 * TOUR_POINTS);
+    for (size_t k = 0; k < n_ids; k++) sizes[k] = k % 2 == 0 ? 1 : 0.5;
+    quality.sizes = sizes;
+    quality.size_count = n_ids;
+    quality.limit = 12;
+    quality.has_weights = 1;
+    TRY(deldrift_refine(t, &quality, NULL, 0, &report));
+    note(&report, sizeof report);
+    ask_what_was_made(t);
+    quality.sizes = NULL;
+    quality.size_count = 0;
+    quality.least_angle = 30;
+    quality.is_too_large = tour_is_too_large;
+    TRY(deldrift_refine(t, &quality, NULL, 0, &report));
+    note(&report, sizeof report);
+    ask_what_was_made(t);
+    quality.is_too_large = NULL;
+    quality.least_angle = 10;
+    TRY(deldrift_coarsen(t, &quality, NULL, 0, &report));
+    note(&report, sizeof report);
+    ask_what_was_made(t);
+    GO(deldrift_validate(t, 3));
+    DO(deldrift_destroy(t));
 }
 
 // What can be asked about the cells and vertices of any triangulation.
@@ -405,6 +473,7 @@ static void make_tour(const places *p, record *made) {
     GO(deldrift_commit_positions(t, p->at, count, &report));
     note(&report, sizeof report);
     prescribe(t);
+    improve(t);
     keep(t, p, &options);
     DO(deldrift_destroy(t));
 
