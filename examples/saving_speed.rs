@@ -50,7 +50,7 @@ fn run<G: Dimension>(n: usize) {
     let (check, _) = mean(n, || Saved::of(&bytes).expect("saved").dimension());
     let (clone, _) = mean(n, || t.try_clone(None).expect("room"));
     let (vtu, _) = mean(n, || t.write_vtu::<Error>(&[], &[], |_| Ok(())));
-    let (medit, _) = mean(n, || t.write_medit::<Error>(|_| Ok(())));
+    let (medit, _) = mean(n, || t.write_medit::<Error>(None, |_| Ok(())));
     assert!(loaded.saved().expect("room") == bytes);
     let size = bytes.len() as f64 / n as f64;
     println!(

@@ -245,7 +245,7 @@ static void keep_and_write(deldrift_triangulation *t) {
     check(deldrift_volumes(t, areas, MOST, &count));
     const deldrift_field place = {"place", positions, 2}, area = {"area", areas, 1};
     check(deldrift_write_vtu(t, "tour.vtu", &place, 1, &area, 1));  // for ParaView
-    check(deldrift_write_medit(t, "tour.mesh"));                    // for Mmg, FreeFem and Gmsh
+    check(deldrift_write_medit(t, "tour.mesh", NULL, 0));           // for Mmg, FreeFem and Gmsh
     expect(remove("tour.deldrift") + remove("tour.vtu") + remove("tour.mesh") == 0, "the files are there");
 }
 
@@ -290,6 +290,52 @@ static void ask_for_a_domain(void) {
     check(deldrift_commit_timestamp(t, NULL));
     check(deldrift_segments(t, NULL, NULL, NULL, 0, &count));
     expect(count == 4, "and four segments stay");
+    check(deldrift_move_vertex(t, 4, (double[]){5, -3}));
+    expect(deldrift_check_passings(t) == DELDRIFT_PASSES_SEGMENT, "a vertex does not jump across the kite unnoticed");
+    check(deldrift_passings(t, segments, beside, 4, &count));
+    expect(count > 0 && beside[0] == 4, "and it is told what it would pass");
+    check(deldrift_discard_moves(t));
+    deldrift_split_report report;
+    check(deldrift_stage_segments(t, (uint32_t[]){0, 2, 1, 4}, NULL, 2, &first));
+    check(deldrift_stage_splits(t, 1, &report));
+    expect(report.inserted == 0 && report.pieces == 4, "two that would cross where a vertex is are split there");
+    check(deldrift_commit_timestamp(t, NULL));
+    deldrift_destroy(t);
+}
+
+// A square of two regions whose mesh is refined: where vertices and pieces come from, labels, and the boundary.
+static void refine_a_domain(void) {
+    enum { ROOM = 4096 };
+    static uint32_t vertices[ROOM], of_vertices[ROOM], originals[ROOM];
+    static int32_t labels[ROOM];
+    static uint8_t mask[ROOM];
+    const double square[] = {0, 0, 1, 0, 2, 0, 2, 1, 1, 1, 0, 1};
+    const uint32_t ends[] = {0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 0, 1, 4};
+    uint32_t first;
+    size_t count, n_cells, undecided;
+    deldrift_triangulation *t;
+    deldrift_quality quality;
+    deldrift_quality_report report;
+    check(deldrift_create(2, square, 6, NULL, &t));
+    check(deldrift_stage_segments(t, ends, NULL, 7, &first));
+    check(deldrift_commit_timestamp(t, NULL));
+    deldrift_quality_init(&quality);
+    quality.least_angle = 30;
+    quality.greatest_area = 0.01;
+    check(deldrift_refine(t, &quality, NULL, 0, &report));
+    expect(report.bad_cells == 0 && report.on_segments > 6, "no angle is below 30 degrees, and segments have got vertices");
+    check(deldrift_made_vertices(t, vertices, of_vertices, ROOM, &count));
+    expect(count == report.inserted && vertices[0] == 6, "which it tells, each with its segment");
+    check(deldrift_original_segments(t, originals, ROOM, &count));
+    expect(count == 7 + report.on_segments && originals[0] < 7, "and pieces know theirs");
+    check(deldrift_label_cells(t, (double[]){0.3, 0.3, 1.3, 0.3}, (int32_t[]){1, 2}, 2, 0, labels, ROOM, &n_cells));
+    const int32_t label = labels[0];
+    labels[0] = 0;
+    check(deldrift_update_labels(t, (uint32_t[]){0}, 1, 0, labels, ROOM, &undecided));
+    expect(undecided == 0 && labels[0] == label, "a cell has the label of those around it");
+    for (size_t c = 0; c < n_cells; c++) mask[c] = labels[c] == 1;
+    check(deldrift_boundary_chains(t, mask, n_cells, vertices, of_vertices, NULL, NULL, NULL, ROOM, &count));
+    expect(count > 4 && of_vertices[count - 1] == 0, "and the boundary of one half is one chain");
     deldrift_destroy(t);
 }
 
@@ -314,6 +360,7 @@ int main(void) {
     keep_and_write(t);
     ask_for_signs();
     ask_for_a_domain();
+    refine_a_domain();
     check(deldrift_validate(t, 3));
     check(deldrift_dimension(t, &dimension));
     check(deldrift_memory_bytes(t, &bytes));

@@ -79,19 +79,32 @@ fn the_turned_plate_has_its_temperature_without_flat_cells() {
     }
 }
 
-/// Its area is that of the square less the rotor, and no temperature is beyond those of the boundary.
+/// Its area is that of the box less rotor and pipe, as much heat leaves as comes, and the mesh keeps its quality and its
+/// number of vertices.
 #[test]
-fn the_domain_with_a_rotor_keeps_its_area() {
+fn the_domain_with_a_rotor_keeps_its_area_its_heat_and_its_mesh() {
     let folder = fresh_folder("domain");
     let program = build(&repository("examples/domain.c"), &folder, Linkage::Static, &[]);
-    let picture = folder.join("picture.svg");
-    let said = succeed(command(program).arg(&picture));
-    assert_eq!(number_after("", &said), 200.0, "{said}");
-    assert!(number_after("area within ", &said) < 1e-12, "{said}");
-    assert_eq!([number_after("from ", &said), number_after(" to ", &said)], [0.0, 1.0], "{said}");
+    let (picture, page) = (folder.join("picture.svg"), folder.join("page.html"));
+    let said = succeed(command(program).arg("300").arg(&picture).arg(&page));
+    let vertices: Vec<f64> = said
+        .lines()
+        .filter_map(|line| line.split_once(": ")?.1.strip_suffix(" vertices")?.parse().ok())
+        .collect();
+    assert_eq!(vertices.len(), 11, "{said}");
+    assert!(vertices.iter().all(|n| (0.9..1.1).contains(&(n / vertices[0]))), "{said}");
+    let last = said.lines().last().expect("it says something");
+    assert!(last.starts_with("300 steps"), "{said}");
+    assert!(number_after("least angle ", last) >= 25.0, "{said}");
+    assert!(number_after("area within ", last) < 1e-12, "{said}");
+    assert!(number_after("heat within ", last) < 1e-12, "{said}");
+    assert!(number_after("had changed ", last) < 1e-4, "{said}");
     let drawn = std::fs::read_to_string(&picture).expect("the example has written it");
-    assert!(drawn.starts_with("<svg ") && drawn.ends_with("</svg>\n") && drawn.len() < 200_000);
-    assert_eq!((drawn.matches("class='b'").count(), drawn.matches("zM").count()), (3, 3), "{said}");
+    assert!(drawn.starts_with("<svg ") && drawn.ends_with("</svg>\n") && drawn.len() < 300_000);
+    assert_eq!((drawn.matches("class='b'").count(), drawn.matches("zM").count()), (3, 6), "{said}");
+    let drawn = std::fs::read_to_string(&page).expect("the example has written it");
+    assert_eq!(drawn.matches("<g class='frame'").count(), 61, "{said}");
+    assert!(drawn.starts_with("<!doctype html>") && drawn.ends_with("</html>\n") && drawn.len() < 5_000_000);
 }
 
 #[test]

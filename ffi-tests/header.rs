@@ -31,6 +31,7 @@ const MAIN: Header = Header {
         "motion",
         "immediate",
         "segments",
+        "splitting",
         "changes",
         "state",
         "query",

@@ -187,6 +187,8 @@ enum
     DELDRIFT_ENDS_MEET = 33,
     /// A seed is on the boundary of several regions.
     DELDRIFT_AMBIGUOUS_SEED = 34,
+    /// A vertex would pass a segment; deldrift_passings tells all that would.
+    DELDRIFT_PASSES_SEGMENT = 35,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -344,6 +346,27 @@ typedef uint32_t deldrift_kept;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+/// What happens when a vertex would pass a segment: deldrift_check_passings says what that is.
+enum
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  deldrift_passing : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /// Nothing: it is not looked for, except by deldrift_check_passings.
+    DELDRIFT_PASSING_IGNORE = 0,
+    /// The call goes on, and deldrift_passings then tells which vertices have passed which segments.
+    DELDRIFT_PASSING_TELL = 1,
+    /// The call fails with DELDRIFT_PASSES_SEGMENT and has no effect; deldrift_passings then tells all of them.
+    DELDRIFT_PASSING_REFUSE = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum deldrift_passing deldrift_passing;
+#else
+typedef uint32_t deldrift_passing;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
 /// Arrays of cells that a program has taken over: opaque, made by deldrift_release_cells, unmade by
 /// deldrift_free_cells.
 typedef struct deldrift_released_cells deldrift_released_cells;
@@ -382,8 +405,9 @@ typedef struct deldrift_options {
     uint32_t threads;
     /// Default DELDRIFT_COINCIDENCE_MERGE.
     deldrift_coincidence coincidence;
-    /// Zero; later versions may have an option here.
-    uint32_t reserved;
+    /// What commits, deldrift_check_staged and deldrift_relocate_vertex do when a vertex would pass a segment. Default
+    /// DELDRIFT_PASSING_IGNORE.
+    deldrift_passing passing;
     /// Called now and then during long calls: at least once for some ten thousand cells that are made, or looked at
     /// around single vertices. Passes over all vertices or cells, each of which takes a part of a build, are not
     /// interrupted. When it returns true, the call ends in DELDRIFT_CANCELLED and has had no effect. NULL, the default,
@@ -441,6 +465,25 @@ typedef struct deldrift_conflict {
     /// The id of a segment or a vertex, or DELDRIFT_NONE, as kind says.
     uint32_t other;
 } deldrift_conflict;
+
+/// What deldrift_stage_splits has staged.
+typedef struct deldrift_split_report {
+    /// Vertices to be inserted, where segments cross.
+    uint64_t inserted;
+    /// Segments that pieces take the place of.
+    uint64_t replaced_segments;
+    /// Pieces to be made.
+    uint64_t pieces;
+    /// How often segments and pieces were split, all that were in the way of each other at a time.
+    uint64_t rounds;
+    /// The id of the first vertex to be inserted; the others follow it. The id that would be given next if there are none.
+    uint32_t first_vertex;
+    /// The id of the first piece; the others follow it, by the ids of their segments, and along each of these from its first
+    /// end. The id that would be given next if there are none.
+    uint32_t first_piece;
+    /// Zero; later versions may tell more.
+    uint64_t reserved[3];
+} deldrift_split_report;
 
 /// What has changed since the program last took the changes: lists that belong to the triangulation, valid
 /// until the next call that changes it. A pointer is NULL if its list is empty.
@@ -593,7 +636,8 @@ typedef struct deldrift_quality_report {
 /// Numbers for each vertex, or for each cell, that deldrift_write_vtu writes along.
 typedef struct deldrift_field {
     /// What it is called: UTF-8, with a NUL at the end; without control characters, U+FFFE and U+FFFF, which XML does
-    /// not have. Fields of vertices have different names, none of them "vertex", and so have fields of cells.
+    /// not have. Fields of vertices have different names, none of them "vertex", and so have fields of cells, none of
+    /// them "marker" if there are segments.
     const char *name;
     /// components numbers for each vertex, by id (those of removed vertices are not written), or for each cell, by
     /// index.
@@ -784,7 +828,8 @@ deldrift_status deldrift_discard_moves(deldrift_triangulation *t);
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_COINCIDENT (if the options
 /// reject it), DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT, DELDRIFT_END_REMOVED, DELDRIFT_ENDS_MEET (see
-/// deldrift_segment_conflicts), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation
+/// deldrift_segment_conflicts), DELDRIFT_PASSES_SEGMENT (if the options refuse it; looked at before all that segments
+/// are refused for else), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation
 /// stays at its timestamp, and what is staged stays so. Not to be called at the same time as any other call
 /// on t.
 deldrift_status deldrift_commit_timestamp(deldrift_triangulation *t,
@@ -822,8 +867,8 @@ deldrift_status deldrift_commit_positions(deldrift_triangulation *t,
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
 /// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_DUPLICATE_MOVE if a move of
 /// this vertex is staged, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it),
-/// DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT, DELDRIFT_ENDS_MEET, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY,
-/// DELDRIFT_CANCELLED. Not to be called at the same time as any other call on t.
+/// DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT, DELDRIFT_ENDS_MEET, DELDRIFT_PASSES_SEGMENT (if the options refuse it),
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other call on t.
 deldrift_status deldrift_relocate_vertex(deldrift_triangulation *t,
                                          uint32_t vertex,
                                          const double *position);
@@ -896,7 +941,7 @@ deldrift_status deldrift_compact(deldrift_triangulation *t,
 /// it goes to the one that represents them. Nothing is looked at before the commit, which is refused, as is
 /// deldrift_check_staged, where segments cross, a vertex is on one, an end is removed, or both ends are at the same place:
 /// see deldrift_segment_conflicts. Only the positions that it leads to count: a vertex may have gone from one side of a
-/// segment to the other. Segments that are in force are kept by calls that change one vertex at once, too, which are
+/// segment to the other, unless the options refuse that: see deldrift_check_passings. Segments that are in force are kept by calls that change one vertex at once, too, which are
 /// refused for the same reasons. deldrift_discard_moves forgets what is staged of segments, too, and the ids of staged
 /// ones are given again. deldrift_staged_count does not count segments.
 ///
@@ -957,7 +1002,7 @@ deldrift_status deldrift_segments(const deldrift_triangulation *t,
 ///
 /// Errors: those of deldrift_commit_timestamp: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_CROSSING,
 /// DELDRIFT_ON_SEGMENT, DELDRIFT_END_REMOVED and DELDRIFT_ENDS_MEET for conflicts, of which the first is told,
-/// DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not
+/// DELDRIFT_PASSES_SEGMENT (if the options refuse it; then conflicts have not been looked for), DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not
 /// to be called at the same time as any other call on t.
 deldrift_status deldrift_check_staged(deldrift_triangulation *t);
 
@@ -979,6 +1024,92 @@ deldrift_status deldrift_segment_conflicts(const deldrift_triangulation *t,
                                            deldrift_conflict *conflicts,
                                            size_t capacity,
                                            size_t *count);
+
+/// Whether vertices would pass segments in a commit of what is staged, whatever the options say of it. Commits nothing, and
+/// what is staged stays so. deldrift_passings then tells all that would. A program that asks before each commit knows
+/// which values to take over from the other side, or cuts its step; with an option, commits ask by themselves.
+///
+/// A commit compares positions at two timestamps, and accepts a vertex that has jumped across a segment, or a whole loop of
+/// segments that has jumped across a vertex. What has happened in between is defined so: each vertex goes straight from its
+/// old place to its new one, at constant speed, and so do both ends of each segment that is in force before and after. A
+/// vertex passes a segment, of which it is no end, if it goes through it and is not back on its side when the step ends:
+/// at f(s, t) = p(t) - a(t) - s (b(t) - a(t)) = 0, for s and t from 0 to 1, vertex p is on the segment from a to b, and it
+/// passes if the number of zeros, each counted as 1 or -1 by the direction, is not 0. That is the number of times that the
+/// quadrilateral p0 - a0, p0 - b0, p1 - b1, p1 - a1 winds around the origin. It also passes if the origin is on the
+/// quadrilateral: then it goes exactly through an end on its way, or stops on the segment. All of this is exact, at all
+/// positions.
+///
+/// Not told are: a vertex that goes through a segment and back in one step, as the end of the step is legal; one that is at
+/// the place of an end of the segment before or after, as it is on no side there; vertices that are inserted or removed by
+/// the commit, which do not move; and segments that are staged, or whose removal is, with their vertices. Ends of segments
+/// are vertices as others, so that two segments that go through each other are told by their ends, and so are hidden
+/// vertices, which move with those that represent them, or part from them. A vertex that goes around the end of a slit is
+/// told if it goes through the slit on its straight way: what passes is a matter of the step, not of the region that a
+/// vertex is in. One that enters a loop through one segment and leaves it through another is told for both.
+///
+/// Cost: where many vertices move, a pass over them, and for each near segments at any time of the step the test; less than
+/// a commit of small moves. Where some move, and no ends of segments, that of looking at them and the segments.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_PASSES_SEGMENT if
+/// a vertex would pass a segment, of which the message names the first, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same
+/// time as any other call on t.
+deldrift_status deldrift_check_passings(deldrift_triangulation *t);
+
+/// The vertices that pass segments in the step that was looked at last, by deldrift_check_passings, or by the latest
+/// commit, deldrift_check_staged or deldrift_relocate_vertex: in ascending order of segment and vertex. With
+/// DELDRIFT_PASSING_TELL those that have passed in the latest commit, with DELDRIFT_PASSING_REFUSE those for which it was
+/// refused; with DELDRIFT_PASSING_IGNORE a commit leaves none. Staging, discarding and questions keep them, and so do calls
+/// that insert or remove a vertex at once.
+///
+/// segments: a buffer with room for capacity ids; vertices: for capacity ids; entry k says that vertices[k] passes
+/// segments[k]. One that is NULL is not filled. count: receives their number, which is also written when the buffers are
+/// too small. NULL for both with capacity 0 asks for the count alone.
+///
+/// Cost: their number.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL.
+deldrift_status deldrift_passings(const deldrift_triangulation *t,
+                                  uint32_t *segments,
+                                  uint32_t *vertices,
+                                  size_t capacity,
+                                  size_t *count);
+
+/// Splits segments, staged ones and those in force, for which a commit of what is staged would be refused: to be called
+/// before the commit. A segment with a vertex on it is replaced by pieces between its ends and such vertices, and two that
+/// cross get a vertex there. The new vertices and the pieces are staged, and so are removals of segments in force that pieces
+/// take the place of; a segment that was staged is not made, and its id is not given again. Where nothing is in the way of
+/// segments nothing is done.
+///
+/// Pieces have the marker and the direction of their segment. Segments that overlap have common pieces, with an id for each
+/// of them. A crossing is rounded correctly: each coordinate is the number nearest to that of the place where the segments,
+/// or pieces of them, cross. If a vertex will be at that place, it is taken, the lowest id of several; and where a place on a
+/// segment is rounded to that of an end of the other one, the segment is cut at that end. Pieces are straight between their
+/// own ends, so that a segment may bend by last places, and be in the way of another one that it was not before: then both are
+/// split again. Each coordinate of a vertex on a segment is off by at most rounds halves of a last place of the segment's
+/// greatest coordinates, and along the segment both coordinates go one way. This ends, as numbers between the ends of a
+/// segment do; mostly after one or two rounds, and after more where many segments go through nearly one place.
+///
+/// limit: how many vertices may be inserted at most; SIZE_MAX for any number. With 0 segments are split only at vertices that
+/// are there. report: receives what has been staged; may be NULL.
+///
+/// Places and ids of the new vertices, and the edges that are required, depend only on positions, vertex ids and segments:
+/// neither on the order and directions in which segments were given nor on what was before. All can be committed or
+/// discarded as if the program had staged it; what is staged afterwards may be in the way of pieces, which can be split again.
+/// Vertices that were inserted where segments cross stay when segments are removed, as all do.
+///
+/// Cost: that of deldrift_check_staged for each round and once more; for m crossings that of sorting them, and a search among
+/// them for each vertex.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT; DELDRIFT_CROSSING if more
+/// than limit vertices would be inserted; DELDRIFT_END_REMOVED and DELDRIFT_ENDS_MEET for conflicts that no split resolves,
+/// whatever others there are; for these three, deldrift_segment_conflicts tells all conflicts of what is staged;
+/// DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. After an error what was staged is staged as before. Not to be called at the same
+/// time as any other call on t.
+deldrift_status deldrift_stage_splits(deldrift_triangulation *t,
+                                      size_t limit,
+                                      deldrift_split_report *report);
 
 /// Takes what has changed since this was last called, to *changes: commits, immediate calls, insertions and removals
 /// alike. The first call lists all cells as created.
@@ -1160,7 +1291,8 @@ deldrift_status deldrift_star(const deldrift_triangulation *t,
 ///
 /// It is a certified lower bound: rounding can make it smaller, but never too large. It is 0 where nothing
 /// is certain and for vertices that share their place, and infinite, without a meaning, while there are no
-/// cells. Computed from the star of the vertex, whatever the algorithm in force.
+/// cells. Computed from the star of the vertex, whatever the algorithm in force. At segments it is what the orientation of
+/// the cells on both sides allows.
 ///
 /// Cost: the cells of the star.
 ///
@@ -1551,6 +1683,36 @@ deldrift_status deldrift_label_cells(const deldrift_triangulation *t,
                                      size_t capacity,
                                      size_t *count);
 
+/// Computes the labels of some cells again, in an array that deldrift_label_cells has filled, or that is filled with
+/// nesting levels: each listed cell gets the label of the cells that it is reached from without crossing a segment, and that
+/// are not listed. Other entries are not touched.
+///
+/// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once: the created ones of
+/// deldrift_take_changes. NULL if cell_count is 0. other: the label of cells that are reached from the outside of the hull alone,
+/// from no cell that is not listed, or from some of different labels. label_of: an array of capacity numbers, of which those
+/// of cells that are not listed are read. capacity: at least deldrift_cell_count. undecided: receives the number of cells of
+/// the last two kinds: if it is not 0, a region has new cells only, or touches two labels, and it is time for
+/// deldrift_label_cells.
+///
+/// deldrift_update_circumcentres has the steps by which an array for all cells is brought up to date. While segments stay,
+/// and vertices move without passing any, labels stay with their regions: that is what deldrift_label_cells would give for
+/// seeds that move with these. Where a commit adds segments, both parts of a region have its label; where it removes some
+/// between regions of different labels, either label may go on: label anew then.
+///
+/// Exact. Cost: of k cells k log k, and k log s for s segments. After a change the first call also does what the first
+/// deldrift_cells does.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_update_labels(const deldrift_triangulation *t,
+                                       const uint32_t *cells,
+                                       size_t cell_count,
+                                       int32_t other,
+                                       int32_t *label_of,
+                                       size_t capacity,
+                                       size_t *undecided);
+
 /// The boundary of some of the cells of the plane, in closed chains of edges, which have these cells on their left: an outer
 /// boundary goes counter-clockwise, that of a hole clockwise. With the mask of the cells that have an odd nesting level it is
 /// the boundary of a domain, and the markers of its segments tell what holds there.
@@ -1633,7 +1795,10 @@ deldrift_status deldrift_refine(deldrift_triangulation *t,
 /// Cost: that of deldrift_refine where all is good, and for each vertex that deldrift_refine has inserted at most that of
 /// looking at the cells around it.
 ///
-/// Errors: those of deldrift_refine. Not to be called at the same time as any other call on t.
+/// Errors: those of deldrift_refine but for keeps: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT,
+/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS for struct_size, DELDRIFT_WRONG_COUNT,
+/// DELDRIFT_INVALID_VALUE, DELDRIFT_STAGED_VERTEX, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED,
+/// DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING. Not to be called at the same time as any other call on t.
 deldrift_status deldrift_coarsen(deldrift_triangulation *t,
                                  const deldrift_quality *quality,
                                  const uint8_t *mask,
@@ -2164,6 +2329,10 @@ deldrift_status deldrift_load_file(const char *path,
 /// "vertex". In 2D the third coordinate is 0. Its cells are those of deldrift_cells, in that order. path: of a file
 /// that is made, or replaced once the new one is complete, with what deldrift_save_file says of it.
 ///
+/// If there are segments in force, those of deldrift_segments are lines behind these cells, in that order; an end that
+/// is hidden is the vertex that represents it. Their markers are the cell data "marker", which is 0 for cells that are
+/// no lines, and cell_fields are NaN for lines.
+///
 /// vertex_fields, cell_fields: numbers to be written along as point data and cell data, vertex_field_count and
 /// cell_field_count of them; NULL if the count is 0. All of it is read during the call only.
 ///
@@ -2183,17 +2352,25 @@ deldrift_status deldrift_write_vtu(const deldrift_triangulation *t,
 /// Writes a file for Mmg, FreeFem, Gmsh and others: MEDIT's text format (.mesh).
 ///
 /// Its vertices are those that are present, hidden ones included, ascending by id and numbered from 1; the reference
-/// of each is its id. Its triangles or tetrahedra are the cells, in the order of deldrift_cells, with the reference 1.
-/// Reading the numbers gives the same doubles. path: of a file that is made, or replaced once the new one is complete,
+/// of each is its id. Its triangles or tetrahedra are the cells, in the order of deldrift_cells. If there are segments in
+/// force, those of deldrift_segments are its edges, in that order, behind the triangles; the reference of each is its
+/// marker, and an end that is hidden is the vertex that represents it. Reading the numbers gives the same doubles.
+///
+/// references: reference_count numbers, the reference of each cell in the order of deldrift_cells (reference_count must
+/// be deldrift_cell_count), such as those of deldrift_label_cells; NULL with reference_count 0 for 1. They are read
+/// during the call only. path: of a file that is made, or replaced once the new one is complete,
 /// with what deldrift_save_file says of it.
 ///
 /// Does what deldrift_cells does.
 ///
 /// Cost: n + m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_IO_ERROR,
+/// DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_write_medit(const deldrift_triangulation *t,
-                                     const char *path);
+                                     const char *path,
+                                     const int32_t *references,
+                                     size_t reference_count);
 
 /// The orientation of points, exactly, to *sign: 1, -1 or 0.
 ///

@@ -15,7 +15,8 @@
 // Positions come from any contiguous container of double, float, std::array or a program's own points, or with a
 // stride, or from arrays of x, y and z: see deldrift/positions.hpp. Cells, facets, stars and vertices are ranges with
 // iterators for <algorithm> and <ranges>: see deldrift/cells.hpp. Ranges end like the views that they are made of, with
-// the next change. Segments, and the error of a change that they refuse, are in deldrift/segments.hpp.
+// the next change. Segments, and the error of a change that they refuse, are in deldrift/segments.hpp; the quality of
+// cells that refine() works towards is in deldrift/refining.hpp.
 // deldrift/cgal.hpp has the names of CGAL's Delaunay_triangulation_2 and _3.
 #ifndef DELDRIFT_HPP
 #define DELDRIFT_HPP
@@ -36,6 +37,7 @@
 #include "deldrift/cells.hpp"
 #include "deldrift/orientation.hpp"
 #include "deldrift/positions.hpp"
+#include "deldrift/refining.hpp"
 #include "deldrift/results.hpp"
 #include "deldrift/segments.hpp"
 #include "deldrift/span.hpp"
@@ -98,8 +100,14 @@ public:
         require_ok(deldrift_write_vtu(native(), path.c_str(), vertices.data(), vertices.size(), cells.data(),
                                       cells.size()));
     }
-    // For Mmg, FreeFem, Gmsh and others.
-    void write_medit(const std::string &path) const { require_ok(deldrift_write_medit(native(), path.c_str())); }
+    // For Mmg, FreeFem, Gmsh and others; the references of cells are numbers such as label_cells() gives, or 1.
+    //
+    //     t.write_medit("mesh.mesh", t.label_cells({0.5, 0.5}, {STEEL}, AIR));
+    void write_medit(const std::string &path) const { require_ok(deldrift_write_medit(native(), path.c_str(), nullptr, 0)); }
+    void write_medit(const std::string &path, span<const std::int32_t> references) const {
+        expect("references", references.size(), cell_count());
+        require_ok(deldrift_write_medit(native(), path.c_str(), references.data(), references.size()));
+    }
 
     // For the functions of deldrift.h; null when moved from.
     deldrift_triangulation *native() noexcept { return t_.get(); }
@@ -150,6 +158,19 @@ public:
     //         }
     //     }
     void check_staged() { require_change(deldrift_check_staged(native())); }
+    // Throws PassingError if vertices would pass segments in a commit of what is staged, whatever the options say.
+    void check_passings() { require_change(deldrift_check_passings(native())); }
+    // Splits segments with vertices on them, and, with at most limit new vertices, those that cross: to be committed then.
+    // Throws a ConflictError if more vertices are needed, or for ends that are removed or meet.
+    //     t.stage_segments(roads);
+    //     const deldrift_split_report split = t.stage_splits();
+    //     t.commit_timestamp();
+    //     for (std::uint32_t k = 0; k < split.inserted; k++) draw_crossing(t.position(split.first_vertex + k));
+    deldrift_split_report stage_splits(std::size_t limit = SIZE_MAX) {
+        deldrift_split_report report;
+        require_change(deldrift_stage_splits(native(), limit, &report));
+        return report;
+    }
     void discard_moves() { require_ok(deldrift_discard_moves(native())); }
     deldrift_commit_report commit_timestamp() {
         deldrift_commit_report report;
@@ -332,6 +353,17 @@ public:
         require_ok(deldrift_segment_conflicts(native(), conflicts.data(), count, &count));
         return conflicts;
     }
+    // In the step that was looked at last: with DELDRIFT_PASSING_TELL those that have passed in the latest commit.
+    //     for (const auto [segment, vertex] : t.passings()) exchange_sides(vertex);
+    std::vector<Passing> passings() const {
+        std::size_t count = 0;
+        require_ok(deldrift_passings(native(), nullptr, nullptr, 0, &count));
+        std::vector<std::uint32_t> segments(count), vertices(count);
+        require_ok(deldrift_passings(native(), segments.data(), vertices.data(), count, &count));
+        std::vector<Passing> passings(count);
+        for (std::size_t k = 0; k < count; ++k) passings[k] = {segments[k], vertices[k]};
+        return passings;
+    }
     // For each cell the segments opposite its corners, DELDRIFT_NONE where there is none.
     //     for (const auto &sides : t.segments_of_cells())
     //         for (const std::uint32_t segment : sides) n += segment != DELDRIFT_NONE;
@@ -391,6 +423,62 @@ public:
             if (k == count || chain_of[k] != chain_of[k - 1]) chains.offsets.push_back(k);
         }
         return chains;
+    }
+
+    // Inserts vertices until cells are of a quality, in one commit: those in the mask, which has to end at segments, or,
+    // if it is empty, those of an odd nesting level.
+    //     for (;;) {
+    //         t.commit_positions(positions_after_step());
+    //         t.coarsen(quality);
+    //         t.refine(quality);
+    //         t.carry(temperatures);
+    //     }
+    deldrift_quality_report refine(const Quality &quality, span<const std::uint8_t> mask = {}) {
+        return improve(deldrift_refine, quality, mask);
+    }
+    // Removes vertices that refine() has inserted and that are not needed any more.
+    deldrift_quality_report coarsen(const Quality &quality, span<const std::uint8_t> mask = {}) {
+        return improve(deldrift_coarsen, quality, mask);
+    }
+    MadeVertices made_vertices() const {
+        std::size_t count = 0;
+        require_ok(deldrift_made_vertices(native(), nullptr, nullptr, 0, &count));
+        MadeVertices made{std::vector<std::uint32_t>(count), std::vector<std::uint32_t>(count)};
+        require_ok(deldrift_made_vertices(native(), made.vertices.data(), made.segments.data(), count, &count));
+        return made;
+    }
+    // For each of segments() the one that it is a piece of; itself if it is whole.
+    std::vector<std::uint32_t> original_segments() const {
+        std::size_t count = 0;
+        require_ok(deldrift_original_segments(native(), nullptr, 0, &count));
+        std::vector<std::uint32_t> originals(count);
+        require_ok(deldrift_original_segments(native(), originals.data(), count, &count));
+        return originals;
+    }
+    // None unless the quality of the last change, a refine(), asked for them.
+    RefinedWeights refined_weights() const {
+        std::size_t count = 0;
+        require_ok(deldrift_refined_weights(native(), nullptr, nullptr, 0, &count));
+        RefinedWeights rows;
+        if (count == 0) return rows;
+        rows.vertices.resize(count);
+        rows.weights.resize(count);
+        require_ok(deldrift_refined_weights(native(), rows.vertices.front().data(), rows.weights.front().data(), count,
+                                            &count));
+        return rows;
+    }
+    // Appends to values, n_values numbers for each id that there was before the last refine(), those of the vertices that
+    // it has inserted. Numbers that are linear in the position stay so.
+    void carry(std::vector<double> &values, std::size_t n_values = 1) const {
+        const RefinedWeights rows = refined_weights();
+        const std::size_t wanted = (id_count() - rows.size()) * n_values;
+        if (values.size() != wanted) {
+            throw Error(DELDRIFT_WRONG_COUNT, "values has " + std::to_string(values.size()) +
+                                                  " numbers, but must have " + std::to_string(wanted) +
+                                                  ", as weights are known of " + std::to_string(rows.size()) +
+                                                  " new vertices");
+        }
+        rows.carry(values, n_values);
     }
 
     // Rows of two ids, the lower one first, in lexicographic order.
@@ -569,9 +657,28 @@ private:
     }
     // Of calls that segments may refuse.
     void require_change(deldrift_status status) const {
+        if (status == DELDRIFT_PASSES_SEGMENT) {
+            const std::string message = deldrift_last_error();
+            throw PassingError(message, passings());
+        }
         if (!ConflictError::is_conflict(status)) return require_ok(status);
         const std::string message = deldrift_last_error();
         throw ConflictError(status, message, segment_conflicts());
+    }
+    template <class Call>
+    deldrift_quality_report improve(Call call, const Quality &quality, span<const std::uint8_t> mask) {
+        detail::GivenQuality given(quality);
+        deldrift_triangulation *before = nullptr;
+        if (given.has_function()) require_ok(deldrift_clone(native(), &before));
+        std::unique_ptr<deldrift_triangulation, Destroy> unchanged(before);
+        deldrift_quality_report report;
+        const deldrift_status status = call(native(), given.get(), mask.data(), mask.size(), &report);
+        if (given.has_thrown()) {
+            if (status == DELDRIFT_OK) t_.swap(unchanged);
+            given.throw_again();
+        }
+        require_change(status);
+        return report;
     }
     static void expect(const char *argument, std::size_t given, std::size_t wanted) {
         if (given == wanted) return;

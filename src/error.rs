@@ -173,6 +173,14 @@ pub enum Error {
         /// How many others there are.
         others: usize,
     },
+    /// A vertex would pass a segment while
+    /// [`PassingPolicy::Refuse`](crate::motion::PassingPolicy::Refuse) is in force, or it was asked whether one would.
+    Passing {
+        /// The first that was found.
+        passing: Passing,
+        /// How many others there are.
+        others: usize,
+    },
     /// More vertices than ids of 32 bits can name.
     TooManyVertices {
         /// Number asked for.
@@ -232,6 +240,15 @@ pub enum Conflict {
     },
 }
 
+/// A vertex that passes a segment: that comes from one side of it to the other on the straight way of both.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Passing {
+    /// The segment.
+    pub segment: SegmentId,
+    /// The vertex.
+    pub vertex: VertexId,
+}
+
 impl Conflict {
     /// Two segments that cross.
     pub(crate) fn crossing(one: SegmentId, other: SegmentId) -> Self {
@@ -261,6 +278,12 @@ impl fmt::Display for Conflict {
                 write!(f, "both ends of segment {segment} are at the same place")
             }
         }
+    }
+}
+
+impl fmt::Display for Passing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "vertex {} passes segment {}", self.vertex, self.segment)
     }
 }
 
@@ -330,6 +353,13 @@ impl fmt::Display for Error {
             }
             Error::Conflict { conflict, others } => {
                 write!(f, "{conflict}, and there are {others} more conflicts")
+            }
+            Error::Passing { passing, others: 0 } => write!(f, "{passing}"),
+            Error::Passing { passing, others: 1 } => {
+                write!(f, "{passing}, and there is one more such pair")
+            }
+            Error::Passing { passing, others } => {
+                write!(f, "{passing}, and there are {others} more such pairs")
             }
             Error::TooManyVertices { given, limit } => {
                 write!(f, "{given} vertices are asked for, and {limit} is the limit")

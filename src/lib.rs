@@ -44,6 +44,9 @@ mod error;
 mod ids;
 mod machine;
 pub mod motion;
+#[cfg(test)]
+#[path = "../tests/common/passing_by_roots.rs"]
+mod passing_by_roots;
 mod predicates;
 #[cfg(test)]
 #[path = "../tests/common/random.rs"]
@@ -54,7 +57,7 @@ mod simd;
 pub use damage::{Damage, LoadError};
 pub use delaunay::{Dimension, Plane, Shape, Space};
 pub use either::{AnyTriangulation, points_of};
-pub use error::{Conflict, Error, Result, StagedEdit};
+pub use error::{Conflict, Error, Passing, Result, StagedEdit};
 pub use ids::{CellId, SegmentId, VertexId};
 pub use predicates::Coordinates;
 

@@ -8,7 +8,7 @@ use std::process::Command;
 
 use crate::common::inputs::{KINDS, Kind, draw};
 use crate::common::{Rng, skipped, vertex};
-use deldrift::motion::{Field, MovingTriangulation, Options};
+use deldrift::motion::{Field, MovingTriangulation, Options, Segment};
 use deldrift::{Dimension, Error, Plane, Space, VertexId};
 
 /// A triangulation with removed vertices, and hidden ones where the kind has them.
@@ -43,9 +43,9 @@ fn vtu<G: Dimension>(
     Ok(bytes)
 }
 
-fn medit<G: Dimension>(t: &MovingTriangulation<G>) -> Vec<u8> {
+fn medit<G: Dimension>(t: &MovingTriangulation<G>, references: Option<&[i32]>) -> Vec<u8> {
     let mut bytes = Vec::new();
-    let written = t.write_medit::<Error>(|more| {
+    let written = t.write_medit::<Error>(references, |more| {
         bytes.extend_from_slice(more);
         Ok(())
     });
@@ -178,7 +178,9 @@ fn meshes_hold_what_is_read<G: Dimension>() {
     for (kind, n, removes) in KINDS.iter().map(|&kind| (kind, 60, true)).chain([(Kind::Random, 0, false)]) {
         let t = make::<G>(kind, n, removes);
         let (ids, cells) = (present(&t), t.cells().expect("room").corners);
-        let text = String::from_utf8(medit(&t)).expect("text");
+        let own: Vec<i32> = (0..cells.len() as i32).map(|c| 7 - 3 * c).collect();
+        let references = removes.then_some(own.as_slice());
+        let text = String::from_utf8(medit(&t, references)).expect("text");
         let mut lines = text.lines();
         let mut expect = |line: &str| assert_eq!(lines.next(), Some(line), "{kind:?}");
         expect("MeshVersionFormatted 2");
@@ -196,11 +198,12 @@ fn meshes_hold_what_is_read<G: Dimension>() {
         }
         assert_eq!(lines.next(), Some(if G::D == 2 { "Triangles" } else { "Tetrahedra" }));
         assert_eq!(lines.next(), Some(&*cells.len().to_string()));
-        for row in cells {
+        for (c, row) in cells.iter().enumerate() {
             let numbers =
-                lines.next().expect("a cell").split(' ').map(|k| k.parse::<usize>().expect("a number"));
-            let expected = row.as_ref().iter().map(|v| ids.binary_search(v).expect("present") + 1).chain([1]);
-            assert!(numbers.eq(expected), "{kind:?}");
+                lines.next().expect("a cell").split(' ').map(|k| k.parse::<i64>().expect("a number"));
+            let corners = row.as_ref().iter().map(|v| ids.binary_search(v).expect("present") as i64 + 1);
+            let reference = references.map_or(1, |references| i64::from(references[c]));
+            assert!(numbers.eq(corners.chain([reference])), "{kind:?}");
         }
         assert_eq!((lines.next(), lines.next()), (Some("End"), None));
     }
@@ -265,22 +268,182 @@ numbers = [[c for p in points for c in p], [k - 1 for k in nodes[0]]]",
     ),
 ];
 
+/// What a package reads of the lines of a file: their ends and markers, and that cells are as many as they were.
+const READERS_OF_LINES: [(&str, &str, &str); 3] = [
+    (
+        "meshio",
+        "vtu",
+        "import meshio
+m = meshio.read(path)
+assert [block.type for block in m.cells] == ['triangle', 'line']
+assert not m.cell_data['marker'][0].any() and (m.cell_data['size'][1] != m.cell_data['size'][1]).all()
+numbers = [m.cells[1].data.reshape(-1), m.cell_data['marker'][1].reshape(-1), m.cell_data['size'][0].reshape(-1)]",
+    ),
+    (
+        "vtk",
+        "vtu",
+        "import vtk
+reader = vtk.vtkXMLUnstructuredGridReader()
+reader.SetFileName(path)
+reader.Update()
+m = reader.GetOutput()
+lines = [c for c in range(m.GetNumberOfCells()) if m.GetCellType(c) == 3]
+marker, size = m.GetCellData().GetArray('marker'), m.GetCellData().GetArray('size')
+numbers = [[m.GetCell(c).GetPointId(k) for c in lines for k in range(2)], [marker.GetValue(c) for c in lines],
+           [size.GetValue(c) for c in range(lines[0])]]",
+    ),
+    (
+        "meshio",
+        "mesh",
+        "import meshio
+m = meshio.read(path)
+assert [block.type for block in m.cells] == ['triangle', 'line']
+numbers = [m.cells[1].data.reshape(-1), m.cell_data['medit:ref'][1], m.cell_data['medit:ref'][0]]",
+    ),
+];
+
+/// A square with a slit and a vertex outside of it, of which one is removed and two are hidden; ends of the segments, as
+/// numbers of the vertices that are written.
+fn with_segments() -> (MovingTriangulation<Plane>, Vec<(i32, [usize; 2])>) {
+    let points = [
+        [9.0, 9.0],
+        [0.0, 0.0],
+        [1.0, 0.0],
+        [1.0, 1.0],
+        [0.0, 1.0],
+        [0.3, 0.5],
+        [0.6, 0.5],
+        [1.0, 0.0],
+        [0.3, 0.5],
+        [2.0, 0.4],
+    ];
+    let mut t = MovingTriangulation::<Plane>::new(&points, Options::default()).expect("a build");
+    t.remove_vertex(vertex(0)).expect("a removal");
+    let given: [(u32, u32, i32); 6] =
+        [(1, 7, -5), (2, 3, i32::MAX), (3, 4, 0), (4, 1, i32::MIN), (8, 6, 4), (5, 6, 12)];
+    let segments = given.map(|(a, b, marker)| Segment { ends: [vertex(a), vertex(b)], marker });
+    t.stage_segments(segments.into_iter()).expect("present");
+    t.commit_timestamp().expect("no conflict");
+    // What is staged is in no file.
+    t.stage_segments([Segment { ends: [vertex(1), vertex(3)], marker: 99 }].into_iter()).expect("present");
+    let leaving = t.segments().nth(1).expect("six").0;
+    t.stage_segment_removals(&[leaving]).expect("in force");
+    // Vertex 7 is at the place of 2, 8 at that of 5, and the first number is that of vertex 1.
+    let shown = |v: u32| {
+        if v == 7 {
+            1
+        } else if v == 8 {
+            4
+        } else {
+            v as usize - 1
+        }
+    };
+    (t, given.iter().map(|&(a, b, marker)| (marker, [shown(a), shown(b)])).collect())
+}
+
+#[test]
+fn segments_are_lines_behind_cells() {
+    let (t, lines) = with_segments();
+    let (cells, n_lines) = (t.cells().expect("room").corners, lines.len());
+    let sizes: Vec<f64> = (0..2 * cells.len()).map(|c| 0.5 + c as f64).collect();
+    let size = Field { name: "size", components: 2, values: &sizes };
+    let grid = Grid::read(&vtu(&t, &[], &[size]).expect("room"));
+    assert_eq!((grid.n_points, grid.n_cells), (9, cells.len() + n_lines));
+    let longs = |name| -> Vec<i64> {
+        grid.array("Cells", name, "Int64", 1).into_iter().map(i64::from_le_bytes).collect()
+    };
+    let ends = lines.iter().flat_map(|(_, ends)| ends.map(|v| v as i64));
+    let corners = cells.iter().flatten().map(|v| i64::from(v.get()) - 1);
+    assert!(longs("connectivity").into_iter().eq(corners.chain(ends)));
+    let triangles = (1..=cells.len()).map(|k| 3 * k as i64);
+    let offsets = triangles.chain((1..=n_lines).map(|k| (3 * cells.len() + 2 * k) as i64));
+    assert!(longs("offsets").into_iter().eq(offsets));
+    let types = grid.array::<1>("Cells", "types", "UInt8", 1).into_iter().flatten();
+    assert!(types.eq(vec![5; cells.len()].into_iter().chain(vec![3; n_lines])));
+    let markers = grid.array("CellData", "marker", "Int32", 1).into_iter().map(i32::from_le_bytes);
+    assert!(markers.eq(vec![0; cells.len()].into_iter().chain(lines.iter().map(|&(marker, _)| marker))));
+    let written = grid.doubles("CellData", "size", 2);
+    assert_eq!(written[..sizes.len()], sizes);
+    assert_eq!(written.len(), sizes.len() + 2 * n_lines);
+    assert!(written[sizes.len()..].iter().all(|value| value.is_nan()));
+    let marker = Field { name: "marker", components: 2, values: &sizes };
+    assert!(matches!(vtu(&t, &[], &[marker]), Err(Error::InvalidName { argument: "cell_fields", .. })));
+    let heights = vec![0.0; t.id_count()];
+    assert!(vtu(&t, &[Field { name: "marker", components: 1, values: &heights }], &[]).is_ok());
+
+    let text = String::from_utf8(medit(&t, None)).expect("text");
+    let (_, text) = text.split_once(&format!("Edges\n{n_lines}\n")).expect("there are edges");
+    let rows = lines.iter().map(|(marker, [a, b])| format!("{} {} {marker}\n", a + 1, b + 1));
+    assert_eq!(text, rows.collect::<String>() + "End\n");
+}
+
+/// Where no segment is in force, files have nothing of segments.
+#[test]
+fn files_without_segments_have_no_lines() {
+    let (mut t, _) = with_segments();
+    let all: Vec<_> = t.segments().map(|(segment, _)| segment).collect();
+    t.discard_moves();
+    t.stage_segment_removals(&all).expect("in force");
+    t.commit_timestamp().expect("no conflict");
+    let grid = Grid::read(&vtu(&t, &[], &[]).expect("room"));
+    assert!(!grid.arrays.contains_key(&("CellData".to_string(), "marker".to_string())));
+    assert_eq!(grid.n_cells, t.cell_count());
+    let own = vec![0.0; t.cell_count()];
+    assert!(vtu(&t, &[], &[Field { name: "marker", components: 1, values: &own }]).is_ok());
+    assert!(!String::from_utf8(medit(&t, None)).expect("text").contains("Edges"));
+}
+
+#[test]
+fn references_are_as_many_as_cells() {
+    let (t, _) = with_segments();
+    let n = t.cell_count();
+    for given in [0, n - 1, n + 1] {
+        let error = t.write_medit::<Error>(Some(&vec![1; given]), |_| panic!("nothing is written"));
+        let wrong = Error::WrongCount { argument: "reference_count", given, wanted: n, coming: 0 };
+        assert_eq!(error.expect_err("a wrong count").to_string(), wrong.to_string());
+    }
+}
+
+/// Reads the lines of a file with a package.
+fn lines_are_read_by(python: &str, (package, kind, _): (&str, &str, &str), folder: &Path) {
+    let (t, lines) = with_segments();
+    let n = t.cell_count();
+    let reader = READERS_OF_LINES.iter().find(|(one, of, _)| (*one, *of) == (package, kind));
+    let (_, _, reader) = reader.expect("there is one for each");
+    let numbers: Vec<f64> = (0..n).map(|c| 3.0 - c as f64).collect();
+    let references: Vec<i32> = numbers.iter().map(|&x| x as i32).collect();
+    let size = Field { name: "size", components: 1, values: &numbers };
+    let path = folder.join(format!("{package}-lines.{kind}"));
+    let bytes =
+        if kind == "vtu" { vtu(&t, &[], &[size]).expect("room") } else { medit(&t, Some(&references)) };
+    fs::write(&path, bytes).expect("a file");
+    let ends = lines.iter().flat_map(|(_, ends)| ends.map(|v| v as f64));
+    let markers = lines.iter().map(|&(marker, _)| f64::from(marker));
+    let expected: Vec<f64> = ends.chain(markers).chain(numbers).collect();
+    assert_eq!(numbers_read(python, reader, &path, folder), expected, "{package}, {kind}");
+}
+
+/// What a reader finds in a file.
+fn numbers_read(python: &str, reader: &str, path: &Path, folder: &Path) -> Vec<f64> {
+    let script = format!(
+        "import sys\npath = sys.argv[1]\n{reader}\nfor row in numbers:\n    for x in row:\n        print(repr(float(x)))"
+    );
+    let output = Command::new(python).arg("-c").arg(script).arg(path).env("PYTHONPATH", folder).output();
+    let output = output.expect("python");
+    assert!(output.status.success(), "{}: {}", path.display(), String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).expect("text");
+    text.lines().map(|line| line.parse::<f64>().expect("a number")).collect()
+}
+
 fn files_are_read_by<G: Dimension>(python: &str, (package, kind, reader): (&str, &str, &str), folder: &Path) {
     let t = make::<G>(Kind::Random, 60, true);
     let (ids, cells) = (present(&t), t.cells().expect("room").corners);
     let sizes: Vec<f64> = (0..cells.len()).map(|c| 0.1 * c as f64).collect();
     let size = Field { name: "size", components: 1, values: &sizes };
     let path = folder.join(format!("{package}{}.{kind}", G::D));
-    let bytes = if kind == "vtu" { vtu(&t, &[], &[size]).expect("room") } else { medit(&t) };
+    let bytes = if kind == "vtu" { vtu(&t, &[], &[size]).expect("room") } else { medit(&t, None) };
     fs::write(&path, bytes).expect("a file");
-    let script = format!(
-        "import sys\npath = sys.argv[1]\n{reader}\nfor row in numbers:\n    for x in row:\n        print(repr(float(x)))"
-    );
-    let output = Command::new(python).arg("-c").arg(script).arg(&path).env("PYTHONPATH", folder).output();
-    let output = output.expect("python");
-    assert!(output.status.success(), "{package}: {}", String::from_utf8_lossy(&output.stderr));
-    let text = String::from_utf8(output.stdout).expect("text");
-    let mut numbers = text.lines().map(|line| line.parse::<f64>().expect("a number"));
+    let mut numbers = numbers_read(python, reader, &path, folder).into_iter();
     for &v in &ids {
         let p = t.position(v).expect("present");
         for x in [p[0], p[1], if G::D == 3 { p[G::D - 1] } else { 0.0 }] {
@@ -323,6 +486,9 @@ fn files_are_read_by_meshio_vtk_and_gmsh() {
             skipped("exporting", &format!("the package {package} of Python is not there"));
         }
         for python in having {
+            if package != "gmsh" {
+                lines_are_read_by(python, reader, &folder);
+            }
             files_are_read_by::<Plane>(python, reader, &folder);
             files_are_read_by::<Space>(python, reader, &folder);
         }

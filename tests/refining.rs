@@ -1,5 +1,7 @@
 //! Refinement and coarsening of domains: against fresh builds, and against their criteria in exact integers.
 
+mod coarsening;
+
 use crate::common::{Rng, assert_same_cells, cell_set, check_adjacency, seeds};
 use deldrift::motion::{
     CoarsenOptions, Kept, Level, MovingTriangulation, NO_CELL, Options, Quality, QualityReport,

@@ -535,3 +535,216 @@ fn segments_go_with_hidden_vertices() {
         assert!(!is_long(&t), "{}", context());
     }
 }
+
+/// Vertices at random, and segments between them of which none conflicts.
+fn random_domain(n: usize, n_segments: usize, rng: &mut Rng) -> Triangulation {
+    let points: Vec<[f64; 2]> = (0..n).map(|_| [rng.unit(), rng.unit()]).collect();
+    let mut t = Triangulation::new(&points, Options::default()).expect("good points");
+    for _ in 0..n_segments {
+        let ends = [rng.below(n), rng.below(n)];
+        if ends[0] != ends[1] {
+            t.stage_segments([Segment { ends: ends.map(VertexId::at), marker: 0 }].into_iter())
+                .expect("present");
+            if t.commit_timestamp().is_err() {
+                t.discard_moves();
+            }
+        }
+    }
+    t
+}
+
+/// While all vertices stay within their tolerances no cell changes: moved by just less, each towards or away from the line
+/// through the middle of some cell, which flattens that one the most.
+#[test]
+fn cells_at_segments_survive_what_is_within_tolerance() {
+    let (mut n_wide, mut n_at_segments) = (0, 0);
+    for seed in seeds(300) {
+        let rng = &mut Rng::new(seed);
+        let t = random_domain(5 + rng.below(30), 12, rng);
+        let context = || format!("seed {seed}");
+        let ids: Vec<_> = VertexId::range(0..t.id_count()).collect();
+        let places: Vec<[f64; 2]> = ids.iter().map(|&v| t.position(v).expect("present")).collect();
+        let tolerances: Vec<f64> = ids.iter().map(|&v| t.tolerance(v).expect("present")).collect();
+        let ends: BTreeSet<VertexId> = t.segments().flat_map(|(_, segment)| segment.ends).collect();
+        n_at_segments += ends.len();
+        n_wide += ends.iter().filter(|&&v| tolerances[v.index()] > 0.0).count();
+        let cells = t.cells().expect("room").corners.to_vec();
+        for _ in 0..20 {
+            let row = rng.pick(&cells).map(|v| places[v.index()]);
+            let k = rng.below(3);
+            let [a, b, c] = [row[k], row[(k + 1) % 3], row[(k + 2) % 3]];
+            let length = ((c[0] - b[0]).powi(2) + (c[1] - b[1]).powi(2)).sqrt();
+            let normal = [(b[1] - c[1]) / length, (c[0] - b[0]) / length];
+            let height = |p: &[f64; 2]| (p[0] - b[0]) * normal[0] + (p[1] - b[1]) * normal[1];
+            let middle = 0.5 * height(&a);
+            let sign = if rng.one_in(2) { 1.0 } else { -1.0 };
+            let goals: Vec<[f64; 2]> = places
+                .iter()
+                .zip(&tolerances)
+                .map(|(p, tolerance)| {
+                    let step = 0.999 * tolerance * sign * if height(p) < middle { 1.0 } else { -1.0 };
+                    [p[0] + step * normal[0], p[1] + step * normal[1]]
+                })
+                .collect();
+            let mut fresh = Triangulation::new(&goals, Options::default()).expect("good points");
+            let segments: Vec<_> = t.segments().map(|(_, segment)| segment).collect();
+            fresh.stage_segments(segments.into_iter()).expect("present");
+            fresh.commit_timestamp().unwrap_or_else(|error| panic!("{}: {error}", context()));
+            assert_same_cells(&cell_set(&t), &cell_set(&fresh), context);
+        }
+    }
+    assert!(n_at_segments > 2_000 && n_wide > n_at_segments * 99 / 100, "{n_wide} of {n_at_segments}");
+}
+
+/// A triangle whose sides are segments may move until it is flat, whatever is beyond: by half its least height.
+#[test]
+fn a_cell_between_segments_has_the_tolerance_of_its_orientation() {
+    let points = [
+        [0.0, 0.0],
+        [8.0, 0.0],
+        [4.0, 2.0],
+        [4.0, -1e-3],
+        [4.0, 9.0],
+        [30.0, 0.0],
+        [-30.0, 0.0],
+        [4.0, -40.0],
+    ];
+    let mut t = Triangulation::new(&points, Options::default()).expect("good points");
+    let ends = [[0, 1], [1, 2], [2, 0], [0, 4], [1, 4], [2, 4]];
+    let sides = ends.map(|ends| Segment { ends: ends.map(VertexId::new), marker: 0 });
+    t.stage_segments(sides.into_iter()).expect("present");
+    t.commit_timestamp().expect("no conflict");
+    // The two other cells of vertex 2 have heights of more than 2.
+    let tolerance = t.tolerance(VertexId::new(2)).expect("present");
+    assert!(tolerance <= 1.0 && tolerance > 1.0 - 1e-12, "{tolerance}");
+    // Vertex 3 is just below the side between 0 and 1.
+    let below = t.tolerance(VertexId::new(3)).expect("present");
+    assert!(below <= 5e-4 && below > 4.9e-4, "{below}");
+}
+
+/// Brings labels up to date by the changes since they were right; returns how many cells have come, and are undecided.
+fn update_labels(t: &mut Triangulation, labels: &mut Vec<i32>) -> [usize; 2] {
+    let changes = t.take_changes().expect("room");
+    let created = changes.created.to_vec();
+    let old = labels.clone();
+    let renumbered: Vec<_> =
+        changes.renumbered_from.iter().copied().zip(changes.renumbered_to.iter().copied()).collect();
+    labels.resize(t.cell_count(), -99);
+    for (from, to) in renumbered {
+        labels[to.index()] = old[from.index()];
+    }
+    // Entries of cells that have come are not read.
+    created.iter().for_each(|&cell| labels[cell.index()] = -98);
+    let twice: Vec<_> = created.iter().chain(&created).copied().collect();
+    let (found, n_undecided) = t.labels_of(&twice, |cell| labels[cell.index()], -1).expect("cells");
+    assert_eq!(found.len(), created.len());
+    found.into_iter().for_each(|(cell, label)| labels[cell.index()] = label);
+    [created.len(), n_undecided]
+}
+
+/// Whether a place is to the left of a closed chain, by its crossings of a ray to the right.
+fn is_within(ring: &[[f64; 2]], p: [f64; 2]) -> bool {
+    let sides = (0..ring.len()).map(|k| (ring[k], ring[(k + 1) % ring.len()]));
+    let crossings = sides.filter(|&(a, b)| {
+        (a[1] > p[1]) != (b[1] > p[1]) && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
+    });
+    crossings.count() % 2 == 1
+}
+
+/// Labels that go with the changes are those of the loops that cells are in: two loops that turn and wander in a square, with
+/// vertices all around; and nesting levels likewise.
+#[test]
+fn labels_go_with_their_regions() {
+    let (mut n_created, mut n_undecided) = (0, 0);
+    for seed in seeds(20) {
+        let rng = &mut Rng::new(seed);
+        let ring = |centre: [f64; 2], turn: f64| {
+            (0..7).map(move |k| {
+                let angle = turn + std::f64::consts::TAU * f64::from(k) / 7.0;
+                // Not on one circle, of which all cells would be new in each step.
+                let radius = 0.1 + 0.03 * f64::from(k * k % 3);
+                [centre[0] + radius * angle.cos(), centre[1] + radius * angle.sin()]
+            })
+        };
+        let rings = |step: usize| -> Vec<[f64; 2]> {
+            let s = step as f64 * 0.03;
+            ring([0.3 + 0.01 * s.sin(), 0.3], s).chain(ring([0.7, 0.7 - 0.01 * s.sin()], -2.0 * s)).collect()
+        };
+        let mut points = rings(0);
+        // Where no segment comes by: labels go with regions while no vertex passes a segment.
+        let is_free = |p: &[f64; 2]| {
+            [0.3, 0.7]
+                .iter()
+                .all(|c| !(0.06..0.2).contains(&((p[0] - c).powi(2) + (p[1] - c).powi(2)).sqrt()))
+        };
+        points.extend((0..600).map(|_| [rng.unit(), rng.unit()]).filter(is_free));
+        let mut t = Triangulation::new(&points, Options::default()).expect("good points");
+        let side = |k: u32| Segment { ends: [k, k / 7 * 7 + (k + 1) % 7].map(VertexId::new), marker: 0 };
+        t.stage_segments((0..14).map(side)).expect("present");
+        t.commit_timestamp().expect("no vertex is exactly on a segment");
+        t.take_changes().expect("room");
+        let mut labels = t.label_cells(&[[0.3, 0.3], [0.7, 0.7]], &[5, 6], 0).expect("within");
+        let mut levels: Vec<i32> =
+            t.nesting_levels().expect("room").into_iter().map(|level| level as i32).collect();
+        for step in 1..60 {
+            let context = || format!("seed {seed}, step {step}");
+            let goals: Vec<[f64; 2]> = rings(step)
+                .into_iter()
+                .chain(points[14..].iter().map(|p| p.map(|x| x + 0.002 * (rng.unit() - 0.5))))
+                .collect();
+            t.move_all(&goals).expect("good places");
+            t.commit_timestamp().expect("no vertex is exactly on a segment");
+            points = goals;
+            let mut twin = t.try_clone(None).expect("room");
+            let counts = update_labels(&mut t, &mut labels);
+            assert_eq!(update_labels(&mut twin, &mut levels), counts, "{}", context());
+            n_created += counts[0];
+            n_undecided += counts[1];
+            let view = t.cells().expect("room");
+            let wanted_levels = t.nesting_levels().expect("room");
+            for (c, row) in view.corners.iter().enumerate() {
+                let corners = row.map(|v| points[v.index()]);
+                let centre = [0, 1].map(|axis| corners.iter().map(|p| p[axis]).sum::<f64>() / 3.0);
+                let loops = rings(step);
+                let wanted = match (is_within(&loops[..7], centre), is_within(&loops[7..], centre)) {
+                    (true, _) => 5,
+                    (_, true) => 6,
+                    _ => 0,
+                };
+                assert_eq!(labels[c], wanted, "{}: cell {c}", context());
+                assert_eq!(levels[c], wanted_levels[c] as i32, "{}: cell {c}", context());
+            }
+        }
+    }
+    assert!(n_created > 20_000 && n_undecided == 0, "{n_created} {n_undecided}");
+}
+
+/// Where a region has only new cells, or two have become one, labels are undecided.
+#[test]
+fn labels_that_nothing_tells_are_undecided() {
+    let points = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [1.5, 2.5], [2.5, 1.5]];
+    let mut t = Triangulation::new(&points, Options::default()).expect("good points");
+    let wall = [[0, 2], [0, 1], [1, 2]].map(|ends| Segment { ends: ends.map(VertexId::new), marker: 0 });
+    t.stage_segments(wall.into_iter()).expect("present");
+    t.commit_timestamp().expect("no conflict");
+    t.take_changes().expect("room");
+    let mut labels = t.label_cells(&[[0.5, 2.0], [3.5, 2.0]], &[1, 2], 0).expect("within");
+    assert!(labels.contains(&1) && labels.contains(&2) && !labels.contains(&0));
+    // Without the wall there are two cells between both sides.
+    let mut twin = t.try_clone(None).expect("room");
+    twin.take_changes().expect("room");
+    twin.stage_segment_removals(&[SegmentId::new(0)]).expect("in force");
+    twin.commit_timestamp().expect("no conflict");
+    let mut of_twin = twin.label_cells(&[[0.1, 2.0]], &[1], 0).expect("within");
+    assert_eq!(of_twin, [1; 6]);
+    of_twin = labels.clone();
+    assert_eq!(update_labels(&mut twin, &mut of_twin), [2, 2]);
+    of_twin.sort();
+    assert_eq!(of_twin, [-1, -1, 1, 1, 2, 2]);
+    // All cells to the right are new: their only inner vertex goes.
+    t.remove_vertex(VertexId::new(5)).expect("no end");
+    assert_eq!(update_labels(&mut t, &mut labels), [1, 1]);
+    assert_eq!(labels.iter().filter(|&&label| label == -1).count(), 1);
+    let error = t.labels_of(&[CellId::new(99)], |_| 0, 0).expect_err("no cell");
+    assert!(matches!(error, Error::NoSuchCell { index: 0, .. }), "{error}");
+}

@@ -68,7 +68,7 @@ std::vector<Call> file_calls() {
          }},
         {"deldrift_write_medit", "", [](Context &c) {
              const std::string path = c.folder + "/written.mesh";
-             whole(c, [&] { return deldrift_write_medit(c.t, path.c_str()); });
+             whole(c, [&] { return deldrift_write_medit(c.t, path.c_str(), nullptr, 0); });
          }},
     };
 }

@@ -70,6 +70,16 @@ std::vector<Call> segment_calls() {
              c.meter.time([&] { deldrift_check_staged(c.t); });
              c.meter.count(double(c.n + 2 * c.cells()));
          }, 2},
+        {"deldrift_stage_splits", "a segment from one vertex in eight to the next crosses others", [](Context &c) {
+             lay(c);
+             Ids ends;
+             for (std::size_t i = 0; i + 1 < c.some(); i += 2) ends.insert(ends.end(), {c.some_vertex(i), c.some_vertex(i + 1)});
+             stage(c, ends);
+             // Ends may be at one place.
+             deldrift_split_report report{};
+             c.meter.time([&] { deldrift_stage_splits(c.t, 8 * c.n, &report); });
+             c.meter.count(double(c.n + 2 * c.cells() + report.pieces));
+         }, 2},
         {"deldrift_segment_conflicts", "one vertex in eight is both ends of a segment", [](Context &c) {
              Ids ends;
              for (std::size_t i = 0; i < c.some(); ++i) ends.insert(ends.end(), 2, c.some_vertex(i));
@@ -79,6 +89,26 @@ std::vector<Call> segment_calls() {
              std::vector<deldrift_conflict> conflicts(c.some());
              std::size_t count;
              c.meter.time([&] { must(deldrift_segment_conflicts(c.t, conflicts.data(), conflicts.size(), &count)); });
+             c.meter.count(double(count));
+         }, 2},
+        {"deldrift_check_passings", "all nearby, with one edge in eight a segment", [](Context &c) {
+             lay(c);
+             must(deldrift_move_vertices(c.t, nullptr, c.all_nearby().data(), c.n));
+             // Some may pass.
+             c.meter.time([&] { deldrift_check_passings(c.t); });
+             c.meter.count(double(c.n));
+         }, 2},
+        {"deldrift_passings", "all change places, with one edge in eight a segment", [](Context &c) {
+             lay(c);
+             Points places = c.all_nearby();
+             std::rotate(places.begin(), places.begin() + 2, places.end());
+             must(deldrift_move_vertices(c.t, nullptr, places.data(), c.n));
+             deldrift_check_passings(c.t);
+             std::size_t count;
+             must(deldrift_passings(c.t, nullptr, nullptr, 0, &count));
+             Ids segments(count), vertices(count);
+             c.meter.reset();
+             c.meter.time([&] { must(deldrift_passings(c.t, segments.data(), vertices.data(), count, &count)); });
              c.meter.count(double(count));
          }, 2},
         {"deldrift_segments", "one edge in eight", [](Context &c) {

@@ -1,4 +1,4 @@
-//! Six domains.
+//! Six domains, and a beam.
 
 /// Places, edges between them, and how many of these, the first, are loops around the domain and its holes.
 pub struct Domain {
@@ -60,4 +60,10 @@ pub fn domains() -> Vec<Domain> {
         Domain::new("L").with_ring(&l),
         Domain::new("ring").with_ring(&circle(1.0, 64)).with_hole(&circle(0.4, 32), [0.0, 0.0]),
     ]
+}
+
+/// A rectangle with a hole, of two by one.
+pub fn beam() -> Domain {
+    let outline = rectangle([-1.0, -0.5], [1.0, 0.5]);
+    Domain::new("beam").with_ring(&outline).with_hole(&circle(0.2, 48), [0.0, 0.0])
 }

@@ -2,14 +2,17 @@
 //!
 //! `cargo bench --bench refine -- FOLDER` also writes each domain there as a .poly file, and the table as refine.csv;
 //! `python/bench/refine.py FOLDER` then does the work again by PyPI's `triangle`, where that is installed.
+//!
+//! `cargo bench --bench refine -- loop` has a beam move instead, and prints what coarsening and refinement take in a step.
 
 mod domains;
+mod looping;
 
 use deldrift::motion::{MovingTriangulation, NO_CELL, Options, Quality, RefineOptions, Segment};
 use deldrift::{CellId, Plane, SegmentId, VertexId};
 use domains::{Domain, domains};
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Least angle in degrees and greatest area, 0 for none.
@@ -76,6 +79,9 @@ fn mask(t: &MovingTriangulation<Plane>, n_loops: usize) -> Vec<u8> {
 
 fn main() {
     let folder = std::env::args().skip(1).find(|argument| !argument.starts_with("--")).map(PathBuf::from);
+    if folder.as_deref() == Some(Path::new("loop")) {
+        return looping::run();
+    }
     let mut table = String::from("domain,angle,area,cells,bad,seconds,again_seconds\n");
     for domain in domains() {
         for (least_angle, greatest_area) in QUALITIES {

@@ -26,6 +26,7 @@ constexpr double wanted_of_builds = 2;
 constexpr double wanted_of_steps = 15;
 constexpr double wanted_at_rest = 1 / 1.2;
 constexpr double wanted_of_checks = 1;
+constexpr double wanted_of_passings = 1;
 constexpr double wanted_of_moves = 1;
 
 constexpr double step_length = 1e-3;
@@ -92,6 +93,7 @@ public:
                 "deldrift_move_vertices");
     }
     void check() { require(deldrift_check_staged(t_.get()), "deldrift_check_staged"); }
+    void look_for_passings() { require(deldrift_check_passings(t_.get()), "deldrift_check_passings"); }
     void commit_staged() { require(deldrift_commit_timestamp(t_.get(), nullptr), "deldrift_commit_timestamp"); }
 
     std::vector<std::uint32_t> cells() const {
@@ -200,10 +202,10 @@ private:
         add("rest", "deldrift/auto without segments", without, "deldrift/auto", ours, wanted_at_rest);
     }
 
-    /// Checks of what is staged, beside commits of what is staged, in turns.
+    /// Checks of what is staged, and looks at what would pass segments, beside commits of what is staged, in turns.
     void check() {
         deldrift_.build(domain_.positions);
-        std::vector<double> positions = domain_.positions, commits, checks;
+        std::vector<double> positions = domain_.positions, commits, checks, passings;
         for (std::size_t i = 1; i <= n_warm + efforts_.n_steps; ++i) {
             go(step_length, random_, positions);
             deldrift_.stage(positions);
@@ -211,12 +213,15 @@ private:
             go(step_length, random_, positions);
             deldrift_.stage(positions);
             checks.push_back(seconds_of([&] { deldrift_.check(); }));
+            passings.push_back(seconds_of([&] { deldrift_.look_for_passings(); }));
             deldrift_.commit_staged();
             progress_.step();
         }
         compare("check", 2 * checks.size(), positions);
         add("check", "deldrift/auto commit", median(after_warm_up(commits)), "deldrift/auto check",
             median(after_warm_up(checks)), wanted_of_checks);
+        add("passings", "deldrift/auto commit", median(after_warm_up(commits)), "deldrift/auto look for passings",
+            median(after_warm_up(passings)), wanted_of_passings);
     }
 
     /// The domain's own motion; its timestamps differ, so that the mean counts.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "domains.hpp"
 #include "environment.hpp"
+#include "meshes.hpp"
 #include "options.hpp"
 #include "report.hpp"
 #include "resources.hpp"
@@ -33,15 +34,19 @@ int perform(const bench::Options &options, const std::string &command) {
         case bench::Task::large: bench::run_large(options); environment += "_large"; break;
         case bench::Task::structured: bench::run_structured(options); environment += structured; break;
         case bench::Task::domains: bench::run_domains(options); environment += "_domains"; break;
+        case bench::Task::meshes: bench::run_meshes(options); environment += "_meshes"; break;
         case bench::Task::targets: bench::run_targets(options); environment += "_targets"; break;
         case bench::Task::run:
             bench::run_scenarios(options);
-            if (options.with_structured) bench::run_domains(options);
+            if (options.with_structured) {
+                bench::run_domains(options);
+                bench::run_meshes(options);
+            }
             break;
     }
     bench::write_environment(options.results + "/" + environment + ".txt", command);
     if (options.with_structured)
-        for (const std::string &part : {structured, std::string("_domains")})
+        for (const std::string &part : {structured, std::string("_domains"), std::string("_meshes")})
             bench::write_environment(options.results + "/environment" + part + ".txt", command);
     return 0;
 }

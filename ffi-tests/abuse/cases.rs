@@ -7,12 +7,16 @@ use super::roles::{Role, is_of_bytes, role};
 use super::rows::{ROWS, Row};
 
 /// Functions for triangulations of the plane alone.
-const OF_PLANE: [&str; 15] = [
+const OF_PLANE: [&str; 19] = [
+    "deldrift_update_labels",
     "deldrift_ordered_star",
     "deldrift_stage_segments",
     "deldrift_stage_segment_removals",
+    "deldrift_stage_splits",
     "deldrift_segments",
     "deldrift_segment_conflicts",
+    "deldrift_check_passings",
+    "deldrift_passings",
     "deldrift_segments_of_cells",
     "deldrift_cells_of_segments",
     "deldrift_nesting_levels",
@@ -24,6 +28,9 @@ const OF_PLANE: [&str; 15] = [
     "deldrift_original_segments",
     "deldrift_refined_weights",
 ];
+
+/// Functions that list what there is not.
+const TELL_NOTHING: [&str; 2] = ["deldrift_segment_conflicts", "deldrift_passings"];
 
 /// The source of the program.
 pub fn program(functions: &[Declaration]) -> String {
@@ -190,8 +197,8 @@ impl Cases<'_> {
             Role::Handle if self.function.name == "deldrift_destroy" => "(deldrift_triangulation *)odd",
             _ => "odd",
         };
-        // There is no conflict to be written.
-        if role == Role::Buffer && self.function.name == "deldrift_segment_conflicts" {
+        // There is nothing to be written.
+        if role == Role::Buffer && TELL_NOTHING.contains(&self.function.name.as_str()) {
             return self.legal("misaligned", at, "an odd address", wrong);
         }
         let message = format!("\"{} is 0x\"", parameter.name);
@@ -626,6 +633,10 @@ impl Cases<'_> {
                 self.legal("zero", at, "0", "0");
             }
             Role::Whole => self.legal("value", at, "the least number", "INT32_MIN"),
+            Role::Limit => {
+                self.legal("zero", at, "0", "0");
+                self.legal("value", at, "SIZE_MAX", "SIZE_MAX");
+            }
             Role::Corners => {
                 for (given, value) in
                     [("0", "0"), ("two more than dimensions", "dimension + 2"), ("UINT32_MAX", "UINT32_MAX")]
@@ -699,11 +710,10 @@ impl Cases<'_> {
 
     fn capacity(&mut self, at: usize) {
         for (column, given, value) in [("zero", "0", "0"), ("value", "1", "1")] {
-            // There is one hidden vertex, and no conflict.
+            // There is one hidden vertex, and nothing is in the way of a segment, or passes one.
             let is_enough = match self.function.name.as_str() {
                 "deldrift_hidden_vertices" => value == "1",
-                "deldrift_segment_conflicts" => true,
-                _ => false,
+                name => TELL_NOTHING.contains(&name),
             };
             if is_enough {
                 self.legal(column, at, given, value);

@@ -32,6 +32,7 @@ typedef struct {
     int32_t sign;
     bool flag;
     deldrift_commit_report report;
+    deldrift_split_report split;
     deldrift_changes changes;
     deldrift_cells_view cells;
     deldrift_location location, locations[8];
@@ -56,7 +57,7 @@ static uint32_t inner_cell, inner_corner, fence[3];
 static double points[(COUNT + 2) * 3], moved[(COUNT + 2) * 3], values[(COUNT + 2) * 3], inside[(COUNT + 2) * 3];
 static double outside[ROOM], low[ROOM], high[ROOM];
 static uint32_t ids[3], ends[6], segments[2];
-static int32_t wholes[3];
+static int32_t wholes[ROOM];
 static uint8_t mask[ROOM], fenced[ROOM], saved[BYTES];
 static size_t saved_size;
 static deldrift_options options;
@@ -132,7 +133,7 @@ static uint32_t *bad_segments(uint32_t value) {
 }
 
 static int32_t *bad_wholes(size_t at, int32_t value) {
-    static int32_t made[3];
+    static int32_t made[ROOM];
     memcpy(made, wholes, sizeof made);
     made[at] = value;
     return made;
@@ -240,8 +241,8 @@ static void before(void) {
         low[i] = -1;
         high[i] = 2;
         ids[i] = (uint32_t[]){0, 1, 4}[i];
-        wholes[i] = -5 * (int32_t)i;
     }
+    for (size_t i = 0; i < ROOM; i++) wholes[i] = -5 * (int32_t)i;
     for (size_t i = 0; i < 6; i++) ends[i] = (uint32_t[]){0, 1, 4, 2, 8, 11}[i];
     for (size_t i = 0; i < 2; i++) segments[i] = (uint32_t)(2 - 2 * i);
     for (size_t i = 0; i < ROOM; i++) sizes[i] = 1;

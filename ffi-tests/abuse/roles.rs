@@ -52,6 +52,8 @@ pub enum Role {
     Status,
     /// A number that is not negative, and may be infinite.
     Magnitude,
+    /// How much may be made at most: any number.
+    Limit,
     /// How many corners each of several simplices has.
     Corners,
     /// How many entries an array has that is read.
@@ -89,7 +91,7 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("const uint32_t *", "vertices") => Role::Ids,
         ("const uint32_t *", "ends") => Role::Ends,
         ("const uint32_t *", "segments") => Role::SegmentIds,
-        ("const int32_t *", "labels") => Role::Wholes,
+        ("const int32_t *", "labels" | "references") => Role::Wholes,
         ("const int32_t *", "markers") => Role::WholesIfAny,
         ("int32_t", "other") => Role::Whole,
         ("const uint32_t *", "cells") if function.name == "deldrift_barycentric" => Role::CellIdsIfAny,
@@ -116,10 +118,13 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("size_t", "count") if function.name == "deldrift_commit_positions" => Role::FixedCount,
         ("size_t", "count" | "vertex_count" | "cell_count" | "seed_count") => Role::Count,
         ("size_t", "vertex_field_count" | "cell_field_count") => Role::Count,
-        ("size_t", "value_count" | "mask_count" | "offset_count") => Role::FixedCount,
+        ("size_t", "value_count" | "mask_count" | "offset_count" | "reference_count") => Role::FixedCount,
         ("size_t", "n_values" | "k") => Role::CountOfEach,
         ("size_t", "size") => Role::Size,
         ("size_t", "capacity") => Role::Capacity,
+        ("size_t", "limit") => Role::Limit,
+        ("deldrift_split_report *", "report") => Role::OutputIfAny,
+        ("size_t *", "undecided") => Role::Output,
         (c_type, "report") if is_commit && c_type.ends_with('*') => Role::OutputIfAny,
         (c_type, name) if c_type.ends_with('*') && !c_type.starts_with("const") => {
             if function.has("capacity") && name != "count" { Role::Buffer } else { Role::Output }

@@ -46,7 +46,11 @@ pub const ROWS: &[Row] = &[
     row("deldrift_stage_segment_removals", &["t", "segments", "2"]),
     row("deldrift_segments", &["t", "out.ids", "out.more_ids", "out.labels", "N_SEGMENTS", "&out.count"]),
     row("deldrift_check_staged", &["t"]),
+    row("deldrift_stage_splits", &["t", "9", "&out.split"]),
     row("deldrift_segment_conflicts", &["t", "out.conflicts", "8", "&out.count"]),
+    // What is staged for others passes a segment.
+    Row { function: "deldrift_check_passings", arguments: &["t"], base: "WITHOUT_EDITS" },
+    row("deldrift_passings", &["t", "out.ids", "out.more_ids", "8", "&out.count"]),
     row("deldrift_take_changes", &["t", "&out.changes"]),
     row("deldrift_vertex_count", &["t", "&out.count"]),
     row("deldrift_id_count", &["t", "&out.count"]),
@@ -89,6 +93,7 @@ pub const ROWS: &[Row] = &[
     row("deldrift_cells_of_segments", &["t", "out.ids", "N_SEGMENTS", "&out.count"]),
     row("deldrift_nesting_levels", &["t", "out.ids", "n_cells", "&out.count"]),
     row("deldrift_label_cells", &["t", "inside", "wholes", "3", "-1", "out.labels", "n_cells", "&out.count"]),
+    row("deldrift_update_labels", &["t", "ids", "3", "-1", "out.labels", "n_cells", "&out.count"]),
     row(
         "deldrift_boundary_chains",
         &[
@@ -139,7 +144,7 @@ pub const ROWS: &[Row] = &[
     row("deldrift_save_file", &["t", "path"]),
     row("deldrift_load_file", &["path_saved", "&options", "&out.handle"]),
     row("deldrift_write_vtu", &["t", "path", "&field", "1", "&field", "1"]),
-    row("deldrift_write_medit", &["t", "path"]),
+    row("deldrift_write_medit", &["t", "path", "wholes", "n_cells"]),
     row("deldrift_orientation", &["dimension", "moved", "&out.sign"]),
     row("deldrift_in_sphere", &["dimension", "moved", "&out.sign"]),
     row("deldrift_options_init", &["&options"]),

@@ -275,6 +275,33 @@ static void without_cells_there_is_nothing(void) {
     deldrift_destroy(t);
 }
 
+// Labels that are brought up to date by the changes are those of seeds.
+static void labels_follow_the_changes(void) {
+    deldrift_triangulation *t = domain();
+    static int32_t labels[ROOM], anew[ROOM], old[ROOM];
+    const double seeds[] = {2, 2, 0.01, 0.02};
+    const int32_t of_seeds[] = {7, 8};
+    size_t n, n_created = 0, n_undecided = 0;
+    deldrift_changes changes;
+    OK(deldrift_take_changes(t, &changes));
+    OK(deldrift_label_cells(t, seeds, of_seeds, 2, -1, labels, ROOM, &n));
+    for (int step = 1; step <= 300; step++) {
+        turn_hole(0.01 * step);
+        OK(deldrift_commit_positions(t, places, COUNT, NULL));
+        OK(deldrift_take_changes(t, &changes));
+        memcpy(old, labels, sizeof old);
+        for (size_t k = 0; k < changes.renumbered_count; k++) labels[changes.renumbered_to[k]] = old[changes.renumbered_from[k]];
+        size_t undecided = 77;
+        OK(deldrift_update_labels(t, changes.created, changes.created_count, -1, labels, ROOM, &undecided));
+        n_created += changes.created_count;
+        n_undecided += undecided;
+        OK(deldrift_label_cells(t, seeds, of_seeds, 2, -1, anew, ROOM, &n));
+        CHECK(undecided == 0 && memcmp(labels, anew, n * sizeof *anew) == 0);
+    }
+    CHECK(n_created > 1000 && n_undecided == 0);
+    deldrift_destroy(t);
+}
+
 static void arguments_are_checked(void) {
     const double corners[] = {0, 0, 4, 0, 4, 4, 0, 4, 1, 2};
     deldrift_triangulation *t = create(2, corners, 5, NULL), *solid = create(3, TETRAHEDRON, TETRAHEDRON_COUNT, NULL);
@@ -304,6 +331,11 @@ static void arguments_are_checked(void) {
     CHECK_STATUS(deldrift_label_cells(t, bad, NULL, 1, 0, told, 8, &count), DELDRIFT_NULL_ARGUMENT);
     CHECK_MESSAGE("labels is NULL");
     CHECK_STATUS(deldrift_label_cells(solid, bad, &label, 1, 0, told, 8, &count), DELDRIFT_INVALID_DIMENSION);
+    CHECK_STATUS(deldrift_update_labels(solid, ids, 0, 0, told, 8, &count), DELDRIFT_INVALID_DIMENSION);
+    CHECK_STATUS(deldrift_update_labels(t, (const uint32_t[]){9}, 1, 0, told, 8, &count), DELDRIFT_NO_SUCH_FACET);
+    CHECK_MESSAGE("cells[0] is 9");
+    CHECK_STATUS(deldrift_update_labels(t, NULL, 0, 0, told, 0, &count), DELDRIFT_BUFFER_TOO_SMALL);
+    CHECK_STATUS(deldrift_update_labels(t, NULL, 0, 0, told, 8, NULL), DELDRIFT_NULL_ARGUMENT);
     CHECK_STATUS(deldrift_nesting_levels(solid, ids, 8, &count), DELDRIFT_INVALID_DIMENSION);
     CHECK_STATUS(deldrift_segments_of_cells(solid, ids, 2, &count), DELDRIFT_INVALID_DIMENSION);
     CHECK_STATUS(deldrift_cells_of_segments(solid, ids, 4, &count), DELDRIFT_INVALID_DIMENSION);
@@ -317,6 +349,7 @@ int main(void) {
     slits_and_islands_have_levels();
     chains_do_not_cross();
     without_cells_there_is_nothing();
+    labels_follow_the_changes();
     arguments_are_checked();
     return 0;
 }

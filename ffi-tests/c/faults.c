@@ -70,8 +70,9 @@ static control control_of(uint32_t dimension, call call, const setting *setting)
     OK(deldrift_statistics(s.t, &c.sums));
     c.status = make_call(&s, SIZE_MAX, NONE_LATER, &c.end.given, &wrong);
     c.n_requests = n_requests;
-    const bool has_conflicts = setting->conflicts && is_commit(call.kind);
-    CHECK(has_conflicts ? c.status == DELDRIFT_CROSSING : c.status == DELDRIFT_OK || c.status == DELDRIFT_NO_SUCH_FACET);
+    const bool has_conflicts = setting->conflicts && is_commit(call.kind) && call.kind != STAGE_SPLITS;
+    const deldrift_status other = call.kind == CHECK_PASSINGS ? DELDRIFT_PASSES_SEGMENT : DELDRIFT_NO_SUCH_FACET;
+    CHECK(has_conflicts ? c.status == DELDRIFT_CROSSING : c.status == DELDRIFT_OK || c.status == other);
     if (wrong == NULL) wrong = end_of(&s, &c.end);
     if (wrong != NULL) fprintf(stderr, "%s without a fault: %s\n", NAMES[call.kind], wrong);
     CHECK(wrong == NULL);
@@ -122,7 +123,8 @@ static const char *fault(scene *s, const control *c, size_t k, later too, bool l
 static void faults_of(uint32_t dimension, call call, size_t which, double share, size_t turn) {
     const setting *setting = &SETTINGS[which];
     // Segments are of the plane; a set without them has nothing to check.
-    if (setting->segments > 0 ? dimension == 3 : call.kind == CHECK_STAGED) return;
+    const bool is_of_segments = call.kind == CHECK_STAGED || call.kind == CHECK_PASSINGS || call.kind == STAGE_SPLITS;
+    if (setting->segments > 0 ? dimension == 3 : is_of_segments) return;
     // There for what several threads build.
     bool builds = call.kind == CREATE || (call.kind == COMMIT && call.algorithm == DELDRIFT_REBUILDING);
     if (setting->n > 1000 && !builds) return;
@@ -221,6 +223,7 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     if (dimension == 2) {
         OK(deldrift_segments(s.t, ids_out, NULL, NULL, ROOM, &count));
         OK(deldrift_segment_conflicts(s.t, NULL, 0, &count));
+        OK(deldrift_passings(s.t, NULL, NULL, 0, &count));
     }
     OK(deldrift_made_vertices(refined.t, ids_out, more_out, ROOM, &n_made));
     OK(deldrift_original_segments(refined.t, ids_out, ROOM, &n_segments));

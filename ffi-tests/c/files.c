@@ -47,7 +47,7 @@ static unsigned char *saved(const deldrift_triangulation *t, size_t *size) {
 enum { WAYS = 3 };
 static deldrift_status written(const deldrift_triangulation *t, const char *path, int way) {
     if (way == 0) return deldrift_save_file(t, path);
-    if (way == 1) return deldrift_write_medit(t, path);
+    if (way == 1) return deldrift_write_medit(t, path, NULL, 0);
     return deldrift_write_vtu(t, path, NULL, 0, NULL, 0);
 }
 

@@ -31,7 +31,7 @@ static void structures_of_earlier_versions_are_accepted(void) {
     const size_t ends[] = {sizeof(size_t),
                            offsetof(deldrift_options, threads),
                            offsetof(deldrift_options, coincidence),
-                           offsetof(deldrift_options, reserved),
+                           offsetof(deldrift_options, passing),
                            offsetof(deldrift_options, cancel),
                            offsetof(deldrift_options, progress),
                            offsetof(deldrift_options, user_data),
@@ -87,9 +87,9 @@ static void unknown_values_are_refused_by_name(void) {
     CHECK_STATUS(try_options(&options), DELDRIFT_INVALID_OPTIONS);
     CHECK_MESSAGE("options.coincidence is 2");
     deldrift_options_init(&options);
-    options.reserved = 1;
+    options.passing = (deldrift_passing)3;
     CHECK_STATUS(try_options(&options), DELDRIFT_INVALID_OPTIONS);
-    CHECK_MESSAGE("options.reserved is 1");
+    CHECK_MESSAGE("options.passing is 3");
     // Those of deldrift/research.h are chosen by its own function.
     deldrift_options_init(&options);
     options.algorithm = DELDRIFT_RESEARCH_PLACEMENT;

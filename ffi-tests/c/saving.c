@@ -221,6 +221,37 @@ static size_t numbers_in(const char *path, double *numbers, size_t room) {
     return n;
 }
 
+// The numbers of a mesh in the plane end with the ends and markers of its segments.
+static void segments_are_edges_of_meshes(void) {
+    const double corners[] = {0, 0, 1, 0, 1, 1, 0, 1, 1, 1};
+    const uint32_t ends[] = {0, 4, 3, 1};
+    const int32_t markers[] = {-7, 5};
+    deldrift_triangulation *t;
+    uint32_t first;
+    double read[100];
+    OK(deldrift_create(2, corners, 5, NULL, &t));
+    OK(deldrift_stage_segments(t, ends, markers, 1, &first));
+    OK(deldrift_commit_timestamp(t, NULL));
+    OK(deldrift_write_medit(t, in_folder("cells.mesh"), NULL, 0));
+    const size_t n = numbers_in(in_folder("cells.mesh"), read, 100);
+    CHECK(n == 4 + 5 * 3 + 2 * 4 + 1 + 3);
+    // Vertex 4 is hidden at the place of vertex 2, the third one.
+    const double *edge = read + n - 4;
+    CHECK(edge[0] == 1 && edge[1] == 1 && edge[2] == 3 && edge[3] == -7);
+    const double zeros[2] = {0};
+    const deldrift_field marker = {"marker", zeros, 1}, other = {"Marker", zeros, 1};
+    CHECK_STATUS(deldrift_write_vtu(t, in_folder("cells.vtu"), NULL, 0, &marker, 1), DELDRIFT_INVALID_FIELD);
+    CHECK_MESSAGE("another than \"marker\"");
+    OK(deldrift_write_vtu(t, in_folder("cells.vtu"), NULL, 0, &other, 1));
+    OK(deldrift_stage_segment_removals(t, &first, 1));
+    OK(deldrift_commit_timestamp(t, NULL));
+    OK(deldrift_write_vtu(t, in_folder("cells.vtu"), NULL, 0, &marker, 1));
+    OK(deldrift_write_medit(t, in_folder("cells.mesh"), NULL, 0));
+    CHECK(numbers_in(in_folder("cells.mesh"), read, 100) == 4 + 5 * 3 + 2 * 4);
+    CHECK(unlink(in_folder("cells.mesh")) == 0 && unlink(in_folder("cells.vtu")) == 0 && files_in_folder() == 0);
+    deldrift_destroy(t);
+}
+
 static void meshes_are_written(uint32_t dimension) {
     deldrift_triangulation *t = make(dimension, NULL);
     deldrift_cells_view cells = cells_of(t);
@@ -228,7 +259,7 @@ static void meshes_are_written(uint32_t dimension) {
     OK(deldrift_id_count(t, &ids));
     OK(deldrift_vertex_count(t, &n));
     double *read = malloc(room * sizeof *read), position[3];
-    OK(deldrift_write_medit(t, in_folder("cells.mesh")));
+    OK(deldrift_write_medit(t, in_folder("cells.mesh"), NULL, 0));
     CHECK(numbers_in(in_folder("cells.mesh"), read, room) == 4 + n * (d + 1) + cells.count * (d + 2));
     CHECK(read[0] == 2 && read[1] == (double)d && read[2] == (double)n);
     for (size_t v = 0; v < n; v++) {
@@ -242,8 +273,18 @@ static void meshes_are_written(uint32_t dimension) {
         size_t cell = k / (d + 2), corner = k % (d + 2), number = (size_t)count[1 + k];
         if (corner <= d) CHECK(read[3 + (number - 1) * (d + 1) + d] == cells.vertices[cell * (d + 1) + corner]);
     }
-    CHECK_STATUS(deldrift_write_medit(t, in_folder("none/cells.mesh")), DELDRIFT_IO_ERROR);
-    CHECK_STATUS(deldrift_write_medit(t, NULL), DELDRIFT_NULL_ARGUMENT);
+    CHECK_STATUS(deldrift_write_medit(t, in_folder("none/cells.mesh"), NULL, 0), DELDRIFT_IO_ERROR);
+    CHECK_STATUS(deldrift_write_medit(t, NULL, NULL, 0), DELDRIFT_NULL_ARGUMENT);
+    int32_t *references = malloc(cells.count * sizeof *references);
+    for (size_t c = 0; c < cells.count; c++) references[c] = 40 - 3 * (int32_t)c;
+    OK(deldrift_write_medit(t, in_folder("cells.mesh"), references, cells.count));
+    CHECK(numbers_in(in_folder("cells.mesh"), read, room) == 4 + n * (d + 1) + cells.count * (d + 2));
+    for (size_t c = 0; c < cells.count; c++) CHECK(count[(c + 1) * (d + 2)] == 40 - 3 * (double)c);
+    CHECK_STATUS(deldrift_write_medit(t, in_folder("cells.mesh"), references, cells.count - 1), DELDRIFT_WRONG_COUNT);
+    CHECK_MESSAGE("reference_count");
+    CHECK_STATUS(deldrift_write_medit(t, in_folder("cells.mesh"), NULL, cells.count), DELDRIFT_NULL_ARGUMENT);
+    CHECK_MESSAGE("references");
+    free(references);
 
     double *values = random_positions(1, 3 * ids + cells.count, 9);
     deldrift_field velocity = {"velocity", values, 3}, density = {"density", values + 3 * ids, 1}, bad = velocity;
@@ -279,6 +320,7 @@ int main(void) {
         a_clone_is_independent(dimension);
         meshes_are_written(dimension);
     }
+    segments_are_edges_of_meshes();
     what_is_wrong_is_refused();
     CHECK(rmdir(folder) == 0);
     return 0;

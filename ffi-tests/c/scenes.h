@@ -49,7 +49,8 @@ enum { N_SETTINGS = sizeof SETTINGS / sizeof *SETTINGS };
 
 typedef enum { CREATE, RELOCATE, INSERT, REMOVE, MOVE, MOVE_SOME, MOVE_ALL, STAGE_INSERTIONS, STAGE_REMOVALS,
     STAGE_SEGMENTS, STAGE_SEGMENT_REMOVALS, COMMIT,
-    COMMIT_SOME, COMMIT_POSITIONS, CHECK_STAGED, COMPACT, TAKE_CHANGES, CELLS, COPY_CELLS, STAR, TOLERANCE, ANNULUS_WIDTHS,
+    COMMIT_SOME, COMMIT_POSITIONS, CHECK_STAGED, CHECK_PASSINGS, STAGE_SPLITS, COMPACT, TAKE_CHANGES, CELLS,
+    COPY_CELLS, STAR, TOLERANCE, ANNULUS_WIDTHS,
     DELIMITER, LOCATE, LOCATE_POINTS, NEAREST, CIRCUMCENTRES, VOLUMES, MASK_BY_CIRCUMRADIUS,
     MASK_BOUNDARY, HULL_FACETS, EDGES, VERTEX_NEIGHBOURS, VERTEX_CELLS, MIRROR_INDICES, MIRROR_INDEX, ORDERED_STAR,
     CELLS_AROUND, CELLS_AROUND_ALL, UPDATE_CIRCUMCENTRES, UPDATE_VOLUMES, UPDATE_MASK,
@@ -63,7 +64,8 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_move_vertex", "deldrift_move_vertices", "deldrift_move_vertices, all", "deldrift_stage_insertions",
     "deldrift_stage_removals", "deldrift_stage_segments", "deldrift_stage_segment_removals",
     "deldrift_commit_timestamp", "deldrift_commit_timestamp, some",
-    "deldrift_commit_positions", "deldrift_check_staged", "deldrift_compact", "deldrift_take_changes", "deldrift_cells", "deldrift_copy_cells",
+    "deldrift_commit_positions", "deldrift_check_staged", "deldrift_check_passings", "deldrift_stage_splits",
+    "deldrift_compact", "deldrift_take_changes", "deldrift_cells", "deldrift_copy_cells",
     "deldrift_star", "deldrift_tolerance", "deldrift_research_annulus_widths", "deldrift_research_standard_delimiter",
     "deldrift_locate",
     "deldrift_locate_points", "deldrift_nearest_vertex", "deldrift_circumcentres",
@@ -92,11 +94,12 @@ typedef struct {
 } call;
 
 static bool is_commit(kind k) {
-    return k == COMMIT || k == COMMIT_SOME || k == COMMIT_POSITIONS || k == CHECK_STAGED;
+    return COMMIT <= k && k <= STAGE_SPLITS;
 }
 
 static bool is_of_plane(kind k) {
-    return k == ORDERED_STAR || k == STAGE_SEGMENTS || k == STAGE_SEGMENT_REMOVALS ||
+    return k == ORDERED_STAR || k == CHECK_PASSINGS || k == STAGE_SEGMENTS || k == STAGE_SEGMENT_REMOVALS ||
+           k == STAGE_SPLITS ||
            (SEGMENTS_OF_CELLS <= k && k <= COARSEN);
 }
 
@@ -308,7 +311,9 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
             memcpy(s.places + end * d, s.points + end * d, d * sizeof *s.places);
         }
     }
-    if (call.kind == COMMIT || call.kind == CHECK_STAGED) OK(deldrift_move_vertices(s.t, NULL, s.places, s.n));
+    const bool moves_all = call.kind == COMMIT || call.kind == CHECK_STAGED || call.kind == CHECK_PASSINGS ||
+                           call.kind == STAGE_SPLITS;
+    if (moves_all) OK(deldrift_move_vertices(s.t, NULL, s.places, s.n));
     for (uint32_t w = 2; w < s.n; w += 3) {
         bool present;
         OK(deldrift_is_present(s.t, w, &present));
@@ -330,9 +335,9 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
             stage_pairs(&s, n_laid, n_laid);
             OK(deldrift_stage_segment_removals(s.t, (uint32_t[]){1}, 1));
         }
-        // An end goes, and segments cross.
+        // An end goes, which no split mends, and segments cross.
         if (n_laid > 0 && setting->conflicts && is_commit(call.kind)) {
-            OK(deldrift_stage_removals(s.t, s.pairs[0], 1));
+            if (call.kind != STAGE_SPLITS) OK(deldrift_stage_removals(s.t, s.pairs[0], 1));
             OK(deldrift_stage_segments(s.t, (uint32_t[]){1, 2, 4, 5, 7, 8, 11, 14, 17, 20}, NULL, 5, &v));
         }
     }
@@ -369,6 +374,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     deldrift_options options = options_of(s);
     deldrift_triangulation *const none = (deldrift_triangulation *)ids_out, *made = none;
     deldrift_commit_report report = {.timestamp = 77};
+    deldrift_split_report split = {.inserted = 77};
     deldrift_changes changes;
     deldrift_cells_view cells;
     deldrift_location location;
@@ -427,6 +433,8 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             status = deldrift_stage_segment_removals(s->t, (uint32_t[]){0, 1}, n_segments > 0 ? 2 : 0);
             break;
         case CHECK_STAGED: status = deldrift_check_staged(s->t); break;
+        case CHECK_PASSINGS: status = deldrift_check_passings(s->t); break;
+        case STAGE_SPLITS: status = deldrift_stage_splits(s->t, 100, &split); break;
         case COMMIT:
         case COMMIT_SOME: status = deldrift_commit_timestamp(s->t, &report); break;
         case COMMIT_POSITIONS: status = deldrift_commit_positions(s->t, s->places, s->n, &report); break;
@@ -502,7 +510,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case SAVE_FILE: status = deldrift_save_file(s->t, file); break;
         case LOAD_FILE: status = deldrift_load_file(file, &options, &made); break;
         case WRITE_VTU: status = deldrift_write_vtu(s->t, file, &field, 1, NULL, 0); break;
-        case WRITE_MEDIT: status = deldrift_write_medit(s->t, file); break;
+        case WRITE_MEDIT: status = deldrift_write_medit(s->t, file, labels, n_cells); break;
         case N_KINDS: break;
     }
     stop_counting();
@@ -520,6 +528,13 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         size_t n_conflicts;
         OK(deldrift_segment_conflicts(s->t, conflicts, 64, &n_conflicts));
         *given = mixed(status, digest_of(conflicts, n_conflicts * sizeof *conflicts));
+    }
+    if (status == DELDRIFT_PASSES_SEGMENT) {
+        static uint32_t passed[4000], passing[4000];
+        size_t n_passings;
+        OK(deldrift_passings(s->t, passed, passing, 4000, &n_passings));
+        *given = mixed(mixed(status, digest_of(passed, n_passings * sizeof *passed)),
+                       digest_of(passing, n_passings * sizeof *passing));
     }
     if (status != DELDRIFT_OK) {
         bool untouched = made == none && report.timestamp == 77 && out == 77 && ids_out[0] == 77 && more_out[0] == 77;
@@ -547,6 +562,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             renumber(&s->mirror, d + 1, ids_out);
             break;
         case TAKE_CHANGES: *wrong = follow(&s->mirror, &changes, s->t); break;
+        case STAGE_SPLITS: *given = digest_of(&split, sizeof split); break;
         case CELLS: *given = cells.count; break;
         case COPY_CELLS: {
             deldrift_cells_view view;

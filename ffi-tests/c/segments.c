@@ -363,6 +363,98 @@ static void segments_that_cross_are_refused(void) {
     deldrift_destroy(t);
 }
 
+// A triangulation with an option, of a slit from vertex 1 to vertex 3 and a vertex on each side of it, and a hidden one.
+static deldrift_triangulation *slit(deldrift_passing passing) {
+    const double places[] = {0, 0, 5, -2, 10, 0, 5, 2, 4, 0, 4, 0};
+    deldrift_options options;
+    deldrift_options_init(&options);
+    options.passing = passing;
+    uint32_t segment;
+    deldrift_triangulation *t;
+    OK(deldrift_create(2, places, 6, &options, &t));
+    OK(deldrift_stage_segments(t, (uint32_t[]){1, 3}, NULL, 1, &segment));
+    OK(deldrift_commit_timestamp(t, NULL));
+    return t;
+}
+
+// What is told to pass the slit.
+static void expect_passings(const deldrift_triangulation *t, const uint32_t *expected, size_t n) {
+    uint32_t segments[8], vertices[8];
+    size_t count;
+    OK(deldrift_passings(t, segments, vertices, 8, &count));
+    CHECK(count == n);
+    for (size_t k = 0; k < n; k++) CHECK(segments[k] == 0 && vertices[k] == expected[k]);
+}
+
+static size_t saved(const deldrift_triangulation *t, uint8_t *bytes) {
+    size_t size;
+    OK(deldrift_save(t, bytes, 1 << 12, &size));
+    return size;
+}
+
+// A vertex that jumps across a slit, and one that is hidden behind it: ignored, told or refused, and asked for.
+static void vertices_that_pass_a_segment_are_told(void) {
+    static uint8_t before[1 << 12], after[1 << 12];
+    const uint32_t both[] = {4, 5};
+    const double across[] = {6, 0, 6, 1}, on[] = {5, 0}, over[] = {6, 5};
+    const double all[] = {0, 0, 5, -2, 10, 0, 5, 2, 6, 0, 4, 0};
+    for (int passing = DELDRIFT_PASSING_IGNORE; passing <= DELDRIFT_PASSING_REFUSE; passing++) {
+        deldrift_triangulation *t = slit((deldrift_passing)passing), *copy;
+        const bool refuses = passing == DELDRIFT_PASSING_REFUSE;
+        const deldrift_status status = refuses ? DELDRIFT_PASSES_SEGMENT : DELDRIFT_OK;
+        const size_t one = passing != DELDRIFT_PASSING_IGNORE, two = 2 * one;
+        uint64_t timestamp;
+        OK(deldrift_move_vertices(t, both, across, 2));
+        CHECK_STATUS(deldrift_check_passings(t), DELDRIFT_PASSES_SEGMENT);
+        CHECK_MESSAGE("vertex 4 passes segment 0, and there is one more such pair");
+        expect_passings(t, both, 2);
+        const size_t size = saved(t, before);
+        CHECK_STATUS(deldrift_check_staged(t), status);
+        expect_passings(t, both, two);
+        OK(deldrift_clone(t, &copy));
+        expect_passings(copy, NULL, 0);
+        CHECK_STATUS(deldrift_commit_timestamp(copy, NULL), status);
+        expect_passings(copy, both, two);
+        if (refuses) CHECK(saved(copy, after) == size && memcmp(before, after, size) == 0);
+        OK(deldrift_timestamp(copy, &timestamp));
+        CHECK(timestamp == (refuses ? 1 : 2));
+        OK(deldrift_validate(copy, 3));
+        deldrift_destroy(copy);
+        OK(deldrift_discard_moves(t));
+        expect_passings(t, both, two);
+        // Ends at the place of a vertex, and around the slit: nothing passes.
+        OK(deldrift_move_vertex(t, 4, over));
+        OK(deldrift_check_passings(t));
+        expect_passings(t, NULL, 0);
+        OK(deldrift_discard_moves(t));
+        // At once, and all in one call. What would stop on the slit is refused in any case.
+        CHECK_STATUS(deldrift_relocate_vertex(t, 5, on), refuses ? DELDRIFT_PASSES_SEGMENT : DELDRIFT_ON_SEGMENT);
+        expect_passings(t, both + 1, one);
+        CHECK_STATUS(deldrift_commit_positions(t, all, 6, NULL), status);
+        expect_passings(t, both, one);
+        if (refuses) CHECK_MESSAGE("vertex 4 passes segment 0");
+        CHECK_STATUS(deldrift_relocate_vertex(t, 5, across), status);
+        expect_passings(t, both + 1, one);
+        OK(deldrift_validate(t, 3));
+        deldrift_destroy(t);
+    }
+    // A segment that goes, comes, or has an end that does, is not looked at.
+    deldrift_triangulation *t = slit(DELDRIFT_PASSING_REFUSE);
+    uint32_t segment;
+    size_t count;
+    OK(deldrift_stage_segment_removals(t, (uint32_t[]){0}, 1));
+    OK(deldrift_stage_segments(t, (uint32_t[]){1, 3}, NULL, 1, &segment));
+    OK(deldrift_move_vertices(t, both, across, 2));
+    OK(deldrift_commit_timestamp(t, NULL));
+    expect_passings(t, NULL, 0);
+    OK(deldrift_move_vertex(t, 4, all + 10));
+    CHECK_STATUS(deldrift_commit_timestamp(t, NULL), DELDRIFT_PASSES_SEGMENT);
+    CHECK_MESSAGE("vertex 4 passes segment 1");
+    CHECK_BUFFER(uint32_t, 1, 1, deldrift_passings(t, buffer, NULL, capacity, &count));
+    CHECK_BUFFER(uint32_t, 1, 1, deldrift_passings(t, NULL, buffer, capacity, &count));
+    deldrift_destroy(t);
+}
+
 // Copies, compactions and saving take segments along, those that are staged and those that are to go included.
 static void copies_have_segments(void) {
     double *positions = random_positions(2, 40, 3);
@@ -403,6 +495,57 @@ static void copies_have_segments(void) {
     free(positions);
 }
 
+// Segments that cross are split at a place that is rounded, and pieces of one laid before are removed ones; what is discarded
+// is forgotten, and what is refused has no effect.
+static void segments_are_split(void) {
+    uint32_t segment, ids[6], ends[12];
+    int32_t markers[6];
+    deldrift_triangulation *t = kite(DELDRIFT_AUTO, &segment);
+    deldrift_split_report report = {.inserted = 77}, other;
+    deldrift_conflict conflict;
+    size_t count;
+    OK(deldrift_stage_splits(t, 0, &report));
+    CHECK(report.inserted == 0 && report.pieces == 0 && report.rounds == 0);
+    CHECK(report.first_vertex == 4 && report.first_piece == segment + 1);
+    OK(deldrift_stage_segments(t, (uint32_t[]){3, 1}, (int32_t[]){8}, 1, &segment));
+    other = report;
+    CHECK_STATUS(deldrift_stage_splits(t, 0, &other), DELDRIFT_CROSSING);
+    CHECK_MESSAGE("segments 0 and 1 cross");
+    CHECK(memcmp(&report, &other, sizeof other) == 0);
+    OK(deldrift_segment_conflicts(t, &conflict, 1, &count));
+    CHECK(count == 1 && conflict.segment == 0 && conflict.other == 1);
+    for (int round = 0; round < 2; round++) {
+        OK(deldrift_stage_splits(t, 1, round == 0 ? NULL : &report));
+        if (round == 1) break;
+        OK(deldrift_discard_moves(t));
+        OK(deldrift_stage_segments(t, (uint32_t[]){3, 1}, (int32_t[]){8}, 1, &segment));
+        CHECK(segment == 1);
+    }
+    CHECK(report.inserted == 1 && report.replaced_segments == 2 && report.pieces == 4 && report.rounds == 1);
+    CHECK(report.first_vertex == 4 && report.first_piece == 2);
+    OK(deldrift_commit_timestamp(t, NULL));
+    OK(deldrift_segments(t, ids, ends, markers, 6, &count));
+    CHECK(count == 4 && ids[0] == 2 && ids[3] == 5);
+    CHECK(memcmp(ends, (uint32_t[]){0, 4, 4, 2, 3, 4, 4, 1}, 8 * sizeof *ends) == 0);
+    CHECK(markers[0] == markers[1] && markers[2] == 8 && markers[3] == 8);
+    OK(deldrift_validate(t, 3));
+    // A vertex that comes on a piece splits it; ends that meet are refused, and nothing is split.
+    double middle[2], end[2];
+    OK(deldrift_position(t, 4, middle));
+    OK(deldrift_position(t, 2, end));
+    OK(deldrift_stage_insertions(t, (double[]){(middle[0] + end[0]) / 2, (middle[1] + end[1]) / 2}, 1, &segment));
+    OK(deldrift_stage_segments(t, (uint32_t[]){4, 4}, NULL, 1, &segment));
+    CHECK_STATUS(deldrift_stage_splits(t, 9, NULL), DELDRIFT_ENDS_MEET);
+    CHECK_MESSAGE("both ends of segment 6 are at the same place, and there is one more conflict");
+    OK(deldrift_discard_moves(t));
+    OK(deldrift_stage_insertions(t, (double[]){(middle[0] + end[0]) / 2, (middle[1] + end[1]) / 2}, 1, &segment));
+    OK(deldrift_stage_splits(t, 0, &report));
+    CHECK(report.inserted == 0 && report.pieces == 2 && report.first_piece == 6);
+    OK(deldrift_commit_timestamp(t, NULL));
+    CHECK(has_edge(t, 4, 5) && has_edge(t, 5, 2));
+    deldrift_destroy(t);
+}
+
 static void arguments_are_checked(void) {
     uint32_t segment;
     deldrift_triangulation *t = kite(DELDRIFT_AUTO, &segment), *solid;
@@ -420,6 +563,10 @@ static void arguments_are_checked(void) {
     CHECK_MESSAGE("the dimension of t is 3");
     CHECK(segment == 77);
     OK(deldrift_check_staged(solid));
+    CHECK_STATUS(deldrift_check_passings(solid), DELDRIFT_INVALID_DIMENSION);
+    CHECK_STATUS(deldrift_passings(solid, NULL, NULL, 0, &count), DELDRIFT_INVALID_DIMENSION);
+    CHECK_STATUS(deldrift_stage_splits(solid, 1, NULL), DELDRIFT_INVALID_DIMENSION);
+    CHECK_STATUS(deldrift_stage_splits(NULL, 1, NULL), DELDRIFT_NULL_ARGUMENT);
     OK(deldrift_stage_segments(t, (uint32_t[]){0, 1}, NULL, 1, &segment));
     OK(deldrift_commit_timestamp(t, NULL));
     CHECK_BUFFER(uint32_t, 2, 1, deldrift_segments(t, buffer, NULL, NULL, capacity, &count));
@@ -434,7 +581,9 @@ int main(void) {
     immediate_calls_are_refused();
     vertices_beside_a_segment_do_not_slip_over_it();
     segments_that_cross_are_refused();
+    vertices_that_pass_a_segment_are_told();
     copies_have_segments();
+    segments_are_split();
     arguments_are_checked();
     random_histories_are_as_the_definition_says();
     return 0;

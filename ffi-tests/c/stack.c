@@ -111,6 +111,8 @@ static void many_points(void) {
         GO(deldrift_commit_timestamp(t, NULL));
         TRY(deldrift_stage_segments(t, (const uint32_t[]){20, 220, 21, 171}, NULL, 2, &v));
         TRY(deldrift_check_staged(t));
+        TRY(deldrift_check_passings(t));
+        TRY(deldrift_stage_splits(t, 9, NULL));
         TRY(deldrift_commit_timestamp(t, NULL));
         if (tour_status != DELDRIFT_OK) GO(deldrift_discard_moves(t));
         GO(deldrift_relocate_vertex(t, 12, then));

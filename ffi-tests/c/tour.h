@@ -9,7 +9,7 @@
 
 #include <unistd.h>
 
-enum { TOUR_POINTS = 48, TOUR_STEPS = 320, TOUR_ROOM = 1 << 14, TOUR_FILE = 1 << 18 };
+enum { TOUR_POINTS = 48, TOUR_STEPS = 384, TOUR_ROOM = 1 << 14, TOUR_FILE = 1 << 18 };
 
 // What a tour is given.
 typedef struct {
@@ -383,10 +383,12 @@ static void keep(const deldrift_triangulation *t, const places *p, const deldrif
     const deldrift_field field = {"then", p->then, 1};
     TRY(deldrift_write_vtu(t, tour_path(), &field, 1, NULL, 0));
     if (tour_status == DELDRIFT_OK) note_file();
-    GO(deldrift_write_medit(t, tour_path()));
+    GO(deldrift_write_medit(t, tour_path(), NULL, 0));
     note_file();
     CHECK(unlink(tour_path()) == 0);
 }
+
+static const double tour_far[] = {40, 40, 40};
 
 // Segments of which some may conflict, and some that are edges already.
 static void prescribe(deldrift_triangulation *t) {
@@ -396,6 +398,7 @@ static void prescribe(deldrift_triangulation *t) {
     TRY(deldrift_check_staged(t));
     TRY(deldrift_segment_conflicts(t, tour_out.conflicts, TOUR_ROOM, &count));
     note(tour_out.conflicts, count * sizeof *tour_out.conflicts);
+    TRY(deldrift_stage_splits(t, 1, NULL));
     TRY(deldrift_commit_timestamp(t, NULL));
     if (tour_status != DELDRIFT_OK) GO(deldrift_discard_moves(t));
     GO(deldrift_edges(t, tour_out.ids, TOUR_ROOM / 2, &count));
@@ -404,6 +407,11 @@ static void prescribe(deldrift_triangulation *t) {
     note(&segment, sizeof segment);
     TRY(deldrift_commit_timestamp(t, NULL));
     if (tour_status != DELDRIFT_OK) GO(deldrift_discard_moves(t));
+    TRY(deldrift_move_vertex(t, 5, tour_far));
+    TRY(deldrift_check_passings(t));
+    TRY(deldrift_passings(t, tour_out.ids, NULL, TOUR_ROOM, &count));
+    note(tour_out.ids, count * sizeof *tour_out.ids);
+    GO(deldrift_discard_moves(t));
     TRY(deldrift_stage_segment_removals(t, &segment, 1));
 }
 

@@ -60,6 +60,8 @@ int main() {
     CHECK(status_of([&] { clone.write_vtu(vtu, {{"height", height, 2}}); }) == DELDRIFT_WRONG_COUNT);
     CHECK(status_of([&] { clone.write_vtu(vtu, {}, {{"area", height, 2}}); }) == DELDRIFT_WRONG_COUNT);
     clone.write_medit(mesh);
+    clone.write_medit(mesh, std::vector<std::int32_t>(clone.cell_count(), -3));
+    CHECK(status_of([&] { clone.write_medit(mesh, std::vector<std::int32_t>(1)); }) == DELDRIFT_WRONG_COUNT);
     CHECK(status_of([&] { clone.save_file(file + "/none"); }) == DELDRIFT_IO_ERROR);
     CHECK(status_of([&] { Triangulation::load_file(path); }) == DELDRIFT_IO_ERROR);
     for (const std::string &made : {file, vtu, mesh, path}) CHECK(std::remove(made.c_str()) == 0);

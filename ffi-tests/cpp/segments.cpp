@@ -89,6 +89,62 @@ static void errors_tell_conflicts() {
     CHECK(t.segment_conflicts().empty());
 }
 
+// What a call throws where vertices pass segments: a copy of it.
+template <class Call>
+static deldrift::PassingError passings_of(Call call) {
+    try {
+        call();
+    } catch (const deldrift::PassingError &error) {
+        const deldrift::PassingError copy = error;
+        return copy;
+    }
+    CHECK(!"a vertex passes");
+    std::exit(1);
+}
+
+static void errors_tell_passings() {
+    deldrift_options options = deldrift::default_options();
+    options.passing = DELDRIFT_PASSING_REFUSE;
+    Triangulation t(2, kite, options);
+    t.stage_segments({Ends{0, 2}});
+    t.commit_timestamp();
+    CHECK(t.passings().empty());
+    t.check_passings();
+    t.move_vertices({1, 3}, {5.0, 3.0, 5.0, -1.0});
+    for (const auto &error : {passings_of([&] { t.check_passings(); }), passings_of([&] { t.check_staged(); }),
+                              passings_of([&] { t.commit_timestamp(); })}) {
+        CHECK(error.status() == DELDRIFT_PASSES_SEGMENT && error.passings().size() == 2);
+        const auto [segment, vertex] = error.passings()[1];
+        CHECK(segment == 0 && vertex == 3 && error.passings()[0].vertex == 1);
+        CHECK(std::strstr(error.what(), "vertex 1 passes segment 0, and there is one more such pair") != nullptr);
+    }
+    t.discard_moves();
+    std::vector<double> positions = t.positions();
+    positions[7] = -0.5;
+    CHECK(passings_of([&] { t.commit_positions(positions); }).passings()[0].vertex == 3);
+    CHECK(passings_of([&] { t.relocate_vertex(3, {5.0, -0.5}); }).passings()[0].vertex == 3);
+    options.passing = DELDRIFT_PASSING_TELL;
+    Triangulation telling(2, kite, options);
+    telling.stage_segments({Ends{0, 2}});
+    telling.commit_timestamp();
+    telling.commit_positions(positions);
+    CHECK(telling.passings().size() == 1 && telling.passings()[0].vertex == 3 && telling.timestamp() == 2);
+}
+
+// What crosses is split, within a limit.
+static void segments_are_split() {
+    Triangulation t(2, kite);
+    t.stage_segments({Ends{0, 2}, Ends{1, 3}}, {4, 5});
+    const ConflictError error = conflicts_of([&] { t.stage_splits(0); });
+    CHECK(error.status() == DELDRIFT_CROSSING && error.conflicts().size() == 1);
+    const deldrift_split_report split = t.stage_splits();
+    CHECK(split.inserted == 1 && split.pieces == 4 && split.first_vertex == 4 && split.first_piece == 2);
+    CHECK(t.stage_splits().rounds == 0);
+    t.commit_timestamp();
+    const deldrift::Segments pieces = t.segments();
+    CHECK(pieces.size() == 4 && pieces[1].id == 3 && pieces[1].ends == (Ends{4, 2}) && pieces[3].marker == 5);
+}
+
 // A step that would put a vertex on a segment is cut until it does not.
 static void steps_are_cut() {
     Triangulation t(2, kite);
@@ -166,6 +222,8 @@ static void domains_are_known() {
 int main() {
     segments_are_kept();
     errors_tell_conflicts();
+    errors_tell_passings();
+    segments_are_split();
     steps_are_cut();
     domains_are_known();
     return 0;

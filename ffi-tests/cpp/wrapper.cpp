@@ -175,8 +175,8 @@ static void failures_are_exceptions() {
     CHECK_THROWS(t.move_vertex(4, {1.0, 1.0, 1.0}), DELDRIFT_WRONG_COUNT, "position has 3 numbers");
     CHECK_THROWS(t.move_vertices({0, 1}, {1.0, 1.0}), DELDRIFT_WRONG_COUNT, "must have 4");
     deldrift_options options = deldrift::default_options();
-    options.reserved = 1;
-    CHECK_THROWS(Triangulation(2, square, options), DELDRIFT_INVALID_OPTIONS, "options.reserved is 1");
+    options.passing = static_cast<deldrift_passing>(3);
+    CHECK_THROWS(Triangulation(2, square, options), DELDRIFT_INVALID_OPTIONS, "options.passing is 3");
     CHECK_THROWS(t.star(9), DELDRIFT_NO_SUCH_VERTEX, "vertex[0] is 9");
     CHECK_THROWS(t.validate(9), DELDRIFT_INVALID_LEVEL, "level is 9");
     CHECK(t.timestamp() == 0 && t.staged_count() == 0);

@@ -8,6 +8,8 @@ pub mod driver;
 #[path = "../../tests/exact_oracle/mod.rs"]
 mod exact_oracle;
 pub mod loaders;
+#[path = "../../tests/common/passing_by_roots.rs"]
+mod passing_by_roots;
 pub mod predicates;
 pub mod source;
 pub mod tally;

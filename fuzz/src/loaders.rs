@@ -70,7 +70,7 @@ fn default_options() -> deldrift_options {
         algorithm: 0,
         threads: 1,
         coincidence: 0,
-        reserved: 0,
+        passing: 0,
         cancel: None,
         progress: None,
         user_data: null_mut(),

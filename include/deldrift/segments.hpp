@@ -44,6 +44,30 @@ private:
     // Shared, as copies of an exception must not fail.
     std::shared_ptr<const std::vector<deldrift_conflict>> conflicts_;
 };
+
+// A vertex that passes a segment; see deldrift_passings.
+struct Passing {
+    std::uint32_t segment, vertex;
+};
+
+// A change was refused, as a vertex would pass a segment and the options refuse that, or it was asked whether one would.
+// All that would are told, ascending by segment and vertex:
+//     try {
+//         t.commit_timestamp();
+//     } catch (const deldrift::PassingError &error) {
+//         for (const auto [segment, vertex] : error.passings()) blame(segment, vertex);
+//         t.discard_moves();
+//     }
+class PassingError : public Error {
+public:
+    PassingError(const std::string &message, std::vector<Passing> passings)
+        : Error(DELDRIFT_PASSES_SEGMENT, message),
+          passings_(std::make_shared<const std::vector<Passing>>(std::move(passings))) {}
+    const std::vector<Passing> &passings() const noexcept { return *passings_; }
+
+private:
+    std::shared_ptr<const std::vector<Passing>> passings_;
+};
 #ifdef __clang__
 #pragma clang diagnostic pop
 #endif

@@ -40,16 +40,18 @@ from ._errors import (
     NotFinite,
     OutOfMemory,
     OutOfRange,
+    PassingError,
     RemovedVertex,
     StagedVertex,
     TooMany,
     WrongCount,
 )
 from ._geometry import Boundary
-from ._library import Report, version
+from ._library import QualityReport, Report, version
 from ._mesh import Mesh
 from ._motion import Changes
-from ._segments import Chains, Segments
+from ._refining import MadeVertices, RefinedWeights
+from ._segments import Chains, Segments, Splits
 from ._step import Step
 
 __version__ = "0.1.0"
@@ -78,6 +80,7 @@ __all__ = [
     "InvalidShape",
     "InvalidValue",
     "Locations",
+    "MadeVertices",
     "Mesh",
     "NoSuchSegment",
     "NoSuchSimplex",
@@ -85,9 +88,13 @@ __all__ = [
     "NotFinite",
     "OutOfMemory",
     "OutOfRange",
+    "PassingError",
+    "QualityReport",
+    "RefinedWeights",
     "RemovedVertex",
     "Report",
     "Segments",
+    "Splits",
     "StagedVertex",
     "Step",
     "TooMany",

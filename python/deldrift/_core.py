@@ -12,18 +12,22 @@ import numpy as np
 from . import _library
 from ._arrays import COUNTS_REFERENCES, Handle, Lease, Released, Version, address, choice, taken, whole
 from ._callbacks import Callbacks
-from ._errors import Busy, Closed, ConflictError, ConflictKind, InternalError, InvalidOption, raise_for
+from ._errors import Busy, Closed, ConflictError, ConflictKind, InternalError, InvalidOption, PassingError, raise_for
 
 Made = TypeVar("Made")
 
 CONFLICT = np.dtype([("kind", np.uint32), ("segment", np.int32), ("other", np.int32)])
 """deldrift_conflict, with -1 for none."""
 
+PASSING = np.dtype([("segment", np.int32), ("vertex", np.int32)])
+"""A vertex that passes a segment."""
+
 NO_NAMES: Mapping[str, str] = {}
 
 _release_cells = _library.function("release_cells")
 _cells = _library.function("cells")
 _segment_conflicts = _library.function("segment_conflicts")
+_passings = _library.function("passings")
 _discard_moves = _library.function("discard_moves")
 _id_count = _library.function("id_count")
 _cell_count = _library.function("cell_count")
@@ -38,7 +42,9 @@ def check(status: int, names: Mapping[str, str] = NO_NAMES, callbacks: Optional[
         raise_for(status, names)
 
 
-def make_options(algorithm: str, threads: int, coincidence: str, callbacks: Optional[Callbacks]) -> _library.Options:
+def make_options(
+    algorithm: str, threads: int, coincidence: str, passing: str, callbacks: Optional[Callbacks]
+) -> _library.Options:
     """deldrift_options of Python's arguments."""
     number = whole("threads", threads)
     if not 0 <= number < 1 << 32:
@@ -49,6 +55,7 @@ def make_options(algorithm: str, threads: int, coincidence: str, callbacks: Opti
     options.algorithm = choice("algorithm", algorithm, _library.ALGORITHMS, InvalidOption)
     options.threads = number
     options.coincidence = choice("coincidence", coincidence, _library.COINCIDENCES, InvalidOption)
+    options.passing = choice("passing", passing, _library.PASSINGS, InvalidOption)
     if callbacks is not None:
         options.progress, options.cancel = callbacks.on_progress, callbacks.on_cancel
     return options
@@ -122,10 +129,12 @@ class Core:
     ndim: int
     """The number of dimensions, 2 or 3."""
 
-    def _start(self, handle: Handle, ndim: int, threads: int, coincidence: str, callbacks: Optional[Callbacks]) -> None:
+    def _start(
+        self, handle: Handle, ndim: int, threads: int, coincidence: str, passing: str, callbacks: Optional[Callbacks]
+    ) -> None:
         self._handle = handle
         self.ndim = ndim
-        self._threads, self._coincidence, self._callbacks = threads, coincidence, callbacks
+        self._threads, self._coincidence, self._passing, self._callbacks = threads, coincidence, passing, callbacks
         self._lock = threading.Lock()
         self._readers = 0
         self._is_changing = False
@@ -213,12 +222,15 @@ class Core:
         return made
 
     def _check(self, status: int, **names: str) -> None:
-        """`check` with the callbacks of this triangulation, and with its conflicts."""
+        """`check` with the callbacks of this triangulation, and with its conflicts and passings."""
         if status:
             kind = status - _library.FIRST_CONFLICT
             if 0 <= kind < len(ConflictKind):
                 message = _library.last_error()
                 raise ConflictError(message, kind, self._told_conflicts())
+            if status == _library.PASSES_SEGMENT:
+                message = _library.last_error()
+                raise PassingError(message, self._told_passings())
             check(status, names, self._callbacks)
 
     def _told_conflicts(self) -> np.ndarray:
@@ -228,6 +240,16 @@ class Core:
         conflicts = np.empty(count.value, CONFLICT)
         check(_segment_conflicts(t, address(conflicts), len(conflicts), count))
         return fixed(conflicts)
+
+    def _told_passings(self) -> np.ndarray:
+        """The vertices that pass segments in the step that was looked at last."""
+        t, count = self._handle.pointer, ctypes.c_size_t()
+        check(_passings(t, None, None, 0, count))
+        segments, vertices = np.empty((2, count.value), np.int32)
+        check(_passings(t, address(segments), address(vertices), count.value, count))
+        told = np.empty(count.value, PASSING)
+        told["segment"], told["vertex"] = segments, vertices
+        return fixed(told)
 
 
 def count_of(function: Any, t: int) -> int:

@@ -15,6 +15,7 @@ from ._core import check, make_options
 from ._files import Files, Path, file_name
 from ._geometry import Geometry
 from ._motion import Motion
+from ._refining import Refining
 from ._scipy import check_scipy_options
 
 _create = _library.function("create")
@@ -28,7 +29,7 @@ _load_file = _library.function("load_file")
 SEGMENT_ARGUMENTS = "segments", "segment_markers"
 
 
-class Delaunay(Motion, Asking, Geometry, Files):
+class Delaunay(Motion, Refining, Asking, Geometry, Files):
     """The Delaunay triangulation of points in the plane or in space, whose points may move.
 
     Simplices are exact, and a function of positions and ids alone: ties between cocircular and cospherical points are
@@ -52,6 +53,9 @@ class Delaunay(Motion, Asking, Geometry, Files):
         The most threads that a call may use, 0 for as many as pay.
     coincidence : {"merge", "reject"}, optional
         Whether points at one place are legal, or raise `Coincident`.
+    passing : {"ignore", "tell", "refuse"}, optional
+        What happens when a vertex would pass a segment: it is not looked for, or `passings` has those that have passed in
+        the last step, or the change raises `PassingError`.
     progress : callable or tqdm, optional
         Called during long calls with the part that is done, from 0 to 1. An exception cancels the call. May be a bar of
         tqdm, or `tqdm.tqdm`.
@@ -84,13 +88,14 @@ class Delaunay(Motion, Asking, Geometry, Files):
         algorithm: str = "auto",
         threads: int = 0,
         coincidence: str = "merge",
+        passing: str = "ignore",
         progress: Any = None,
         cancel: Optional[Callable[[], bool]] = None,
         segments: Any = None,
         segment_markers: Any = None,
     ) -> None:
         check_scipy_options(furthest_site, qhull_options)
-        self._create(point_rows("points", points), algorithm, threads, coincidence, progress, cancel)
+        self._create(point_rows("points", points), algorithm, threads, coincidence, passing, progress, cancel)
         if segments is not None or segment_markers is not None:
             with self.step():
                 self._stage_segments(() if segments is None else segments, segment_markers, *SEGMENT_ARGUMENTS)
@@ -101,16 +106,17 @@ class Delaunay(Motion, Asking, Geometry, Files):
         algorithm: str,
         threads: int,
         coincidence: str,
+        passing: str,
         progress: Any,
         cancel: Optional[Callable[[], bool]],
         name: str = "points",
     ) -> None:
         callbacks = _callbacks(progress, cancel)
-        options = make_options(algorithm, threads, coincidence, callbacks)
+        options = make_options(algorithm, threads, coincidence, passing, callbacks)
         pointer = ctypes.c_void_p()
         status = _create(rows.shape[1], address(rows), len(rows), options, pointer)
         check(status, {"positions": name}, callbacks)
-        self._start(Handle(pointer.value or 0, callbacks), rows.shape[1], threads, coincidence, callbacks)
+        self._start(Handle(pointer.value or 0, callbacks), rows.shape[1], threads, coincidence, passing, callbacks)
 
     def add_points(self, points: Any, restart: bool = False) -> None:
         """Inserts points, whose ids follow those that have been given.
@@ -136,7 +142,7 @@ class Delaunay(Motion, Asking, Geometry, Files):
         with self._reading as t:
             pointer = ctypes.c_void_p()
             self._check(_clone(t, pointer))
-        return _made(pointer, self._threads, self._coincidence, self._callbacks, type(self))
+        return _made(pointer, self._threads, self._coincidence, self._passing, self._callbacks, type(self))
 
     def __copy__(self) -> "Delaunay":
         return self.copy()
@@ -145,7 +151,8 @@ class Delaunay(Motion, Asking, Geometry, Files):
         return self.copy()
 
     def __reduce__(self) -> Any:
-        return _unpickled, (type(self), self.tobytes(), self.algorithm, self._threads, self._coincidence)
+        options = self.algorithm, self._threads, self._coincidence, self._passing
+        return _unpickled, (type(self), self.tobytes(), *options)
 
     def __repr__(self) -> str:
         return f"<deldrift.Delaunay of {self.nvertices} points in {self.ndim}D, {self.nsimplex} simplices>"
@@ -161,6 +168,7 @@ def _made(
     pointer: ctypes.c_void_p,
     threads: int,
     coincidence: str,
+    passing: str,
     callbacks: Optional[Callbacks],
     kind: type[Delaunay] = Delaunay,
 ) -> Delaunay:
@@ -170,12 +178,15 @@ def _made(
     ndim = ctypes.c_uint32()
     check(_dimension(handle.pointer, ndim))
     made = kind.__new__(kind)
-    made._start(handle, ndim.value, threads, coincidence, callbacks)
+    made._start(handle, ndim.value, threads, coincidence, passing, callbacks)
     return made
 
 
-def _unpickled(kind: type[Delaunay], data: bytes, algorithm: str, threads: int, coincidence: str) -> Delaunay:
-    return frombytes(data, algorithm=algorithm, threads=threads, coincidence=coincidence, _kind=kind)
+def _unpickled(
+    kind: type[Delaunay], data: bytes, algorithm: str, threads: int, coincidence: str, passing: str
+) -> Delaunay:
+    options = {"algorithm": algorithm, "threads": threads, "coincidence": coincidence, "passing": passing}
+    return frombytes(data, **options, _kind=kind)  # type: ignore[arg-type]
 
 
 def load(
@@ -184,6 +195,7 @@ def load(
     algorithm: str = "auto",
     threads: int = 0,
     coincidence: str = "merge",
+    passing: str = "ignore",
     progress: Any = None,
     cancel: Optional[Callable[[], bool]] = None,
 ) -> Delaunay:
@@ -193,7 +205,7 @@ def load(
     ----------
     path : str or path
         Of the file.
-    algorithm, threads, coincidence, progress, cancel
+    algorithm, threads, coincidence, passing, progress, cancel
         As of `Delaunay`; they are not saved.
 
     Returns
@@ -210,10 +222,10 @@ def load(
     <deldrift.Delaunay of 4 points in 2D, 2 simplices>
     """
     callbacks = _callbacks(progress, cancel)
-    options = make_options(algorithm, threads, coincidence, callbacks)
+    options = make_options(algorithm, threads, coincidence, passing, callbacks)
     pointer = ctypes.c_void_p()
     check(_load_file(file_name(path), options, pointer), {}, callbacks)
-    return _made(pointer, threads, coincidence, callbacks)
+    return _made(pointer, threads, coincidence, passing, callbacks)
 
 
 def frombytes(
@@ -222,6 +234,7 @@ def frombytes(
     algorithm: str = "auto",
     threads: int = 0,
     coincidence: str = "merge",
+    passing: str = "ignore",
     progress: Any = None,
     cancel: Optional[Callable[[], bool]] = None,
     _kind: type[Delaunay] = Delaunay,
@@ -232,7 +245,7 @@ def frombytes(
     ----------
     data : bytes-like
         The bytes. Whatever they are, nothing is loaded that is not a Delaunay triangulation, exactly.
-    algorithm, threads, coincidence, progress, cancel
+    algorithm, threads, coincidence, passing, progress, cancel
         As of `Delaunay`; they are not saved.
 
     Returns
@@ -241,14 +254,14 @@ def frombytes(
         As the one that was saved, simplices with their indices included.
     """
     callbacks = _callbacks(progress, cancel)
-    options = make_options(algorithm, threads, coincidence, callbacks)
+    options = make_options(algorithm, threads, coincidence, passing, callbacks)
     try:
         buffer = np.frombuffer(data, np.uint8)
     except (TypeError, AttributeError):
         raise TypeError(f"data is a {type(data).__name__}, and must be bytes") from None
     pointer = ctypes.c_void_p()
     check(_load(address(buffer), len(buffer), options, pointer), {}, callbacks)
-    return _made(pointer, threads, coincidence, callbacks, _kind)
+    return _made(pointer, threads, coincidence, passing, callbacks, _kind)
 
 
 def tsearch(tri: Any, xi: Any) -> np.ndarray:

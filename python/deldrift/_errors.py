@@ -134,6 +134,25 @@ class ConflictError(Error, ValueError):
         return type(self), (self.message, int(self.kind), self.conflicts)
 
 
+class PassingError(Error, ValueError):
+    """Vertices would pass segments, which passing="refuse" does not accept; the triangulation is as it was.
+
+    Attributes
+    ----------
+    passings : ndarray
+        All of them: a structured array with the fields `segment` and `vertex`, in ascending order.
+    """
+
+    passings: Any
+
+    def __init__(self, message: str, passings: Any) -> None:
+        super().__init__(message)
+        self.passings = passings
+
+    def __reduce__(self) -> Any:
+        return type(self), (self.message, self.passings)
+
+
 class TooMany(Error, OverflowError):
     """There would be more vertices or simplices than 32-bit ids can name."""
 
@@ -202,8 +221,10 @@ KINDS = {
 }
 """Classes by deldrift_status. What is not here comes of a defect, as a pointer of this package that is NULL."""
 
-# "positions[12], coordinate 1, is inf", "cells[3] is 99, but ...", "squared_radius is -1"
-PLACE = re.compile(r"(?P<argument>\w+)(?:\[(?P<index>\d+)\])?(?:, coordinate \d+,)? is (?P<value>[^\s,]+)")
+# "positions[12], coordinate 1, is inf", "cells[3] is 99, but ...", "squared_radius is -1", "quality.sizes[3] is 0"
+PLACE = re.compile(
+    r"(?:quality\.)?(?P<argument>\w+)(?:\[(?P<index>\d+)\])?(?:, coordinate \d+,)? is (?P<value>[^\s,]+)"
+)
 
 
 def _number(text: str) -> Number:

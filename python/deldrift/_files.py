@@ -9,7 +9,7 @@ from typing import Any, Mapping, Optional, Union
 import numpy as np
 
 from . import _library
-from ._arrays import address, floats
+from ._arrays import address, floats, numbers
 from ._core import cell_count, id_count
 from ._errors import InvalidDimension, InvalidField, WrongCount
 from ._scipy import Scipy
@@ -64,6 +64,9 @@ class Files(Scipy, Segmented):
     ) -> None:
         """Writes a file for ParaView and VTK (.vtu).
 
+        Segments are lines behind the simplices: their markers are the cell data "marker", which is 0 for simplices, and
+        the fields of simplices are NaN for them.
+
         Parameters
         ----------
         path : str or path
@@ -80,17 +83,24 @@ class Files(Scipy, Segmented):
             status = _write_vtu(t, name, of_vertices, len(keep_vertices), of_cells, len(keep_cells))
             self._check(status, cell_fields="simplex_fields")
 
-    def write_medit(self, path: Path) -> None:
+    def write_medit(self, path: Path, references: Any = None) -> None:
         """Writes a file for Mmg, FreeFem, Gmsh and others (MEDIT's .mesh).
+
+        Segments are edges, with their markers as references.
 
         Parameters
         ----------
         path : str or path
             Of the file.
+        references : array_like of int, optional
+            A number of 32 bits for each simplex, such as `label_cells` gives, or one for all; 1 by default.
         """
         name = file_name(path)
         with self._reading as t:
-            self._check(_write_medit(t, name))
+            values = np.empty(0, np.int32)
+            if references is not None:
+                values = numbers("references", references, cell_count(t), "simplices")
+            self._check(_write_medit(t, name, address(values) if len(values) else None, len(values)))
 
     def to_meshio(self) -> Any:
         """The triangulation as a mesh of meshio, which must be installed.

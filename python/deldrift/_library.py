@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import sys
 from ctypes import POINTER, c_bool, c_char_p, c_double, c_int32, c_size_t, c_uint32, c_uint64, c_void_p
 from typing import Any
 
@@ -15,12 +16,19 @@ NONE = 0xFFFFFFFF
 
 ALGORITHMS = ("auto", "rebuilding", "placement_flips", "tolerance", "repair")
 COINCIDENCES = ("merge", "reject")
+PASSINGS = ("ignore", "tell", "refuse")
 INTERPOLATIONS = ("linear", "natural")
+KEPT = ("none", "outer", "all")
+NO_LIMIT = 2 * sys.maxsize + 1
+"""SIZE_MAX."""
 FIRST_CONFLICT = 30
 """DELDRIFT_CROSSING: the statuses from it on stand for kinds of conflicts, in their order."""
+PASSES_SEGMENT = 35
+"""DELDRIFT_PASSES_SEGMENT."""
 
 CancelCallback = ctypes.CFUNCTYPE(c_bool, c_void_p)
 ProgressCallback = ctypes.CFUNCTYPE(None, c_void_p, c_double)
+TooLargeCallback = ctypes.CFUNCTYPE(c_bool, c_void_p, c_void_p)
 
 
 class Options(ctypes.Structure):
@@ -31,14 +39,25 @@ class Options(ctypes.Structure):
         ("algorithm", c_uint32),
         ("threads", c_uint32),
         ("coincidence", c_uint32),
-        ("reserved", c_uint32),
+        ("passing", c_uint32),
         ("cancel", CancelCallback),
         ("progress", ProgressCallback),
         ("user_data", c_void_p),
     ]
 
 
-class Report(ctypes.Structure):
+class Counts(ctypes.Structure):
+    """Counts of the library, by name."""
+
+    def as_dict(self) -> dict[str, int]:
+        """The counts by name."""
+        return {name: getattr(self, name) for name, *_ in self._fields_ if name != "_reserved"}
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}(" + ", ".join(f"{name}={count}" for name, count in self.as_dict().items()) + ")"
+
+
+class Report(Counts):
     """What a commit did, or all of them.
 
     Attributes
@@ -91,12 +110,86 @@ class Report(ctypes.Structure):
         ).split()
     ] + [("_reserved", c_uint64 * 3)]
 
-    def as_dict(self) -> dict[str, int]:
-        """The counts by name."""
-        return {name: getattr(self, name) for name, *_ in self._fields_ if name != "_reserved"}
 
-    def __repr__(self) -> str:
-        return "Report(" + ", ".join(f"{name}={count}" for name, count in self.as_dict().items()) + ")"
+class Quality(ctypes.Structure):
+    """deldrift_quality."""
+
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("least_angle", c_double),
+        ("greatest_area", c_double),
+        ("labels", c_void_p),
+        ("label_count", c_size_t),
+        ("areas", c_void_p),
+        ("area_count", c_size_t),
+        ("sizes", c_void_p),
+        ("size_count", c_size_t),
+        ("is_too_large", TooLargeCallback),
+        ("user_data", c_void_p),
+        ("keeps", c_uint32),
+        ("has_weights", c_uint32),
+        ("limit", c_size_t),
+        ("margin", c_double),
+        ("share", c_double),
+        ("joins", c_double),
+    ]
+
+
+class QualityReport(Counts):
+    """What `refine` or `coarsen` did.
+
+    Attributes
+    ----------
+    inserted : int
+        Vertices inserted. Their ids are the last ones.
+    on_segments : int
+        How many of them are on segments.
+    removed : int
+        Vertices removed.
+    replaced_segments : int
+        Segments removed, as pieces took the place of one, or one that of pieces.
+    new_segments : int
+        Segments that came. Their ids are the last ones that have been given.
+    unsplit : int
+        Pieces that had to be split and are whole, as there is no room for a vertex between their ends.
+    bad_cells : int
+        Simplices that are still bad, of those that were to be refined.
+    is_cut_short : int
+        1 if the limit was reached, otherwise 0.
+    values : ndarray, dict of ndarray or None
+        The values that `refine` was given, by the ids that there are now.
+    """
+
+    inserted: int
+    on_segments: int
+    removed: int
+    replaced_segments: int
+    new_segments: int
+    unsplit: int
+    bad_cells: int
+    is_cut_short: int
+    values: Any = None
+
+    _fields_ = [
+        (name, c_uint64)
+        for name in (
+            "inserted on_segments removed replaced_segments new_segments unsplit bad_cells is_cut_short"
+        ).split()
+    ] + [("_reserved", c_uint64 * 4)]
+
+
+class SplitReport(ctypes.Structure):
+    """deldrift_split_report."""
+
+    _fields_ = [
+        ("inserted", c_uint64),
+        ("replaced_segments", c_uint64),
+        ("pieces", c_uint64),
+        ("rounds", c_uint64),
+        ("first_vertex", c_uint32),
+        ("first_piece", c_uint32),
+        ("reserved", c_uint64 * 3),
+    ]
 
 
 class ChangesView(ctypes.Structure):
@@ -201,12 +294,21 @@ PROTOTYPES = {
     "stage_segment_removals": (T, A, N),
     "segments": (T, A, A, A, N, C),
     "check_staged": (T,),
+    "stage_splits": (T, N, POINTER(SplitReport)),
     "segment_conflicts": (T, A, N, C),
+    "check_passings": (T,),
+    "passings": (T, A, A, N, C),
     "segments_of_cells": (T, A, N, C),
     "cells_of_segments": (T, A, N, C),
     "nesting_levels": (T, A, N, C),
     "label_cells": (T, A, A, N, c_int32, A, N, C),
     "boundary_chains": (T, A, N, A, A, A, A, A, N, C),
+    "quality_init": (POINTER(Quality),),
+    "refine": (T, POINTER(Quality), A, N, POINTER(QualityReport)),
+    "coarsen": (T, POINTER(Quality), A, N, POINTER(QualityReport)),
+    "made_vertices": (T, A, A, N, C),
+    "original_segments": (T, A, N, C),
+    "refined_weights": (T, A, A, N, C),
     "update_circumcentres": (T, A, N, A, A, N),
     "update_volumes": (T, A, N, A, N),
     "update_mask_by_circumradius": (T, A, N, F64, A, N),
@@ -219,7 +321,7 @@ PROTOTYPES = {
     "save_file": (T, c_char_p),
     "load_file": (c_char_p, POINTER(Options), POINTER(T)),
     "write_vtu": (T, c_char_p, POINTER(Field), N, POINTER(Field), N),
-    "write_medit": (T, c_char_p),
+    "write_medit": (T, c_char_p, A, N),
     "orientation": (U32, A, POINTER(c_int32)),
     "in_sphere": (U32, A, POINTER(c_int32)),
 }

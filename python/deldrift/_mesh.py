@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import copy
+import re
 import warnings
 from typing import Any, Callable, Mapping, NamedTuple, Optional
 
@@ -11,8 +11,9 @@ import numpy as np
 from ._arrays import floats, numbers, pairs, points as point_rows, real
 from ._core import fixed
 from ._delaunay import Delaunay
-from ._errors import ConflictError, InvalidShape, InvalidValue, NoSuchSegment
-from ._library import Report
+from ._errors import ConflictError, InvalidOption, InvalidShape, InvalidValue, NoSuchSegment, PassingError
+from ._library import QualityReport, Report
+from ._refining import TooLarge
 from ._segments import Chains, Segments
 
 # What PyPI's triangle has in its dictionaries and a mesh makes anew.
@@ -28,6 +29,7 @@ class _Side(NamedTuple):
     """What a region is known by while its segments move: a segment of its outer boundary, and on which side it is."""
 
     segment: int
+    """By the id that it had before refinement made pieces of it."""
     column: int
     """0 for the left, as seen from the segment's first end along it, 1 for the right."""
 
@@ -61,7 +63,7 @@ class Mesh:
     regions : array_like, optional
         Rows of 2 coordinates and a label: `labels` has it for all triangles of the region where the place is. Of two in
         one region the first counts, and one outside of all chains has no effect.
-    algorithm, threads, coincidence, progress, cancel
+    algorithm, threads, coincidence, passing, progress, cancel
         As of `Delaunay`.
 
     Examples
@@ -88,6 +90,7 @@ class Mesh:
         algorithm: str = "auto",
         threads: int = 0,
         coincidence: str = "merge",
+        passing: str = "ignore",
         progress: Any = None,
         cancel: Optional[Callable[[], bool]] = None,
     ) -> None:
@@ -95,35 +98,41 @@ class Mesh:
         labelled = _rows("regions", regions, 3)
         self._tri = tri = Delaunay.__new__(Delaunay)
         rows = point_rows("vertices", vertices, 2)
-        tri._create(rows, algorithm, threads, coincidence, progress, cancel, "vertices")
+        tri._create(rows, algorithm, threads, coincidence, passing, progress, cancel, "vertices")
         with tri.step():
             tri._stage_segments(segments, markers, "segments", "markers")
         self._holes = None if places is None else [side for side in self._sides(places, "holes") if side is not None]
         sides = self._sides(np.ascontiguousarray(labelled[:, :2]), "regions")
-        named = [k for k, side in enumerate(sides) if side is not None]
+        # Which of the regions given have a side.
+        self._named = [k for k, side in enumerate(sides) if side is not None]
         self._regions = [side for side in sides if side is not None]
         # The last entry is that of triangles without a region.
-        self._labels = np.append(labelled[named, 2], 0.0)
+        self._labels = np.append(labelled[self._named, 2], 0.0)
 
     @classmethod
-    def from_triangle(cls, data: Mapping[str, Any], **options: Any) -> "Mesh":
+    def from_triangle(cls, data: Mapping[str, Any], switches: str = "", **options: Any) -> "Mesh":
         """The mesh of a dictionary as PyPI's `triangle` takes and gives it, and as `to_dict` does.
 
-        As there the domain is all within closed chains of segments but the holes. Regions have a label, and a greatest
-        area that is not used. Other attributes, and markers of vertices, have no counterpart: they are left out with a
-        warning.
+        As there the domain is all within closed chains of segments but the holes. Other attributes, and markers of
+        vertices, have no counterpart: they are left out with a warning.
 
         Parameters
         ----------
         data : dict
-            With `vertices`, `segments` and, optionally, `segment_markers`, `holes` and `regions`.
+            With `vertices`, `segments` and, optionally, `segment_markers`, `holes` and `regions`, which are rows of x, y,
+            label and greatest area.
+        switches : str, optional
+            As of `triangle.triangulate`, those for which the mesh is refined: `q`, with the least angle behind it or 20
+            degrees; `a`, with a greatest area behind it, or alone for those of regions; `Y` to keep the boundary of the
+            domain whole, and `YY` all segments; `S` with a greatest number of new vertices. `p` and `A` are what is
+            done anyway, and others raise.
         **options
-            As of `Mesh`: `algorithm`, `threads`, `coincidence`, `progress` and `cancel`.
+            As of `Mesh`: `algorithm`, `threads`, `coincidence`, `passing`, `progress` and `cancel`.
 
         Returns
         -------
         Mesh
-            Vertices and segments have the ids of their rows.
+            Vertices and segments have the ids of their rows; new ones follow.
 
         Examples
         --------
@@ -131,7 +140,10 @@ class Mesh:
         >>> square = {"vertices": [[0, 0], [4, 0], [4, 4], [0, 4]], "segments": [[0, 1], [1, 2], [2, 3], [3, 0]]}
         >>> len(deldrift.Mesh.from_triangle(square).triangles)
         2
+        >>> len(deldrift.Mesh.from_triangle(square, "pq30a0.1").triangles) >= 160
+        True
         """
+        wanted, has_areas = _switches(switches)
         if not isinstance(data, Mapping):
             raise TypeError(f"data is a {type(data).__name__}, and must be a dictionary as of PyPI's triangle")
         for name in "vertices", "segments":
@@ -140,20 +152,27 @@ class Mesh:
         unused = sorted(map(str, set(data) - USED - RESULTS))
         if unused:
             warnings.warn("from_triangle leaves out what a mesh does not have: " + ", ".join(unused), stacklevel=2)
-        regions = data.get("regions")
+        regions, areas = data.get("regions"), np.empty(0)
         if regions is not None and np.size(regions):
             rows = floats("regions", regions)
             if rows.ndim != 2 or rows.shape[1] != 4:
                 raise InvalidShape(
                     f"regions has the shape {rows.shape}, and must have rows of x, y, label and greatest area", "regions"
                 )
-            regions = rows[:, :3]
+            regions, areas = rows[:, :3], rows[:, 3]
         markers = data.get("segment_markers")
         if markers is not None:
             column = np.asarray(markers)
             column = column.reshape(-1) if column.shape[1:] == (1,) else column
             markers = numbers("segment_markers", column, len(pairs("segments", data["segments"])), "segments")
-        return cls(data["vertices"], data["segments"], markers, data.get("holes", ()), regions, **options)
+        mesh = cls(data["vertices"], data["segments"], markers, data.get("holes", ()), regions, **options)
+        if has_areas:
+            # As in Triangle no area is one that is not above 0.
+            bounds = np.append(np.where(areas > 0, areas, 0)[mesh._named], 0)
+            wanted.update(mesh._selected_by_region(bounds))
+        if wanted:
+            mesh._tri.refine(**{"mask": mesh.mask, **wanted})
+        return mesh
 
     def _sides(self, places: np.ndarray, argument: str) -> list[Optional[_Side]]:
         """What the regions around some places are known by; None for those outside, and in the region of another."""
@@ -168,9 +187,10 @@ class Mesh:
         regions, first = np.unique(region_of[cells[order]], return_index=True)
         cells, corners = cells[order[first]], corners[order[first]]
         segments = tri.segments_of_cells()[cells, corners]
-        beside = tri.cells_of_segments()[np.searchsorted(tri.segments.ids, segments)]
+        rows = np.searchsorted(tri.segments.ids, segments)
+        beside = tri.cells_of_segments()[rows]
         sides: list[Optional[_Side]] = [None] * len(places)
-        for region, segment, column in zip(regions, segments, beside[:, 1] == cells):
+        for region, segment, column in zip(regions, tri.original_segments()[rows], beside[:, 1] == cells):
             sides[region] = _Side(int(segment), int(column))
         return sides
 
@@ -189,15 +209,21 @@ class Mesh:
         """A simplex of each region; -1 if it is now outside of the convex hull."""
         if not sides:
             return []
-        ids, beside = self._tri.segments.ids, self._tri.cells_of_segments()
-        segments, columns = np.array(sides).T
-        rows = np.searchsorted(ids, segments)
-        is_gone = np.append(ids, -1)[rows] != segments
-        if is_gone.any():
-            raise NoSuchSegment(
-                f"segment {segments[is_gone][0]}, by which a hole or region of the mesh is known, has been removed"
-            )
-        return list(map(int, beside[rows, columns]))
+        beside = self._tri.cells_of_segments()
+        rows = self._rows_of(sides)
+        if (rows < 0).any():
+            segment = sides[int(np.argmax(rows < 0))].segment
+            raise NoSuchSegment(f"segment {segment}, by which a hole or region of the mesh is known, has been removed")
+        return list(map(int, beside[rows, [side.column for side in sides]]))
+
+    def _rows_of(self, sides: list[_Side]) -> np.ndarray:
+        """For each side the index of its segment, or of a piece of it; -1 if there is none any more."""
+        originals = self._tri.original_segments()
+        order = np.argsort(originals, kind="stable")
+        segments = np.array([side.segment for side in sides], np.int32)
+        # The last entry is that of segments behind all others.
+        rows = np.append(order, -1)[np.searchsorted(originals, segments, sorter=order)]
+        return np.where(np.append(originals, -1)[rows] == segments, rows, -1)
 
     def _reached(self, starts: list[int]) -> np.ndarray:
         """For each simplex from which start, an index, it is reached without crossing a segment; -1 from none."""
@@ -247,10 +273,16 @@ class Mesh:
         """The boundary of the domain, in closed chains of edges with markers; `simplices` are those of `delaunay`."""
         return self._tri._once("boundary", lambda: self._tri.boundary_chains(self.mask))
 
+    @property
+    def passings(self) -> np.ndarray:
+        """The vertices that have passed segments in the last move, with passing="tell": see `Delaunay.passings`."""
+        return self._tri.passings
+
     def move(self, points: Any, ids: Any = None) -> Report:
         """Moves vertices, and makes that the next timestamp.
 
-        What counts is where they are at the end: a vertex that has jumped over a segment is on its other side.
+        What counts is where they are at the end: a vertex that has jumped over a segment is on its other side. With
+        passing="tell" it is told by `passings`, with passing="refuse" `PassingError` is raised and nothing moves.
 
         Parameters
         ----------
@@ -267,7 +299,8 @@ class Mesh:
         return self._tri.move(points, ids)
 
     def advance(self, points: Any, ids: Any = None, cut: float = 0.5, least: float = 1e-3) -> float:
-        """Moves vertices towards places, as far as segments let them: cuts the step while it conflicts.
+        """Moves vertices towards places, as far as segments let them: cuts the step while it conflicts, or, with
+        passing="refuse", while a vertex would pass a segment.
 
         Parameters
         ----------
@@ -284,7 +317,7 @@ class Mesh:
         -------
         float
             The part of the way that was made, 1 for all of it. If even the least part conflicts, `ConflictError` is
-            raised, and nothing moves.
+            raised, or `PassingError`, and nothing moves.
 
         Examples
         --------
@@ -306,13 +339,121 @@ class Mesh:
             try:
                 self._tri.move(places, ids)
                 return part
-            except ConflictError:
+            except (ConflictError, PassingError):
                 part *= factor
                 if part < smallest:
                     raise
                 goals = point_rows("points", points, 2)
                 start = self._tri.points if ids is None else self._tri.points[np.asarray(ids)]
                 places = start + part * (goals - start)
+
+    def refine(
+        self,
+        *,
+        least_angle: float = 0.0,
+        greatest_area: float = 0.0,
+        areas: Optional[Mapping[float, float]] = None,
+        sizes: Any = None,
+        is_too_large: Optional[TooLarge] = None,
+        keep: str = "none",
+        limit: Optional[int] = None,
+        values: Any = None,
+    ) -> QualityReport:
+        """Inserts vertices until the triangles of the domain are of a quality, and makes that the next timestamp.
+
+        New triangles have the label of the region that they are in. Segments may be split, and pieces take the place of
+        one, with its marker; holes and regions stay what they are.
+
+        Parameters
+        ----------
+        least_angle, greatest_area, sizes, is_too_large, keep, limit, values
+            As of `Delaunay.refine`.
+        areas : dict, optional
+            The greatest area of triangles by the label of their region, 0 for any.
+
+        Returns
+        -------
+        QualityReport
+            What was done. `values` has the values by the ids that there are now.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> square = [[0, 1], [1, 2], [2, 3], [3, 0]]
+        >>> mesh = deldrift.Mesh([[0, 0], [4, 0], [4, 4], [0, 4]], square, regions=[[1, 1, 5]])
+        >>> report = mesh.refine(least_angle=30, areas={5: 0.1}, values={"x": mesh.points[:, 0]})
+        >>> report.inserted == len(mesh.points) - 4, report.bad_cells, len(report.values["x"]) == len(mesh.points)
+        (True, 0, True)
+        >>> len(mesh.triangles) >= 160, set(mesh.labels.tolist())
+        (True, {5.0})
+        """
+        return self._tri.refine(
+            least_angle=least_angle,
+            greatest_area=greatest_area,
+            sizes=sizes,
+            is_too_large=is_too_large,
+            keep=keep,
+            limit=limit,
+            values=values,
+            **self._selected(areas),
+        )
+
+    def coarsen(
+        self,
+        *,
+        least_angle: float = 0.0,
+        greatest_area: float = 0.0,
+        areas: Optional[Mapping[float, float]] = None,
+        sizes: Any = None,
+        is_too_large: Optional[TooLarge] = None,
+        margin: float = 2.0,
+        share: float = 0.9,
+        joins: float = 1e-9,
+    ) -> QualityReport:
+        """Removes vertices that `refine` has inserted and that are not needed any more.
+
+        Parameters
+        ----------
+        least_angle, greatest_area, sizes, is_too_large, margin, share, joins
+            As of `Delaunay.coarsen`.
+        areas : dict, optional
+            The greatest area of triangles by the label of their region, 0 for any.
+
+        Returns
+        -------
+        QualityReport
+            What was done. Ids of the vertices that stay are as they were.
+        """
+        return self._tri.coarsen(
+            least_angle=least_angle,
+            greatest_area=greatest_area,
+            sizes=sizes,
+            is_too_large=is_too_large,
+            margin=margin,
+            share=share,
+            joins=joins,
+            **self._selected(areas),
+        )
+
+    def _selected(self, areas: Optional[Mapping[float, float]]) -> dict[str, Any]:
+        """The domain as refinement takes it, and the greatest area of each region."""
+        if areas is None:
+            return {"mask": self.mask}
+        if not isinstance(areas, Mapping):
+            raise TypeError(f"areas is {areas!r}, and must be a dictionary of areas by label")
+        known = self._labels.tolist()
+        for label, area in areas.items():
+            if label not in known:
+                raise InvalidValue(f"areas has the label {label!r}, which no region has", "areas")
+            if not real(f"areas[{label!r}]", area) >= 0:
+                raise InvalidValue(f"areas[{label!r}] is {area}, and must be 0 or above", "areas", None, area)
+        return self._selected_by_region([areas.get(label, 0) for label in known])
+
+    def _selected_by_region(self, areas: Any) -> dict[str, Any]:
+        """`areas`: for each region, and at the end for triangles without one."""
+        region_of = self._found().region_of
+        labels = np.where(region_of < 0, len(self._regions), region_of)
+        return {"mask": self.mask, "labels": labels, "areas": areas}
 
     def to_dict(self) -> dict[str, np.ndarray]:
         """The mesh as a dictionary in the manner of PyPI's `triangle`.
@@ -368,13 +509,46 @@ class Mesh:
         Mesh
             After the same moves it has the same triangles.
         """
-        return copy.deepcopy(self)
+        made = type(self).__new__(type(self))
+        made.__dict__.update(self.__dict__)
+        made._tri = self._tri.copy()
+        return made
 
     def __copy__(self) -> "Mesh":
         return self.copy()
 
+    def __deepcopy__(self, _memo: Any) -> "Mesh":
+        return self.copy()
+
     def __repr__(self) -> str:
         return f"<deldrift.Mesh of {len(self.triangles)} triangles within {len(self.segments.ids)} segments>"
+
+
+SWITCH = re.compile(r"[pA]|(?P<angle>q)(?P<degrees>[\d.]*)|(?P<area>a)(?P<most>[\d.]*)|(?P<keep>YY?)|S(?P<limit>\d+)")
+
+
+def _switches(text: Any) -> tuple[dict[str, Any], bool]:
+    """Arguments for refinement, and whether regions have a greatest area, by switches of Triangle's."""
+    if not isinstance(text, str):
+        raise TypeError(f"switches is {text!r}, and must be a string")
+    wanted: dict[str, Any] = {}
+    has_areas, at = False, 0
+    while at < len(text):
+        found = SWITCH.match(text, at)
+        if found is None:
+            raise InvalidOption(f"switches has {text[at:]!r}, and may have p, A, q, a, Y, YY and S", "switches")
+        if found["angle"]:
+            wanted["least_angle"] = real("switches", found["degrees"] or 20)
+        elif found["most"]:
+            wanted["greatest_area"] = real("switches", found["most"])
+        elif found["area"]:
+            has_areas = True
+        elif found["keep"]:
+            wanted["keep"] = "all" if found["keep"] == "YY" else "outer"
+        elif found["limit"]:
+            wanted["limit"] = int(found["limit"])
+        at = found.end()
+    return wanted, has_areas
 
 
 def _rows(argument: str, values: Any, width: int) -> np.ndarray:

@@ -322,7 +322,7 @@ class Motion(Segmented):
 
     @property
     def report(self) -> Optional[Report]:
-        """What the last commit did; None before the first."""
+        """What the last commit of `move` or a step did; None before the first."""
         return self._last_report
 
     @property

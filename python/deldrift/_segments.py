@@ -8,14 +8,16 @@ from typing import Any, NamedTuple, Optional
 import numpy as np
 
 from . import _library
-from ._arrays import I32, address, ids, mask as mask_of, numbers, one_number, pairs, points as point_rows
-from ._core import Core, cell_count, count_of, fixed
-from ._errors import InvalidDimension, NoSuchSegment, WrongCount
+from ._arrays import I32, address, ids, mask as mask_of, numbers, one_number, pairs, points as point_rows, whole
+from ._core import PASSING, Core, cell_count, count_of, fixed
+from ._errors import InvalidDimension, InvalidValue, NoSuchSegment, WrongCount
 
 _stage_segments = _library.function("stage_segments")
 _stage_segment_removals = _library.function("stage_segment_removals")
 _segments = _library.function("segments")
 _check_staged = _library.function("check_staged")
+_check_passings = _library.function("check_passings")
+_stage_splits = _library.function("stage_splits")
 _segments_of_cells = _library.function("segments_of_cells")
 _cells_of_segments = _library.function("cells_of_segments")
 _nesting_levels = _library.function("nesting_levels")
@@ -32,6 +34,20 @@ class Segments(NamedTuple):
     """Rows of two vertex ids, as they were given."""
     markers: np.ndarray
     """The number that was given with each, 0 by default."""
+
+
+class Splits(NamedTuple):
+    """What `Step.split` has staged."""
+
+    vertices: np.ndarray
+    """Ids of the vertices where segments cross."""
+    pieces: np.ndarray
+    """Ids of the pieces, by the ids of their segments, and along each of these."""
+    replaced: int
+    """How many segments pieces take the place of."""
+    rounds: int
+    """How often all that were in the way of each other were split. Along each axis a vertex is off its segment by at most
+    so many halves of a last place of the segment's greatest coordinates."""
 
 
 class Chains(NamedTuple):
@@ -119,6 +135,50 @@ class Segmented(Core):
     def _check_staged(self) -> None:
         with self._committing as t:
             self._check(_check_staged(t))
+
+    def _check_passings(self) -> None:
+        self._check_plane()
+        with self._committing as t:
+            self._check(_check_passings(t))
+
+    @property
+    def passings(self) -> np.ndarray:
+        """The vertices that pass segments in the step that was looked at last: a structured array with the fields
+        `segment` and `vertex`, ascending. Read-only; none in 3D.
+
+        With passing="tell" those that have passed in the last change; `Step.passings` tells before.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> points = [[0, 0], [4, 0], [4, 4], [0, 4], [1, 2]]
+        >>> tri = deldrift.Delaunay(points, segments=[[0, 2]], passing="tell")
+        >>> tri.points[4].tolist(), tri.passings.tolist()
+        ([1.0, 2.0], [])
+        >>> report = tri.move(points[:4] + [[2, 1]])
+        >>> tri.passings.tolist()
+        [(0, 4)]
+        """
+        if self.ndim != 2:
+            return fixed(np.empty(0, PASSING))
+        with self._reading:
+            return self._told_passings()
+
+    def _stage_splits(self, limit: Any) -> Splits:
+        self._check_plane()
+        # Of all numbers that there can be of vertices, the greatest means any.
+        most = _library.NONE if limit is None else whole("limit", limit)
+        if most < 0:
+            raise InvalidValue(f"limit is {most}, and must be 0 or more", "limit", None, most)
+        report = _library.SplitReport()
+        with self._committing as t:
+            self._check(_stage_splits(t, min(most, _library.NONE), ctypes.byref(report)))
+        return Splits(
+            np.arange(report.first_vertex, report.first_vertex + report.inserted, dtype=I32),
+            np.arange(report.first_piece, report.first_piece + report.pieces, dtype=I32),
+            report.replaced_segments,
+            report.rounds,
+        )
 
     def segments_of_cells(self) -> np.ndarray:
         """The segment at each edge of each simplex.

@@ -9,9 +9,10 @@ import numpy as np
 
 from . import _library
 from ._arrays import I32, address, ids as listed_ids, points as point_rows
-from ._core import CONFLICT
-from ._errors import Busy, ConflictError
+from ._core import CONFLICT, PASSING
+from ._errors import Busy, ConflictError, PassingError
 from ._library import Report
+from ._segments import Splits
 
 if TYPE_CHECKING:
     from ._motion import Motion
@@ -144,7 +145,8 @@ class Step:
         -------
         ndarray
             The conflicts: a structured array with the fields `kind` (see `ConflictKind`), `segment` and `other`.
-            Without any the end of the step will not raise `ConflictError`.
+            Without any the end of the step will not raise `ConflictError`. With passing="refuse" `PassingError` is
+            raised for vertices that would pass segments, before conflicts are looked for.
 
         Examples
         --------
@@ -167,6 +169,71 @@ class Step:
             conflicts: np.ndarray = error.conflicts
             return conflicts
         return np.empty(0, CONFLICT)
+
+    def split(self, limit: Any = None) -> Splits:
+        """Splits segments that would be in the way of each other at the end of the step, as it is staged.
+
+        A segment with a vertex on it is replaced by pieces, and two that cross get a vertex there, whose coordinates are
+        rounded correctly. Pieces have the marker and the direction of their segment.
+
+        Parameters
+        ----------
+        limit : int, optional
+            How many vertices may be inserted at most; any number by default. With 0 segments are split only at vertices that
+            are there.
+
+        Returns
+        -------
+        Splits
+            What the end of the step will make: `vertices`, `pieces`, the number of segments `replaced`, and `rounds`.
+            If more vertices are needed, or an end is removed, or both are at one place, `ConflictError` is raised, and
+            the step is as before.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3]])
+        >>> with tri.step() as step:
+        ...     diagonals = step.add_segments([[0, 2], [1, 3]], markers=[1, 2])
+        ...     splits = step.split()
+        >>> splits.vertices, tri.points[4]
+        (array([4], dtype=int32), array([2. , 1.5]))
+        >>> tri.segments.ends.tolist(), tri.segments.markers.tolist()
+        ([[0, 4], [4, 2], [1, 4], [4, 3]], [1, 1, 2, 2])
+        """
+        self._check_open()
+        return self._owner._stage_splits(limit)
+
+
+    def passings(self) -> np.ndarray:
+        """Which vertices would pass which segments with the step, as it is staged; nothing is committed, and all stays
+        staged.
+
+        Each vertex goes straight from its old place to its new one, and so do the ends of segments. A vertex passes a
+        segment if it goes through it and is not back on its side when the step ends, or exactly through an end.
+
+        Returns
+        -------
+        ndarray
+            A structured array with the fields `segment` and `vertex`, ascending.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 4], [0, 4], [1, 2]], segments=[[0, 2]])
+        >>> with tri.step() as step:
+        ...     step.move([[2, 1]], ids=[4])
+        ...     passings = step.passings()
+        >>> passings.tolist()
+        [(0, 4)]
+        """
+        self._check_open()
+        try:
+            self._owner._check_passings()
+        except PassingError as error:
+            passings: np.ndarray = error.passings
+            return passings
+        return np.empty(0, PASSING)
 
 
 def _discard(owner: Motion) -> None:

@@ -115,6 +115,17 @@ def test_medit(tri, tmp_path):
     assert int(words[words.index("Vertices") + 1]) == 69
 
 
+def test_references_of_medit_are_read_by_meshio(tri, tmp_path):
+    meshio = pytest.importorskip("meshio", reason="meshio is not installed")
+    own = np.arange(tri.nsimplex) - 5
+    for given, expected in ((None, 1), (own, own), (-9, -9)):
+        tri.write_medit(tmp_path / "a.mesh", given)
+        mesh = meshio.read(tmp_path / "a.mesh")
+        assert len(mesh.cells) == 1 and (mesh.cell_data["medit:ref"][0] == expected).all()
+    with pytest.raises(deldrift.WrongCount, match="references has 2 entries"):
+        tri.write_medit(tmp_path / "a.mesh", [1, 2])
+
+
 def test_meshio(tri):
     pytest.importorskip("meshio", reason="meshio is not installed")
     mesh = tri.to_meshio()

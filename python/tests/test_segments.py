@@ -256,6 +256,47 @@ def test_markers_and_ids(rng):
     assert tri.add_segments(np.empty((0, 2), int)).tolist() == [] and len(tri.segments.ids) == 3
 
 
+@pytest.mark.parametrize("seed", range(25))
+def test_steps_are_split(seed):
+    """No pair is in conflict, in fractions; pieces go from end to end of what was given."""
+    rng = np.random.default_rng(seed)
+    points = rng.random((12, 2)) if seed % 2 else grid_of(rng, 12)
+    ends = rng.choice(len(points), (8, 2))
+    ends = ends[ends[:, 0] != ends[:, 1]]
+    tri = deldrift.Delaunay(points)
+    with tri.step() as step:
+        given = step.add_segments(ends, markers=np.arange(len(ends)))
+        conflicts = step.check()
+        splits = step.split()
+        assert len(step.check()) == 0 and (splits.rounds > 0) == (len(conflicts) > 0)
+    assert tri.nvertices == 12 + len(splits.vertices)
+    assert set(splits.pieces.tolist()) == set(tri.segments.ids.tolist()) - set(given.tolist())
+    rows = {k: [] for k in range(len(ends))}
+    for id_, row, marker in zip(*(array.tolist() for array in tri.segments)):
+        rows[marker].append((id_, *row))
+    for k, (start, end) in enumerate(ends.tolist()):
+        chain = sorted(rows[k])
+        assert [chain[0][1], *(row[2] for row in chain)] == [*(row[1] for row in chain), end] and chain[0][1] == start
+    laid = dict(zip(tri.segments.ids.tolist(), map(tuple, tri.segments.ends.tolist())))
+    assert exact.conflicts_of(exact.fractions_of(tri.points), laid) == []
+
+
+def test_what_cannot_be_split_stays_staged():
+    square = [[0, 0], [4, 0], [4, 3], [0, 3]]
+    tri = deldrift.Delaunay(square)
+    with tri.step() as step:
+        step.add_segments([[0, 2], [1, 3]])
+        with pytest.raises(deldrift.ConflictError) as caught:
+            step.split(limit=0)
+        assert caught.value.kind is deldrift.ConflictKind.CROSSING and len(step.check()) == 1
+        assert step.split(limit=1).vertices.tolist() == [4]
+    assert tri.segments.ids.tolist() == [2, 3, 4, 5]
+    with pytest.raises(deldrift.ConflictError), tri.step() as step:
+        step.remove([0])
+        step.split()
+    assert tri.nvertices == 5
+
+
 def test_checks_change_nothing(rng):
     points, segments = scene(rng, 60, 30)
     tri = deldrift.Delaunay(points, segments=segments)
@@ -455,6 +496,29 @@ def test_lines_go_to_meshio_with_markers(rng, tmp_path):
     assert not mesh.cell_data["marker"][0].any()
 
 
+def test_lines_of_files_are_read_by_meshio(rng, tmp_path):
+    meshio = pytest.importorskip("meshio", reason="meshio is not installed")
+    points, segments = scene(rng, 30, 10)
+    tri = deldrift.Delaunay(points, segments=segments, segment_markers=np.arange(len(segments)) - 4)
+    tri.remove(next(v for v in range(30) if v not in segments))
+    heat, labels = rng.random(tri.nsimplex), tri.label_cells(points[:1] + 1e-3, [7], -2)
+    tri.write_vtu(tmp_path / "a.vtu", None, {"heat": heat})
+    tri.write_medit(tmp_path / "a.mesh", labels)
+    for path, ids, name in (("a.vtu", "vertex", "marker"), ("a.mesh", "medit:ref", "medit:ref")):
+        mesh = meshio.read(tmp_path / path)
+        assert [block.type for block in mesh.cells] == ["triangle", "line"]
+        names = mesh.point_data[ids].ravel().astype(int)
+        np.testing.assert_array_equal(names[mesh.cells[0].data], tri.simplices)
+        np.testing.assert_array_equal(names[mesh.cells[1].data], segments)
+        np.testing.assert_array_equal(mesh.cell_data[name][1].ravel(), tri.segments.markers)
+        np.testing.assert_array_equal(mesh.cell_data[name][0].ravel(), 0 if path == "a.vtu" else labels)
+        if path == "a.vtu":
+            np.testing.assert_array_equal(mesh.cell_data["heat"][0].ravel(), heat)
+            assert np.isnan(mesh.cell_data["heat"][1]).all()
+    with pytest.raises(deldrift.InvalidField, match="marker"):
+        tri.write_vtu(tmp_path / "a.vtu", None, {"marker": heat})
+
+
 def test_segments_are_drawn(rng):
     matplotlib = pytest.importorskip("matplotlib", reason="matplotlib is not installed")
     matplotlib.use("Agg")
@@ -465,3 +529,91 @@ def test_segments_are_drawn(rng):
     ax = deldrift.Delaunay(points, segments=segments).plot(Figure().add_subplot())
     (drawn,) = [artist for artist in ax.collections if isinstance(artist, LineCollection)]
     np.testing.assert_array_equal(drawn.get_segments(), points[segments])
+
+
+def passes_still(places, ends, start, goal):
+    """Whether a vertex passes a segment that stays: by the way of the vertex, which is a segment as well."""
+    a, b = (places[v] for v in ends)
+    if {start, goal} & {a, b}:
+        return False
+    is_through_an_end = exact.is_between(start, goal, a) or exact.is_between(start, goal, b)
+    return is_through_an_end or exact.is_between(a, b, goal) or exact.do_cross(start, goal, a, b)
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_passings_are_told_and_refused(seed):
+    """One vertex jumps, while all others stay, or go along with it by a way that is exact."""
+    rng = np.random.default_rng(seed)
+    steps = 16 if seed % 2 else 1 << 20
+    points = np.unique(rng.integers(0, steps, (30, 2)), axis=0) / steps
+    segments = draw_segments(rng, points, 12)
+    telling, refusing, ignoring = (
+        deldrift.Delaunay(points, segments=segments, passing=passing) for passing in ("tell", "refuse", "ignore")
+    )
+    n_passed = 0
+    for _ in range(25):
+        shift = rng.integers(-3, 4, 2).astype(float)
+        v, goal = int(rng.integers(len(points))), rng.integers(-steps, 2 * steps, 2) / steps
+        if v in segments:
+            continue
+        places, to = exact.fractions_of(points), exact.fractions_of(goal[None])[0]
+        expected = [(k, v) for k, ends in enumerate(segments) if passes_still(places, ends, places[v], to)]
+        after = points.copy()
+        after[v] = goal
+        for tri in telling, refusing, ignoring:
+            with pytest.raises(KeyboardInterrupt), tri.step() as step:
+                step.move(after + shift)
+                assert step.passings().tolist() == tri.passings.tolist() == expected
+                raise KeyboardInterrupt
+        before = state(refusing)
+        if expected:
+            with pytest.raises(deldrift.PassingError) as refused:
+                refusing.move(after + shift)
+            assert refused.value.passings.tolist() == refusing.passings.tolist() == expected
+            again = pickle.loads(pickle.dumps(refused.value))
+            assert str(again) == str(refused.value) and (again.passings == refused.value.passings).all()
+            assert state(refusing) == before
+            n_passed += 1
+        try:
+            telling.move(after + shift)
+        except deldrift.ConflictError:
+            assert telling.passings.tolist() == expected
+            continue
+        assert telling.passings.tolist() == expected
+        copied = copy.copy(telling)
+        ignoring.move(after + shift)
+        assert len(ignoring.passings) == len(copied.passings) == 0
+        np.testing.assert_array_equal(np.sort(ignoring.simplices), np.sort(telling.simplices))
+        points = after
+        for tri in telling, ignoring:
+            tri.move(points)
+        if not expected:
+            refusing.move(points)
+        else:
+            refusing = deldrift.Delaunay(points, segments=segments, passing="refuse")
+    assert n_passed > 2
+
+
+def test_passing_is_kept_with_a_triangulation(tmp_path):
+    square = [[0, 0], [4, 0], [4, 4], [0, 4], [1, 2]]
+    tri = deldrift.Delaunay(square, segments=[[0, 2]], passing="refuse")
+    tri.save(tmp_path / "square")
+    for other in copy.deepcopy(tri), pickle.loads(pickle.dumps(tri)), deldrift.load(tmp_path / "square", passing="refuse"):
+        with pytest.raises(deldrift.PassingError, match="vertex 4 passes segment 0"):
+            other.move([[2, 1]], ids=[4])
+    assert deldrift.load(tmp_path / "square").move([[2, 1]], ids=[4]).moved == 1
+    solid = deldrift.Delaunay(np.eye(4, 3))
+    assert len(solid.passings) == 0
+    with pytest.raises(deldrift.InvalidDimension), solid.step() as step:
+        step.passings()
+
+
+def test_a_mesh_advances_to_where_nothing_passes():
+    triangle = [[0, 1], [1, 2], [2, 0]]
+    mesh = deldrift.Mesh([[0, 0], [4, 0], [0, 4], [1, 1]], triangle, passing="refuse")
+    with pytest.raises(deldrift.PassingError):
+        mesh.move([[4, 4]], ids=[3])
+    assert mesh.advance([[4, 4]], ids=[3]) == 0.25
+    mesh = deldrift.Mesh([[0, 0], [4, 0], [0, 4], [1, 1]], triangle, passing="tell")
+    mesh.move([[4, 4]], ids=[3])
+    assert mesh.passings.tolist() == [(1, 3)]

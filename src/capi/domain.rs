@@ -1,6 +1,7 @@
 //! What segments divide the plane into: levels, labels, and boundaries in chains.
 
 use super::handle::{Reading, deldrift_triangulation};
+use super::listed::check_arrays;
 use super::pointers::{Array, Buffer, Output, fill_all, given, write_all};
 use super::status::{Failure, deldrift_status};
 use crate::delaunay::Plane;
@@ -139,6 +140,56 @@ pub unsafe extern "C" fn deldrift_label_cells(
         let t = of_the_plane(t)?;
         let (seeds, labels) = (seeds.get()?, labels.get()?);
         label_of.fill(count, t.cell_count(), || Ok(t.label_cells(seeds, labels, other)?))
+    })
+}
+
+/// Computes the labels of some cells again, in an array that deldrift_label_cells has filled, or that is filled with
+/// nesting levels: each listed cell gets the label of the cells that it is reached from without crossing a segment, and that
+/// are not listed. Other entries are not touched.
+///
+/// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once: the created ones of
+/// deldrift_take_changes. NULL if cell_count is 0. other: the label of cells that are reached from the outside of the hull alone,
+/// from no cell that is not listed, or from some of different labels. label_of: an array of capacity numbers, of which those
+/// of cells that are not listed are read. capacity: at least deldrift_cell_count. undecided: receives the number of cells of
+/// the last two kinds: if it is not 0, a region has new cells only, or touches two labels, and it is time for
+/// deldrift_label_cells.
+///
+/// deldrift_update_circumcentres has the steps by which an array for all cells is brought up to date. While segments stay,
+/// and vertices move without passing any, labels stay with their regions: that is what deldrift_label_cells would give for
+/// seeds that move with these. Where a commit adds segments, both parts of a region have its label; where it removes some
+/// between regions of different labels, either label may go on: label anew then.
+///
+/// Exact. Cost: of k cells k log k, and k log s for s segments. After a change the first call also does what the first
+/// deldrift_cells does.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_update_labels(
+    t: *const deldrift_triangulation,
+    cells: *const u32,
+    cell_count: usize,
+    other: i32,
+    label_of: *mut i32,
+    capacity: usize,
+    undecided: *mut usize,
+) -> deldrift_status {
+    given!(t: Reading, cells[cell_count]: Array, label_of[capacity]: Buffer, undecided: Output);
+    t.read(|t| {
+        let t = of_the_plane(t)?;
+        let undecided = undecided.place()?;
+        check_arrays([label_of.offer()], capacity, t.cell_count())?;
+        let places = label_of.places(t.cell_count())?;
+        // SAFETY: the header has the caller promise that entries of cells that are not listed are numbers, and no others
+        // are asked for.
+        let known = |cell: CellId| unsafe { places[cell.index()].assume_init() };
+        let (labels, n) = t.labels_of(CellId::of_numbers(cells.get()?), known, other)?;
+        for (cell, label) in labels {
+            places[cell.index()].write(label);
+        }
+        undecided.write(n);
+        Ok(())
     })
 }
 

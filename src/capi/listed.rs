@@ -167,7 +167,11 @@ pub unsafe extern "C" fn deldrift_update_mask_by_circumradius(
 }
 
 /// There must be an array at least, and room in it for an entry of each of `n` cells.
-fn check_arrays<const N: usize>(arrays: [Offer; N], capacity: usize, n: usize) -> Result<(), Failure> {
+pub(super) fn check_arrays<const N: usize>(
+    arrays: [Offer; N],
+    capacity: usize,
+    n: usize,
+) -> Result<(), Failure> {
     if n > 0 && !arrays.iter().any(|array| array.is_there) {
         return Err(arrays[0].missing());
     }

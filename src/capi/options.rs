@@ -11,7 +11,7 @@ use super::status::Failure;
 use crate::error::Error;
 use crate::machine::memory;
 use crate::machine::tally;
-use crate::motion::{Algorithm, CoincidencePolicy, Monitor, Options, Purpose};
+use crate::motion::{Algorithm, CoincidencePolicy, Monitor, Options, PassingPolicy, Purpose};
 
 /// What happens when vertices come to lie at the same place.
 #[repr(u32)]
@@ -23,6 +23,18 @@ pub enum deldrift_coincidence {
     DELDRIFT_COINCIDENCE_REJECT = 1,
 }
 
+/// What happens when a vertex would pass a segment: deldrift_check_passings says what that is.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum deldrift_passing {
+    /// Nothing: it is not looked for, except by deldrift_check_passings.
+    DELDRIFT_PASSING_IGNORE = 0,
+    /// The call goes on, and deldrift_passings then tells which vertices have passed which segments.
+    DELDRIFT_PASSING_TELL = 1,
+    /// The call fails with DELDRIFT_PASSES_SEGMENT and has no effect; deldrift_passings then tells all of them.
+    DELDRIFT_PASSING_REFUSE = 2,
+}
+
 /// How deldrift_commit_timestamp brings the triangulation to the staged positions. Every algorithm
 /// gives exactly the same cells; they differ in what they cost.
 ///
@@ -32,6 +44,8 @@ pub enum deldrift_coincidence {
 pub type AlgorithmCode = u32;
 /// A coincidence policy as it arrives from C, where any number may be passed.
 pub type CoincidenceCode = u32;
+/// A passing policy as it arrives from C, where any number may be passed.
+pub type PassingCode = u32;
 
 /// Options of a triangulation. Initialise them with deldrift_options_init, then set what should differ
 /// from the defaults, all of which are zero.
@@ -66,8 +80,9 @@ pub struct deldrift_options {
     pub threads: u32,
     /// Default DELDRIFT_COINCIDENCE_MERGE.
     pub coincidence: CoincidenceCode,
-    /// Zero; later versions may have an option here.
-    pub reserved: u32,
+    /// What commits, deldrift_check_staged and deldrift_relocate_vertex do when a vertex would pass a segment. Default
+    /// DELDRIFT_PASSING_IGNORE.
+    pub passing: PassingCode,
     /// Called now and then during long calls: at least once for some ten thousand cells that are made, or looked at
     /// around single vertices. Passes over all vertices or cells, each of which takes a part of a build, are not
     /// interrupted. When it returns true, the call ends in DELDRIFT_CANCELLED and has had no effect. NULL, the default,
@@ -91,7 +106,7 @@ impl deldrift_options {
         algorithm: 0,
         threads: 0,
         coincidence: 0,
-        reserved: 0,
+        passing: 0,
         cancel: None,
         progress: None,
         user_data: ptr::null_mut(),
@@ -102,7 +117,7 @@ impl deldrift_options {
         size_of::<usize>(),
         offset_of!(deldrift_options, threads),
         offset_of!(deldrift_options, coincidence),
-        offset_of!(deldrift_options, reserved),
+        offset_of!(deldrift_options, passing),
         offset_of!(deldrift_options, cancel),
         offset_of!(deldrift_options, progress),
         offset_of!(deldrift_options, user_data),
@@ -116,11 +131,15 @@ impl deldrift_options {
             1 => CoincidencePolicy::Reject,
             other => return Err(invalid("options.coincidence", other, "a deldrift_coincidence")),
         };
-        if self.reserved != 0 {
-            return Err(invalid("options.reserved", self.reserved, "0"));
-        }
+        let passing = match self.passing {
+            0 => PassingPolicy::Ignore,
+            1 => PassingPolicy::Tell,
+            2 => PassingPolicy::Refuse,
+            other => return Err(invalid("options.passing", other, "a deldrift_passing")),
+        };
         let algorithm = algorithm("options.algorithm", self.algorithm)?;
-        Ok(Options { algorithm, threads: self.threads, coincidence, monitor: self.callbacks().monitor()? })
+        let monitor = self.callbacks().monitor()?;
+        Ok(Options { algorithm, threads: self.threads, coincidence, passing, monitor })
     }
 
     /// The callbacks that the options name.

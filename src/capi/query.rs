@@ -185,7 +185,8 @@ pub unsafe extern "C" fn deldrift_star(
 ///
 /// It is a certified lower bound: rounding can make it smaller, but never too large. It is 0 where nothing
 /// is certain and for vertices that share their place, and infinite, without a meaning, while there are no
-/// cells. Computed from the star of the vertex, whatever the algorithm in force.
+/// cells. Computed from the star of the vertex, whatever the algorithm in force. At segments it is what the orientation of
+/// the cells on both sides allows.
 ///
 /// Cost: the cells of the star.
 ///

@@ -242,7 +242,10 @@ pub unsafe extern "C" fn deldrift_refine(
 /// Cost: that of deldrift_refine where all is good, and for each vertex that deldrift_refine has inserted at most that of
 /// looking at the cells around it.
 ///
-/// Errors: those of deldrift_refine. Not to be called at the same time as any other call on t.
+/// Errors: those of deldrift_refine but for keeps: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT,
+/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS for struct_size, DELDRIFT_WRONG_COUNT,
+/// DELDRIFT_INVALID_VALUE, DELDRIFT_STAGED_VERTEX, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED,
+/// DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING. Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_coarsen(
     t: *mut deldrift_triangulation,

@@ -212,7 +212,8 @@ pub unsafe extern "C" fn deldrift_load_file(
 #[derive(Clone, Copy, Debug)]
 pub struct deldrift_field {
     /// What it is called: UTF-8, with a NUL at the end; without control characters, U+FFFE and U+FFFF, which XML does
-    /// not have. Fields of vertices have different names, none of them "vertex", and so have fields of cells.
+    /// not have. Fields of vertices have different names, none of them "vertex", and so have fields of cells, none of
+    /// them "marker" if there are segments.
     pub name: *const c_char,
     /// components numbers for each vertex, by id (those of removed vertices are not written), or for each cell, by
     /// index.
@@ -229,6 +230,7 @@ unsafe fn fields_of<'a>(
     argument: &'static str,
     fields: Array<'a, deldrift_field>,
     n: usize,
+    has_lines: bool,
 ) -> Result<Vec<Field<'a>>, Failure> {
     let mut read = Vec::new();
     let fields = fields.get()?;
@@ -252,7 +254,7 @@ unsafe fn fields_of<'a>(
         })?;
         read.push(Field { name, components: field.components, values });
     }
-    Field::check_names(argument, &read)?;
+    Field::check_names(argument, &read, has_lines)?;
     Ok(read)
 }
 
@@ -261,6 +263,10 @@ unsafe fn fields_of<'a>(
 /// Its points are the vertices that are present, hidden ones included, ascending by id; their ids are the point data
 /// "vertex". In 2D the third coordinate is 0. Its cells are those of deldrift_cells, in that order. path: of a file
 /// that is made, or replaced once the new one is complete, with what deldrift_save_file says of it.
+///
+/// If there are segments in force, those of deldrift_segments are lines behind these cells, in that order; an end that
+/// is hidden is the vertex that represents it. Their markers are the cell data "marker", which is 0 for cells that are
+/// no lines, and cell_fields are NaN for lines.
 ///
 /// vertex_fields, cell_fields: numbers to be written along as point data and cell data, vertex_field_count and
 /// cell_field_count of them; NULL if the count is 0. All of it is read during the call only.
@@ -285,11 +291,12 @@ pub unsafe extern "C" fn deldrift_write_vtu(
     t.read(|t| {
         in_its_dimension!(t => {
             let path = path.get()?;
+            let has_lines = t.has_lines();
             // SAFETY: the header's conditions on fields.
             let (vertices, cells) = unsafe {
                 (
-                    fields_of("vertex_fields", vertex_fields, t.id_count())?,
-                    fields_of("cell_fields", cell_fields, t.cell_count())?,
+                    fields_of("vertex_fields", vertex_fields, t.id_count(), has_lines)?,
+                    fields_of("cell_fields", cell_fields, t.cell_count(), has_lines)?,
                 )
             };
             let mut file = NewFile::create(path)?;
@@ -302,24 +309,42 @@ pub unsafe extern "C" fn deldrift_write_vtu(
 /// Writes a file for Mmg, FreeFem, Gmsh and others: MEDIT's text format (.mesh).
 ///
 /// Its vertices are those that are present, hidden ones included, ascending by id and numbered from 1; the reference
-/// of each is its id. Its triangles or tetrahedra are the cells, in the order of deldrift_cells, with the reference 1.
-/// Reading the numbers gives the same doubles. path: of a file that is made, or replaced once the new one is complete,
+/// of each is its id. Its triangles or tetrahedra are the cells, in the order of deldrift_cells. If there are segments in
+/// force, those of deldrift_segments are its edges, in that order, behind the triangles; the reference of each is its
+/// marker, and an end that is hidden is the vertex that represents it. Reading the numbers gives the same doubles.
+///
+/// references: reference_count numbers, the reference of each cell in the order of deldrift_cells (reference_count must
+/// be deldrift_cell_count), such as those of deldrift_label_cells; NULL with reference_count 0 for 1. They are read
+/// during the call only. path: of a file that is made, or replaced once the new one is complete,
 /// with what deldrift_save_file says of it.
 ///
 /// Does what deldrift_cells does.
 ///
 /// Cost: n + m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_IO_ERROR,
+/// DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_write_medit(
     t: *const deldrift_triangulation,
     path: *const c_char,
+    references: *const i32,
+    reference_count: usize,
 ) -> deldrift_status {
-    given!(t: Reading, path: Text);
+    let is_given = !references.is_null() || reference_count != 0;
+    given!(t: Reading, path: Text, references[reference_count]: Array);
     t.read(|t| {
-        let mut file = NewFile::create(path.get()?)?;
-        in_its_dimension!(t => t.write_medit(|bytes| file.put(bytes)))?;
-        Ok(file.finish()?)
+        let path = path.get()?;
+        in_its_dimension!(t => {
+            let references = if is_given {
+                t.check_references(reference_count)?;
+                Some(references.get()?)
+            } else {
+                None
+            };
+            let mut file = NewFile::create(path)?;
+            t.write_medit(references, |bytes| file.put(bytes))?;
+            Ok(file.finish()?)
+        })
     })
 }

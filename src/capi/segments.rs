@@ -70,7 +70,7 @@ impl From<&Conflict> for deldrift_conflict {
 /// it goes to the one that represents them. Nothing is looked at before the commit, which is refused, as is
 /// deldrift_check_staged, where segments cross, a vertex is on one, an end is removed, or both ends are at the same place:
 /// see deldrift_segment_conflicts. Only the positions that it leads to count: a vertex may have gone from one side of a
-/// segment to the other. Segments that are in force are kept by calls that change one vertex at once, too, which are
+/// segment to the other, unless the options refuse that: see deldrift_check_passings. Segments that are in force are kept by calls that change one vertex at once, too, which are
 /// refused for the same reasons. deldrift_discard_moves forgets what is staged of segments, too, and the ids of staged
 /// ones are given again. deldrift_staged_count does not count segments.
 ///
@@ -178,7 +178,7 @@ pub unsafe extern "C" fn deldrift_segments(
 ///
 /// Errors: those of deldrift_commit_timestamp: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_CROSSING,
 /// DELDRIFT_ON_SEGMENT, DELDRIFT_END_REMOVED and DELDRIFT_ENDS_MEET for conflicts, of which the first is told,
-/// DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not
+/// DELDRIFT_PASSES_SEGMENT (if the options refuse it; then conflicts have not been looked for), DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not
 /// to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_check_staged(t: *mut deldrift_triangulation) -> deldrift_status {
@@ -212,5 +212,78 @@ pub unsafe extern "C" fn deldrift_segment_conflicts(
         let t = of_the_plane(t)?;
         let found = t.conflicts_of_segments();
         conflicts.fill(count, found.len(), || Ok(found.iter().map(deldrift_conflict::from)))
+    })
+}
+
+/// Whether vertices would pass segments in a commit of what is staged, whatever the options say of it. Commits nothing, and
+/// what is staged stays so. deldrift_passings then tells all that would. A program that asks before each commit knows
+/// which values to take over from the other side, or cuts its step; with an option, commits ask by themselves.
+///
+/// A commit compares positions at two timestamps, and accepts a vertex that has jumped across a segment, or a whole loop of
+/// segments that has jumped across a vertex. What has happened in between is defined so: each vertex goes straight from its
+/// old place to its new one, at constant speed, and so do both ends of each segment that is in force before and after. A
+/// vertex passes a segment, of which it is no end, if it goes through it and is not back on its side when the step ends:
+/// at f(s, t) = p(t) - a(t) - s (b(t) - a(t)) = 0, for s and t from 0 to 1, vertex p is on the segment from a to b, and it
+/// passes if the number of zeros, each counted as 1 or -1 by the direction, is not 0. That is the number of times that the
+/// quadrilateral p0 - a0, p0 - b0, p1 - b1, p1 - a1 winds around the origin. It also passes if the origin is on the
+/// quadrilateral: then it goes exactly through an end on its way, or stops on the segment. All of this is exact, at all
+/// positions.
+///
+/// Not told are: a vertex that goes through a segment and back in one step, as the end of the step is legal; one that is at
+/// the place of an end of the segment before or after, as it is on no side there; vertices that are inserted or removed by
+/// the commit, which do not move; and segments that are staged, or whose removal is, with their vertices. Ends of segments
+/// are vertices as others, so that two segments that go through each other are told by their ends, and so are hidden
+/// vertices, which move with those that represent them, or part from them. A vertex that goes around the end of a slit is
+/// told if it goes through the slit on its straight way: what passes is a matter of the step, not of the region that a
+/// vertex is in. One that enters a loop through one segment and leaves it through another is told for both.
+///
+/// Cost: where many vertices move, a pass over them, and for each near segments at any time of the step the test; less than
+/// a commit of small moves. Where some move, and no ends of segments, that of looking at them and the segments.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_PASSES_SEGMENT if
+/// a vertex would pass a segment, of which the message names the first, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same
+/// time as any other call on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_check_passings(t: *mut deldrift_triangulation) -> deldrift_status {
+    given!(t: Changing);
+    t.change(|t| {
+        let AnyTriangulation::Plane(t) = t else { return Err(Failure::NotOfThePlane) };
+        Ok(t.check_passings()?)
+    })
+}
+
+/// The vertices that pass segments in the step that was looked at last, by deldrift_check_passings, or by the latest
+/// commit, deldrift_check_staged or deldrift_relocate_vertex: in ascending order of segment and vertex. With
+/// DELDRIFT_PASSING_TELL those that have passed in the latest commit, with DELDRIFT_PASSING_REFUSE those for which it was
+/// refused; with DELDRIFT_PASSING_IGNORE a commit leaves none. Staging, discarding and questions keep them, and so do calls
+/// that insert or remove a vertex at once.
+///
+/// segments: a buffer with room for capacity ids; vertices: for capacity ids; entry k says that vertices[k] passes
+/// segments[k]. One that is NULL is not filled. count: receives their number, which is also written when the buffers are
+/// too small. NULL for both with capacity 0 asks for the count alone.
+///
+/// Cost: their number.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_passings(
+    t: *const deldrift_triangulation,
+    segments: *mut u32,
+    vertices: *mut u32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    given!(t: Reading, segments[capacity]: Buffer, vertices[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        let found = of_the_plane(t)?.passings();
+        fill_all(count, found.len(), capacity, [segments.offer(), vertices.offer()], || {
+            // Each of them is looked at before one is written.
+            let segments = segments.places_if_any(found.len())?;
+            let vertices = vertices.places_if_any(found.len())?;
+            write_all(segments, found.iter().map(|passing| passing.segment.get()));
+            write_all(vertices, found.iter().map(|passing| passing.vertex.get()));
+            Ok(())
+        })
     })
 }

@@ -91,6 +91,8 @@ pub enum deldrift_status {
     DELDRIFT_ENDS_MEET = 33,
     /// A seed is on the boundary of several regions.
     DELDRIFT_AMBIGUOUS_SEED = 34,
+    /// A vertex would pass a segment; deldrift_passings tells all that would.
+    DELDRIFT_PASSES_SEGMENT = 35,
 }
 
 use deldrift_status::*;
@@ -100,7 +102,7 @@ pub type StatusCode = u32;
 
 impl deldrift_status {
     /// Every status, in the order of their values.
-    const ALL: [deldrift_status; 35] = [
+    const ALL: [deldrift_status; 36] = [
         DELDRIFT_OK,
         DELDRIFT_NULL_ARGUMENT,
         DELDRIFT_MISALIGNED_ARGUMENT,
@@ -136,6 +138,7 @@ impl deldrift_status {
         DELDRIFT_END_REMOVED,
         DELDRIFT_ENDS_MEET,
         DELDRIFT_AMBIGUOUS_SEED,
+        DELDRIFT_PASSES_SEGMENT,
     ];
 
     fn text(self) -> &'static CStr {
@@ -175,6 +178,7 @@ impl deldrift_status {
             DELDRIFT_END_REMOVED => c"an end of a segment would be removed",
             DELDRIFT_ENDS_MEET => c"both ends of a segment would be at the same place",
             DELDRIFT_AMBIGUOUS_SEED => c"a seed is on the boundary of several regions",
+            DELDRIFT_PASSES_SEGMENT => c"a vertex would pass a segment",
         }
     }
 }
@@ -282,6 +286,7 @@ impl Failure {
                     Conflict::EndRemoved { .. } => DELDRIFT_END_REMOVED,
                     Conflict::EndsMeet { .. } => DELDRIFT_ENDS_MEET,
                 },
+                Error::Passing { .. } => DELDRIFT_PASSES_SEGMENT,
                 Error::DuplicateMove { .. } => DELDRIFT_DUPLICATE_MOVE,
                 Error::WrongCount { .. } => DELDRIFT_WRONG_COUNT,
                 Error::InvalidValue { .. } => DELDRIFT_INVALID_VALUE,

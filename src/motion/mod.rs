@@ -41,8 +41,8 @@ pub use crate::delaunay::{Level, Violation};
 pub use crate::refine::Kept;
 pub use algorithms::{Algorithm, AlgorithmRow, Commits, Purpose};
 pub use options::{
-    CoarsenOptions, CoincidencePolicy, MAX_LEAST_ANGLE, Monitor, Options, Quality, RefineOptions,
-    SwitchingRule, TooLarge,
+    CoarsenOptions, CoincidencePolicy, MAX_LEAST_ANGLE, Monitor, Options, PassingPolicy, Quality,
+    RefineOptions, SwitchingRule, TooLarge,
 };
 pub use reading::domain::ChainEdge;
 pub use reading::exporting::Field;
@@ -50,7 +50,7 @@ pub use reading::geometry::{BoundaryFacet, Interpolation, OrderedStar, Rows, Ver
 pub use reading::query::Location;
 pub(crate) use reading::query::cells_at;
 pub use reading::saving::Saved;
-pub use report::{CommitReport, QualityReport, VertexWeights};
+pub use report::{CommitReport, QualityReport, SplitReport, VertexWeights};
 pub use state::cells::{NO_CELL, NO_CORNER, OwnedCells};
 pub use state::changes::{Changes, NO_VERTEX};
 pub(crate) use state::checking::{check_not_negative, check_position};

@@ -45,6 +45,20 @@ pub enum CoincidencePolicy {
     Reject,
 }
 
+/// What happens when a vertex would *pass* a segment: when it comes from one side of it to the other on the way from its
+/// old place to its new one, which is straight for it and for the ends of the segment.
+/// [`check_passings`](super::MovingTriangulation::check_passings) says more.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PassingPolicy {
+    /// Nothing: it is not looked for.
+    #[default]
+    Ignore,
+    /// The call goes on, and [`passings`](super::MovingTriangulation::passings) has those that pass.
+    Tell,
+    /// The call fails with [`Error::Passing`](crate::Error::Passing) and has no effect.
+    Refuse,
+}
+
 /// Options of a triangulation.
 ///
 /// ```
@@ -74,6 +88,8 @@ pub struct Options {
     pub threads: u32,
     /// Coincident vertices.
     pub coincidence: CoincidencePolicy,
+    /// Vertices that pass segments.
+    pub passing: PassingPolicy,
     /// Progress and cancellation, of creation, loading, commits, and immediate calls that take long.
     pub monitor: Option<Monitor>,
 }
@@ -84,6 +100,7 @@ impl fmt::Debug for Options {
             .field("algorithm", &self.algorithm)
             .field("threads", &self.threads)
             .field("coincidence", &self.coincidence)
+            .field("passing", &self.passing)
             .field("monitor", &self.monitor.is_some())
             .finish()
     }

@@ -1,6 +1,6 @@
 //! What a commit reports, and a refinement.
 
-use crate::ids::VertexId;
+use crate::ids::{SegmentId, VertexId};
 
 /// What one commit did; summed over all commits and immediate calls in
 /// [`statistics`](super::MovingTriangulation::statistics).
@@ -102,4 +102,35 @@ pub struct QualityReport {
     pub bad_cells: usize,
     /// Whether the limit was reached.
     pub is_cut_short: bool,
+}
+
+/// What [`stage_splits`](super::MovingTriangulation::stage_splits) has staged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SplitReport {
+    /// How often pieces were split, with all conflicts at a time: a vertex is off its segment by at most so many halves of a
+    /// last place of the greatest coordinates of the segment, along each axis.
+    pub rounds: usize,
+    /// Vertices to be inserted, where segments cross.
+    pub inserted: usize,
+    /// The id of the first of them; the others follow it.
+    pub first_vertex: VertexId,
+    /// Segments that pieces take the place of.
+    pub replaced_segments: usize,
+    /// Pieces to be made.
+    pub pieces: usize,
+    /// The id of the first of them; the others follow it, by their segments, and along each of these.
+    pub first_piece: SegmentId,
+}
+
+impl Default for SplitReport {
+    fn default() -> Self {
+        SplitReport {
+            rounds: 0,
+            inserted: 0,
+            first_vertex: VertexId::NONE,
+            replaced_segments: 0,
+            pieces: 0,
+            first_piece: SegmentId::NONE,
+        }
+    }
 }

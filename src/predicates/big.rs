@@ -39,6 +39,16 @@ pub(super) fn orient2d(rounded: f64, [a, b, c]: [&[f64; 2]; 3]) -> f64 {
     with_sign(rounded, minor(&u, &v).sign())
 }
 
+/// The sign of the cross product of two differences, each from the second point of a pair to the first.
+#[cold]
+#[inline(never)]
+pub(super) fn sign_of_cross(pairs: [[&[f64; 2]; 2]; 2]) -> Ordering {
+    let room = Room::new();
+    // Each in a unit of its own, which does not change the sign.
+    let [[u], [v]] = pairs.map(|[p, q]| differences(&room, q, [p]));
+    minor(&u, &v).sign()
+}
+
 /// `incircle`, of which the rounded value is given.
 #[cold]
 #[inline(never)]
@@ -228,7 +238,7 @@ impl<'r> Integer<'r> {
     }
 
     /// How it compares with zero.
-    fn sign(&self) -> Ordering {
+    pub(super) fn sign(&self) -> Ordering {
         if self.is_negative { Ordering::Less } else { self.magnitude.len().cmp(&0) }
     }
 

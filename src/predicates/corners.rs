@@ -225,7 +225,7 @@ impl Mul for Weighed {
 /// A rounding is off by 2⁻⁵³ of the result at most; twice that, [`UNIT`], also covers the roundings of the bounds
 /// themselves, of which less than a hundred follow each other, and [`TINY`] those of products that underflow.
 #[derive(Clone, Copy, Debug)]
-struct Bounded {
+pub(super) struct Bounded {
     value: f64,
     error: f64,
 }
@@ -240,7 +240,7 @@ impl Bounded {
     const ZERO: Bounded = Bounded { value: 0.0, error: 0.0 };
 
     /// A difference of coordinates. Of many it is exact, as of those that are near each other.
-    fn difference(a: f64, b: f64) -> Self {
+    pub(super) fn difference(a: f64, b: f64) -> Self {
         let value = a - b;
         // Knuth's tail of the sum of a and -b.
         let taken = value - a;
@@ -249,7 +249,7 @@ impl Bounded {
     }
 
     /// If it is certain.
-    fn sign(self) -> Option<i32> {
+    pub(super) fn sign(self) -> Option<i32> {
         if self.value.abs() > self.error {
             Some(if self.value > 0.0 { 1 } else { -1 })
         } else {

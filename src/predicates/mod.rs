@@ -82,6 +82,7 @@ mod bicells;
 mod big;
 mod coordinates;
 mod corners;
+mod crossing;
 mod distance;
 #[cfg(test)]
 mod dyadic;
@@ -95,6 +96,7 @@ mod lifted;
 mod measures;
 #[cfg(test)]
 mod near_ties;
+mod passing;
 mod path;
 mod perturbation;
 mod plane;
@@ -116,6 +118,7 @@ pub(crate) use bicells::{
 };
 pub use coordinates::Coordinates;
 pub use corners::{Meeting, sign_of_cross};
+pub use crossing::{crossing, passes_near};
 pub use distance::{compare_distance, is_collinear3, is_within_distance};
 pub use filter::StaticFilter;
 pub use hull::{area, ray_and_segment, ray_and_triangle, volumes_over};
@@ -123,6 +126,7 @@ pub use lanes::BiCells;
 pub use lattice::exact_filter;
 pub use lifted::{Lifted, seen_circle_bound, seen_circle_running_bound, side_of_seen_circle};
 pub use measures::Measures;
+pub use passing::passes;
 pub use path::{stays_positive2d, stays_positive3d};
 pub use perturbation::{incircle_perturbed, insphere_perturbed, is_inside_cospherical_on_lattice};
 pub use plane::{incircle, orient2d};

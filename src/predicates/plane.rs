@@ -44,7 +44,8 @@ pub(super) fn sign_of_incircle(points: [&[f64; 2]; 4]) -> Ordering {
     sign_of(if is_certain { det } else { incircle_exact(det, points, largest(extents)) })
 }
 
-fn sign_of(det: f64) -> Ordering {
+/// The sign of a rounded determinant.
+pub(super) fn sign_of(det: f64) -> Ordering {
     det.partial_cmp(&0.0).expect("a determinant is a number")
 }
 

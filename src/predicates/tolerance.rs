@@ -74,6 +74,13 @@
 //! than the balls of the tolerances, this is a second gap in Proposition 1, in both dimensions: a vertex can
 //! jump across a delimiter, out on the other side, and invert a cell. See [`is_path_certainly_outside`].
 //!
+//! # With segments
+//!
+//! In the plane a bi-cell may have a segment for its facet, which stays whatever the circles are. The triangulation is the
+//! constrained one as long as all cells are positive and Δ > 0 at all other facets. Look at the first moment again at which
+//! a cell is flat: if its empty circle tends to a half-plane, cells have flattened up to the hull *or to a segment*, and
+//! the orientation tolerance of the cell there excludes that. So that is all that is asked of the two cells at a segment.
+//!
 //! # Orientation
 //!
 //! D + 1 points get into one hyperplane no sooner than, for some partition of them (Radon), the hulls of both

@@ -5,7 +5,9 @@
 //! for refinement to mend, with fewer vertices. Those at short edges go first.
 
 use super::criteria::{Tests, narrowest};
-use super::mesh::{Given, Mesh, NONE, Triangle, next, previous};
+use super::given::Given;
+use super::mesh::Mesh;
+use super::parts::{NONE, next, previous};
 use super::removal::Hole;
 use crate::error::Result;
 use crate::ids::VertexId;
@@ -30,6 +32,8 @@ pub(crate) struct Candidate {
     pub vertex: VertexId,
     /// The segments before and behind it, if it is between two of one origin, in their direction.
     pub between: Option<[u32; 2]>,
+    /// Whether it is known that it may not go: then it is only looked at when its cells have become others.
+    pub is_kept: bool,
 }
 
 /// What a coarsening has done.
@@ -41,10 +45,12 @@ pub(crate) struct Coarsened {
     pub replaced: Vec<u32>,
     /// Those that do, with a segment that is of one origin.
     pub joined: Vec<(u32, [VertexId; 2])>,
+    /// The candidates that could have gone first.
+    pub able: Vec<VertexId>,
 }
 
 struct Coarsening<'a> {
-    mesh: Mesh,
+    mesh: Mesh<'a>,
     tests: Tests<'a>,
     room: Room,
     squared_cosine: f64,
@@ -52,69 +58,102 @@ struct Coarsening<'a> {
     told: Coarsened,
     /// The piece that each segment is a part of.
     into: Vec<u32>,
+    /// By vertex, whether triangles at it are others than when it was looked at.
+    is_touched: Vec<bool>,
+    /// By vertex, whether triangles at it may be bad.
+    is_near_bad: Vec<bool>,
 }
 
-/// Takes candidates away.
+/// Takes candidates away. `points` are the places of vertices, and `bad` the bad cells.
 pub(crate) fn coarsen(
-    given: &Given,
+    given: Given,
+    points: Vec<[f64; 2]>,
     tests: Tests,
     room: Room,
+    bad: &[u32],
     candidates: &[Candidate],
 ) -> Result<Coarsened> {
     let squared_cosine = tests.squared_cosine_above(room.angle);
     let mut into = Vec::new();
     memory::collect(&mut into, 0..given.segments.len() as u32)?;
+    let (mut is_touched, mut is_near_bad) = (Vec::new(), Vec::new());
+    memory::lengthen(&mut is_touched, points.len(), false)?;
+    memory::lengthen(&mut is_near_bad, points.len(), false)?;
+    for &cell in bad {
+        given.corners[cell as usize].iter().for_each(|&v| is_near_bad[v] = true);
+    }
     let mut coarsening = Coarsening {
-        mesh: Mesh::new(given)?,
+        mesh: Mesh::new(given, points)?,
         tests,
         room,
         squared_cosine,
         hole: Hole::default(),
         told: Coarsened::default(),
         into,
+        is_touched,
+        is_near_bad,
     };
-    let mut waiting = Vec::new();
-    memory::collect(&mut waiting, candidates.iter().copied())?;
-    let mut is_touched = Vec::new();
-    memory::lengthen(&mut is_touched, given.points.len(), true)?;
+    let mut able = coarsening.list_able(candidates)?;
+    memory::collect(&mut coarsening.told.able, able.iter().map(|&(_, c)| c.vertex))?;
+    let mut waiting = coarsening.pass(candidates, &mut able)?;
     while !waiting.is_empty() {
-        waiting = coarsening.pass(&waiting, &mut is_touched)?;
+        able = coarsening.list_able(&waiting)?;
+        waiting = coarsening.pass(&waiting, &mut able)?;
     }
     coarsening.tell(given)
 }
 
 impl Coarsening<'_> {
-    /// Looks at candidates once, those at short edges first; returns those that stay and have other triangles than when they
-    /// were looked at.
-    fn pass(&mut self, candidates: &[Candidate], is_touched: &mut [bool]) -> Result<Vec<Candidate>> {
-        let mut ordered = Vec::new();
-        memory::collect(
-            &mut ordered,
-            candidates.iter().map(|&c| (self.shortest_edge(c.vertex).to_bits(), c)),
-        )?;
-        ordered.sort_unstable_by_key(|&(square, c)| (square, c.vertex));
-        for &(_, candidate) in &ordered {
-            is_touched[candidate.vertex] = false;
+    /// Lists those that may go, each with the square of a short edge.
+    fn list_able(&mut self, candidates: &[Candidate]) -> Result<Vec<(f64, Candidate)>> {
+        let mut able = Vec::new();
+        for &candidate in candidates {
+            let is_touched = std::mem::take(&mut self.is_touched[candidate.vertex]);
+            if (is_touched || !candidate.is_kept) && self.may_go(candidate)? {
+                memory::push(&mut able, (self.shortest_edge(candidate.vertex), candidate))?;
+            }
+        }
+        Ok(able)
+    }
+
+    /// Takes away those that may go, those at short edges first; returns the candidates that stay and have other triangles
+    /// than when they were looked at.
+    fn pass(&mut self, candidates: &[Candidate], able: &mut [(f64, Candidate)]) -> Result<Vec<Candidate>> {
+        able.sort_unstable_by(|(one, a), (other, b)| one.total_cmp(other).then(a.vertex.cmp(&b.vertex)));
+        for &(_, candidate) in &*able {
+            self.is_touched[candidate.vertex] = false;
             if self.may_go(candidate)? {
-                self.mesh.replace(candidate.vertex, &self.hole)?;
-                memory::push(&mut self.told.vertices, candidate.vertex)?;
-                self.mesh.rim.iter().for_each(|side| is_touched[side.ends[0]] = true);
+                self.remove(candidate)?;
             }
         }
         let mut left = Vec::new();
-        let is_left = |c: &Candidate| self.mesh.at[c.vertex] != NONE && is_touched[c.vertex];
-        memory::collect(&mut left, ordered.into_iter().map(|(_, c)| c).filter(is_left))?;
+        let is_left = |c: &&Candidate| self.mesh.at[c.vertex] != NONE && self.is_touched[c.vertex];
+        memory::collect(&mut left, candidates.iter().filter(is_left).copied())?;
         Ok(left)
+    }
+
+    /// Takes a vertex away that [may go](Self::may_go), and was looked at last.
+    fn remove(&mut self, Candidate { vertex, between, .. }: Candidate) -> Result<()> {
+        match between {
+            None => self.mesh.read_around(vertex)?,
+            Some([before, behind]) => self.into[behind as usize] = self.current(before),
+        }
+        self.mesh.replace(vertex, &self.hole)?;
+        memory::push(&mut self.told.vertices, vertex)?;
+        let is_near_bad = self.is_near_bad[vertex];
+        for side in &self.mesh.rim {
+            for v in side.ends {
+                self.is_touched[v] = true;
+                self.is_near_bad[v] |= is_near_bad;
+            }
+        }
+        Ok(())
     }
 
     /// Squared length of a short edge at a vertex: one of those of a triangle at it.
     fn shortest_edge(&self, v: VertexId) -> f64 {
-        let t = self.mesh.at[v];
-        if t == NONE {
-            return 0.0;
-        }
-        let others = self.mesh.triangle(t).corners.into_iter().filter(|&w| w != v);
-        let squares = others.map(|w| {
+        let (corners, _) = self.mesh.corners_of(self.mesh.at[v]);
+        let squares = corners.into_iter().filter(|&w| w != v).map(|w| {
             let u = minus::<f64, 2>(self.mesh.point(w), self.mesh.point(v));
             dot(&u, &u)
         });
@@ -122,28 +161,30 @@ impl Coarsening<'_> {
     }
 
     /// Whether a vertex may go: then the hole is what takes its place.
-    fn may_go(&mut self, Candidate { vertex, between }: Candidate) -> Result<bool> {
+    fn may_go(&mut self, Candidate { vertex, between, .. }: Candidate) -> Result<bool> {
         if self.mesh.at[vertex] == NONE {
             return Ok(false);
         }
-        let is_found = match between {
-            None => self.mesh.find_hole(vertex, &mut self.hole)?,
-            Some([before, behind]) => {
-                let before = self.current(before);
-                let [a, b] =
-                    [self.mesh.pieces[before as usize].ends[0], self.mesh.pieces[behind as usize].ends[1]];
-                if !self.is_on_line(vertex, [a, b]) {
-                    return Ok(false);
-                }
-                let found = self.mesh.find_joined_hole([before, behind], &mut self.hole)?;
-                if found && self.are_good() {
-                    self.into[behind as usize] = before;
-                    return Ok(true);
-                }
-                return Ok(false);
-            }
-        };
-        Ok(is_found && self.are_good())
+        let Some([before, behind]) = between else { return self.may_go_inside(vertex) };
+        let before = self.current(before);
+        let [a, b] = [self.mesh.pieces[before as usize].ends[0], self.mesh.pieces[behind as usize].ends[1]];
+        if !self.is_on_line(vertex, [a, b]) || !self.mesh.look_around_joint([before, behind])? {
+            return Ok(false);
+        }
+        let worst = self.worst(vertex, &self.mesh.cells);
+        let Coarsening { mesh, tests, room, hole, .. } = self;
+        mesh.fill_joined([before, behind], hole, &|mesh, corners, label| {
+            is_good(mesh, tests, room.share, worst, corners, label)
+        })
+    }
+
+    fn may_go_inside(&mut self, vertex: VertexId) -> Result<bool> {
+        let Some(label) = self.mesh.look_around(vertex, &mut self.hole)? else { return Ok(false) };
+        let worst = self.worst(vertex, &self.hole.around);
+        let Coarsening { mesh, tests, room, hole, .. } = self;
+        mesh.fill_polygon(hole, label, &|mesh, corners, label| {
+            is_good(mesh, tests, room.share, worst, corners, label)
+        })
     }
 
     /// The piece that a segment is a part of by now.
@@ -166,34 +207,28 @@ impl Coarsening<'_> {
         self.mesh.squared_offset(vertex, [a, b]) <= self.room.offset * self.room.offset * dot(&u, &u)
     }
 
-    /// Whether the triangles of the hole are good, or no worse than those that are there.
-    fn are_good(&self) -> bool {
-        let worst = self.mesh.cells.iter().fold(self.squared_cosine, |worst, &t| {
-            let triangle = self.mesh.triangle(t);
-            let points = triangle.corners.map(|v| self.mesh.point(v));
-            if !triangle.is_selected() {
+    /// The squared cosine of the least angle that triangles in the place of those around a vertex may have: it is that of
+    /// the worst of them, if that is worse than wanted.
+    fn worst(&self, vertex: VertexId, around: &[u32]) -> f64 {
+        if !self.is_near_bad[vertex] {
+            return self.squared_cosine;
+        }
+        around.iter().fold(self.squared_cosine, |worst, &t| {
+            let (corners, label) = self.mesh.corners_of(t);
+            if !Tests::is_selected(label) {
                 return worst;
             }
+            let points = corners.map(|v| self.mesh.point(v));
             let narrowest = narrowest(points);
             let square = squared_cosine(points, narrowest);
-            let may_mend =
-                square > self.tests.squared_cosine && !self.is_between_segments(triangle, narrowest);
+            let is_bad = square > self.tests.squared_cosine;
+            // An angle between segments is not mended.
+            let may_mend = is_bad && !self.mesh.is_between_segments(t, narrowest);
             if may_mend { worst.max(square) } else { worst }
-        });
-        let sizes = self.tests.given_sizes();
-        self.hole.triangles.iter().all(|&(corners, label)| {
-            let points = corners.map(|v| self.mesh.point(v));
-            let size = |i: usize| sizes[corners[i]];
-            !Tests::is_selected(label)
-                || self.tests.measure_with(points, label, size, self.room.share, worst).flaw.is_none()
         })
     }
 
-    fn is_between_segments(&self, triangle: &Triangle, narrowest: usize) -> bool {
-        [next(narrowest), previous(narrowest)].iter().all(|&i| triangle.pieces[i] != NONE)
-    }
-
-    fn tell(mut self, given: &Given) -> Result<Coarsened> {
+    fn tell(mut self, given: Given) -> Result<Coarsened> {
         for segment in 0..given.segments.len() as u32 {
             let piece = &self.mesh.pieces[segment as usize];
             if piece.ends == given.segments[segment as usize] {
@@ -206,6 +241,21 @@ impl Coarsening<'_> {
         }
         Ok(self.told)
     }
+}
+
+/// Whether a triangle fulfils the criteria with areas and lengths of this share, and angles above one of this squared cosine.
+fn is_good(
+    mesh: &Mesh,
+    tests: &Tests,
+    share: f64,
+    squared_cosine: f64,
+    corners: [VertexId; 3],
+    label: u32,
+) -> bool {
+    let points = corners.map(|v| mesh.point(v));
+    let size = |i: usize| tests.given_sizes()[corners[i]];
+    !Tests::is_selected(label)
+        || tests.measure_with(points, label, size, share, squared_cosine).flaw.is_none()
 }
 
 /// Squared cosine of the angle at a corner.

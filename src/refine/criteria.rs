@@ -3,7 +3,7 @@
 //! Tests are rounded to the safe side: what passes fulfils the criteria in exact arithmetic. Lengths are scaled by a power
 //! of two so that their fourth powers neither overflow nor, where they matter, underflow.
 
-use super::mesh::NOT_SELECTED;
+use super::parts::NOT_SELECTED;
 use crate::ids::VertexId;
 use crate::predicates::{dot, minus};
 
@@ -145,6 +145,25 @@ impl<'a> Tests<'a> {
         is_too_large.is_some_and(|is_too_large| is_too_large(p.map(|p| *p)))
     }
 
+    /// Whether a triangle is bad.
+    #[inline(always)]
+    pub(crate) fn is_flawed(&self, p: [&[f64; 2]; 3], label: u32, corners: &[VertexId; 3]) -> bool {
+        self.measure(p, label, |i| self.criteria.sizes[corners[i]]).flaw.is_some()
+    }
+
+    /// The share that a triangle has of the greatest area for its label, or a bit less; 0 if there is none.
+    #[inline(always)]
+    pub(crate) fn share_of_area(&self, p: [&[f64; 2]; 3], label: u32) -> f64 {
+        let bound = self.greatest_area(label);
+        if bound == f64::INFINITY {
+            return 0.0;
+        }
+        let [u, v] = [p[1], p[2]].map(|q| minus::<f64, 2>(q, p[0]).map(|x| x * self.scale));
+        let (one, other) = (u[0] * v[1], u[1] * v[0]);
+        let area = 0.5 * ((one - other).abs() - ROUNDING * (one.abs() + other.abs()));
+        area / (bound * self.scale * self.scale)
+    }
+
     /// The squared cosine of an angle above the least one by a margin, in degrees.
     pub(super) fn squared_cosine_above(&self, margin: f64) -> f64 {
         let angle = self.criteria.least_angle;
@@ -220,8 +239,13 @@ pub(super) fn is_in_diametral_circle(ends: [&[f64; 2]; 2], p: &[f64; 2]) -> bool
     dot(&u, &v) < 0.0
 }
 
+pub(super) fn distance(p: &[f64; 2], q: &[f64; 2]) -> f64 {
+    let u = minus::<f64, 2>(p, q);
+    dot(&u, &u).sqrt()
+}
+
 /// The greatest power of two that is not above `x`, which is a normal number.
-fn power_of_two_below(x: f64) -> f64 {
+pub(super) fn power_of_two_below(x: f64) -> f64 {
     f64::from_bits(x.to_bits() & 0x7FF0_0000_0000_0000)
 }
 

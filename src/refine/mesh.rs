@@ -1,199 +1,55 @@
 //! The triangles that are refined: corners, neighbours, and which sides are segments.
 //!
-//! It is a copy of the cells of a triangulation, without what moving vertices needs. Vertices keep their numbers, by
-//! which ties are broken; new ones have higher numbers. So by uniqueness the triangles are at any time those of a fresh
-//! constrained build.
+//! They are a copy of the cells of a triangulation, without what moving vertices needs: of those alone that are looked
+//! at, each when it is first entered. Vertices keep their numbers, by which ties are broken; new ones have higher
+//! numbers. So by uniqueness the triangles are at any time those of a fresh constrained build.
 //!
-//! **Insertion.** The triangles whose circles have the new vertex inside are found from the one that it is in, across sides
-//! that are no segments (Lawson's flips, without making them): each is entered by one side, and the next ones are across
-//! its two others. So the sides of the cavity come in counter-clockwise order around the new vertex, and the triangles
-//! that fill it are beside each other in that order.
-//!
-//! **A segment is split** at a rounded place, which need not be on it. The two triangles at the segment take the place of a
-//! cavity to begin with: the new vertex has to be strictly inside the four lines of their other sides, and inside
-//! their circles. Then its pieces cross nothing, and the rest is an insertion.
+//! A side beyond which nothing has been copied names the cell there ([`Side::unread`]); to [cross](Mesh::cross) it copies
+//! the cell. A cell that has not been copied has the neighbours that it was given with: before one of these is replaced,
+//! all around it are copied.
 
+use super::given::Given;
+use super::parts::{NONE, Piece, Rim, Side, Triangle, UNREAD, next, previous};
 use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::predicates::{self, StaticFilter};
 
-/// No triangle, no piece.
-pub(crate) const NONE: u32 = u32::MAX;
-
-/// What triangles have for a label that are not to be refined.
-pub(crate) const NOT_SELECTED: u32 = u32::MAX;
-
-/// Greatest number of triangles between a place and where rounding puts it.
-const MAX_STEPS: usize = 8;
-
-/// Greatest number of triangles.
-const MAX_TRIANGLES: usize = 1 << 30;
-
-/// A side of a triangle, the one opposite a corner.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Side(u32);
-
-impl Side {
-    pub(super) const NONE: Self = Side(u32::MAX);
-
-    #[inline(always)]
-    pub(super) fn new(triangle: u32, index: usize) -> Self {
-        Side(triangle << 2 | index as u32)
-    }
-
-    #[inline(always)]
-    pub(super) fn triangle(self) -> u32 {
-        self.0 >> 2
-    }
-
-    #[inline(always)]
-    pub(super) fn index(self) -> usize {
-        (self.0 & 3) as usize
-    }
-
-    /// The next side of its triangle, counter-clockwise.
-    #[inline(always)]
-    pub(super) fn next(self) -> Self {
-        Side::new(self.triangle(), next(self.index()))
-    }
-
-    /// The side before.
-    #[inline(always)]
-    pub(super) fn previous(self) -> Self {
-        Side::new(self.triangle(), previous(self.index()))
-    }
-}
-
-#[inline(always)]
-pub(super) fn next(i: usize) -> usize {
-    [1, 2, 0][i]
-}
-
-#[inline(always)]
-pub(super) fn previous(i: usize) -> usize {
-    [2, 0, 1][i]
-}
-
-/// A triangle.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Triangle {
-    /// Counter-clockwise; the first is [`VertexId::NONE`] where there is none.
-    pub(super) corners: [VertexId; 3],
-    /// Beyond the side opposite each corner.
-    pub(super) across: [Side; 3],
-    /// The piece of a segment at each side.
-    pub(super) pieces: [u32; 3],
-    /// What the program knows it by, or [`NOT_SELECTED`].
-    pub(super) label: u32,
-}
-
-impl Triangle {
-    const FREE: Triangle = Triangle {
-        corners: [VertexId::NONE; 3],
-        across: [Side::NONE; 3],
-        pieces: [NONE; 3],
-        label: NOT_SELECTED,
-    };
-
-    #[inline(always)]
-    pub(super) fn is_live(&self) -> bool {
-        self.corners[0] != VertexId::NONE
-    }
-
-    #[inline(always)]
-    pub(super) fn is_selected(&self) -> bool {
-        self.label != NOT_SELECTED
-    }
-
-    /// The ends of a side, with the triangle to the left.
-    #[inline(always)]
-    pub(super) fn ends(&self, i: usize) -> [VertexId; 2] {
-        [self.corners[next(i)], self.corners[previous(i)]]
-    }
-}
-
-/// A piece of a segment, or all of it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Piece {
-    /// In the direction of its segment.
-    pub(super) ends: [VertexId; 2],
-    /// A side at which it is.
-    pub(super) side: Side,
-    /// The segment, by its place in the list that was given.
-    pub(super) segment: u32,
-    /// The next piece of the segment.
-    pub(super) next: u32,
-    /// Whether it stays whole.
-    pub(super) is_fixed: bool,
-}
-
-/// A side of a cavity.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Rim {
-    /// With the cavity to the left.
-    pub(super) ends: [VertexId; 2],
-    pub(super) across: Side,
-    pub(super) piece: u32,
-    pub(super) label: u32,
-}
-
-/// Where a place is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Place {
-    /// In this triangle, maybe on a side that is no segment.
-    Inside(u32),
-    /// Behind a segment, or on it: the piece, seen from where the walk began.
-    Behind(u32),
-    /// At a vertex, or out of reach.
-    Nowhere,
-}
-
 /// Triangles, and the pieces of segments among them.
 #[derive(Debug)]
-pub(super) struct Mesh {
+pub(super) struct Mesh<'a> {
+    pub(super) given: Given<'a>,
     /// By vertex.
     pub(super) points: Vec<[f64; 2]>,
+    /// Copies of cells, and those made.
     pub(super) triangles: Vec<Triangle>,
     pub(super) free: Vec<u32>,
+    /// By cell that was given, the triangle that is or was its copy; [`NONE`] if it has not been copied.
+    copies: Vec<u32>,
+    /// How many have not been.
+    n_unread: usize,
+    /// Cells that are to be copied.
+    to_copy: Vec<u32>,
     /// The first ones are the segments that were given.
     pub(super) pieces: Vec<Piece>,
-    /// A triangle of each vertex, [`NONE`] of those that are in none.
+    /// A triangle of each vertex, maybe one that has not been copied; [`NONE`] of those that are in none.
     pub(super) at: Vec<u32>,
     pub(super) filter: StaticFilter,
     /// The triangles of a cavity, and its sides, counter-clockwise.
     pub(super) cells: Vec<u32>,
     pub(super) rim: Vec<Rim>,
-    waiting: Vec<Side>,
+    pub(super) waiting: Vec<Side>,
     /// The triangles made last.
     pub(super) made: Vec<u32>,
 }
 
-/// A triangulation that is to be refined.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Given<'a> {
-    /// By vertex; those of vertices that are in no cell are not read.
-    pub points: &'a [[f64; 2]],
-    /// Counter-clockwise.
-    pub corners: &'a [[VertexId; 3]],
-    /// Cell across the edge opposite each corner, [`CellId::NONE`] on the hull.
-    pub neighbours: &'a [[CellId; 3]],
-    /// Segment at the edge opposite each corner, by its place among `segments`, [`NONE`] where there is none.
-    pub sides: &'a [[u32; 3]],
-    /// The label of each cell, [`NOT_SELECTED`] for those that stay as they are.
-    pub labels: &'a [u32],
-    /// Ends of each segment.
-    pub segments: &'a [[VertexId; 2]],
-}
-
-impl Mesh {
-    /// A copy of what is given.
-    pub(super) fn new(given: &Given) -> Result<Self> {
+impl<'a> Mesh<'a> {
+    /// What is given, with the places of vertices, and none copied.
+    pub(super) fn new(given: Given<'a>, points: Vec<[f64; 2]>) -> Result<Self> {
         let n = given.corners.len();
-        let mut triangles = Vec::new();
-        memory::reserve(&mut triangles, n + n / 2)?;
-        let mut at = Vec::new();
-        memory::lengthen(&mut at, given.points.len(), NONE)?;
+        if n > UNREAD as usize {
+            return Err(Error::TooManyCells { limit: UNREAD as usize });
+        }
         let mut pieces = Vec::new();
         memory::collect(
             &mut pieces,
@@ -205,43 +61,118 @@ impl Mesh {
                 is_fixed: false,
             }),
         )?;
-        let (mut lower, mut upper) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for (t, &corners) in given.corners.iter().enumerate() {
-            let across = std::array::from_fn(|i| {
-                let neighbour = given.neighbours[t][i];
-                if neighbour == CellId::NONE {
-                    return Side::NONE;
-                }
-                let start = corners[next(i)];
-                let beyond = &given.corners[neighbour];
-                // The corner before the one that is opposite has the side's first end.
-                let j = (0..3).find(|&j| beyond[previous(j)] == start).expect("neighbours share an edge");
-                Side::new(neighbour.get(), j)
-            });
-            for (i, (&v, &piece)) in corners.iter().zip(&given.sides[t]).enumerate() {
-                at[v] = t as u32;
-                for axis in 0..2 {
-                    let x = given.points[v][axis];
-                    (lower[axis], upper[axis]) = (lower[axis].min(x), upper[axis].max(x));
-                }
-                if piece != NONE {
-                    pieces[piece as usize].side = Side::new(t as u32, i);
-                }
+        for &(cell, sides) in given.sides {
+            for piece in sides.into_iter().filter(|&piece| piece != NONE) {
+                pieces[piece as usize].side = Side::unread(cell);
             }
-            triangles.push(Triangle { corners, across, pieces: given.sides[t], label: given.labels[t] });
         }
+        let mut at = memory::copy_of(given.at)?;
+        at.iter_mut().filter(|t| **t != NONE).for_each(|t| *t |= UNREAD);
+        let mut copies = Vec::new();
+        memory::lengthen(&mut copies, n, NONE)?;
         Ok(Mesh {
-            points: memory::copy_of(given.points)?,
-            triangles,
+            given,
+            points,
+            triangles: Vec::new(),
             free: Vec::new(),
+            copies,
+            n_unread: n,
+            to_copy: Vec::new(),
             pieces,
             at,
-            filter: StaticFilter::plane(lower, upper),
+            filter: StaticFilter::plane(given.lower, given.upper),
             cells: Vec::new(),
             rim: Vec::new(),
             waiting: Vec::new(),
             made: Vec::new(),
         })
+    }
+
+    /// No more than this many triangles are there.
+    pub(super) fn n_triangles(&self) -> usize {
+        self.n_unread + self.triangles.len()
+    }
+
+    /// The triangle of a number that may be that of a cell that has not been copied.
+    #[inline(always)]
+    pub(super) fn read(&mut self, t: u32) -> Result<u32> {
+        if t & UNREAD == 0 { Ok(t) } else { self.copy(t & !UNREAD) }
+    }
+
+    /// The triangle that a cell has been copied to, if it has.
+    #[inline(always)]
+    pub(super) fn copy_of(&self, cell: u32) -> Option<u32> {
+        Some(self.copies[cell as usize]).filter(|&t| t != NONE)
+    }
+
+    /// The triangle of a cell, which is copied if it has not been, with all that are beyond segments from there on.
+    #[cold]
+    pub(super) fn copy(&mut self, cell: u32) -> Result<u32> {
+        self.to_copy.clear();
+        memory::push(&mut self.to_copy, cell)?;
+        while let Some(cell) = self.to_copy.pop() {
+            if self.copies[cell as usize] == NONE {
+                self.copy_one(cell)?;
+            }
+        }
+        Ok(self.copies[cell as usize])
+    }
+
+    fn copy_one(&mut self, cell: u32) -> Result<()> {
+        let given = self.given;
+        let (corners, neighbours) = (given.corners[cell as usize], given.neighbours[cell as usize]);
+        let pieces = given.sides_of(cell);
+        let t = self.triangles.len() as u32;
+        memory::reserve(&mut self.triangles, 1)?;
+        memory::reserve(&mut self.to_copy, 3)?;
+        let mut across = [Side::NONE; 3];
+        for i in 0..3 {
+            if neighbours[i] == CellId::NONE {
+                continue;
+            }
+            let beyond = self.copies[neighbours[i].index()];
+            if beyond == NONE {
+                across[i] = Side::unread(neighbours[i].get());
+                if pieces[i] != NONE {
+                    self.to_copy.push(neighbours[i].get());
+                }
+                continue;
+            }
+            // The corner before the one that is opposite has the side's first end.
+            let row = self.triangle(beyond).corners;
+            let start = corners[next(i)];
+            let j = (0..3).find(|&j| row[previous(j)] == start).expect("neighbours share an edge");
+            across[i] = Side::new(beyond, j);
+            self.triangles[beyond as usize].across[j] = Side::new(t, i);
+        }
+        for (i, &piece) in pieces.iter().enumerate() {
+            if piece != NONE {
+                self.pieces[piece as usize].side = Side::new(t, i);
+            }
+        }
+        self.copies[cell as usize] = t;
+        self.n_unread -= 1;
+        self.triangles.push(Triangle { corners, across, pieces, label: given.label(cell) });
+        Ok(())
+    }
+
+    /// What is across a side, copied.
+    #[inline(always)]
+    pub(super) fn cross(&mut self, side: Side) -> Result<Side> {
+        let across = self.across(side);
+        if let Some(cell) = across.unread_cell() {
+            self.copy(cell)?;
+            return Ok(self.across(side));
+        }
+        Ok(across)
+    }
+
+    /// Copies the triangles at a piece.
+    pub(super) fn read_piece(&mut self, piece: u32) -> Result<()> {
+        match self.pieces[piece as usize].side.unread_cell() {
+            Some(cell) => self.copy(cell).map(|_| ()),
+            None => Ok(()),
+        }
     }
 
     #[inline(always)]
@@ -281,7 +212,7 @@ impl Mesh {
         self.triangle(side.triangle()).across[side.index()]
     }
 
-    /// The two sides of a piece, the one with the piece's direction first; [`Side::NONE`] beyond the hull.
+    /// The two sides of a piece of copied triangles, the one with the piece's direction first; [`Side::NONE`] beyond the hull.
     pub(super) fn sides_of(&self, piece: u32) -> [Side; 2] {
         let Piece { ends, side, .. } = self.pieces[piece as usize];
         let other = self.across(side);
@@ -289,145 +220,11 @@ impl Mesh {
         if starts == ends[0] { [side, other] } else { [other, side] }
     }
 
-    /// Walks straight from the corner opposite a side of a triangle, which it leaves by that side if at all, to `p`.
-    pub(super) fn walk(&self, from: Side, p: &[f64; 2]) -> Place {
-        let origin = self.apex(from);
-        let mut side = from;
-        // No triangle is entered twice.
-        for _ in 0..=self.triangles.len() {
-            let triangle = self.triangle(side.triangle());
-            let beyond = -self.turn(triangle.ends(side.index()), p);
-            let piece = triangle.pieces[side.index()];
-            if beyond < 0.0 || (beyond == 0.0 && piece == NONE) {
-                return self.settle(side.triangle(), p);
-            }
-            if piece != NONE {
-                return Place::Behind(piece);
-            }
-            let entered = triangle.across[side.index()];
-            if entered == Side::NONE {
-                return Place::Nowhere;
-            }
-            // The way goes between the apex and the end of the side that is not on the apex's side of it.
-            let apex = self.point(self.apex(entered));
-            let is_left = predicates::orient2d(&self.filter, self.point(origin), p, apex) > 0.0;
-            side = if is_left { entered.next() } else { entered.previous() };
-        }
-        Place::Nowhere
-    }
-
-    /// Where a place is that should be in this triangle, and is in it or, by rounding, near it.
-    fn settle(&self, mut t: u32, p: &[f64; 2]) -> Place {
-        'near: for _ in 0..MAX_STEPS {
-            let triangle = self.triangle(t);
-            if triangle.corners.iter().any(|&v| self.point(v) == p) {
-                return Place::Nowhere;
-            }
-            for i in 0..3 {
-                let turn = self.turn(triangle.ends(i), p);
-                if turn > 0.0 || (turn == 0.0 && triangle.pieces[i] == NONE) {
-                    continue;
-                }
-                if triangle.pieces[i] != NONE {
-                    return Place::Behind(triangle.pieces[i]);
-                }
-                if triangle.across[i] == Side::NONE {
-                    return Place::Nowhere;
-                }
-                t = triangle.across[i].triangle();
-                continue 'near;
-            }
-            return Place::Inside(t);
-        }
-        Place::Nowhere
-    }
-
-    /// Finds the cavity of a vertex of this number at `p`, in a triangle.
-    pub(super) fn dig(&mut self, t: u32, p: &[f64; 2], id: VertexId) -> Result<()> {
-        self.cells.clear();
-        self.rim.clear();
-        self.waiting.clear();
-        memory::push(&mut self.cells, t)?;
-        memory::append(&mut self.waiting, &[2, 1, 0].map(|i| Side::new(t, i)))?;
-        self.dig_on(p, id)
-    }
-
-    /// Finds the cavity of a vertex of this number at `p` that is to split a piece; whether it may.
-    pub(super) fn dig_at_piece(&mut self, piece: u32, p: &[f64; 2], id: VertexId) -> Result<bool> {
-        self.cells.clear();
-        self.rim.clear();
-        self.waiting.clear();
-        let sides = self.sides_of(piece);
-        for side in sides.into_iter().rev().filter(|&side| side != Side::NONE) {
-            let triangle = self.triangle(side.triangle());
-            let is_right = |i: usize| self.turn(triangle.ends(i), p) > 0.0;
-            if !is_right(side.next().index())
-                || !is_right(side.previous().index())
-                || !self.is_inside(triangle.corners, p, id)
-            {
-                return Ok(false);
-            }
-            memory::push(&mut self.cells, side.triangle())?;
-            memory::append(&mut self.waiting, &[side.previous(), side.next()])?;
-        }
-        self.dig_on(p, id)?;
-        Ok(true)
-    }
-
-    /// Goes on across the sides that wait, the last one first.
-    fn dig_on(&mut self, p: &[f64; 2], id: VertexId) -> Result<()> {
-        while let Some(side) = self.waiting.pop() {
-            let &Triangle { across, pieces, label, .. } = self.triangle(side.triangle());
-            let (across, piece) = (across[side.index()], pieces[side.index()]);
-            let is_open = piece == NONE && across != Side::NONE;
-            if is_open && self.is_inside(self.triangle(across.triangle()).corners, p, id) {
-                memory::push(&mut self.cells, across.triangle())?;
-                memory::append(&mut self.waiting, &[across.previous(), across.next()])?;
-            } else {
-                let ends = self.triangle(side.triangle()).ends(side.index());
-                memory::push(&mut self.rim, Rim { ends, across, piece, label })?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Fills the cavity around a new vertex, the next one. With a piece it is split; the part behind it is a new piece.
-    pub(super) fn fill(&mut self, p: [f64; 2], split: Option<u32>) -> Result<VertexId> {
-        let v = VertexId::at(self.points.len());
-        let n = self.rim.len();
-        memory::reserve(&mut self.points, 1)?;
-        memory::reserve(&mut self.at, 1)?;
-        memory::reserve(&mut self.pieces, 1)?;
-        self.claim(n)?;
-        self.points.push(p);
-        let parts = split.map(|piece| self.split_piece(piece, v));
-        for k in 0..n {
-            let t = self.made[k];
-            let Rim { ends: [u, w], across, piece, label } = self.rim[k];
-            let following = self.made[if k + 1 == n { 0 } else { k + 1 }];
-            let before = self.made[if k == 0 { n - 1 } else { k - 1 }];
-            self.triangles[t as usize] = Triangle {
-                corners: [u, w, v],
-                across: [Side::new(following, 1), Side::new(before, 0), across],
-                pieces: [NONE, NONE, piece],
-                label,
-            };
-            self.join(Side::new(t, 2), across, piece);
-            self.at[u] = t;
-            self.at[w] = t;
-        }
-        self.at.push(self.made[0]);
-        if let Some([first, second]) = parts {
-            self.lay_parts([first, second]);
-        }
-        Ok(v)
-    }
-
     /// Takes slots for `n` triangles, those of the cavity first, as `made`.
     pub(super) fn claim(&mut self, n: usize) -> Result<()> {
         let n_new = n.saturating_sub(self.cells.len() + self.free.len());
-        if self.triangles.len() + n_new > MAX_TRIANGLES {
-            return Err(Error::TooManyCells { limit: MAX_TRIANGLES });
+        if self.n_triangles() + n_new > UNREAD as usize {
+            return Err(Error::TooManyCells { limit: UNREAD as usize });
         }
         memory::reserve(&mut self.triangles, n_new)?;
         memory::reserve(&mut self.free, self.cells.len())?;
@@ -459,42 +256,6 @@ impl Mesh {
         }
         if piece != NONE {
             self.pieces[piece as usize].side = side;
-        }
-    }
-
-    /// Makes two pieces of one; there is room.
-    fn split_piece(&mut self, piece: u32, v: VertexId) -> [u32; 2] {
-        let other = self.pieces.len() as u32;
-        let first = &mut self.pieces[piece as usize];
-        let second = Piece { ends: [v, first.ends[1]], ..*first };
-        first.ends[1] = v;
-        first.next = other;
-        self.pieces.push(second);
-        [piece, other]
-    }
-
-    /// Enters the two pieces at the new vertex into the triangles around it.
-    fn lay_parts(&mut self, parts: [u32; 2]) {
-        let n = self.made.len();
-        let outer = [self.pieces[parts[0] as usize].ends[0], self.pieces[parts[1] as usize].ends[1]];
-        let is_on_hull = self.rim[n - 1].ends[1] != self.rim[0].ends[0];
-        for k in 0..n {
-            let t = self.made[k];
-            let [u, w] = self.rim[k].ends;
-            for (part, end) in parts.into_iter().zip(outer) {
-                if w == end {
-                    self.triangles[t as usize].pieces[0] = part;
-                    self.pieces[part as usize].side = Side::new(t, 0);
-                }
-                if u == end {
-                    self.triangles[t as usize].pieces[1] = part;
-                    self.pieces[part as usize].side = Side::new(t, 1);
-                }
-            }
-        }
-        if is_on_hull {
-            self.triangles[self.made[0] as usize].across[1] = Side::NONE;
-            self.triangles[self.made[n - 1] as usize].across[0] = Side::NONE;
         }
     }
 }

@@ -18,11 +18,14 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `mesh` | triangles of their own, insertion, splitting |
+//! | `given` | the cells of a triangulation, and what is selected of them |
+//! | `parts` | sides, triangles, pieces of segments |
+//! | `mesh` | triangles of their own, copied from the cells as they are entered |
+//! | `walking`, `insertion` | where a place is; a vertex there |
 //! | `removal` | removal of a vertex, from within or between two pieces |
 //! | `criteria` | what is bad, what is encroached |
 //! | `queue` | bad triangles in order |
-//! | `refining` | refinement |
+//! | `refining`, `splitting` | refinement; where pieces are split |
 //! | `coarsening` | vertices that are not needed any more leave |
 //!
 //! # What is exact
@@ -50,13 +53,19 @@
 
 mod coarsening;
 mod criteria;
+mod given;
+mod insertion;
 mod mesh;
+mod parts;
 mod queue;
 mod refining;
 mod removal;
+mod splitting;
+mod walking;
 
 pub(crate) use coarsening::{Candidate, Room, coarsen};
 pub(crate) use criteria::{Criteria, Tests};
-pub(crate) use mesh::{Given, NONE, NOT_SELECTED};
+pub(crate) use given::Given;
+pub(crate) use parts::NONE;
 pub use refining::Kept;
-pub(crate) use refining::{Origins, refine};
+pub(crate) use refining::{Origins, Refined, refine};

@@ -1,9 +1,12 @@
 //! Refinement: vertices are added until no triangle is bad and no piece of a segment encroached.
 
-use super::criteria::{Flaw, Measured, Tests, is_in_diametral_circle, size_between};
-use super::mesh::{Given, Mesh, NONE, Piece, Place, Side, next, previous};
+use super::criteria::{Flaw, Measured, Tests, distance, size_between};
+use super::given::Given;
+use super::mesh::Mesh;
+use super::parts::{NONE, Side, next, previous};
 use super::queue::{Queues, Waiting};
 use super::removal::Hole;
+use super::walking::Place;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -22,14 +25,14 @@ pub enum Kept {
 }
 
 /// Where segments come from.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Origins<'a> {
+#[derive(Debug, Default)]
+pub(crate) struct Origins {
     /// Ends of each original segment.
-    pub ends: &'a [[VertexId; 2]],
+    pub ends: Vec<[VertexId; 2]>,
     /// The original of each segment.
-    pub of_segments: &'a [u32],
+    pub of_segments: Vec<u32>,
     /// Vertices that earlier calls have added, with the original that they are on.
-    pub of_vertices: &'a [(VertexId, u32)],
+    pub of_vertices: Vec<(VertexId, u32)>,
 }
 
 /// What a refinement has done.
@@ -55,41 +58,45 @@ pub(crate) struct Refined {
 const SHELL: f64 = 0.001;
 const MOVED_SHELL: f64 = 0.2;
 
-/// Squared cosine of an angle between segments from which on they are split at shells: that of 60 degrees.
-const SHARP: f64 = 0.25;
+/// Vertices that are added between two questions whether to go on: each takes some ten cells.
+const ADDED_BETWEEN: usize = 1000;
 
-struct Refinement<'a> {
-    mesh: Mesh,
+pub(super) struct Refinement<'a> {
+    pub(super) mesh: Mesh<'a>,
     tests: Tests<'a>,
-    origins: Origins<'a>,
+    pub(super) origins: Origins,
     kept: Kept,
     queues: Queues,
     /// Pieces to be split, each with its ends when it was entered, and whether something was behind it.
     encroached: Vec<(u32, [VertexId; 2], bool)>,
     /// The original that each vertex is on, [`NONE`] if there is none.
-    on: Vec<u32>,
+    pub(super) on: Vec<u32>,
     /// The greatest length of edges at each vertex, if that is given.
     sizes: Vec<f64>,
-    n_given: usize,
-    n_added: usize,
-    n_unsplit: usize,
-    hole: Hole,
+    pub(super) n_given: usize,
+    pub(super) n_added: usize,
+    pub(super) n_unsplit: usize,
+    pub(super) hole: Hole,
 }
 
-/// Refines the cells with labels.
+/// Refines the cells that are selected. `points` are the places of vertices, and `bad` the cells, ascending, that are bad or
+/// have segments that are encroached.
 pub(crate) fn refine(
-    given: &Given,
+    given: Given,
+    points: Vec<[f64; 2]>,
+    bad: &[u32],
     tests: Tests,
     origins: Origins,
-    kept: Kept,
-    limit: usize,
+    (kept, limit): (Kept, usize),
+    ask: &mut dyn FnMut() -> Result<()>,
 ) -> Result<Refined> {
     let mut on = Vec::new();
-    memory::lengthen(&mut on, given.points.len(), NONE)?;
+    let n_given = points.len();
+    memory::lengthen(&mut on, n_given, NONE)?;
     origins.of_vertices.iter().for_each(|&(v, original)| on[v] = original);
     let sizes = memory::copy_of(tests.given_sizes())?;
     let mut refinement = Refinement {
-        mesh: Mesh::new(given)?,
+        mesh: Mesh::new(given, points)?,
         tests,
         origins,
         kept,
@@ -97,22 +104,28 @@ pub(crate) fn refine(
         encroached: Vec::new(),
         on,
         sizes,
-        n_given: given.points.len(),
+        n_given,
         n_added: 0,
         n_unsplit: 0,
         hole: Hole::default(),
     };
-    for t in 0..given.corners.len() {
-        refinement.examine(t as u32)?;
+    for &cell in bad {
+        let t = refinement.mesh.copy(cell)?;
+        refinement.examine(t)?;
     }
-    let is_cut_short = refinement.go_on(limit)?;
+    let is_cut_short = refinement.go_on(limit, ask)?;
     refinement.tell(given, is_cut_short)
 }
 
 impl Refinement<'_> {
     /// Adds vertices; whether there would be more than the limit.
-    fn go_on(&mut self, limit: usize) -> Result<bool> {
+    fn go_on(&mut self, limit: usize, ask: &mut dyn FnMut() -> Result<()>) -> Result<bool> {
+        let mut n_asked = 0;
         loop {
+            if self.n_added >= n_asked {
+                n_asked = self.n_added + ADDED_BETWEEN;
+                ask()?;
+            }
             let mut k = 0;
             while k < self.encroached.len() {
                 if self.n_added >= limit {
@@ -178,7 +191,7 @@ impl Refinement<'_> {
     }
 
     /// Whether the corner opposite a side is in the lens of the side.
-    fn is_in_lens(&self, side: Side) -> bool {
+    pub(super) fn is_in_lens(&self, side: Side) -> bool {
         let triangle = self.mesh.triangle(side.triangle());
         let ends = triangle.ends(side.index()).map(|v| self.mesh.point(v));
         self.tests.is_in_lens(ends, self.mesh.point(triangle.corners[side.index()]))
@@ -189,14 +202,14 @@ impl Refinement<'_> {
     }
 
     /// The sides of a piece on which triangles are to be refined.
-    fn selected_sides(&self, piece: u32) -> impl Iterator<Item = Side> {
+    pub(super) fn selected_sides(&self, piece: u32) -> impl Iterator<Item = Side> {
         let sides = self.mesh.sides_of(piece);
         sides
             .into_iter()
             .filter(|&side| side != Side::NONE && self.mesh.triangle(side.triangle()).is_selected())
     }
 
-    fn may_split(&self, piece: u32) -> bool {
+    pub(super) fn may_split(&self, piece: u32) -> bool {
         !self.mesh.pieces[piece as usize].is_fixed
             && match self.kept {
                 Kept::None => true,
@@ -234,7 +247,7 @@ impl Refinement<'_> {
         let Some((p, from)) = self.centre(t, measured.narrowest) else { return Ok(()) };
         let id = VertexId::at(self.mesh.points.len());
         let n_before = self.encroached.len();
-        match self.mesh.walk(from, &p) {
+        match self.mesh.walk(from, &p)? {
             Place::Nowhere => return Ok(()),
             Place::Behind(piece) => {
                 if self.may_split(piece) {
@@ -285,7 +298,7 @@ impl Refinement<'_> {
     }
 
     /// Fills the cavity around a new vertex, which is in a triangle, or on a piece.
-    fn add(&mut self, p: [f64; 2], at: u32, piece: Option<u32>) -> Result<()> {
+    pub(super) fn add(&mut self, p: [f64; 2], at: u32, piece: Option<u32>) -> Result<()> {
         memory::reserve(&mut self.on, 1)?;
         memory::reserve(&mut self.sizes, 1)?;
         if self.tests.has_sizes() {
@@ -314,120 +327,15 @@ impl Refinement<'_> {
         self.examine_made()
     }
 
-    fn examine_made(&mut self) -> Result<()> {
+    pub(super) fn examine_made(&mut self) -> Result<()> {
         for k in 0..self.mesh.made.len() {
             self.examine(self.mesh.made[k])?;
         }
         Ok(())
     }
 
-    /// Splits a piece: in the middle, or, at a small angle with another segment, at a round distance from its apex, so that
-    /// what is on both is on common shells.
-    fn split(&mut self, piece: u32) -> Result<()> {
-        if !self.may_split(piece) {
-            return Ok(());
-        }
-        let ends = self.mesh.pieces[piece as usize].ends;
-        let [p, q] = ends.map(|v| *self.mesh.point(v));
-        let share = match self.apex_of_shells(piece) {
-            None => {
-                self.clear_circle(piece)?;
-                0.5
-            }
-            Some(apex) => {
-                let [d, e] = [p, q].map(|p| distance(self.mesh.point(apex), &p));
-                (round_between(d.min(e), d.max(e)) - d) / (e - d)
-            }
-        };
-        let middle = [0, 1].map(|axis| {
-            let x = p[axis] + share * (q[axis] - p[axis]);
-            x.clamp(p[axis].min(q[axis]), p[axis].max(q[axis])) + 0.0
-        });
-        let id = VertexId::at(self.mesh.points.len());
-        if middle == p || middle == q || !self.mesh.dig_at_piece(piece, &middle, id)? {
-            self.mesh.pieces[piece as usize].is_fixed = true;
-            self.n_unsplit += 1;
-            return Ok(());
-        }
-        self.add(middle, NONE, Some(piece))
-    }
-
-    /// Where a piece makes a small angle with another segment: at one of its ends, with a triangle in between, or further
-    /// along the segments, where a vertex of the other one encroaches it.
-    fn apex_of_shells(&self, piece: u32) -> Option<VertexId> {
-        let Piece { ends, segment, .. } = self.mesh.pieces[piece as usize];
-        if let Some(end) = [1, 0].into_iter().find(|&end| self.is_sharp(piece, end)) {
-            return Some(ends[end]);
-        }
-        let own = self.origins.of_segments[segment as usize];
-        let of_other =
-            self.selected_sides(piece).filter(|&side| self.is_in_lens(side)).map(|side| self.mesh.apex(side));
-        of_other.filter(|&v| self.on[v] != NONE && self.on[v] != own).find_map(|v| {
-            let apex = self.common_end(own, self.on[v])?;
-            let [d, e] = ends.map(|v| distance(self.mesh.point(apex), self.mesh.point(v)));
-            // One of pieces that have moved may go around its apex.
-            let is_outward =
-                (d - e).abs() > 0.5 * distance(self.mesh.point(ends[0]), self.mesh.point(ends[1]));
-            (is_outward && self.is_acute(apex, [ends[1], v])).then_some(apex)
-        })
-    }
-
-    /// The vertex at which two originals meet.
-    fn common_end(&self, one: u32, other: u32) -> Option<VertexId> {
-        let [one, other] = [one, other].map(|original| self.origins.ends[original as usize]);
-        let is_there = |v: &VertexId| self.mesh.at.get(v.index()).is_some_and(|&t| t != NONE);
-        one.into_iter().find(|v| other.contains(v)).filter(is_there)
-    }
-
-    /// Whether two vertices are seen from a third one under less than 60 degrees.
-    fn is_acute(&self, apex: VertexId, others: [VertexId; 2]) -> bool {
-        let [u, v] = others.map(|v| minus::<f64, 2>(self.mesh.point(v), self.mesh.point(apex)));
-        let cosine = dot(&u, &v);
-        cosine > 0.0 && cosine * cosine > SHARP * (dot(&u, &u) * dot(&v, &v))
-    }
-
-    /// Whether a piece makes a small angle at one of its ends with another one, with a triangle in between.
-    fn is_sharp(&self, piece: u32, end: usize) -> bool {
-        let Piece { ends, .. } = self.mesh.pieces[piece as usize];
-        self.selected_sides(piece).any(|side| {
-            let triangle = self.mesh.triangle(side.triangle());
-            // The side at that end is opposite the other end.
-            let other = (0..3).find(|&i| triangle.corners[i] == ends[1 - end]).expect("it is an end");
-            if triangle.pieces[other] == NONE {
-                return false;
-            }
-            self.is_acute(ends[end], [ends[1 - end], triangle.corners[side.index()]])
-        })
-    }
-
-    /// Takes away vertices of this call that are on no segment, next to a piece and in its diametral circle: they are nearer
-    /// to it than the vertex that it gets (Chew, 10.1145/160985.161150).
-    fn clear_circle(&mut self, piece: u32) -> Result<()> {
-        for k in 0..2 {
-            loop {
-                let side = self.mesh.sides_of(piece)[k];
-                if side == Side::NONE || !self.mesh.triangle(side.triangle()).is_selected() {
-                    break;
-                }
-                let apex = self.mesh.apex(side);
-                let ends = self.mesh.pieces[piece as usize].ends.map(|v| self.mesh.point(v));
-                let is_free = apex.index() >= self.n_given && self.on[apex] == NONE;
-                if !is_free
-                    || !is_in_diametral_circle(ends, self.mesh.point(apex))
-                    || !self.mesh.find_hole(apex, &mut self.hole)?
-                {
-                    break;
-                }
-                self.mesh.replace(apex, &self.hole)?;
-                self.n_added -= 1;
-                self.examine_made()?;
-            }
-        }
-        Ok(())
-    }
-
     /// Numbers the vertices that have stayed, and lists what has become of the segments.
-    fn tell(self, given: &Given, is_cut_short: bool) -> Result<Refined> {
+    fn tell(self, given: Given, is_cut_short: bool) -> Result<Refined> {
         let n = self.mesh.triangles.len() as u32;
         let n_bad =
             (0..n).filter(|&t| self.mesh.triangle(t).is_selected() && self.measure(t).flaw.is_some()).count();
@@ -467,31 +375,4 @@ impl Refinement<'_> {
         }
         Ok(told)
     }
-}
-
-fn distance(p: &[f64; 2], q: &[f64; 2]) -> f64 {
-    let u = minus::<f64, 2>(p, q);
-    dot(&u, &u).sqrt()
-}
-
-/// The number between two others, away from both by a quarter of their difference, that is a multiple of the greatest
-/// power of two.
-fn round_between(low: f64, high: f64) -> f64 {
-    let quarter = 0.25 * (high - low);
-    let (low, high) = (low + quarter, high - quarter);
-    let mut step = power_of_two_below(high);
-    // Halves of steps soon fit, unless there is no number between.
-    for _ in 0..128 {
-        let round = (low / step).ceil() * step;
-        if round <= high {
-            return round;
-        }
-        step *= 0.5;
-    }
-    0.5 * (low + high)
-}
-
-/// The greatest power of two that is not above `x`, which is a normal number.
-fn power_of_two_below(x: f64) -> f64 {
-    f64::from_bits(x.to_bits() & 0x7FF0_0000_0000_0000)
 }

@@ -1,45 +1,53 @@
 //! Removal of a vertex, in its interior or between two pieces of a segment, which are joined.
 //!
-//! What the triangles around the vertex leave is one polygon, or two with the joined piece between them. Each is
-//! triangulated by cutting off ears, and its diagonals are flipped until all are locally Delaunay: then they are what a
-//! fresh build would have, as the sides of the polygons are. All of this is done beside the triangles, which are replaced
-//! if what has been found is wanted.
+//! What the triangles around the vertex leave is one polygon, or two with the joined piece between them. Each gets its
+//! constrained Delaunay triangulation, which is what a fresh build would have, as the sides of the polygons are: ears in
+//! whose circle no other corner is are cut off. Where there is none, as corners that are not seen are in all circles, any
+//! ears are, and diagonals are flipped until all are locally Delaunay. All of this is done beside the triangles, which are
+//! replaced if what has been found is wanted. It ends at the first triangle that is not.
 
-use super::mesh::{Mesh, NONE, Rim, Side, Triangle, next, previous};
+use super::mesh::Mesh;
+use super::parts::{NONE, Rim, Side, Triangle, UNREAD, next, previous};
 use crate::error::Result;
-use crate::ids::VertexId;
+use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::predicates;
 
 /// Vertices of more neighbours are not removed: what follows takes the square of their number.
 const MAX_DEGREE: usize = 64;
 
+/// Whether a triangle of these corners and this label may come.
+pub(super) type IsGood<'a> = &'a dyn Fn(&Mesh, [VertexId; 3], u32) -> bool;
+
 /// What would take the place of the triangles around a vertex.
 #[derive(Debug, Default)]
 pub(super) struct Hole {
     /// Corners, and the label.
     pub(super) triangles: Vec<([VertexId; 3], u32)>,
+    /// The triangles around the vertex, some of which may not have been copied.
+    pub(super) around: Vec<u32>,
     /// The pieces that are joined, in their segment's direction, and what they become.
     joined: Option<([u32; 2], [VertexId; 2])>,
     polygon: Vec<VertexId>,
 }
 
-impl Mesh {
+impl Mesh<'_> {
     /// Gathers the triangles around a vertex as the cavity; whether that can be removed: it has no segments at it but for
     /// the two pieces, and is not on the hull without them. With pieces the sides begin behind the second one.
     fn gather(&mut self, v: VertexId, pieces: Option<[u32; 2]>) -> Result<bool> {
         self.cells.clear();
         self.rim.clear();
-        let corner = |mesh: &Self, t: u32| {
-            mesh.triangle(t).corners.iter().position(|&w| w == v).expect("it is a corner")
-        };
         // The triangle to the left of the second piece, or, where there is none, of the first one backwards.
         let first = match pieces {
-            None => self.at[v],
-            Some([before, behind]) => match [self.sides_of(behind)[0], self.sides_of(before)[1]] {
-                [left, _] if left != Side::NONE => left.triangle(),
-                [_, right] => right.triangle(),
-            },
+            None => self.read(self.at[v])?,
+            Some([before, behind]) => {
+                self.read_piece(before)?;
+                self.read_piece(behind)?;
+                match [self.sides_of(behind)[0], self.sides_of(before)[1]] {
+                    [left, _] if left != Side::NONE => left.triangle(),
+                    [_, right] => right.triangle(),
+                }
+            }
         };
         let mut t = first;
         loop {
@@ -47,26 +55,94 @@ impl Mesh {
                 return Ok(false);
             }
             memory::push(&mut self.cells, t)?;
-            let i = corner(self, t);
+            let i = corner_of(self.triangle(t).corners, v);
+            let across = self.cross(Side::new(t, i))?;
             let triangle = self.triangle(t);
-            let rim = Rim {
-                ends: triangle.ends(i),
-                across: triangle.across[i],
-                piece: triangle.pieces[i],
-                label: triangle.label,
-            };
-            // Counter-clockwise, across the side that ends in the vertex.
-            let (across, piece) = (triangle.across[next(i)], triangle.pieces[next(i)]);
+            let rim =
+                Rim { ends: triangle.ends(i), across, piece: triangle.pieces[i], label: triangle.label };
+            let piece = triangle.pieces[next(i)];
             if piece != NONE && !pieces.is_some_and(|pieces| pieces.contains(&piece)) {
                 return Ok(false);
             }
             memory::push(&mut self.rim, rim)?;
+            // Counter-clockwise, across the side that ends in the vertex.
+            let across = self.cross(Side::new(t, next(i)))?;
             if across == Side::NONE {
                 return Ok(pieces.is_some());
             }
             t = across.triangle();
             if t == first {
                 return Ok(true);
+            }
+        }
+    }
+
+    /// Finds the triangles around a vertex that no segment is at, and the polygon that they leave, without copying any.
+    /// Returns their label, if it is one and they are all around.
+    pub(super) fn look_around(&self, v: VertexId, hole: &mut Hole) -> Result<Option<u32>> {
+        hole.around.clear();
+        hole.polygon.clear();
+        let mut t = self.at[v];
+        let first_corner = self.corners_of(t).0;
+        let first = first_corner[next(corner_of(first_corner, v))];
+        let mut label = None;
+        loop {
+            if hole.around.len() >= MAX_DEGREE {
+                return Ok(None);
+            }
+            let (corners, own_label) = self.corners_of(t);
+            let i = corner_of(corners, v);
+            if *label.get_or_insert(own_label) != own_label {
+                return Ok(None);
+            }
+            memory::push(&mut hole.around, t)?;
+            memory::push(&mut hole.polygon, corners[next(i)])?;
+            if corners[previous(i)] == first {
+                return Ok(label);
+            }
+            match self.beyond(t, next(i)) {
+                Some(beyond) => t = beyond,
+                None => return Ok(None),
+            }
+        }
+    }
+
+    /// The corners and label of a triangle that may not have been copied.
+    #[inline(always)]
+    pub(super) fn corners_of(&self, t: u32) -> ([VertexId; 3], u32) {
+        if t & UNREAD == 0 {
+            let triangle = self.triangle(t);
+            return (triangle.corners, triangle.label);
+        }
+        let cell = t & !UNREAD;
+        match self.copy_of(cell) {
+            Some(copy) => (self.triangle(copy).corners, self.triangle(copy).label),
+            None => (self.given.corners[cell as usize], self.given.label(cell)),
+        }
+    }
+
+    /// Whether the corner of a triangle, which may not have been copied, is between two segments.
+    pub(super) fn is_between_segments(&self, t: u32, corner: usize) -> bool {
+        let copy = if t & UNREAD == 0 { Some(t) } else { self.copy_of(t & !UNREAD) };
+        let pieces = match copy {
+            Some(copy) => self.triangle(copy).pieces,
+            None => self.given.sides_of(t & !UNREAD),
+        };
+        [next(corner), previous(corner)].iter().all(|&i| pieces[i] != NONE)
+    }
+
+    /// The triangle beyond a side of one that may not have been copied, and may not have been either.
+    #[inline(always)]
+    fn beyond(&self, t: u32, i: usize) -> Option<u32> {
+        let copy = if t & UNREAD == 0 { Some(t) } else { self.copy_of(t & !UNREAD) };
+        match copy {
+            Some(copy) => {
+                let across = self.triangle(copy).across[i];
+                (across != Side::NONE).then_some(across.triangle())
+            }
+            None => {
+                let across = self.given.neighbours[(t & !UNREAD) as usize][i];
+                (across != CellId::NONE).then_some(across.get() | UNREAD)
             }
         }
     }
@@ -84,19 +160,39 @@ impl Mesh {
         }
         hole.polygon.clear();
         memory::collect(&mut hole.polygon, self.rim.iter().map(|side| side.ends[0]))?;
-        self.triangulate(hole, label)
+        self.triangulate(hole, label, &|_, _, _| true)
     }
 
-    /// Finds what would take the place of the vertex between two pieces, of which the second follows the first; whether
-    /// nothing is in the way of the joined piece.
-    pub(super) fn find_joined_hole(&mut self, pieces: [u32; 2], hole: &mut Hole) -> Result<bool> {
+    /// Finds what would take the place of the triangles that have been [found](Self::look_around) around a vertex; whether
+    /// all of it is good.
+    pub(super) fn fill_polygon(&self, hole: &mut Hole, label: u32, is_good: IsGood) -> Result<bool> {
         hole.triangles.clear();
+        hole.joined = None;
+        Ok(!self.has_bad_ear(&hole.polygon, label, is_good) && self.triangulate(hole, label, is_good)?)
+    }
+
+    /// Copies the triangles around a vertex that are to be [replaced](Self::replace).
+    pub(super) fn read_around(&mut self, v: VertexId) -> Result<()> {
+        let is_inside = self.gather(v, None)?;
+        debug_assert!(is_inside, "it has been looked at");
+        Ok(())
+    }
+
+    /// Finds the pieces' sides around the vertex between them, as the cavity; whether they can be joined.
+    pub(super) fn look_around_joint(&mut self, pieces: [u32; 2]) -> Result<bool> {
         let [a, v] = self.pieces[pieces[0] as usize].ends;
         let b = self.pieces[pieces[1] as usize].ends[1];
+        Ok(a != b && self.gather(v, Some(pieces))?)
+    }
+
+    /// Finds what would take the place of the vertex between two pieces, of which the second follows the first, and around
+    /// which all has been [found](Self::look_around_joint); whether nothing is in the way of the joined piece and all of
+    /// it is good.
+    pub(super) fn fill_joined(&self, pieces: [u32; 2], hole: &mut Hole, is_good: IsGood) -> Result<bool> {
+        hole.triangles.clear();
+        let a = self.pieces[pieces[0] as usize].ends[0];
+        let b = self.pieces[pieces[1] as usize].ends[1];
         hole.joined = Some((pieces, [a, b]));
-        if a == b || !self.gather(v, Some(pieces))? {
-            return Ok(false);
-        }
         // From the second piece's end around to the first one's, and on the other side back.
         let starts_at = |w: VertexId| self.rim.iter().position(|side| side.ends[0] == w);
         let n = self.rim.len();
@@ -120,7 +216,7 @@ impl Mesh {
                 || sides.iter().any(|side| side.label != label)
                 || n < 3
                 || hole.polygon[1..n - 1].iter().any(|&w| self.turn([to, from], self.point(w)) <= 0.0)
-                || !self.triangulate(hole, label)?
+                || !self.triangulate(hole, label, is_good)?
             {
                 return Ok(false);
             }
@@ -128,25 +224,57 @@ impl Mesh {
         Ok(true)
     }
 
-    /// Appends the constrained Delaunay triangulation of the polygon; `false` if it is none.
-    fn triangulate(&self, hole: &mut Hole, label: u32) -> Result<bool> {
-        let first = hole.triangles.len();
+    /// Whether a bad triangle is an ear that has to be there: then nothing else need be looked at.
+    fn has_bad_ear(&self, polygon: &[VertexId], label: u32, is_good: IsGood) -> bool {
+        (0..polygon.len()).any(|k| {
+            let corners = ear(polygon, k);
+            !is_good(self, corners, label) && self.is_delaunay_ear(polygon, k)
+        })
+    }
+
+    /// Appends the constrained Delaunay triangulation of the polygon; `false` if it is none, or not good.
+    fn triangulate(&self, hole: &mut Hole, label: u32, is_good: IsGood) -> Result<bool> {
         let Hole { polygon, triangles, .. } = hole;
         while polygon.len() > 2 {
-            let n = polygon.len();
-            let Some(k) = (0..n).find(|&k| self.is_ear(polygon, k)) else { return Ok(false) };
-            let corners = [polygon[(k + n - 1) % n], polygon[k], polygon[(k + 1) % n]];
+            let Some(k) = (0..polygon.len()).find(|&k| self.is_delaunay_ear(polygon, k)) else {
+                return self.triangulate_by_flips(hole, label, is_good);
+            };
+            let corners = ear(polygon, k);
+            if !is_good(self, corners, label) {
+                return Ok(false);
+            }
             memory::push(triangles, (corners, label))?;
             polygon.remove(k);
         }
-        self.flip_all(&mut triangles[first..]);
         Ok(true)
+    }
+
+    /// Appends the constrained Delaunay triangulation of what is left of a polygon.
+    fn triangulate_by_flips(&self, hole: &mut Hole, label: u32, is_good: IsGood) -> Result<bool> {
+        let first = hole.triangles.len();
+        let Hole { polygon, triangles, .. } = hole;
+        while polygon.len() > 2 {
+            let Some(k) = (0..polygon.len()).find(|&k| self.is_ear(polygon, k)) else { return Ok(false) };
+            memory::push(triangles, (ear(polygon, k), label))?;
+            polygon.remove(k);
+        }
+        self.flip_all(&mut triangles[first..]);
+        Ok(triangles[first..].iter().all(|&(corners, label)| is_good(self, corners, label)))
+    }
+
+    /// Whether a corner of a polygon can be cut off, and what that cuts is a triangle of the polygon's constrained Delaunay
+    /// triangulation, since no other corner is in its circle. One that is not seen may be: then it is one all the same.
+    fn is_delaunay_ear(&self, polygon: &[VertexId], k: usize) -> bool {
+        let corners = ear(polygon, k);
+        let n = polygon.len();
+        let others = (2..n - 1).map(|j| polygon[if k + j < n { k + j } else { k + j - n }]);
+        self.turn([corners[0], corners[1]], self.point(corners[2])) > 0.0
+            && others.into_iter().all(|w| !self.is_inside(corners, self.point(w), w))
     }
 
     /// Whether a corner of a polygon can be cut off.
     fn is_ear(&self, polygon: &[VertexId], k: usize) -> bool {
-        let n = polygon.len();
-        let [a, b, c] = [polygon[(k + n - 1) % n], polygon[k], polygon[(k + 1) % n]];
+        let [a, b, c] = ear(polygon, k);
         self.turn([a, b], self.point(c)) > 0.0
             && polygon.iter().all(|&w| {
                 let p = self.point(w);
@@ -242,6 +370,19 @@ impl Mesh {
     }
 }
 
+/// A corner of a polygon, between the one before and the next.
+#[inline(always)]
+fn ear(polygon: &[VertexId], k: usize) -> [VertexId; 3] {
+    let n = polygon.len();
+    [polygon[if k == 0 { n - 1 } else { k - 1 }], polygon[k], polygon[if k + 1 == n { 0 } else { k + 1 }]]
+}
+
+/// The corner that a vertex is.
+#[inline(always)]
+fn corner_of(corners: [VertexId; 3], v: VertexId) -> usize {
+    corners.iter().position(|&w| w == v).expect("it is a corner")
+}
+
 /// For two triangles with a common side, the corners opposite it.
 fn opposite(one: [VertexId; 3], other: [VertexId; 3]) -> Option<(usize, usize)> {
     (0..3).find_map(|i| {
@@ -249,4 +390,82 @@ fn opposite(one: [VertexId; 3], other: [VertexId; 3]) -> Option<(usize, usize)> 
         let j = (0..3).find(|&j| other[next(j)] == ends[1] && other[previous(j)] == ends[0])?;
         Some((i, j))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::Rng;
+    use crate::refine::Given;
+
+    /// Polygons around a place, of corners on a lattice, so that many are on one circle or line: ears without corners in
+    /// their circles lead to what flips do, and a bad ear is found only where it is one of these triangles.
+    #[test]
+    fn ears_and_flips_agree() {
+        let mut n_by_ears = 0;
+        for seed in 0..4_000 {
+            let rng = &mut Rng::new(seed);
+            let size = *rng.pick(&[3, 5, 40]);
+            let mut points: Vec<[f64; 2]> = Vec::new();
+            for _ in 0..3 + rng.below(8) {
+                let p = [0, 1].map(|_| (rng.below(2 * size + 1) as f64) - size as f64);
+                let is_new_way = |q: &[f64; 2]| p[0] * q[1] != p[1] * q[0] || p[0] * q[0] + p[1] * q[1] < 0.0;
+                if p != [0.0; 2] && points.iter().all(is_new_way) {
+                    points.push(p);
+                }
+            }
+            points.sort_by(|p, q| p[1].atan2(p[0]).total_cmp(&q[1].atan2(q[0])));
+            let n = points.len();
+            let is_convex_there = |k: usize| {
+                let (p, q) = (points[k], points[(k + 1) % n]);
+                p[0] * q[1] - p[1] * q[0] > 0.0
+            };
+            if n < 3 || !(0..n).all(is_convex_there) {
+                continue;
+            }
+            // Ids break ties: in any order.
+            let mut ids: Vec<usize> = (0..n).collect();
+            rng.shuffle(&mut ids);
+            let mut by_id = vec![[0.0; 2]; n];
+            ids.iter().zip(&points).for_each(|(&id, &p)| by_id[id] = p);
+            let at = vec![NONE; n];
+            let given = Given {
+                lower: [-(size as f64); 2],
+                upper: [size as f64; 2],
+                corners: &[],
+                neighbours: &[],
+                at: &at,
+                mask: &[],
+                labels: None,
+                sides: &[],
+                segments: &[],
+            };
+            let mesh = Mesh::new(given, by_id).expect("room");
+            let polygon: Vec<_> = ids.iter().map(|&id| VertexId::at(id)).collect();
+            let mut by_flips = Hole { polygon: polygon.clone(), ..Hole::default() };
+            assert!(mesh.triangulate_by_flips(&mut by_flips, 0, &|_, _, _| true).expect("room"));
+            let sorted = |hole: &Hole| {
+                let mut all: Vec<_> = hole.triangles.iter().map(|&(row, _)| sorted_row(row)).collect();
+                all.sort_unstable();
+                all
+            };
+            let expected = sorted(&by_flips);
+            let mut by_ears = Hole { polygon: polygon.clone(), ..Hole::default() };
+            assert!(mesh.fill_polygon(&mut by_ears, 0, &|_, _, _| true).expect("room"));
+            assert_eq!(sorted(&by_ears), expected, "seed {seed}: {points:?}");
+            n_by_ears += usize::from((0..n).any(|k| mesh.is_delaunay_ear(&polygon, k)));
+            // Any triangle is refused if and only if it comes.
+            let bad = sorted_row([0, 0, 0].map(|_| polygon[rng.below(n)]));
+            let is_good = |_: &Mesh, row: [VertexId; 3], _: u32| sorted_row(row) != bad;
+            let mut hole = Hole { polygon: polygon.clone(), ..Hole::default() };
+            let is_filled = mesh.fill_polygon(&mut hole, 0, &is_good).expect("room");
+            assert_eq!(is_filled, !expected.contains(&bad), "seed {seed}: {points:?}, {bad:?}");
+        }
+        assert!(n_by_ears > 1_000, "{n_by_ears}");
+    }
+
+    fn sorted_row(mut row: [VertexId; 3]) -> [VertexId; 3] {
+        row.sort_unstable();
+        row
+    }
 }

@@ -6,6 +6,7 @@ pub mod exact;
 pub mod files;
 pub mod history;
 pub mod inputs;
+pub mod passing_by_roots;
 pub mod random;
 
 use deldrift::motion::{Level, MovingTriangulation, NO_CELL, Options};

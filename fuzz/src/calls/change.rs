@@ -200,7 +200,7 @@ impl History<'_> {
     }
 
     /// The model after a commit, and what the report must say.
-    fn committed(&mut self, after: Vec<Option<Place>>, report: &deldrift_commit_report) {
+    pub(super) fn committed(&mut self, after: Vec<Option<Place>>, report: &deldrift_commit_report) {
         tally::COMMITS.add(1);
         let pairs = self.m.positions.iter().zip(&after);
         let moved = pairs.filter(|(old, new)| old.is_some() && new.is_some() && old != new).count();

@@ -44,11 +44,11 @@ impl History<'_> {
                 let (fields, count) = if choice == 0 { (null(), 0) } else { (&raw const field, 1) };
                 self.ok(|| c!(deldrift_write_vtu(t, file.as_ptr(), fields, count, null(), 0)));
             }
-            2 | 3 => self.ok(|| c!(deldrift_write_medit(t, file.as_ptr()))),
+            2 | 3 => self.ok(|| c!(deldrift_write_medit(t, file.as_ptr(), null(), 0))),
             4 => {
                 let nowhere = c"/nowhere/of/all/places";
                 self.expect(DELDRIFT_IO_ERROR, || c!(deldrift_save_file(t, nowhere.as_ptr())));
-                self.expect(DELDRIFT_IO_ERROR, || c!(deldrift_write_medit(t, nowhere.as_ptr())));
+                self.expect(DELDRIFT_IO_ERROR, || c!(deldrift_write_medit(t, nowhere.as_ptr(), null(), 0)));
                 assert!(message().contains("nowhere"));
                 return;
             }

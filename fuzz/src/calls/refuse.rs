@@ -173,7 +173,7 @@ impl History<'_> {
             0 => options.struct_size = self.s.pick(&[0, 1, 9, 4097, usize::MAX]),
             1 => options.algorithm = self.s.pick(&[5, 15, 16, 999, 1000, u32::MAX]),
             2 => options.coincidence = 2,
-            _ => options.reserved = self.s.pick(&[1, 7, u32::MAX]),
+            _ => options.passing = self.s.pick(&[3, 7, u32::MAX]),
         }
         let wanted = DELDRIFT_INVALID_OPTIONS;
         self.expect(wanted, || c!(deldrift_create(d, numbers.as_ptr(), 1, &options, &mut created)));
@@ -307,6 +307,8 @@ impl History<'_> {
         if self.m.d == 3 {
             let wanted = DELDRIFT_INVALID_DIMENSION;
             self.expect(wanted, || c!(deldrift_nesting_levels(t, none, 0, &mut count)));
+            self.expect(wanted, || c!(deldrift_check_passings(t)));
+            self.expect(wanted, || c!(deldrift_passings(t, none, none, 0, &mut count)));
             self.expect(wanted, || c!(deldrift_segments(t, none, none, null_mut(), 0, &mut count)));
             self.ok(|| c!(deldrift_check_staged(t)));
         }

@@ -1,6 +1,7 @@
 //! Segments, compared with a model of them: what is in their way by all pairs, in exact arithmetic; and what they divide.
 
 use super::super::exact_oracle::{Tally, exact_sign};
+use super::super::passing_by_roots::passes_by_roots;
 use super::called::{c, note};
 use super::model::{NONE, Place, Row};
 use super::{History, flattened, message};
@@ -16,6 +17,8 @@ use std::ptr::null_mut;
 pub struct Segments {
     /// The ends by id; none where the segment has been removed. Those from `n_laid` on are staged.
     all: Vec<Option<[u32; 2]>>,
+    /// The markers by id.
+    markers: Vec<i32>,
     n_laid: usize,
     leaving: BTreeSet<u32>,
 }
@@ -34,6 +37,7 @@ impl Segments {
 
     pub fn forget_staged(&mut self) {
         self.all.truncate(self.n_laid);
+        self.markers.truncate(self.n_laid);
         self.leaving.clear();
     }
 
@@ -116,12 +120,16 @@ fn status_of(conflicts: &[Conflict]) -> deldrift_status {
 impl History<'_> {
     /// Segments come, go, and are asked about.
     pub(super) fn change_segments(&mut self) {
-        match self.s.below(8) {
+        match self.s.below(9) {
             0..=2 => self.stage_segments(),
             3 => self.stage_segment_removals(),
-            4 => self.check_staged(),
+            4 => {
+                self.check_staged();
+                self.check_passings();
+            }
             5 => self.read_sides(),
             6 => self.read_regions(),
+            7 => self.stage_splits(),
             _ => self.read_chains(),
         }
     }
@@ -139,6 +147,7 @@ impl History<'_> {
         self.ok(|| c!(deldrift_stage_segments(t, ends.as_ptr().cast(), markers.as_ptr(), count, &mut first)));
         assert_eq!(first, first_id, "the id of staged segments");
         self.m.segments.all.extend(ends.into_iter().map(Some));
+        self.m.segments.markers.extend(markers);
         self.check();
         // Most are committed at once, and what is refused is forgotten.
         if self.s.below(4) != 0 {
@@ -177,6 +186,114 @@ impl History<'_> {
         let status = self.call(|| c!(deldrift_check_staged(t)));
         assert!(wanted.contains(&status) || is_free && status == DELDRIFT_OK, "{status:?}: {}", message());
         self.check_conflicts(status, &after, true);
+        self.check();
+    }
+
+    /// The vertices that pass segments, by all pairs.
+    fn check_passings(&mut self) {
+        let t = self.t;
+        if self.m.d != 2 {
+            return self.expect(DELDRIFT_INVALID_DIMENSION, || c!(deldrift_check_passings(t)));
+        }
+        let path = |v: u32| {
+            let from = self.m.at(v).filter(|_| !self.m.leaving.contains(&v))?;
+            Some([from, self.m.staged.get(&v).copied().unwrap_or(from)].map(|p| [p[0], p[1]]))
+        };
+        let mut wanted = Vec::new();
+        for (id, ends) in self.m.segments.laid().filter(|(id, _)| !self.m.segments.leaving.contains(id)) {
+            let [Some(a), Some(b)] = ends.map(path) else { continue };
+            for v in self.m.present().filter(|v| !ends.contains(v)) {
+                if path(v).is_some_and(|p| passes_by_roots(&[p, a, b])) {
+                    wanted.push((id, v));
+                }
+            }
+        }
+        let status = if wanted.is_empty() { DELDRIFT_OK } else { DELDRIFT_PASSES_SEGMENT };
+        self.expect(status, || c!(deldrift_check_passings(t)));
+        let n = wanted.len();
+        let (mut segments, mut vertices, mut count) = (vec![77; n], vec![77; n], 77);
+        let to = [segments.as_mut_ptr(), vertices.as_mut_ptr()];
+        self.is_ok(c!(deldrift_passings(t, to[0], to[1], n, &mut count)));
+        assert_eq!((count, segments.into_iter().zip(vertices).collect::<Vec<_>>()), (n, wanted), "passings");
+        self.check();
+    }
+
+    /// Splits what is in the way of each other, within a limit; most of it is committed, and then compared with what was
+    /// staged before.
+    fn stage_splits(&mut self) {
+        let (t, after) = (self.t, self.m.committed());
+        let limit = self.s.pick(&[0, 1, 5, usize::MAX]);
+        let wanted = self.status_after(&after, true);
+        let conflicts = self.conflicts_after(&after, true);
+        let stays: Vec<Conflict> = conflicts.iter().copied().filter(|conflict| conflict.0 > 1).collect();
+        let mut report = deldrift_split_report { inserted: 77, ..Default::default() };
+        let status = self.call(|| c!(deldrift_stage_splits(t, limit, &mut report)));
+        let has_crossing = conflicts.first().is_some_and(|first| first.0 == 0);
+        let is_right = match status {
+            DELDRIFT_OK => stays.is_empty(),
+            DELDRIFT_CROSSING => stays.is_empty() && has_crossing && limit < usize::MAX,
+            other => other == status_of(&stays) || other == DELDRIFT_COINCIDENT && wanted.contains(&other),
+        };
+        assert!(is_right, "{status:?}: {}, of {conflicts:?}, {limit}", message());
+        if status != DELDRIFT_OK {
+            assert_eq!(report.inserted, 77, "an output of a call that failed");
+            self.check();
+            return;
+        }
+        assert_eq!(report.rounds == 0, conflicts.is_empty(), "{report:?}, {conflicts:?}");
+        assert!(report.inserted <= limit as u64, "{report:?}, {limit}");
+        let first_ids = (report.first_vertex as usize, report.first_piece as usize);
+        assert_eq!(first_ids, (self.m.positions.len(), self.m.segments.all.len()), "first ids");
+        if self.s.below(4) == 0 {
+            self.discard();
+        } else if report.rounds == 0 {
+            self.check();
+        } else {
+            self.commit_splits(after, &report);
+        }
+    }
+
+    /// Commits what has been split, and learns what it is.
+    fn commit_splits(&mut self, mut after: Vec<Option<Place>>, split: &deldrift_split_report) {
+        let t = self.t;
+        let mut report = deldrift_commit_report::default();
+        self.ok(|| c!(deldrift_commit_timestamp(t, &mut report)));
+        for v in split.first_vertex..split.first_vertex + split.inserted as u32 {
+            let mut place = Place::default();
+            self.is_ok(c!(deldrift_position(t, v, place.as_mut_ptr())));
+            assert!(!after.contains(&Some(place)), "a vertex where there is one");
+            self.m.coming.push((v, place));
+            self.m.positions.push(None);
+            after.push(Some(place));
+        }
+        let n = self.m.segments.all.len() + split.pieces as usize;
+        let (mut ids, mut ends, mut count) = (vec![77; n], vec![[77; 2]; n], 77);
+        let to_ends = ends.as_mut_ptr().cast();
+        self.is_ok(c!(deldrift_segments(t, ids.as_mut_ptr(), to_ends, null_mut(), n, &mut count)));
+        let found: Vec<(u32, [u32; 2])> = ids.into_iter().zip(ends).take(count).collect();
+        // Each that is not there is replaced by a chain of pieces, in the order of their ids.
+        let mut pieces = found.iter().filter(|(id, _)| *id >= split.first_piece);
+        for (id, [from, to]) in self.m.segments.coming() {
+            if found.iter().any(|&(other, _)| other == id) {
+                continue;
+            }
+            let (mut at, mut n_pieces) = (from, 0);
+            while at != to {
+                let (_, [start, end]) = *pieces.next().expect("a piece");
+                assert_eq!(start, at, "pieces of {id}");
+                (at, n_pieces) = (end, n_pieces + 1);
+                let segments = &mut self.m.segments;
+                segments.all.push(Some([start, end]));
+                segments.markers.push(segments.markers[id as usize]);
+            }
+            assert!(n_pieces > 1, "pieces of {id}");
+            self.m.segments.all[id as usize] = None;
+            self.m.segments.leaving.remove(&id);
+        }
+        assert_eq!((pieces.count(), self.m.segments.all.len()), (0, n), "pieces");
+        let coming = self.m.segments.coming();
+        assert_eq!((conflicts(&coming, &after), coming), (vec![], found), "what has been split");
+        self.committed(after, &report);
         self.check();
     }
 
@@ -230,7 +347,8 @@ impl History<'_> {
         let (to, to_ends) = (ids.as_mut_ptr(), ends.as_mut_ptr().cast());
         self.is_ok(c!(deldrift_segments(self.t, to, to_ends, markers.as_mut_ptr(), n, &mut count)));
         assert_eq!((count, ids.iter().copied().zip(ends).collect::<Vec<_>>()), (n, wanted), "segments");
-        assert!(ids.iter().zip(markers).all(|(&id, found)| found == marker(id)), "markers");
+        let all = &self.m.segments.markers;
+        assert!(ids.iter().zip(markers).all(|(&id, found)| found == all[id as usize]), "markers");
     }
 
     /// For each cell the segments at its edges, looked for among all.

@@ -29,7 +29,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn try_clone(&self, monitor: Option<Monitor>) -> Result<Self> {
-        let Options { algorithm, threads, coincidence, .. } = self.options;
+        let Options { algorithm, threads, coincidence, passing, .. } = self.options;
         let mut mesh = self.mesh.copied()?;
         mesh.kernel.pace_mut().set_monitor(monitor);
         Ok(MovingTriangulation {
@@ -41,7 +41,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             switching: self.switching.clone(),
             repair: None,
             auto: self.auto.clone(),
-            options: Options { algorithm, threads, coincidence, monitor: None },
+            options: Options { algorithm, threads, coincidence, passing, monitor: None },
             statistics: self.statistics,
             n_moved: self.n_moved,
             foreseen: Default::default(),

@@ -8,6 +8,7 @@ use crate::motion::calls::editing::Edited;
 use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Moves;
+use crate::motion::state::passings::Steps;
 use crate::motion::state::segments::Aim;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::motion::ways::attempt::Start;
@@ -32,8 +33,10 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// # Errors
     /// [`Error::Cancelled`], [`Error::Coincident`] if the options reject that, [`Error::TooManyCells`],
-    /// [`Error::OutOfMemory`].
+    /// [`Error::OutOfMemory`]; [`Error::Conflict`] of segments, and [`Error::Passing`] if the options refuse that, which is
+    /// looked at first.
     pub fn commit_timestamp(&mut self) -> Result<CommitReport> {
+        self.heed_staged_passings()?;
         let mut staging = std::mem::take(&mut self.staging);
         let done = self.commit(&mut staging.moves(self.mesh.n_present));
         if done.is_ok() {
@@ -64,6 +67,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         if let Some(segments) = &mut self.mesh.segments {
             segments.end_staging();
         }
+        if let Some(made) = &mut self.made {
+            made.end_staging();
+        }
         self.statistics.timestamp += 1;
         self.count(report);
         report.timestamp = self.statistics.timestamp;
@@ -82,6 +88,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if self.mesh.segments.is_none() {
             return Ok(());
         }
+        self.heed_staged_passings()?;
         let mut staging = std::mem::take(&mut self.staging);
         let checked = self.check(&mut staging.moves(self.mesh.n_present));
         self.staging = staging;
@@ -138,7 +145,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Err(Error::DuplicateMove { argument: "positions", index: vertex.index(), vertex });
         }
         if self.can_stage_whole(positions.len()) && !positions.is_empty() {
-            return self.commit(&mut Moves::lent(positions));
+            let mut moves = Moves::lent(positions);
+            self.heed_passings(|| Ok(Steps::All(moves.checked()?)))?;
+            return self.commit(&mut moves);
         }
         let before = memory::copy_of(self.edits.insertions())?;
         self.move_all(positions)?;

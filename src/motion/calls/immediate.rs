@@ -8,6 +8,7 @@ use crate::motion::algorithms::{Algorithm, Immediate};
 use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::checking::{check_position, differ};
+use crate::motion::state::passings::Steps;
 use crate::motion::triangulation::{MAX_VERTICES, MovingTriangulation};
 use crate::motion::ways::placement::Placed;
 
@@ -26,7 +27,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// # Errors
     /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::NoSuchVertex`], [`Error::RemovedVertex`];
-    /// [`Error::DuplicateMove`] if a move of the vertex is staged; [`Error::Coincident`] if the options reject that.
+    /// [`Error::DuplicateMove`] if a move of the vertex is staged; [`Error::Coincident`] if the options reject that,
+    /// [`Error::Passing`] if they refuse that.
     #[inline]
     pub fn relocate_vertex(&mut self, vertex: VertexId, position: &G::Point) -> Result<()> {
         if self.relocate_within_tolerance(vertex, position) {
@@ -47,6 +49,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if old == q {
             return Ok(());
         }
+        self.heed_passings(|| Ok(Steps::One(vertex, q)))?;
         self.foreseen.prefetch_next_stars(&self.mesh, vertex);
         let before = self.mesh.evaluations();
         let mut report = CommitReport { moved: 1, ..CommitReport::default() };

@@ -136,6 +136,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         if let Some(segments) = &mut self.mesh.segments {
             segments.discard();
         }
+        if let Some(made) = &mut self.made {
+            made.discard_coming();
+        }
         n
     }
 

@@ -3,49 +3,25 @@
 //! What is to be done is found on a copy of the cells ([`refine`](crate::refine)), and only if a first look at all selected
 //! cells finds something bad. Then vertices, and pieces of segments in the place of these, are staged and committed.
 
+mod checks;
+mod reading;
+mod staging;
+
 use crate::delaunay::Plane;
-use crate::error::{Error, Result};
-use crate::ids::{CellId, SegmentId, VertexId};
+use crate::error::Result;
+use crate::ids::{SegmentId, VertexId};
 use crate::machine::memory;
-use crate::motion::options::{CoarsenOptions, MAX_LEAST_ANGLE, Quality, RefineOptions};
+use crate::motion::options::{CoarsenOptions, Quality, RefineOptions};
 use crate::motion::report::QualityReport;
+use crate::motion::state::looked::Looking;
 use crate::motion::state::made::Origin;
 use crate::motion::state::mesh::Standing;
 use crate::motion::state::segments::Segment;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::refine::{self, Candidate, Criteria, Given, NONE, NOT_SELECTED, Origins, Room, Tests};
-
-/// The cells, and the segments at their edges, as refinement reads them.
-struct Copied {
-    points: Vec<[f64; 2]>,
-    /// Segments by edge, the lower end first; sorted.
-    by_edge: Vec<([VertexId; 2], SegmentId)>,
-    /// Where those of each edge begin, and in the end how many there are.
-    starts: Vec<usize>,
-    /// The ends of each edge, in the direction of its segment of the lowest id.
-    edges: Vec<[VertexId; 2]>,
-    sides: Vec<[u32; 3]>,
-    labels: Vec<u32>,
-    extent: f64,
-}
-
-impl Copied {
-    /// The segments at an edge.
-    fn segments_at(&self, edge: usize) -> &[([VertexId; 2], SegmentId)] {
-        &self.by_edge[self.starts[edge]..self.starts[edge + 1]]
-    }
-
-    fn given<'a>(&'a self, corners: &'a [[VertexId; 3]], neighbours: &'a [[CellId; 3]]) -> Given<'a> {
-        Given {
-            points: &self.points,
-            corners,
-            neighbours,
-            sides: &self.sides,
-            labels: &self.labels,
-            segments: &self.edges,
-        }
-    }
-}
+use crate::refine::{self, Candidate, Criteria, NONE, Origins, Refined, Room, Tests};
+use checks::check_coarsening;
+use reading::Read;
+use staging::SegmentChanges;
 
 impl MovingTriangulation<Plane> {
     /// Inserts vertices, in cells that `mask` selects by numbers other than 0 and on segments at them, until the cells there
@@ -84,22 +60,20 @@ impl MovingTriangulation<Plane> {
         mask: &[u8],
     ) -> Result<QualityReport> {
         self.check_quality(quality, mask)?;
-        let copied = self.copy_for_refinement(quality, mask)?;
+        let mut read = self.read_vertices()?;
         let areas = none_where_zero(quality.areas)?;
-        let mut tests = Tests::new(criteria(quality, &areas), copied.extent);
-        let mut report =
-            QualityReport { bad_cells: self.count_bad(quality, &tests, &copied)?, ..Default::default() };
+        let tests = Tests::new(criteria(quality, &areas), read.extent());
+        self.read_cells(&mut read, &tests, mask, quality.labels, false)?;
+        let mut report = QualityReport { bad_cells: read.bad.len(), ..Default::default() };
         if report.bad_cells == 0 || tests.are_none() {
             self.forget_weights();
             return Ok(report);
         }
-        let sizes = self.sizes_of_ids(quality)?;
-        tests = Tests::new(Criteria { sizes: &sizes, ..criteria(quality, &areas) }, copied.extent);
-        let (ends, of_segments, of_vertices) = self.origins(&copied)?;
-        let cells = self.cells()?;
-        let given = copied.given(cells.corners, cells.neighbours);
-        let origins = Origins { ends: &ends, of_segments: &of_segments, of_vertices: &of_vertices };
-        let refined = refine::refine(&given, tests, origins, options.keeps, options.limit)?;
+        let mut pace = std::mem::take(self.mesh.kernel.pace_mut());
+        pace.begin();
+        let refined = self.find_refined((&mut read, mask, quality), tests, options, &mut || pace.ask_again());
+        *self.mesh.kernel.pace_mut() = pace;
+        let refined = refined?;
         report.inserted = refined.vertices.len();
         report.on_segments = refined.vertices.iter().filter(|(_, segment)| *segment != NONE).count();
         report.unsplit = refined.n_unsplit;
@@ -114,26 +88,40 @@ impl MovingTriangulation<Plane> {
         for &(edge, end) in &refined.split {
             let chain = &refined.chain[start..end];
             for pair in chain.windows(2) {
-                self.replace_at(&copied, edge, [pair[0], pair[1]], &mut changes)?;
+                self.replace_at(&read, edge, [pair[0], pair[1]], &mut changes)?;
             }
-            changes.leave(copied.segments_at(edge as usize))?;
+            changes.leave(read.segments_at(edge as usize))?;
             start = end;
         }
         let mut points = Vec::new();
         memory::collect(&mut points, refined.vertices.iter().map(|&(p, _)| p))?;
         let on = |edge: u32| match edge {
             NONE => SegmentId::NONE,
-            edge => self.origin_of(copied.segments_at(edge as usize)[0].1).segment,
+            edge => self.origin_of(read.segments_at(edge as usize)[0].1).segment,
         };
         let mut on_segments = Vec::new();
         memory::collect(&mut on_segments, refined.vertices.iter().map(|&(_, edge)| on(edge)))?;
         let edges =
-            refined.vertices.iter().map(|&(_, edge)| (edge != NONE).then(|| copied.edges[edge as usize]));
+            refined.vertices.iter().map(|&(_, edge)| (edge != NONE).then(|| read.edges[edge as usize]));
         let weights = if options.has_weights { self.weights_of(&points, edges)? } else { Vec::new() };
         self.commit_quality(&points, &on_segments, &[], changes, &mut report)?;
         let timestamp = self.timestamp();
         self.made.as_mut().expect("it has been made").set_weights(weights, timestamp);
         Ok(report)
+    }
+
+    /// Finds what is to be inserted. `ask` is called now and then, and ends it by an error.
+    fn find_refined(
+        &self,
+        (read, mask, quality): (&mut Read, &[u8], &Quality),
+        tests: Tests,
+        options: &RefineOptions,
+        ask: &mut dyn FnMut() -> Result<()>,
+    ) -> Result<Refined> {
+        let points = std::mem::take(&mut read.points);
+        let given = read.given(self.cells()?, mask, quality.labels);
+        let origins = self.origins(read)?;
+        refine::refine(given, points, &read.bad, tests, origins, (options.keeps, options.limit), ask)
     }
 
     /// Removes vertices that [`refine`](Self::refine) has added and that are not needed any more: those around which the
@@ -156,34 +144,53 @@ impl MovingTriangulation<Plane> {
         self.check_quality(quality, mask)?;
         check_coarsening(options)?;
         let mut report = QualityReport::default();
-        if self.made.as_ref().is_none_or(|made| made.vertices().is_empty()) {
+        let Some(made) = self.made.as_mut().filter(|made| !made.vertices().is_empty()) else {
             return Ok(report);
-        }
-        let copied = self.copy_for_refinement(quality, mask)?;
+        };
+        // After an error nothing is known.
+        let mut looked = std::mem::take(&mut made.looked);
+        let mut read = self.read_vertices()?;
         let areas = none_where_zero(quality.areas)?;
-        let sizes = self.sizes_of_ids(quality)?;
-        let tests = Tests::new(Criteria { sizes: &sizes, ..criteria(quality, &areas) }, copied.extent);
-        let candidates = self.candidates(&copied)?;
+        let tests = Tests::new(criteria(quality, &areas), read.extent());
+        self.read_cells(&mut read, &tests, mask, quality.labels, true)?;
         let cells = self.cells()?;
-        let given = copied.given(cells.corners, cells.neighbours);
+        let asked = asked(quality, options)?;
+        let looking = Looking {
+            asked: &asked,
+            points: &read.points,
+            corners: cells.corners,
+            mask,
+            labels: quality.labels.unwrap_or_default(),
+        };
+        let has_numbers = !asked.is_empty();
+        let known = if has_numbers { looked.known(looking)? } else { Vec::new() };
+        let candidates = self.candidates(&read, options.share, &known)?;
+        let points = memory::copy_of(&read.points)?;
+        let given = read.given(cells, mask, quality.labels);
         let room = Room { angle: options.margin, share: options.share, offset: options.joins };
-        let coarsened = refine::coarsen(&given, tests, room, &candidates)?;
+        let coarsened = refine::coarsen(given, points, tests, room, &read.bad, &candidates)?;
+        let stays = stays(&read, cells.corners, &candidates, &coarsened.able)?;
+        if has_numbers {
+            looked.remember(looking, stays)?;
+        }
+        memory::made(&mut self.made)?.looked = looked;
         report.removed = coarsened.vertices.len();
         if report.removed == 0 {
             return Ok(report);
         }
         let mut changes = SegmentChanges::default();
         for &(edge, ends) in &coarsened.joined {
-            self.replace_at(&copied, edge, ends, &mut changes)?;
+            self.replace_at(&read, edge, ends, &mut changes)?;
         }
         for &edge in &coarsened.replaced {
-            changes.leave(copied.segments_at(edge as usize))?;
+            changes.leave(read.segments_at(edge as usize))?;
         }
         self.commit_quality(&[], &[], &coarsened.vertices, changes, &mut report)?;
         Ok(report)
     }
 
-    /// The segment of which refinement has made this one a piece; the segment itself if it has not.
+    /// The segment of which refinement, or [`stage_splits`](Self::stage_splits), has made this one a piece; the segment itself
+    /// if they have not. From the commit on that makes the piece.
     pub fn original_segment(&self, segment: SegmentId) -> SegmentId {
         self.made.as_ref().and_then(|made| made.origin(segment)).map_or(segment, |origin| origin.segment)
     }
@@ -206,303 +213,100 @@ impl MovingTriangulation<Plane> {
         segments.get(segment).expect("it is in force")
     }
 
-    /// Whether a call can be made with these arguments.
-    fn check_quality(&self, quality: &Quality, mask: &[u8]) -> Result<()> {
-        let segments =
-            self.mesh.segments.as_ref().map_or(0, |s| s.all().len() - s.n_laid() + s.leaving().len());
-        let (moves, (coming, leaving)) = (self.staged_count(), self.staged_edits());
-        if moves + coming + leaving + segments > 0 {
-            return Err(Error::Staged { moves, edits: coming + leaving, segments });
-        }
-        let n = self.cell_count();
-        let lengths = [
-            ("mask", Some(mask.len()), n),
-            ("labels", quality.labels.map(<[u32]>::len), n),
-            ("sizes", quality.sizes.map(<[f64]>::len), self.id_count()),
-        ];
-        for (argument, given, wanted) in lengths {
-            if let Some(given) = given.filter(|&given| given != wanted) {
-                return Err(Error::WrongCount { argument, given, wanted, coming: 0 });
-            }
-        }
-        let value = quality.least_angle;
-        if !(0.0..=MAX_LEAST_ANGLE).contains(&value) {
-            let wanted = "from 0 to 34 degrees";
-            return Err(Error::InvalidValue { argument: "least_angle", index: 0, value, wanted });
-        }
-        check_all("greatest_area", &[quality.greatest_area], |x| x >= 0.0, "0 or more")?;
-        check_all("areas", quality.areas, |x| x >= 0.0, "0 or more")?;
-        let mut sizes = quality.sizes.unwrap_or_default().iter().enumerate();
-        let is_bad = |&(v, &size): &(usize, &f64)| {
-            (size.is_nan() || size <= 0.0) && self.mesh.is_present(VertexId::new(v as u32))
-        };
-        sizes.find(is_bad).map_or(Ok(()), |(index, &value)| {
-            Err(Error::InvalidValue { argument: "sizes", index, value, wanted: "above 0" })
-        })
-    }
-
-    /// Copies what refinement reads, but for the cells themselves, and checks that those selected end at segments.
-    fn copy_for_refinement(&self, quality: &Quality, mask: &[u8]) -> Result<Copied> {
-        let mut points = Vec::new();
-        memory::lengthen(&mut points, self.id_count(), [0.0; 2])?;
-        let (mut lower, mut upper) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for (v, standing) in self.mesh.standings() {
-            let (Standing::Shown(s) | Standing::Hidden(s)) = standing else { continue };
-            points[v] = self.mesh.kernel.site(s).point;
-            for axis in 0..2 {
-                lower[axis] = lower[axis].min(points[v][axis]);
-                upper[axis] = upper[axis].max(points[v][axis]);
-            }
-        }
-        let mut copied = Copied {
-            points,
-            by_edge: Vec::new(),
-            starts: Vec::new(),
-            edges: Vec::new(),
-            sides: Vec::new(),
-            labels: Vec::new(),
-            extent: (upper[0] - lower[0]).max(upper[1] - lower[1]),
-        };
-        self.list_edges(&mut copied)?;
+    /// The original of each edge that is a segment, and those of vertices that have been added.
+    fn origins(&self, read: &Read) -> Result<Origins> {
+        let mut of_edges = Vec::new();
         memory::collect(
-            &mut copied.labels,
-            mask.iter().enumerate().map(|(c, &selected)| match quality.labels {
-                _ if selected == 0 => NOT_SELECTED,
-                Some(labels) => labels[c].min(NOT_SELECTED - 1),
-                None => 0,
-            }),
+            &mut of_edges,
+            (0..read.edges.len()).map(|edge| self.origin_of(read.segments_at(edge)[0].1)),
         )?;
-        self.find_sides(&mut copied, mask)?;
-        Ok(copied)
-    }
-
-    /// Lists the segments by edge.
-    fn list_edges(&self, copied: &mut Copied) -> Result<()> {
-        let shown = |v: VertexId| self.mesh.kernel.site(self.mesh.site_of[v]).id;
-        let Copied { by_edge, starts, edges, .. } = copied;
-        memory::collect(
-            by_edge,
-            self.segments().map(|(id, segment)| {
-                let [v, w] = segment.ends.map(shown);
-                ([v.min(w), v.max(w)], id)
-            }),
-        )?;
-        by_edge.sort_unstable();
-        for k in 0..by_edge.len() {
-            if k == 0 || by_edge[k - 1].0 != by_edge[k].0 {
-                memory::push(starts, k)?;
-                memory::push(edges, self.segment_in_force(by_edge[k].1).ends.map(shown))?;
-            }
-        }
-        memory::push(starts, by_edge.len())
-    }
-
-    /// Finds the segments at the edges of cells.
-    fn find_sides(&self, copied: &mut Copied, mask: &[u8]) -> Result<()> {
-        let cells = self.cells()?;
-        let Copied { by_edge, starts, edges, sides, .. } = copied;
-        // Most edges are none of an end, and are not looked for.
-        let mut is_end = Vec::new();
-        memory::lengthen(&mut is_end, self.id_count(), false)?;
-        edges.iter().flatten().for_each(|&v| is_end[v] = true);
-        memory::reserve_exact(sides, cells.corners.len())?;
-        for (c, row) in cells.corners.iter().enumerate() {
-            let mut found = [NONE; 3];
-            for (i, [j, k]) in [[1, 2], [2, 0], [0, 1]].into_iter().enumerate() {
-                let [v, w] = [row[j], row[k]];
-                if is_end[v] && is_end[w] {
-                    let edge = [v.min(w), v.max(w)];
-                    let at = starts[..edges.len()].binary_search_by_key(&edge, |&start| by_edge[start].0);
-                    found[i] = at.map_or(NONE, |at| at as u32);
-                }
-                let beyond = cells.neighbours[c][i];
-                let ends = beyond == CellId::NONE || mask[beyond.index()] == 0;
-                if mask[c] != 0 && ends && found[i] == NONE {
-                    let wanted =
-                        "0, as the cell has an edge that is no segment and beyond which no cell is selected";
-                    let value = f64::from(mask[c]);
-                    return Err(Error::InvalidValue { argument: "mask", index: c, value, wanted });
-                }
-            }
-            sides.push(found);
-        }
-        Ok(())
-    }
-
-    /// Counts the selected cells that are bad, or have an encroached segment.
-    fn count_bad(&self, quality: &Quality, tests: &Tests, copied: &Copied) -> Result<usize> {
-        let sizes = quality.sizes.unwrap_or_default();
-        let corners = self.cells()?.corners;
-        let is_bad = |c: &usize| {
-            let (row, label) = (corners[*c], copied.labels[*c]);
-            if label == NOT_SELECTED {
-                return false;
-            }
-            let points = row.map(|v| &copied.points[v]);
-            tests.measure(points, label, |i| sizes[row[i]]).flaw.is_some()
-                || copied.sides[*c] != [NONE; 3]
-                    && [[1, 2], [2, 0], [0, 1]].iter().enumerate().any(|(i, &[j, k])| {
-                        copied.sides[*c][i] != NONE && tests.is_in_lens([points[j], points[k]], points[i])
-                    })
-        };
-        Ok((0..corners.len()).filter(is_bad).count())
-    }
-
-    /// The sizes given, which new vertices will follow.
-    fn sizes_of_ids(&self, quality: &Quality) -> Result<Vec<f64>> {
-        memory::copy_of(quality.sizes.unwrap_or_default())
-    }
-
-    /// The original of each edge that is a segment, by its ends, and those of vertices that have been added.
-    #[allow(clippy::type_complexity)]
-    fn origins(&self, copied: &Copied) -> Result<(Vec<[VertexId; 2]>, Vec<u32>, Vec<(VertexId, u32)>)> {
-        let mut origins = Vec::new();
-        memory::collect(
-            &mut origins,
-            (0..copied.edges.len()).map(|edge| {
-                let origin = self.origin_of(copied.segments_at(edge)[0].1);
-                (origin.segment, origin.ends)
-            }),
-        )?;
-        let mut sorted = memory::copy_of(&origins)?;
+        let mut sorted = memory::copy_of(&of_edges)?;
         sorted.sort_unstable();
-        sorted.dedup_by_key(|&mut (segment, _)| segment);
-        let place = |segment: SegmentId| sorted.binary_search_by_key(&segment, |&(other, _)| other).ok();
-        let mut of_segments = Vec::new();
-        memory::collect(
-            &mut of_segments,
-            origins.iter().map(|&(segment, _)| place(segment).expect("it is listed") as u32),
-        )?;
-        let mut of_vertices = Vec::new();
-        memory::collect(
-            &mut of_vertices,
-            self.made_vertices().filter_map(|(v, segment)| Some((v, place(segment)? as u32))),
-        )?;
-        let mut ends = Vec::new();
-        memory::collect(&mut ends, sorted.iter().map(|&(_, ends)| ends))?;
-        Ok((ends, of_segments, of_vertices))
+        sorted.dedup();
+        let place = |origin: &Origin| sorted.binary_search(origin).expect("it is listed") as u32;
+        let mut origins = Origins::default();
+        memory::collect(&mut origins.of_segments, of_edges.iter().map(place))?;
+        // Parts of one segment, between vertices at which others have split it, are originals of their own. A vertex is on
+        // that of the pieces beside it.
+        let made_on = |v: VertexId| self.made.as_ref().and_then(|made| made.is_on(v));
+        for (edge, &ends) in read.edges.iter().enumerate() {
+            for v in ends {
+                let Some(on) = made_on(v) else { continue };
+                if read.segments_at(edge).iter().any(|&(_, id)| self.original_segment(id) == on) {
+                    memory::push(&mut origins.of_vertices, (v, origins.of_segments[edge]))?;
+                }
+            }
+        }
+        memory::collect(&mut origins.ends, sorted.iter().map(|origin| origin.ends))?;
+        Ok(origins)
     }
 
-    /// The vertices that may go.
-    fn candidates(&self, copied: &Copied) -> Result<Vec<Candidate>> {
+    /// The vertices that may go, where cells that come may have this share of the greatest areas, in the order of cells.
+    fn candidates(&self, read: &Read, share: f64, known: &[bool]) -> Result<Vec<Candidate>> {
         let n = self.id_count();
         let (mut before, mut behind) = (Vec::new(), Vec::new());
         memory::lengthen(&mut before, n, NONE)?;
         memory::lengthen(&mut behind, n, NONE)?;
-        for (edge, &[v, w]) in (0..).zip(&copied.edges) {
+        for (edge, &[v, w]) in (0..).zip(&read.edges) {
             before[w] = edge;
             behind[v] = edge;
         }
         let mut candidates = Vec::new();
         for (vertex, on) in self.made_vertices() {
             let Standing::Shown(s) = self.mesh.standing(vertex) else { continue };
-            if self.mesh.is_shared(s) {
-                continue;
-            }
             let pieces = [before[vertex], behind[vertex]];
-            if on == SegmentId::NONE {
-                memory::push(&mut candidates, Candidate { vertex, between: None })?;
-            } else if !pieces.contains(&NONE) && self.are_of_one_origin(copied, pieces) {
-                memory::push(&mut candidates, Candidate { vertex, between: Some(pieces) })?;
+            let (between, may_go) = match pieces {
+                // Also where the program has removed the segment that it was put on.
+                [NONE, NONE] => (None, true),
+                // A segment of the program's own ends there, or one goes through.
+                [NONE, _] | [_, NONE] => (None, false),
+                _ => (Some(pieces), on != SegmentId::NONE && self.are_of_one_origin(read, pieces)),
+            };
+            if may_go && !self.mesh.is_shared(s) {
+                let is_known = between.is_none() && known.get(vertex.index()) == Some(&true);
+                let is_kept = is_known || !read.has_room(vertex, share, between.is_none());
+                memory::push(&mut candidates, Candidate { vertex, between, is_kept })?;
             }
         }
+        read.sort_by_cell(&mut candidates, |candidate| candidate.vertex)?;
         Ok(candidates)
     }
 
     /// Whether the segments at two edges come from the same ones.
-    fn are_of_one_origin(&self, copied: &Copied, edges: [u32; 2]) -> bool {
-        let [one, other] = edges.map(|edge| copied.segments_at(edge as usize));
-        let origin = |&(_, segment): &(_, SegmentId)| self.original_segment(segment);
+    fn are_of_one_origin(&self, read: &Read, edges: [u32; 2]) -> bool {
+        let [one, other] = edges.map(|edge| read.segments_at(edge as usize));
+        let origin = |&(_, segment): &(_, SegmentId)| self.origin_of(segment);
         one.len() == other.len() && one.iter().all(|a| other.iter().any(|b| origin(a) == origin(b)))
     }
-
-    /// Enters a segment between two vertices in the direction of an edge, for each segment at it.
-    fn replace_at(
-        &self,
-        copied: &Copied,
-        edge: u32,
-        [v, w]: [VertexId; 2],
-        changes: &mut SegmentChanges,
-    ) -> Result<()> {
-        let shown = |v: VertexId| self.mesh.kernel.site(self.mesh.site_of[v]).id;
-        let start = copied.edges[edge as usize][0];
-        for &(_, id) in copied.segments_at(edge as usize) {
-            let segment = self.segment_in_force(id);
-            let ends = if shown(segment.ends[0]) == start { [v, w] } else { [w, v] };
-            // A vertex that shares its place stays the end that it was.
-            let ends = ends.map(|v| segment.ends.into_iter().find(|&end| shown(end) == v).unwrap_or(v));
-            let marker = segment.marker;
-            memory::push(&mut changes.coming, (Segment { ends, marker }, self.origin_of(id)))?;
-        }
-        Ok(())
-    }
-
-    /// Makes all changes in a commit, and remembers them.
-    fn commit_quality(
-        &mut self,
-        points: &[[f64; 2]],
-        on_segments: &[SegmentId],
-        removed: &[VertexId],
-        changes: SegmentChanges,
-        report: &mut QualityReport,
-    ) -> Result<()> {
-        memory::made(&mut self.made)?.reserve(points.len(), changes.coming.len())?;
-        let done = self.stage_quality(points, removed, &changes).and_then(|ids| {
-            self.commit_timestamp()?;
-            Ok(ids)
-        });
-        let (first_vertex, first_segment) = match done {
-            Ok(ids) => ids,
-            Err(error) => {
-                self.discard_moves();
-                return Err(error);
-            }
-        };
-        let made = self.made.as_mut().expect("it has been made");
-        for (v, &on) in VertexId::range(first_vertex.index()..self.mesh.site_of.len()).zip(on_segments) {
-            made.enter_vertex(v, on);
-        }
-        let n_coming = changes.coming.len();
-        let ids = SegmentId::range(first_segment.index()..first_segment.index() + n_coming);
-        for (id, &(_, origin)) in ids.zip(&changes.coming) {
-            made.enter_piece(id, origin);
-        }
-        let (mesh, segments) = (&self.mesh, &self.mesh.segments);
-        made.keep(
-            |v| mesh.is_present(v),
-            |piece| segments.as_ref().is_some_and(|segments| segments.get(piece).is_some()),
-        );
-        (report.replaced_segments, report.new_segments) = (changes.leaving.len(), n_coming);
-        Ok(())
-    }
-
-    /// Stages all changes; returns the ids of the first vertex and segment that will come.
-    fn stage_quality(
-        &mut self,
-        points: &[[f64; 2]],
-        removed: &[VertexId],
-        changes: &SegmentChanges,
-    ) -> Result<(VertexId, SegmentId)> {
-        let first_vertex = self.stage_insertions(points)?;
-        self.stage_removals(removed)?;
-        let first_segment = self.stage_segments(changes.coming.iter().map(|&(segment, _)| segment))?;
-        let segments = memory::made(&mut self.mesh.segments)?;
-        changes.leaving.iter().try_for_each(|&segment| segments.stage_removal(segment))?;
-        Ok((first_vertex, first_segment))
-    }
 }
 
-/// Segments that come and go.
-#[derive(Debug, Default)]
-struct SegmentChanges {
-    coming: Vec<(Segment, Origin)>,
-    leaving: Vec<SegmentId>,
+/// The bits of the numbers that are asked for; empty if it is more than numbers.
+fn asked(quality: &Quality, options: &CoarsenOptions) -> Result<Vec<u64>> {
+    let mut asked = Vec::new();
+    if quality.sizes.is_some() || quality.is_too_large.is_some() {
+        return Ok(asked);
+    }
+    let CoarsenOptions { margin, share, joins } = *options;
+    let numbers = [quality.least_angle, quality.greatest_area, margin, share, joins];
+    memory::collect(&mut asked, numbers.iter().chain(quality.areas).map(|x| x.to_bits()))?;
+    Ok(asked)
 }
 
-impl SegmentChanges {
-    fn leave(&mut self, segments: &[([VertexId; 2], SegmentId)]) -> Result<()> {
-        memory::collect(&mut self.leaving, segments.iter().map(|&(_, id)| id))
+/// By vertex, whether it is a candidate on no segment that could not go, and has no cells at segments.
+fn stays(
+    read: &Read,
+    corners: &[[VertexId; 3]],
+    candidates: &[Candidate],
+    able: &[VertexId],
+) -> Result<Vec<bool>> {
+    let mut stays = Vec::new();
+    memory::lengthen(&mut stays, read.points.len(), false)?;
+    for candidate in candidates.iter().filter(|candidate| candidate.between.is_none()) {
+        stays[candidate.vertex] = true;
     }
+    able.iter().for_each(|&v| stays[v] = false);
+    read.corners_at_sides(corners).for_each(|v| stays[v] = false);
+    Ok(stays)
 }
 
 /// The criteria of a quality.
@@ -521,22 +325,4 @@ fn none_where_zero(areas: &[f64]) -> Result<Vec<f64>> {
     let mut bounds = Vec::new();
     memory::collect(&mut bounds, areas.iter().map(|&x| if x == 0.0 { f64::INFINITY } else { x }))?;
     Ok(bounds)
-}
-
-fn check_all(
-    argument: &'static str,
-    values: &[f64],
-    is_good: impl Fn(f64) -> bool,
-    wanted: &'static str,
-) -> Result<()> {
-    match values.iter().position(|&value| !is_good(value)) {
-        Some(index) => Err(Error::InvalidValue { argument, index, value: values[index], wanted }),
-        None => Ok(()),
-    }
-}
-
-fn check_coarsening(options: &CoarsenOptions) -> Result<()> {
-    check_all("margin", &[options.margin], |x| (0.0..=30.0).contains(&x), "from 0 to 30 degrees")?;
-    check_all("share", &[options.share], |x| x > 0.0 && x <= 1.0, "above 0 and up to 1")?;
-    check_all("joins", &[options.joins], |x| (0.0..=1.0).contains(&x), "from 0 to 1")
 }

@@ -73,6 +73,17 @@ impl<'k, G: Dimension> BiCell<'k, G> {
         G::Point::orientation_tolerance(&self.points[..G::D + 1])
     }
 
+    /// Certified lower bound of the distance that the corners of the cell on the first vertex's side may move and leave it
+    /// positively oriented.
+    pub(in crate::motion) fn cell_tolerance(&self) -> f64 {
+        if self.n != G::D + 2 {
+            return self.hull_tolerance();
+        }
+        let mut cell = self.points;
+        cell[..=G::D].rotate_left(1);
+        G::Point::orientation_tolerance(&cell[..=G::D])
+    }
+
     /// Certified lower bound of the tolerance; it need not be sharp if it is `enough`.
     #[inline(always)]
     pub(in crate::motion) fn tolerance(&self, enough: f64) -> f64 {

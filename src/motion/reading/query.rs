@@ -309,7 +309,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// The vertices that `refine` has added and that are there, ascending, each with the segment that it was put
-    /// on, [`SegmentId::NONE`] if there is none.
+    /// on, [`SegmentId::NONE`] if there is none; not those of `stage_splits`.
     pub fn made_vertices(&self) -> impl Iterator<Item = (VertexId, SegmentId)> {
         let all = self.made.iter().flat_map(|made| made.vertices());
         all.copied().filter(|&(v, _)| self.mesh.is_present(v))

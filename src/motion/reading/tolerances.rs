@@ -1,19 +1,30 @@
 //! Tolerances, annulus widths and delimiters, for programs that ask (report, sections 2.2 to 2.4).
 
-use crate::complex::Corners;
-use crate::delaunay::Dimension;
+use crate::complex::{Corners, Facet};
+use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
-use crate::ids::{CellId, VertexId};
+use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
-use crate::motion::filters::bicell::{BiCell, tolerance_around};
+use crate::motion::filters::bicell::BiCell;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::Delimiter;
+
+/// The least of a tolerance and those of a cell's bi-cells, of which some may have a segment for their facet.
+fn tolerance_at<G: Dimension>(kernel: &Delaunay<G>, cell: Slot, tolerance: f64) -> f64 {
+    let is_segment = |i: usize| !kernel.complex().cell(cell).is_ghost() && kernel.is_facet_required(cell, i);
+    (0..G::Corners::N).fold(tolerance, |least, i| {
+        let bicell = BiCell::of(kernel, Facet::new(cell, i));
+        least.min(if is_segment(i) { bicell.cell_tolerance() } else { bicell.tolerance(least) })
+    })
+}
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Tolerance of a vertex at its current position: a certified lower bound of the distance that all vertices may
     /// move without a change of connectivity, as far as the bi-cells of this one go (report, section 2.4). 0 if it
-    /// shares its place with another, or is a corner of a cell at a segment that is no edge of the Delaunay triangulation;
-    /// infinite while there are no cells.
+    /// shares its place with another; infinite while there are no cells.
+    ///
+    /// A bi-cell whose facet is a segment stays as it is while its two cells are positively oriented: each has the tolerance
+    /// of that alone, whatever is beyond the segment.
     ///
     /// ```
     /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
@@ -34,10 +45,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         let mut tolerance = f64::INFINITY;
         let kernel = &self.mesh.kernel;
-        kernel.for_star(s, |c, _| {
-            let is_held = kernel.is_constrained() && (0..G::Corners::N).any(|i| kernel.is_facet_held(c, i));
-            tolerance = if is_held { 0.0 } else { tolerance_around(kernel, c, tolerance) };
-        })?;
+        kernel.for_star(s, |c, _| tolerance = tolerance_at(kernel, c, tolerance))?;
         Ok(tolerance)
     }
 

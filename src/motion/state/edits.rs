@@ -100,6 +100,11 @@ impl<G: Dimension> Edits<G> {
         self.insertions = before;
     }
 
+    /// Takes back all but the first `n` insertions.
+    pub(in crate::motion) fn truncate_insertions(&mut self, n: usize) {
+        self.insertions.truncate(n);
+    }
+
     /// Forgets the insertions; returns their ids, descending.
     pub(in crate::motion) fn forget_insertions(&mut self) -> impl Iterator<Item = VertexId> {
         self.insertions.drain(..).rev().map(|(id, _)| id)

@@ -1,4 +1,7 @@
-//! Vertices that refinement has added, and pieces that it has made of segments: where they come from.
+//! Vertices that refinement has added, and pieces that it, or splitting, has made of segments: where they come from.
+//!
+//! Vertices that splitting has added, where segments cross, are not listed: they are on several originals, and refinement
+//! must not take them away.
 //!
 //! What has been removed since stays listed until the next refinement or coarsening; its ids are not given again.
 
@@ -6,12 +9,20 @@ use crate::error::Result;
 use crate::ids::{SegmentId, VertexId};
 use crate::machine::memory;
 use crate::motion::report::VertexWeights;
+use crate::motion::state::looked::Looked;
 
 /// The segment that a piece was made of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(in crate::motion) struct Origin {
     pub(in crate::motion) segment: SegmentId,
+    /// Its ends, or the nearest vertices at which it was split by others.
     pub(in crate::motion) ends: [VertexId; 2],
+}
+
+/// Where a piece comes from, by a list of them.
+fn origin_in(pieces: &[(SegmentId, Origin)], piece: SegmentId) -> Option<Origin> {
+    let at = pieces.binary_search_by_key(&piece, |&(piece, _)| piece).ok()?;
+    Some(pieces[at].1)
 }
 
 /// What has been made.
@@ -21,10 +32,14 @@ pub(in crate::motion) struct Made {
     vertices: Vec<(VertexId, SegmentId)>,
     /// Ascending.
     pieces: Vec<(SegmentId, Origin)>,
+    /// Those that are staged, ascending, above the others, for which there is room among them.
+    coming: Vec<(SegmentId, Origin)>,
     /// Those of the vertices that the last refinement inserted.
     weights: Vec<VertexWeights>,
     /// The timestamp that it reached.
     refined_at: u64,
+    /// Copies know nothing of it.
+    pub(in crate::motion) looked: Looked,
 }
 
 impl Made {
@@ -33,23 +48,61 @@ impl Made {
         &self.vertices
     }
 
-    /// The pieces, ascending, with where they come from.
-    pub(in crate::motion) fn pieces(&self) -> &[(SegmentId, Origin)] {
-        &self.pieces
+    /// The pieces, ascending, with where they come from; those that are staged are the last.
+    pub(in crate::motion) fn pieces(&self) -> impl Iterator<Item = &(SegmentId, Origin)> {
+        self.pieces.iter().chain(&self.coming)
     }
 
-    /// Those of saved lists, each ascending.
+    /// Those of saved lists, each ascending: pieces from `n_laid` on are staged.
     pub(in crate::motion) fn of_lists(
         vertices: Vec<(VertexId, SegmentId)>,
-        pieces: Vec<(SegmentId, Origin)>,
-    ) -> Self {
-        Made { vertices, pieces, ..Made::default() }
+        mut pieces: Vec<(SegmentId, Origin)>,
+        n_laid: usize,
+    ) -> Result<Self> {
+        let first = pieces.partition_point(|&(piece, _)| piece.index() < n_laid);
+        let mut coming = Vec::new();
+        memory::append(&mut coming, &pieces[first..])?;
+        // Its room stays, for when those are made.
+        pieces.truncate(first);
+        let made = Made { vertices, pieces, coming, ..Made::default() };
+        Ok(made)
+    }
+
+    /// The segment that a vertex is on, if it is listed.
+    pub(in crate::motion) fn is_on(&self, vertex: VertexId) -> Option<SegmentId> {
+        let at = self.vertices.binary_search_by_key(&vertex, |&(vertex, _)| vertex).ok()?;
+        Some(self.vertices[at].1)
     }
 
     /// Where a segment comes from, if it is a piece.
     pub(in crate::motion) fn origin(&self, piece: SegmentId) -> Option<Origin> {
-        let at = self.pieces.binary_search_by_key(&piece, |&(piece, _)| piece).ok()?;
-        Some(self.pieces[at].1)
+        origin_in(&self.pieces, piece)
+    }
+
+    /// Where a segment comes from, if it is a piece, or is staged as one.
+    pub(in crate::motion) fn origin_with_coming(&self, piece: SegmentId) -> Option<Origin> {
+        self.origin(piece).or_else(|| origin_in(&self.coming, piece))
+    }
+
+    /// Makes room for more staged pieces, and for all of them once they are made.
+    pub(in crate::motion) fn reserve_coming(&mut self, n: usize) -> Result<()> {
+        memory::reserve(&mut self.coming, n)?;
+        memory::reserve(&mut self.pieces, self.coming.len() + n)
+    }
+
+    /// Enters a staged piece of a higher id than all others; there is room.
+    pub(in crate::motion) fn enter_coming(&mut self, piece: SegmentId, origin: Origin) {
+        self.coming.push((piece, origin));
+    }
+
+    /// What is staged is forgotten.
+    pub(in crate::motion) fn discard_coming(&mut self) {
+        self.coming.clear();
+    }
+
+    /// What was staged is made. Needs no memory.
+    pub(in crate::motion) fn end_staging(&mut self) {
+        self.pieces.append(&mut self.coming);
     }
 
     /// How values at the vertices that the refinement of a timestamp inserted follow from others, if that was the last one.
@@ -90,12 +143,13 @@ impl Made {
 
     /// A copy.
     pub(in crate::motion) fn copied(&self) -> Result<Self> {
-        Ok(Made {
-            vertices: memory::copy_of(&self.vertices)?,
-            pieces: memory::copy_of(&self.pieces)?,
-            weights: memory::copy_of(&self.weights)?,
-            refined_at: self.refined_at,
-        })
+        let mut copy = Made { vertices: memory::copy_of(&self.vertices)?, ..Made::default() };
+        memory::reserve_exact(&mut copy.pieces, self.pieces.len() + self.coming.len())?;
+        copy.pieces.extend_from_slice(&self.pieces);
+        copy.coming = memory::copy_of(&self.coming)?;
+        copy.weights = memory::copy_of(&self.weights)?;
+        copy.refined_at = self.refined_at;
+        Ok(copy)
     }
 
     /// A copy in which the vertices have other ids, in their order: by the old ones, [`VertexId::NONE`] for those removed.
@@ -104,13 +158,17 @@ impl Made {
         copy.weights = Vec::new();
         copy.vertices.iter_mut().for_each(|(v, _)| *v = ids[*v]);
         copy.vertices.retain(|&(v, _)| v != VertexId::NONE);
-        copy.pieces.iter_mut().for_each(|(_, origin)| {
+        copy.pieces.iter_mut().chain(&mut copy.coming).for_each(|(_, origin)| {
             origin.ends = origin.ends.map(|v| if v == VertexId::NONE { v } else { ids[v] });
         });
         Ok(copy)
     }
 
     pub(in crate::motion) fn memory_bytes(&self) -> usize {
-        memory::bytes_of(&self.vertices) + memory::bytes_of(&self.pieces) + memory::bytes_of(&self.weights)
+        memory::bytes_of(&self.vertices)
+            + memory::bytes_of(&self.pieces)
+            + memory::bytes_of(&self.coming)
+            + memory::bytes_of(&self.weights)
+            + self.looked.memory_bytes()
     }
 }

@@ -12,7 +12,7 @@
 //! `replaced` holds those of the Delaunay triangulation that are not among them.
 
 use crate::delaunay::{Crossing, Delaunay, Dimension, InTheWay, Replaced};
-use crate::error::{Conflict, Error, Result};
+use crate::error::{Conflict, Error, Passing, Result};
 use crate::ids::{SegmentId, SiteId, Slot, VertexId};
 use crate::machine::memory;
 
@@ -48,7 +48,7 @@ impl Aim {
 /// The segments of a mesh.
 #[derive(Debug)]
 pub(in crate::motion) struct Segments<G: Dimension> {
-    /// By id; `None` for those removed. Those that are staged come behind.
+    /// By id; `None` for those removed. Those that are staged come behind; `None` for those that pieces are staged for.
     all: Vec<Option<Segment>>,
     /// How many of them are in force; those behind are staged.
     n_laid: usize,
@@ -61,6 +61,8 @@ pub(in crate::motion) struct Segments<G: Dimension> {
     /// The sites of the ends of each segment, the lower one first, with its id; sorted.
     edges: Vec<([SiteId; 2], SegmentId)>,
     conflicts: Vec<Conflict>,
+    /// The vertices that passed segments in the last step that was looked at.
+    passings: Vec<Passing>,
     /// The edges that a kernel had to have before the change, while it has others.
     before: Option<Vec<[SiteId; 2]>>,
     /// By site: whether it is an end of one of `edges`.
@@ -85,6 +87,7 @@ impl<G: Dimension> Default for Segments<G> {
             crossing: Crossing::default(),
             edges: Vec::new(),
             conflicts: Vec::new(),
+            passings: Vec::new(),
             before: None,
             is_end: Vec::new(),
             seen: Vec::new(),
@@ -144,6 +147,32 @@ impl<G: Dimension> Segments<G> {
     /// Takes the last removals out of what is staged, but for so many.
     pub(in crate::motion) fn truncate_removals(&mut self, n: usize) {
         self.leaving.truncate(n);
+    }
+
+    /// Puts what is staged back to what it was once.
+    pub(in crate::motion) fn restore_staged(&mut self, staged: &[Option<Segment>], leaving: &[SegmentId]) {
+        // There is room, as arrays never shrink.
+        self.all.truncate(self.n_laid);
+        self.all.extend_from_slice(staged);
+        self.leaving.clear();
+        self.leaving.extend_from_slice(leaving);
+    }
+
+    /// Takes a segment out of those that will be in force, and returns it: one that is staged is not there any more.
+    pub(in crate::motion) fn take_out(&mut self, segment: SegmentId) -> Result<Segment> {
+        let entry = &mut self.all[segment];
+        let taken = entry.expect("a segment that is to be in force");
+        if segment.index() < self.n_laid {
+            memory::push(&mut self.leaving, segment)?;
+        } else {
+            *entry = None;
+        }
+        Ok(taken)
+    }
+
+    /// Tells these as the conflicts of the last change.
+    pub(in crate::motion) fn tell(&mut self, conflicts: Vec<Conflict>) {
+        self.conflicts = conflicts;
     }
 
     /// How many removals are staged.
@@ -236,6 +265,16 @@ impl<G: Dimension> Segments<G> {
     /// The conflicts of the last change that had some.
     pub(in crate::motion) fn conflicts(&self) -> &[Conflict] {
         &self.conflicts
+    }
+
+    /// The vertices that passed segments in the last step that was looked at.
+    pub(in crate::motion) fn passings(&self) -> &[Passing] {
+        &self.passings
+    }
+
+    /// A step has been looked at, or has not been, and then there are none.
+    pub(in crate::motion) fn set_passings(&mut self, passings: Vec<Passing>) {
+        self.passings = passings;
     }
 
     /// A change begins: puts back the cells that segments have taken the place of.
@@ -525,5 +564,6 @@ impl<G: Dimension> Segments<G> {
             + memory::bytes_of(&self.seen)
             + memory::bytes_of(&self.missing)
             + memory::bytes_of(&self.conflicts)
+            + memory::bytes_of(&self.passings)
     }
 }

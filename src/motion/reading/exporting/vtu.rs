@@ -25,18 +25,32 @@ pub struct Field<'f> {
 /// What the array of vertex ids is called.
 const VERTEX: &str = "vertex";
 
+/// What the array of the markers of lines is called.
+const MARKER: &str = "marker";
+
+/// VTK's number for a line.
+const LINE: u8 = 3;
+
 impl Field<'_> {
-    /// Checks that fields of vertices, or those of cells, have different names of characters that XML has.
-    pub(crate) fn check_names(argument: &'static str, fields: &[Field<'_>]) -> Result<()> {
+    /// Checks that fields of vertices, or those of cells, have different names of characters that XML has, and not that
+    /// of an array of the file.
+    pub(crate) fn check_names(argument: &'static str, fields: &[Field<'_>], has_lines: bool) -> Result<()> {
         let refuse = |index, wanted| Err(Error::InvalidName { argument, index, wanted });
         let is_odd = |c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}');
         if let Some(index) = fields.iter().position(|field| field.name.contains(is_odd)) {
             return refuse(index, "without control characters, U+FFFE and U+FFFF, which XML does not have");
         }
+        let is_called = |name| fields.iter().position(|field| field.name == name);
         if argument == "vertex_fields"
-            && let Some(index) = fields.iter().position(|field| field.name == VERTEX)
+            && let Some(index) = is_called(VERTEX)
         {
             return refuse(index, "another than \"vertex\", which is that of the ids");
+        }
+        if has_lines
+            && argument == "cell_fields"
+            && let Some(index) = is_called(MARKER)
+        {
+            return refuse(index, "another than \"marker\", which is that of the markers of segments");
         }
         let mut order = Vec::new();
         memory::reserve_exact(&mut order, fields.len())?;
@@ -79,6 +93,7 @@ impl<E, P: FnMut(&[u8]) -> Result<(), E>> Directory<'_, P> {
         ))
     }
 
+    /// Fields of `n` rows.
     fn fields(&mut self, fields: &[Field<'_>], n: usize) -> Result<(), E> {
         fields.iter().try_for_each(|f| self.array("Float64", f.name, f.components, 8 * f.components * n))
     }
@@ -86,7 +101,8 @@ impl<E, P: FnMut(&[u8]) -> Result<(), E>> Directory<'_, P> {
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Hands on the bytes of a `.vtu` file, some thousand at a time. The points have three coordinates, the third being
-    /// 0 in the plane, and their ids as an array `vertex`.
+    /// 0 in the plane, and their ids as an array `vertex`. If there are segments in force, they are lines behind the
+    /// cells: their markers are an array `marker` of cell data, which is 0 for cells, and fields of cells are NaN there.
     ///
     /// # Errors
     /// [`Error::InvalidName`] if a field is called what XML does not have, or as another one; [`Error::WrongCount`] if
@@ -98,8 +114,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         cell_fields: &[Field<'_>],
         put: impl FnMut(&[u8]) -> Result<(), E>,
     ) -> Result<(), E> {
-        Field::check_names("vertex_fields", vertex_fields)?;
-        Field::check_names("cell_fields", cell_fields)?;
+        let n_lines = self.lines().count();
+        Field::check_names("vertex_fields", vertex_fields, n_lines != 0)?;
+        Field::check_names("cell_fields", cell_fields, n_lines != 0)?;
         let (cells, ranks) = (self.cells()?, self.ranks()?);
         let n_coming = self.staged_edits().0;
         let sides = [(vertex_fields, self.id_count(), n_coming), (cell_fields, cells.corners.len(), 0)];
@@ -114,22 +131,30 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
         }
         let mut chunks = Chunks::new(put);
-        self.write_directory(vertex_fields, cell_fields, &mut chunks)?;
         let (n, n_cells) = (self.vertex_count(), cells.corners.len());
+        let written = Written { n, n_cells, n_lines, corners: G::Corners::N };
+        written.directory(vertex_fields, cell_fields, &mut chunks)?;
         let size = |chunks: &mut Chunks<_>, bytes: usize| chunks.write((bytes as u64).to_le_bytes());
         size(&mut chunks, 24 * n)?;
         for v in self.present() {
             chunks.point::<G>(&self.mesh.kernel.site(self.mesh.site_of[v]).point)?;
             (G::D..3).try_for_each(|_| chunks.write(0_f64.to_le_bytes()))?;
         }
-        size(&mut chunks, 8 * G::Corners::N * n_cells)?;
+        size(&mut chunks, 8 * written.n_connected())?;
         for row in cells.corners {
             row.as_ref().iter().try_for_each(|&v| chunks.write(u64::from(rank(&ranks, v)).to_le_bytes()))?;
         }
-        size(&mut chunks, 8 * n_cells)?;
-        (1..=n_cells as u64).try_for_each(|k| chunks.write((k * G::Corners::N as u64).to_le_bytes()))?;
-        size(&mut chunks, n_cells)?;
+        for line in self.lines() {
+            line.ends.iter().try_for_each(|&v| chunks.write(u64::from(rank(&ranks, v)).to_le_bytes()))?;
+        }
+        size(&mut chunks, 8 * (n_cells + n_lines))?;
+        let corners = G::Corners::N as u64;
+        (1..=n_cells as u64).try_for_each(|k| chunks.write((k * corners).to_le_bytes()))?;
+        let end = n_cells as u64 * corners;
+        (1..=n_lines as u64).try_for_each(|k| chunks.write((end + 2 * k).to_le_bytes()))?;
+        size(&mut chunks, n_cells + n_lines)?;
         (0..n_cells).try_for_each(|_| chunks.write([if G::D == 2 { 5 } else { 10 }]))?;
+        (0..n_lines).try_for_each(|_| chunks.write([LINE]))?;
         size(&mut chunks, 4 * n)?;
         self.present().try_for_each(|v| chunks.numbers(&[v.get()]))?;
         for field in vertex_fields {
@@ -139,39 +164,65 @@ impl<G: Dimension> MovingTriangulation<G> {
                 row.iter().try_for_each(|value| chunks.write(value.to_le_bytes()))?;
             }
         }
+        if n_lines != 0 {
+            size(&mut chunks, 4 * (n_cells + n_lines))?;
+            (0..n_cells).try_for_each(|_| chunks.write(0_i32.to_le_bytes()))?;
+            self.lines().try_for_each(|line| chunks.write(line.marker.to_le_bytes()))?;
+        }
         for field in cell_fields {
-            size(&mut chunks, 8 * field.values.len())?;
+            size(&mut chunks, 8 * field.components * (n_cells + n_lines))?;
             field.values.iter().try_for_each(|value| chunks.write(value.to_le_bytes()))?;
+            (0..field.components * n_lines).try_for_each(|_| chunks.write(f64::NAN.to_le_bytes()))?;
         }
         chunks.text(format_args!("\n</AppendedData>\n</VTKFile>\n"))?;
         chunks.end()
     }
+}
+
+/// How many there are of what is written.
+#[derive(Clone, Copy)]
+struct Written {
+    n: usize,
+    n_cells: usize,
+    n_lines: usize,
+    /// Of each cell.
+    corners: usize,
+}
+
+impl Written {
+    /// How many numbers of points say where cells and lines are.
+    fn n_connected(self) -> usize {
+        self.corners * self.n_cells + 2 * self.n_lines
+    }
 
     /// Writes what is before the arrays, in the order in which these follow.
-    fn write_directory<E>(
-        &self,
+    fn directory<E>(
+        self,
         vertex_fields: &[Field<'_>],
         cell_fields: &[Field<'_>],
         chunks: &mut Chunks<impl FnMut(&[u8]) -> Result<(), E>>,
     ) -> Result<(), E> {
-        let (n, n_cells) = (self.vertex_count(), self.cell_count());
+        let (n, all) = (self.n, self.n_cells + self.n_lines);
         let mut directory = Directory { chunks, offset: 0 };
         directory.chunks.text(format_args!(
             "<?xml version=\"1.0\"?>\n\
              <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
-             <UnstructuredGrid>\n<Piece NumberOfPoints=\"{n}\" NumberOfCells=\"{n_cells}\">\n<Points>\n"
+             <UnstructuredGrid>\n<Piece NumberOfPoints=\"{n}\" NumberOfCells=\"{all}\">\n<Points>\n"
         ))?;
         directory.array("Float64", "Points", 3, 24 * n)?;
         directory.chunks.text(format_args!("</Points>\n<Cells>\n"))?;
         // VTK 9.0 wants one type for both, of those that it has for itself.
-        directory.array("Int64", "connectivity", 1, 8 * G::Corners::N * n_cells)?;
-        directory.array("Int64", "offsets", 1, 8 * n_cells)?;
-        directory.array("UInt8", "types", 1, n_cells)?;
+        directory.array("Int64", "connectivity", 1, 8 * self.n_connected())?;
+        directory.array("Int64", "offsets", 1, 8 * all)?;
+        directory.array("UInt8", "types", 1, all)?;
         directory.chunks.text(format_args!("</Cells>\n<PointData>\n"))?;
         directory.array("UInt32", VERTEX, 1, 4 * n)?;
         directory.fields(vertex_fields, n)?;
         directory.chunks.text(format_args!("</PointData>\n<CellData>\n"))?;
-        directory.fields(cell_fields, n_cells)?;
+        if self.n_lines != 0 {
+            directory.array("Int32", MARKER, 1, 4 * all)?;
+        }
+        directory.fields(cell_fields, all)?;
         directory.chunks.text(format_args!(
             "</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_"
         ))

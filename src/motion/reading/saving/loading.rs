@@ -128,7 +128,8 @@ impl Reader<'_> {
             let (piece, segment) = (SegmentId::new(piece), SegmentId::new(segment));
             let ends = [v, w].map(VertexId::new);
             let follows = pieces.last().is_none_or(|&(last, _)| last < piece);
-            let is_piece = segments.get(piece).is_some() && segment.index() < piece.index();
+            let is_there = segments.all().get(piece.index()).is_some_and(Option::is_some);
+            let is_piece = is_there && segment.index() < piece.index();
             let are_known = ends.iter().all(|&v| v == VertexId::NONE || v.index() < n_vertices);
             if !follows || !is_piece || !are_known {
                 return Err(Damage::Segment { segment: piece }.into());
@@ -138,7 +139,7 @@ impl Reader<'_> {
         if vertices.is_empty() && pieces.is_empty() {
             return Ok(None);
         }
-        Ok(Some(memory::boxed(Made::of_lists(vertices, pieces))?))
+        Ok(Some(memory::boxed(Made::of_lists(vertices, pieces, counts.laid)?)?))
     }
 }
 

@@ -123,10 +123,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
     }
 
-    /// The pieces in force that refinement has made, with where they come from.
+    /// The pieces in force, and those that are staged, with where they come from.
     fn pieces_of<'a>(&'a self, segments: &'a Segments<G>) -> impl Iterator<Item = (SegmentId, Origin)> + 'a {
         let all = self.made.iter().flat_map(|made| made.pieces());
-        all.copied().filter(|&(piece, _)| segments.get(piece).is_some())
+        all.copied().filter(|&(piece, _)| segments.all()[piece.index()].is_some())
     }
 
     /// The segments, if there ever was one that was not discarded.

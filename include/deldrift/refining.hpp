@@ -1,0 +1,149 @@
+// The quality of cells that refinement works towards, and what it has made: see deldrift.hpp, which includes this.
+#ifndef DELDRIFT_REFINING_HPP
+#define DELDRIFT_REFINING_HPP
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "span.hpp"
+
+namespace deldrift {
+
+// The corners of a cell of the plane, counter-clockwise.
+using Corners = std::array<std::array<double, 2>, 3>;
+
+class Triangulation;
+
+// What Triangulation::refine and coarsen work towards, and how; deldrift_quality describes each. Without a criterion
+// nothing is done.
+//     deldrift::Quality quality;
+//     quality.least_angle = 30;
+//     quality.is_too_large = [](const deldrift::Corners &corners) { return corners[0][0] < 1 && is_wide(corners); };
+//     t.refine(quality);
+class Quality {
+public:
+    double least_angle = 0, greatest_area = 0;
+    // For each cell, as label_cells() gives them.
+    std::vector<std::int32_t> labels{};
+    // By label.
+    std::vector<double> areas{};
+    // By vertex id; carry(quality.sizes) adds those of new vertices.
+    std::vector<double> sizes{};
+    // What it throws comes out of refine() or coarsen(), which has had no effect then. For that they make a clone first, if
+    // there is such a function. It takes the place of the triangulation then, so that native() is another one.
+    std::function<bool(const Corners &)> is_too_large{};
+    deldrift_kept keeps = DELDRIFT_KEPT_NONE;
+    // Whether refined_weights() and carry() are to know the vertices that refine() inserts.
+    bool has_weights = false;
+    std::size_t limit;
+    double margin, share, joins;
+
+    Quality() : Quality(defaults()) {}
+
+private:
+    explicit Quality(const deldrift_quality &given) noexcept
+        : limit(given.limit), margin(given.margin), share(given.share), joins(given.joins) {}
+    static deldrift_quality defaults() noexcept {
+        deldrift_quality quality;
+        deldrift_quality_init(&quality);
+        return quality;
+    }
+};
+
+// The vertices that refinement has inserted, and the original segment that each was put on, DELDRIFT_NONE if there is
+// none; see deldrift_made_vertices.
+struct MadeVertices {
+    std::vector<std::uint32_t> vertices{};
+    std::vector<std::uint32_t> segments{};
+    std::size_t size() const noexcept { return vertices.size(); }
+    bool empty() const noexcept { return vertices.empty(); }
+};
+
+// For each vertex that the last refinement inserted, three vertices and their weights; see deldrift_refined_weights.
+struct RefinedWeights {
+    std::vector<std::array<std::uint32_t, 3>> vertices{};
+    std::vector<std::array<double, 3>> weights{};
+    std::size_t size() const noexcept { return vertices.size(); }
+    bool empty() const noexcept { return vertices.empty(); }
+
+    // Appends to values, n_values numbers for each id before, those of the vertices that came.
+    void carry(std::vector<double> &values, std::size_t n_values) const {
+        const std::size_t before = values.size();
+        values.resize(before + size() * n_values);
+        for (std::size_t k = 0; k < size(); k++) {
+            for (std::size_t j = 0; j < n_values; j++) {
+                double sum = 0;
+                for (std::size_t i = 0; i < 3; i++) sum += weights[k][i] * values[vertices[k][i] * n_values + j];
+                values[before + k * n_values + j] = sum;
+            }
+        }
+    }
+};
+
+namespace detail {
+
+// A quality as C reads it, and the exception that its function has thrown.
+class GivenQuality {
+    friend Triangulation;
+
+    explicit GivenQuality(const Quality &quality) : quality_(quality) {
+        deldrift_quality_init(&given_);
+        given_.least_angle = quality.least_angle;
+        given_.greatest_area = quality.greatest_area;
+        given_.labels = begin_of(quality.labels);
+        given_.label_count = quality.labels.size();
+        given_.areas = begin_of(quality.areas);
+        given_.area_count = quality.areas.size();
+        given_.sizes = begin_of(quality.sizes);
+        given_.size_count = quality.sizes.size();
+        given_.keeps = quality.keeps;
+        given_.has_weights = quality.has_weights ? 1 : 0;
+        given_.limit = quality.limit;
+        given_.margin = quality.margin;
+        given_.share = quality.share;
+        given_.joins = quality.joins;
+        if (has_function()) {
+            given_.is_too_large = ask;
+            given_.user_data = this;
+        }
+    }
+    const deldrift_quality *get() const noexcept { return &given_; }
+    bool has_function() const noexcept { return static_cast<bool>(quality_.is_too_large); }
+    bool has_thrown() const noexcept { return thrown_ != nullptr; }
+    [[noreturn]] void throw_again() const { std::rethrow_exception(thrown_); }
+    // NULL for none, also where there is room for some.
+    template <class T>
+    static const T *begin_of(const std::vector<T> &values) noexcept {
+        return values.empty() ? nullptr : values.data();
+    }
+    // Once it has thrown it is not asked any more.
+    static bool ask(void *self, const double *corners) noexcept {
+        GivenQuality &given = *static_cast<GivenQuality *>(self);
+        if (given.has_thrown()) return false;
+        try {
+            const double *c = corners;
+            return given.quality_.is_too_large({{{c[0], c[1]}, {c[2], c[3]}, {c[4], c[5]}}});
+        } catch (...) {
+            given.thrown_ = std::current_exception();
+            return false;
+        }
+    }
+
+    GivenQuality(const GivenQuality &) = delete;
+    GivenQuality &operator=(const GivenQuality &) = delete;
+
+    const Quality &quality_;
+    deldrift_quality given_{};
+    std::exception_ptr thrown_{};
+};
+
+}  // namespace detail
+
+}  // namespace deldrift
+
+#endif  // DELDRIFT_REFINING_HPP

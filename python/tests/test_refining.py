@@ -1,0 +1,74 @@
+"""Refinement: areas in fractions, angles, values that are carried over, regions that stay what they are."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import deldrift
+import exact_segments as exact
+
+SQUARE = [[0, 0], [4, 0], [4, 4], [0, 4]]
+HOLE = [[1, 1], [2, 1], [2, 2], [1, 2]]
+SIDES = [[k - k % 4 + i, k - k % 4 + (i + 1) % 4] for k in (0, 4) for i in range(4)]
+
+
+def doubled_areas(points, triangles):
+    places = exact.fractions_of(points)
+    return [exact.cross(*(places[v] for v in row)) for row in triangles.tolist()]
+
+
+def least_angle(points, triangles):
+    corners = points[triangles]
+    least = 180.0
+    for i in range(3):
+        u, w = corners[:, (i + 1) % 3] - corners[:, i], corners[:, (i + 2) % 3] - corners[:, i]
+        angles = np.arctan2(u[:, 0] * w[:, 1] - u[:, 1] * w[:, 0], (u * w).sum(axis=1))
+        least = min(least, np.degrees(angles.min()))
+    return least
+
+
+@pytest.mark.parametrize("copied", [lambda mesh: mesh, deldrift.Mesh.copy, lambda mesh: pickle.loads(pickle.dumps(mesh))])
+def test_a_mesh_has_the_quality_and_keeps_its_regions(copied):
+    mesh = deldrift.Mesh(SQUARE + HOLE, SIDES, range(8), holes=[], regions=[[1.5, 1.5, 5], [3, 3, 7]])
+    linear = mesh.points @ [2.0, -1.0] + 3
+    report = mesh.refine(least_angle=30, areas={5: 0.01, 7: 0.1}, values={"f": linear, "x": mesh.points})
+    assert report.inserted == len(mesh.points) - 8 > 100 and report.bad_cells == 0
+    mesh = copied(mesh)
+    doubled = np.array(doubled_areas(mesh.points, mesh.triangles))
+    for label, most, whole in (5, 0.01, 1), (7, 0.1, 15):
+        assert max(doubled[mesh.labels == label]) <= 2 * most and sum(doubled[mesh.labels == label]) == 2 * whole
+    assert least_angle(mesh.points, mesh.triangles) >= 30 - 1e-9
+    np.testing.assert_allclose(report.values["f"], mesh.points @ [2.0, -1.0] + 3, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(report.values["x"], mesh.points, rtol=0, atol=1e-12)
+    markers = mesh.segments.markers
+    assert len(mesh.delaunay.made_vertices().vertices) == report.inserted
+    assert (mesh.delaunay.original_segments() == markers).all()
+    assert mesh.coarsen(least_angle=20, areas={5: 0.1, 7: 0.5}).removed > 50
+    assert set(mesh.labels) == {5, 7}
+
+
+def test_an_exception_leaves_all_as_it_was():
+    tri = deldrift.Delaunay(SQUARE + HOLE, segments=SIDES)
+    before, left = tri.tobytes(), [20]
+
+    def is_too_large(corners):
+        left[0] -= 1
+        return bool(1 / left[0])
+
+    with pytest.raises(ZeroDivisionError):
+        tri.refine(is_too_large=is_too_large, greatest_area=0.1)
+    assert tri.tobytes() == before and tri.npoints == 8
+    report = tri.refine(is_too_large=lambda corners: np.ptp(corners[:, 0]) > 0.5, sizes=2.0)
+    inside = tri.nesting_levels() % 2 == 1
+    assert report.inserted > 10 and np.ptp(tri.points[tri.simplices[inside]][..., 0], axis=1).max() <= 0.5
+
+
+def test_switches_of_triangle():
+    data = {"vertices": SQUARE + HOLE, "segments": SIDES, "holes": [[1.5, 1.5]], "regions": [[3, 3, 7, 0.05]]}
+    whole = deldrift.Mesh.from_triangle(data, "pq30a0.1")
+    assert max(doubled_areas(whole.points, whole.triangles)) <= 0.2
+    assert sum(doubled_areas(whole.points, whole.triangles)) == 30
+    by_region = deldrift.Mesh.from_triangle(data, "paYY")
+    assert len(by_region.segments.ids) == 8 and len(by_region.triangles) > 100
+    assert len(deldrift.Mesh.from_triangle(data, "pq30a0.1S5").points) == 13

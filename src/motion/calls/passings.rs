@@ -1,0 +1,90 @@
+//! Vertices that pass segments on their way: asked for, told, or refused.
+
+use crate::delaunay::Dimension;
+use crate::error::{Error, Passing, Result};
+use crate::motion::options::PassingPolicy;
+use crate::motion::state::passings::{Steps, find};
+use crate::motion::triangulation::MovingTriangulation;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Whether vertices would pass segments in a commit of what is staged, which stays so; then
+    /// [`passings`](Self::passings) has them.
+    ///
+    /// In a step each vertex goes straight from its old place to its new one, at constant speed, and so do both ends of
+    /// each segment that is in force before and after. A vertex *passes* a segment, of which it is no end, if it goes
+    /// through it and is not back on its side at the end of the step; also if it goes exactly through an end on its way. One
+    /// that is at the place of an end when the step begins or when it ends is on no side of that segment, and does not
+    /// pass it. Exact, at all positions.
+    ///
+    /// ```
+    /// use deldrift::{Error, Plane, VertexId, motion::{MovingTriangulation, Options, Segment}};
+    ///
+    /// let points = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [2.0, 1.0], [2.0, 3.0], [1.0, 2.0]];
+    /// let mut t = MovingTriangulation::<Plane>::new(&points, Options::default())?;
+    /// let slit = Segment { ends: [4, 5].map(VertexId::new), marker: 0 };
+    /// t.stage_segments([slit].into_iter())?;
+    /// t.commit_timestamp()?;
+    /// t.move_vertices(&[VertexId::new(6)], &[[3.0, 2.0]])?;
+    /// assert!(matches!(t.check_passings(), Err(Error::Passing { others: 0, .. })));
+    /// assert_eq!(t.passings()[0].vertex.get(), 6);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Passing`] if one would, [`Error::OutOfMemory`].
+    pub fn check_passings(&mut self) -> Result<()> {
+        let staging = std::mem::take(&mut self.staging);
+        let looked = self.look_for_passings(&Steps::Staged(&staging));
+        self.staging = staging;
+        looked?;
+        self.refuse_passings()
+    }
+
+    /// The vertices that pass segments in the last step that was looked at, ascending by segment and vertex: by
+    /// [`check_passings`](Self::check_passings); or by the last commit, check of what is staged or relocation, which find
+    /// none where the options say that they do not look.
+    pub fn passings(&self) -> &[Passing] {
+        self.mesh.segments.as_ref().map_or(&[], |segments| segments.passings())
+    }
+
+    /// Looks at the staged moves as the options say.
+    pub(in crate::motion) fn heed_staged_passings(&mut self) -> Result<()> {
+        let staging = std::mem::take(&mut self.staging);
+        let heeded = self.heed_passings(|| Ok(Steps::Staged(&staging)));
+        self.staging = staging;
+        heeded
+    }
+
+    /// Looks at a step as the options say, if there are segments; `steps` is asked for where that is so.
+    pub(in crate::motion) fn heed_passings<'a>(
+        &mut self,
+        steps: impl FnOnce() -> Result<Steps<'a, G>>,
+    ) -> Result<()>
+    where
+        G: 'a,
+    {
+        let Some(segments) = &mut self.mesh.segments else { return Ok(()) };
+        if self.options.passing == PassingPolicy::Ignore {
+            segments.set_passings(Vec::new());
+            return Ok(());
+        }
+        self.look_for_passings(&steps()?)?;
+        if self.options.passing == PassingPolicy::Refuse { self.refuse_passings() } else { Ok(()) }
+    }
+
+    fn look_for_passings(&mut self, steps: &Steps<'_, G>) -> Result<()> {
+        let found = find(&self.mesh, &self.edits, steps)?;
+        if let Some(segments) = &mut self.mesh.segments {
+            segments.set_passings(found);
+        }
+        Ok(())
+    }
+
+    /// Tells of the first that passes.
+    fn refuse_passings(&self) -> Result<()> {
+        match self.passings() {
+            [] => Ok(()),
+            [passing, others @ ..] => Err(Error::Passing { passing: *passing, others: others.len() }),
+        }
+    }
+}

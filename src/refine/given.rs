@@ -1,0 +1,45 @@
+//! A triangulation that is to be refined.
+
+use super::parts::{NONE, NOT_SELECTED};
+use crate::ids::{CellId, VertexId};
+
+/// Cells, segments at them, and what is selected of them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Given<'a> {
+    /// The box in which all vertices of cells are.
+    pub lower: [f64; 2],
+    pub upper: [f64; 2],
+    /// Counter-clockwise.
+    pub corners: &'a [[VertexId; 3]],
+    /// Cell across the edge opposite each corner, [`CellId::NONE`] on the hull.
+    pub neighbours: &'a [[CellId; 3]],
+    /// A cell of each vertex, [`NONE`] of those that are in none.
+    pub at: &'a [u32],
+    /// By cell, 0 for those that stay as they are.
+    pub mask: &'a [u8],
+    /// What the program knows each cell by; without them it is 0.
+    pub labels: Option<&'a [u32]>,
+    /// The cells at segments, ascending, with the segment at the edge opposite each corner: its place among `segments`,
+    /// [`NONE`] where there is none.
+    pub sides: &'a [(u32, [u32; 3])],
+    /// Ends of each segment.
+    pub segments: &'a [[VertexId; 2]],
+}
+
+impl Given<'_> {
+    /// The label of a cell, [`NOT_SELECTED`] if it is not to be refined.
+    #[inline(always)]
+    pub(crate) fn label(&self, cell: u32) -> u32 {
+        match self.labels {
+            _ if self.mask[cell as usize] == 0 => NOT_SELECTED,
+            Some(labels) => labels[cell as usize].min(NOT_SELECTED - 1),
+            None => 0,
+        }
+    }
+
+    /// The segments at the edges of a cell.
+    pub(crate) fn sides_of(&self, cell: u32) -> [u32; 3] {
+        let found = self.sides.binary_search_by_key(&cell, |&(cell, _)| cell);
+        found.map_or([NONE; 3], |k| self.sides[k].1)
+    }
+}
