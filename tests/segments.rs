@@ -748,3 +748,35 @@ fn labels_that_nothing_tells_are_undecided() {
     let error = t.labels_of(&[CellId::new(99)], |_| 0, 0).expect_err("no cell");
     assert!(matches!(error, Error::NoSuchCell { index: 0, .. }), "{error}");
 }
+
+/// Vertices on a line have no cells: a call at once that segments refuse has no effect on them either.
+#[test]
+fn calls_at_once_are_refused_on_a_line() {
+    let points = [[0.0, 0.0], [2.0, 0.0], [4.0, 0.0], [2.0, 0.0]];
+    let mut t = Triangulation::new(&points, Options::default()).expect("good points");
+    let [left, middle, right, hidden] = [0, 1, 2, 3].map(VertexId::new);
+    t.stage_segments([Segment { ends: [left, middle], marker: 0 }].into_iter()).expect("present");
+    t.commit_timestamp().expect("nothing is in the way");
+    let before = t.saved().expect("room");
+    let check = |t: &Triangulation, refused: deldrift::Result<()>| {
+        assert!(matches!(refused, Err(Error::Conflict { .. })), "{refused:?}");
+        t.validate(deldrift::motion::Level::Delaunay).expect("valid");
+        assert!(t.saved().expect("room") == before);
+    };
+    let refused = t.remove_vertex(left);
+    check(&t, refused);
+    let refused = t.insert_vertex(&[1.0, 0.0]).map(drop);
+    check(&t, refused);
+    let refused = t.relocate_vertex(right, &[1.0, 0.0]);
+    check(&t, refused);
+    let refused = t.relocate_vertex(left, &[2.0, 0.0]);
+    check(&t, refused);
+    let refused = t.relocate_vertex(hidden, &[1.0, 0.0]);
+    check(&t, refused);
+    let refused = t.relocate_vertex(middle, &[6.0, 0.0]);
+    check(&t, refused);
+    // One beside the line makes cells, and would be accepted; then it goes.
+    let beside = t.insert_vertex(&[1.0, 1.0]).expect("nothing is in the way");
+    t.remove_vertex(beside).expect("no end");
+    t.validate(deldrift::motion::Level::Delaunay).expect("valid");
+}
