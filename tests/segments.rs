@@ -4,7 +4,9 @@
 use crate::common::exact::{Grid, is_inside, orientation, squared_distance};
 use crate::common::inputs::{KINDS, Kind, QUANTUM, draw, draw_one, to_grid};
 use crate::common::{Rng, assert_same_cells, cell_set, check_adjacency, seeds, sorted};
-use deldrift::motion::{Algorithm, Location, MovingTriangulation, NO_CELL, Options, Saved, Segment};
+use deldrift::motion::{
+    Algorithm, CoincidencePolicy, Location, MovingTriangulation, NO_CELL, Options, Saved, Segment,
+};
 use deldrift::{CellId, Conflict, Error, Plane, SegmentId, VertexId};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -779,4 +781,25 @@ fn calls_at_once_are_refused_on_a_line() {
     let beside = t.insert_vertex(&[1.0, 1.0]).expect("nothing is in the way");
     t.remove_vertex(beside).expect("no end");
     t.validate(deldrift::motion::Level::Delaunay).expect("valid");
+}
+
+/// Conflicts are those of the latest change that was refused, and one that is refused for another reason has none.
+#[test]
+fn conflicts_are_those_of_the_latest_refusal() {
+    let points = [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]];
+    let options = Options { coincidence: CoincidencePolicy::Reject, ..Options::default() };
+    let mut t = Triangulation::new(&points, options).expect("good points");
+    let segment = Segment { ends: [VertexId::new(1); 2], marker: 0 };
+    for call in 0..2 {
+        t.stage_segments([segment].into_iter()).expect("present");
+        t.commit_timestamp().expect_err("the ends meet");
+        t.discard_moves();
+        assert_eq!(t.conflicts_of_segments().len(), 1);
+        let refused = match call {
+            0 => t.insert_vertex(&points[2]).map(drop),
+            _ => t.relocate_vertex(VertexId::new(0), &points[2]),
+        };
+        assert!(matches!(refused, Err(Error::Coincident { .. })), "{refused:?}");
+        assert_eq!((t.conflicts_of_segments(), t.id_count()), (&[][..], 3));
+    }
 }
