@@ -29,6 +29,29 @@ std::size_t lay(Context &c) {
     return ends.size() / 2;
 }
 
+/// The hull becomes segments, where these do not conflict.
+void bound(Context &c) {
+    std::size_t count;
+    must(deldrift_hull_facets(c.t, nullptr, nullptr, nullptr, 0, &count));
+    Ids ends(2 * count + 2);
+    must(deldrift_hull_facets(c.t, ends.data(), nullptr, nullptr, count, &count));
+    ends.resize(2 * count);
+    stage(c, ends);
+    must(deldrift_commit_timestamp(c.t, nullptr));
+    c.view();
+    c.meter.reset();
+}
+
+/// With as many new vertices as there are others, at most.
+deldrift_quality quality_of(const Context &c) {
+    deldrift_quality quality;
+    must(deldrift_quality_init(&quality));
+    quality.least_angle = 20;
+    quality.limit = c.n;
+    quality.has_weights = 1;
+    return quality;
+}
+
 /// A call that fills rows of so many numbers, one for each cell or segment, where there are segments.
 template <std::size_t per_entry, typename Number, typename One>
 void fill(Context &c, std::size_t entries, One one) {
@@ -151,6 +174,56 @@ std::vector<Call> segment_calls() {
                  const deldrift_status status =
                      deldrift_label_cells(c.t, seeds.data(), labels.data(), seeds.size() / 2, 0, to, room, count);
                  return status == DELDRIFT_AMBIGUOUS_SEED ? DELDRIFT_OK : status;
+             });
+         }, 2},
+        {"deldrift_update_labels", "one edge in eight, and one cell in eight", [](Context &c) {
+             lay(c);
+             std::vector<std::int32_t> labels(c.cells() + 1);
+             Ids cells;
+             for (std::size_t cell = 0; cell < c.cells(); cell += 8) cells.push_back(std::uint32_t(cell));
+             std::size_t undecided;
+             c.meter.time([&] {
+                 must(deldrift_update_labels(c.t, cells.data(), cells.size(), 0, labels.data(), labels.size(), &undecided));
+             });
+             c.meter.count(double(cells.size()));
+         }, 2},
+        {"deldrift_refine", "all within the hull, until no angle is below 20 degrees, or as many vertices have come", [](Context &c) {
+             bound(c);
+             const deldrift_quality quality = quality_of(c);
+             deldrift_quality_report report{};
+             c.meter.time([&] { deldrift_refine(c.t, &quality, nullptr, 0, &report); });
+             c.meter.count(double(c.n + 2 * c.cells()));
+         }, 2},
+        {"deldrift_coarsen", "all within the hull, with as many vertices that refinement has inserted", [](Context &c) {
+             bound(c);
+             const deldrift_quality quality = quality_of(c);
+             deldrift_refine(c.t, &quality, nullptr, 0, nullptr);
+             deldrift_quality coarser = quality;
+             coarser.least_angle = 5;
+             const std::size_t cells = c.cells();
+             c.meter.reset();
+             c.meter.time([&] { deldrift_coarsen(c.t, &coarser, nullptr, 0, nullptr); });
+             c.meter.count(double(c.n + 2 * cells));
+         }, 2},
+        {"deldrift_made_vertices", "as many as there were", [](Context &c) {
+             bound(c);
+             const deldrift_quality quality = quality_of(c);
+             deldrift_refine(c.t, &quality, nullptr, 0, nullptr);
+             fill<1, std::uint32_t>(c, c.n, [&](std::uint32_t *to, std::size_t room, std::size_t *count) {
+                 return deldrift_made_vertices(c.t, to, nullptr, room, count);
+             });
+         }, 2},
+        {"deldrift_refined_weights", "as many vertices as there were", [](Context &c) {
+             bound(c);
+             const deldrift_quality quality = quality_of(c);
+             deldrift_refine(c.t, &quality, nullptr, 0, nullptr);
+             fill<3, std::uint32_t>(c, c.n, [&](std::uint32_t *to, std::size_t room, std::size_t *count) {
+                 return deldrift_refined_weights(c.t, to, nullptr, room, count);
+             });
+         }, 2},
+        {"deldrift_original_segments", "one edge in eight", [](Context &c) {
+             fill<1, std::uint32_t>(c, lay(c), [&](std::uint32_t *to, std::size_t room, std::size_t *count) {
+                 return deldrift_original_segments(c.t, to, room, count);
              });
          }, 2},
         {"deldrift_boundary_chains", "one edge in eight, and every second cell", [](Context &c) {

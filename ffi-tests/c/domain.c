@@ -281,24 +281,28 @@ static void labels_follow_the_changes(void) {
     static int32_t labels[ROOM], anew[ROOM], old[ROOM];
     const double seeds[] = {2, 2, 0.01, 0.02};
     const int32_t of_seeds[] = {7, 8};
-    size_t n, n_created = 0, n_undecided = 0;
+    size_t n, n_created = 0, n_passed = 0;
     deldrift_changes changes;
     OK(deldrift_take_changes(t, &changes));
     OK(deldrift_label_cells(t, seeds, of_seeds, 2, -1, labels, ROOM, &n));
     for (int step = 1; step <= 300; step++) {
         turn_hole(0.01 * step);
-        OK(deldrift_commit_positions(t, places, COUNT, NULL));
+        OK(deldrift_move_vertices(t, NULL, places, COUNT));
+        const deldrift_status passed = deldrift_check_passings(t);
+        OK(deldrift_commit_timestamp(t, NULL));
         OK(deldrift_take_changes(t, &changes));
         memcpy(old, labels, sizeof old);
         for (size_t k = 0; k < changes.renumbered_count; k++) labels[changes.renumbered_to[k]] = old[changes.renumbered_from[k]];
         size_t undecided = 77;
         OK(deldrift_update_labels(t, changes.created, changes.created_count, -1, labels, ROOM, &undecided));
         n_created += changes.created_count;
-        n_undecided += undecided;
+        n_passed += passed == DELDRIFT_PASSES_SEGMENT;
         OK(deldrift_label_cells(t, seeds, of_seeds, 2, -1, anew, ROOM, &n));
-        CHECK(undecided == 0 && memcmp(labels, anew, n * sizeof *anew) == 0);
+        // Where vertices pass segments, cells may be in another region.
+        CHECK(passed == DELDRIFT_PASSES_SEGMENT || (undecided == 0 && memcmp(labels, anew, n * sizeof *anew) == 0));
+        memcpy(labels, anew, sizeof labels);
     }
-    CHECK(n_created > 1000 && n_undecided == 0);
+    CHECK(n_created > 1000 && n_passed > 10 && n_passed < 150);
     deldrift_destroy(t);
 }
 

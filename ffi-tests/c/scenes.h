@@ -57,7 +57,7 @@ typedef enum { CREATE, RELOCATE, INSERT, REMOVE, MOVE, MOVE_SOME, MOVE_ALL, STAG
     VORONOI_VOLUMES, VORONOI_FACETS, INTERPOLATE, INTERPOLATE_NATURAL,
     NEAREST_VERTICES, VERTICES_IN_BALL, VERTICES_IN_BOX, CONFLICTS, FIND_SIMPLICES, FIND_SIMPLICES_ALL,
     CELL_OF_EACH_VERTEX, BARYCENTRIC, MASK_WITHOUT_FLAT_CELLS, SEGMENTS_OF_CELLS, CELLS_OF_SEGMENTS, NESTING_LEVELS,
-    LABEL_CELLS, BOUNDARY_CHAINS, REFINE, COARSEN, RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT, N_KINDS } kind;
+    LABEL_CELLS, UPDATE_LABELS, BOUNDARY_CHAINS, REFINE, COARSEN, RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
     "deldrift_create", "deldrift_relocate_vertex", "deldrift_insert_vertex", "deldrift_remove_vertex",
@@ -78,7 +78,7 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_nearest_vertices", "deldrift_vertices_in_ball", "deldrift_vertices_in_box", "deldrift_conflicts",
     "deldrift_find_simplices", "deldrift_find_simplices, all", "deldrift_cell_of_each_vertex", "deldrift_barycentric",
     "deldrift_mask_without_flat_cells", "deldrift_segments_of_cells", "deldrift_cells_of_segments",
-    "deldrift_nesting_levels", "deldrift_label_cells", "deldrift_boundary_chains",
+    "deldrift_nesting_levels", "deldrift_label_cells", "deldrift_update_labels", "deldrift_boundary_chains",
     "deldrift_refine", "deldrift_coarsen",
     "deldrift_release_cells", "deldrift_clone", "deldrift_save", "deldrift_load", "deldrift_save_file",
     "deldrift_load_file", "deldrift_write_vtu", "deldrift_write_medit",
@@ -497,6 +497,9 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case CELLS_OF_SEGMENTS: status = deldrift_cells_of_segments(s->t, ids_out, ROOM / 2, &count); break;
         case NESTING_LEVELS: status = deldrift_nesting_levels(s->t, ids_out, ROOM, &count); break;
         case LABEL_CELLS: status = deldrift_label_cells(s->t, at, (int32_t[]){5}, 1, 2, labels, ROOM, &count); break;
+        case UPDATE_LABELS:
+            status = deldrift_update_labels(s->t, numbers, n_cells, 3, labels, ROOM, &count);
+            break;
         case BOUNDARY_CHAINS:
             status = deldrift_boundary_chains(s->t, mask, n_cells, ids_out, more_out, segments_out, chains_out, bytes_out,
                                               ROOM, &count);
@@ -622,6 +625,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
                 *given = mixed(*given, is_cell ? digest_of_cells(s->t, &ids_out[i], 1) : 9);
             }
             break;
+        case UPDATE_LABELS: *given = count; break;
         case LABEL_CELLS:
         case NESTING_LEVELS:
             for (size_t i = 0; i < count; i++) *given += ids_out[i];

@@ -9,7 +9,7 @@
 
 #include <unistd.h>
 
-enum { TOUR_POINTS = 48, TOUR_STEPS = 352, TOUR_ROOM = 1 << 14, TOUR_FILE = 1 << 18 };
+enum { TOUR_POINTS = 48, TOUR_STEPS = 360, TOUR_ROOM = 1 << 14, TOUR_FILE = 1 << 18 };
 
 // What a tour is given.
 typedef struct {
@@ -144,6 +144,8 @@ static void ask_about_segments(const deldrift_triangulation *t, const places *p,
     note(ids, count * 2 * sizeof *ids);
     TRY(deldrift_label_cells(t, p->later, (const int32_t[]){5, -6, 7}, 3, 8, tour_out.labels, TOUR_ROOM, &count));
     note(tour_out.labels, count * sizeof *tour_out.labels);
+    TRY(deldrift_update_labels(t, (const uint32_t[]){0}, n_cells > 0, 8, tour_out.labels, TOUR_ROOM, &count));
+    note(tour_out.labels, n_cells * sizeof *tour_out.labels);
     TRY(deldrift_nesting_levels(t, ids, TOUR_ROOM, &count));
     note(ids, count * sizeof *ids);
     for (size_t k = 0; k < n_cells; k++) bytes[k] = k % 3 == 0 || (p->dimension == 2 && ids[k] == 1);

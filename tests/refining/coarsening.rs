@@ -12,6 +12,7 @@ use std::collections::BTreeSet;
 
 type Row = Vec<VertexId>;
 
+/// Places of the corners of a cell, in any order.
 fn places<'p>(points: &'p [[f64; 2]], row: &Row) -> [&'p [f64; 2]; 3] {
     [&points[row[0].index()], &points[row[1].index()], &points[row[2].index()]]
 }
@@ -31,8 +32,10 @@ fn positions(t: &Triangulation) -> Vec<[f64; 2]> {
 /// Whether a cell fulfils the criteria with room, `slack` more or less of it.
 fn has_room(p: [&[f64; 2]; 3], quality: &Quality, options: &CoarsenOptions, slack: f64) -> bool {
     let bound = quality.greatest_area * options.share;
+    let [a, b, c] = p;
+    let is_large = |bound: f64| has_large_area(p, bound) || has_large_area([a, c, b], bound);
     (quality.least_angle == 0.0 || !has_small_angle(p, quality.least_angle + options.margin + slack))
-        && (bound == 0.0 || !has_large_area(p, bound * (1.0 - slack)))
+        && (bound == 0.0 || !is_large(bound * (1.0 - slack)))
 }
 
 /// The vertices added that are at no segment, and in selected cells alone, none of which is bad, and could clearly go.

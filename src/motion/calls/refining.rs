@@ -105,7 +105,7 @@ impl MovingTriangulation<Plane> {
             refined.vertices.iter().map(|&(_, edge)| (edge != NONE).then(|| read.edges[edge as usize]));
         let weights = if options.has_weights { self.weights_of(&points, edges)? } else { Vec::new() };
         self.commit_quality(&points, &on_segments, &[], changes, &mut report)?;
-        let timestamp = self.timestamp();
+        let timestamp = self.statistics.timestamp;
         self.made.as_mut().expect("it has been made").set_weights(weights, timestamp);
         Ok(report)
     }

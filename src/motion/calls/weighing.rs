@@ -1,10 +1,11 @@
 //! How values at vertices that refinement inserts follow from those that are there.
 
-use crate::delaunay::Plane;
+use crate::complex::INFINITE;
+use crate::delaunay::{Place, Plane};
 use crate::error::Result;
-use crate::ids::VertexId;
+use crate::ids::{Slot, VertexId};
 use crate::machine::memory;
-use crate::motion::reading::query::Location;
+use crate::motion::filters::barycentric::barycentric;
 use crate::motion::report::VertexWeights;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::minus;
@@ -14,7 +15,7 @@ impl MovingTriangulation<Plane> {
     /// follow from those at the vertices before: if [`has_weights`](crate::motion::RefineOptions::has_weights) was set, and
     /// neither a commit nor a compaction has come since. Otherwise empty.
     pub fn refined_weights(&self) -> &[VertexWeights] {
-        self.made.as_ref().map_or(&[], |made| made.weights(self.timestamp()))
+        self.made.as_ref().map_or(&[], |made| made.weights(self.statistics.timestamp))
     }
 
     /// Weights of places that are on an edge of two vertices, or in the closure of a cell.
@@ -25,16 +26,29 @@ impl MovingTriangulation<Plane> {
     ) -> Result<Vec<VertexWeights>> {
         let mut weights = Vec::new();
         memory::reserve_exact(&mut weights, points.len())?;
-        let mut near = None;
+        let kernel = &self.mesh.kernel;
+        let mut near = Slot::NONE;
         for (point, edge) in points.iter().zip(edges) {
             weights.push(match edge {
                 Some(edge) => self.weights_on(edge, point),
-                None => {
-                    let mut found = Location::NoCells;
-                    self.locate_points(std::slice::from_ref(point), near, |location| found = location)?;
-                    near = Some(found);
-                    self.weights_in(found, point)?
-                }
+                None => match kernel.locate(point, near) {
+                    Place::Cell(slot) => {
+                        near = slot;
+                        self.weights_in(slot, point)
+                    }
+                    // One in a cell at a piece that rounding has bent outwards may be beyond the hull, by as much.
+                    Place::Outside(slot) => {
+                        let ends = kernel.complex().cell(slot).corners;
+                        let mut ends =
+                            (0..3).map(|i| ends[i]).filter(|&s| s != INFINITE).map(|s| kernel.site(s).id);
+                        let mut end = || ends.next().expect("an edge of the hull");
+                        self.weights_on([end(), end()], point)
+                    }
+                    Place::Site(s) => {
+                        VertexWeights { vertices: [kernel.site(s).id; 3], weights: [1.0, 0.0, 0.0] }
+                    }
+                    Place::NoCells => unreachable!("cells have been refined"),
+                },
             });
         }
         Ok(weights)
@@ -50,23 +64,12 @@ impl MovingTriangulation<Plane> {
         VertexWeights { vertices: [a, b, a], weights: [1.0 - share, share, 0.0] }
     }
 
-    /// A place that is in a cell. One in a cell at a piece that rounding has bent outwards may be beyond the hull of the
-    /// cells before, by as much: then weights below 0 are 0.
-    fn weights_in(&self, location: Location, point: &[f64; 2]) -> Result<VertexWeights> {
-        let cell = match location {
-            Location::Vertex(v) => return Ok(VertexWeights { vertices: [v; 3], weights: [1.0, 0.0, 0.0] }),
-            Location::Cell(cell) | Location::Outside(cell) => cell,
-            Location::NoCells => unreachable!("cells have been refined"),
-        };
-        let mut weights = [0.0; 3];
-        self.barycentric(std::slice::from_ref(point), &[cell], |row| {
-            weights.copy_from_slice(row.expect("it is a cell"));
-        })?;
-        if matches!(location, Location::Outside(_)) {
-            weights = weights.map(|weight: f64| weight.max(0.0));
-            let sum: f64 = weights.iter().sum();
-            weights = weights.map(|weight| weight / sum);
-        }
-        Ok(VertexWeights { vertices: self.cells()?.corners[cell], weights })
+    /// A place that is in a cell.
+    fn weights_in(&self, slot: Slot, point: &[f64; 2]) -> VertexWeights {
+        let kernel = &self.mesh.kernel;
+        let corners = kernel.complex().cell(slot).corners;
+        let sites = [0, 1, 2].map(|i| corners[i]);
+        let [x, y, z, _] = barycentric(kernel, &sites.map(|s| kernel.place(s)), point);
+        VertexWeights { vertices: sites.map(|s| kernel.site(s).id), weights: [x, y, z] }
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! They know the kernel, and nothing of the triangulation or of the commits that use them.
 
+pub(in crate::motion) mod barycentric;
 pub(in crate::motion) mod bicell;
 pub(in crate::motion) mod margin;
 pub(in crate::motion) mod regions;

@@ -7,9 +7,9 @@
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::CellId;
+use crate::motion::filters::barycentric::barycentric;
 use crate::motion::state::checking::check_position;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::predicates::Measures;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// The barycentric coordinates of each place in the cell of the same index of the list: told to `found`, one for
@@ -60,30 +60,8 @@ impl<G: Dimension> MovingTriangulation<G> {
             for (place, &vertex) in places.iter_mut().zip(corners[cell].as_ref()) {
                 *place = self.mesh.kernel.place(self.mesh.site_of[vertex]);
             }
-            found(Some(&self.weights(&places[..=G::D], q)[..=G::D]));
+            found(Some(&barycentric(&self.mesh.kernel, &places[..=G::D], q)[..=G::D]));
         }
         Ok(())
-    }
-
-    /// The weights of a place in a cell, given by its corners.
-    fn weights(&self, places: &[&G::Point], q: &G::Point) -> [f64; 4] {
-        let filter = self.mesh.kernel.filter_for(q);
-        let whole = G::Point::sharp_volume(places);
-        let mut weights = [0.0; 4];
-        for (i, weight) in weights.iter_mut().enumerate().take(places.len()) {
-            let mut replaced = [q; 4];
-            replaced[..=G::D].copy_from_slice(places);
-            replaced[i] = q;
-            let replaced = &mut replaced[..=G::D];
-            let orientation = G::orient(&filter, replaced);
-            if orientation < 0.0 {
-                replaced.swap(0, 1);
-            }
-            if orientation != 0.0 {
-                let quotient = G::Point::sharp_volume(replaced) / whole;
-                *weight = quotient.max(f64::from_bits(1)).copysign(orientation);
-            }
-        }
-        weights
     }
 }
