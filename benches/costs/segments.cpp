@@ -187,6 +187,11 @@ std::vector<Call> segment_calls() {
              });
              c.meter.count(double(cells.size()));
          }, 2},
+        {"deldrift_quality_init", "", [](Context &c) {
+             deldrift_quality quality;
+             c.meter.time([&] { must(deldrift_quality_init(&quality)); });
+             c.meter.count(1);
+         }, 2},
         {"deldrift_refine", "all within the hull, until no angle is below 20 degrees, or as many vertices have come", [](Context &c) {
              bound(c);
              const deldrift_quality quality = quality_of(c);

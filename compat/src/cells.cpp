@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <utility>
 
 namespace compat {
 
@@ -43,12 +44,12 @@ std::vector<Row> ascending_rows(const Cells &cells, const std::vector<std::uint3
 
 } // namespace
 
-OwnedCells sorted_cells(const Cells &cells) {
+OwnedCells sorted_cells(const Cells &cells, std::vector<std::uint32_t> *order) {
     const unsigned n = cells.n_corners;
     std::vector<Row> rows(cells.count, Row{});
     for (std::size_t c = 0; c < cells.count; c++) {
-        const auto order = corner_order(cells.vertices + c * n, n);
-        for (unsigned i = 0; i < n; i++) rows[c][i] = cells.vertices[c * n + order[i]];
+        const auto corners = corner_order(cells.vertices + c * n, n);
+        for (unsigned i = 0; i < n; i++) rows[c][i] = cells.vertices[c * n + corners[i]];
     }
     std::vector<std::uint32_t> old_index(cells.count), new_index(cells.count);
     std::iota(old_index.begin(), old_index.end(), 0u);
@@ -58,13 +59,14 @@ OwnedCells sorted_cells(const Cells &cells) {
     OwnedCells result{n, std::vector<std::uint32_t>(cells.count * n), std::vector<std::uint32_t>(cells.count * n)};
     for (std::size_t c = 0; c < cells.count; c++) {
         const std::size_t old = old_index[c];
-        const auto order = corner_order(cells.vertices + old * n, n);
+        const auto corners = corner_order(cells.vertices + old * n, n);
         for (unsigned i = 0; i < n; i++) {
-            const std::uint32_t neighbour = cells.neighbours[old * n + order[i]];
+            const std::uint32_t neighbour = cells.neighbours[old * n + corners[i]];
             result.vertices[c * n + i] = rows[old][i];
             result.neighbours[c * n + i] = neighbour == no_cell ? no_cell : new_index[neighbour];
         }
     }
+    if (order != nullptr) *order = std::move(old_index);
     return result;
 }
 

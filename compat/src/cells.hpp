@@ -25,8 +25,8 @@ struct OwnedCells {
 };
 
 // In an order that depends on the vertices alone: corners begin with the lowest (2D) or ascend, the last two exchanged
-// where orientation asks for it (3D); rows ascend.
-OwnedCells sorted_cells(const Cells &cells);
+// where orientation asks for it (3D); rows ascend. order, where not null: for each row the cell that it was.
+OwnedCells sorted_cells(const Cells &cells, std::vector<std::uint32_t> *order = nullptr);
 
 // What one set of cells has that another has not.
 struct Difference {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "matching.hpp"
+#include "representatives.hpp"
 
 namespace compat {
 
@@ -22,6 +23,7 @@ struct Entry {
     Triangulation triangulation;
     unsigned dimension;
     std::size_t n_points;
+    std::vector<std::uint32_t> segments; // two points each
     std::size_t bytes;
 };
 
@@ -43,15 +45,16 @@ Entry take(Store &kept, std::size_t i) {
     return taken;
 }
 
-// Takes the kept triangulation of as many points that is nearest to these, if any is near.
-Entry take_nearest(unsigned dimension, const double *points, std::size_t n_points) {
+// Takes the kept triangulation of as many points, with these segments, that is nearest to these, if any is near.
+Entry take_nearest(unsigned dimension, const double *points, std::size_t n_points,
+                   const std::vector<std::uint32_t> &segments) {
     Store &kept = store();
     const std::lock_guard lock(kept.mutex);
     std::size_t best = kept.entries.size();
     double least = nearness_limit;
     for (std::size_t i = 0; i < kept.entries.size(); i++) {
         const Entry &entry = kept.entries[i];
-        if (entry.dimension != dimension || entry.n_points != n_points) continue;
+        if (entry.dimension != dimension || entry.n_points != n_points || entry.segments != segments) continue;
         const double distance = relative_distance(entry.triangulation.get(), dimension, points, n_points);
         if (distance >= least) continue;
         least = distance;
@@ -60,13 +63,14 @@ Entry take_nearest(unsigned dimension, const double *points, std::size_t n_point
     return best < kept.entries.size() ? take(kept, best) : Entry{};
 }
 
-// Takes the one used last of about as many points.
+// Takes the one used last of about as many points, without segments.
 Entry take_similar(unsigned dimension, std::size_t n_points) {
     Store &kept = store();
     const std::lock_guard lock(kept.mutex);
     for (std::size_t i = kept.entries.size(); i-- > 0;) {
         const Entry &entry = kept.entries[i];
-        if (entry.dimension == dimension && similar_counts(entry.n_points, n_points)) return take(kept, i);
+        const bool is_cloud = entry.dimension == dimension && entry.segments.empty();
+        if (is_cloud && similar_counts(entry.n_points, n_points)) return take(kept, i);
     }
     return {};
 }
@@ -89,18 +93,25 @@ void keep(Entry entry) {
 
 } // namespace
 
-Borrowed::Borrowed(unsigned dimension, const double *points, std::size_t n_points)
-    : dimension_(dimension), n_points_(n_points) {
-    if (n_points >= worth_keeping && (move_kept(points) || edit_kept(points))) return;
+Borrowed::Borrowed(unsigned dimension, const double *points, std::size_t n_points, std::vector<std::uint32_t> segments)
+    : dimension_(dimension), n_points_(n_points), segments_(std::move(segments)) {
+    const bool is_cloud = segments_.empty();
+    const bool is_found = n_points >= worth_keeping && (move_kept(points) || (is_cloud && edit_kept(points)));
+    is_to_be_kept_ = is_cloud || is_found;
+    if (!is_found) build(points);
+}
+
+void Borrowed::build(const double *points) {
     deldrift_triangulation *built = nullptr;
-    status_ = deldrift_create(dimension, points, n_points, nullptr, &built);
+    status_ = deldrift_create(dimension_, points, n_points_, nullptr, &built);
     triangulation_.reset(built);
 }
 
 bool Borrowed::move_kept(const double *points) {
-    Entry entry = take_nearest(dimension_, points, n_points_);
+    Entry entry = take_nearest(dimension_, points, n_points_, segments_);
     if (entry.triangulation == nullptr) return false;
     if (move_to(entry.triangulation.get(), points, n_points_) != Outcome::brought) return false;
+    if (!segments_.empty() && !representatives(entry.triangulation.get(), n_points_).empty()) return false;
     how_ = How::moved;
     triangulation_ = std::move(entry.triangulation);
     return true;
@@ -124,11 +135,11 @@ bool Borrowed::edit_kept(const double *points) {
 }
 
 Borrowed::~Borrowed() {
-    if (triangulation_ == nullptr || n_points_ < worth_keeping) return;
+    if (triangulation_ == nullptr || n_points_ < worth_keeping || !is_to_be_kept_) return;
     try {
         std::size_t bytes = 0;
         deldrift_memory_bytes(triangulation_.get(), &bytes);
-        keep({std::move(triangulation_), dimension_, n_points_, bytes});
+        keep({std::move(triangulation_), dimension_, n_points_, std::move(segments_), bytes});
     } catch (const std::bad_alloc &) {
         // Without memory to keep it, it is destroyed.
     }

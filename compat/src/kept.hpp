@@ -8,7 +8,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include <deldrift.h>
 
@@ -25,7 +27,10 @@ using Triangulation = std::unique_ptr<deldrift_triangulation, Destroy>;
 // kept for other calls, unless it has too few points for that.
 class Borrowed {
 public:
-    Borrowed(unsigned dimension, const double *points, std::size_t n_points);
+    // With segments, two points each, for the plane: where how() is How::moved it has them, with the numbers of their
+    // rows, and no two points share a place. Otherwise it is one of the points alone, and not kept unless the caller
+    // brings the segments in, and says so.
+    Borrowed(unsigned dimension, const double *points, std::size_t n_points, std::vector<std::uint32_t> segments = {});
     Borrowed(const Borrowed &) = delete;
     Borrowed &operator=(const Borrowed &) = delete;
     ~Borrowed();
@@ -34,14 +39,19 @@ public:
     deldrift_status status() const { return status_; }
     const deldrift_triangulation *get() const { return triangulation_.get(); }
     How how() const { return how_; }
+    deldrift_triangulation *change() { return triangulation_.get(); }
+    void has_segments() { is_to_be_kept_ = true; }
 
 private:
+    void build(const double *points);
     bool move_kept(const double *points);
     bool edit_kept(const double *points);
 
     Triangulation triangulation_;
     unsigned dimension_;
     std::size_t n_points_;
+    std::vector<std::uint32_t> segments_;
+    bool is_to_be_kept_ = true;
     How how_ = How::built;
     deldrift_status status_ = DELDRIFT_OK;
 };

@@ -3,12 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <initializer_list>
 #include <mutex>
 #include <new>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cells.hpp"
@@ -16,6 +15,11 @@
 #include "original.hpp"
 #include "representatives.hpp"
 #include "settings.hpp"
+#include "triangle_carving.hpp"
+#include "triangle_graph.hpp"
+#include "triangle_mesh.hpp"
+#include "triangle_original.hpp"
+#include "triangle_refining.hpp"
 #include "triangle_switches.hpp"
 #include "triangle_writer.hpp"
 
@@ -30,12 +34,10 @@ namespace compat {
 namespace {
 
 constexpr char name[] = "triangulate";
-// Where the original returns nothing, its caller expects nothing, so what it leaves may be handed on.
-using Function = int (*)(char *, triangulateio *, triangulateio *, triangulateio *);
+using Function = TriangleFunction;
 Tally tally(name);
 
 constexpr int done = 0, failed = 1;
-constexpr std::uint32_t no_point = UINT32_MAX;
 
 struct Call {
     const char *symbol; // that the function was called by
@@ -58,6 +60,7 @@ bool is_valid(const Call &call, const TriangleSwitches &switches) {
         complain(name, "%s", what);
         return false;
     };
+    if (!switches.wrong.empty()) return reject(switches.wrong.c_str());
     if (call.in == nullptr) return reject("in is NULL");
     if (call.out == nullptr) return reject("out is NULL");
     if (switches.voronoi && call.vorout == nullptr) return reject("vorout is NULL, and switch v needs it");
@@ -70,55 +73,15 @@ bool is_valid(const Call &call, const TriangleSwitches &switches) {
     if (in.numberofpointattributes < 0) return reject("in->numberofpointattributes is negative");
     if (in.numberofpointattributes > 0 && in.pointattributelist == nullptr)
         return reject("in->pointattributelist is NULL");
-    return true;
+    const std::string of_graph = switches.planar_graph ? what_is_wrong_with_graph(in) : "";
+    return of_graph.empty() || reject(of_graph.c_str());
 }
 
-// The cells of the original, with an output of its own.
-class Original {
-public:
-    Original(Function function, const TriangleSwitches &switches, const triangulateio &in) {
-        triangulateio points{};
-        points.pointlist = in.pointlist;
-        points.numberofpoints = in.numberofpoints;
-        std::string plain = switches.for_cells();
-        const double start = processor_time();
-        returned_ = function(plain.data(), &points, &out_, &vorout_);
-        seconds_ = processor_time() - start;
-    }
-    Original(const Original &) = delete;
-    Original &operator=(const Original &) = delete;
-    ~Original() {
-        for (triangulateio *each : {&out_, &vorout_}) {
-            for (double *array : {each->pointlist, each->pointattributelist, each->normlist}) std::free(array);
-            for (int *array : {each->pointmarkerlist, each->trianglelist, each->neighborlist, each->edgelist})
-                std::free(array);
-            for (int *array : {each->edgemarkerlist, each->segmentlist, each->segmentmarkerlist}) std::free(array);
-        }
-    }
-
-    int returned() const { return returned_; }
-    double seconds() const { return seconds_; }
-    // int and uint32_t may be used for the same object, and -1 is no_cell.
-    Cells cells() const {
-        return {3, static_cast<std::size_t>(out_.numberoftriangles),
-                reinterpret_cast<const std::uint32_t *>(out_.trianglelist),
-                reinterpret_cast<const std::uint32_t *>(out_.neighborlist)};
-    }
-
-private:
-    triangulateio out_{}, vorout_{};
-    int returned_ = failed;
-    double seconds_ = 0;
-};
-
-// Writes the cells, sorted if that was asked for. The seconds that writing took.
-double write(const Call &call, const TriangleSwitches &switches, const Cells &cells,
-             const std::vector<std::uint32_t> &representative) {
-    std::optional<OwnedCells> in_order;
-    if (sorted()) in_order = sorted_cells(cells);
+// Writes the mesh, sorted if that was asked for. The seconds that writing took.
+double write(const Call &call, const TriangleSwitches &switches, Mesh mesh) {
+    if (sorted()) sort(mesh);
     const double start = processor_time();
-    write_triangulation(switches, in_order ? in_order->view() : cells, representative, *call.in, *call.out,
-                        call.vorout);
+    write_triangulation(switches, mesh, *call.in, *call.out, call.vorout);
     return processor_time() - start;
 }
 
@@ -128,43 +91,119 @@ void report_difference(const Difference &difference, std::size_t n_cells) {
              difference.first_is_own ? "deldrift" : "the original");
 }
 
-// Serves a call by deldrift, or compares with the original, which then gives the cells and what is returned.
+// A call that is served, from its input to its mesh.
+class Served {
+public:
+    Served(const TriangleSwitches &switches, const triangulateio &in)
+        : in_(with_graph_of(switches, in)), graph_(in_, switches.zero_based),
+          triangulation_(2, in.pointlist, graph_.n_points(), graph_.ends()) {
+        deldrift_cells_view view{};
+        if (triangulation_.status() == DELDRIFT_OK) settle();
+        else message_ = deldrift_last_error();
+        if (!message_.empty()) return;
+        if (deldrift_cells(triangulation_.get(), &view) != DELDRIFT_OK) {
+            message_ = deldrift_last_error();
+            return;
+        }
+        const Cells cells{3, view.count, view.vertices, view.neighbours};
+        if (!switches.has_segments()) mesh_ = plain_mesh(cells);
+        else if (switches.refines && cells.count > 0)
+            message_ = refine(switches, in_, graph_, triangulation_.get(), refined_, mesh_);
+        else mesh_ = carved_mesh(switches, cells);
+    }
+
+    // Why the call cannot be served; empty if it was.
+    const std::string &message() const { return message_; }
+    How how() const { return triangulation_.how(); }
+    std::vector<std::uint32_t> representative() const { return representatives(triangulation_.get(), mesh_.n_points); }
+    Mesh &mesh() { return mesh_; }
+
+private:
+    // Without p the lists are not looked at.
+    static triangulateio with_graph_of(const TriangleSwitches &switches, triangulateio in) {
+        if (!switches.planar_graph) in.numberofsegments = in.numberofholes = in.numberofregions = 0;
+        return in;
+    }
+
+    void settle() {
+        std::size_t n_cells = 0;
+        deldrift_cell_count(triangulation_.get(), &n_cells);
+        if (n_cells == 0) graph_.clear();
+        if (triangulation_.how() != How::moved) message_ = graph_.settle(triangulation_.change());
+        if (message_.empty() && graph_.is_plain()) triangulation_.has_segments();
+    }
+
+    Mesh carved_mesh(const TriangleSwitches &switches, const Cells &cells) const {
+        Carver carver(in_, outline_of(graph_, in_), triangulation_.get(), cells);
+        if (switches.encloses()) carver.enclose();
+        carver.carve(switches);
+        return carver.finish(switches);
+    }
+
+    Mesh plain_mesh(const Cells &cells) const {
+        Mesh mesh;
+        mesh.n_points = graph_.n_points();
+        mesh.n_attributes = static_cast<std::size_t>(in_.numberofpointattributes);
+        mesh.points = in_.pointlist;
+        mesh.attributes = in_.pointattributelist;
+        mesh.cells = cells;
+        if (cells.count == 0) mesh.representative = representatives(triangulation_.get(), mesh.n_points);
+        return mesh;
+    }
+
+    triangulateio in_;
+    Graph graph_;
+    Borrowed triangulation_;
+    Triangulation refined_;
+    Mesh mesh_;
+    std::string message_;
+};
+
+// Of the original: points and attributes are those of the input where it gives none.
+Mesh mesh_of(const TriangleOriginal &original, const TriangleSwitches &switches, const triangulateio &in) {
+    Mesh mesh = original.mesh();
+    if (switches.has_segments()) return mesh;
+    mesh.n_points = static_cast<std::size_t>(in.numberofpoints);
+    mesh.n_attributes = static_cast<std::size_t>(in.numberofpointattributes);
+    mesh.points = in.pointlist;
+    mesh.attributes = in.pointattributelist;
+    return mesh;
+}
+
+// Serves a call by deldrift, or compares with the original, which then gives the mesh and what is returned.
 int serve(const Call &call, const TriangleSwitches &switches, Function compared) {
     const std::size_t n_points = static_cast<std::size_t>(call.in->numberofpoints);
     const double start = processor_time();
-    const Borrowed triangulation(2, call.in->pointlist, n_points);
-    deldrift_cells_view view{};
-    if (triangulation.status() != DELDRIFT_OK || deldrift_cells(triangulation.get(), &view) != DELDRIFT_OK) {
-        complain(name, "%s", deldrift_last_error());
+    Served served(switches, *call.in);
+    if (!served.message().empty()) {
+        complain(name, "%s", served.message().c_str());
         return give_nothing(call);
     }
-    const Cells cells{3, switches.carves_all() ? 0 : view.count, view.vertices, view.neighbours};
-    std::vector<std::uint32_t> representative;
-    if (switches.jettison || compared != nullptr) representative = representatives(triangulation.get(), n_points);
-    // No point is in a triangle any more. Where there were none from the start, nothing has been taken away.
-    if (switches.carves_all() && view.count > 0) representative.assign(n_points, no_point);
     double seconds = processor_time() - start;
+    const std::size_t n_cells = served.mesh().cells.count;
     int returned = done;
     if (compared == nullptr) {
-        seconds += write(call, switches, cells, representative);
+        seconds += write(call, switches, std::move(served.mesh()));
     } else {
-        const Original original(compared, switches, *call.in);
-        const Difference found = difference(cells, original.cells(), representative);
-        if (tally.compared(cells.count, found.count)) report_difference(found, cells.count);
+        const TriangleOriginal original(compared, switches, *call.in);
+        const Difference found = difference(served.mesh().cells, original.cells(), served.representative());
+        if (tally.compared(n_cells, found.count)) report_difference(found, n_cells);
         tally.original_served(original.seconds(), n_points, original.cells().count);
-        seconds += write(call, switches, original.cells(), representative);
+        Mesh mesh = mesh_of(original, switches, *call.in);
+        mesh.representative = std::move(served.mesh().representative);
+        seconds += write(call, switches, std::move(mesh));
         returned = original.returned();
     }
-    tally.served(triangulation.how(), seconds, n_points, cells.count);
+    tally.served(served.how(), seconds, n_points, n_cells);
     return returned;
 }
 
 // By the original, with its own output, or in sorted order.
 int serve_by_original(const Call &call, const TriangleSwitches &switches, Function function) {
     if (sorted() && is_valid(call, switches)) {
-        const Original original(function, switches, *call.in);
+        const TriangleOriginal original(function, switches, *call.in);
         if (original.cells().count > 0) {
-            write(call, switches, original.cells(), {});
+            write(call, switches, mesh_of(original, switches, *call.in));
             tally.original_served(original.seconds(), static_cast<std::size_t>(call.in->numberofpoints),
                                   original.cells().count);
             return original.returned();
@@ -189,7 +228,7 @@ int pass_on(const Call &call, const std::string &unserved, Function original) {
 
 // Empty if deldrift serves the call.
 std::string what_is_unserved(const TriangleSwitches &switches, const triangulateio *in) {
-    if (switches.unserved != '\0') return std::string("switch ") + switches.unserved;
+    if (!switches.unserved.empty()) return switches.unserved;
     const char *of_input = in != nullptr ? switches.unserved_input(*in) : nullptr;
     return of_input != nullptr ? of_input : "";
 }
@@ -205,6 +244,8 @@ int dispatch(const Call &call, const void *caller) {
         static std::once_flag once;
         std::call_once(once, complain, name, "DELDRIFT_COMPAT asks for Triangle, and there is none; deldrift serves");
     }
+    // Refined cells of two libraries are never the same, so there is nothing to compare or to sort.
+    if (switches.refines && original != nullptr) return pass_on(call, "", original);
     if (mode() == Mode::original && original != nullptr) return serve_by_original(call, switches, original);
     return is_valid(call, switches) ? serve(call, switches, original) : give_nothing(call);
 }

@@ -1,51 +1,85 @@
 #include "triangle_switches.hpp"
 
 #include <cctype>
+#include <cstdlib>
 #include <cstring>
+#include <utility>
 
 namespace compat {
 
 // What neither adds to nor takes from the results here: messages (Q, V, C, h, H), files (I, g), the choice of the
-// algorithm (i, F, l), exact arithmetic (X), how segments are inserted (s), limits to the points that refinement adds
-// (Y, S), and what is done with holes and regions (O, A), of which there are none.
-static constexpr char without_effect[] = "QVChHIgiFlXsYSOA";
+// algorithm (i, F, l), and exact arithmetic (X).
+static constexpr char without_effect[] = "QVChHIgiFlX";
+static constexpr double default_angle = 20, greatest_angle = 34;
 
 // Digits, dashes, braces and spaces are passed over by the original as well.
 static bool is_without_effect(char which) {
     return std::strchr(without_effect, which) != nullptr || std::isalpha(static_cast<unsigned char>(which)) == 0;
 }
 
+// The number behind a switch, which each is at; empty if there is none.
+static std::string number_behind(const char *each) {
+    const std::size_t length = std::strspn(each + 1, "0123456789.");
+    return std::string(each + 1, length);
+}
+
+void TriangleSwitches::read_angle(const std::string &number) {
+    refines = true;
+    least_angle = number.empty() ? default_angle : std::strtod(number.c_str(), nullptr);
+    if (!(least_angle <= greatest_angle) && unserved.empty()) unserved = "switch q" + number + " (angles above 34 degrees)";
+}
+
+void TriangleSwitches::read_area(const std::string &number) {
+    refines = true;
+    if (number.empty()) has_region_areas = true;
+    else greatest_area = std::strtod(number.c_str(), nullptr);
+    if (!number.empty() && !(greatest_area > 0)) wrong = "switch a" + number + ": an area above 0 was expected";
+}
+
+void TriangleSwitches::read_order(const std::string &number) {
+    has_middles = number == "2";
+    if (!has_middles && !number.empty() && number != "1" && unserved.empty()) unserved = "switch o" + number;
+}
+
 TriangleSwitches::TriangleSwitches(const char *switches) {
     for (const char *each = switches; *each != '\0'; each++) {
         switch (*each) {
+        case 'q': read_angle(number_behind(each)); break;
+        case 'a': read_area(number_behind(each)); break;
+        case 'o': read_order(number_behind(each)); break;
+        case 'D': refines = conforms = true; break;
+        case 'Y': n_kept++; break;
+        case 'S': limit = std::strtoull(("0" + number_behind(each)).c_str(), nullptr, 10); break;
         case 'z': zero_based = true; break;
         case 'n': neighbours = true; break;
         case 'e': edges = true; break;
         case 'v': voronoi = true; break;
         case 'p': planar_graph = true; break;
         case 'c': convex = true; break;
+        case 'A': regions = true; break;
+        case 'O': holes = false; break;
+        case 's': splits = true; break;
         case 'j': jettison = true; break;
         case 'B': markers = false; break;
         case 'N': points = false; break;
         case 'E': triangles = false; break;
         case 'P': segments = false; break;
         default:
-            if (!is_without_effect(*each) && unserved == '\0') unserved = *each;
+            if (!is_without_effect(*each) && unserved.empty()) unserved = std::string("switch ") + *each;
         }
     }
 }
 
 const char *TriangleSwitches::unserved_input(const triangulateio &in) const {
-    if (!planar_graph) return nullptr;
-    if (in.numberofsegments > 0) return "switch p with segments";
-    if (in.numberofholes > 0) return "switch p with holes";
-    if (in.numberofregions > 0) return "switch p with regions";
-    return nullptr;
+    return planar_graph && splits && in.numberofsegments > 0 ? "switch s with segments" : nullptr;
 }
 
 std::string TriangleSwitches::for_cells() const {
-    const char *graph = !planar_graph ? "" : convex ? "pc" : "p";
-    return std::string("Qzn") + graph + (edges ? "e" : "") + (voronoi ? "v" : "");
+    std::string result = "Qzn";
+    for (const auto &[is_given, which] : {std::pair{planar_graph, 'p'}, {convex, 'c'}, {regions, 'A'}, {!holes, 'O'},
+                                          {edges, 'e'}, {voronoi, 'v'}})
+        if (is_given) result += which;
+    return result;
 }
 
 } // namespace compat

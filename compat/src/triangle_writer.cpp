@@ -13,28 +13,33 @@ namespace {
 
 class Writer {
 public:
-    Writer(const TriangleSwitches &switches, const Cells &cells, const std::vector<std::uint32_t> &representative,
-           const triangulateio &in)
-        : switches_(switches), cells_(cells), in_(in), first_(switches.zero_based ? 0 : 1),
-          n_points_(static_cast<std::size_t>(in.numberofpoints)),
-          n_attributes_(static_cast<std::size_t>(in.numberofpointattributes)) {
-        for (std::size_t i = 0; i < 3 * cells.count; i++) n_hull_ += cells.neighbours[i] == no_cell;
-        n_edges_ = (3 * cells.count + n_hull_) / 2;
+    Writer(const TriangleSwitches &switches, const Mesh &mesh, const triangulateio &in)
+        : switches_(switches), mesh_(mesh), cells_(mesh.cells), in_(in), first_(switches.zero_based ? 0 : 1),
+          n_points_(mesh.n_points), n_attributes_(mesh.n_attributes) {
+        std::size_t n_hull = 0;
+        for (std::size_t i = 0; i < 3 * cells_.count; i++) n_hull += cells_.neighbours[i] == no_cell;
+        n_edges_ = (3 * cells_.count + n_hull) / 2;
+        n_segments_ = mesh.has_segments ? mesh.segments.count() : n_hull;
         n_shown_ = n_points_;
-        if (switches.jettison) leave_out(representative);
+        if (switches.jettison) leave_out(mesh.representative);
+        if (switches.has_middles) n_middles_ = n_edges_;
     }
 
     void allocate(const triangulateio &out, const triangulateio *vorout) {
         if (switches_.points) {
-            points_.allocate(out.pointlist, 2 * n_shown_);
-            if (n_attributes_ > 0) attributes_.allocate(out.pointattributelist, n_shown_ * n_attributes_);
-            if (switches_.markers) markers_.allocate(out.pointmarkerlist, n_shown_);
+            const std::size_t n = n_shown_ + n_middles_;
+            points_.allocate(out.pointlist, 2 * n);
+            if (n_attributes_ > 0) attributes_.allocate(out.pointattributelist, n * n_attributes_);
+            if (switches_.markers) markers_.allocate(out.pointmarkerlist, n);
         }
-        if (switches_.triangles) triangles_.allocate(out.trianglelist, 3 * cells_.count);
+        if (switches_.triangles) {
+            triangles_.allocate(out.trianglelist, n_corners() * cells_.count);
+            if (mesh_.has_cell_attributes) triangle_attributes_.allocate(out.triangleattributelist, cells_.count);
+        }
         if (switches_.neighbours) neighbours_.allocate(out.neighborlist, 3 * cells_.count);
         if (switches_.lists_segments()) {
-            segments_.allocate(out.segmentlist, 2 * n_hull_);
-            if (switches_.markers) segment_markers_.allocate(out.segmentmarkerlist, n_hull_);
+            segments_.allocate(out.segmentlist, 2 * n_segments_);
+            if (switches_.markers) segment_markers_.allocate(out.segmentmarkerlist, n_segments_);
         }
         if (switches_.edges) {
             edges_.allocate(out.edgelist, 2 * n_edges_);
@@ -51,6 +56,9 @@ public:
     void fill() {
         if (triangles_) number(cells_.vertices, triangles_.data());
         if (triangles_ && !number_of_.empty()) renumber(triangles_.data(), 3 * cells_.count);
+        if (triangles_ && switches_.has_middles) add_middles_to_triangles();
+        if (triangle_attributes_)
+            std::copy(mesh_.cell_attributes.begin(), mesh_.cell_attributes.end(), triangle_attributes_.data());
         if (neighbours_) number(cells_.neighbours, neighbours_.data());
         if (segments_) fill_segments();
         if (edges_) fill_edges();
@@ -60,6 +68,7 @@ public:
         }
         // Last, as the caller's array may be that of the input, from which points are left out then.
         if (points_) fill_points();
+        if (points_ && switches_.has_middles) fill_middles();
     }
 
     void hand_over(triangulateio &out, triangulateio *vorout) {
@@ -67,20 +76,22 @@ public:
         attributes_.hand_over(out.pointattributelist);
         markers_.hand_over(out.pointmarkerlist);
         triangles_.hand_over(out.trianglelist);
+        triangle_attributes_.hand_over(out.triangleattributelist);
         neighbours_.hand_over(out.neighborlist);
         edges_.hand_over(out.edgelist);
         edge_markers_.hand_over(out.edgemarkerlist);
         segments_.hand_over(out.segmentlist);
         segment_markers_.hand_over(out.segmentmarkerlist);
-        out.numberofpoints = static_cast<int>(n_shown_);
+        out.numberofpoints = static_cast<int>(n_shown_ + n_middles_);
         out.numberofpointattributes = in_.numberofpointattributes;
         out.numberoftriangles = static_cast<int>(cells_.count);
-        out.numberofcorners = 3;
-        out.numberoftriangleattributes = 0;
+        out.numberofcorners = static_cast<int>(n_corners());
+        out.numberoftriangleattributes = mesh_.has_cell_attributes;
         out.numberofedges = static_cast<int>(n_edges_);
-        out.numberofsegments = static_cast<int>(n_hull_);
+        out.numberofsegments = static_cast<int>(n_segments_);
         if (switches_.lists_segments()) {
-            out.numberofholes = out.numberofregions = 0;
+            out.numberofholes = static_cast<int>(mesh_.n_holes);
+            out.numberofregions = static_cast<int>(mesh_.n_regions);
             out.holelist = switches_.planar_graph ? in_.holelist : nullptr;
             out.regionlist = switches_.planar_graph ? in_.regionlist : nullptr;
         }
@@ -127,7 +138,7 @@ private:
             if (numbers[i] >= 0) numbers[i] += first_;
     }
 
-    const double *position(std::uint32_t vertex) const { return in_.pointlist + std::size_t{2} * vertex; }
+    const double *position(std::uint32_t vertex) const { return mesh_.points + std::size_t{2} * vertex; }
     int numbered(std::uint32_t index) const { return static_cast<int>(index + static_cast<std::uint32_t>(first_)); }
 
     int number_of_point(std::uint32_t vertex) const {
@@ -158,11 +169,16 @@ private:
         return cells_.vertices[std::size_t{3} * cell + (corner + 2) % 3];
     }
 
-    // Vertices of the hull are marked 1, unless the caller has marked them.
     void fill_points() {
-        copy_shown(in_.pointlist, 2, points_.data());
-        if (attributes_) copy_shown(in_.pointattributelist, n_attributes_, attributes_.data());
+        copy_shown(mesh_.points, 2, points_.data());
+        if (attributes_) copy_shown(mesh_.attributes, n_attributes_, attributes_.data());
         if (!markers_) return;
+        if (mesh_.has_segments) copy_shown(mesh_.point_markers.data(), 1, markers_.data());
+        else fill_markers();
+    }
+
+    // Without segments, points of the hull are marked 1, unless the caller has marked them.
+    void fill_markers() {
         if (in_.pointmarkerlist != nullptr) copy_shown(in_.pointmarkerlist, 1, markers_.data());
         else std::fill_n(markers_.data(), n_shown_, 0);
         for (std::size_t c = 0; c < cells_.count; c++) {
@@ -183,56 +199,57 @@ private:
             if (number_of_[i] != left_out) to = std::copy_n(from + i * width, width, to);
     }
 
-    // The edges of the hull, counter-clockwise from the point that is first by x, then by y; the end of each first.
+    std::size_t n_corners() const { return switches_.has_middles ? 6 : 3; }
+
+    // Rows of three become rows of six, from the last one on: behind each the middle of the edge opposite each corner.
+    // Middles have the numbers after those of points, in the order of edges.
+    void add_middles_to_triangles() {
+        for (std::size_t c = cells_.count; c-- > 0;)
+            for (std::size_t i = 3; i-- > 0;) triangles_[6 * c + i] = triangles_[3 * c + i];
+        for_each_edge([&](std::size_t n, std::uint32_t cell, unsigned corner, std::uint32_t neighbour) {
+            if (neighbour < cell) return;
+            const int number = numbered(static_cast<std::uint32_t>(n_shown_ + n));
+            triangles_[std::size_t{6} * cell + 3 + corner] = number;
+            if (neighbour == no_cell) return;
+            unsigned across = 0;
+            while (cells_.neighbours[std::size_t{3} * neighbour + across] != cell ||
+                   edge_start(neighbour, across) != edge_end(cell, corner))
+                across++;
+            triangles_[std::size_t{6} * neighbour + 3 + across] = number;
+        });
+    }
+
+    void fill_middles() {
+        for_each_edge([&](std::size_t n, std::uint32_t cell, unsigned corner, std::uint32_t neighbour) {
+            if (neighbour < cell) return;
+            const std::uint32_t start = edge_start(cell, corner), end = edge_end(cell, corner);
+            const std::size_t row = n_shown_ + n;
+            for (std::size_t axis = 0; axis < 2; axis++)
+                points_[2 * row + axis] = 0.5 * (position(start)[axis] + position(end)[axis]);
+            for (std::size_t k = 0; attributes_ && k < n_attributes_; k++)
+                attributes_[row * n_attributes_ + k] = 0.5 * (attribute(start, k) + attribute(end, k));
+            if (markers_) markers_[row] = edge_marker(cell, corner, neighbour);
+        });
+    }
+
     void fill_segments() {
-        if (n_hull_ == 0) return;
-        HullEdge edge = first_hull_edge();
-        for (std::size_t n = 0; n < n_hull_; n++, edge = next_on_hull(edge)) {
-            segments_[2 * n] = number_of_point(edge_end(edge.cell, edge.corner));
-            segments_[2 * n + 1] = number_of_point(edge_start(edge.cell, edge.corner));
-            if (segment_markers_) segment_markers_[n] = 1;
-        }
-    }
-
-    struct HullEdge {
-        std::uint32_t cell;
-        unsigned corner; // opposite
-    };
-
-    HullEdge first_hull_edge() const {
-        HullEdge first{no_cell, 0};
-        const double *least = nullptr;
-        for (std::uint32_t c = 0; c < cells_.count; c++) {
-            for (unsigned corner = 0; corner < 3; corner++) {
-                if (cells_.neighbours[std::size_t{3} * c + corner] != no_cell) continue;
-                const double *start = position(edge_start(c, corner));
-                if (least != nullptr && !std::lexicographical_compare(start, start + 2, least, least + 2)) continue;
-                least = start;
-                first = {c, corner};
-            }
-        }
-        return first;
-    }
-
-    // Turns around the edge's end, from cell to cell.
-    HullEdge next_on_hull(HullEdge edge) const {
-        const std::uint32_t end = edge_end(edge.cell, edge.corner);
-        edge.corner = (edge.corner + 1) % 3;
-        for (;;) {
-            const std::uint32_t next = cells_.neighbours[std::size_t{3} * edge.cell + edge.corner];
-            if (next == no_cell) return edge;
-            unsigned at = 0;
-            while (cells_.vertices[std::size_t{3} * next + at] != end) at++;
-            edge = {next, (at + 2) % 3};
-        }
+        for (std::size_t i = 0; i < 2 * n_segments_; i++) segments_[i] = number_of_point(mesh_.segments.ends[i]);
+        if (segment_markers_)
+            std::copy(mesh_.segments.markers.begin(), mesh_.segments.markers.end(), segment_markers_.data());
     }
 
     void fill_edges() {
         for_each_edge([&](std::size_t n, std::uint32_t cell, unsigned corner, std::uint32_t neighbour) {
             edges_[2 * n] = number_of_point(edge_start(cell, corner));
             edges_[2 * n + 1] = number_of_point(edge_end(cell, corner));
-            if (edge_markers_) edge_markers_[n] = neighbour == no_cell;
+            if (edge_markers_) edge_markers_[n] = edge_marker(cell, corner, neighbour);
         });
+    }
+
+    int edge_marker(std::uint32_t cell, unsigned corner, std::uint32_t neighbour) const {
+        if (!mesh_.has_segments) return neighbour == no_cell;
+        const std::uint32_t segment = mesh_.segments.at[std::size_t{3} * cell + corner];
+        return segment == no_segment ? 0 : mesh_.segments.markers[segment];
     }
 
     void fill_centres() {
@@ -255,7 +272,7 @@ private:
     }
 
     double attribute(std::uint32_t vertex, std::size_t k) const {
-        return in_.pointattributelist[vertex * n_attributes_ + k];
+        return mesh_.attributes[vertex * n_attributes_ + k];
     }
 
     // Rays go outwards, at a right angle to the edge of the hull.
@@ -273,25 +290,25 @@ private:
     }
 
     const TriangleSwitches &switches_;
+    const Mesh &mesh_;
     const Cells &cells_;
     const triangulateio &in_;
     int first_;
-    std::size_t n_points_, n_attributes_, n_hull_ = 0, n_edges_ = 0, n_shown_ = 0;
+    std::size_t n_points_, n_attributes_, n_segments_ = 0, n_edges_ = 0, n_shown_ = 0, n_middles_ = 0;
     static constexpr int left_out = -1;
     std::vector<int> number_of_; // of each point in the output, or left_out; empty where none is left out
-    MallocArray<double> points_, attributes_, centres_, centre_attributes_, norms_;
+    MallocArray<double> points_, attributes_, centres_, centre_attributes_, norms_, triangle_attributes_;
     MallocArray<int> markers_, triangles_, neighbours_, segments_, segment_markers_;
     MallocArray<int> edges_, edge_markers_, voronoi_edges_;
 };
 
 } // namespace
 
-void write_triangulation(const TriangleSwitches &switches, const Cells &cells,
-                         const std::vector<std::uint32_t> &representative, const triangulateio &in,
+void write_triangulation(const TriangleSwitches &switches, const Mesh &mesh, const triangulateio &in,
                          triangulateio &out, triangulateio *vorout) {
     // The caller may pass one structure as in and out.
     const triangulateio given = in;
-    Writer writer(switches, cells, representative, given);
+    Writer writer(switches, mesh, given);
     writer.allocate(out, vorout);
     writer.fill();
     writer.hand_over(out, vorout);

@@ -69,11 +69,11 @@ void check_name_of_cxx(const Original &original, const Points &points) {
     triangulateio in{}, out{};
     in.pointlist = const_cast<double *>(points.data());
     in.numberofpoints = static_cast<int>(points.size() / 2);
-    char refined[] = "Qzq", plain[] = "Qz";
+    char unserved[] = "Qzu", plain[] = "Qz";
     const int before = *original.cxx_calls;
     *original.returns = 5;
-    CHECK(original.call_triangulate_of_cxx(refined, &in, &out, nullptr) == 5 && *original.cxx_calls == before + 1);
-    original.call_triangulate(refined, &in, &out, nullptr);
+    CHECK(original.call_triangulate_of_cxx(unserved, &in, &out, nullptr) == 5 && *original.cxx_calls == before + 1);
+    original.call_triangulate(unserved, &in, &out, nullptr);
     CHECK(*original.cxx_calls == before + 1);
     for (int *array : {out.trianglelist, out.neighborlist}) std::free(array);
     triangulateio result{};
@@ -85,7 +85,7 @@ void check_name_of_cxx(const Original &original, const Points &points) {
     std::free(result.pointlist);
 }
 
-// With p the lists of the input decide whether a call is passed on.
+// With p the lists of the input are served, but for s with segments.
 void check_lists_of_graph(const Original &original, const Points &points) {
     std::vector<int> segment{0, 1};
     std::vector<double> place{0.5, 0.5, 0, 0};
@@ -98,12 +98,16 @@ void check_lists_of_graph(const Original &original, const Points &points) {
                              &triangulateio::numberofregions}) {
         for (const int n : {0, 1}) {
             in.*count = n;
-            const int before = *original.calls;
-            char switches[] = "QpczNB";
-            triangulateio out{};
-            original.call_triangulate(switches, &in, &out, nullptr);
-            CHECK(*original.calls == before + n);
-            for (int *array : {out.trianglelist, out.neighborlist, out.segmentlist}) std::free(array);
+            for (const char *switches : {"QpczNB", "QpczNBA", "QpsczNB"}) {
+                const int before = *original.calls;
+                std::string text(switches);
+                triangulateio out{};
+                original.call_triangulate(text.data(), &in, &out, nullptr);
+                const bool is_passed_on = in.numberofsegments == 1 && text.find('s') != std::string::npos;
+                CHECK(*original.calls == before + is_passed_on);
+                for (int *array : {out.trianglelist, out.neighborlist, out.segmentlist}) std::free(array);
+                std::free(out.triangleattributelist);
+            }
         }
         in.*count = 0;
     }
@@ -120,7 +124,10 @@ int main(int count, char **arguments) {
     CellSet cells;
     // Own calls come from the original only where it was asked for; others always go to it.
     CHECK(reaches_original(original, "Qzn", points, cells) == !is_default && cells == expected);
-    CHECK(reaches_original(original, "Qzq", points, cells) && cells == expected);
+    CHECK(reaches_original(original, "Qzu", points, cells) && cells == expected);
+    CHECK(reaches_original(original, "Qzq35", points, cells) && cells == expected);
+    // Refined cells are not compared.
+    CHECK(reaches_original(original, "Qzq", points, cells) == !is_default && (cells == expected) == !is_default);
     *original.is_wrong = 1;
     reaches_original(original, "Qzn", points, cells);
     CHECK((cells == expected) == is_default);

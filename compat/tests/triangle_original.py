@@ -29,9 +29,14 @@ COUNTS = [name for name, kind in TriangulateIO._fields_ if kind is ctypes.c_int]
 LISTS = [name for name, kind in TriangulateIO._fields_ if kind is not ctypes.c_int]
 
 
-def call(function, switches, points, attributes, markers):
-    """out and vorout. What the function leaves alone stays 77."""
+def call(function, switches, points, attributes, markers, graph=None):
+    """out and vorout. What the function leaves alone stays 77. graph: further lists of the input, by name."""
     given, out, vorout = TriangulateIO(), TriangulateIO(), TriangulateIO()
+    for name, array in (graph or {}).items():
+        setattr(given, name, array.ctypes.data_as(INTS if array.dtype == numpy.intc else REALS))
+    for name, count in (("segmentlist", "numberofsegments"), ("holelist", "numberofholes"),
+                        ("regionlist", "numberofregions")):
+        setattr(given, count, len((graph or {}).get(name, ())))
     given.pointlist = points.ctypes.data_as(REALS)
     given.pointattributelist = attributes.ctypes.data_as(REALS)
     given.pointmarkerlist = markers.ctypes.data_as(INTS)
@@ -47,9 +52,9 @@ def rows(pointer, count, width):
     return numpy.ctypeslib.as_array(pointer, (count, width)) if pointer and count > 0 else numpy.zeros((0, width))
 
 
-def by_triangle(out, vorout, first):
+def by_triangle(out, vorout, first, rename=lambda points: points):
     """For each triangle its orientation, neighbours by the corner opposite, and circumcentre with attributes."""
-    corners = rows(out.trianglelist, out.numberoftriangles, 3)
+    corners = rename(rows(out.trianglelist, out.numberoftriangles, 3))
     names = [tuple(sorted(row)) for row in corners.tolist()]
     neighbours = rows(out.neighborlist, out.numberoftriangles, 3).tolist()
     exact, rounded = {}, {}
@@ -67,9 +72,9 @@ def by_triangle(out, vorout, first):
     return names, exact, rounded
 
 
-def by_edge(out, vorout, names, first):
+def by_edge(out, vorout, names, first, rename=lambda points: points):
     """For each edge its marker, the triangles at its sides, and the ray. Triangle's edges go either way."""
-    edges = rows(out.edgelist, out.numberofedges, 2).tolist()
+    edges = rename(rows(out.edgelist, out.numberofedges, 2)).tolist()
     markers = rows(out.edgemarkerlist, out.numberofedges, 1).tolist()
     ends = rows(vorout.edgelist, vorout.numberofedges, 2).tolist()
     norms = rows(vorout.normlist, vorout.numberofedges, 2).tolist()
@@ -149,4 +154,5 @@ def main(library):
     print(f"{n_calls} calls, of every list no difference")
 
 
-main(sys.argv[1])
+if __name__ == "__main__":
+    main(sys.argv[1])

@@ -98,7 +98,7 @@ pub(crate) fn coarsen(
     let mut waiting = coarsening.pass(candidates, &mut able)?;
     while !waiting.is_empty() {
         able = coarsening.list_able(&waiting)?;
-        waiting = coarsening.pass(&waiting, &mut able)?;
+        waiting = coarsening.pass(candidates, &mut able)?;
     }
     coarsening.tell(given)
 }
@@ -116,8 +116,8 @@ impl Coarsening<'_> {
         Ok(able)
     }
 
-    /// Takes away those that may go, those at short edges first; returns the candidates that stay and have other triangles
-    /// than when they were looked at.
+    /// Takes away those that may go, those at short edges first; returns those of all candidates that stay and have other
+    /// triangles than when they were looked at.
     fn pass(&mut self, candidates: &[Candidate], able: &mut [(f64, Candidate)]) -> Result<Vec<Candidate>> {
         able.sort_unstable_by(|(one, a), (other, b)| one.total_cmp(other).then(a.vertex.cmp(&b.vertex)));
         for &(_, candidate) in &*able {

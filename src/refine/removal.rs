@@ -37,16 +37,18 @@ impl Mesh<'_> {
     fn gather(&mut self, v: VertexId, pieces: Option<[u32; 2]>) -> Result<bool> {
         self.cells.clear();
         self.rim.clear();
-        // The triangle to the left of the second piece, or, where there is none, of the first one backwards.
-        let first = match pieces {
-            None => self.read(self.at[v])?,
+        // The triangle to the left of the second piece, or, where there is none, of the first one backwards; and what is
+        // before it, clockwise.
+        let (first, is_behind_hull) = match pieces {
+            None => (self.read(self.at[v])?, false),
             Some([before, behind]) => {
                 self.read_piece(before)?;
                 self.read_piece(behind)?;
-                match [self.sides_of(behind)[0], self.sides_of(before)[1]] {
-                    [left, _] if left != Side::NONE => left.triangle(),
-                    [_, right] => right.triangle(),
-                }
+                let (start, across) = match (self.sides_of(behind), self.sides_of(before)) {
+                    ([left, right], _) if left != Side::NONE => (left, right),
+                    (_, [left, right]) => (right, left),
+                };
+                (start.triangle(), across == Side::NONE)
             }
         };
         let mut t = first;
@@ -68,7 +70,9 @@ impl Mesh<'_> {
             // Counter-clockwise, across the side that ends in the vertex.
             let across = self.cross(Side::new(t, next(i)))?;
             if across == Side::NONE {
-                return Ok(pieces.is_some());
+                // Where the hull has a corner at the vertex that is none of the segment, as places are rounded, there is more
+                // than what has been gathered.
+                return Ok(piece != NONE && is_behind_hull);
             }
             t = across.triangle();
             if t == first {
