@@ -803,3 +803,21 @@ fn conflicts_are_those_of_the_latest_refusal() {
         assert_eq!((t.conflicts_of_segments(), t.id_count()), (&[][..], 3));
     }
 }
+
+/// A staged segment whose end has been removed stays staged, through any number of compactions, and is refused then.
+#[test]
+fn staged_segments_without_an_end_go_through_compactions() {
+    let points = [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [4.0, 4.0]];
+    let mut t = Triangulation::new(&points, Options::default()).expect("good points");
+    t.stage_segments([Segment { ends: [1, 2].map(VertexId::new), marker: 5 }].into_iter()).expect("present");
+    t.remove_vertex(VertexId::new(1)).expect("present");
+    for _ in 0..3 {
+        t.compact().expect("room");
+        let bytes = t.saved().expect("room");
+        t = Triangulation::load(&Saved::of(&bytes).expect("good data"), Options::default())
+            .expect("good data");
+        let refused = t.stage_splits(9).expect_err("an end is gone");
+        let conflict = Conflict::EndRemoved { segment: SegmentId::new(0), vertex: VertexId::NONE };
+        assert_eq!(refused, Error::Conflict { conflict, others: 0 });
+    }
+}
