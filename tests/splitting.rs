@@ -297,7 +297,7 @@ fn run(kind: usize, algorithm: Algorithm, seed: u64) -> [usize; 3] {
         others.commit_timestamp().expect("no conflict");
         loaded.commit_timestamp().unwrap_or_else(|error| panic!("{}: {error}", context()));
         check_chains(&loaded, &parents, &report, &context);
-        assert_same_cells(&cell_set(&loaded), &cell_set(&t), &context);
+        assert_same_cells(&cell_set(&loaded), &cell_set(&t), context);
         check_no_conflicts(&t, &context);
         check_chains(&t, &parents, &report, &context);
         check_chains(&others, &parents, &report, &context);
