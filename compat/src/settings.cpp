@@ -23,11 +23,18 @@ Mode mode() {
     return chosen;
 }
 
+static bool is_set(const char *variable, const char *expected) {
+    const char *value = std::getenv(variable);
+    return value != nullptr && std::strcmp(value, expected) == 0;
+}
+
 bool sorted() {
-    static const bool asked = [] {
-        const char *value = std::getenv("DELDRIFT_COMPAT_SORTED");
-        return value != nullptr && std::strcmp(value, "1") == 0;
-    }();
+    static const bool asked = is_set("DELDRIFT_COMPAT_SORTED", "1");
+    return asked;
+}
+
+bool copies_lists() {
+    static const bool asked = is_set("DELDRIFT_COMPAT_TRIANGLE", "cytriangle");
     return asked;
 }
 

@@ -6,6 +6,7 @@
 
 #include "array.hpp"
 #include "circumcentre.hpp"
+#include "settings.hpp"
 
 namespace compat {
 
@@ -41,6 +42,10 @@ public:
             segments_.allocate(out.segmentlist, 2 * n_segments_);
             if (switches_.markers) segment_markers_.allocate(out.segmentmarkerlist, n_segments_);
         }
+        if (copies_lists() && switches_.lists_segments() && switches_.planar_graph) {
+            holes_.allocate(nullptr, 2 * mesh_.n_holes);
+            regions_.allocate(nullptr, 4 * mesh_.n_regions);
+        }
         if (switches_.edges) {
             edges_.allocate(out.edgelist, 2 * n_edges_);
             if (switches_.markers) edge_markers_.allocate(out.edgemarkerlist, n_edges_);
@@ -61,6 +66,8 @@ public:
             std::copy(mesh_.cell_attributes.begin(), mesh_.cell_attributes.end(), triangle_attributes_.data());
         if (neighbours_) number(cells_.neighbours, neighbours_.data());
         if (segments_) fill_segments();
+        if (holes_ && mesh_.n_holes > 0) std::copy_n(in_.holelist, 2 * mesh_.n_holes, holes_.data());
+        if (regions_ && mesh_.n_regions > 0) std::copy_n(in_.regionlist, 4 * mesh_.n_regions, regions_.data());
         if (edges_) fill_edges();
         if (switches_.voronoi) {
             fill_centres();
@@ -94,6 +101,8 @@ public:
             out.numberofregions = static_cast<int>(mesh_.n_regions);
             out.holelist = switches_.planar_graph ? in_.holelist : nullptr;
             out.regionlist = switches_.planar_graph ? in_.regionlist : nullptr;
+            holes_.hand_over(out.holelist);
+            regions_.hand_over(out.regionlist);
         }
         if (vorout == nullptr) return;
         vorout->numberofpoints = static_cast<int>(cells_.count);
@@ -297,7 +306,8 @@ private:
     std::size_t n_points_, n_attributes_, n_segments_ = 0, n_edges_ = 0, n_shown_ = 0, n_middles_ = 0;
     static constexpr int left_out = -1;
     std::vector<int> number_of_; // of each point in the output, or left_out; empty where none is left out
-    MallocArray<double> points_, attributes_, centres_, centre_attributes_, norms_, triangle_attributes_;
+    MallocArray<double> points_, attributes_, centres_, centre_attributes_, norms_, triangle_attributes_, holes_,
+        regions_;
     MallocArray<int> markers_, triangles_, neighbours_, segments_, segment_markers_;
     MallocArray<int> edges_, edge_markers_, voronoi_edges_;
 };

@@ -186,7 +186,12 @@ impl Mesh<'_> {
     pub(super) fn look_around_joint(&mut self, pieces: [u32; 2]) -> Result<bool> {
         let [a, v] = self.pieces[pieces[0] as usize].ends;
         let b = self.pieces[pieces[1] as usize].ends[1];
-        Ok(a != b && self.gather(v, Some(pieces))?)
+        if a == b || !self.gather(v, Some(pieces))? {
+            return Ok(false);
+        }
+        // Where only one of them is on the hull, the vertex sticks out of it, and not all around it has been found.
+        let [before, behind] = pieces.map(|piece| self.sides_of(piece).map(|side| side == Side::NONE));
+        Ok(before == behind)
     }
 
     /// Finds what would take the place of the vertex between two pieces, of which the second follows the first, and around

@@ -252,3 +252,27 @@ fn lay_or_take_away(t: &mut Triangulation, rng: &mut Rng) {
     t.stage_segments(std::iter::once(segment)).expect("present");
     t.commit_timestamp().expect("it is an edge");
 }
+
+/// A vertex between two pieces sticks out of the hull by less than what they are joined for: one of the pieces is on the
+/// hull, and a cell is beyond the other one. It stays, whatever the direction of the segment, until that cell is gone.
+#[test]
+fn a_vertex_that_sticks_out_of_the_hull_stays() {
+    for ends in [[0, 1], [1, 0]] {
+        let points = vec![[0.0, 0.0], [2.0, 0.0], [1.0, 1.0], [3.0, -1e-13]];
+        let domain = Domain { points, edges: vec![ends, [1, 2], [2, 0]] };
+        let mut t = domain.build();
+        let quality = Quality { greatest_area: 0.6, ..Quality::default() };
+        let inside = mask(&t, |_| true);
+        let report = refine(&mut t, &quality, &RefineOptions::default(), &inside);
+        assert_eq!((report.inserted, report.on_segments), (1, 1), "{report:?}");
+        let (options, none) = (CoarsenOptions::default(), Quality::default());
+        for (height, wanted) in [(-1e-12, 0), (-1e-14, 1)] {
+            t.move_vertices(&[VertexId::new(4)], &[[1.0, height]]).expect("present");
+            t.commit_timestamp().expect("no conflict");
+            let inside = mask(&t, |_| true);
+            let report = t.coarsen(&none, &options, &inside).expect("no conflict");
+            assert_eq!(report.removed, wanted, "{ends:?}, {height}");
+            check_fresh(&t, &|| format!("{ends:?}, {height}"));
+        }
+    }
+}

@@ -42,6 +42,7 @@ impl History<'_> {
             return self.check();
         }
         self.m.positions[v as usize] = None;
+        self.m.made.remove(&v);
         self.m.staged.remove(&v);
         self.m.leaving.remove(&v);
         self.fresh = None;
@@ -206,6 +207,8 @@ impl History<'_> {
         let moved = pairs.filter(|(old, new)| old.is_some() && new.is_some() && old != new).count();
         self.fresh = None;
         self.m.positions = after;
+        let positions = &self.m.positions;
+        self.m.made.retain(|&v| positions[v as usize].is_some());
         self.m.timestamp += 1;
         let counts = [moved, self.m.coming.len(), self.m.leaving.len(), self.m.hidden().len()];
         let [moved, inserted, removed, hidden] = counts.map(|n| n as u64);
@@ -286,6 +289,7 @@ impl History<'_> {
         self.m.coming.iter_mut().for_each(|(v, _)| *v = new(*v));
         self.m.leaving = self.m.leaving.iter().map(|&v| new(v)).collect();
         self.m.segments.renumber(new);
+        self.m.made = self.m.made.iter().map(|&v| new(v)).collect();
         self.carried.rows.iter_mut().for_each(|r| *r = row(r));
         self.carried.hidden = self.carried.hidden.iter().map(|&v| new(v)).filter(|&v| v != NONE).collect();
         self.fresh = None;

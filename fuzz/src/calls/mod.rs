@@ -9,6 +9,7 @@ pub mod model;
 mod near;
 pub mod places;
 mod read;
+mod refining;
 mod refuse;
 mod segments;
 

@@ -28,6 +28,8 @@ pub struct Model {
     pub coming: Vec<(u32, Place)>,
     pub leaving: BTreeSet<u32>,
     pub segments: Segments,
+    /// Vertices that refinement has inserted, of those present.
+    pub made: BTreeSet<u32>,
     pub timestamp: u64,
 }
 

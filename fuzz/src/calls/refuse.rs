@@ -281,6 +281,7 @@ impl History<'_> {
         }
         assert_eq!((count, mirror, result), (77, 77, 77.0), "an output of a call that failed");
         self.refuse_segments();
+        self.refuse_qualities();
     }
 
     /// In space there are none; in the plane ids and seeds may be wrong.

@@ -52,6 +52,27 @@ impl Segments {
         self.all.iter_mut().flatten().for_each(|ends| *ends = ends.map(&new));
     }
 
+    pub fn has_staged(&self) -> bool {
+        self.all.len() > self.n_laid || !self.leaving.is_empty()
+    }
+
+    /// How many ids have been given.
+    pub fn n_ids(&self) -> u32 {
+        self.all.len() as u32
+    }
+
+    /// One in force is gone.
+    pub fn drop(&mut self, id: u32) {
+        assert!(self.all[id as usize].take().is_some(), "{id} is in force");
+    }
+
+    /// One comes into force, with the marker of another one.
+    pub fn add(&mut self, ends: [u32; 2], like: u32) {
+        self.all.push(Some(ends));
+        self.markers.push(self.markers[like as usize]);
+        self.n_laid += 1;
+    }
+
     pub fn is_an_end(&self, v: u32) -> bool {
         self.laid().any(|(_, ends)| ends.contains(&v))
     }
@@ -130,24 +151,30 @@ impl History<'_> {
             5 => self.read_sides(),
             6 => self.read_regions(),
             7 => self.stage_splits(),
-            _ => self.read_chains(),
+            _ if self.s.below(3) == 0 => self.read_chains(),
+            _ => self.improve(),
         }
     }
 
+    pub(super) fn stage_these(&mut self, ends: &[[u32; 2]]) {
+        let (t, count) = (self.t, ends.len());
+        let first_id = self.m.segments.n_ids();
+        let markers: Vec<i32> = (first_id..).take(count).map(marker).collect();
+        let mut first = 77;
+        self.ok(|| c!(deldrift_stage_segments(t, ends.as_ptr().cast(), markers.as_ptr(), count, &mut first)));
+        assert_eq!(first, first_id, "the id of staged segments");
+        self.m.segments.all.extend(ends.iter().copied().map(Some));
+        self.m.segments.markers.extend(markers);
+    }
+
     fn stage_segments(&mut self) {
-        let (t, count) = (self.t, self.s.below(4));
+        let count = self.s.below(4);
         let coming: Vec<u32> = self.m.coming.iter().map(|&(v, _)| v).collect();
         let known: Vec<u32> = self.m.present().chain(coming).collect();
         let count = if known.is_empty() { 0 } else { count };
         let ends: Vec<[u32; 2]> =
             (0..count).map(|_| [0; 2].map(|_| known[self.s.below(known.len())])).collect();
-        let first_id = self.m.segments.all.len() as u32;
-        let markers: Vec<i32> = (first_id..).take(count).map(marker).collect();
-        let mut first = 77;
-        self.ok(|| c!(deldrift_stage_segments(t, ends.as_ptr().cast(), markers.as_ptr(), count, &mut first)));
-        assert_eq!(first, first_id, "the id of staged segments");
-        self.m.segments.all.extend(ends.into_iter().map(Some));
-        self.m.segments.markers.extend(markers);
+        self.stage_these(&ends);
         self.check();
         // Most are committed at once, and what is refused is forgotten.
         if self.s.below(4) != 0 {
@@ -352,7 +379,7 @@ impl History<'_> {
     }
 
     /// For each cell the segments at its edges, looked for among all.
-    fn wanted_sides(&self) -> (Vec<Row>, Vec<Row>, Vec<[u32; 3]>) {
+    pub(super) fn wanted_sides(&self) -> (Vec<Row>, Vec<Row>, Vec<[u32; 3]>) {
         let (rows, neighbours) = self.cells();
         let shown = self.m.representatives();
         let edges: Vec<(u32, [u32; 2])> =
