@@ -143,7 +143,8 @@ impl History<'_> {
         let (t, (mask, wanted)) = (self.t, self.choose_mask());
         let (before, first) = (self.pieces(), self.m.positions.len() as u32);
         let mut report = deldrift_quality_report { inserted: 77, ..Default::default() };
-        if !self.has_improved(&mask, wanted, |mask, n| c!(deldrift_refine(t, quality, mask, n, &mut report))) {
+        if !self.has_improved(&mask, wanted, |mask, n| c!(deldrift_refine(t, quality, mask, n, &mut report)))
+        {
             assert_eq!(report.inserted, 77, "an output of a call that failed");
             return self.check();
         }
@@ -177,7 +178,8 @@ impl History<'_> {
         // Without anything that has been made the mask is not looked at.
         let wanted = if self.m.made.is_empty() { DELDRIFT_OK } else { wanted };
         let mut report = deldrift_quality_report { inserted: 77, ..Default::default() };
-        if !self.has_improved(&mask, wanted, |mask, n| c!(deldrift_coarsen(t, quality, mask, n, &mut report))) {
+        if !self.has_improved(&mask, wanted, |mask, n| c!(deldrift_coarsen(t, quality, mask, n, &mut report)))
+        {
             assert_eq!(report.inserted, 77, "an output of a call that failed");
             return self.check();
         }
@@ -231,7 +233,9 @@ impl History<'_> {
         assert_eq!((gone.len() as u64, come.len() as u64), counts, "segments that are gone, and come");
         assert!(before.iter().all(|(id, piece)| now.get(id).is_none_or(|other| other == piece)), "segments");
         let shown = self.m.representatives();
-        let is_at = |v: u32, w: u32| v == w || !is_within(v) && !is_within(w) && shown[v as usize] == shown[w as usize];
+        let is_at = |v: u32, w: u32| {
+            v == w || !is_within(v) && !is_within(w) && shown[v as usize] == shown[w as usize]
+        };
         let is_split = report.inserted > 0;
         let (long, short) = if is_split { (&gone, &come) } else { (&come, &gone) };
         let row = |id: u32| if let Some(row) = now.get(&id) { *row } else { before[&id] };
@@ -267,21 +271,17 @@ impl History<'_> {
     /// The vertices that have been made, where they were put, and the weights of the last ones.
     fn check_made(&mut self, first: u32, report: &deldrift_quality_report, has_weights: bool) {
         let t = self.t;
-        let made = self.copied(77, 1, |to, room, count| {
-            c!(deldrift_made_vertices(t, to, null_mut(), room, count))
-        });
-        let on = self.copied(77, 1, |to, room, count| {
-            c!(deldrift_made_vertices(t, null_mut(), to, room, count))
-        });
+        let made =
+            self.copied(77, 1, |to, room, count| c!(deldrift_made_vertices(t, to, null_mut(), room, count)));
+        let on =
+            self.copied(77, 1, |to, room, count| c!(deldrift_made_vertices(t, null_mut(), to, room, count)));
         assert!(made.iter().eq(&self.m.made), "{made:?} are made, not {:?}", self.m.made);
         let new = made.iter().zip(&on).filter(|(v, _)| **v >= first);
         assert_eq!(new.filter(|(_, on)| **on != NONE).count() as u64, report.on_segments, "on segments");
-        let rows = self.copied(77, 3, |to, room, count| {
-            c!(deldrift_refined_weights(t, to, null_mut(), room, count))
-        });
-        let weights = self.copied(77.0, 3, |to, room, count| {
-            c!(deldrift_refined_weights(t, null_mut(), to, room, count))
-        });
+        let rows = self
+            .copied(77, 3, |to, room, count| c!(deldrift_refined_weights(t, to, null_mut(), room, count)));
+        let weights = self
+            .copied(77.0, 3, |to, room, count| c!(deldrift_refined_weights(t, null_mut(), to, room, count)));
         let n = if has_weights { report.inserted as usize } else { 0 };
         assert_eq!(rows.len(), 3 * n, "weights");
         let extent = self.m.positions.iter().flatten().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
@@ -293,7 +293,8 @@ impl History<'_> {
                 let p = self.m.at(v).expect("a corner is present");
                 (0..2).for_each(|axis| mean[axis] += weight * p[axis]);
             }
-            let is_near = |axis: usize| (mean[axis] - place[axis]).abs() <= 1e-12 * extent + f64::MIN_POSITIVE;
+            let is_near =
+                |axis: usize| (mean[axis] - place[axis]).abs() <= 1e-12 * extent + f64::MIN_POSITIVE;
             assert!(is_near(0) && is_near(1), "{row:?}, {weights:?}: {mean:?}, not {place:?}");
         }
     }
