@@ -4,7 +4,9 @@
 use crate::common::exact::{Grid, is_inside, orientation, squared_distance};
 use crate::common::inputs::{KINDS, Kind, QUANTUM, draw, draw_one, to_grid};
 use crate::common::{Rng, assert_same_cells, cell_set, check_adjacency, seeds, sorted};
-use deldrift::motion::{Algorithm, Location, MovingTriangulation, NO_CELL, Options, Saved, Segment};
+use deldrift::motion::{
+    Algorithm, CoincidencePolicy, Location, MovingTriangulation, NO_CELL, Options, Saved, Segment,
+};
 use deldrift::{CellId, Conflict, Error, Plane, SegmentId, VertexId};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -747,4 +749,75 @@ fn labels_that_nothing_tells_are_undecided() {
     assert_eq!(labels.iter().filter(|&&label| label == -1).count(), 1);
     let error = t.labels_of(&[CellId::new(99)], |_| 0, 0).expect_err("no cell");
     assert!(matches!(error, Error::NoSuchCell { index: 0, .. }), "{error}");
+}
+
+/// Vertices on a line have no cells: a call at once that segments refuse has no effect on them either.
+#[test]
+fn calls_at_once_are_refused_on_a_line() {
+    let points = [[0.0, 0.0], [2.0, 0.0], [4.0, 0.0], [2.0, 0.0]];
+    let mut t = Triangulation::new(&points, Options::default()).expect("good points");
+    let [left, middle, right, hidden] = [0, 1, 2, 3].map(VertexId::new);
+    t.stage_segments([Segment { ends: [left, middle], marker: 0 }].into_iter()).expect("present");
+    t.commit_timestamp().expect("nothing is in the way");
+    let before = t.saved().expect("room");
+    let check = |t: &Triangulation, refused: deldrift::Result<()>| {
+        assert!(matches!(refused, Err(Error::Conflict { .. })), "{refused:?}");
+        t.validate(deldrift::motion::Level::Delaunay).expect("valid");
+        assert!(t.saved().expect("room") == before);
+    };
+    let refused = t.remove_vertex(left);
+    check(&t, refused);
+    let refused = t.insert_vertex(&[1.0, 0.0]).map(drop);
+    check(&t, refused);
+    let refused = t.relocate_vertex(right, &[1.0, 0.0]);
+    check(&t, refused);
+    let refused = t.relocate_vertex(left, &[2.0, 0.0]);
+    check(&t, refused);
+    let refused = t.relocate_vertex(hidden, &[1.0, 0.0]);
+    check(&t, refused);
+    let refused = t.relocate_vertex(middle, &[6.0, 0.0]);
+    check(&t, refused);
+    // One beside the line makes cells, and would be accepted; then it goes.
+    let beside = t.insert_vertex(&[1.0, 1.0]).expect("nothing is in the way");
+    t.remove_vertex(beside).expect("no end");
+    t.validate(deldrift::motion::Level::Delaunay).expect("valid");
+}
+
+/// Conflicts are those of the latest change that was refused, and one that is refused for another reason has none.
+#[test]
+fn conflicts_are_those_of_the_latest_refusal() {
+    let points = [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]];
+    let options = Options { coincidence: CoincidencePolicy::Reject, ..Options::default() };
+    let mut t = Triangulation::new(&points, options).expect("good points");
+    let segment = Segment { ends: [VertexId::new(1); 2], marker: 0 };
+    for call in 0..2 {
+        t.stage_segments([segment].into_iter()).expect("present");
+        t.commit_timestamp().expect_err("the ends meet");
+        t.discard_moves();
+        assert_eq!(t.conflicts_of_segments().len(), 1);
+        let refused = match call {
+            0 => t.insert_vertex(&points[2]).map(drop),
+            _ => t.relocate_vertex(VertexId::new(0), &points[2]),
+        };
+        assert!(matches!(refused, Err(Error::Coincident { .. })), "{refused:?}");
+        assert_eq!((t.conflicts_of_segments(), t.id_count()), (&[][..], 3));
+    }
+}
+
+/// A staged segment whose end has been removed stays staged, through any number of compactions, and is refused then.
+#[test]
+fn staged_segments_without_an_end_go_through_compactions() {
+    let points = [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [4.0, 4.0]];
+    let mut t = Triangulation::new(&points, Options::default()).expect("good points");
+    t.stage_segments([Segment { ends: [1, 2].map(VertexId::new), marker: 5 }].into_iter()).expect("present");
+    t.remove_vertex(VertexId::new(1)).expect("present");
+    for _ in 0..3 {
+        t.compact().expect("room");
+        let bytes = t.saved().expect("room");
+        t = Triangulation::load(&Saved::of(&bytes).expect("good data"), Options::default())
+            .expect("good data");
+        let refused = t.stage_splits(9).expect_err("an end is gone");
+        let conflict = Conflict::EndRemoved { segment: SegmentId::new(0), vertex: VertexId::NONE };
+        assert_eq!(refused, Error::Conflict { conflict, others: 0 });
+    }
 }

@@ -2,7 +2,7 @@
 
 use crate::common::{Rng, assert_same_cells, cell_set, seeds};
 use deldrift::motion::{
-    Algorithm, CoarsenOptions, Level, MovingTriangulation, Options, Quality, RefineOptions, Segment,
+    Algorithm, CoarsenOptions, Level, MovingTriangulation, Options, Quality, RefineOptions, Saved, Segment,
     SplitReport,
 };
 use deldrift::{Conflict, Error, Plane, SegmentId, VertexId};
@@ -288,9 +288,16 @@ fn run(kind: usize, algorithm: Algorithm, seed: u64) -> [usize; 3] {
         }
         assert_eq!(others.stage_splits(report.inserted), Ok(report), "{}", context());
         assert_eq!(t.stage_splits(0).map(|report| report.rounds), Ok(0), "{}", context());
+        let bytes = t.saved().expect("room");
+        let loaded = Triangulation::load(&Saved::of(&bytes).expect("good data"), options());
+        let mut loaded = loaded.unwrap_or_else(|error| panic!("{}: {error}", context()));
+        assert!(loaded.saved().expect("room") == bytes, "{}", context());
         let commit = t.commit_timestamp().unwrap_or_else(|error| panic!("{}: {error}", context()));
         assert_eq!(commit.inserted as usize, report.inserted + 2, "{}", context());
         others.commit_timestamp().expect("no conflict");
+        loaded.commit_timestamp().unwrap_or_else(|error| panic!("{}: {error}", context()));
+        check_chains(&loaded, &parents, &report, &context);
+        assert_same_cells(&cell_set(&loaded), &cell_set(&t), context);
         check_no_conflicts(&t, &context);
         check_chains(&t, &parents, &report, &context);
         check_chains(&others, &parents, &report, &context);

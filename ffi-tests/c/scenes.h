@@ -94,7 +94,7 @@ typedef struct {
 } call;
 
 static bool is_commit(kind k) {
-    return COMMIT <= k && k <= STAGE_SPLITS;
+    return (COMMIT <= k && k <= CHECK_STAGED) || k == STAGE_SPLITS;
 }
 
 static bool is_of_plane(kind k) {

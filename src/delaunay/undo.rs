@@ -37,12 +37,14 @@ pub(super) struct Log<G: Dimension> {
     sites: Vec<Logged<G>>,
     /// The cells, where the change has given up all of them.
     cells: Option<Box<Complex<G::Corners>>>,
+    /// What stood in for cells, where it has to be put back.
+    flat: Option<Box<Flat<G>>>,
 }
 
 impl<G: Dimension> Default for Log<G> {
     fn default() -> Self {
         let none = G::Point::default();
-        Log { is_on: false, lower: none, upper: none, sites: Vec::new(), cells: None }
+        Log { is_on: false, lower: none, upper: none, sites: Vec::new(), cells: None, flat: None }
     }
 }
 
@@ -105,6 +107,15 @@ impl<G: Dimension> Delaunay<G> {
         Ok(())
     }
 
+    /// Keeps what stands in for cells, if there are none, at the cost of a copy: without that, a change that has inserted a
+    /// site, or removed or moved one, cannot be undone.
+    pub(crate) fn keep_flat(&mut self) -> Result<()> {
+        if !self.has_cells() {
+            self.log.flat = Some(memory::boxed(self.flat.copied()?)?);
+        }
+        Ok(())
+    }
+
     /// Whether the change has given up all cells.
     pub(crate) fn has_given_up_cells(&self) -> bool {
         self.log.cells.is_some()
@@ -117,6 +128,9 @@ impl<G: Dimension> Delaunay<G> {
         if let Some(cells) = all_cells {
             self.complex = *cells;
             self.flat = Flat::default();
+        }
+        if let Some(flat) = self.log.flat.take() {
+            self.flat = *flat;
         }
         self.complex.undo_record();
         let mut logged = std::mem::take(&mut self.log.sites);
@@ -156,6 +170,7 @@ impl<G: Dimension> Delaunay<G> {
         self.log.is_on = false;
         self.log.sites.clear();
         self.log.cells = None;
+        self.log.flat = None;
         self.n_replaced += self.complex.rows().len();
         self.complex.end_record();
     }

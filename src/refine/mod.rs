@@ -22,6 +22,7 @@
 //! | `parts` | sides, triangles, pieces of segments |
 //! | `mesh` | triangles of their own, copied from the cells as they are entered |
 //! | `walking`, `insertion` | where a place is; a vertex there |
+//! | `around` | what is around a vertex, before anything is copied |
 //! | `removal` | removal of a vertex, from within or between two pieces |
 //! | `criteria` | what is bad, what is encroached |
 //! | `queue` | bad triangles in order |
@@ -51,6 +52,7 @@
 //! since they are kept whole or there is no number between their ends, are left, and so are triangles that need it.
 //! Sizes that shrink towards a place without a bound have no end; the limit on insertions is for those.
 
+mod around;
 mod coarsening;
 mod criteria;
 mod given;

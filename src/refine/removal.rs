@@ -7,14 +7,14 @@
 //! replaced if what has been found is wanted. It ends at the first triangle that is not.
 
 use super::mesh::Mesh;
-use super::parts::{NONE, Rim, Side, Triangle, UNREAD, next, previous};
+use super::parts::{NONE, Rim, Side, Triangle, next, previous};
 use crate::error::Result;
-use crate::ids::{CellId, VertexId};
+use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::predicates;
 
 /// Vertices of more neighbours are not removed: what follows takes the square of their number.
-const MAX_DEGREE: usize = 64;
+pub(super) const MAX_DEGREE: usize = 64;
 
 /// Whether a triangle of these corners and this label may come.
 pub(super) type IsGood<'a> = &'a dyn Fn(&Mesh, [VertexId; 3], u32) -> bool;
@@ -28,7 +28,8 @@ pub(super) struct Hole {
     pub(super) around: Vec<u32>,
     /// The pieces that are joined, in their segment's direction, and what they become.
     joined: Option<([u32; 2], [VertexId; 2])>,
-    polygon: Vec<VertexId>,
+    /// The corners of what is left to be triangulated, counter-clockwise.
+    pub(super) polygon: Vec<VertexId>,
 }
 
 impl Mesh<'_> {
@@ -77,76 +78,6 @@ impl Mesh<'_> {
             t = across.triangle();
             if t == first {
                 return Ok(true);
-            }
-        }
-    }
-
-    /// Finds the triangles around a vertex that no segment is at, and the polygon that they leave, without copying any.
-    /// Returns their label, if it is one and they are all around.
-    pub(super) fn look_around(&self, v: VertexId, hole: &mut Hole) -> Result<Option<u32>> {
-        hole.around.clear();
-        hole.polygon.clear();
-        let mut t = self.at[v];
-        let first_corner = self.corners_of(t).0;
-        let first = first_corner[next(corner_of(first_corner, v))];
-        let mut label = None;
-        loop {
-            if hole.around.len() >= MAX_DEGREE {
-                return Ok(None);
-            }
-            let (corners, own_label) = self.corners_of(t);
-            let i = corner_of(corners, v);
-            if *label.get_or_insert(own_label) != own_label {
-                return Ok(None);
-            }
-            memory::push(&mut hole.around, t)?;
-            memory::push(&mut hole.polygon, corners[next(i)])?;
-            if corners[previous(i)] == first {
-                return Ok(label);
-            }
-            match self.beyond(t, next(i)) {
-                Some(beyond) => t = beyond,
-                None => return Ok(None),
-            }
-        }
-    }
-
-    /// The corners and label of a triangle that may not have been copied.
-    #[inline(always)]
-    pub(super) fn corners_of(&self, t: u32) -> ([VertexId; 3], u32) {
-        if t & UNREAD == 0 {
-            let triangle = self.triangle(t);
-            return (triangle.corners, triangle.label);
-        }
-        let cell = t & !UNREAD;
-        match self.copy_of(cell) {
-            Some(copy) => (self.triangle(copy).corners, self.triangle(copy).label),
-            None => (self.given.corners[cell as usize], self.given.label(cell)),
-        }
-    }
-
-    /// Whether the corner of a triangle, which may not have been copied, is between two segments.
-    pub(super) fn is_between_segments(&self, t: u32, corner: usize) -> bool {
-        let copy = if t & UNREAD == 0 { Some(t) } else { self.copy_of(t & !UNREAD) };
-        let pieces = match copy {
-            Some(copy) => self.triangle(copy).pieces,
-            None => self.given.sides_of(t & !UNREAD),
-        };
-        [next(corner), previous(corner)].iter().all(|&i| pieces[i] != NONE)
-    }
-
-    /// The triangle beyond a side of one that may not have been copied, and may not have been either.
-    #[inline(always)]
-    fn beyond(&self, t: u32, i: usize) -> Option<u32> {
-        let copy = if t & UNREAD == 0 { Some(t) } else { self.copy_of(t & !UNREAD) };
-        match copy {
-            Some(copy) => {
-                let across = self.triangle(copy).across[i];
-                (across != Side::NONE).then_some(across.triangle())
-            }
-            None => {
-                let across = self.given.neighbours[(t & !UNREAD) as usize][i];
-                (across != CellId::NONE).then_some(across.get() | UNREAD)
             }
         }
     }
@@ -271,8 +202,8 @@ impl Mesh<'_> {
         Ok(triangles[first..].iter().all(|&(corners, label)| is_good(self, corners, label)))
     }
 
-    /// Whether a corner of a polygon can be cut off, and what that cuts is a triangle of the polygon's constrained Delaunay
-    /// triangulation, since no other corner is in its circle. One that is not seen may be: then it is one all the same.
+    /// Whether a corner of a polygon can be cut off, no other corner being in the circle of what is: then that is a triangle
+    /// of the polygon's constrained Delaunay triangulation. Others may be, where the corners in their circles are not seen.
     fn is_delaunay_ear(&self, polygon: &[VertexId], k: usize) -> bool {
         let corners = ear(polygon, k);
         let n = polygon.len();
@@ -388,7 +319,7 @@ fn ear(polygon: &[VertexId], k: usize) -> [VertexId; 3] {
 
 /// The corner that a vertex is.
 #[inline(always)]
-fn corner_of(corners: [VertexId; 3], v: VertexId) -> usize {
+pub(super) fn corner_of(corners: [VertexId; 3], v: VertexId) -> usize {
     corners.iter().position(|&w| w == v).expect("it is a corner")
 }
 

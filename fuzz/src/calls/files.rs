@@ -72,7 +72,7 @@ impl History<'_> {
         if choice < 2 {
             // Behind the text are numbers.
             let text = String::from_utf8_lossy(&text[..text.len().min(400)]).into_owned();
-            // Segments are lines.
+            // Segments are edges of files, and cells there.
             let n = self.cells().0.len() + self.m.segments.laid().count();
             assert!(text.contains(&format!("NumberOfCells=\"{n}\"")), "no {n} cells");
         }

@@ -345,7 +345,8 @@ impl History<'_> {
     /// A quality that has no meaning, and calls in space.
     pub(super) fn refuse_qualities(&mut self) {
         let (t, mut report) = (self.t, deldrift_quality_report { inserted: 77, ..Default::default() });
-        let changes: [(fn(&mut deldrift_quality), deldrift_status); 5] = [
+        type Change = (fn(&mut deldrift_quality), deldrift_status);
+        let changes: [Change; 5] = [
             (|q| q.least_angle = f64::NAN, DELDRIFT_INVALID_VALUE),
             (|q| q.greatest_area = -1.0, DELDRIFT_INVALID_VALUE),
             (|q| q.struct_size = 3, DELDRIFT_INVALID_OPTIONS),

@@ -91,13 +91,16 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Err(Error::TooManyVertices { given: self.mesh.site_of.len() + 1, limit: MAX_VERTICES });
         }
         let id = VertexId::at(self.mesh.site_of.len());
-        self.mesh.reject_occupied(id, &q, self.options.coincidence)?;
         self.staging.list()?;
         self.staging.make_room(1)?;
         memory::push(&mut self.mesh.site_of, SiteId::NONE)?;
         let before = self.mesh.evaluations();
         let mut report = CommitReport { inserted: 1, ..CommitReport::default() };
-        let inserted = self.transact(|t| t.insert_at(id, &q, &mut report));
+        let inserted = self.transact(|t| {
+            // In the change, as one that is refused for this has no conflicts.
+            t.mesh.reject_occupied(id, &q, t.options.coincidence)?;
+            t.insert_at(id, &q, &mut report)
+        });
         if let Err(error) = inserted {
             self.mesh.site_of.pop();
             return Err(error);

@@ -1,7 +1,8 @@
 //! Refinement and coarsening of the cells of a domain, each in one commit of its own.
 //!
-//! What is to be done is found on a copy of the cells ([`refine`](crate::refine)), and only if a first look at all selected
-//! cells finds something bad. Then vertices, and pieces of segments in the place of these, are staged and committed.
+//! A pass over all cells finds those that are bad, and the vertices that may have become superfluous. What is to be done
+//! there is found on copies of the cells that are entered alone ([`refine`](crate::refine)). Then vertices, and pieces of
+//! segments in the place of these, are staged and committed.
 
 mod checks;
 mod reading;
@@ -131,7 +132,8 @@ impl MovingTriangulation<Plane> {
     /// Around cells that are of lower quality already, those that come may have angles as small: what `refine` then mends
     /// has fewer vertices than if it were called first.
     ///
-    /// Cost: a pass over the cells, and for each vertex added that of looking at a hole of its size.
+    /// Cost: a pass over the cells, and for each vertex added that of looking at the cells around it, unless these and their
+    /// places are those of the last call with this quality and these options. With sizes or a callback all are looked at.
     ///
     /// # Errors
     /// Those of [`refine`](Self::refine).

@@ -520,7 +520,8 @@ impl<G: Dimension> Segments<G> {
     ) -> Result<Self> {
         let mut copy = self.copied()?;
         for segment in copy.all.iter_mut().flatten() {
-            segment.ends = segment.ends.map(|v| ids[v.index()]);
+            // An end of a staged one may have been removed before an earlier compaction.
+            segment.ends = segment.ends.map(|v| if v == VertexId::NONE { v } else { ids[v.index()] });
         }
         copy.replaced = Replaced::default();
         copy.list_edges(site_of)?;

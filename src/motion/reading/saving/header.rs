@@ -1,7 +1,9 @@
 //! The first bytes: what the data are, and how much of each kind there is.
 
 use crate::damage::Damage;
+use crate::ids::VertexId;
 use crate::motion::report::CommitReport;
+use crate::motion::state::segments::Segment;
 
 /// What data begin with. A byte above 127, and ends of lines of either kind, tell a file that has been taken for text
 /// on its way.
@@ -16,6 +18,11 @@ const SEGMENT_COUNTS: usize = 40;
 
 /// Bytes of a segment: its ends and its marker.
 const SEGMENT: usize = 12;
+
+/// What stands for a staged segment that pieces are staged for: its second end is the id of no vertex, and not that of none,
+/// which ends have that were removed before a compaction.
+pub(super) const GIVEN_UP: Segment =
+    Segment { ends: [VertexId::NONE, VertexId::new(u32::MAX - 1)], marker: 0 };
 
 /// Bytes of a vertex that refinement has made: its id, and the segment that it is on.
 const MADE_VERTEX: usize = 8;

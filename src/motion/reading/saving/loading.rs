@@ -9,7 +9,7 @@ use crate::machine::memory;
 use crate::machine::threads::Threads;
 use crate::motion::options::Options;
 use crate::motion::reading::saving::Saved;
-use crate::motion::reading::saving::header::{Header, SIZE, SegmentCounts};
+use crate::motion::reading::saving::header::{GIVEN_UP, Header, SIZE, SegmentCounts};
 use crate::motion::state::cells::Cells;
 use crate::motion::state::checking::check_position;
 use crate::motion::state::hidden::Hidden;
@@ -80,14 +80,19 @@ impl Reader<'_> {
         memory::reserve_exact(&mut all, ids)?;
         for (id, row) in SegmentId::range(0..ids).zip(self.entries::<4>(3 * ids).chunks_exact(3)) {
             let [v, w] = [row[0], row[1]].map(|bytes| VertexId::new(u32::from_le_bytes(bytes)));
-            // A staged one may have an end that was removed before a compaction.
             let is_staged = id.index() >= laid;
+            let segment = Segment { ends: [v, w], marker: i32::from_le_bytes(row[2]) };
+            if is_staged && segment == GIVEN_UP {
+                all.push(None);
+                continue;
+            }
+            // A staged one may have an end that was removed before a compaction.
             let is_known = |v: VertexId| v.index() < header.ids || (is_staged && v == VertexId::NONE);
             let is_there = is_staged || v != VertexId::NONE;
             if !(if is_there { is_known(v) && is_known(w) } else { w == VertexId::NONE }) {
                 return Err(Damage::Segment { segment: id }.into());
             }
-            all.push(is_there.then_some(Segment { ends: [v, w], marker: i32::from_le_bytes(row[2]) }));
+            all.push(is_there.then_some(segment));
         }
         let leaving = self.numbers::<SegmentId>(removals)?;
         let mut sorted = memory::copy_of(&leaving)?;

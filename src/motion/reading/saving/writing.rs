@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::ids::{CellId, SegmentId, VertexId};
 use crate::machine::memory;
 use crate::motion::reading::chunks::Chunks;
-use crate::motion::reading::saving::header::{Header, SegmentCounts};
+use crate::motion::reading::saving::header::{GIVEN_UP, Header, SegmentCounts};
 use crate::motion::state::made::Origin;
 use crate::motion::state::segments::{Segment, Segments};
 use crate::motion::state::views::CellsView;
@@ -20,8 +20,9 @@ fn save_segments<G: Dimension, E>(
     for count in counts.numbers() {
         chunks.numbers(&[count as u32, (count >> 32) as u32])?;
     }
-    for segment in segments.all() {
-        let none = Segment { ends: [VertexId::NONE; 2], marker: 0 };
+    let removed = Segment { ends: [VertexId::NONE; 2], marker: 0 };
+    for (k, segment) in segments.all().iter().enumerate() {
+        let none = if k < segments.n_laid() { removed } else { GIVEN_UP };
         let Segment { ends, marker } = segment.unwrap_or(none);
         chunks.numbers(&[ends[0].get(), ends[1].get(), marker as u32])?;
     }

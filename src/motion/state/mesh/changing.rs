@@ -35,7 +35,8 @@ impl<G: Dimension> Mesh<G> {
             visibilities: self.views.visibilities_mut().shortened_len(self.site_of.len()),
         });
         let Some(segments) = &mut self.segments else { return Ok(()) };
-        let lifted = segments.lift(&mut self.kernel, aim);
+        // What segments refuse is undone after all of it has been made.
+        let lifted = self.kernel.keep_flat().and_then(|()| segments.lift(&mut self.kernel, aim));
         if lifted.is_err() {
             self.undo();
         }

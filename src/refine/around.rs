@@ -1,0 +1,80 @@
+//! What is around a vertex, looked at without copying triangles.
+
+use super::mesh::Mesh;
+use super::parts::{NONE, Side, UNREAD, next, previous};
+use super::removal::{Hole, MAX_DEGREE, corner_of};
+use crate::error::Result;
+use crate::ids::{CellId, VertexId};
+use crate::machine::memory;
+
+impl Mesh<'_> {
+    /// Finds the triangles around a vertex that no segment is at, and the polygon that they leave, without copying any.
+    /// Returns their label, if it is one and they are all around.
+    pub(super) fn look_around(&self, v: VertexId, hole: &mut Hole) -> Result<Option<u32>> {
+        hole.around.clear();
+        hole.polygon.clear();
+        let mut t = self.at[v];
+        let first_corner = self.corners_of(t).0;
+        let first = first_corner[next(corner_of(first_corner, v))];
+        let mut label = None;
+        loop {
+            if hole.around.len() >= MAX_DEGREE {
+                return Ok(None);
+            }
+            let (corners, own_label) = self.corners_of(t);
+            let i = corner_of(corners, v);
+            if *label.get_or_insert(own_label) != own_label {
+                return Ok(None);
+            }
+            memory::push(&mut hole.around, t)?;
+            memory::push(&mut hole.polygon, corners[next(i)])?;
+            if corners[previous(i)] == first {
+                return Ok(label);
+            }
+            match self.beyond(t, next(i)) {
+                Some(beyond) => t = beyond,
+                None => return Ok(None),
+            }
+        }
+    }
+
+    /// The corners and label of a triangle that may not have been copied.
+    #[inline(always)]
+    pub(super) fn corners_of(&self, t: u32) -> ([VertexId; 3], u32) {
+        if t & UNREAD == 0 {
+            let triangle = self.triangle(t);
+            return (triangle.corners, triangle.label);
+        }
+        let cell = t & !UNREAD;
+        match self.copy_of(cell) {
+            Some(copy) => (self.triangle(copy).corners, self.triangle(copy).label),
+            None => (self.given.corners[cell as usize], self.given.label(cell)),
+        }
+    }
+
+    /// Whether the corner of a triangle, which may not have been copied, is between two segments.
+    pub(super) fn is_between_segments(&self, t: u32, corner: usize) -> bool {
+        let copy = if t & UNREAD == 0 { Some(t) } else { self.copy_of(t & !UNREAD) };
+        let pieces = match copy {
+            Some(copy) => self.triangle(copy).pieces,
+            None => self.given.sides_of(t & !UNREAD),
+        };
+        [next(corner), previous(corner)].iter().all(|&i| pieces[i] != NONE)
+    }
+
+    /// The triangle beyond a side of one that may not have been copied, and may not have been either.
+    #[inline(always)]
+    fn beyond(&self, t: u32, i: usize) -> Option<u32> {
+        let copy = if t & UNREAD == 0 { Some(t) } else { self.copy_of(t & !UNREAD) };
+        match copy {
+            Some(copy) => {
+                let across = self.triangle(copy).across[i];
+                (across != Side::NONE).then_some(across.triangle())
+            }
+            None => {
+                let across = self.given.neighbours[(t & !UNREAD) as usize][i];
+                (across != CellId::NONE).then_some(across.get() | UNREAD)
+            }
+        }
+    }
+}
