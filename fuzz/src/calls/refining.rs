@@ -42,18 +42,24 @@ impl History<'_> {
             self.discard();
         }
         if !self.has_staged() {
-            match self.s.below(3) {
-                0 => self.surround_all(),
-                1 => self.surround_a_cell(),
+            match self.s.below(6) {
+                0..=2 => self.surround_all(),
+                3 | 4 => self.surround_a_cell(),
                 _ => {}
             }
         }
+        for _ in 0..=self.s.below(3) {
+            self.improve_once();
+        }
+    }
+
+    fn improve_once(&mut self) {
         let extent = self.extent();
         let share = self.s.pick(&[0.0, 0.1, 0.01]);
         let (mut width, mut quality) = (extent * self.s.pick(&[0.5, 0.1]), any());
         quality.least_angle = self.s.pick(&[0.0, 10.0, 20.7, 26.5, 34.0]);
         quality.greatest_area = (extent * extent * share).min(f64::MAX);
-        quality.limit = self.s.pick(&[0, 1, 5, 30]);
+        quality.limit = self.s.pick(&[0, 1, 5, 30, 30, 100]);
         quality.has_weights = self.s.below(2) as u32;
         quality.keeps = self.s.pick(&[0, 0, 1, 2]);
         let kind = self.s.below(4);
