@@ -71,7 +71,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         let spanning = MovingTriangulation::<G>::new(&spanning::<G>(places)?, options)?;
         spanning.volumes_of_first(ids.len(), clip, progress, |v, volume| {
             volumes[ids[v.index()].index()] += volume
-        })
+        })?;
+        // Parts may be negative, and what is left of them by rounding.
+        volumes.iter_mut().for_each(|volume| *volume = if *volume < 0.0 { 0.0 } else { *volume });
+        Ok(())
     }
 
     /// Tells parts of the areas or volumes of the Voronoi cells of the first vertices, which are in one hyperplane, as
