@@ -175,7 +175,10 @@ impl History<'_> {
         self.check();
         self.check_made(first, &report, quality.has_weights != 0);
         if mask.is_none() && bad_cells == 0 && is_cut_short == 0 {
-            self.check_quality(quality);
+            // Fourth powers of lengths are in the range of numbers then.
+            if self.is_moderate() {
+                self.check_quality(quality);
+            }
             self.check_that_nothing_is_left(quality);
         }
     }
@@ -304,7 +307,9 @@ impl History<'_> {
             }
             let is_near =
                 |axis: usize| (mean[axis] - place[axis]).abs() <= 1e-12 * extent + f64::MIN_POSITIVE;
-            assert!(is_near(0) && is_near(1), "{row:?}, {weights:?}: {mean:?}, not {place:?}");
+            // As areas of cells have these errors only above the least normal number.
+            let is_right = !self.is_moderate() || is_near(0) && is_near(1);
+            assert!(is_right, "{row:?}, {weights:?}: {mean:?}, not {place:?}");
         }
     }
 
@@ -323,7 +328,7 @@ impl History<'_> {
                 let (u, w) = (scaled[i], scaled[(i + 2) % 3].map(|x| -x));
                 let (cross, dot) = (u[0] * w[1] - u[1] * w[0], u[0] * w[0] + u[1] * w[1]);
                 let angle = cross.atan2(dot).to_degrees();
-                assert!(angle >= quality.least_angle - SLACK, "{row:?} has an angle of {angle}");
+                assert!(angle >= quality.least_angle - SLACK, "{row:?}, {p:?}, has an angle of {angle}");
                 let area = most * most * cross / 2.0;
                 let is_small = quality.greatest_area == 0.0 || area <= quality.greatest_area * (1.0 + SLACK);
                 assert!(is_small, "{row:?} has an area of {area}");
