@@ -555,3 +555,19 @@ fn vertices_anew(domain: &Domain, t: &Triangulation, quality: &Quality) -> usize
     refine(&mut anew, quality, &RefineOptions::default(), &selected);
     anew.vertex_count()
 }
+
+/// A square of a few least numbers: its inverse is beyond the range of numbers, and there is hardly room for vertices.
+#[test]
+fn a_square_of_subnormal_numbers_is_refined() {
+    for side in [1.0, 4.0, 16.0, 1e10] {
+        let side = side * f64::from_bits(1);
+        let domain = Domain::default().with_ring(&rectangle([0.0; 2], [side, side]));
+        let mut t = domain.build();
+        let quality = Quality { least_angle: 20.0, is_too_large: Some(&|_| true), ..Quality::default() };
+        let options = RefineOptions { limit: 50, ..RefineOptions::default() };
+        let inside = mask(&t, |_| true);
+        let report = refine(&mut t, &quality, &options, &inside);
+        assert!(report.bad_cells > 0, "{side}: {report:?}");
+        check_fresh(&t, &|| format!("{side}"));
+    }
+}
