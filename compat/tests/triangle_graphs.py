@@ -358,7 +358,7 @@ def compare_graph(functions, switches, arguments, kind, tally):
         tally[kind.__name__] += 1
 
 
-def main(library, first=0, count=600):
+def main(library, first=0, count=300):
     functions = ctypes.CDLL(library).triangulate, ctypes.CDLL(triangle.core.__file__).triangulate
     tally, failures = collections.Counter(), 0
     for seed in range(int(first), int(first) + int(count)):

@@ -197,7 +197,7 @@ def compare_angles(switches, corners, other_corners, tally):
     tally["Triangle's"] += len(other_corners)
 
 
-def main(library, first=0, count=300):
+def main(library, first=0, count=150):
     functions = ctypes.CDLL(library).triangulate, ctypes.CDLL(triangle.core.__file__).triangulate
     tally, failures = collections.Counter(), 0
     for seed in range(int(first), int(first) + int(count)):
