@@ -17,8 +17,8 @@ namespace {
 using Pair = std::pair<int, int>;
 Pair pair_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
-// Whole numbers, so that halves of segments are exact. Segment i has marker 10 + i; those of the hole are 4 to 7, the slit
-// is 8, and 9 cuts the square in two.
+// Whole numbers, so that halves of segments are exact. Segment i has marker 10 + i; those of the hole are 4 to 7, the
+// slit is 8, and 9 cuts the square in two.
 const Points places{0, 0, 64, 0, 64, 64, 0, 64, 8, 8, 16, 8, 16, 16, 8, 16, 8, 40, 24, 48, 32, 0, 32, 64};
 const std::vector<int> segments{0, 10, 1, 2, 2, 11, 3, 0, 4, 5, 5, 6, 6, 7, 7, 4, 8, 9, 10, 11, 10, 1, 11, 3};
 constexpr int n_points = 12, n_segments = 12;
@@ -90,7 +90,10 @@ void check_domain(const Refined &mesh) {
         CHECK(mesh.area(c) > 0);
         const bool is_right = mesh.out.triangleattributelist[c] == 7;
         CHECK(is_right || mesh.out.triangleattributelist[c] == 5);
-        for (int i = 0; i < 3; i++) CHECK(is_right ? mesh.at(mesh.corners(c)[i])[0] >= 32 : mesh.at(mesh.corners(c)[i])[0] <= 32);
+        for (int i = 0; i < 3; i++) {
+            const double x = mesh.at(mesh.corners(c)[i])[0];
+            CHECK(is_right ? x >= 32 : x <= 32);
+        }
         sums[is_right ? 0 : 1] += mesh.area(c);
     }
     CHECK(std::abs(sums[0] - 32 * 64) < 1e-9 && std::abs(sums[1] - (32 * 64 - 64)) < 1e-9);
@@ -218,7 +221,8 @@ void middles_are_points() {
         const int *row = mesh.out.trianglelist + 6 * c;
         for (int i = 0; i < 3; i++)
             for (int axis = 0; axis < 2; axis++)
-                CHECK(2 * mesh.at(row[3 + i])[axis] == mesh.at(row[(i + 1) % 3])[axis] + mesh.at(row[(i + 2) % 3])[axis]);
+                CHECK(2 * mesh.at(row[3 + i])[axis] ==
+                      mesh.at(row[(i + 1) % 3])[axis] + mesh.at(row[(i + 2) % 3])[axis]);
     }
     std::set<int> used(mesh.out.trianglelist, mesh.out.trianglelist + 6 * mesh.out.numberoftriangles);
     CHECK(static_cast<int>(used.size()) == mesh.out.numberofpoints);

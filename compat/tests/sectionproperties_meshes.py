@@ -1,7 +1,7 @@
 """Quantities of two tests of sectionproperties that depend on the mesh, on finer and finer ones.
 
-Examples B.3 and 6.7 of Pilkey's Analysis and Design of Elastic Beams: the tests ask for the textbook's digits, on a mesh on
-which the quantities have not converged.
+Examples B.3 and 6.7 of Pilkey's Analysis and Design of Elastic Beams: the tests ask for the textbook's digits, on a
+mesh on which the quantities have not converged.
 """
 
 from sectionproperties.analysis import Section
