@@ -29,11 +29,14 @@ pub static PROOFS: Count = Count::new("comparisons with the definition");
 pub static FAULTS: Count = Count::new("calls without memory");
 pub static CANCELLED: Count = Count::new("calls cancelled");
 pub static REFUSED: Count = Count::new("bad calls refused");
+pub static REFINED: Count = Count::new("vertices added by refinement");
+pub static COARSENED: Count = Count::new("taken away by coarsening");
+pub static REACHED: Count = Count::new("qualities reached");
 pub static LOADED: Count = Count::new("data loaded");
 pub static DAMAGED: Count = Count::new("data refused");
 
 /// All of them.
-pub static ALL: [&Count; 13] = [
+pub static ALL: [&Count; 16] = [
     &SIGNS,
     &TIES,
     &LONG,
@@ -45,6 +48,9 @@ pub static ALL: [&Count; 13] = [
     &FAULTS,
     &CANCELLED,
     &REFUSED,
+    &REFINED,
+    &COARSENED,
+    &REACHED,
     &LOADED,
     &DAMAGED,
 ];

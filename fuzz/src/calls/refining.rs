@@ -1,6 +1,7 @@
 //! Refinement and coarsening: their reports, pieces and weights, compared with what there was before; the quality that they
 //! reach, measured here.
 
+use super::super::tally;
 use super::History;
 use super::called::{c, note};
 use super::message;
@@ -41,18 +42,24 @@ impl History<'_> {
             self.discard();
         }
         if !self.has_staged() {
-            match self.s.below(3) {
-                0 => self.surround_all(),
-                1 => self.surround_a_cell(),
+            match self.s.below(6) {
+                0..=2 => self.surround_all(),
+                3 | 4 => self.surround_a_cell(),
                 _ => {}
             }
         }
+        for _ in 0..=self.s.below(3) {
+            self.improve_once();
+        }
+    }
+
+    fn improve_once(&mut self) {
         let extent = self.extent();
         let share = self.s.pick(&[0.0, 0.1, 0.01]);
         let (mut width, mut quality) = (extent * self.s.pick(&[0.5, 0.1]), any());
         quality.least_angle = self.s.pick(&[0.0, 10.0, 20.7, 26.5, 34.0]);
         quality.greatest_area = (extent * extent * share).min(f64::MAX);
-        quality.limit = self.s.pick(&[0, 1, 5, 30]);
+        quality.limit = self.s.pick(&[0, 1, 5, 30, 30, 100]);
         quality.has_weights = self.s.below(2) as u32;
         quality.keeps = self.s.pick(&[0, 0, 1, 2]);
         let kind = self.s.below(4);
@@ -159,6 +166,7 @@ impl History<'_> {
             self.m.positions.push(Some(place));
             self.m.made.insert(v);
         }
+        tally::REFINED.add(inserted);
         if inserted > 0 {
             (self.fresh, self.m.timestamp) = (None, self.m.timestamp + 1);
         }
@@ -196,6 +204,7 @@ impl History<'_> {
         }
         let n = self.m.present().count();
         assert_eq!((gone.len() as u64, n_before - n), (report.removed, gone.len()), "removed vertices");
+        tally::COARSENED.add(report.removed);
         if report.removed > 0 {
             (self.fresh, self.m.timestamp) = (None, self.m.timestamp + 1);
         }
@@ -304,6 +313,7 @@ impl History<'_> {
         let t = self.t;
         let levels = self.copied(77, 1, |to, room, count| c!(deldrift_nesting_levels(t, to, room, count)));
         let (rows, _) = self.cells();
+        tally::REACHED.add(u64::from(levels.iter().any(|level| level % 2 == 1)));
         for (row, _) in rows.iter().zip(levels).filter(|(_, level)| level % 2 == 1) {
             let p = [0, 1, 2].map(|i| self.m.at(row[i]).expect("present"));
             let edges = [0, 1, 2].map(|i| [0, 1].map(|axis| p[(i + 1) % 3][axis] - p[i][axis]));

@@ -141,7 +141,7 @@ fn status_of(conflicts: &[Conflict]) -> deldrift_status {
 impl History<'_> {
     /// Segments come, go, and are asked about.
     pub(super) fn change_segments(&mut self) {
-        match self.s.below(9) {
+        match self.s.below(12) {
             0..=2 => self.stage_segments(),
             3 => self.stage_segment_removals(),
             4 => {
@@ -151,7 +151,7 @@ impl History<'_> {
             5 => self.read_sides(),
             6 => self.read_regions(),
             7 => self.stage_splits(),
-            _ if self.s.below(3) == 0 => self.read_chains(),
+            8 => self.read_chains(),
             _ => self.improve(),
         }
     }

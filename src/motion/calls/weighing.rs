@@ -70,6 +70,8 @@ impl MovingTriangulation<Plane> {
         let corners = kernel.complex().cell(slot).corners;
         let sites = [0, 1, 2].map(|i| corners[i]);
         let [x, y, z, _] = barycentric(kernel, &sites.map(|s| kernel.place(s)), point);
-        VertexWeights { vertices: sites.map(|s| kernel.site(s).id), weights: [x, y, z] }
+        // Rounding may take one above 1.
+        let weights = [x, y, z].map(|weight| weight.min(1.0));
+        VertexWeights { vertices: sites.map(|s| kernel.site(s).id), weights }
     }
 }
