@@ -19,7 +19,7 @@ struct triangulateio {
     int numberofpoints;
     int numberofpointattributes;
 
-    int *trianglelist; /* three corners each, counter-clockwise */
+    int *trianglelist; /* three corners each, counter-clockwise; with o2 also the middles opposite these */
     double *triangleattributelist;
     double *trianglearealist;
     int *neighborlist; /* entry i: the triangle opposite corner i, -1 on the hull */
@@ -27,14 +27,14 @@ struct triangulateio {
     int numberofcorners;
     int numberoftriangleattributes;
 
-    int *segmentlist;       /* out, with switch c: the edges of the hull, counter-clockwise, the end of each first */
-    int *segmentmarkerlist; /* 1 */
-    int numberofsegments;   /* out: edges of the hull; in: not looked at without switch p */
+    int *segmentlist;       /* with switch p or c: two ends each */
+    int *segmentmarkerlist; /* in: NULL for zeros; out: those, and 1 for the boundary */
+    int numberofsegments;   /* in: not looked at without switch p; out: without p and c the edges of the hull */
 
-    double *holelist;
+    double *holelist; /* a place in each; out: the list of the input */
     int numberofholes;
 
-    double *regionlist;
+    double *regionlist; /* a place, the attribute, and the greatest area; out: the list of the input */
     int numberofregions;
 
     int *edgelist;       /* two ends each; in vorout two Voronoi vertices, the second -1 for a ray */

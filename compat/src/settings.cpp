@@ -33,6 +33,11 @@ bool sorted() {
     return asked;
 }
 
+bool leaves_refinement() {
+    static const bool asked = is_set("DELDRIFT_COMPAT_REFINE", "original");
+    return asked;
+}
+
 bool copies_lists() {
     static const bool asked = is_set("DELDRIFT_COMPAT_TRIANGLE", "cytriangle");
     return asked;

@@ -19,8 +19,12 @@ Mode mode();
 // them by this library, so that runs with either can be compared bit by bit.
 bool sorted();
 
-// DELDRIFT_COMPAT_TRIANGLE=cytriangle: lists of holes and regions in Triangle's output are copies, which the caller frees,
-// as in cytriangle's Triangle. In Triangle 1.6 they are the lists of the input.
+// DELDRIFT_COMPAT_REFINE=original: refinement is the original's, where there is one, so that meshes stay what they
+// were.
+bool leaves_refinement();
+
+// DELDRIFT_COMPAT_TRIANGLE=cytriangle: lists of holes and regions in Triangle's output are copies, which the caller
+// frees, as in cytriangle's Triangle. In Triangle 1.6 they are the lists of the input.
 bool copies_lists();
 
 // One line on stderr.

@@ -237,7 +237,7 @@ int dispatch(const Call &call, const void *caller) {
     const TriangleSwitches switches(call.switches);
     const std::string unserved = what_is_unserved(switches, call.in);
     Function original = nullptr;
-    if (!unserved.empty() || mode() != Mode::deldrift)
+    if (!unserved.empty() || mode() != Mode::deldrift || (switches.refines && leaves_refinement()))
         original = reinterpret_cast<Function>(original_of(call.symbol, caller));
     if (!unserved.empty()) return pass_on(call, unserved, original);
     if (mode() != Mode::deldrift && original == nullptr) {

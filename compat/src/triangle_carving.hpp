@@ -23,8 +23,8 @@ Mesh outline_of(const Graph &graph, const triangulateio &in);
 
 class Carver {
 public:
-    // t has cells, and the segments of the outline, with their numbers or none of them. The mesh may refer to both and to
-    // what the outline refers to.
+    // t has cells, and the segments of the outline, with their numbers or none of them. The mesh may refer to both
+    // and to what the outline refers to.
     Carver(const triangulateio &in, Mesh outline, const deldrift_triangulation *t, const Cells &cells);
 
     // The edges of the hull become segments.

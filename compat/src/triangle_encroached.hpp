@@ -1,5 +1,5 @@
-// Triangles at segments in whose diametral circle their third corner is. Where there is none, all triangles are Delaunay,
-// segments or not.
+// Triangles at segments in whose diametral circle their third corner is. Where there is none, all triangles are
+// Delaunay, segments or not.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +35,8 @@ private:
     using Key = std::array<double, 6>;
 
     static bool is_obtuse(const double *places, int corner) {
-        const double *p = places + 2 * corner, *a = places + 2 * ((corner + 1) % 3), *b = places + 2 * ((corner + 2) % 3);
+        const double *p = places + 2 * corner;
+        const double *a = places + 2 * ((corner + 1) % 3), *b = places + 2 * ((corner + 2) % 3);
         return (a[0] - p[0]) * (b[0] - p[0]) + (a[1] - p[1]) * (b[1] - p[1]) < 0;
     }
 

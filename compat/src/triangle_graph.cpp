@@ -45,7 +45,8 @@ struct HashPlace {
 std::string what_is_wrong_with_list(const char *list, const char *count_name, int count, bool is_null) {
     char text[160];
     if (count < 0) std::snprintf(text, sizeof text, "in->%s is %d", count_name, count);
-    else if (count > 0 && is_null) std::snprintf(text, sizeof text, "in->%s is NULL, and in->%s %d", list, count_name, count);
+    else if (count > 0 && is_null)
+        std::snprintf(text, sizeof text, "in->%s is NULL, and in->%s %d", list, count_name, count);
     else return "";
     return text;
 }
@@ -56,7 +57,7 @@ std::string what_is_wrong_with_places(const char *list, const double *places, in
             const int index = i * width + axis;
             if (std::abs(places[index]) <= 1e57) continue;
             char text[160];
-            std::snprintf(text, sizeof text, "in->%s[%d] is %g: a finite number was expected, at most 1e57 in magnitude",
+            std::snprintf(text, sizeof text, "in->%s[%d] is %g: a finite number was expected, at most 1e57 in size",
                           list, index, places[index]);
             return text;
         }
@@ -253,7 +254,8 @@ void Graph::add_points(const std::vector<Crossing> &crossings, std::vector<std::
         if (is_new) {
             points_.insert(points_.end(), {place.x, place.y});
             for (std::size_t k = 0; k < n_attributes_; k++)
-                attributes_.push_back(between(attributes_[start * n_attributes_ + k], attributes_[end * n_attributes_ + k]));
+                attributes_.push_back(
+                    between(attributes_[start * n_attributes_ + k], attributes_[end * n_attributes_ + k]));
             n_added_++;
         }
         const std::uint32_t point = entry->second;

@@ -56,14 +56,16 @@ public:
         : switches_(switches), t_(t), outline_(outline), labels_(labels), left_(switches.limit) {
         outline_.own_points.assign(outline.points, outline.points + 2 * outline.n_points);
         if (outline.n_attributes > 0)
-            outline_.own_attributes.assign(outline.attributes, outline.attributes + outline.n_attributes * outline.n_points);
+            outline_.own_attributes.assign(outline.attributes,
+                                           outline.attributes + outline.n_attributes * outline.n_points);
         areas_.assign(static_cast<std::size_t>(in.numberofregions) + 1, 0);
         for (int i = 0; i < in.numberofregions && switches.has_region_areas; i++)
             areas_[static_cast<std::size_t>(i) + 1] = std::max(in.regionlist[std::ptrdiff_t{4} * i + 3], 0.0);
         const InForce segments(t);
         const auto label = [&](std::uint32_t cell) { return cell == no_cell ? eaten : labels_[cell]; };
         for (std::size_t i = 0; i < segments.count(); i++)
-            origins_.push_back({outline.segments.markers[i], label(segments.cells[2 * i]), label(segments.cells[2 * i + 1])});
+            origins_.push_back(
+                {outline.segments.markers[i], label(segments.cells[2 * i]), label(segments.cells[2 * i + 1])});
     }
 
     // For D triangles at encroached segments are too large. The circumcentre of such a triangle is behind the segment,

@@ -16,8 +16,8 @@
 
 namespace compat {
 
-// Refines a copy of t, which has the pieces of the graph as its segments, with their numbers, and cells. The copy, which
-// the mesh refers to, and the mesh are set. Empty, or a message that says why it cannot be done.
+// Refines a copy of t, which has the pieces of the graph as its segments, with their numbers, and cells. The copy,
+// which the mesh refers to, and the mesh are set. Empty, or a message that says why it cannot be done.
 std::string refine(const TriangleSwitches &switches, const triangulateio &in, const Graph &graph,
                    const deldrift_triangulation *t, Triangulation &copy, Mesh &mesh);
 

@@ -26,7 +26,8 @@ static std::string number_behind(const char *each) {
 void TriangleSwitches::read_angle(const std::string &number) {
     refines = true;
     least_angle = number.empty() ? default_angle : std::strtod(number.c_str(), nullptr);
-    if (!(least_angle <= greatest_angle) && unserved.empty()) unserved = "switch q" + number + " (angles above 34 degrees)";
+    if (!(least_angle <= greatest_angle) && unserved.empty())
+        unserved = "switch q" + number + " (angles above 34 degrees)";
 }
 
 void TriangleSwitches::read_area(const std::string &number) {

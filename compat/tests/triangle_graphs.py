@@ -2,11 +2,11 @@
 
 triangle_graphs.py LIBRARY [FIRST COUNT]: libdeldrift_triangle_tetgen.so, and which of the random inputs.
 
-Numbers of points are compared but for those at crossings, which either library adds in an order of its own, and of points
-at one place, of which either keeps one; with j its marker and attributes are those of one of them. Of points that are in
-no triangle, markers are not compared. Where rounding decides what follows from a crossing, triangle_rounding.py says
-what is compared. Triangle runs in a process of its own first: there are inputs with which it fails
-or does not end; they are served here, and counted.
+Numbers of points are compared but for those at crossings, which either library adds in an order of its own, and of
+points at one place, of which either keeps one; with j its marker and attributes are those of one of them. Of points
+that are in no triangle, markers are not compared. Where rounding decides what follows from a crossing,
+triangle_rounding.py says what is compared. Triangle runs in a process of its own first: there are inputs with which
+it fails or does not end; they are served here, and counted.
 """
 
 import collections
@@ -167,12 +167,13 @@ def lattice(graph):
 
 
 KINDS = [domain, slits, touching, crossing, repeated, lattice]
-SWITCHES = ["zpenv", "pen", "zpcenv", "zpAenv", "zpcAen", "zpj", "zpjAenv", "zpOAe", "zpB", "zpPe", "zpEN", "pjcen", "zpS0Yen"]
+SWITCHES = ["zpenv", "pen", "zpcenv", "zpAenv", "zpcAen", "zpj", "zpjAenv", "zpOAe", "zpB", "zpPe", "zpEN", "pjcen",
+            "zpS0Yen"]
 
 
 def numbers_of(a, b, scale):
-    """For each number of a point of a the first one at its place; for each of b that of the point of a at its place, or,
-    for points added, next to it."""
+    """For each number of a point of a the first one at its place; for each of b that of the point of a at its place,
+    or, for points added, next to it."""
     firsts = {}
     for i, place in enumerate(map(tuple, a.tolist())):
         firsts.setdefault(place, i)
@@ -263,7 +264,8 @@ def compare(own, other, switches, scale, has_ties, arguments):
     for name, row in rounded.items():
         is_close = numpy.allclose(row[:width], other_rounded[name][:width], rtol=1e-5, atol=1e-5 * scale)
         check(is_close, "Voronoi vertices")
-    edges, other_edges = by_edge(a, dual, names, first, renamings[0]), by_edge(b, other_dual, other_names, first, renamings[1])
+    edges = by_edge(a, dual, names, first, renamings[0])
+    other_edges = by_edge(b, other_dual, other_names, first, renamings[1])
     check(edges.keys() == other_edges.keys(), "edges")
     for ends, (marker, sides, norm) in edges.items():
         check((marker, sides) == other_edges[ends][:2], "edges")
@@ -358,7 +360,7 @@ def compare_graph(functions, switches, arguments, kind, tally):
         tally[kind.__name__] += 1
 
 
-def main(library, first=0, count=600):
+def main(library, first=0, count=300):
     functions = ctypes.CDLL(library).triangulate, ctypes.CDLL(triangle.core.__file__).triangulate
     tally, failures = collections.Counter(), 0
     for seed in range(int(first), int(first) + int(count)):

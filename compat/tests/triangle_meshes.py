@@ -2,10 +2,10 @@
 
 triangle_meshes.py LIBRARY [FIRST COUNT]: libdeldrift_triangle_tetgen.so, and which of the random domains.
 
-The domain without refinement, which triangle_graphs.py compares with Triangle, is what a mesh is checked against: areas of
-regions, chains that cover segments, their markers. Attributes are linear functions of places, so those of new points are
-known. Triangle's mesh of the same domain has the same areas of regions, and says how many triangles there may be, and how
-small angles may be that segments at a small angle bring about.
+The domain without refinement, which triangle_graphs.py compares with Triangle, is what a mesh is checked against:
+areas of regions, chains that cover segments, their markers. Attributes are linear functions of places, so those of
+new points are known. Triangle's mesh of the same domain has the same areas of regions, and says how many triangles
+there may be, and how small angles may be that segments at a small angle bring about.
 """
 
 import collections
@@ -22,8 +22,8 @@ from triangle_rounding import Different, check, have_same_areas, rows
 TOLERANCE = 1e-9
 MOST = 1.1  # times as many triangles as Triangle, over all
 WITHOUT_ROOM = 2e-3  # of the segments with D
-SWITCHES = ["pq", "pqa", "pq30a0.01", "pa0.01", "pqa0.004D", "pD", "pq28D", "pqa0.01Y", "pq25YY", "pqa0.001S40", "pcqa0.02",
-            "pAaq", "pAqa0.005", "qa0.01", "pq33", "pAqaD"]
+SWITCHES = ["pq", "pqa", "pq30a0.01", "pa0.01", "pqa0.004D", "pD", "pq28D", "pqa0.01Y", "pq25YY", "pqa0.001S40",
+            "pcqa0.02", "pAaq", "pAqa0.005", "qa0.01", "pq33", "pAqaD"]
 
 
 def corners_of(out, first):
@@ -42,7 +42,8 @@ def least_angles(corners):
     angles = []
     for k in range(3):
         a, b = sides[(k + 1) % 3], -sides[(k + 2) % 3]
-        angles.append(numpy.degrees(numpy.arctan2(numpy.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]), (a * b).sum(axis=1))))
+        cross = numpy.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+        angles.append(numpy.degrees(numpy.arctan2(cross, (a * b).sum(axis=1))))
     return numpy.min(angles, axis=0)
 
 
@@ -110,7 +111,8 @@ def check_lists(out, dual, first, numbers, corners):
     ends = rows(out.edgelist, out.numberofedges, 2).astype(int) - first
     names = [tuple(sorted(row)) for row in ends.tolist()]
     check(len(names) == len(set(names)) and set(names) == set(edges), "edges")
-    check([pieces.get(name, 0) for name in names] == rows(out.edgemarkerlist, len(names), 1).ravel().tolist(), "markers of edges")
+    markers = rows(out.edgemarkerlist, len(names), 1).ravel().tolist()
+    check([pieces.get(name, 0) for name in names] == markers, "markers of edges")
     centres = rows(dual.pointlist, dual.numberofpoints, 2)
     distances = numpy.hypot(*(corners - centres[:, None]).transpose(2, 0, 1))
     check(numpy.allclose(distances, distances[:, :1], rtol=1e-6), "circumcentres")
@@ -131,7 +133,8 @@ def check_limits(switches, out, numbers, corners, attributes, regions, chains, n
             bounds = {}  # of regions with one attribute the largest
             for _, _, key, bound in regions.tolist():
                 bounds[key] = max(bounds.get(key, 0), bound if bound > 0 else numpy.inf)
-            check(all(areas[attributes == key].max(initial=0) <= bound * (1 + TOLERANCE) for key, bound in bounds.items()),
+            greatest_areas = {key: areas[attributes == key].max(initial=0) for key in bounds}
+            check(all(greatest_areas[key] <= bound * (1 + TOLERANCE) for key, bound in bounds.items()),
                   "greatest area of a region")
     boundary = boundary_of(numbers)
     for chain in chains.values() if is_kept else ():
@@ -140,8 +143,8 @@ def check_limits(switches, out, numbers, corners, attributes, regions, chains, n
 
 
 def check_conforming(out, numbers, first, tally):
-    """All edges but the boundary's are Delaunay, segments or not, and no corner is in the circle around a segment. Segments
-    that rounding leaves no room to split are counted."""
+    """All edges but the boundary's are Delaunay, segments or not, and no corner is in the circle around a segment.
+    Segments that rounding leaves no room to split are counted."""
     points = rows(out.pointlist, out.numberofpoints, 2)
     pieces, encroached = segments_of(out, first), set()
     for row in numbers.tolist():
@@ -175,10 +178,12 @@ def check_mesh(functions, switches, arguments, tally):
     chains = check_chains(plain, out, first, scale)
     all_points = rows(out.pointlist, out.numberofpoints, 2)
     linear = numpy.stack([all_points @ (1, 2), 3 - all_points @ (0.5, 1)], 1)
-    check(numpy.allclose(rows(out.pointattributelist, out.numberofpoints, 2), linear, atol=1e-9), "attributes of points")
+    of_points = rows(out.pointattributelist, out.numberofpoints, 2)
+    check(numpy.allclose(of_points, linear, atol=1e-9), "attributes of points")
     of_triangles = rows(out.triangleattributelist, out.numberoftriangles, 1).ravel()
     check_lists(out, dual, first, numbers, corners)
-    check_limits(switches, out, numbers, corners, of_triangles, lists.get("regionlist", numpy.zeros((0, 4))), chains, n_before)
+    regions = lists.get("regionlist", numpy.zeros((0, 4)))
+    check_limits(switches, out, numbers, corners, of_triangles, regions, chains, n_before)
     if "D" in switches:
         check_conforming(out, numbers, first, tally)
     check_delaunay(out, all_points, first)
@@ -192,12 +197,13 @@ def compare_angles(switches, corners, other_corners, tally):
         least, other_least = least_angles(corners), least_angles(other_corners)
         tally["own below q"] += int((least < angle - 1e-6).sum())
         tally["Triangle's below q"] += int((other_least < angle - 1e-6).sum())
-        check(least.min() >= min(angle - 1e-6, 0.5 * other_least.min()), f"least angle {least.min()}, {other_least.min()}")
+        bound = min(angle - 1e-6, 0.5 * other_least.min())
+        check(least.min() >= bound, f"least angle {least.min()}, {other_least.min()}")
     tally["own"] += len(corners)
     tally["Triangle's"] += len(other_corners)
 
 
-def main(library, first=0, count=300):
+def main(library, first=0, count=150):
     functions = ctypes.CDLL(library).triangulate, ctypes.CDLL(triangle.core.__file__).triangulate
     tally, failures = collections.Counter(), 0
     for seed in range(int(first), int(first) + int(count)):

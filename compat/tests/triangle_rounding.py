@@ -1,10 +1,10 @@
 """Outputs of planar straight-line graphs in which rounding decides what follows from a crossing.
 
 Where several segments cross at one place, or a crossing is beside a point or another segment, a library may have one
-point or several there, and pieces that lead through a point or past it. Equal then are the places at which points are,
-the pieces between places, the markers of both, and the areas of regions. A place is what is nearer than TOLERANCE of the
-extent. Own markers are those that the input determines: the point's own, else that of the first segment there that has
-one, else 1 on the boundary.
+point or several there, and pieces that lead through a point or past it. Equal then are the places at which points
+are, the pieces between places, the markers of both, and the areas of regions. A place is what is nearer than
+TOLERANCE of the extent. Own markers are those that the input determines: the point's own, else that of the first
+segment there that has one, else 1 on the boundary.
 """
 
 import collections
@@ -57,16 +57,15 @@ class Places:
 
 
 class Output:
-    """Of one library, by places. """
+    """Of one library, by places: those of the candidates, which are the points of both."""
 
-    def __init__(self, out, places, numbers, first):
+    def __init__(self, out, places, numbers, candidates, first):
         self.leads_past = False
         corners = rows(out.trianglelist, out.numberoftriangles, 3).astype(int) - first
         self.is_doubled = len(numpy.unique(corners)) > len(numpy.unique(numbers[corners]))
         sides = self.count_sides(numbers[corners].tolist())
         self.used = {number for side in sides for number in side}
         self.boundary = {side for side, count in sides.items() if count == 1}
-        candidates = numpy.unique(numbers)
         self.pieces, self.markers = {}, {}
         ends = numbers[rows(out.segmentlist, out.numberofsegments, 2).astype(int) - first].tolist()
         markers = rows(out.segmentmarkerlist, out.numberofsegments, 1).ravel().tolist() or [None] * len(ends)
@@ -77,6 +76,7 @@ class Output:
             self.leads_past |= len(pieces) != 1
             for piece in pieces:
                 self.pieces.setdefault(piece, set()).add(marker)
+                self.used.update(piece)
         of_points = rows(out.pointmarkerlist, out.numberofpoints, 1).ravel().tolist()
         for number, marker in zip(numbers.tolist(), of_points):
             self.markers.setdefault(number, set()).add(marker)
@@ -121,7 +121,8 @@ def look(outs, points, scale, first):
     """Both outputs by places."""
     lists = [rows(out.pointlist, out.numberofpoints, 2) for out in outs]
     places = Places([points, *lists], scale)
-    return places, [Output(out, places, numbers, first) for out, numbers in zip(outs, places.of_lists[1:])]
+    candidates = numpy.unique(numpy.concatenate(places.of_lists[1:]))
+    return places, [Output(out, places, numbers, candidates, first) for out, numbers in zip(outs, places.of_lists[1:])]
 
 
 def compare_rounded(found, places, markers, lists, first):
@@ -136,7 +137,7 @@ def compare_rounded(found, places, markers, lists, first):
         check(own_markers in ({expected}, {expected or 1}), f"marker of piece {pair}: {own_markers}, not {expected}")
         possible = {0, 1, *given.of_pieces.get(pair, ())}
         check(other.pieces[pair] <= possible, f"markers of piece {pair} in Triangle: {other.pieces[pair]}")
-    for number in own.used if own.markers else ():
+    for number in own.used & own.markers.keys():
         expected = given.first_of(given.of_points.get(number, ()))
         check(own.markers[number] & ({expected} if expected else {0, 1}), f"marker of place {number}")
         possible = {0, 1, *given.of_points.get(number, ()), *given.repeated.get(number, ())}
@@ -152,7 +153,8 @@ def have_same_areas(outs, scale, first):
 
 def areas(out, first):
     """Twice that of the triangles of each attribute."""
-    corners = rows(out.pointlist, out.numberofpoints, 2)[rows(out.trianglelist, out.numberoftriangles, 3).astype(int) - first]
+    numbers = rows(out.trianglelist, out.numberoftriangles, 3).astype(int) - first
+    corners = rows(out.pointlist, out.numberofpoints, 2)[numbers]
     (x, y), (other_x, other_y) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
     each = x * other_y - y * other_x
     attributes = rows(out.triangleattributelist, out.numberoftriangles, 1)
