@@ -64,7 +64,8 @@ impl History<'_> {
         quality.keeps = self.s.pick(&[0, 0, 1, 2]);
         let kind = self.s.below(4);
         let n = self.m.positions.len();
-        let sizes: Vec<f64> = (0..n).map(|_| extent * self.s.pick(&[1.0, 0.3])).collect();
+        let sizes: Vec<f64> =
+            (0..n).map(|_| (extent * self.s.pick(&[1.0, 0.3])).max(f64::from_bits(1))).collect();
         if kind == 0 {
             (quality.sizes, quality.size_count) = (sizes.as_ptr(), n);
         } else if kind == 1 {
@@ -255,16 +256,16 @@ impl History<'_> {
         let mut marked = BTreeMap::new();
         for &id in long {
             let ([from, to], original) = row(id);
-            let (mut at, mut n) = (from, 0);
+            let (mut last, mut at, mut n) = (NONE, from, 0);
             while n == 0 || !is_at(at, to) {
-                assert!(n == 0 || is_within(at), "{id} is divided at {at}");
+                // Where the ends of a segment share a place, its pieces may go both ways along an edge.
                 let follows = |other: &&u32| {
-                    let ([start, _], of) = row(**other);
-                    of == original && is_at(start, at)
+                    let ([start, end], of) = row(**other);
+                    of == original && is_at(start, at) && end != last && (is_within(end) || is_at(end, to))
                 };
                 let next = *left.iter().find(follows).unwrap_or_else(|| panic!("no piece of {id} at {at}"));
                 left.remove(&next);
-                (at, n) = (row(next).0[1], n + 1);
+                (last, at, n) = (at, row(next).0[1], n + 1);
                 marked.insert(id.max(next), id.min(next));
             }
             assert!(n > 1, "{id} is one piece");
