@@ -258,12 +258,16 @@ impl History<'_> {
             let ([from, to], original) = row(id);
             let (mut last, mut at, mut n) = (NONE, from, 0);
             while n == 0 || !is_at(at, to) {
-                // Where the ends of a segment share a place, its pieces may go both ways along an edge.
+                // Where vertices share a place, others of one original may begin there, and its pieces may go both ways
+                // along an edge.
                 let follows = |other: &&u32| {
                     let ([start, end], of) = row(**other);
                     of == original && is_at(start, at) && end != last && (is_within(end) || is_at(end, to))
                 };
-                let next = *left.iter().find(follows).unwrap_or_else(|| panic!("no piece of {id} at {at}"));
+                let next = left.iter().copied().filter(|other| follows(&other));
+                let next = next.min_by_key(|&other| row(other).0[0] != at);
+                let next =
+                    next.unwrap_or_else(|| panic!("no piece of {id} at {at}: {before:?}, now {now:?}"));
                 left.remove(&next);
                 (last, at, n) = (at, row(next).0[1], n + 1);
                 marked.insert(id.max(next), id.min(next));
@@ -328,8 +332,12 @@ impl History<'_> {
             for i in 0..3 {
                 let (u, w) = (scaled[i], scaled[(i + 2) % 3].map(|x| -x));
                 let (cross, dot) = (u[0] * w[1] - u[1] * w[0], u[0] * w[0] + u[1] * w[1]);
-                let angle = cross.atan2(dot).to_degrees();
-                assert!(angle >= quality.least_angle - SLACK, "{row:?}, {p:?}, has an angle of {angle}");
+                let angle = cross.atan2(dot).to_degrees().abs();
+                assert!(
+                    angle >= quality.least_angle - SLACK,
+                    "{row:?}, {p:?}, has an angle of {angle}, below {}",
+                    quality.least_angle
+                );
                 let area = most * most * cross / 2.0;
                 let is_small = quality.greatest_area == 0.0 || area <= quality.greatest_area * (1.0 + SLACK);
                 assert!(is_small, "{row:?} has an area of {area}");
