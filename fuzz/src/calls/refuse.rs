@@ -309,6 +309,9 @@ impl History<'_> {
             let wanted = DELDRIFT_INVALID_DIMENSION;
             self.expect(wanted, || c!(deldrift_nesting_levels(t, none, 0, &mut count)));
             self.expect(wanted, || c!(deldrift_check_passings(t)));
+            self.expect(wanted, || {
+                c!(deldrift_update_labels(t, none, 0, 8, labels.as_mut_ptr(), cells, &mut count))
+            });
             self.expect(wanted, || c!(deldrift_passings(t, none, none, 0, &mut count)));
             self.expect(wanted, || c!(deldrift_segments(t, none, none, null_mut(), 0, &mut count)));
             self.ok(|| c!(deldrift_check_staged(t)));

@@ -448,10 +448,46 @@ impl History<'_> {
             return;
         }
         assert_eq!((status, count), (DELDRIFT_OK, n), "{}", message());
-        for (cell, label) in told.into_iter().enumerate() {
+        for (cell, &label) in told.iter().enumerate() {
             let seed = regions.iter().position(|regions| regions.contains(&region[cell]));
             assert_eq!(label, seed.map_or(9, |k| labels[k]), "label of cell {cell}");
         }
+        self.update_labels(&told, &neighbours, &sides);
+    }
+
+    /// Some of the cells get their labels from others of their regions, if there are any, or else from the outside.
+    fn update_labels(&mut self, told: &[i32], neighbours: &[Row], sides: &[[u32; 3]]) {
+        let (t, n, share) = (self.t, told.len(), 1 + self.s.below(4));
+        let mut listed: Vec<u32> = (0..n as u32).filter(|_| self.s.below(4) < share).collect();
+        let is_listed: BTreeSet<u32> = listed.iter().copied().collect();
+        listed.extend(is_listed.first());
+        let (mut wanted, mut wanted_undecided) = (told.to_vec(), 0);
+        let mut left = is_listed.clone();
+        while let Some(first) = left.pop_first() {
+            let (mut found, mut has_label, mut is_outer) = (vec![first], false, false);
+            let mut k = 0;
+            while k < found.len() {
+                let cell = found[k] as usize;
+                k += 1;
+                for i in (0..3).filter(|&i| sides[cell][i] == NONE) {
+                    let other = neighbours[cell][i];
+                    is_outer |= other == NONE;
+                    has_label |= other != NONE && !is_listed.contains(&other);
+                    if left.remove(&other) {
+                        found.push(other);
+                    }
+                }
+            }
+            if !has_label {
+                found.iter().for_each(|&cell| wanted[cell as usize] = 8);
+                wanted_undecided += if is_outer { 0 } else { found.len() };
+            }
+        }
+        let mut labels = told.to_vec();
+        is_listed.iter().for_each(|&cell| labels[cell as usize] = i32::MIN);
+        let (cells, n_listed, to, mut undecided) = (listed.as_ptr(), listed.len(), labels.as_mut_ptr(), 77);
+        self.ok(|| c!(deldrift_update_labels(t, cells, n_listed, 8, to, n, &mut undecided)));
+        assert_eq!((labels, undecided), (wanted, wanted_undecided), "labels again of {listed:?}");
     }
 
     /// The cells that have a place inside or on their boundary.
