@@ -441,7 +441,6 @@ static void vertices_that_pass_a_segment_are_told(void) {
     // A segment that goes, comes, or has an end that does, is not looked at.
     deldrift_triangulation *t = slit(DELDRIFT_PASSING_REFUSE);
     uint32_t segment;
-    size_t count;
     OK(deldrift_stage_segment_removals(t, (uint32_t[]){0}, 1));
     OK(deldrift_stage_segments(t, (uint32_t[]){1, 3}, NULL, 1, &segment));
     OK(deldrift_move_vertices(t, both, across, 2));
