@@ -576,7 +576,7 @@ typedef struct deldrift_quality {
     const int32_t *labels;
     /// How many labels there are: as many as cells, or 0.
     size_t label_count;
-    /// The greatest area of cells by label, 0 for any: that of label k is areas[k], and labels below 0 and beyond have none.
+    /// The greatest area of cells by label, 0 for any: entry k is that of label k, and labels below 0 and beyond have none.
     /// New cells have the label of the region that they are in. NULL by default.
     const double *areas;
     /// How many areas there are.
@@ -1061,8 +1061,8 @@ deldrift_status deldrift_check_passings(deldrift_triangulation *t);
 /// refused; with DELDRIFT_PASSING_IGNORE a commit leaves none. Staging, discarding and questions keep them, and so do calls
 /// that insert or remove a vertex at once.
 ///
-/// segments: a buffer with room for capacity ids; vertices: for capacity ids; entry k says that vertices[k] passes
-/// segments[k]. One that is NULL is not filled. count: receives their number, which is also written when the buffers are
+/// segments: a buffer with room for capacity ids; vertices: for capacity ids; entry k of vertices
+/// passes entry k of segments. One that is NULL is not filled. count: receives their number, which is also written when the buffers are
 /// too small. NULL for both with capacity 0 asks for the count alone.
 ///
 /// Cost: their number.

@@ -55,7 +55,7 @@ pub struct deldrift_quality {
     pub labels: *const i32,
     /// How many labels there are: as many as cells, or 0.
     pub label_count: usize,
-    /// The greatest area of cells by label, 0 for any: that of label k is areas[k], and labels below 0 and beyond have none.
+    /// The greatest area of cells by label, 0 for any: entry k is that of label k, and labels below 0 and beyond have none.
     /// New cells have the label of the region that they are in. NULL by default.
     pub areas: *const f64,
     /// How many areas there are.

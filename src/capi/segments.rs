@@ -258,8 +258,8 @@ pub unsafe extern "C" fn deldrift_check_passings(t: *mut deldrift_triangulation)
 /// refused; with DELDRIFT_PASSING_IGNORE a commit leaves none. Staging, discarding and questions keep them, and so do calls
 /// that insert or remove a vertex at once.
 ///
-/// segments: a buffer with room for capacity ids; vertices: for capacity ids; entry k says that vertices[k] passes
-/// segments[k]. One that is NULL is not filled. count: receives their number, which is also written when the buffers are
+/// segments: a buffer with room for capacity ids; vertices: for capacity ids; entry k of vertices
+/// passes entry k of segments. One that is NULL is not filled. count: receives their number, which is also written when the buffers are
 /// too small. NULL for both with capacity 0 asks for the count alone.
 ///
 /// Cost: their number.

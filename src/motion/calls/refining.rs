@@ -51,9 +51,10 @@ impl MovingTriangulation<Plane> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Staged`] if anything is staged; [`Error::InvalidValue`] for a quality that has no meaning or cannot be had,
-    /// and for a selected cell at an edge beyond which none is selected and that is no segment; [`Error::WrongCount`];
-    /// those of [`commit_timestamp`](Self::commit_timestamp).
+    /// [`Error::Staged`](crate::Error::Staged) if anything is staged; [`Error::InvalidValue`](crate::Error::InvalidValue) for a
+    /// quality that has no meaning or cannot be had, and for a selected cell at an edge beyond which none is selected and that
+    /// is no segment; [`Error::WrongCount`](crate::Error::WrongCount); those of
+    /// [`commit_timestamp`](Self::commit_timestamp).
     pub fn refine(
         &mut self,
         quality: &Quality,
