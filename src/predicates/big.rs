@@ -3,7 +3,7 @@
 //! Where a coordinate is so small that expansions would underflow, the coordinates of a call are written as
 //! integers in units of the smallest last bit among them. This costs microseconds, but it takes a near tie between
 //! points of which one is at a place like 10⁻⁶⁴. `insphere` comes here without trying expansions: where its
-//! differences do not fit shorter integers, these are as fast, and take a fifth of the stack.
+//! differences do not fit shorter integers, these are as fast, and take less than a third of the stack.
 //!
 //! The integers are of fixed size and on the stack, as there is no way to report from here that memory has run out. A
 //! coordinate is of magnitude at most 10⁵⁷ < 2¹⁹⁰ and a multiple of 2⁻¹⁰⁷⁴, so at most 2¹²⁶⁴ units; a difference is
@@ -156,17 +156,21 @@ pub(super) fn decode(x: f64) -> (i64, i32) {
     (if x < 0.0 { -mantissa } else { mantissa }, exponent)
 }
 
-pub(super) fn square<'r, const D: usize>(p: &[Integer<'r>; D]) -> Integer<'r> {
+/// What determinants are evaluated in.
+pub(super) trait Ring: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {}
+impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>> Ring for T {}
+
+pub(super) fn square<T: Ring, const D: usize>(p: &[T; D]) -> T {
     p[1..].iter().fold(p[0] * p[0], |sum, &x| sum + x * x)
 }
 
 /// Minor of the first two columns.
-pub(super) fn minor<'r, const D: usize>(p: &[Integer<'r>; D], q: &[Integer<'r>; D]) -> Integer<'r> {
+pub(super) fn minor<T: Ring, const D: usize>(p: &[T; D], q: &[T; D]) -> T {
     p[0] * q[1] - p[1] * q[0]
 }
 
 /// Determinant of three differences.
-pub(super) fn volume<'r>(u: &[Integer<'r>; 3], v: &[Integer<'r>; 3], w: &[Integer<'r>; 3]) -> Integer<'r> {
+pub(super) fn volume<T: Ring>(u: &[T; 3], v: &[T; 3], w: &[T; 3]) -> T {
     minor(v, w) * u[2] - minor(u, w) * v[2] + minor(u, v) * w[2]
 }
 
@@ -177,11 +181,14 @@ pub(super) fn volume<'r>(u: &[Integer<'r>; 3], v: &[Integer<'r>; 3], w: &[Intege
 /// 27 · 21. A square is 3 · 40 + 2 · 41, a minor 2 · 40 + 41, a volume three of these and 3 · 60 + 2 · 61. `insphere`
 /// has four squares, four volumes, four products of 100 and three sums of 101: 4,738 in all.
 ///
-/// The most are those of comparing the radius of a sphere (`measures.rs`). 12 coordinates and 9 differences are 21 ·
-/// 21; three squares; nine minors; a volume of them, 3 · 60 + 2 · 61; a vector, three times 3 · 80 + 2 · 81; its
-/// square, 3 · 160 + 2 · 161; that of the volume, 120; the given radius and its product with that, 53 + 173. These are
-/// 4,792.
-const LIMBS: usize = 4800;
+/// Comparing the radius of a sphere (`measures.rs`) takes more. 12 coordinates and 9 differences are 21 · 21; three
+/// squares; nine minors; a volume of them, 3 · 60 + 2 · 61; a vector, three times 3 · 80 + 2 · 81; its square, 3 · 160 +
+/// 2 · 161; that of the volume, 120; the given radius and its product with that, 53 + 173. These are 4,792.
+///
+/// The most are those of a sphere and a box (`reach.rs`): the vector of a sphere with its square as above, 4,446; twice
+/// the volume, 61; 6 coordinates and 6 differences, 12 · 21; for each side of the box a product of 80 and a difference
+/// of 82; for each axis a square of 162 and a difference of at most 165. These are 6,712.
+const LIMBS: usize = 6720;
 
 /// Room for integers, which are given up together.
 pub(super) struct Room {
