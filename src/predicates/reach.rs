@@ -228,11 +228,7 @@ fn is_met<T: Signed, const D: usize>(
 
 #[cold]
 #[inline(never)]
-fn is_exactly_met_2d(
-    [a, b, c]: [&[f64; 2]; 3],
-    sides: [&[f64; 2]; 2],
-    binding: Binding<2>,
-) -> bool {
+fn is_exactly_met_2d([a, b, c]: [&[f64; 2]; 3], sides: [&[f64; 2]; 2], binding: Binding<2>) -> bool {
     let [low, high] = counting(a, sides, binding);
     let points = [b, c, &low, &high];
     if let Some([u, v, low, high]) = short(a, points) {
@@ -245,11 +241,7 @@ fn is_exactly_met_2d(
 
 #[cold]
 #[inline(never)]
-fn is_exactly_met_3d(
-    [a, b, c, d]: [&[f64; 3]; 4],
-    sides: [&[f64; 3]; 2],
-    binding: Binding<3>,
-) -> bool {
+fn is_exactly_met_3d([a, b, c, d]: [&[f64; 3]; 4], sides: [&[f64; 3]; 2], binding: Binding<3>) -> bool {
     let [low, high] = counting(a, sides, binding);
     let points = [b, c, d, &low, &high];
     if let Some([u, v, w, low, high]) = short(a, points) {
@@ -317,7 +309,8 @@ impl<const D: usize> Normal<D> {
             let is_high = |axis: usize| bits >> axis & 1 == 1;
             let may_be_furthest = |axis: usize| {
                 let is_other = low[axis] != high[axis] || !is_high(axis);
-                is_other && (low[axis] == high[axis] || !is_certain(axis) || is_high(axis) == (self.n[axis] > 0.0))
+                is_other
+                    && (low[axis] == high[axis] || !is_certain(axis) || is_high(axis) == (self.n[axis] > 0.0))
             };
             let corner = std::array::from_fn(|axis| if is_high(axis) { high[axis] } else { low[axis] });
             (0..D).all(may_be_furthest) && is_beyond(&corner)
@@ -339,7 +332,11 @@ fn cover_rounded<const D: usize>(
     let vector = vector + UNDERFLOW * (amplified * amplified);
     let off = bound + 2.0 * UNIT * volume;
     let scale = 1.0 / (volume - off);
-    cover(a, rounded.offset, rounded.offset.map(|o| (0.5 * vector + o.abs() * off) * scale + 2.0 * UNIT * o.abs()))
+    cover(
+        a,
+        rounded.offset,
+        rounded.offset.map(|o| (0.5 * vector + o.abs() * off) * scale + 2.0 * UNIT * o.abs()),
+    )
 }
 
 /// The covering ball of a sphere of which the offset has been rounded from integers.
@@ -357,16 +354,27 @@ fn cover<const D: usize>(a: &[f64; D], offset: [f64; D], off: [f64; D]) -> ([f64
     let moved: [f64; D] = std::array::from_fn(|axis| off[axis] + UNIT * centre[axis].abs());
     let radius = (length(&offset) + length(&off) + length(&moved)) * ROUND_UP;
     // Above what is subnormal, and infinite where it has overflowed or an offset has.
-    let radius = (radius + f64::from_bits(1)).next_up();
+    let radius = (radius + 4.0 * f64::from_bits(1)).next_up();
     if radius < f64::INFINITY { (centre, radius) } else { (*a, f64::INFINITY) }
 }
 
-/// The length of a vector, with a relative error of a few last bits; where squares are not in the range of numbers, from
-/// above.
+/// The length of a vector, with a relative error of a few last bits and one of a least number.
 #[inline(always)]
 fn length<const D: usize>(v: &[f64; D]) -> f64 {
     let squared = dot(v, v);
-    if squared > 1e-280 && squared < 1e300 { squared.sqrt() } else { v.iter().map(|x| x.abs()).sum() }
+    if squared > 1e-280 && squared < 1e300 { squared.sqrt() } else { length_of_scaled(v) }
+}
+
+/// That of a vector whose square is not in the range of numbers.
+#[cold]
+#[inline(never)]
+fn length_of_scaled<const D: usize>(v: &[f64; D]) -> f64 {
+    let most = v.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    if most == 0.0 || most == f64::INFINITY {
+        return most;
+    }
+    let scaled = v.map(|x| x / most);
+    most * dot(&scaled, &scaled).sqrt()
 }
 
 #[cfg(test)]

@@ -76,12 +76,7 @@ struct Flood {
 
 impl Flood {
     /// Lists all cells in reach of a box, ghost cells included; `near` is where to begin to look for it.
-    fn list<G: Dimension>(
-        &mut self,
-        kernel: &Delaunay<G>,
-        within: &[G::Point; 2],
-        near: Slot,
-    ) -> Result<()> {
+    fn list<G: Dimension>(&mut self, kernel: &Delaunay<G>, within: &[G::Point; 2], near: Slot) -> Result<()> {
         self.seen.clear();
         self.reached.clear();
         let first = match kernel.locate(&place_near::<G>(within, &kernel.lower(), &kernel.upper()), near) {
@@ -98,7 +93,10 @@ impl Flood {
                 let across = kernel.complex().cell(cell).neighbour(i).cell();
                 if self.seen.insert(across)? && is_in_reach(kernel, across, within) {
                     for j in 0..=G::D {
-                        prefetch(kernel.complex().cells(), kernel.complex().cell(across).neighbour(j).cell().index());
+                        prefetch(
+                            kernel.complex().cells(),
+                            kernel.complex().cell(across).neighbour(j).cell().index(),
+                        );
                     }
                     memory::push(&mut self.reached, across)?;
                 }
@@ -156,7 +154,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         mask: Option<&[u8]>,
     ) -> Result<InReach> {
         self.check_boxes(low, high)?;
-        self.check_vertex_mask(mask)?;
+        mask.map_or(Ok(()), |mask| self.check_vertex_mask(mask.len()))?;
         let mut found = InReach::default();
         let kernel = &self.mesh.kernel;
         if !kernel.has_cells() {
@@ -207,7 +205,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         mask: Option<&[u8]>,
     ) -> Result<VerticesInReach> {
         self.check_boxes(low, high)?;
-        self.check_vertex_mask(mask)?;
+        mask.map_or(Ok(()), |mask| self.check_vertex_mask(mask.len()))?;
         let mut found = VerticesInReach::default();
         memory::reserve_exact(&mut found.offsets, low.len() + 1)?;
         found.offsets.push(0);
@@ -248,14 +246,12 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// A mask of vertices has an entry for each id.
-    fn check_vertex_mask(&self, mask: Option<&[u8]>) -> Result<()> {
+    pub(crate) fn check_vertex_mask(&self, given: usize) -> Result<()> {
         let wanted = self.id_count();
-        match mask {
-            Some(mask) if mask.len() != wanted => {
-                let given = mask.len();
-                Err(Error::WrongCount { argument: "mask_count", given, wanted, coming: 0 })
-            }
-            _ => Ok(()),
+        if given == wanted {
+            Ok(())
+        } else {
+            Err(Error::WrongCount { argument: "mask_count", given, wanted, coming: 0 })
         }
     }
 
