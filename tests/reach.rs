@@ -47,7 +47,7 @@ fn meets_exactly(cell: &[&[f64]], low: &[f64], high: &[f64]) -> bool {
     let rows: Vec<Vec<BigInt>> = places[1..].iter().map(|p| difference(p, a)).collect();
     // Cramer's rule for 2 u·c = |u|², the centre being a + c.
     let squares: Vec<BigInt> = rows.iter().map(|u| u.iter().map(|x| x * x).sum()).collect();
-    let mut twice = determinant(&rows) * 2;
+    let mut twice: BigInt = determinant(&rows) * 2;
     let mut centre: Vec<BigInt> = (0..rows.len())
         .map(|axis| {
             let mut replaced = rows.clone();

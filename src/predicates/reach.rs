@@ -40,7 +40,7 @@
 use std::cmp::Ordering;
 
 use super::StaticFilter;
-use super::big::{Integer, Ring, Room, differences_in_units, square};
+use super::big::{Integer, MOST_LIMBS, Ring, Room, differences_in_units, square};
 use super::filter::{
     CIRCLE_VECTOR, SPHERE_VECTOR, UNDERFLOW, UNIT, semi_static_bounds_2d, semi_static_bounds_3d,
 };
@@ -198,7 +198,7 @@ impl Signed for i128 {
     }
 }
 
-impl Signed for Integer<'_> {
+impl<const N: usize> Signed for Integer<'_, N> {
     fn sign(&self) -> Ordering {
         Integer::sign(self)
     }
@@ -234,7 +234,7 @@ fn is_exactly_met_2d([a, b, c]: [&[f64; 2]; 3], sides: [&[f64; 2]; 2], binding: 
     if let Some([u, v, low, high]) = short(a, points) {
         return is_met(exact_circle(&[u, v]), [low, high], binding);
     }
-    let room = Room::new();
+    let room = Room::<MOST_LIMBS>::of_any_size();
     let (_, [u, v, low, high]) = differences_in_units(&room, a, points, i32::MAX);
     is_met(exact_circle(&[u, v]), [low, high], binding)
 }
@@ -247,7 +247,7 @@ fn is_exactly_met_3d([a, b, c, d]: [&[f64; 3]; 4], sides: [&[f64; 3]; 2], bindin
     if let Some([u, v, w, low, high]) = short(a, points) {
         return is_met(exact_sphere(&[u, v, w]), [low, high], binding);
     }
-    let room = Room::new();
+    let room = Room::<MOST_LIMBS>::of_any_size();
     let (_, [u, v, w, low, high]) = differences_in_units(&room, a, points, i32::MAX);
     is_met(exact_sphere(&[u, v, w]), [low, high], binding)
 }
