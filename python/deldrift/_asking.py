@@ -347,10 +347,10 @@ class Asking(Scipy):
         --------
         >>> import deldrift
         >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3]])
-        >>> reach = tri.simplices_in_reach([-9, 1], [-0.5, 1])
+        >>> reach = tri.simplices_in_reach([-9, 1], [-0.6, 2])
         >>> len(reach.simplices), len(reach.hull_simplices)
         (0, 1)
-        >>> len(tri.simplices_in_reach([-9, 1], [-0.45, 1]).simplices)
+        >>> len(tri.simplices_in_reach([-9, 1], [-0.5, 2]).simplices)  # It touches the circle.
         2
         """
         least, greatest = self._boxes(low, high)
