@@ -52,12 +52,21 @@ fn check<G: Dimension>(name: &str, points: &[G::Point], side: f64, spacing: f64,
             best = best.min(start.elapsed().as_secs_f64());
         }
         let per_call = best * 1e9 / boxes.len() as f64;
-        println!("  {what:<28}{:>10.1}{per_call:>12.0}{:>12.1}", n as f64 / boxes.len() as f64, best * 1e9 / n as f64);
+        println!(
+            "  {what:<28}{:>10.1}{per_call:>12.0}{:>12.1}",
+            n as f64 / boxes.len() as f64,
+            best * 1e9 / n as f64
+        );
     }
     let start = Instant::now();
     t.circumspheres().expect("room").for_each(|sphere| _ = black_box(sphere));
     let all = start.elapsed().as_secs_f64() * 1e9;
-    println!("  {:<28}{:>10}{all:>12.0}{:>12.1}", "circumspheres of all", t.cell_count(), all / t.cell_count() as f64);
+    println!(
+        "  {:<28}{:>10}{all:>12.0}{:>12.1}",
+        "circumspheres of all",
+        t.cell_count(),
+        all / t.cell_count() as f64
+    );
 }
 
 fn check_sets<G: Dimension>(n: usize) {

@@ -356,7 +356,8 @@ class Asking(Scipy):
         least, greatest = self._boxes(low, high)
         with self._reading as t:
             chosen = self._mask_of_vertices(t, mask)
-            given = (address(least), address(greatest), len(least), address_if(chosen), 0 if chosen is None else len(chosen))
+            n_masked = 0 if chosen is None else len(chosen)
+            given = (address(least), address(greatest), len(least), address_if(chosen), n_masked)
             count = ctypes.c_size_t()
             self._check(_cells_in_reach(t, *given, None, None, None, 0, count))
             n = count.value
@@ -388,7 +389,8 @@ class Asking(Scipy):
         least, greatest = self._boxes(low, high)
         with self._reading as t:
             chosen = self._mask_of_vertices(t, mask)
-            given = (address(least), address(greatest), len(least), address_if(chosen), 0 if chosen is None else len(chosen))
+            n_masked = 0 if chosen is None else len(chosen)
+            given = (address(least), address(greatest), len(least), address_if(chosen), n_masked)
             count = ctypes.c_size_t()
             self._check(_vertices_in_reach(t, *given, None, None, 0, count))
             offsets, vertices = np.empty(len(least) + 1, np.uintp), np.empty(count.value, I32)

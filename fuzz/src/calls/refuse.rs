@@ -276,7 +276,18 @@ impl History<'_> {
         });
         self.expect(wanted, || {
             let (nowhere, nothing) = (nowhere.as_ptr(), null_mut());
-            c!(deldrift_hull_facets_in_reach(t, low, nowhere, 1, null(), 0, nothing, null_mut(), 0, &mut count))
+            c!(deldrift_hull_facets_in_reach(
+                t,
+                low,
+                nowhere,
+                1,
+                null(),
+                0,
+                nothing,
+                null_mut(),
+                0,
+                &mut count
+            ))
         });
         self.expect(wanted, || c!(deldrift_mask_without_flat_cells(t, square, null_mut(), 0, &mut count)));
         self.expect(wanted, || c!(deldrift_find_simplices(t, 0, null(), 0, &mut found)));
