@@ -89,9 +89,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// For each of the cells of these indices, in their order, a centre and a radius of a closed ball that certainly has
-    /// the closed ball of the cell in it: the centre is off by its error, and the radius too large by twice as much, which
-    /// is a few last bits of coordinates and radius unless the cell is nearly flat. Where numbers do not suffice the
-    /// radius is infinite, and the centre is a corner.
+    /// the closed ball of the cell in it. It is larger by some 10⁻¹² of the radius and last bits of the coordinates, by up
+    /// to 4·10⁻⁹ of the radius where the cell is nearly flat. Where numbers do not suffice the radius is infinite, and the
+    /// centre is a corner.
     ///
     /// # Errors
     /// [`Error::NoSuchCell`], [`Error::OutOfMemory`].
