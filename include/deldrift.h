@@ -1530,7 +1530,8 @@ deldrift_status deldrift_cells_in_reach(const deldrift_triangulation *t,
 ///
 /// Cost: that of deldrift_cells_in_reach.
 ///
-/// Errors: those of deldrift_cells_in_reach.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT for a mask
+/// of another length, DELDRIFT_INVALID_VALUE for NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_hull_facets_in_reach(const deldrift_triangulation *t,
                                               const double *low,
                                               const double *high,
@@ -1560,7 +1561,8 @@ deldrift_status deldrift_hull_facets_in_reach(const deldrift_triangulation *t,
 /// Cost: that of deldrift_cells_in_reach, and k log k for the k vertices of each list; while there are no cells, n for
 /// each box.
 ///
-/// Errors: those of deldrift_cells_in_reach.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT for a mask
+/// of another length, DELDRIFT_INVALID_VALUE for NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_vertices_in_reach(const deldrift_triangulation *t,
                                            const double *low,
                                            const double *high,

@@ -95,7 +95,8 @@ pub unsafe extern "C" fn deldrift_cells_in_reach(
 ///
 /// Cost: that of deldrift_cells_in_reach.
 ///
-/// Errors: those of deldrift_cells_in_reach.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT for a mask
+/// of another length, DELDRIFT_INVALID_VALUE for NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_hull_facets_in_reach(
     t: *const deldrift_triangulation,
@@ -143,7 +144,8 @@ pub unsafe extern "C" fn deldrift_hull_facets_in_reach(
 /// Cost: that of deldrift_cells_in_reach, and k log k for the k vertices of each list; while there are no cells, n for
 /// each box.
 ///
-/// Errors: those of deldrift_cells_in_reach.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT for a mask
+/// of another length, DELDRIFT_INVALID_VALUE for NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_vertices_in_reach(
     t: *const deldrift_triangulation,
