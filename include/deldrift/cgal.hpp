@@ -34,6 +34,7 @@
 #include <ostream>
 
 #include "cgal/constrained.hpp"
+#include "cgal/meshing.hpp"
 #include "cgal/plane.hpp"
 #include "cgal/space.hpp"
 

@@ -17,6 +17,9 @@
 
 namespace deldrift::cgal {
 
+template <class Tr, class Crit>
+class Delaunay_mesher_2;
+
 // What becomes of constraints that cross: an exception, or a vertex at the place, rounded.
 struct No_constraint_intersection_tag {};
 struct No_constraint_intersection_requiring_constructions_tag {};
@@ -255,7 +258,11 @@ public:
     }
 
 private:
+    template <class Tr, class Crit>
+    friend class Delaunay_mesher_2;
     using Ends = std::array<Vertex_handle, 2>;
+    using Segment_at = std::map<Ends, std::uint32_t>;
+    using Ends_of = std::unordered_map<std::uint32_t, Ends>;
 
     static Ends ordered(Vertex_handle a, Vertex_handle b) noexcept { return a < b ? Ends{a, b} : Ends{b, a}; }
     static std::array<typename Mesh::Record *, 2> records_of(const Ends &ends) noexcept {
@@ -294,6 +301,26 @@ private:
         std::vector<Vertex_handle> vertices;
         for (const Point &p : points) vertices.push_back(this->nearest_vertex(p));
         return vertices;
+    }
+
+    // The faces that are in the domain, to which those that take their place belong.
+    void refine_domain(const Quality &quality) {
+        Segment_at segment_at;
+        Ends_of ends_of;
+        bool is_refined = false;
+        this->mesh_to_change().refine(quality, [&](const Triangulation &refined) {
+            const auto vertex = [&](std::uint32_t id) { return Vertex_handle(this->mesh()->by_id()[id]); };
+            const Segments segments = refined.segments();
+            for (std::size_t k = 0; k < segments.size(); k++) {
+                const Ends ends{vertex(segments.ends[k][0]), vertex(segments.ends[k][1])};
+                ends_of.emplace(segments.ids[k], ends);
+                segment_at.emplace(ordered(ends[0], ends[1]), segments.ids[k]);
+            }
+            is_refined = true;
+        });
+        if (!is_refined) return;
+        segment_at_.swap(segment_at);
+        ends_of_.swap(ends_of);
     }
 
     // Until no vertex is on one of them, and none crosses another.
@@ -399,8 +426,8 @@ private:
         return detail::Coordinates<2, K>::point(place);
     }
 
-    std::map<Ends, std::uint32_t> segment_at_{};
-    std::unordered_map<std::uint32_t, Ends> ends_of_{};
+    Segment_at segment_at_{};
+    Ends_of ends_of_{};
 };
 
 // With any data structure: the constrained triangulation that is Delaunay where constraints allow it.
