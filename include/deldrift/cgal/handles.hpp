@@ -152,11 +152,11 @@ public:
     // the program sets last until the triangulation changes.
     bool is_in_domain() const {
         static_assert(D == 2);
-        return mesh_->mark(cell_, hull_corner_) != 0;
+        return mesh_->is_marked(cell_, hull_corner_);
     }
     void set_in_domain(bool is_inside) const {
         static_assert(D == 2);
-        mesh_->mark(cell_, hull_corner_) = is_inside ? 1 : 0;
+        mesh_->mark(cell_, hull_corner_, is_inside);
     }
 
     bool is_infinite() const noexcept { return hull_corner_ < corners; }

@@ -131,9 +131,12 @@ public:
         });
         return infos[index_of(cell, hull_corner)];
     }
-    // Whether it is in the domain of a mesh, 1 or 0: until the next change, or as a refinement leaves it.
-    std::uint8_t &mark(std::uint32_t cell, std::uint32_t hull_corner) const {
-        return marks()[index_of(cell, hull_corner)];
+    // Whether it is in the domain of a mesh: until the next change, or as a refinement leaves it.
+    bool is_marked(std::uint32_t cell, std::uint32_t hull_corner) const {
+        return has_marks() && marks_[index_of(cell, hull_corner)] != 0;
+    }
+    void mark(std::uint32_t cell, std::uint32_t hull_corner, bool is_inside) const {
+        marks()[index_of(cell, hull_corner)] = is_inside ? 1 : 0;
     }
     // Of finite cells first, in their order, then of ghost cells.
     std::vector<std::uint8_t> &marks() const {

@@ -97,7 +97,7 @@ public:
     using Seeds_iterator = typename Seeds::const_iterator;
     using Seeds_const_iterator = Seeds_iterator;
 
-    explicit Delaunay_mesher_2(Tr &t, const Criteria &criteria = Criteria()) : t_(&t), criteria_(criteria) {}
+    explicit Delaunay_mesher_2(Tr &t, const Criteria &criteria = Criteria()) : t_(t), criteria_(criteria) {}
 
     // With seeds: the regions that they are in are inside, if mark is true, or else those in which there is none. Without:
     // all regions are. What is connected with the outside is outside in either case. A seed that is exactly on the
@@ -118,9 +118,9 @@ public:
     // Marks faces by the seeds; with domain_specified as the program has marked them, but for those that are connected with
     // the outside. Where marks differ there have to be constraints.
     void mark_facets(bool domain_specified = false) {
-        if (!domain_specified) return mark_facets(*t_, seeds_.begin(), seeds_.end(), mark_);
-        const std::vector<std::uint32_t> levels = t_->nesting_levels();
-        for (const auto f : t_->all_face_handles()) {
+        if (!domain_specified) return mark_facets(t_, seeds_.begin(), seeds_.end(), mark_);
+        const std::vector<std::uint32_t> levels = t_.nesting_levels();
+        for (const auto f : t_.all_face_handles()) {
             if (f.is_infinite() || levels[f.id()] == 0) f.set_in_domain(false);
         }
     }
@@ -144,17 +144,17 @@ public:
     }
     // Marks faces first, unless init() or an earlier call has, and the program has not changed the triangulation since.
     void refine_mesh() {
-        if (!is_marked_ || !t_->mesh()->has_marks()) init(is_domain_specified_);
-        t_->refine_domain(detail::quality_of(criteria_, t_->triangulation().id_count()));
+        if (!is_marked_ || !t_.mesh()->has_marks()) init(is_domain_specified_);
+        t_.refine_domain(detail::quality_of(criteria_, t_.triangulation().id_count()));
     }
 
     // Faces are always looked at anew.
     void set_criteria(const Criteria &criteria, bool = true) { criteria_ = criteria; }
     const Criteria &get_criteria() const noexcept { return criteria_; }
-    const Triangulation &triangulation() const noexcept { return *t_; }
+    const Triangulation &triangulation() const noexcept { return t_; }
 
 private:
-    Tr *t_;
+    Tr &t_;
     Criteria criteria_;
     Seeds seeds_{};
     bool mark_ = false, is_domain_specified_ = false, is_marked_ = false;
