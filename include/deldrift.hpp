@@ -406,9 +406,8 @@ public:
         return label_of;
     }
     // Of the cells listed alone, in an array for all cells: the label of those of the others that each is reached from without
-    // crossing a segment, or the other one. Returns for how many labels cannot tell: if it is not 0, label anew.
-    //     const deldrift_changes changes = t.take_changes();
-    //     if (t.update_labels({changes.created, changes.created_count}, AIR, materials) > 0) materials = t.label_cells(...);
+    // crossing a segment, or the other one. Returns for how many labels cannot tell: if it is not 0, label anew. The cells
+    // are those that take_changes() tells as created, and those whose rows list the corners in the other order around.
     std::size_t update_labels(span<const std::uint32_t> cells, std::int32_t other, span<std::int32_t> label_of) const {
         std::size_t undecided;
         require_ok(deldrift_update_labels(native(), cells.data(), cells.size(), other, label_of.data(), label_of.size(),
