@@ -208,13 +208,29 @@ public:
     // the first new one has, or would have if there were no conflicts.
     void exchange_segments(const std::vector<std::array<Record *, 2>> &ends,
                            const std::vector<std::uint32_t> &removals, std::uint32_t &first) {
-        std::vector<std::array<std::uint32_t, 2>> ids;
-        for (const auto &[a, b] : ends) ids.push_back({a->id, b->id});
         commit_alone([&] {
-            require_ok(deldrift_stage_segments(t_.native(), ids.empty() ? nullptr : ids.front().data(), nullptr,
-                                               ids.size(), &first));
-            require_ok(deldrift_stage_segment_removals(t_.native(), removals.data(), removals.size()));
+            first = stage_segments(ends);
+            t_.stage_segment_removals(removals);
         });
+    }
+    // New segments, of which pieces come, as of those that they cross: with new vertices there, rounded. first: receives the
+    // id from which on all have theirs.
+    void insert_split_segments(const std::vector<std::array<Record *, 2>> &ends, std::uint32_t &first) {
+        deldrift_split_report split{};
+        const std::size_t n_before = by_id_.size();
+        try {
+            commit_alone([&] {
+                first = stage_segments(ends);
+                split = t_.stage_splits();
+                for (std::uint64_t k = 0; k < split.inserted; k++) add(Coordinates<D, K>::point({}), {});
+            });
+        } catch (...) {
+            while (by_id_.size() > n_before) drop_last();
+            throw;
+        }
+        for (std::size_t id = n_before; id < by_id_.size(); id++) {
+            by_id_[id]->point = Coordinates<D, K>::point(t_.position<D>(static_cast<std::uint32_t>(id)));
+        }
     }
     // A vertex on a segment, of which two come to be; and the id of the first.
     std::pair<Record *, std::uint32_t> split_segment(const Point &p, const std::array<Record *, 2> &ends,
@@ -316,6 +332,11 @@ private:
         return list;
     }
 
+    std::uint32_t stage_segments(const std::vector<std::array<Record *, 2>> &ends) {
+        std::vector<Ends> ids;
+        for (const auto &[a, b] : ends) ids.push_back({a->id, b->id});
+        return t_.stage_segments(ids);
+    }
     // Commits what `stage` stages. Moves that wait are taken back before, and staged again.
     template <class Stage>
     void commit_alone(Stage stage) {
