@@ -273,7 +273,49 @@ static void in_a_copy() {
     move_to_and_fro(copy);
 }
 
+// Many through nearly one place, and along nearly one line, so that some are rounded to the same edges: each has one segment,
+// and goes at once when its constraint is removed.
+static void through_nearly_one_place() {
+    Constraints star, bundle;
+    for (int i = 0; i < 14; i++) {
+        const double turn = 0.21 * i, x = std::cos(turn), y = std::sin(turn);
+        star.push_back({1e6 + x, 1e6 + y, 1e6 - 1.5 * x, 1e6 - 1.25 * y});
+        bundle.push_back({0, 1 + 2.5e-16 * (i % 4), 1 + 0.125 * i, 1 + 2.5e-16 * (i * 5 % 7)});
+    }
+    for (const Constraints &lines : {star, bundle}) {
+        cross(lines, true);
+        std::vector<std::pair<Point, Point>> given;
+        for (const auto &[ax, ay, bx, by] : lines) given.emplace_back(Point(ax, ay), Point(bx, by));
+        Rounding t;
+        t.insert_constraints(given.begin(), given.end());
+        check(t);
+        std::set<std::array<std::uint32_t, 2>> edges;
+        for (const auto [id, ends, marker] : t.triangulation().segments()) {
+            CHECK(marker == 0 && edges.insert({std::min(ends[0], ends[1]), std::max(ends[0], ends[1])}).second);
+        }
+        for (std::size_t n = edges.size(); n > 0; n--) {
+            CHECK(number_of_constraints(t) == n);
+            const auto [f, i] = *t.constrained_edges_begin();
+            t.remove_constrained_edge(f, i);
+        }
+        CHECK(number_of_constraints(t) == 0);
+    }
+
+    // A move that waits goes on waiting.
+    Rounding t;
+    const auto v = t.insert(Point(0, 0)), w = t.insert(Point(4, 4)), free = t.insert(Point(9, 1));
+    t.insert_constraint(v, w);
+    t.stage_move(free, Point(9, 2));
+    t.insert_constraint(Point(0, 4), Point(4, 0));
+    CHECK(t.number_of_vertices() == 6 && free->point() == Point(9, 1) && t.nearest_vertex(Point(2, 2))->info() == 0);
+    CHECK(t.nearest_vertex(Point(2, 2))->point() == Point(2, 2));
+    t.commit_timestamp();
+    CHECK(free->point() == Point(9, 2) && number_of_constraints(t) == 4);
+    check(t);
+}
+
 int main() {
+    through_nearly_one_place();
     inserted_twice();
     restored();
     through_own_vertices();
