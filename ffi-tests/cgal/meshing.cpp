@@ -18,7 +18,8 @@
 #include <vector>
 
 using K = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Data = CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_2<K>, CGAL::Delaunay_mesh_face_base_2<K>>;
+using Vb = CGAL::Triangulation_vertex_base_2<K>;
+using Data = CGAL::Triangulation_data_structure_2<Vb, CGAL::Delaunay_mesh_face_base_2<K>>;
 using With_cgal = CGAL::Constrained_Delaunay_triangulation_2<K, Data>;
 using With_deldrift = deldrift::cgal::Constrained_Delaunay_triangulation_2<K, Data>;
 using Point = K::Point_2;

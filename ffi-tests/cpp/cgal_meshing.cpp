@@ -109,8 +109,12 @@ static std::size_t check_quality(const Cdt &cdt, double bound, double size) {
 // A constraint that was there is a chain of constrained edges, each of which goes on towards its end.
 static void check_chain(const Cdt &cdt, Vertex a, Vertex b) {
     const double x = b->point().x() - a->point().x(), y = b->point().y() - a->point().y();
-    const auto along = [&](Vertex v) { return (v->point().x() - a->point().x()) * x + (v->point().y() - a->point().y()) * y; };
-    const auto beside = [&](Vertex v) { return (v->point().x() - a->point().x()) * y - (v->point().y() - a->point().y()) * x; };
+    const auto along = [&](Vertex v) {
+        return (v->point().x() - a->point().x()) * x + (v->point().y() - a->point().y()) * y;
+    };
+    const auto beside = [&](Vertex v) {
+        return (v->point().x() - a->point().x()) * y - (v->point().y() - a->point().y()) * x;
+    };
     for (Vertex at = a; at != b;) {
         std::vector<Cdt::Edge> around;
         cdt.incident_constraints(at, std::back_inserter(around));
@@ -328,7 +332,8 @@ static void what_is_refused() {
     CHECK_THROWS(cgal::refine_Delaunay_mesh_2(cdt, Criteria(0.1, -1)), DELDRIFT_INVALID_VALUE, "size bound is -1");
     CHECK_THROWS(cgal::refine_Delaunay_mesh_2(cdt, Criteria(0.1, nan)), DELDRIFT_INVALID_VALUE, "size bound");
     const Points on_boundary{{4, 1}};
-    CHECK_THROWS(cgal::refine_Delaunay_mesh_2(cdt, on_boundary.begin(), on_boundary.end()), DELDRIFT_AMBIGUOUS_SEED, "seed");
+    CHECK_THROWS(cgal::refine_Delaunay_mesh_2(cdt, on_boundary.begin(), on_boundary.end()), DELDRIFT_AMBIGUOUS_SEED,
+                 "seed");
     CHECK(cdt.number_of_vertices() == n);
     const double degree = std::acos(-1.0) / 180;
     cgal::refine_Delaunay_mesh_2(cdt, Criteria(std::pow(std::sin(34 * degree), 2), 1));

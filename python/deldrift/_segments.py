@@ -289,13 +289,13 @@ class Segmented(Core):
         Parameters
         ----------
         simplices : array_like of int
-            Indices of simplices: those that `changes` tells as created, and those that have been turned over, whose rows
-            list the corners in the other order around: these may have come to be beyond a segment.
+            Indices of simplices: those that `changes` tells as created, and those that have been turned over, whose
+            rows list the corners in the other order around: these may have come to be beyond a segment.
         labels : ndarray of int32
             Entries of these are written; there must be one for each simplex, or more.
         other : int, optional
-            The label of simplices that are reached from the outside of the convex hull alone, from listed ones alone, or
-            from several labels.
+            The label of simplices that are reached from the outside of the convex hull alone, from listed ones alone,
+            or from several labels.
 
         Returns
         -------

@@ -83,7 +83,8 @@ def draw(path, kept):
         ax.triplot(*mesh.points.T, mesh.triangles, color="white", linewidth=0.3)
         for loop in mesh.boundary.loops():
             ax.plot(*mesh.points[np.append(loop, loop[0])].T, color="black", linewidth=1.5)
-        ax.set_title(f"{np.degrees(angle):.0f}°, {len(mesh.triangles)} triangles, least angle {least_angle(mesh):.1f}°")
+        said = f"{len(mesh.triangles)} triangles, least angle {least_angle(mesh):.1f}°"
+        ax.set_title(f"{np.degrees(angle):.0f}°, {said}")
         ax.set_aspect("equal")
         ax.axis("off")
     figure.tight_layout()

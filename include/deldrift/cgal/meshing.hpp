@@ -57,7 +57,8 @@ double size_bound_of(const Delaunay_mesh_size_criteria_2<Tr> &criteria) noexcept
 }
 
 inline Error no_bound(const char *name, double bound, const std::string &range) {
-    return Error(DELDRIFT_INVALID_VALUE, "the " + (name + (" bound is " + std::to_string(bound))) + ", and must be " + range);
+    const std::string what = std::string("the ") + name + " bound is " + std::to_string(bound);
+    return Error(DELDRIFT_INVALID_VALUE, what + ", and must be " + range);
 }
 // For a triangulation with so many ids.
 template <class Criteria>
@@ -179,8 +180,12 @@ public:
     Of_meshing<Criteria, S> seeds(const S &seeds) const {
         return Of_meshing<Criteria, S>(criteria_, seeds, are_inside_, is_marked_);
     }
-    Of_meshing seeds_are_in_domain(bool are_inside) const { return Of_meshing(criteria_, seeds_, are_inside, is_marked_); }
-    Of_meshing domain_is_initialized(bool is_marked) const { return Of_meshing(criteria_, seeds_, are_inside_, is_marked); }
+    Of_meshing seeds_are_in_domain(bool are_inside) const {
+        return Of_meshing(criteria_, seeds_, are_inside, is_marked_);
+    }
+    Of_meshing domain_is_initialized(bool is_marked) const {
+        return Of_meshing(criteria_, seeds_, are_inside_, is_marked);
+    }
 
     template <class Tr>
     void refine(Tr &t) const {
