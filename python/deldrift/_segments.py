@@ -305,16 +305,16 @@ class Segmented(Core):
         Examples
         --------
         >>> import deldrift
-        >>> square, free = [[0, 0], [4, 0], [4, 4], [0, 4]], [[1, 1], [3, 2]]
+        >>> square, free = [[0, 0], [4, 0], [4, 4], [0, 4]], [[3, 1], [3.5, 2]]
         >>> tri = deldrift.Delaunay(square + free, segments=[[0, 2]])
-        >>> labels, changes = tri.label_cells([[3, 1], [1, 3]], [5, 6]), tri.changes()
+        >>> labels, changes = tri.label_cells([[2, 1], [1, 3]], [5, 6]), tri.changes()
         >>> tri.remove(5)
         >>> changes, before = tri.changes(), labels
         >>> labels = before[: tri.nsimplex].copy()
         >>> labels[changes.renumbered_to] = before[changes.renumbered_from]
         >>> tri.update_labels(changes.created, labels)
         0
-        >>> bool((labels == tri.label_cells([[3, 1], [1, 3]], [5, 6])).all())
+        >>> bool((labels == tri.label_cells([[2, 1], [1, 3]], [5, 6])).all())
         True
         """
         self._check_plane()
