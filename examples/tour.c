@@ -115,6 +115,23 @@ static void ask_what_is_near(deldrift_triangulation *t) {
     expect(count == n_cells, "and undone by a removal");
 }
 
+// What a vertex beyond the right side could change: the cells and edges there, whose corners another process would need.
+static void ask_what_is_in_reach(deldrift_triangulation *t) {
+    static uint32_t cells[MOST], edges[MOST], vertices[MOST];
+    static uint8_t corners[MOST];
+    static double centres[2 * MOST], radii[MOST];
+    const double low[] = {1.5, -INFINITY}, high[] = {INFINITY, INFINITY};
+    size_t n_cells, n_edges, count, offsets[2];
+    check(deldrift_cells_in_reach(t, low, high, 1, NULL, 0, cells, centres, radii, MOST, &n_cells));
+    for (size_t k = 0; k < n_cells; k++) {
+        expect(centres[2 * k] + radii[k] >= low[0], "the circle of each cell in reach comes to the box");
+    }
+    check(deldrift_hull_facets_in_reach(t, low, high, 1, NULL, 0, edges, corners, MOST, &n_edges));
+    expect(n_edges > 0, "from far away a part of the hull is seen");
+    check(deldrift_vertices_in_reach(t, low, high, 1, NULL, 0, vertices, offsets, MOST, &count));
+    expect(offsets[0] == 0 && offsets[1] == count && count > n_edges, "one list, with both ends of all edges");
+}
+
 static void ask_for_corners(deldrift_triangulation *t) {
     static double positions[2 * VERTICES];
     static uint32_t cells[VERTICES];
@@ -355,6 +372,7 @@ int main(void) {
     change_one_at_a_time(t);
     ask_for_places(t);
     ask_what_is_near(t);
+    ask_what_is_in_reach(t);
     ask_for_corners(t);
     ask_for_geometry(t);
     keep_and_write(t);

@@ -37,6 +37,7 @@ const MAIN: Header = Header {
         "query",
         "location",
         "near",
+        "reach",
         "geometry",
         "domain",
         "refining",

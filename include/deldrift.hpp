@@ -637,6 +637,49 @@ public:
             return deldrift_vertices_in_box(native(), low.data(), high.data(), vertices, capacity, count);
         });
     }
+    // The cells that a vertex at a place in a box could change, with balls that certainly cover their discs or balls. Corners
+    // of boxes come one after the other, and may be infinite; a mask has an entry for each id, and an empty one is none.
+    InReach cells_in_reach(span<const double> low, span<const double> high, span<const std::uint8_t> mask = {}) const {
+        const std::size_t boxes = boxes_of(low, high);
+        const std::uint8_t *const chosen = mask.size() == 0 ? nullptr : mask.data();
+        InReach reach;
+        reach.cells = found([&](std::uint32_t *cells, std::size_t capacity, std::size_t *count) {
+            reach.centres.resize(capacity * dimension_);
+            reach.radii.resize(capacity);
+            return deldrift_cells_in_reach(native(), low.data(), high.data(), boxes, chosen, mask.size(), cells,
+                                           reach.centres.data(), reach.radii.data(), capacity, count);
+        });
+        reach.centres.resize(reach.cells.size() * dimension_);
+        reach.radii.resize(reach.cells.size());
+        return reach;
+    }
+    // The facets of the convex hull that a place in a box is strictly beyond, without their vertices.
+    Facets hull_facets_in_reach(span<const double> low, span<const double> high,
+                                span<const std::uint8_t> mask = {}) const {
+        const std::size_t boxes = boxes_of(low, high);
+        const std::uint8_t *const chosen = mask.size() == 0 ? nullptr : mask.data();
+        Facets facets{};
+        facets.cells = found([&](std::uint32_t *cells, std::size_t capacity, std::size_t *count) {
+            facets.corners.resize(capacity);
+            return deldrift_hull_facets_in_reach(native(), low.data(), high.data(), boxes, chosen, mask.size(), cells,
+                                                 facets.corners.data(), capacity, count);
+        });
+        facets.corners.resize(facets.cells.size());
+        return facets;
+    }
+    // For each box the vertices of the cells and hull facets in its reach, in ascending order, hidden vertices included.
+    BoxLists vertices_in_reach(span<const double> low, span<const double> high,
+                               span<const std::uint8_t> mask = {}) const {
+        const std::size_t boxes = boxes_of(low, high);
+        const std::uint8_t *const chosen = mask.size() == 0 ? nullptr : mask.data();
+        BoxLists lists;
+        lists.offsets.resize(boxes + 1);
+        lists.vertices = found([&](std::uint32_t *vertices, std::size_t capacity, std::size_t *count) {
+            return deldrift_vertices_in_reach(native(), low.data(), high.data(), boxes, chosen, mask.size(), vertices,
+                                              lists.offsets.data(), capacity, count);
+        });
+        return lists;
+    }
     // The cells that the insertion of a vertex would remove.
     std::vector<std::uint32_t> conflicts(span<const double> position, const deldrift_location *hint = nullptr) const {
         return found([&](std::uint32_t *cells, std::size_t capacity, std::size_t *count) {
@@ -761,6 +804,12 @@ private:
     const double *point(span<const double> position) const {
         expect("position", position.size(), dimension_);
         return position.data();
+    }
+    // How many boxes have these corners.
+    std::size_t boxes_of(span<const double> low, span<const double> high) const {
+        const std::size_t boxes = count_of("low", low);
+        expect("high", high.size(), low.size());
+        return boxes;
     }
     std::size_t count_of(const char *argument, span<const double> positions) const {
         const std::size_t count = positions.size() / (dimension_ == 0 ? 1 : dimension_);

@@ -174,7 +174,8 @@ impl Cases<'_> {
             | Role::ResearchOptions
             | Role::OutputIfAny
             | Role::NumbersIfAny
-            | Role::WholesIfAny => true,
+            | Role::WholesIfAny
+            | Role::MaskIfAny => true,
             Role::Ids => self.function.name == "deldrift_move_vertices",
             Role::Buffer => {
                 self.function.name != "deldrift_compact" && n_buffers > 1 && (!is_list || name == "offsets")
@@ -746,7 +747,9 @@ impl Cases<'_> {
             let is_read = matches!(role, Role::Points | Role::BoxCorner | Role::OpenBoxCorner)
                 || matches!(role, Role::Numbers | Role::NumbersIfAny);
             let is_list = matches!(role, Role::Ends | Role::SegmentIds | Role::Wholes | Role::WholesIfAny);
-            is_read || is_list || matches!(role, Role::Mask | Role::Hint | Role::Buffer | Role::Output)
+            is_read
+                || is_list
+                || matches!(role, Role::Mask | Role::MaskIfAny | Role::Hint | Role::Buffer | Role::Output)
         };
         let element = |k: usize| {
             let c_type = self.function.parameters[k].c_type.as_str();

@@ -55,7 +55,8 @@ typedef enum { CREATE, RELOCATE, INSERT, REMOVE, MOVE, MOVE_SOME, MOVE_ALL, STAG
     MASK_BOUNDARY, HULL_FACETS, EDGES, VERTEX_NEIGHBOURS, VERTEX_CELLS, MIRROR_INDICES, MIRROR_INDEX, ORDERED_STAR,
     CELLS_AROUND, CELLS_AROUND_ALL, UPDATE_CIRCUMCENTRES, UPDATE_VOLUMES, UPDATE_MASK,
     VORONOI_VOLUMES, VORONOI_FACETS, INTERPOLATE, INTERPOLATE_NATURAL,
-    NEAREST_VERTICES, VERTICES_IN_BALL, VERTICES_IN_BOX, CONFLICTS, FIND_SIMPLICES, FIND_SIMPLICES_ALL,
+    NEAREST_VERTICES, VERTICES_IN_BALL, VERTICES_IN_BOX, CONFLICTS,
+    CELLS_IN_REACH, HULL_FACETS_IN_REACH, VERTICES_IN_REACH, FIND_SIMPLICES, FIND_SIMPLICES_ALL,
     CELL_OF_EACH_VERTEX, BARYCENTRIC, MASK_WITHOUT_FLAT_CELLS, SEGMENTS_OF_CELLS, CELLS_OF_SEGMENTS, NESTING_LEVELS,
     LABEL_CELLS, UPDATE_LABELS, BOUNDARY_CHAINS, REFINE, COARSEN, RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT, N_KINDS } kind;
 
@@ -76,6 +77,7 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_voronoi_volumes", "deldrift_voronoi_facets",
     "deldrift_interpolate", "deldrift_interpolate, natural",
     "deldrift_nearest_vertices", "deldrift_vertices_in_ball", "deldrift_vertices_in_box", "deldrift_conflicts",
+    "deldrift_cells_in_reach", "deldrift_hull_facets_in_reach", "deldrift_vertices_in_reach",
     "deldrift_find_simplices", "deldrift_find_simplices, all", "deldrift_cell_of_each_vertex", "deldrift_barycentric",
     "deldrift_mask_without_flat_cells", "deldrift_segments_of_cells", "deldrift_cells_of_segments",
     "deldrift_nesting_levels", "deldrift_label_cells", "deldrift_update_labels", "deldrift_boundary_chains",
@@ -486,6 +488,15 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case VERTICES_IN_BALL: status = deldrift_vertices_in_ball(s->t, at, 0.09, ids_out, ROOM, &count); break;
         case VERTICES_IN_BOX: status = deldrift_vertices_in_box(s->t, low, high, ids_out, ROOM, &count); break;
         case CONFLICTS: status = deldrift_conflicts(s->t, to, NULL, ids_out, ROOM, &count); break;
+        case CELLS_IN_REACH:
+            status = deldrift_cells_in_reach(s->t, low, high, 1, NULL, 0, ids_out, numbers_out, NULL, ROOM / 3, &count);
+            break;
+        case HULL_FACETS_IN_REACH:
+            status = deldrift_hull_facets_in_reach(s->t, low, high, 1, NULL, 0, ids_out, bytes_out, ROOM, &count);
+            break;
+        case VERTICES_IN_REACH:
+            status = deldrift_vertices_in_reach(s->t, low, high, 1, NULL, 0, ids_out, NULL, ROOM, &count);
+            break;
         case FIND_SIMPLICES: status = deldrift_find_simplices(s->t, 2, vertices, 2, ids_out); break;
         case FIND_SIMPLICES_ALL: status = deldrift_find_simplices(s->t, 2, vertices, n_vertices / 2, ids_out); break;
         case CELL_OF_EACH_VERTEX: status = deldrift_cell_of_each_vertex(s->t, ids_out, ROOM, &count); break;
@@ -583,10 +594,12 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             deldrift_free_cells(owner);
             break;
         case ORDERED_STAR:
+        case HULL_FACETS_IN_REACH:
         case SAVE: *given = count; break;
         case CELLS_AROUND:
         case CELLS_AROUND_ALL:
         case CONFLICTS:
+        case CELLS_IN_REACH:
         case STAR: *given = digest_of_cells(s->t, ids_out, count); break;
         case INTERPOLATE:
         case INTERPOLATE_NATURAL:
@@ -606,6 +619,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             break;
         case NEAREST_VERTICES: *given = digest_of(ids_out, 9 * sizeof *ids_out); break;
         case VERTICES_IN_BALL:
+        case VERTICES_IN_REACH:
         case VERTICES_IN_BOX: *given = digest_of(ids_out, count * sizeof *ids_out); break;
         case FIND_SIMPLICES: count = 2; // fall through
         case FIND_SIMPLICES_ALL:

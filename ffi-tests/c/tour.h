@@ -301,6 +301,17 @@ static void ask_about(const deldrift_triangulation *t, const places *p) {
     }
     GO(deldrift_vertices_in_box(t, p->low, p->high, ids, TOUR_ROOM, &count));
     note(ids, count * sizeof *ids);
+    GO(deldrift_cells_in_reach(t, p->low, p->high, 1, NULL, 0, ids, numbers, more, TOUR_ROOM / 3, &count));
+    note(ids, count * sizeof *ids);
+    note(numbers, count * d * sizeof *numbers);
+    note(more, count * sizeof *more);
+    GO(deldrift_hull_facets_in_reach(t, p->low, p->high, 1, NULL, 0, ids, bytes, TOUR_ROOM, &count));
+    note(ids, count * sizeof *ids);
+    note(bytes, count);
+    size_t offsets[2];
+    GO(deldrift_vertices_in_reach(t, p->low, p->high, 1, NULL, 0, ids, offsets, TOUR_ROOM, &count));
+    note(ids, count * sizeof *ids);
+    note(offsets, sizeof offsets);
     GO(deldrift_cell_of_each_vertex(t, ids, TOUR_ROOM, &count));
     note(ids, count * sizeof *ids);
     for (size_t k = 0; k < p->n; k++) {

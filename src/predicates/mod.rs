@@ -100,6 +100,7 @@ mod passing;
 mod path;
 mod perturbation;
 mod plane;
+mod reach;
 mod running;
 mod separator;
 mod space;
@@ -130,6 +131,7 @@ pub use passing::passes;
 pub use path::{stays_positive2d, stays_positive3d};
 pub use perturbation::{incircle_perturbed, insphere_perturbed, is_inside_cospherical_on_lattice};
 pub use plane::{incircle, orient2d};
+pub use reach::Reach;
 pub use separator::{delimiter3d, separator3d, tolerances3d};
 pub use space::{insphere, orient3d};
 pub use sphere::{
