@@ -405,6 +405,15 @@ public:
                                         count, &count));
         return label_of;
     }
+    // Of the cells listed alone, in an array for all cells: the label of those of the others that each is reached from without
+    // crossing a segment, or the other one. Returns for how many labels cannot tell: if it is not 0, label anew. The cells
+    // are those that take_changes() tells as created, and those whose rows list the corners in the other order around.
+    std::size_t update_labels(span<const std::uint32_t> cells, std::int32_t other, span<std::int32_t> label_of) const {
+        std::size_t undecided;
+        require_ok(deldrift_update_labels(native(), cells.data(), cells.size(), other, label_of.data(), label_of.size(),
+                                          &undecided));
+        return undecided;
+    }
     // The boundary of the cells in a mask, which are on the left of the edges of its chains.
     Chains boundary_chains(span<const std::uint8_t> mask) const {
         std::size_t count = 0;

@@ -213,6 +213,18 @@ def simplex_ids(argument: str, values: Any) -> np.ndarray:
     return ids(argument, values, NoSuchSimplex)
 
 
+def check_output(argument: str, array: Any, dtype: np.dtype, least: tuple[int, ...]) -> None:
+    """Raises unless `array` can be written to, with so many entries at least, which are for simplices."""
+    if not isinstance(array, np.ndarray) or array.dtype != dtype or not array.flags.carray:
+        raise TypeError(f"{argument} must be a contiguous, writeable array of {dtype}")
+    if array.ndim != len(least) or array.shape[1:] != least[1:]:
+        raise InvalidShape(f"{argument} has the shape {array.shape}, and must have {least}", argument)
+    if len(array) < least[0]:
+        raise WrongCount(
+            f"{argument} has {len(array)} entries, and there are {least[0]} simplices", argument, None, len(array)
+        )
+
+
 def box_corners(box: Any, ndim: int) -> tuple[Optional[np.ndarray], Optional[np.ndarray]]:
     """The corners of a box, (low, high), or None twice for no box."""
     if box is None:
