@@ -136,7 +136,7 @@ static void a_domain_gets_the_quality_asked_for(void) {
     deldrift_destroy(t);
 }
 
-static bool is_wide(void *calls, const double *corners) {
+static int is_wide(void *calls, const double *corners) {
     ++*(size_t *)calls;
     const double low = fmin(corners[0], fmin(corners[2], corners[4])), high = fmax(corners[0], fmax(corners[2], corners[4]));
     return high - low > 0.5;

@@ -185,6 +185,7 @@ static void functions_are_asked_and_may_throw() {
     for (const int after : {0, 5, 200}) {
         Triangulation other = domain();
         const std::vector<unsigned char> before = other.save();
+        const deldrift_triangulation *const native = other.native();
         quality.greatest_area = 0.01;
         int left = after;
         quality.is_too_large = [&left, after](const Corners &) {
@@ -197,7 +198,7 @@ static void functions_are_asked_and_may_throw() {
         } catch (const Broken &broken) {
             is_caught = broken.after == after && left == -1;
         }
-        CHECK(is_caught && other.save() == before && other.id_count() == 8);
+        CHECK(is_caught && other.save() == before && other.id_count() == 8 && other.native() == native);
         other.validate(3);
         quality.is_too_large = nullptr;
         CHECK(other.refine(quality).inserted > 1000 && other.timestamp() == 2);

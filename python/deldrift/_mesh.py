@@ -357,6 +357,7 @@ class Mesh:
         is_too_large: Optional[TooLarge] = None,
         keep: str = "none",
         limit: Optional[int] = None,
+        is_conforming: bool = False,
         values: Any = None,
     ) -> QualityReport:
         """Inserts vertices until the triangles of the domain are of a quality, and makes that the next timestamp.
@@ -366,7 +367,7 @@ class Mesh:
 
         Parameters
         ----------
-        least_angle, greatest_area, sizes, is_too_large, keep, limit, values
+        least_angle, greatest_area, sizes, is_too_large, keep, limit, is_conforming, values
             As of `Delaunay.refine`.
         areas : dict, optional
             The greatest area of triangles by the label of their region, 0 for any.
@@ -394,6 +395,7 @@ class Mesh:
             is_too_large=is_too_large,
             keep=keep,
             limit=limit,
+            is_conforming=is_conforming,
             values=values,
             **self._selected(areas),
         )
@@ -409,12 +411,13 @@ class Mesh:
         margin: float = 2.0,
         share: float = 0.9,
         joins: float = 1e-9,
+        is_conforming: bool = False,
     ) -> QualityReport:
         """Removes vertices that `refine` has inserted and that are not needed any more.
 
         Parameters
         ----------
-        least_angle, greatest_area, sizes, is_too_large, margin, share, joins
+        least_angle, greatest_area, sizes, is_too_large, margin, share, joins, is_conforming
             As of `Delaunay.coarsen`.
         areas : dict, optional
             The greatest area of triangles by the label of their region, 0 for any.
@@ -432,6 +435,7 @@ class Mesh:
             margin=margin,
             share=share,
             joins=joins,
+            is_conforming=is_conforming,
             **self._selected(areas),
         )
 

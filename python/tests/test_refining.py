@@ -50,7 +50,7 @@ def test_a_mesh_has_the_quality_and_keeps_its_regions(copied):
 
 def test_an_exception_leaves_all_as_it_was():
     tri = deldrift.Delaunay(SQUARE + HOLE, segments=SIDES)
-    before, left = tri.tobytes(), [20]
+    before, left, handle = tri.tobytes(), [20], tri._handle
 
     def is_too_large(corners):
         left[0] -= 1
@@ -58,7 +58,7 @@ def test_an_exception_leaves_all_as_it_was():
 
     with pytest.raises(ZeroDivisionError):
         tri.refine(is_too_large=is_too_large, greatest_area=0.1)
-    assert tri.tobytes() == before and tri.npoints == 8
+    assert tri.tobytes() == before and tri.npoints == 8 and tri._handle is handle
     report = tri.refine(is_too_large=lambda corners: np.ptp(corners[:, 0]) > 0.5, sizes=2.0)
     inside = tri.nesting_levels() % 2 == 1
     assert report.inserted > 10 and np.ptp(tri.points[tri.simplices[inside]][..., 0], axis=1).max() <= 0.5

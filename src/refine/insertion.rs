@@ -30,7 +30,8 @@ impl Mesh<'_> {
         self.dig_on(p, id)
     }
 
-    /// Finds the cavity of a vertex of this number at `p` that is to split a piece; whether it may.
+    /// Finds the cavity of a vertex of this number at `p` that is to split a piece, in the box of whose ends that is; whether
+    /// it may.
     pub(super) fn dig_at_piece(&mut self, piece: u32, p: &[f64; 2], id: VertexId) -> Result<bool> {
         self.cells.clear();
         self.rim.clear();
@@ -185,8 +186,10 @@ mod tests {
                 continue;
             }
             let is_selected = [rng.below(2) == 0, rng.below(2) == 0];
-            let is_on =
-                turn([a, b, p]) == 0.0 && (0..2).all(|i| p[i].clamp(a[i].min(b[i]), a[i].max(b[i])) == p[i]);
+            let is_on = turn([a, b, p]) == 0.0;
+            if is_on && (0..2).any(|i| p[i].clamp(a[i].min(b[i]), a[i].max(b[i])) != p[i]) {
+                continue;
+            }
             let is_in = [is_strictly_in([a, b, c], p), is_strictly_in([b, a, d], p)];
             let ids = [0, 1, 2, 3, 4].map(VertexId::at);
             let corners = [[ids[0], ids[1], ids[2]], [ids[1], ids[0], ids[3]]];
