@@ -631,7 +631,7 @@ typedef struct deldrift_quality_report {
     /// Pieces that had to be split and are whole, as there is no room for a vertex between their ends.
     uint64_t unsplit;
     /// Cells that are still bad, of those that were to be refined: at small angles between segments, at segments that are
-    /// kept whole, and where the limit was reached.
+    /// kept whole, and where the limit was reached. What is_conforming asks of segments does not count.
     uint64_t bad_cells;
     /// 1 if the limit was reached, otherwise 0.
     uint64_t is_cut_short;

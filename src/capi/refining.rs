@@ -157,7 +157,7 @@ pub struct deldrift_quality_report {
     /// Pieces that had to be split and are whole, as there is no room for a vertex between their ends.
     pub unsplit: u64,
     /// Cells that are still bad, of those that were to be refined: at small angles between segments, at segments that are
-    /// kept whole, and where the limit was reached. Not those that are bad for is_conforming alone.
+    /// kept whole, and where the limit was reached. What is_conforming asks of segments does not count.
     pub bad_cells: u64,
     /// 1 if the limit was reached, otherwise 0.
     pub is_cut_short: u64,
