@@ -48,10 +48,10 @@ def test_a_mesh_has_the_quality_and_keeps_its_regions(copied):
     assert set(mesh.labels) == {5, 7}
 
 
-def deepest_in_circles(tri, sides=0):
+def deepest_in_circles(tri):
     """The most that a corner of the domain is inside the circle around a segment beside it."""
     inside = tri.nesting_levels() % 2 == 1
-    corners, at = tri.points[tri.simplices[inside]], tri.segments_of_simplices()[inside] >= 0
+    corners, at = tri.points[tri.simplices[inside]], tri.segments_of_cells()[inside] >= 0
     dots = [((corners[:, k - 1] - corners[:, k]) * (corners[:, k - 2] - corners[:, k])).sum(axis=1) for k in range(3)]
     return max(-dots[k][at[:, k]].min() for k in range(3))
 
