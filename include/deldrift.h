@@ -599,7 +599,8 @@ typedef struct deldrift_quality {
     uint32_t has_weights;
     /// Not 0 if no corner of a cell is to be strictly inside the circle that has a segment at the cell for a diameter. Then no
     /// vertex is inside the circle of a cell that it sees, segments or not: a conforming Delaunay triangulation. Segments that
-    /// are kept whole may have such corners. Refinement then ends, as is proved, up to 20.7 degrees, and makes more cells.
+    /// are kept whole may have such corners. Refinement then ends, as is proved, up to 20.7 degrees, and makes more cells. At
+    /// angles between segments so small that rounding decides, below some millionth of a degree, it may reach the limit.
     /// Default 0: segments are split where angles, areas and lengths need it.
     uint32_t is_conforming;
     /// Greatest number of vertices that deldrift_refine inserts: default SIZE_MAX.

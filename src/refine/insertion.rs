@@ -267,7 +267,7 @@ mod tests {
             assert_eq!(mesh.triangle(piece.side.triangle()).pieces[piece.side.index()], k, "{}", context());
         }
         (0..5).map(VertexId::at).for_each(|v| {
-            assert!(mesh.triangle(mesh.at[v]).corners.contains(&v), "{}", context());
+            assert!(mesh.corners_of(mesh.at[v]).0.contains(&v), "{}", context());
         });
     }
 

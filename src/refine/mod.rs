@@ -36,8 +36,8 @@
 //! All signs are ([`predicates`](crate::predicates)), ties are broken by vertex id. So at any time the triangles that
 //! are refined are those of a fresh constrained build of all vertices and pieces; the caller builds them by its own means.
 //! Places of new vertices are rounded. One in a triangle may be anywhere in it. One on a segment need not be exactly on
-//! it: then its pieces are straight between their own ends, and the segment bends by a last bit. It is refused where a
-//! piece would touch or cross anything else.
+//! it: then its pieces are straight between their own ends, and the segment bends by last bits. Where a piece would touch or
+//! cross anything else, places beside it are tried.
 //!
 //! # Why it ends
 //!
@@ -55,7 +55,8 @@
 //! stays as it is if its shortest edge is between two vertices on one shell: that is as long as the angle makes it, and what
 //! would come of it is smaller by the same factor each time. Other triangles have angles that refinement mends.
 //! Vertices on common shells are in no circles of each other's pieces: from distance d at an angle w, the piece from d to
-//! 2d is seen under 90 degrees at most, since 2d² - 3d² cos w + d² is not negative.
+//! 2d is seen under 90 degrees at most, since 2d² - 3d² cos w + d² is not negative. Places are rounded, and w² has to be
+//! above that: at angles below 1e-8 or so vertices on two segments are in each other's circles until the last bits.
 //!
 //! A bad triangle waits again only after a piece has been split, and vertices on pieces stay. Pieces that cannot be split,
 //! since they are kept whole or there is no number between their ends, are left, and so are triangles that need it.
