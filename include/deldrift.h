@@ -586,16 +586,23 @@ typedef struct deldrift_quality {
     const double *sizes;
     /// How many sizes there are: as many as ids, or 0.
     size_t size_count;
-    /// Another criterion: whether a cell is too large, with the coordinates of its corners, 6 numbers, counter-clockwise. It
-    /// has to give the same answer for the same corners, and to be false for cells that are small enough. It is called from
-    /// inside the call as the callbacks of deldrift_options are. NULL, the default, for none.
-    bool (*is_too_large)(void *user_data, const double *corners);
+    /// Another criterion: whether a cell is too large, with the coordinates of its corners, 6 numbers, counter-clockwise: 1
+    /// if it is, otherwise 0. It has to give the same answer for the same corners, and 0 for cells that are small enough. A
+    /// number below 0 is to stop: it is not called again, and the call ends in DELDRIFT_CANCELLED and has had no effect. It is
+    /// called from inside the call as the callbacks of deldrift_options are. NULL, the default, for none.
+    int (*is_too_large)(void *user_data, const double *corners);
     /// Handed to is_too_large as it is.
     void *user_data;
     /// Which segments deldrift_refine keeps whole: default DELDRIFT_KEPT_NONE. Cells at those that it keeps may stay bad.
     deldrift_kept keeps;
     /// Not 0 if deldrift_refined_weights will be asked for. Default 0.
     uint32_t has_weights;
+    /// Not 0 if no corner of a cell is to be strictly inside the circle that has a segment at the cell for a diameter. Then no
+    /// vertex is inside the circle of a cell that it sees, segments or not: a conforming Delaunay triangulation. Segments that
+    /// are kept whole may have such corners. Refinement then ends, as is proved, up to 20.7 degrees, and makes more cells. At
+    /// angles between segments so small that rounding decides, below some millionth of a degree, it may reach the limit.
+    /// Default 0: segments are split where angles, areas and lengths need it.
+    uint32_t is_conforming;
     /// Greatest number of vertices that deldrift_refine inserts: default SIZE_MAX.
     size_t limit;
     /// By how many degrees the angles of cells that come by deldrift_coarsen have to be above the least one, so that the
@@ -625,7 +632,7 @@ typedef struct deldrift_quality_report {
     /// Pieces that had to be split and are whole, as there is no room for a vertex between their ends.
     uint64_t unsplit;
     /// Cells that are still bad, of those that were to be refined: at small angles between segments, at segments that are
-    /// kept whole, and where the limit was reached.
+    /// kept whole, and where the limit was reached. What is_conforming asks of segments does not count.
     uint64_t bad_cells;
     /// 1 if the limit was reached, otherwise 0.
     uint64_t is_cut_short;

@@ -720,15 +720,9 @@ private:
     template <class Call>
     deldrift_quality_report improve(Call call, const Quality &quality, span<const std::uint8_t> mask) {
         detail::GivenQuality given(quality);
-        deldrift_triangulation *before = nullptr;
-        if (given.has_function()) require_ok(deldrift_clone(native(), &before));
-        std::unique_ptr<deldrift_triangulation, Destroy> unchanged(before);
         deldrift_quality_report report;
         const deldrift_status status = call(native(), given.get(), mask.data(), mask.size(), &report);
-        if (given.has_thrown()) {
-            if (status == DELDRIFT_OK) t_.swap(unchanged);
-            given.throw_again();
-        }
+        given.throw_again();
         require_change(status);
         return report;
     }

@@ -381,6 +381,7 @@ impl Cases<'_> {
             ("nan", "what is joined", "joins = NAN", "INVALID_VALUE", "joins[0] is NaN"),
             ("value", "what is joined, above 1", "joins = 2", "INVALID_VALUE", "joins[0] is 2"),
             ("zero", "a limit of 0", "limit = 0", "OK", ""),
+            ("value", "circles, any number", "is_conforming = 999", "OK", ""),
             ("huge", "labels, SIZE_MAX", "label_count = SIZE_MAX", "NULL_ARGUMENT", "labels is NULL"),
             ("null", "labels", "label_count = n_cells", "NULL_ARGUMENT", "labels is NULL"),
             ("null", "areas", "area_count = 2", "NULL_ARGUMENT", "areas is NULL"),

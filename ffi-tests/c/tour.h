@@ -95,7 +95,7 @@ static void tour_progress(void *user_data, double fraction) {
 }
 
 // An answer for a cell that depends on its corners alone, whatever their order.
-static bool tour_is_too_large(void *user_data, const double *corners) {
+static int tour_is_too_large(void *user_data, const double *corners) {
     (void)user_data;
     if (in_callback != NULL) in_callback();
     uint64_t sum = 0;

@@ -8,7 +8,7 @@ from __future__ import annotations
 import ctypes
 import os
 import sys
-from ctypes import POINTER, c_bool, c_char_p, c_double, c_int32, c_size_t, c_uint32, c_uint64, c_void_p
+from ctypes import POINTER, c_bool, c_char_p, c_double, c_int, c_int32, c_size_t, c_uint32, c_uint64, c_void_p
 from typing import Any
 
 NONE = 0xFFFFFFFF
@@ -28,7 +28,7 @@ PASSES_SEGMENT = 35
 
 CancelCallback = ctypes.CFUNCTYPE(c_bool, c_void_p)
 ProgressCallback = ctypes.CFUNCTYPE(None, c_void_p, c_double)
-TooLargeCallback = ctypes.CFUNCTYPE(c_bool, c_void_p, c_void_p)
+TooLargeCallback = ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p)
 
 
 class Options(ctypes.Structure):
@@ -128,6 +128,7 @@ class Quality(ctypes.Structure):
         ("user_data", c_void_p),
         ("keeps", c_uint32),
         ("has_weights", c_uint32),
+        ("is_conforming", c_uint32),
         ("limit", c_size_t),
         ("margin", c_double),
         ("share", c_double),

@@ -83,6 +83,7 @@ mod big;
 mod coordinates;
 mod corners;
 mod crossing;
+mod diametral;
 mod distance;
 #[cfg(test)]
 mod dyadic;
@@ -120,6 +121,7 @@ pub(crate) use bicells::{
 pub use coordinates::Coordinates;
 pub use corners::{Meeting, sign_of_cross};
 pub use crossing::{crossing, passes_near};
+pub use diametral::is_in_diametral_circle;
 pub use distance::{compare_distance, is_collinear3, is_within_distance};
 pub use filter::StaticFilter;
 pub use hull::{area, ray_and_segment, ray_and_triangle, volumes_over};

@@ -228,7 +228,7 @@ impl MovingTriangulation<Plane> {
             let points = row.map(|v| &read.points[v]);
             let label = given.label(cell);
             let is_encroached = |(i, &[j, k]): (usize, &[usize; 2])| {
-                edges[i] != NONE && tests.is_in_lens([points[j], points[k]], points[i])
+                edges[i] != NONE && tests.is_encroached([points[j], points[k]], points[i])
             };
             if tests.is_flawed(points, label, row)
                 || edges != [NONE; 3] && OTHERS.iter().enumerate().any(is_encroached)
