@@ -36,8 +36,8 @@
 //! All signs are ([`predicates`](crate::predicates)), ties are broken by vertex id. So at any time the triangles that
 //! are refined are those of a fresh constrained build of all vertices and pieces; the caller builds them by its own means.
 //! Places of new vertices are rounded. One in a triangle may be anywhere in it. One on a segment need not be exactly on
-//! it: then its pieces are straight between their own ends, and the segment bends by last bits. Where a piece would touch or
-//! cross anything else, places beside it are tried.
+//! it: then its pieces are straight between their own ends, and the segment bends by a last bit. It is refused where a
+//! piece would touch or cross anything else.
 //!
 //! # Why it ends
 //!

@@ -10,10 +10,6 @@ use crate::predicates::{dot, is_in_diametral_circle, minus};
 /// Squared cosine of an angle between segments from which on they are split at shells: that of 60 degrees.
 const SHARP: f64 = 0.25;
 
-/// Places where a piece may be split: how many last bits along which axis.
-const BESIDE: [(f64, usize); 9] =
-    [(0.0, 0), (1.0, 0), (-1.0, 0), (1.0, 1), (-1.0, 1), (2.0, 0), (-2.0, 0), (2.0, 1), (-2.0, 1)];
-
 impl Refinement<'_> {
     /// Splits a piece: in the middle, or, at a small angle with another segment, at a round distance from its apex, so that
     /// what is on both is on common shells.
@@ -37,34 +33,13 @@ impl Refinement<'_> {
             let x = p[axis] + share * (q[axis] - p[axis]);
             x.clamp(p[axis].min(q[axis]), p[axis].max(q[axis])) + 0.0
         });
-        match self.find_place(piece, [p, q], middle)? {
-            Some(place) => self.add(place, NONE, Some(piece)),
-            None => {
-                self.mesh.pieces[piece as usize].is_fixed = true;
-                self.n_unsplit += 1;
-                Ok(())
-            }
-        }
-    }
-
-    /// A place where a piece with these ends can be split, with its cavity: this one, or one beside it by last bits, as
-    /// rounding may have put it behind a sliver. In the box of the ends.
-    fn find_place(
-        &mut self,
-        piece: u32,
-        [p, q]: [[f64; 2]; 2],
-        middle: [f64; 2],
-    ) -> Result<Option<[f64; 2]>> {
         let id = VertexId::at(self.mesh.points.len());
-        for (bits, axis) in BESIDE {
-            let mut place = middle;
-            place[axis] += bits * f64::EPSILON * p[axis].abs().max(q[axis].abs());
-            place[axis] = place[axis].clamp(p[axis].min(q[axis]), p[axis].max(q[axis])) + 0.0;
-            if place != p && place != q && self.mesh.dig_at_piece(piece, &place, id)? {
-                return Ok(Some(place));
-            }
+        if middle == p || middle == q || !self.mesh.dig_at_piece(piece, &middle, id)? {
+            self.mesh.pieces[piece as usize].is_fixed = true;
+            self.n_unsplit += 1;
+            return Ok(());
         }
-        Ok(None)
+        self.add(middle, NONE, Some(piece))
     }
 
     /// Where a piece makes a small angle with another segment: at one of its ends, with a triangle in between, or further

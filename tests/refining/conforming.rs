@@ -1,4 +1,4 @@
-//! Segments that are split until all cells are Delaunay; slivers beside segments; callbacks that break a call off.
+//! Segments that are split until all cells are Delaunay; callbacks that break a call off.
 
 use super::{
     Triangulation, check_chains, check_fresh, domains, dot, mask, minus, random_domain, rectangle, refine,
@@ -144,42 +144,6 @@ fn segments_that_are_kept_are_not_split_for_their_circles() {
         assert_eq!(refine(&mut t, &quality, &options, &selected).inserted, 0);
         assert!(refine(&mut t, &quality, &RefineOptions::default(), &selected).inserted > 0);
     }
-}
-
-/// Boundaries that are not along the axes are refined again and again: points on them are rounded to either side, and beyond
-/// the pieces there are slivers, out to the hull. No piece stays whole for that.
-#[test]
-fn pieces_beside_slivers_are_split() {
-    let (mut n_slivers, mut n_split) = (0, 0);
-    for seed in seeds(60) {
-        let rng = &mut Rng::new(seed);
-        let (domain, n_loops) = random_domain(rng);
-        let context = || format!("seed {seed}, {domain:?}");
-        let mut t = Triangulation::new(&domain.points, Options::default()).expect("good points");
-        let segment = |k: usize| Segment { ends: domain.edges[k].map(VertexId::at), marker: k as i32 };
-        t.stage_segments((0..domain.edges.len()).map(segment)).expect("present");
-        if t.commit_timestamp().is_err() {
-            continue;
-        }
-        let is_loop = |marker: i32| (marker as usize) < n_loops;
-        for greatest_area in [0.5, 0.1, 0.03, 0.01, 0.003] {
-            let selected = mask(&t, is_loop);
-            let corners = t.cells().expect("room").corners;
-            let is_sliver = |row: &[VertexId; 3]| {
-                let [a, b, c] = row.map(|v| t.position(v).expect("present"));
-                ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs() < 1e-14
-            };
-            n_slivers += corners.iter().zip(&selected).filter(|(row, s)| **s == 0 && is_sliver(row)).count();
-            let quality = Quality { greatest_area, is_conforming: rng.one_in(2), ..Quality::default() };
-            let report = refine(&mut t, &quality, &RefineOptions::default(), &selected);
-            assert_eq!((report.unsplit, report.bad_cells), (0, 0), "{}", context());
-            n_split += report.on_segments;
-        }
-        check_fresh(&t, &context);
-        check_chains(&t, &domain, &context);
-    }
-    println!("{n_split} splits, {n_slivers} slivers");
-    assert!(n_slivers > 500 && n_split > 5_000, "{n_slivers}, {n_split}");
 }
 
 /// A function that breaks the call off, at any time, is not asked again, and nothing has changed.
