@@ -67,9 +67,17 @@ impl<G: Dimension> Edits<G> {
         memory::reserve(&mut self.insertions, n)
     }
 
-    /// Stages an insertion, for which there is room, of an id above those of the others.
+    /// Stages an insertion, for which there is room, of an id above those of the others; or they are
+    /// [sorted](Self::sort_insertions) afterwards.
     pub(in crate::motion) fn insert(&mut self, id: VertexId, position: G::Point) {
         self.insertions.push((id, position));
+    }
+
+    /// Puts the insertions in the order of their ids.
+    pub(in crate::motion) fn sort_insertions(&mut self) {
+        if !self.insertions.is_sorted_by_key(|&(id, _)| id) {
+            self.insertions.sort_unstable_by_key(|&(id, _)| id);
+        }
     }
 
     /// Whether the insertion of a vertex is staged.
