@@ -138,8 +138,7 @@ pub unsafe extern "C" fn deldrift_insert_vertex_with_key(
     given!(t: Changing, position: Point, out_vertex: Output);
     t.change(|t| {
         let out_vertex = out_vertex.place()?;
-        let inserted =
-            in_its_dimension!(t => t.insert_vertex_with_key(position.of("position", t)?, key))?;
+        let inserted = in_its_dimension!(t => t.insert_vertex_with_key(position.of("position", t)?, key))?;
         out_vertex.write(inserted.get());
         Ok(())
     })
