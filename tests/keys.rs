@@ -291,6 +291,16 @@ fn check_against_ranks<G: Dimension>(
         assert_eq!(t.coincident_representative(v), Ok(expected), "{}: at the place of {v}", context());
         assert_eq!(t.key(v), Ok(now[v].expect("present").key), "{}: key of {v}", context());
     }
+    let queries: Vec<G::Point> = places.iter().step_by(7).copied().collect();
+    let (mut near, mut expected) = (Vec::new(), Vec::new());
+    t.nearest_vertices(&queries, 6, |v| near.push(v)).expect("room");
+    let named = |k: VertexId| if k == VertexId::NONE { k } else { order[k] };
+    fresh.nearest_vertices(&queries, 6, |k| expected.push(named(k))).expect("room");
+    assert_eq!(near, expected, "{}: nearest", context());
+    for q in &queries {
+        let found = t.nearest_vertex(q).expect("room");
+        assert_eq!(found, fresh.nearest_vertex(q).expect("room").map(named), "{}: nearest", context());
+    }
     assert_eq!(t.vertex_count(), order.len(), "{}", context());
     assert_eq!(t.validate(Level::Delaunay), Ok(()), "{}", context());
 }

@@ -50,6 +50,14 @@ impl Keys {
         rank(v).cmp(&rank(w))
     }
 
+    /// The order of vertices at any places: by key, by place, and then by id.
+    pub(crate) fn compare_at(&self, (v, p): (VertexId, &[f64]), (w, q): (VertexId, &[f64])) -> Ordering {
+        if self.are_ids() {
+            return v.cmp(&w);
+        }
+        self.of(v).cmp(&self.of(w)).then_with(|| compare_places(p, q)).then(v.cmp(&w))
+    }
+
     /// Whether the first of two vertices at the same place is the one that represents it.
     #[inline(always)]
     pub(crate) fn is_lower(&self, v: VertexId, w: VertexId) -> bool {
@@ -188,8 +196,8 @@ impl Keys {
 }
 
 /// The order of places, one coordinate after the other. They are finite, without negative zeros.
-fn compare_places<G: Shape>(p: &G::Point, q: &G::Point) -> Ordering {
-    (0..G::D).map(|axis| p[axis].total_cmp(&q[axis])).find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
+fn compare_places(p: &[f64], q: &[f64]) -> Ordering {
+    p.iter().zip(q).map(|(x, y)| x.total_cmp(y)).find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
 }
 
 /// The number of vertices below each, by keys that may be above all, and by places.
@@ -197,7 +205,8 @@ fn ranks_of_keys<G: Shape, const N: usize>(keys: [(bool, u64); N], places: &[G::
     let mut n_below = [0; N];
     for i in 1..N {
         for k in 0..i {
-            let order = keys[k].cmp(&keys[i]).then_with(|| compare_places::<G>(&places[k], &places[i]));
+            let order =
+                keys[k].cmp(&keys[i]).then_with(|| compare_places(places[k].as_ref(), places[i].as_ref()));
             n_below[if order == Ordering::Less { i } else { k }] += 1;
         }
     }

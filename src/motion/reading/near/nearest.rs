@@ -21,7 +21,7 @@ use crate::predicates::{compare_distance, squared_distance};
 const MANY_STARS: u32 = 8;
 
 /// A vertex that waits to be the next in order of distance from a place: the greatest is the nearest, of the nearest
-/// ones that of the lowest key and then of the lowest id.
+/// ones that of the lowest rank: by key, place and id.
 struct Candidate<'t, P> {
     q: &'t P,
     point: &'t P,
@@ -32,8 +32,10 @@ struct Candidate<'t, P> {
 
 impl<P: AsRef<[f64]>> Ord for Candidate<'_, P> {
     fn cmp(&self, other: &Self) -> Ordering {
-        compare_distance(self.q, other.point, self.point)
-            .then_with(|| self.keys.compare(other.vertex, self.vertex))
+        compare_distance(self.q, other.point, self.point).then_with(|| {
+            let [place, own] = [other, self].map(|next| next.point.as_ref());
+            self.keys.compare_at((other.vertex, place), (self.vertex, own))
+        })
     }
 }
 
@@ -52,7 +54,7 @@ impl<P: AsRef<[f64]>> PartialEq for Candidate<'_, P> {
 impl<P: AsRef<[f64]>> Eq for Candidate<'_, P> {}
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// The vertex nearest to a point, of the nearest that of the lowest key and then of the lowest id; `None` if there are no vertices. Distances
+    /// The vertex nearest to a point, of the nearest that of the lowest key, then place, then id; `None` if there are no vertices. Distances
     /// are compared exactly.
     ///
     /// ```
@@ -73,13 +75,12 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Ok(self.nearest_of(&q, self.mesh.kernel.live_sites()));
         }
         let (nearest, _) = self.nearest_sites(&q, Slot::NONE)?;
-        let keys = self.mesh.kernel.keys();
-        let vertices = nearest.as_slice().iter().map(|&s| self.mesh.kernel.site(s).id);
-        Ok(vertices.min_by(|v, w| keys.compare(*v, *w)))
+        let lowest = nearest.as_slice().iter().copied().min_by(|&s, &t| self.compare_ranks(s, t));
+        Ok(lowest.map(|s| self.mesh.kernel.site(s).id))
     }
 
     /// The `k` vertices nearest to each of several places, told to `found` one after the other: `k` for each place, in
-    /// order of distance and, at the same distance, of key and then of id, hidden ones included; [`VertexId::NONE`] where there are no
+    /// order of distance and, at the same distance, of key, then place, then id, hidden ones included; [`VertexId::NONE`] where there are no
     /// more. Each place is looked for from the one before.
     ///
     /// ```
@@ -276,12 +277,19 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut best = sites.next()?;
         for s in sites {
             let order = self.compare(q, s, best);
-            if order == Ordering::Less
-                || order == Ordering::Equal && self.mesh.kernel.site(s).id < self.mesh.kernel.site(best).id
-            {
+            if order.then_with(|| self.compare_ranks(s, best)) == Ordering::Less {
                 best = s;
             }
         }
         Some(self.mesh.kernel.site(best).id)
+    }
+
+    /// The order of what represents two sites, by key, place and id.
+    fn compare_ranks(&self, s: SiteId, t: SiteId) -> Ordering {
+        let [first, second] = [s, t].map(|s| {
+            let site = self.mesh.kernel.site(s);
+            (site.id, site.point.as_ref())
+        });
+        self.mesh.kernel.keys().compare_at(first, second)
     }
 }
