@@ -6,8 +6,11 @@
 use crate::common::history::nudged;
 use crate::common::inputs::{KINDS, Kind, draw, draw_one};
 use crate::common::{CellSet, Rng, assert_same_cells, cell_set, seeds, sorted};
-use deldrift::motion::{Algorithm, CoincidencePolicy, Level, MovingTriangulation, Options, Saved};
-use deldrift::{Dimension, Error, Plane, Space, VertexId};
+use crate::saving_format::seal;
+use deldrift::motion::{
+    Algorithm, CoincidencePolicy, Level, MovingTriangulation, Options, Saved, Segment,
+};
+use deldrift::{Damage, Dimension, Error, LoadError, Plane, Space, VertexId};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
@@ -465,4 +468,66 @@ fn refused_calls_leave_no_keys() {
     assert_eq!(t.id_count(), 4);
     assert_eq!(t.insert_vertex(&[0.5, 0.25]), Ok(VertexId::new(4)));
     assert_eq!(t.key(VertexId::new(4)), Ok(4));
+}
+
+/// Bytes of keys that are wrong are refused: keys of no vertex, and those by which another vertex represents a place, or other
+/// cells are the triangulation.
+#[test]
+fn wrong_keys_are_not_loaded() {
+    let places = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [1.0, 0.0], [5.0, 5.0]];
+    let mut t = MovingTriangulation::<Plane>::with_keys(&places, &[40, 20, 30, 10, 20, 6], Options::default())
+        .expect("a build");
+    t.remove_vertex(VertexId::new(5)).expect("present");
+    t.stage_insertions_with_keys(&[[0.5, 0.5]], &[3]).expect("room");
+    let bytes = t.saved().expect("room");
+    // Behind the header, 7 positions and one that is staged, the representatives, 2 cells, and the staged id.
+    let start = 168 + 16 * 8 + 4 * 7 + 2 * 2 * 3 * 4 + 4;
+    assert_eq!(bytes.len(), start + 8 * 7 + 4);
+    assert_eq!(bytes[8], 3);
+    let with_key = |vertex: usize, key: u64| {
+        let mut changed = bytes.clone();
+        changed[start + 8 * vertex..][..8].copy_from_slice(&key.to_le_bytes());
+        seal(&mut changed);
+        let saved = Saved::of(&changed).expect("the right checksum");
+        MovingTriangulation::<Plane>::load(&saved, Options::default())
+            .map(|t| t.key_of_id(VertexId::at(vertex)))
+            .map_err(|error| match error {
+                LoadError::Data(damage) => damage,
+                LoadError::Call(error) => panic!("{error}"),
+            })
+    };
+    let vertex = VertexId::new;
+    assert_eq!(with_key(5, 6), Err(Damage::Key { vertex: vertex(5), given: 6 }));
+    assert_eq!(with_key(4, 19), Err(Damage::Representative { vertex: vertex(4), given: vertex(1) }));
+    assert!(matches!(with_key(3, 100), Err(Damage::NotDelaunay { .. })));
+    assert_eq!((with_key(3, 11), with_key(4, u64::MAX), with_key(6, 9)), (Ok(11), Ok(u64::MAX), Ok(9)));
+    let mut shorter = bytes[..bytes.len() - 8].to_vec();
+    let size = shorter.len() as u64;
+    shorter[16..24].copy_from_slice(&size.to_le_bytes());
+    seal(&mut shorter);
+    assert_eq!(Saved::of(&shorter).err(), Some(Damage::Counts));
+}
+
+/// Whether an id is given again: not one that is staged, nor where segments may still know it.
+#[test]
+fn ids_are_given_again_where_nothing_knows_them() {
+    let places = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0], [1.0, 0.5]];
+    let mut t = MovingTriangulation::<Plane>::new(&places, Options::default()).expect("a build");
+    let given = |t: &mut MovingTriangulation<Plane>, n: usize| {
+        let mut ids = Vec::new();
+        t.stage_insertions_at_free_ids(&vec![[1.0, 1.5]; n], None, |v| ids.push(v.get())).expect("room");
+        ids
+    };
+    t.remove_vertex(VertexId::new(1)).expect("present");
+    t.remove_vertex(VertexId::new(4)).expect("present");
+    assert_eq!(given(&mut t, 1), [1]);
+    assert_eq!(given(&mut t, 2), [4, 5]);
+    assert_eq!(given(&mut t, 0), []);
+    t.discard_moves();
+    assert_eq!((t.id_count(), given(&mut t, 3)), (5, vec![1, 4, 5]));
+    t.commit_timestamp().expect("room");
+    assert_eq!((t.vertex_count(), t.validate(Level::Delaunay)), (6, Ok(())));
+    t.remove_vertex(VertexId::new(4)).expect("present");
+    t.stage_segments([Segment { ends: [VertexId::new(0), VertexId::new(2)], marker: 0 }].into_iter()).expect("room");
+    assert_eq!(given(&mut t, 1), [6]);
 }
