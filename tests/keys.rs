@@ -7,9 +7,7 @@ use crate::common::history::nudged;
 use crate::common::inputs::{KINDS, Kind, draw, draw_one};
 use crate::common::{CellSet, Rng, assert_same_cells, cell_set, seeds, sorted};
 use crate::saving_format::seal;
-use deldrift::motion::{
-    Algorithm, CoincidencePolicy, Level, MovingTriangulation, Options, Saved, Segment,
-};
+use deldrift::motion::{Algorithm, CoincidencePolicy, Level, MovingTriangulation, Options, Saved, Segment};
 use deldrift::{Damage, Dimension, Error, LoadError, Plane, Space, VertexId};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -475,8 +473,9 @@ fn refused_calls_leave_no_keys() {
 #[test]
 fn wrong_keys_are_not_loaded() {
     let places = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [1.0, 0.0], [5.0, 5.0]];
-    let mut t = MovingTriangulation::<Plane>::with_keys(&places, &[40, 20, 30, 10, 20, 6], Options::default())
-        .expect("a build");
+    let mut t =
+        MovingTriangulation::<Plane>::with_keys(&places, &[40, 20, 30, 10, 20, 6], Options::default())
+            .expect("a build");
     t.remove_vertex(VertexId::new(5)).expect("present");
     t.stage_insertions_with_keys(&[[0.5, 0.5]], &[3]).expect("room");
     let bytes = t.saved().expect("room");
@@ -493,7 +492,7 @@ fn wrong_keys_are_not_loaded() {
             .map(|t| t.key_of_id(VertexId::at(vertex)))
             .map_err(|error| match error {
                 LoadError::Data(damage) => damage,
-                LoadError::Call(error) => panic!("{error}"),
+                error => panic!("{error}"),
             })
     };
     let vertex = VertexId::new;
@@ -528,6 +527,7 @@ fn ids_are_given_again_where_nothing_knows_them() {
     t.commit_timestamp().expect("room");
     assert_eq!((t.vertex_count(), t.validate(Level::Delaunay)), (6, Ok(())));
     t.remove_vertex(VertexId::new(4)).expect("present");
-    t.stage_segments([Segment { ends: [VertexId::new(0), VertexId::new(2)], marker: 0 }].into_iter()).expect("room");
+    t.stage_segments([Segment { ends: [VertexId::new(0), VertexId::new(2)], marker: 0 }].into_iter())
+        .expect("room");
     assert_eq!(given(&mut t, 1), [6]);
 }

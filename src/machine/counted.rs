@@ -92,7 +92,7 @@ mod tests {
         assert!(first.get_mut().is_none());
         std::thread::scope(|scope| {
             for other in others {
-                scope.spawn(move || assert_eq!(other.0.load(Ordering::Relaxed), 0));
+                scope.spawn(move || assert_eq!((*other).0.load(Ordering::Relaxed), 0));
             }
         });
         assert_eq!(n_freed.load(Ordering::Relaxed), 0);
