@@ -264,7 +264,7 @@ impl<G: Dimension> Delaunay<G> {
             self.drop_site(s);
         }
         let keys = &self.keys;
-        ids.sort_unstable_by(|(s, v), (t, w)| s.cmp(t).then_with(|| keys.compare(*v, *w)));
+        ids.sort_unstable_by(|(s, v), (t, w)| s.cmp(t).then_with(|| keys.order_of(*v, *w)));
         for there in ids.chunk_by(|(t, _), (other, _)| t == other) {
             let (site, lowest) = there[0];
             let before = self.site(site).id;

@@ -40,12 +40,12 @@ impl Keys {
 
     /// The order of vertices at the same place: by key, then by id; [`VertexId::NONE`] is above all.
     #[inline(always)]
-    pub(crate) fn compare(&self, v: VertexId, w: VertexId) -> Ordering {
-        if self.are_ids() { v.cmp(&w) } else { self.compare_keys(v, w) }
+    pub(crate) fn order_of(&self, v: VertexId, w: VertexId) -> Ordering {
+        if self.are_ids() { v.cmp(&w) } else { self.order_by_key(v, w) }
     }
 
     #[cold]
-    fn compare_keys(&self, v: VertexId, w: VertexId) -> Ordering {
+    fn order_by_key(&self, v: VertexId, w: VertexId) -> Ordering {
         let rank = |v: VertexId| (v == VertexId::NONE, self.of(v), v);
         rank(v).cmp(&rank(w))
     }
@@ -61,7 +61,7 @@ impl Keys {
     /// Whether the first of two vertices at the same place is the one that represents it.
     #[inline(always)]
     pub(crate) fn is_lower(&self, v: VertexId, w: VertexId) -> bool {
-        self.compare(v, w) == Ordering::Less
+        self.order_of(v, w) == Ordering::Less
     }
 
     /// The one of two vertices at the same place that represents it.

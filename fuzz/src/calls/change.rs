@@ -28,6 +28,7 @@ impl History<'_> {
         if status == DELDRIFT_OK {
             assert_eq!(id as usize, self.m.positions.len(), "the id of an insertion");
             self.m.positions.push(Some(p));
+            self.m.n_known = self.m.positions.len();
             self.fresh = None;
         }
         self.check();
@@ -152,6 +153,9 @@ impl History<'_> {
         let places: Vec<Place> = (0..count).map(|_| self.place()).collect();
         let numbers = flattened(&places, self.m.d);
         let mut first = 77;
+        if self.m.coming.is_empty() {
+            self.m.n_known = self.m.positions.len();
+        }
         if self.next_key.is_none() && !self.has_segments && self.s.below(2) == 0 {
             return self.stage_at_free_ids(&places, &numbers);
         }
@@ -210,7 +214,7 @@ impl History<'_> {
         let t = self.t;
         self.ok(|| c!(deldrift_discard_moves(t)));
         for &(id, _) in self.m.coming.iter().rev() {
-            if id as usize + 1 == self.m.positions.len() {
+            if id as usize >= self.m.n_known && id as usize + 1 == self.m.positions.len() {
                 self.m.positions.pop();
             }
         }
@@ -315,6 +319,7 @@ impl History<'_> {
         let old = std::mem::take(&mut self.m.positions);
         let kept = old.iter().zip(ids).filter(|(_, id)| **id != NONE);
         self.m.positions = kept.map(|(p, _)| *p).collect();
+        self.m.n_known = ids.iter().take(self.m.n_known).filter(|id| **id != NONE).count();
         self.m.staged = self.m.staged.iter().map(|(&v, &q)| (new(v), q)).collect();
         self.m.coming.iter_mut().for_each(|(v, _)| *v = new(*v));
         self.m.leaving = self.m.leaving.iter().map(|&v| new(v)).collect();
@@ -354,6 +359,8 @@ impl History<'_> {
             self.is_ok(chosen.choose(other));
             (self.options, self.chosen) = (options, chosen);
             self.carried = Carried::default();
+            // What is saved does not tell which ids of staged insertions had been given before.
+            self.m.n_known = 0;
         }
         let (kept, gone) = if way == 0 && self.s.below(2) == 0 { (t, other) } else { (other, t) };
         self.t = kept;

@@ -103,8 +103,9 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Forgets what waits. Ids that were given last are given back.
     pub(in crate::motion) fn discard_edits(&mut self) {
+        let n_known = self.edits.n_known();
         for id in self.edits.forget_insertions() {
-            if id.index() + 1 == self.mesh.site_of.len() {
+            if id.index() >= n_known && id.index() + 1 == self.mesh.site_of.len() {
                 self.mesh.site_of.pop();
             }
         }

@@ -128,6 +128,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         self.mesh.n_present += 1;
         self.staging.grow(self.mesh.site_of.len());
+        self.edits.know(self.mesh.site_of.len(), true);
         self.enter_evaluations(&mut report, before);
         self.count(report);
         Ok(id)

@@ -168,6 +168,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         // What may fail comes before: a triangulation has keys or none.
         self.give_keys(keys, ids, n_ids)?;
+        self.edits.know(self.mesh.site_of.len(), false);
         for (&id, position) in ids.iter().zip(positions) {
             let checked = check_position::<G>("positions", 0, position)?;
             self.edits.insert(id, checked);
