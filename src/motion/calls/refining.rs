@@ -14,7 +14,7 @@ use crate::ids::{SegmentId, VertexId};
 use crate::machine::memory;
 use crate::motion::options::{CoarsenOptions, Quality, RefineOptions};
 use crate::motion::report::QualityReport;
-use crate::motion::state::looked::Looking;
+use crate::motion::state::looked::{Looking, Question};
 use crate::motion::state::made::Origin;
 use crate::motion::state::mesh::Standing;
 use crate::motion::state::segments::Segment;
@@ -62,6 +62,12 @@ impl MovingTriangulation<Plane> {
         mask: &[u8],
     ) -> Result<QualityReport> {
         self.check_quality(quality, mask)?;
+        let asked = asked(quality)?;
+        let question = self.question(&asked, quality, mask);
+        if self.made.as_ref().is_some_and(|made| made.found.all_good.holds(question)) {
+            self.forget_weights();
+            return Ok(QualityReport::default());
+        }
         let mut read = self.read_vertices()?;
         let areas = none_where_zero(quality.areas)?;
         let tests = Tests::new(criteria(quality, &areas), read.extent());
@@ -69,6 +75,9 @@ impl MovingTriangulation<Plane> {
         let mut report = QualityReport { bad_cells: read.bad.len(), ..Default::default() };
         if report.bad_cells == 0 || tests.are_none() {
             self.forget_weights();
+            if let (Some(made), 0) = (&mut self.made, report.bad_cells) {
+                made.found.all_good.set(question)?;
+            }
             return Ok(report);
         }
         let mut pace = std::mem::take(self.mesh.kernel.pace_mut());
@@ -135,6 +144,7 @@ impl MovingTriangulation<Plane> {
     ///
     /// Cost: a pass over the cells, and for each vertex added that of looking at the cells around it, unless these and their
     /// places are those of the last call with this quality and these options. With sizes or a callback all are looked at.
+    /// Where nothing has changed since a call that removed nothing, masks and labels are compared.
     ///
     /// # Errors
     /// Those of [`refine`](Self::refine).
@@ -147,9 +157,15 @@ impl MovingTriangulation<Plane> {
         self.check_quality(quality, mask)?;
         check_coarsening(options)?;
         let mut report = QualityReport::default();
+        let quality_asked = asked(quality)?;
+        let all_asked = asked_with(&quality_asked, options)?;
+        let question = self.question(&all_asked, quality, mask);
         let Some(made) = self.made.as_mut().filter(|made| !made.vertices().is_empty()) else {
             return Ok(report);
         };
+        if made.found.all_stay.holds(question) {
+            return Ok(report);
+        }
         // After an error nothing is known.
         let mut looked = std::mem::take(&mut made.looked);
         let mut read = self.read_vertices()?;
@@ -157,15 +173,14 @@ impl MovingTriangulation<Plane> {
         let tests = Tests::new(criteria(quality, &areas), read.extent());
         self.read_cells(&mut read, &tests, mask, quality.labels, true)?;
         let cells = self.cells()?;
-        let asked = asked(quality, options)?;
         let looking = Looking {
-            asked: &asked,
+            asked: &all_asked,
             points: &read.points,
             corners: cells.corners,
             mask,
             labels: quality.labels.unwrap_or_default(),
         };
-        let has_numbers = !asked.is_empty();
+        let has_numbers = !all_asked.is_empty();
         let known = if has_numbers { looked.known(looking)? } else { Vec::new() };
         let candidates = self.candidates(&read, options.share, &known)?;
         let points = memory::copy_of(&read.points)?;
@@ -176,9 +191,16 @@ impl MovingTriangulation<Plane> {
         if has_numbers {
             looked.remember(looking, stays)?;
         }
-        memory::made(&mut self.made)?.looked = looked;
+        let made = self.made.as_mut().expect("it has vertices");
+        made.looked = looked;
         report.removed = coarsened.vertices.len();
         if report.removed == 0 {
+            if has_numbers {
+                made.found.all_stay.set(question)?;
+                if read.bad.is_empty() {
+                    made.found.all_good.set(Question { asked: &quality_asked, ..question })?;
+                }
+            }
             return Ok(report);
         }
         let mut changes = SegmentChanges::default();
@@ -196,6 +218,11 @@ impl MovingTriangulation<Plane> {
     /// if they have not. From the commit on that makes the piece.
     pub fn original_segment(&self, segment: SegmentId) -> SegmentId {
         self.made.as_ref().and_then(|made| made.origin(segment)).map_or(segment, |origin| origin.segment)
+    }
+
+    fn question<'a>(&self, asked: &'a [u64], quality: &Quality<'a>, mask: &'a [u8]) -> Question<'a> {
+        let labels = quality.labels.unwrap_or_default();
+        Question { n_changes: self.mesh.n_changes, asked, mask, labels }
     }
 
     /// The last refinement has inserted nothing.
@@ -283,15 +310,24 @@ impl MovingTriangulation<Plane> {
     }
 }
 
-/// The bits of the numbers that are asked for; empty if it is more than numbers.
-fn asked(quality: &Quality, options: &CoarsenOptions) -> Result<Vec<u64>> {
+/// The bits of the numbers of a quality; empty if it is more than numbers.
+fn asked(quality: &Quality) -> Result<Vec<u64>> {
     let mut asked = Vec::new();
     if quality.sizes.is_some() || quality.is_too_large.is_some() {
         return Ok(asked);
     }
-    let CoarsenOptions { margin, share, joins } = *options;
-    let numbers = [quality.least_angle, quality.greatest_area, margin, share, joins];
+    let numbers = [quality.least_angle, quality.greatest_area];
     memory::collect(&mut asked, numbers.iter().chain(quality.areas).map(|x| x.to_bits()))?;
+    Ok(asked)
+}
+
+/// Those of a quality and of these options; empty if the quality is more than numbers.
+fn asked_with(quality: &[u64], options: &CoarsenOptions) -> Result<Vec<u64>> {
+    let mut asked = Vec::new();
+    if !quality.is_empty() {
+        let CoarsenOptions { margin, share, joins } = *options;
+        memory::collect(&mut asked, [margin, share, joins].map(f64::to_bits).iter().chain(quality).copied())?;
+    }
     Ok(asked)
 }
 

@@ -23,6 +23,70 @@ pub(in crate::motion) struct Looked {
     stays: Vec<bool>,
 }
 
+/// What has been found by looks at all cells, until one of them changes.
+#[derive(Debug, Default)]
+pub(in crate::motion) struct Found {
+    /// No selected cell is bad, or has an encroached edge.
+    pub(in crate::motion) all_good: Finding,
+    /// No vertex can go.
+    pub(in crate::motion) all_stay: Finding,
+}
+
+/// Something that was found to hold.
+#[derive(Debug, Default)]
+pub(in crate::motion) struct Finding {
+    /// The number of changes of the mesh until then; none if nothing was found.
+    n_changes: Option<u64>,
+    /// The bits of the numbers that were asked for.
+    asked: Vec<u64>,
+    mask: Vec<u8>,
+    /// None if all are 0.
+    labels: Vec<u32>,
+}
+
+/// What a call asks for.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::motion) struct Question<'a> {
+    /// The number of changes of the mesh so far.
+    pub(in crate::motion) n_changes: u64,
+    /// The bits of the numbers that are asked for; none if it is more than numbers.
+    pub(in crate::motion) asked: &'a [u64],
+    pub(in crate::motion) mask: &'a [u8],
+    pub(in crate::motion) labels: &'a [u32],
+}
+
+impl Finding {
+    /// Whether it holds.
+    pub(in crate::motion) fn holds(&self, question: Question) -> bool {
+        self.n_changes == Some(question.n_changes)
+            && !question.asked.is_empty()
+            && self.asked == question.asked
+            && self.mask == question.mask
+            && self.labels == question.labels
+    }
+
+    /// It has been found.
+    pub(in crate::motion) fn set(&mut self, question: Question) -> Result<()> {
+        // What is remembered in part is not to be taken for anything.
+        self.n_changes = None;
+        replace(&mut self.asked, question.asked)?;
+        replace(&mut self.mask, question.mask)?;
+        replace(&mut self.labels, question.labels)?;
+        self.n_changes = Some(question.n_changes);
+        Ok(())
+    }
+
+    fn memory_bytes(&self) -> usize {
+        memory::bytes_of(&self.asked) + memory::bytes_of(&self.mask) + memory::bytes_of(&self.labels)
+    }
+}
+
+impl Found {
+    pub(in crate::motion) fn memory_bytes(&self) -> usize {
+        self.all_good.memory_bytes() + self.all_stay.memory_bytes()
+    }
+}
+
 /// Cells that are looked at.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::motion) struct Looking<'a> {

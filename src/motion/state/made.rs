@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::ids::{SegmentId, VertexId};
 use crate::machine::memory;
 use crate::motion::report::VertexWeights;
-use crate::motion::state::looked::Looked;
+use crate::motion::state::looked::{Found, Looked};
 
 /// The segment that a piece was made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -40,6 +40,7 @@ pub(in crate::motion) struct Made {
     refined_at: u64,
     /// Copies know nothing of it.
     pub(in crate::motion) looked: Looked,
+    pub(in crate::motion) found: Found,
 }
 
 impl Made {
@@ -170,5 +171,6 @@ impl Made {
             + memory::bytes_of(&self.coming)
             + memory::bytes_of(&self.weights)
             + self.looked.memory_bytes()
+            + self.found.memory_bytes()
     }
 }

@@ -73,6 +73,11 @@ impl<G: Dimension> Origins<G> {
         self.known = Known::All;
     }
 
+    /// Whether no vertex has been moved.
+    pub(in crate::motion) fn are_none(&self) -> bool {
+        self.known == Known::Listed && self.listed.is_empty()
+    }
+
     /// Whether the origins of all vertices are known.
     pub(in crate::motion) fn are_of_all(&self) -> bool {
         self.known == Known::All

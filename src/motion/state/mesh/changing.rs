@@ -86,6 +86,7 @@ impl<G: Dimension> Mesh<G> {
 
     /// Makes a change visible to programs that read the cells. Cannot fail.
     pub(in crate::motion) fn publish(&mut self) {
+        self.n_changes += u64::from(self.has_changed());
         if self.transaction.has_rebuilt() || self.kernel.has_given_up_cells() {
             self.views.follow_all();
         } else {
@@ -100,6 +101,15 @@ impl<G: Dimension> Mesh<G> {
             // For speed alone: without the memory for it the cells stay as they are.
             let _ = self.sort_cells(REPLACED_TO_SORT);
         }
+    }
+
+    /// Whether a place, a cell or a segment may have changed.
+    fn has_changed(&self) -> bool {
+        self.transaction.has_rebuilt()
+            || self.transaction.has_logged()
+            || !self.transaction.origins().are_none()
+            || !self.kernel.complex().rows().is_empty()
+            || self.segments.as_ref().is_some_and(|segments| !segments.are_at_rest())
     }
 
     /// Puts all back as it was when the change began. Needs no memory.

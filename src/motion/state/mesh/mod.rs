@@ -45,6 +45,8 @@ pub(in crate::motion) struct Mesh<G: Dimension> {
     pub(in crate::motion) constants: &'static Constants,
     /// Whether the program takes changes.
     pub(in crate::motion) takes_changes: bool,
+    /// How many changes have been published that may have changed a place, a cell or a segment.
+    pub(in crate::motion) n_changes: u64,
 }
 
 impl<G: Dimension> Mesh<G> {
@@ -68,6 +70,7 @@ impl<G: Dimension> Mesh<G> {
             segments: None,
             constants: TABLE.of::<G>(),
             takes_changes: false,
+            n_changes: 0,
         }
     }
 
@@ -87,6 +90,7 @@ impl<G: Dimension> Mesh<G> {
             },
             constants: self.constants,
             takes_changes: self.takes_changes,
+            n_changes: self.n_changes,
         })
     }
 
