@@ -228,7 +228,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if keys.are_ids() {
             return None;
         }
-        VertexId::range(0..self.id_count()).find(|&v| keys.of(v) != self.key_of_id(v))
+        VertexId::range(0..self.mesh.site_of.len()).find(|&v| keys.of(v) != self.key_of_id(v))
     }
 }
 
