@@ -178,6 +178,9 @@ def keys(argument: str, values: Any, count: int) -> Optional[np.ndarray]:
         raise WrongCount(
             f"{argument} has {len(array)} entries, and there are {count} vertices", argument, None, len(array)
         )
+    if array.size and array.dtype.kind == "f" and not hasattr(values, "dtype"):
+        # Lists of numbers of which some have more than 63 bits.
+        array = np.asarray(values, dtype=object)
     if array.size and array.dtype.kind == "O":
         array = np.array([one_key(f"{argument}[{index}]", value) for index, value in enumerate(array)], U64)
     elif array.size and array.dtype.kind not in "iu":
