@@ -293,6 +293,7 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
     hide(&s, s.points);
     deldrift_options options = options_of(&s);
     if (setting->keyed) {
+        if (is_of_research(call.algorithm)) options.algorithm = DELDRIFT_AUTO;
         OK(deldrift_create_with_keys(d, s.points, keys_of(s.n), s.n, &options, &s.t));
         OK(choose(s.t, call.algorithm));
     } else {
