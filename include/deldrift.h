@@ -7,7 +7,7 @@
  * deldrift_compact gives new ids. Then the points move: stage the moves, commit them as the next
  * timestamp, read the cells. After every commit the cells are exactly those of the Delaunay triangulation
  * of the current positions. Ties (cocircular and cospherical points) are broken by vertex id, so the cells
- * depend only on positions and ids. In 2D edges can be prescribed: with segments (deldrift_stage_segments) the
+ * depend only on positions and ids; or by keys that the program gives (deldrift_create_with_keys). In 2D edges can be prescribed: with segments (deldrift_stage_segments) the
  * triangulation is the constrained Delaunay triangulation.
  *
  *     #include <deldrift.h>
@@ -291,7 +291,7 @@ enum
   deldrift_coincidence : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    /// The lowest id represents the place in the cells; the others are hidden until they move apart.
+    /// The lowest id, or key, represents the place in the cells; the others are hidden until they move apart.
     DELDRIFT_COINCIDENCE_MERGE = 0,
     /// The call fails with DELDRIFT_COINCIDENT and has no effect.
     DELDRIFT_COINCIDENCE_REJECT = 1,
@@ -437,7 +437,7 @@ typedef struct deldrift_commit_report {
     uint64_t flips;
     /// 1 if the triangulation was rebuilt (in the statistics, how often).
     uint64_t rebuilds;
-    /// Hidden vertices at the end: those at the place of a vertex with a lower id.
+    /// Hidden vertices at the end: those at the place of a vertex with a lower id, or key.
     uint64_t coincident;
     /// Vertices that were certainly within their tolerance, with an algorithm that tests it.
     uint64_t within_tolerance;
@@ -517,7 +517,7 @@ typedef struct deldrift_changes {
     size_t star_count;
     /// These vertices, ascending. Some may have been removed.
     const uint32_t *stars;
-    /// Number of vertices that are hidden and were not: a vertex of lower id is at the same place now.
+    /// Number of vertices that are hidden and were not: a vertex of lower id, or key, is at the same place now.
     size_t hidden_count;
     /// These vertices, ascending.
     const uint32_t *hidden;
@@ -889,7 +889,7 @@ deldrift_status deldrift_insert_vertex(deldrift_triangulation *t,
                                        uint32_t *out_vertex);
 
 /// Removes a vertex at once, with the move or the removal staged for it, if any. Its id is not given again before a
-/// deldrift_compact, nor is all of its memory. Ends all views.
+/// deldrift_compact, but by deldrift_stage_insertions_at_free_ids, nor is all of its memory. Ends all views.
 ///
 /// Cost: up to 64 neighbours at most the square of their number, beyond that a build of the neighbours alone. In 3D
 /// that may have as many cells as half the square of their number, as where all points are on the moment curve; each
@@ -902,7 +902,7 @@ deldrift_status deldrift_remove_vertex(deldrift_triangulation *t,
                                        uint32_t vertex);
 
 /// Frees the memory that has served removed vertices, and gives the others new ids: 0, 1, ... in the order
-/// of those that they have. Ties between cocircular or cospherical points are broken by the order of ids, so
+/// of those that they have. Ties between cocircular or cospherical points are broken by keys, or the order of ids, so
 /// the cells stay the same, with their indices in deldrift_cells; so do positions, staged moves, the ids of segments and the
 /// timestamp. Memory and the time of commits are those of a fresh triangulation then. Ends all views.
 ///
@@ -1442,7 +1442,8 @@ deldrift_status deldrift_locate_points(const deldrift_triangulation *t,
                                        const deldrift_location *hint,
                                        deldrift_location *locations);
 
-/// The vertex nearest to a point, to *vertex: the lowest id among the nearest; DELDRIFT_NONE if the
+/// The vertex nearest to a point, to *vertex: the lowest id among the nearest, or where vertices have keys the one
+/// of the lowest key; DELDRIFT_NONE if the
 /// triangulation has no vertices.
 ///
 /// position: 2 or 3 numbers.
@@ -1456,8 +1457,8 @@ deldrift_status deldrift_nearest_vertex(const deldrift_triangulation *t,
                                         const double *position,
                                         uint32_t *vertex);
 
-/// The lowest id among the vertices at the place of this one, to *representative: the one that is a
-/// corner of cells. It is the vertex itself unless the vertex is hidden.
+/// The lowest id among the vertices at the place of this one, or where vertices have keys the one of the lowest key and then
+/// of the lowest id, to *representative: the one that is a corner of cells. It is the vertex itself unless the vertex is hidden.
 ///
 /// Cost: constant.
 ///
@@ -1482,7 +1483,8 @@ deldrift_status deldrift_hidden_vertices(const deldrift_triangulation *t,
                                          size_t capacity,
                                          size_t *count);
 
-/// The k vertices nearest to each of count positions: rows of k ids, by distance and, at the same distance, by id;
+/// The k vertices nearest to each of count positions: rows of k ids, by distance and, at the same distance, by id, or by key
+/// where vertices have keys;
 /// DELDRIFT_NONE where there are fewer vertices than k. Distances are compared exactly. Hidden vertices count like
 /// others.
 ///
