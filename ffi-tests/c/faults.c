@@ -207,6 +207,7 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     OK(deldrift_dimension(s.t, &number));
     OK(deldrift_get_algorithm(s.t, &number));
     OK(deldrift_vertex_count(s.t, &count));
+    OK(deldrift_keys(s.t, NULL, 0, &count));
     OK(deldrift_cell_count(s.t, &count));
     OK(deldrift_staged_count(s.t, &count));
     OK(deldrift_memory_bytes(s.t, &count));
@@ -299,8 +300,8 @@ int main(void) {
         other_functions_ask_for_nothing(dimension);
         for (size_t which = 0; which < N_SETTINGS; which++) {
             for (kind k = 0; k < N_KINDS; k++) {
-                bool is_of_one = k == RELOCATE || k == INSERT || k == INSERT_WITH_KEY || k == REMOVE || k == LOCATE || k == LOCATE_POINTS ||
-                                 k == NEAREST || k == NEAREST_VERTICES || k == CONFLICTS;
+                bool is_of_one = k == RELOCATE || k == INSERT || k == INSERT_WITH_KEY || k == REMOVE || k == LOCATE ||
+                                 k == LOCATE_POINTS || k == NEAREST || k == NEAREST_VERTICES || k == CONFLICTS;
                 // Moves and edits that are staged already would be in the way.
                 if (SETTINGS[which].edits && (k == STAGE_REMOVALS || k == MOVE_ALL)) continue;
                 if (dimension == 3 && is_of_plane(k)) continue;
