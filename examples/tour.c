@@ -320,6 +320,39 @@ static void ask_for_a_domain(void) {
     deldrift_destroy(t);
 }
 
+// Four points on a circle, of which the order of keys says which two are joined, whatever their ids; and an id that is given
+// again.
+static void break_ties_by_keys(void) {
+    static const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};
+    static const uint64_t keys[2][4] = {{10, 20, 30, 40}, {20, 10, 40, 30}};
+    uint32_t vertices[2], first, id;
+    uint64_t found[7];
+    size_t count;
+    deldrift_triangulation *t;
+    bool has_first[2];
+    for (int k = 0; k < 2; k++) {
+        check(deldrift_create_with_keys(2, square, keys[k], 4, NULL, &t));
+        deldrift_cells_view view;
+        check(deldrift_cells(t, &view));
+        has_first[k] = true;
+        for (size_t c = 0; c < view.count; c++) {
+            const uint32_t *row = view.vertices + 3 * c;
+            has_first[k] = has_first[k] && (row[0] == 0 || row[1] == 0 || row[2] == 0);
+        }
+        if (k == 0) deldrift_destroy(t);
+    }
+    expect(has_first[0] != has_first[1], "keys choose the diagonal");
+    check(deldrift_remove_vertex(t, 1));
+    check(deldrift_stage_insertions_at_free_ids(t, (double[]){0.5, 0.25, 0.5, 0.75}, (uint64_t[]){7, 8}, 2, vertices));
+    expect(vertices[0] == 1 && vertices[1] == 4, "the id of a vertex that has gone is given again");
+    check(deldrift_stage_insertions_with_keys(t, (double[]){0.25, 0.5}, (uint64_t[]){9}, 1, &first));
+    check(deldrift_commit_timestamp(t, NULL));
+    check(deldrift_insert_vertex_with_key(t, (double[]){0.75, 0.5}, 11, &id));
+    check(deldrift_keys(t, found, 7, &count));
+    expect(count == 7 && found[1] == 7 && found[first] == 9 && found[id] == 11, "keys are read by id");
+    deldrift_destroy(t);
+}
+
 // A square of two regions whose mesh is refined: where vertices and pieces come from, labels, and the boundary.
 static void refine_a_domain(void) {
     enum { ROOM = 4096 };
@@ -378,6 +411,7 @@ int main(void) {
     keep_and_write(t);
     ask_for_signs();
     ask_for_a_domain();
+    break_ties_by_keys();
     refine_a_domain();
     check(deldrift_validate(t, 3));
     check(deldrift_dimension(t, &dimension));

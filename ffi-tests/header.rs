@@ -30,6 +30,7 @@ const MAIN: Header = Header {
         "triangulation",
         "motion",
         "immediate",
+        "keys",
         "segments",
         "splitting",
         "changes",

@@ -7,7 +7,7 @@
  * deldrift_compact gives new ids. Then the points move: stage the moves, commit them as the next
  * timestamp, read the cells. After every commit the cells are exactly those of the Delaunay triangulation
  * of the current positions. Ties (cocircular and cospherical points) are broken by vertex id, so the cells
- * depend only on positions and ids. In 2D edges can be prescribed: with segments (deldrift_stage_segments) the
+ * depend only on positions and ids; or by keys that the program gives (deldrift_create_with_keys). In 2D edges can be prescribed: with segments (deldrift_stage_segments) the
  * triangulation is the constrained Delaunay triangulation.
  *
  *     #include <deldrift.h>
@@ -291,7 +291,7 @@ enum
   deldrift_coincidence : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    /// The lowest id represents the place in the cells; the others are hidden until they move apart.
+    /// The lowest id, or key, represents the place in the cells; the others are hidden until they move apart.
     DELDRIFT_COINCIDENCE_MERGE = 0,
     /// The call fails with DELDRIFT_COINCIDENT and has no effect.
     DELDRIFT_COINCIDENCE_REJECT = 1,
@@ -437,7 +437,7 @@ typedef struct deldrift_commit_report {
     uint64_t flips;
     /// 1 if the triangulation was rebuilt (in the statistics, how often).
     uint64_t rebuilds;
-    /// Hidden vertices at the end: those at the place of a vertex with a lower id.
+    /// Hidden vertices at the end: those at the place of a vertex with a lower id, or key.
     uint64_t coincident;
     /// Vertices that were certainly within their tolerance, with an algorithm that tests it.
     uint64_t within_tolerance;
@@ -517,7 +517,7 @@ typedef struct deldrift_changes {
     size_t star_count;
     /// These vertices, ascending. Some may have been removed.
     const uint32_t *stars;
-    /// Number of vertices that are hidden and were not: a vertex of lower id is at the same place now.
+    /// Number of vertices that are hidden and were not: a vertex of lower id, or key, is at the same place now.
     size_t hidden_count;
     /// These vertices, ascending.
     const uint32_t *hidden;
@@ -896,7 +896,7 @@ deldrift_status deldrift_insert_vertex(deldrift_triangulation *t,
                                        uint32_t *out_vertex);
 
 /// Removes a vertex at once, with the move or the removal staged for it, if any. Its id is not given again before a
-/// deldrift_compact, nor is all of its memory. Ends all views.
+/// deldrift_compact, but by deldrift_stage_insertions_at_free_ids, nor is all of its memory. Ends all views.
 ///
 /// Cost: up to 64 neighbours at most the square of their number, beyond that a build of the neighbours alone. In 3D
 /// that may have as many cells as half the square of their number, as where all points are on the moment curve; each
@@ -909,7 +909,7 @@ deldrift_status deldrift_remove_vertex(deldrift_triangulation *t,
                                        uint32_t vertex);
 
 /// Frees the memory that has served removed vertices, and gives the others new ids: 0, 1, ... in the order
-/// of those that they have. Ties between cocircular or cospherical points are broken by the order of ids, so
+/// of those that they have. Ties between cocircular or cospherical points are broken by keys, or the order of ids, so
 /// the cells stay the same, with their indices in deldrift_cells; so do positions, staged moves, the ids of segments and the
 /// timestamp. Memory and the time of commits are those of a fresh triangulation then. Ends all views.
 ///
@@ -930,6 +930,101 @@ deldrift_status deldrift_compact(deldrift_triangulation *t,
                                  uint32_t *map,
                                  size_t capacity,
                                  size_t *count);
+
+/// Creates a triangulation, as deldrift_create does, of vertices that have keys.
+///
+/// A key is what breaks ties in place of the id. Where points are cocircular or cospherical, the cells are those of the
+/// order of keys; vertices of equal keys are in the order of their positions, by x, then y, then z. Of several vertices at the
+/// same place the one of the lowest key, and of those the one of the lowest id, is the corner of cells. So cells follow from
+/// positions and keys, and a program may give ids in any order: images of a vertex in a periodic box, or copies of those of
+/// other processes, have the key of the vertex. Without a key of its own a vertex has its id for one.
+///
+/// keys: count of them, in the order of positions, any numbers; read during the call only. NULL stands for the ids.
+/// All else is as in deldrift_create. Where vertices have keys they take 8 bytes for each id, deldrift_compact leaves them
+/// as they are, and vertices that deldrift_refine and deldrift_stage_splits make have the greatest key, 2^64 - 1.
+///
+/// Cost: that of deldrift_create.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_INVALID_OPTIONS, DELDRIFT_NULL_ARGUMENT,
+/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. May be called from any number of threads at once.
+deldrift_status deldrift_create_with_keys(uint32_t dimension,
+                                          const double *positions,
+                                          const uint64_t *keys,
+                                          size_t count,
+                                          const deldrift_options *options,
+                                          deldrift_triangulation **out);
+
+/// Stages the insertion of count vertices, as deldrift_stage_insertions does, with keys; see deldrift_create_with_keys.
+///
+/// keys: count of them, in the order of positions, read during the call only. NULL stands for the ids. The others are as in
+/// deldrift_stage_insertions.
+///
+/// Cost: count, in the mean over many calls; the first keys of a triangulation also n.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
+/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_OUT_OF_MEMORY. Not to
+/// be called at the same time as any other call on t.
+deldrift_status deldrift_stage_insertions_with_keys(deldrift_triangulation *t,
+                                                    const double *positions,
+                                                    const uint64_t *keys,
+                                                    size_t count,
+                                                    uint32_t *first_vertex);
+
+/// Stages the insertion of count vertices, as deldrift_stage_insertions_with_keys does, under ids that are given again:
+/// those of removed vertices, the lowest first, and after these the ones above the highest id given so far. So
+/// deldrift_id_count does not grow where vertices come and go for ever. An id is free from the removal of its vertex, or the
+/// commit of that, until it is given here; deldrift_discard_moves makes those that are staged free again.
+///
+/// Who has kept an id of a removed vertex sees another vertex under it. In lists of changes it is as if the vertex had
+/// moved: cells that have the same ids as before are not listed, whether or not an id is that of another vertex. Where there
+/// have been segments, or deldrift_refine has made vertices, ids are not given again: what is known of those by id lasts
+/// longer than they do.
+///
+/// keys: count keys, or NULL for the ids. vertices: room for count ids, receives that of each vertex, ascending; both may be
+/// NULL if count is 0. The others are as in deldrift_stage_insertions.
+///
+/// Cost: n + count, a pass over 4 bytes for each id.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
+/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_OUT_OF_MEMORY. Not to
+/// be called at the same time as any other call on t.
+deldrift_status deldrift_stage_insertions_at_free_ids(deldrift_triangulation *t,
+                                                      const double *positions,
+                                                      const uint64_t *keys,
+                                                      size_t count,
+                                                      uint32_t *vertices);
+
+/// Inserts a vertex at once, as deldrift_insert_vertex does, with a key; see deldrift_create_with_keys.
+///
+/// position: 2 or 3 numbers, read during the call only. key: any number. out_vertex: receives the id, one above the highest
+/// given so far.
+///
+/// Cost: that of deldrift_insert_vertex; the first key of a triangulation also n.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_ON_SEGMENT, DELDRIFT_TOO_MANY_VERTICES,
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other
+/// call on t.
+deldrift_status deldrift_insert_vertex_with_key(deldrift_triangulation *t,
+                                                const double *position,
+                                                uint64_t key,
+                                                uint32_t *out_vertex);
+
+/// The key of each vertex by id, to keys: what it has been given, or else its id; also of vertices whose insertion is
+/// staged. The entries of removed vertices are 0.
+///
+/// keys: receives them: a buffer with room for capacity keys; NULL with capacity 0 if it is not wanted, NULL with another is
+/// DELDRIFT_NULL_ARGUMENT. count: receives deldrift_id_count, which is also written when the buffer is too small.
+///
+/// Cost: n.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
+deldrift_status deldrift_keys(const deldrift_triangulation *t,
+                              uint64_t *keys,
+                              size_t capacity,
+                              size_t *count);
 
 /// Stages segments between vertices: all of them, or none if it fails. From the next commit on, which makes them together
 /// with the staged moves, insertions and removals, each is an edge, and the cells are the constrained Delaunay
@@ -1354,7 +1449,8 @@ deldrift_status deldrift_locate_points(const deldrift_triangulation *t,
                                        const deldrift_location *hint,
                                        deldrift_location *locations);
 
-/// The vertex nearest to a point, to *vertex: the lowest id among the nearest; DELDRIFT_NONE if the
+/// The vertex nearest to a point, to *vertex: the lowest id among the nearest, or where vertices have keys the one
+/// of the lowest key; DELDRIFT_NONE if the
 /// triangulation has no vertices.
 ///
 /// position: 2 or 3 numbers.
@@ -1368,8 +1464,8 @@ deldrift_status deldrift_nearest_vertex(const deldrift_triangulation *t,
                                         const double *position,
                                         uint32_t *vertex);
 
-/// The lowest id among the vertices at the place of this one, to *representative: the one that is a
-/// corner of cells. It is the vertex itself unless the vertex is hidden.
+/// The lowest id among the vertices at the place of this one, or where vertices have keys the one of the lowest key and then
+/// of the lowest id, to *representative: the one that is a corner of cells. It is the vertex itself unless the vertex is hidden.
 ///
 /// Cost: constant.
 ///
@@ -1394,7 +1490,8 @@ deldrift_status deldrift_hidden_vertices(const deldrift_triangulation *t,
                                          size_t capacity,
                                          size_t *count);
 
-/// The k vertices nearest to each of count positions: rows of k ids, by distance and, at the same distance, by id;
+/// The k vertices nearest to each of count positions: rows of k ids, by distance and, at the same distance, by id, or by key
+/// where vertices have keys;
 /// DELDRIFT_NONE where there are fewer vertices than k. Distances are compared exactly. Hidden vertices count like
 /// others.
 ///

@@ -64,6 +64,20 @@ public:
         require_ok(deldrift_create(dimension, numbers.data(), count_of("positions", numbers), &options, &t));
         t_.reset(t);
     }
+    // keys: an unsigned number of 64 bits for each point, by which ties are broken in place of ids. Equal keys are in the order
+    // of x, then y, then z.
+    //     const std::vector<std::uint64_t> tags = global_numbers_of(points);
+    //     deldrift::Triangulation t(3, points, tags);
+    Triangulation(std::uint32_t dimension, const Positions &positions, span<const std::uint64_t> keys,
+                  const deldrift_options &options = default_options())
+        : dimension_(dimension) {
+        deldrift_triangulation *t = nullptr;
+        const span<const double> numbers = gathered(positions);
+        const std::size_t count = count_of("positions", numbers);
+        expect("keys", keys.size(), count);
+        require_ok(deldrift_create_with_keys(dimension, numbers.data(), keys.data(), count, &options, &t));
+        t_.reset(t);
+    }
     // Takes over what deldrift_create has made.
     explicit Triangulation(deldrift_triangulation *t) : t_(t) { require_ok(deldrift_dimension(t, &dimension_)); }
 
@@ -193,6 +207,26 @@ public:
         require_ok(deldrift_stage_insertions(native(), numbers.data(), count_of("positions", numbers), &first));
         return first;
     }
+    std::uint32_t stage_insertions(const Positions &positions, span<const std::uint64_t> keys) {
+        const span<const double> numbers = gathered(positions);
+        const std::size_t count = count_of("positions", numbers);
+        expect("keys", keys.size(), count);
+        std::uint32_t first;
+        require_ok(deldrift_stage_insertions_with_keys(native(), numbers.data(), keys.data(), count, &first));
+        return first;
+    }
+    // For the next commit, under the ids of removed vertices, the lowest first, and then new ones; returns them. keys: one
+    // for each, or none.
+    std::vector<std::uint32_t> stage_insertions_at_free_ids(const Positions &positions,
+                                                            span<const std::uint64_t> keys = {}) {
+        const span<const double> numbers = gathered(positions);
+        const std::size_t count = count_of("positions", numbers);
+        if (!keys.empty()) expect("keys", keys.size(), count);
+        std::vector<std::uint32_t> vertices(count);
+        require_ok(deldrift_stage_insertions_at_free_ids(native(), numbers.data(), keys.empty() ? nullptr : keys.data(),
+                                                         count, vertices.data()));
+        return vertices;
+    }
     void stage_removals(span<const std::uint32_t> vertices) {
         require_ok(deldrift_stage_removals(native(), vertices.data(), vertices.size()));
     }
@@ -204,6 +238,18 @@ public:
         std::uint32_t vertex;
         require_change(deldrift_insert_vertex(native(), point(position), &vertex));
         return vertex;
+    }
+    std::uint32_t insert_vertex_with_key(span<const double> position, std::uint64_t key) {
+        std::uint32_t vertex;
+        require_change(deldrift_insert_vertex_with_key(native(), point(position), key, &vertex));
+        return vertex;
+    }
+    // By id; 0 for removed vertices.
+    std::vector<std::uint64_t> keys() const {
+        std::size_t count = id_count();
+        std::vector<std::uint64_t> keys(count);
+        require_ok(deldrift_keys(native(), keys.data(), count, &count));
+        return keys;
     }
     void remove_vertex(std::uint32_t vertex) { require_change(deldrift_remove_vertex(native(), vertex)); }
     // The new id of each old one, DELDRIFT_NONE for removed vertices.

@@ -14,6 +14,7 @@ mod geometry;
 #[path = "../soak/histories/mod.rs"]
 mod histories;
 mod imports;
+mod keys;
 mod lasting;
 mod location;
 mod long_runs;

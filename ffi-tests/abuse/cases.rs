@@ -175,7 +175,8 @@ impl Cases<'_> {
             | Role::OutputIfAny
             | Role::NumbersIfAny
             | Role::WholesIfAny
-            | Role::MaskIfAny => true,
+            | Role::MaskIfAny
+            | Role::KeysIfAny => true,
             Role::Ids => self.function.name == "deldrift_move_vertices",
             Role::Buffer => {
                 self.function.name != "deldrift_compact" && n_buffers > 1 && (!is_list || name == "offsets")
@@ -257,6 +258,9 @@ impl Cases<'_> {
             Role::SegmentIds => self.segments(at),
             Role::Wholes | Role::WholesIfAny => {
                 self.legal("value", at, "the least number", "bad_wholes(1, INT32_MIN)");
+            }
+            Role::KeysIfAny => {
+                self.legal("value", at, "the greatest number, more than once", "greatest_keys")
             }
             Role::CellIds | Role::CellIdsIfAny => {
                 self.legal("value", at, "one twice", "bad_ids(1, 0)");
@@ -635,6 +639,10 @@ impl Cases<'_> {
                 self.legal("zero", at, "0", "0");
             }
             Role::Whole => self.legal("value", at, "the least number", "INT32_MIN"),
+            Role::Key => {
+                self.legal("zero", at, "0", "0");
+                self.legal("value", at, "UINT64_MAX", "UINT64_MAX");
+            }
             Role::Limit => {
                 self.legal("zero", at, "0", "0");
                 self.legal("value", at, "SIZE_MAX", "SIZE_MAX");
@@ -693,7 +701,7 @@ impl Cases<'_> {
                     let odd = vec![(at, "0".to_string()), (pointer.expect("an array"), "odd".to_string())];
                     self.add("zero", "0, and an odd address", "OK", "", &odd, "");
                 }
-                let is_creation = self.function.name == "deldrift_create";
+                let is_creation = self.function.name.starts_with("deldrift_create");
                 let status = if is_creation { "TOO_MANY_VERTICES" } else { "SIZE_OVERFLOW" };
                 let message = "\"18446744073709551615\"";
                 self.refused("huge", at, "SIZE_MAX", "SIZE_MAX", status, message);

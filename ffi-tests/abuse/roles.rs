@@ -28,6 +28,9 @@ pub enum Role {
     Whole,
     Wholes,
     WholesIfAny,
+    /// Keys of vertices, which may be left out, and one of any value.
+    KeysIfAny,
+    Key,
     /// Indices of cells, and of cells if there are any.
     CellIds,
     CellIdsIfAny,
@@ -97,6 +100,8 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("const int32_t *", "labels" | "references") => Role::Wholes,
         ("const int32_t *", "markers") => Role::WholesIfAny,
         ("int32_t", "other") => Role::Whole,
+        ("const uint64_t *", "keys") => Role::KeysIfAny,
+        ("uint64_t", "key") => Role::Key,
         ("const uint32_t *", "cells") if function.name == "deldrift_barycentric" => Role::CellIdsIfAny,
         ("const uint32_t *", "cells") => Role::CellIds,
         ("const uint8_t *", "mask") if function.has("box_count") => Role::MaskIfAny,

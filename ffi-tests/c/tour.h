@@ -498,6 +498,23 @@ static void make_tour(const places *p, record *made) {
     keep(t, p, &options);
     DO(deldrift_destroy(t));
 
+    // Keys, some of them equal; ids that are given again.
+    static const uint64_t keys[] = {4, 1, 4, 1, 5, 9, 2, 6, 5, 3, 5, 8};
+    t = NULL;
+    GO(deldrift_create_with_keys(d, p->at, keys, 12, &options, &t));
+    GO(deldrift_remove_vertex(t, 3));
+    GO(deldrift_stage_insertions_at_free_ids(t, p->later, keys, 2, tour_out.ids));
+    note(tour_out.ids, 2 * sizeof *tour_out.ids);
+    GO(deldrift_stage_insertions_with_keys(t, p->later + 2 * d, keys, 2, &first));
+    GO(deldrift_commit_timestamp(t, &report));
+    note(&report, sizeof report);
+    GO(deldrift_insert_vertex_with_key(t, p->at + 13 * d, 7, &first));
+    note(&first, sizeof first);
+    static uint64_t keys_out[TOUR_POINTS];
+    GO(deldrift_keys(t, keys_out, TOUR_POINTS, &count));
+    note(keys_out, count * sizeof *keys_out);
+    DO(deldrift_destroy(t));
+
     // Calls that are refused: what a number is like is told.
     uint32_t vertex = 0;
     t = NULL;

@@ -23,12 +23,13 @@ from ._arrays import (
     simplex_ids,
     whole,
 )
-from ._core import check, count_of
+from ._core import check, count_of, id_count
 from ._errors import InvalidDimension, InvalidShape, InvalidValue, WrongCount
 from ._scipy import Scipy
 
 _vertex_count = _library.function("vertex_count")
 _memory_bytes = _library.function("memory_bytes")
+_keys = _library.function("keys")
 _is_present = _library.function("is_present")
 _star = _library.function("star")
 _ordered_star = _library.function("ordered_star")
@@ -110,8 +111,17 @@ class Asking(Scipy):
             self._check(_is_present(t, number, present))
         return present.value
 
+    @property
+    def keys(self) -> np.ndarray:
+        """The key of each id, by which ties are broken: the id unless another was given, and 0 if it was removed."""
+        with self._reading as t:
+            count = ctypes.c_size_t()
+            keys = np.empty(id_count(t), np.uint64)
+            self._check(_keys(t, address(keys), len(keys), count))
+        return keys
+
     def representative(self, vertex: int) -> int:
-        """The lowest id among the vertices at the place of one: the corner of simplices there.
+        """The vertex of the lowest key, and then of the lowest id, at the place of one: the corner of simplices there.
 
         Parameters
         ----------

@@ -1,13 +1,17 @@
 //! Sites: the distinct places at which the triangulation has vertices.
 //!
 //! Predicates read sites through [`Sites`], without a bounds check: the corners of cells are indices of sites by the
-//! kernel's invariants, which [`validate`](super::Delaunay::validate) checks. (Checks cost 6 % of a 3D build.)
+//! kernel's invariants, which [`validate`](super::Delaunay::validate) checks. (Checks cost 6 % of a 3D build.) It has the
+//! [keys](super::keys) of vertices at hand in the place of a length, so that it still fits two registers.
 
 #![allow(unsafe_code)]
 
+use std::marker::PhantomData;
+
+use super::keys::Keys;
 use super::shape::{Shape, Space};
 use crate::ids::{SiteId, Slot, VertexId};
-use crate::machine::prefetch::prefetch;
+use crate::simd::prefetch_at;
 
 /// A place and the vertex that represents it. Index 0 is a placeholder for the ghost vertex.
 #[derive(Clone, Copy, Debug)]
@@ -17,8 +21,8 @@ pub struct Site<G: Shape> {
     pub point: G::Point,
     /// A cell that has the site as a corner; [`Slot::NONE`] while there is none.
     pub cell: Slot,
-    /// The vertex at the place, the lowest id if there are several: ties between signs are broken by it.
-    /// [`VertexId::NONE`] if the index is free.
+    /// The vertex at the place, the one of the lowest key and then of the lowest id if there are several: ties between
+    /// signs are broken by its key. [`VertexId::NONE`] if the index is free.
     pub id: VertexId,
 }
 
@@ -37,20 +41,44 @@ impl<G: Shape> Site<G> {
 
 /// The sites of a triangulation, for its own corners.
 #[derive(Clone, Copy, Debug)]
-pub struct Sites<'s, G: Shape>(&'s [Site<G>]);
+pub struct Sites<'s, G: Shape> {
+    first: *const Site<G>,
+    keys: &'s Keys,
+    #[cfg(debug_assertions)]
+    len: usize,
+    sites: PhantomData<&'s [Site<G>]>,
+}
+
+// SAFETY: it is a reference to sites, and one to keys, all of which several threads may read.
+unsafe impl<G: Shape> Send for Sites<'_, G> {}
+// SAFETY: nothing is written through it.
+unsafe impl<G: Shape> Sync for Sites<'_, G> {}
 
 impl<'s, G: Shape> Sites<'s, G> {
     /// The caller passes only corners of cells of the triangulation whose sites these are, and such sites themselves.
-    pub(super) fn new(sites: &'s [Site<G>]) -> Self {
-        Sites(sites)
+    #[inline(always)]
+    pub(super) fn new(sites: &'s [Site<G>], keys: &'s Keys) -> Self {
+        Sites {
+            first: sites.as_ptr(),
+            keys,
+            #[cfg(debug_assertions)]
+            len: sites.len(),
+            sites: PhantomData,
+        }
+    }
+
+    #[inline(always)]
+    fn site(self, s: SiteId) -> &'s Site<G> {
+        #[cfg(debug_assertions)]
+        assert!(s.index() < self.len);
+        // SAFETY: `s` is a corner of a cell, so the index of a site (see `new`), all of which are borrowed for 's.
+        unsafe { &*self.first.add(s.index()) }
     }
 
     /// The place of a corner; a meaningless one for the ghost vertex.
     #[inline(always)]
     pub fn point(self, s: SiteId) -> &'s G::Point {
-        debug_assert!(s.index() < self.0.len());
-        // SAFETY: `s` is a corner of a cell, so the index of a site (see `new`).
-        unsafe { &self.0.get_unchecked(s.index()).point }
+        &self.site(s).point
     }
 
     /// The places of the corners of a cell, as [`point`](Self::point) has them; in the plane the last is there twice.
@@ -62,15 +90,19 @@ impl<'s, G: Shape> Sites<'s, G> {
     /// Asks for a site.
     #[inline(always)]
     pub(super) fn prefetch(self, s: SiteId) {
-        prefetch(self.0, s.index());
+        prefetch_at(self.first.wrapping_add(s.index()));
     }
 
     /// The vertex id of a corner.
     #[inline(always)]
     pub fn id(self, s: SiteId) -> VertexId {
-        debug_assert!(s.index() < self.0.len());
-        // SAFETY: `s` is a corner of a cell, so the index of a site (see `new`).
-        unsafe { self.0.get_unchecked(s.index()).id }
+        self.site(s).id
+    }
+
+    /// The keys of vertices.
+    #[inline(always)]
+    pub(super) fn keys(self) -> &'s Keys {
+        self.keys
     }
 }
 
@@ -80,9 +112,7 @@ impl<'s> Sites<'s, Space> {
     /// The place of a corner, and a fourth number without a meaning: one load for all three coordinates.
     #[inline(always)]
     pub fn padded_point(self, s: SiteId) -> &'s [f64; 4] {
-        debug_assert!(s.index() < self.0.len());
-        // SAFETY: `s` is a corner of a cell, so the index of a site (see `new`).
-        unsafe { self.0.get_unchecked(s.index()) }.padded()
+        self.site(s).padded()
     }
 }
 

@@ -265,8 +265,9 @@ fn is_in_uncertain_conflict<const BY_LENGTHS: bool>(
     if t.filter.is_exact {
         // The side of the sphere is exact, so it is zero: a tie.
         debug_assert_eq!(side, 0.0);
-        let [i, j, k, l] = corners.map(|s| t.view().id(s).get());
-        return predicates::is_inside_cospherical_on_lattice([a, b, c, d, q], [i, j, k, l, id.get()]);
+        let [i, j, k, l] = corners.map(|s| t.view().id(s));
+        let ranks = t.keys.ranks::<Space, 5>([i, j, k, l, id], || [*a, *b, *c, *d, *q]);
+        return predicates::is_inside_cospherical_on_lattice([a, b, c, d, q], ranks);
     }
     // The sphere has been prepared from the corners in this order.
     if !BY_LENGTHS || entry.length == f32::INFINITY {

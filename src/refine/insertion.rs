@@ -157,6 +157,7 @@ impl Mesh<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::delaunay::Keys;
     use crate::ids::CellId;
     use crate::random::Rng;
     use crate::refine::Given;
@@ -194,7 +195,9 @@ mod tests {
             let ids = [0, 1, 2, 3, 4].map(VertexId::at);
             let corners = [[ids[0], ids[1], ids[2]], [ids[1], ids[0], ids[3]]];
             let beyond = |cell: u32| [CellId::NONE, CellId::NONE, CellId::new(cell)];
+            let keys = Keys::default();
             let given = Given {
+                keys: &keys,
                 lower: [0.0; 2],
                 upper: [size as f64; 2],
                 corners: &corners,

@@ -131,7 +131,7 @@ impl MovingTriangulation<Plane> {
         ask: &mut dyn FnMut() -> Result<()>,
     ) -> Result<Refined> {
         let points = std::mem::take(&mut read.points);
-        let given = read.given(self.cells()?, mask, quality.labels);
+        let given = read.given(self.cells()?, mask, quality.labels, self.mesh.kernel.keys());
         let origins = self.origins(read)?;
         refine::refine(given, points, &read.bad, tests, origins, (options.keeps, options.limit), ask)
     }
@@ -186,7 +186,7 @@ impl MovingTriangulation<Plane> {
         let known = if has_numbers { looked.known(looking)? } else { Vec::new() };
         let candidates = self.candidates(&read, options.share, &known)?;
         let points = memory::copy_of(&read.points)?;
-        let given = read.given(cells, mask, quality.labels);
+        let given = read.given(cells, mask, quality.labels, self.mesh.kernel.keys());
         let room = Room { angle: options.margin, share: options.share, offset: options.joins };
         let coarsened = refine::coarsen(given, points, tests, room, &read.bad, &candidates)?;
         let stays = stays(&read, cells.corners, &candidates, &coarsened.able)?;

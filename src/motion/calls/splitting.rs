@@ -41,6 +41,7 @@ use crate::delaunay::Plane;
 use crate::error::{Conflict, Error, Result};
 use crate::ids::{SegmentId, VertexId};
 use crate::machine::memory;
+use crate::motion::calls::keys::Coming;
 use crate::motion::report::SplitReport;
 use crate::motion::state::made::Origin;
 use crate::motion::state::segments::Segment;
@@ -172,7 +173,7 @@ impl MovingTriangulation<Plane> {
                 let (conflict, others) = (before.conflicts[0], before.conflicts.len() - 1);
                 return Err(Error::Conflict { conflict, others });
             }
-            let first = self.stage_insertions(&places)?;
+            let first = self.stage_coming(&places, Coming::Made)?;
             let absent = vertices.iter_mut().filter(|(_, v)| *v == VertexId::NONE);
             VertexId::range(first.index()..first.index() + places.len())
                 .zip(absent)
@@ -354,6 +355,7 @@ impl MovingTriangulation<Plane> {
         }
         self.edits.truncate_insertions(before.n_insertions);
         self.mesh.site_of.truncate(before.first_vertex.index());
+        self.mesh.kernel.keys_mut().truncate(before.first_vertex.index());
         self.staging.shrink(before.first_vertex.index());
     }
 }
