@@ -364,11 +364,11 @@ fn permutations_agree<G: Dimension>(kind: Kind, n: usize, seed: u64) {
     let mut other = make(&of(&places), &other_keys);
     for algorithm in Algorithm::ALL {
         let quanta = 1 << rng.below(22);
-        for k in 0..n {
-            places[k] = match rng.below(3) {
-                0 => places[k],
+        for place in &mut places {
+            *place = match rng.below(3) {
+                0 => *place,
                 1 => draw_one::<G>(kind, n, rng),
-                _ => nudged::<G>(&places[k], quanta, rng),
+                _ => nudged::<G>(place, quanta, rng),
             };
         }
         t.set_algorithm(algorithm);
