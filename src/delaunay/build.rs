@@ -173,8 +173,12 @@ impl<G: Dimension> Delaunay<G> {
         Ok(coincident)
     }
 
-    /// Bounds for the box of the filter if it and the sites are on a lattice, and few steps of it apart.
+    /// Bounds for the box of the filter if it and the sites are on a lattice, and few steps of it apart. With keys there are
+    /// none: what exact bounds are for, ties that ids decide, would have to ask for keys first.
     fn exact_filter(&self) -> Option<StaticFilter> {
+        if !self.keys.are_ids() {
+            return None;
+        }
         let places = self.sites[1..].iter().filter(|site| site.is_live()).map(|site| &site.point);
         G::exact_filter(&self.lower, &self.upper, places)
     }

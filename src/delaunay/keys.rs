@@ -152,7 +152,11 @@ impl Keys {
     /// Makes room to [set](Self::set) keys of the first `n` vertices.
     pub(crate) fn reserve(&mut self, n: usize) -> Result<()> {
         if self.0.is_none() {
-            self.0 = Some(Counted::new(Vec::new())?);
+            // Made when there is all memory, as there are keys from then on.
+            let mut keys = Vec::new();
+            memory::reserve_exact(&mut keys, n)?;
+            self.0 = Some(Counted::new(keys)?);
+            return Ok(());
         }
         let keys = self.list();
         memory::reserve_sparingly(keys, n.saturating_sub(keys.len()))

@@ -1,17 +1,14 @@
 //! Sites: the distinct places at which the triangulation has vertices.
 //!
 //! Predicates read sites through [`Sites`], without a bounds check: the corners of cells are indices of sites by the
-//! kernel's invariants, which [`validate`](super::Delaunay::validate) checks. (Checks cost 6 % of a 3D build.) It has the
-//! [keys](super::keys) of vertices at hand in the place of a length, so that it still fits two registers.
+//! kernel's invariants, which [`validate`](super::Delaunay::validate) checks. (Checks cost 6 % of a 3D build.)
 
 #![allow(unsafe_code)]
-
-use std::marker::PhantomData;
 
 use super::keys::Keys;
 use super::shape::{Shape, Space};
 use crate::ids::{SiteId, Slot, VertexId};
-use crate::simd::prefetch_at;
+use crate::machine::prefetch::prefetch;
 
 /// A place and the vertex that represents it. Index 0 is a placeholder for the ghost vertex.
 #[derive(Clone, Copy, Debug)]
@@ -42,37 +39,22 @@ impl<G: Shape> Site<G> {
 /// The sites of a triangulation, for its own corners.
 #[derive(Clone, Copy, Debug)]
 pub struct Sites<'s, G: Shape> {
-    first: *const Site<G>,
+    sites: &'s [Site<G>],
     keys: &'s Keys,
-    #[cfg(debug_assertions)]
-    len: usize,
-    sites: PhantomData<&'s [Site<G>]>,
 }
-
-// SAFETY: it is a reference to sites, and one to keys, all of which several threads may read.
-unsafe impl<G: Shape> Send for Sites<'_, G> {}
-// SAFETY: nothing is written through it.
-unsafe impl<G: Shape> Sync for Sites<'_, G> {}
 
 impl<'s, G: Shape> Sites<'s, G> {
     /// The caller passes only corners of cells of the triangulation whose sites these are, and such sites themselves.
     #[inline(always)]
     pub(super) fn new(sites: &'s [Site<G>], keys: &'s Keys) -> Self {
-        Sites {
-            first: sites.as_ptr(),
-            keys,
-            #[cfg(debug_assertions)]
-            len: sites.len(),
-            sites: PhantomData,
-        }
+        Sites { sites, keys }
     }
 
     #[inline(always)]
     fn site(self, s: SiteId) -> &'s Site<G> {
-        #[cfg(debug_assertions)]
-        assert!(s.index() < self.len);
-        // SAFETY: `s` is a corner of a cell, so the index of a site (see `new`), all of which are borrowed for 's.
-        unsafe { &*self.first.add(s.index()) }
+        debug_assert!(s.index() < self.sites.len());
+        // SAFETY: `s` is a corner of a cell, so the index of a site (see `new`).
+        unsafe { self.sites.get_unchecked(s.index()) }
     }
 
     /// The place of a corner; a meaningless one for the ghost vertex.
@@ -90,7 +72,7 @@ impl<'s, G: Shape> Sites<'s, G> {
     /// Asks for a site.
     #[inline(always)]
     pub(super) fn prefetch(self, s: SiteId) {
-        prefetch_at(self.first.wrapping_add(s.index()));
+        prefetch(self.sites, s.index());
     }
 
     /// The vertex id of a corner.

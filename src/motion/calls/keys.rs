@@ -138,7 +138,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Err(Error::TooManyVertices { given: n_ids.saturating_add(n), limit: MAX_VERTICES });
         }
         memory::reserve_exact(&mut ids, n)?;
-        if from == Ids::Free && self.mesh.segments.is_none() && self.made.is_none() {
+        let has_segments = self.mesh.segments.as_ref().is_some_and(|segments| segments.n_ids() > 0);
+        let has_made = self.made.as_ref().is_some_and(|made| !made.vertices().is_empty());
+        if from == Ids::Free && !has_segments && !has_made {
             let free =
                 VertexId::range(0..n_ids).filter(|&v| self.mesh.is_absent(v) && !self.edits.is_coming(v));
             ids.extend(free.take(n));
