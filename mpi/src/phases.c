@@ -1,0 +1,17 @@
+// The two phases of a commit, on the triangulation of the process.
+#include "internal.h"
+
+bool dm_prepare(deldrift_mpi *m) {
+    deldrift_status status = deldrift_commit_timestamp(m->t, NULL);
+    if (status == DELDRIFT_OK) m->is_prepared = true;
+    return dm_took(&m->refusal, status);
+}
+
+void dm_publish(deldrift_mpi *m) {
+    m->is_prepared = false;
+}
+
+void dm_withdraw(deldrift_mpi *m) {
+    deldrift_discard_moves(m->t);
+    m->is_prepared = false;
+}
