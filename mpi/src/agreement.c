@@ -53,6 +53,11 @@ deldrift_status dm_fail(const dm_refusal *refusal) {
     return refusal->status;
 }
 
+deldrift_status dm_no_handle(void) {
+    dm_refusal refusal = {DELDRIFT_NULL_ARGUMENT, "m is NULL"};
+    return dm_fail(&refusal);
+}
+
 const char *deldrift_mpi_last_error(void) {
     return last_message;
 }

@@ -8,14 +8,9 @@
 // The boxes are made anew, rather than fitted, where they have grown so much.
 static const double MOST_GROWTH = 1.1;
 
-static deldrift_status no_handle(void) {
-    dm_refusal refusal = {DELDRIFT_OK, ""};
-    dm_refuse(&refusal, DELDRIFT_NULL_ARGUMENT, "m is NULL");
-    return dm_fail(&refusal);
-}
 
 deldrift_status deldrift_mpi_stage_insertions(deldrift_mpi *m, const double *positions, const uint64_t *ids, size_t count) {
-    if (!m) return no_handle();
+    if (!m) return dm_no_handle();
     dm_refusal refusal = {DELDRIFT_OK, ""};
     if (count && !ids) dm_refuse(&refusal, DELDRIFT_NULL_ARGUMENT, "ids is NULL, and count is %zu", count);
     dm_check_points(&refusal, "positions", m->dimension, positions, count, NULL);
@@ -38,7 +33,7 @@ static void unmark(deldrift_mpi *m, const uint32_t *places, size_t count) {
 }
 
 deldrift_status deldrift_mpi_stage_removals(deldrift_mpi *m, const uint32_t *places, size_t count) {
-    if (!m) return no_handle();
+    if (!m) return dm_no_handle();
     dm_refusal refusal = {DELDRIFT_OK, ""};
     if (count && !places) dm_refuse(&refusal, DELDRIFT_NULL_ARGUMENT, "places is NULL, and count is %zu", count);
     if (refusal.status != DELDRIFT_OK ||
@@ -63,7 +58,7 @@ deldrift_status deldrift_mpi_stage_removals(deldrift_mpi *m, const uint32_t *pla
 }
 
 deldrift_status deldrift_mpi_discard(deldrift_mpi *m) {
-    if (!m) return no_handle();
+    if (!m) return dm_no_handle();
     m->insertion_count = m->removal_count = 0;
     return DELDRIFT_OK;
 }
@@ -217,7 +212,7 @@ static deldrift_status advance(deldrift_mpi *m, const double *positions, bool ha
 }
 
 deldrift_status deldrift_mpi_commit(deldrift_mpi *m, const double *positions, size_t count, deldrift_mpi_report *report) {
-    if (!m) return no_handle();
+    if (!m) return dm_no_handle();
     memset(&m->refusal, 0, sizeof m->refusal);
     memset(&m->report, 0, sizeof m->report);
     m->report.is_spanning = m->was_spanning;

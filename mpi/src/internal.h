@@ -173,6 +173,7 @@ bool dm_took(dm_refusal *refusal, deldrift_status status);
 dm_vote dm_decide(MPI_Comm comm, const dm_refusal *refusal, const int64_t numbers[4]);
 // For calls of one process: the message of what it refused.
 deldrift_status dm_fail(const dm_refusal *refusal);
+deldrift_status dm_no_handle(void);
 bool dm_check_points(dm_refusal *refusal, const char *name, uint32_t dimension, const double *positions, size_t count,
                      const uint8_t *is_skipped);
 
