@@ -245,7 +245,7 @@ enum {
     DM_FAULT_LOST_MESSAGE,
     DM_FAULT_HALF_SPACE,
     DM_FAULT_STALE_HALO,
-    DM_FAULT_ONE_ROUND,
+    DM_FAULT_NO_ROUND,
     DM_FAULT_LOCAL_KEYS,
 };
 extern int deldrift_mpi_fault;

@@ -60,7 +60,7 @@ deldrift_status dm_rounds(deldrift_mpi *m) {
                 return DELDRIFT_OK;
             }
             dm_pack_sends(m);
-        } else if (!vote.most[0] || (DM_HAS_FAULT(DM_FAULT_ONE_ROUND) && m->report.rounds)) {
+        } else if (!vote.most[0] || (DM_HAS_FAULT(DM_FAULT_NO_ROUND) && m->is_prepared)) {
             return DELDRIFT_OK;
         }
         m->report.rounds++;
