@@ -2,16 +2,19 @@
 #include "internal.h"
 
 bool dm_prepare(deldrift_mpi *m) {
-    deldrift_status status = deldrift_commit_timestamp(m->t, NULL);
+    deldrift_status status = deldrift_prepare_timestamp(m->t, NULL);
     if (status == DELDRIFT_OK) m->is_prepared = true;
     return dm_took(&m->refusal, status);
 }
 
 void dm_publish(deldrift_mpi *m) {
+    if (m->is_prepared) deldrift_publish_timestamp(m->t);
     m->is_prepared = false;
 }
 
 void dm_withdraw(deldrift_mpi *m) {
-    deldrift_discard_moves(m->t);
+    // Without a prepared timestamp withdrawing leaves what is staged.
+    if (m->is_prepared) deldrift_withdraw_timestamp(m->t);
+    else deldrift_discard_moves(m->t);
     m->is_prepared = false;
 }

@@ -15,7 +15,7 @@ enum { FAULTS = sizeof names / sizeof *names };
 
 // How many of the commits are not those of one process.
 static long wrong_commits(int fault, uint32_t d, point_kind kind, point_spread spread, uint64_t seed) {
-    points p = make_points(d, kind, spread, 300, seed);
+    point_set p = make_points(d, kind, spread, 300, seed);
     uint64_t state = seed + (uint64_t)rank;
     long wrong = 0;
     deldrift_mpi *m = NULL;
@@ -50,7 +50,7 @@ static void plant(void) {
 
 // One process is refused memory at its first, second, third, ... request in a commit with edits, until it gets all it asks for.
 static void refuse_memory(uint32_t d, int who, size_t *refused) {
-    points p = make_points(d, RANDOM, SLABS, 240, 3 + d);
+    point_set p = make_points(d, RANDOM, SLABS, 240, 3 + d);
     uint64_t state = 17 + (uint64_t)rank;
     deldrift_mpi *m = NULL;
     OK(deldrift_mpi_create(MPI_COMM_WORLD, d, p.own, p.own_ids, p.own_count, NULL, &m));
@@ -87,7 +87,7 @@ static void refuse_memory(uint32_t d, int who, size_t *refused) {
 
 // Two vertices of different processes would meet, which the options reject: one process or two see it, when they know of both.
 static void refuse_coincidence(uint32_t d) {
-    points p = make_points(d, RANDOM, SLABS, 300, 5 + d);
+    point_set p = make_points(d, RANDOM, SLABS, 300, 5 + d);
     deldrift_options local;
     deldrift_mpi_options options;
     deldrift_options_init(&local);

@@ -99,7 +99,7 @@ static int owner_of(uint32_t d, point_spread spread, size_t i, const double *x, 
     }
 }
 
-void collect_own(points *p) {
+void collect_own(point_set *p) {
     uint32_t d = p->dimension;
     p->own_count = 0;
     for (size_t i = 0; i < p->count; i++) {
@@ -109,8 +109,8 @@ void collect_own(points *p) {
     }
 }
 
-points make_points(uint32_t d, point_kind kind, point_spread spread, size_t count, uint64_t seed) {
-    points p = {d, count, 0, calloc(count * d + 1, sizeof(double)), calloc(count + 1, sizeof(uint64_t)),
+point_set make_points(uint32_t d, point_kind kind, point_spread spread, size_t count, uint64_t seed) {
+    point_set p = {d, count, 0, calloc(count * d + 1, sizeof(double)), calloc(count + 1, sizeof(uint64_t)),
                 calloc(count + 1, sizeof(int)), calloc(count * d + 1, sizeof(double)), calloc(count + 1, sizeof(uint64_t))};
     uint64_t state = seed;
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -131,7 +131,7 @@ points make_points(uint32_t d, point_kind kind, point_spread spread, size_t coun
     return p;
 }
 
-void free_points(points *p) {
+void free_points(point_set *p) {
     free(p->positions);
     free(p->ids);
     free(p->owners);

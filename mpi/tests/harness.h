@@ -35,12 +35,12 @@ typedef struct {
     int *owners;        // of all
     double *own;        // positions of own ones
     uint64_t *own_ids;
-} points;
+} point_set;
 
-points make_points(uint32_t dimension, point_kind kind, point_spread spread, size_t count, uint64_t seed);
-void free_points(points *p);
+point_set make_points(uint32_t dimension, point_kind kind, point_spread spread, size_t count, uint64_t seed);
+void free_points(point_set *p);
 // Own positions and ids again, from those of all.
-void collect_own(points *p);
+void collect_own(point_set *p);
 
 // Whether the union of own cells is exactly the triangulation of all vertices, each cell owned once; whether this process has
 // exactly the cells with an own vertex; whether hull facets are those of the whole. What all own is gathered: no argument but m.

@@ -151,7 +151,7 @@ static void run(long number, int steps, history *totals) {
     h.amplitude = AMPLITUDES[random_bits(&h.common) % 4] * spacing;
     h.state = h.common ^ ((uint64_t)rank << 40);
     h.next_id = 1;
-    points p = make_points(h.dimension, kind, spread, count, h.common);
+    point_set p = make_points(h.dimension, kind, spread, count, h.common);
     for (size_t i = 0; i < p.count; i++) p.ids[i] |= 1;
     for (size_t i = 0; i < p.own_count; i++) p.own_ids[i] |= 1;
     deldrift_mpi_options options;

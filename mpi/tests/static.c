@@ -15,7 +15,7 @@ int main(int argc, char **argv) {
             for (int s = 0; s < SPREADS; s++) {
                 char label[160];
                 snprintf(label, sizeof label, "%uD %s, %s, P = %d", d, kind_names[k], spread_names[s], size);
-                points p = make_points(d, (point_kind)k, (point_spread)s, k == SPHERE && d == 3 ? count / 3 : count, 7u + (unsigned)s);
+                point_set p = make_points(d, (point_kind)k, (point_spread)s, k == SPHERE && d == 3 ? count / 3 : count, 7u + (unsigned)s);
                 deldrift_mpi *m = NULL;
                 OK(deldrift_mpi_create(MPI_COMM_WORLD, d, p.own, p.own_ids, p.own_count, NULL, &m));
                 if (m) {
@@ -31,7 +31,7 @@ int main(int argc, char **argv) {
         }
     }
     for (size_t n = 0; n < 7; n++) {
-        points p = make_points(3, RANDOM, SCATTERED, n, 11 + n);
+        point_set p = make_points(3, RANDOM, SCATTERED, n, 11 + n);
         deldrift_mpi *m = NULL;
         OK(deldrift_mpi_create(MPI_COMM_WORLD, 3, p.own, p.own_ids, p.own_count, NULL, &m));
         if (m) is_serial(m, 3, "few points");
