@@ -125,7 +125,8 @@ struct deldrift_mpi {
 
     // Scratch room.
     double *low, *high; // boxes that are asked about
-    int *box_ranks;
+    int *box_ranks; // of what process, or first process of a group
+    int *nodes;     // processes, or groups of them
     size_t box_room;
     size_t *offsets;
     size_t offset_room;

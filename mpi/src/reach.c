@@ -9,38 +9,61 @@
 // is not soon sent again.
 static const double DROP_MARGIN = 0.25;
 
+// Processes are asked about in groups of this number, and groups of groups, as most are far.
+#ifdef DELDRIFT_MPI_TESTING
+enum { GROUP = 2 }; // so that few processes have groups of groups
+#else
+enum { GROUP = 16 };
+#endif
+
 static bool reserve_boxes(deldrift_mpi *m, size_t boxes) {
     uint32_t d = m->dimension;
-    size_t room[3] = {m->box_room, m->box_room, m->box_room};
+    size_t room[4] = {m->box_room, m->box_room, m->box_room, m->box_room};
     dm_refusal *r = &m->refusal;
     if (!dm_reserve(r, &m->low, &room[0], boxes, d * sizeof(double)) ||
         !dm_reserve(r, &m->high, &room[1], boxes, d * sizeof(double)) ||
         !dm_reserve(r, &m->box_ranks, &room[2], boxes, sizeof *m->box_ranks) ||
+        !dm_reserve(r, &m->nodes, &room[3], boxes, sizeof *m->nodes) ||
         !dm_reserve(r, &m->offsets, &m->offset_room, boxes + 1, sizeof *m->offsets))
         return false;
     m->box_room = room[0] < room[2] ? room[0] : room[2];
     return true;
 }
 
-// Boxes of all other processes, or of those that have copies, widened by `margin` spacings.
-static bool collect_boxes(deldrift_mpi *m, bool of_peers, double margin, size_t *count) {
-    uint32_t d = m->dimension, each = m->options.boxes;
-    *count = 0;
-    if (!reserve_boxes(m, (size_t)m->size * each)) return false;
-    for (int rank = 0; rank < m->size; rank++) {
-        if (rank == m->rank || (of_peers && m->peer_of[rank] < 0)) continue;
-        for (uint32_t b = 0; b < each; b++) {
-            const dm_box *box = &dm_boxes_now(m)[(size_t)rank * each + b];
-            if (dm_is_empty_box(box)) continue;
-            for (uint32_t k = 0; k < d; k++) {
-                double low = box->low[k] - margin * box->spacing, high = box->high[k] + margin * box->spacing;
-                if (DM_HAS_FAULT(DM_FAULT_SMALL_REACH)) low = high = low + (high - low) / 2;
-                m->low[*count * d + k] = low;
-                m->high[*count * d + k] = high;
-            }
-            m->box_ranks[(*count)++] = rank;
-        }
+// A box that is asked about, widened by `margin` spacings.
+static void put_box(deldrift_mpi *m, size_t at, const dm_box *box, double margin, int process) {
+    for (uint32_t k = 0; k < m->dimension; k++) {
+        double low = box->low[k] - margin * box->spacing, high = box->high[k] + margin * box->spacing;
+        if (DM_HAS_FAULT(DM_FAULT_SMALL_REACH)) low = high = low + (high - low) / 2;
+        m->low[at * m->dimension + k] = low;
+        m->high[at * m->dimension + k] = high;
     }
+    m->box_ranks[at] = process;
+}
+
+static void unite(const deldrift_mpi *m, dm_box *all, const dm_box *box) {
+    for (uint32_t k = 0; k < m->dimension; k++) {
+        all->low[k] = fmin(all->low[k], box->low[k]);
+        all->high[k] = fmax(all->high[k], box->high[k]);
+    }
+    all->spacing = fmax(all->spacing, box->spacing);
+}
+
+// The box around those of some processes, without this one, and without those that have no copies if these are not wanted.
+static dm_box box_of_group(const deldrift_mpi *m, int first, int width, bool of_peers) {
+    dm_box all = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
+    for (int process = first; process < m->size && process < first + width; process++) {
+        if (process == m->rank || (of_peers && m->peer_of[process] < 0)) continue;
+        const dm_box *boxes = dm_boxes_now(m) + (size_t)process * m->options.boxes;
+        for (uint32_t b = 0; b < m->options.boxes; b++)
+            if (!dm_is_empty_box(&boxes[b])) unite(m, &all, &boxes[b]);
+    }
+    return all;
+}
+
+static bool meet(const deldrift_mpi *m, const dm_box *a, const dm_box *b) {
+    for (uint32_t k = 0; k < m->dimension; k++)
+        if (a->low[k] > b->high[k] || b->low[k] > a->high[k]) return false;
     return true;
 }
 
@@ -84,6 +107,60 @@ static bool search(deldrift_mpi *m, size_t boxes) {
     }
 }
 
+// Groups become the groups, or processes, in them. There is room for as many as there are processes.
+static size_t expand(deldrift_mpi *m, size_t groups, int width) {
+    size_t count = 0;
+    memcpy(m->box_ranks, m->nodes, groups * sizeof *m->nodes);
+    for (size_t n = 0; n < groups; n++)
+        for (int first = m->box_ranks[n], c = 0; c < GROUP && first + c * width < m->size; c++)
+            m->nodes[count++] = first + c * width;
+    return count;
+}
+
+// The processes of which something may be in reach, in nodes: all but those of groups that are certainly far. What meets the box
+// of this process is not asked about, as the answer would be long.
+static bool find_near(deldrift_mpi *m, bool of_peers, double margin, size_t *count) {
+    int width = 1;
+    if (!reserve_boxes(m, (size_t)m->size * m->options.boxes)) return false;
+    while (width * GROUP < m->size) width *= GROUP;
+    dm_box own = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
+    for (uint32_t b = 0; b < m->options.boxes; b++) {
+        const dm_box *box = &dm_boxes_now(m)[(size_t)m->rank * m->options.boxes + b];
+        if (!dm_is_empty_box(box)) unite(m, &own, box);
+    }
+    *count = 0;
+    for (int first = 0; first < m->size; first += width) m->nodes[(*count)++] = first;
+    for (;; width /= GROUP) {
+        size_t asked = 0, kept = 0;
+        for (size_t n = 0; n < *count; n++) {
+            dm_box box = box_of_group(m, m->nodes[n], width, of_peers);
+            if (dm_is_empty_box(&box)) continue;
+            if (meet(m, &own, &box)) m->nodes[kept++] = m->nodes[n];
+            else put_box(m, asked++, &box, margin, m->nodes[n]);
+        }
+        if (asked && !search(m, asked)) return false;
+        for (size_t b = 0; b < asked; b++)
+            if (m->offsets[b + 1] > m->offsets[b]) m->nodes[kept++] = m->box_ranks[b];
+        *count = kept;
+        if (width == 1) return true;
+        *count = expand(m, kept, width / GROUP);
+    }
+}
+
+// Lists of own vertices in reach of other processes' boxes, widened by `margin` spacings; the lists of one process's follow each
+// other.
+static bool search_processes(deldrift_mpi *m, bool of_peers, double margin, size_t *boxes) {
+    size_t near = 0;
+    *boxes = 0;
+    if (!find_near(m, of_peers, margin, &near)) return false;
+    for (size_t n = 0; n < near; n++) {
+        const dm_box *each = dm_boxes_now(m) + (size_t)m->nodes[n] * m->options.boxes;
+        for (uint32_t b = 0; b < m->options.boxes; b++)
+            if (!dm_is_empty_box(&each[b])) put_box(m, (*boxes)++, &each[b], margin, m->nodes[n]);
+    }
+    return !*boxes || search(m, *boxes);
+}
+
 static uint32_t fresh_stamp(deldrift_mpi *m) {
     if (++m->stamped == 0) {
         memset(m->stamp, 0, m->ids * sizeof *m->stamp);
@@ -94,7 +171,7 @@ static uint32_t fresh_stamp(deldrift_mpi *m) {
 
 size_t dm_find_sends(deldrift_mpi *m) {
     size_t boxes, sends = 0;
-    if (!collect_boxes(m, false, 0, &boxes) || !boxes || !search(m, boxes)) return 0;
+    if (!search_processes(m, false, 0, &boxes)) return 0;
     for (size_t b = 0; b < boxes;) {
         int rank = m->box_ranks[b];
         size_t first = m->offsets[b];
@@ -125,8 +202,7 @@ bool dm_find_drops(deldrift_mpi *m) {
     // Without cells nothing is known of what is needed.
     if (!dm_took(&m->refusal, deldrift_cell_count(m->t, &cells))) return false;
     if (!cells) return true;
-    if (!collect_boxes(m, true, DROP_MARGIN, &boxes)) return false;
-    if (boxes && !search(m, boxes)) return false;
+    if (!search_processes(m, true, DROP_MARGIN, &boxes)) return false;
     for (size_t p = 0; p < m->peer_count; p++) {
         dm_list *sent = &m->peers[p].sent;
         uint32_t stamp = fresh_stamp(m);
