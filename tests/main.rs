@@ -24,6 +24,7 @@ mod passings;
 mod predicates;
 mod predicates_range;
 mod predicates_suites;
+mod preparing;
 mod refining;
 mod repair;
 mod saving;

@@ -70,6 +70,7 @@ mod options;
 mod panics;
 mod pointers;
 mod predicates;
+mod preparing;
 mod query;
 mod refining;
 mod research;

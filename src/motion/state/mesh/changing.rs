@@ -29,11 +29,17 @@ const REPLACED_TO_SORT: f64 = 2.0;
 impl<G: Dimension> Mesh<G> {
     /// Begins a change.
     pub(in crate::motion) fn begin(&mut self, aim: Aim) -> Result<()> {
+        if self.rounds.is_some() {
+            self.set_round_aside()?;
+        }
         self.kernel.begin()?;
-        self.transaction.begin(Counts {
-            present: self.n_present,
-            visibilities: self.views.visibilities_mut().shortened_len(self.site_of.len()),
-        });
+        let n_ids = self.site_of.len();
+        let visibilities = match &self.rounds {
+            // Rounds that may be taken back know how many there were.
+            Some(_) => self.views.visibilities().len(),
+            None => self.views.visibilities_mut().shortened_len(n_ids),
+        };
+        self.transaction.begin(Counts { present: self.n_present, visibilities });
         let Some(segments) = &mut self.segments else { return Ok(()) };
         // What segments refuse is undone after all of it has been made.
         let lifted = self.kernel.keep_flat().and_then(|()| segments.lift(&mut self.kernel, aim));
@@ -87,16 +93,26 @@ impl<G: Dimension> Mesh<G> {
     /// Makes a change visible to programs that read the cells. Cannot fail.
     pub(in crate::motion) fn publish(&mut self) {
         self.n_changes += u64::from(self.has_changed());
-        if self.transaction.has_rebuilt() || self.kernel.has_given_up_cells() {
-            self.views.follow_all();
-        } else {
-            self.views.follow(&self.kernel);
-        }
+        self.show_change();
         self.kernel.end();
         self.transaction.end();
         if let Some(segments) = &mut self.segments {
             segments.keep();
         }
+        self.sort_if_wanted();
+    }
+
+    /// The arrays of cells follow a change.
+    pub(super) fn show_change(&mut self) {
+        if self.transaction.has_rebuilt() || self.kernel.has_given_up_cells() {
+            self.views.follow_all();
+        } else {
+            self.views.follow(&self.kernel);
+        }
+    }
+
+    /// Sorts the cells if the last change has found that they are worth it.
+    pub(super) fn sort_if_wanted(&mut self) {
         if self.transaction.wants_order() {
             // For speed alone: without the memory for it the cells stay as they are.
             let _ = self.sort_cells(REPLACED_TO_SORT);
@@ -104,7 +120,7 @@ impl<G: Dimension> Mesh<G> {
     }
 
     /// Whether a place, a cell or a segment may have changed.
-    fn has_changed(&self) -> bool {
+    pub(super) fn has_changed(&self) -> bool {
         self.transaction.has_rebuilt()
             || self.transaction.has_logged()
             || !self.transaction.origins().are_none()
