@@ -28,6 +28,13 @@ pub(in crate::motion) struct Origins<G: Dimension> {
     known: Known,
 }
 
+/// Puts all vertices back where they were. Ids that have been given since have no site.
+fn put_all_back<G: Dimension>(positions: &[G::Point], kernel: &mut Delaunay<G>, site_of: &[SiteId]) {
+    for (&s, p) in std::iter::zip(site_of, positions).filter(|&(&s, _)| s != SiteId::NONE) {
+        kernel.set_point(s, *p);
+    }
+}
+
 /// The origins of a change that has been set aside.
 #[derive(Debug)]
 pub(in crate::motion) enum KeptOrigins<G: Dimension> {
@@ -39,9 +46,7 @@ impl<G: Dimension> KeptOrigins<G> {
     /// Puts all vertices that have moved back where they were. Each is at the site that it had then.
     pub(in crate::motion) fn put_back(&self, kernel: &mut Delaunay<G>, site_of: &[SiteId]) {
         match self {
-            KeptOrigins::All(positions) => {
-                std::iter::zip(site_of, positions).for_each(|(&s, p)| kernel.set_point(s, *p));
-            }
+            KeptOrigins::All(positions) => put_all_back(positions, kernel, site_of),
             KeptOrigins::Listed(listed) => {
                 listed.iter().for_each(|&(v, p)| kernel.set_point(site_of[v], p));
             }
@@ -138,9 +143,7 @@ impl<G: Dimension> Origins<G> {
     /// Puts all vertices that have moved back where they were. Each is at the site that it had then.
     pub(in crate::motion) fn put_back(&self, kernel: &mut Delaunay<G>, site_of: &[SiteId]) {
         match self.known {
-            Known::All => {
-                std::iter::zip(site_of, &self.positions).for_each(|(&s, p)| kernel.set_point(s, *p));
-            }
+            Known::All => put_all_back(&self.positions, kernel, site_of),
             Known::Listed => {
                 self.listed.iter().for_each(|&v| kernel.set_point(site_of[v], self.positions[v]));
             }
