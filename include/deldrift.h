@@ -189,6 +189,11 @@ enum
     DELDRIFT_AMBIGUOUS_SEED = 34,
     /// A vertex would pass a segment; deldrift_passings tells all that would.
     DELDRIFT_PASSES_SEGMENT = 35,
+    /// A timestamp is prepared, and the call is not one that may be made before deldrift_publish_timestamp or
+    /// deldrift_withdraw_timestamp; the message has the timestamp and the number of rounds.
+    DELDRIFT_PREPARED = 36,
+    /// No timestamp is prepared that could be published.
+    DELDRIFT_NOT_PREPARED = 37,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
