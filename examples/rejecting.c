@@ -1,5 +1,5 @@
 // A solver that rejects steps. Particles are stirred in a box, now slowly and now fast, and each stands for the area of
-// its Voronoi cell. A step is good if no area changes by more than a half, which only the triangulation of the new
+// its Voronoi cell. A step is good if no area changes by more than three tenths, which only the triangulation of the new
 // positions can tell. So a step is prepared, looked at, and published or withdrawn and tried again with half the time. Where
 // a good step leaves a large triangle, a particle is put into it: a second round of the same step.
 //
@@ -33,9 +33,9 @@ static void advance(const double *from, double *to, size_t n, double time, doubl
     for (size_t k = 0; k < n; k++) {
         double v[2], middle[2];
         velocity(from + 2 * k, time, v);
-        for (int i = 0; i < 2; i++) middle[i] = from[2 * k + i] + step / 2 * v[i];
+        for (size_t i = 0; i < 2; i++) middle[i] = from[2 * k + i] + step / 2 * v[i];
         velocity(middle, time + step / 2, v);
-        for (int i = 0; i < 2; i++) to[2 * k + i] = fmin(fmax(from[2 * k + i] + step * v[i], 0), 1);
+        for (size_t i = 0; i < 2; i++) to[2 * k + i] = fmin(fmax(from[2 * k + i] + step * v[i], 0), 1);
     }
 }
 
@@ -55,10 +55,10 @@ static size_t stage_particles(deldrift_triangulation *t, size_t n, const double 
     check(deldrift_cells(t, &cells));
     check(deldrift_volumes(t, triangles, 2 * MOST, &count));
     for (size_t c = 0; c < count && n + staged < MOST; c++) {
-        if (triangles[c] < 6.0 / FIRST) continue;
+        if (triangles[c] < 1.5 / FIRST) continue;
         double middle[2] = {0, 0};
         uint32_t id;
-        for (int i = 0; i < 6; i++) middle[i % 2] += positions[2 * cells.vertices[3 * c + i / 2] + i % 2] / 3;
+        for (size_t i = 0; i < 6; i++) middle[i % 2] += positions[2 * cells.vertices[3 * c + i / 2] + i % 2] / 3;
         check(deldrift_stage_insertions(t, middle, 1, &id));
         staged++;
     }
@@ -82,7 +82,7 @@ int main(void) {
         measure(t, next_areas);
         double greatest = 0;
         for (size_t k = 0; k < n; k++) greatest = fmax(greatest, fabs(next_areas[k] / areas[k] - 1));
-        if (greatest > 0.5) {
+        if (greatest > 0.3) {
             check(deldrift_withdraw_timestamp(t));
             measure(t, next_areas);
             as_before += memcmp(areas, next_areas, n * sizeof *areas) == 0;

@@ -123,10 +123,6 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn make_round(&mut self, moves: &mut Moves<'_, G>) -> Result<CommitReport> {
         let before = self.mesh.evaluations();
         let mut report = self.reach(moves)?;
-        if let Err(error) = self.mesh.make_room_to_settle() {
-            self.undo();
-            return Err(error);
-        }
         self.mesh.settle_round();
         self.enter_evaluations(&mut report, before);
         self.end_edits();

@@ -504,17 +504,18 @@ impl<G: Dimension> Segments<G> {
         kernel.set_constrained(!self.replaced.is_empty());
     }
 
-    /// What is to be known to take the change back once it has been [settled](Self::settle).
+    /// What is to be known, before a change, to take it back once it has been [settled](Self::settle).
     pub(in crate::motion) fn before_settling(&self) -> Result<SegmentsBefore> {
         let mut removed = Vec::new();
         let leaving = self.leaving.iter().filter_map(|&id| Some((id, self.all[id]?)));
         memory::collect(&mut removed, leaving)?;
-        Ok(SegmentsBefore { is_of_rest: self.aim == Aim::Rest, n_laid: self.n_laid, removed })
+        Ok(SegmentsBefore { is_of_rest: false, n_laid: self.n_laid, removed })
     }
 
     /// The change stays, and so does what was before it.
-    pub(in crate::motion) fn settle(&mut self) {
-        if self.aim != Aim::Rest {
+    pub(in crate::motion) fn settle(&mut self, before: &mut SegmentsBefore) {
+        before.is_of_rest = self.aim == Aim::Rest;
+        if !before.is_of_rest {
             std::mem::swap(&mut self.replaced, &mut self.next);
         }
         self.end_staging();

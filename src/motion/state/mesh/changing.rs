@@ -30,7 +30,7 @@ impl<G: Dimension> Mesh<G> {
     /// Begins a change.
     pub(in crate::motion) fn begin(&mut self, aim: Aim) -> Result<()> {
         if self.rounds.is_some() {
-            self.set_round_aside()?;
+            self.make_room_for_round()?;
         }
         self.kernel.begin()?;
         let n_ids = self.site_of.len();

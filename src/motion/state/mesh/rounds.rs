@@ -29,13 +29,21 @@ impl<G: Dimension> Mesh<G> {
         }
     }
 
-    /// What undoes the last round is set aside, so that another change can be begun.
-    pub(in crate::motion) fn set_round_aside(&mut self) -> Result<()> {
+    /// What undoes the last round is set aside, so that another change can be begun, and
+    /// [settled](Self::settle_round) without a failure.
+    pub(super) fn make_room_for_round(&mut self) -> Result<()> {
+        self.set_round_aside()?;
         let Some(rounds) = &mut self.rounds else { return Ok(()) };
-        if !rounds.has_last {
-            rounds.last = Settled::default();
-            return Ok(());
+        rounds.last = Settled::default();
+        if let Some(segments) = &self.segments {
+            rounds.last.segments = Some(segments.before_settling()?);
         }
+        Ok(())
+    }
+
+    /// What undoes the last round, if there is one, is set aside.
+    fn set_round_aside(&mut self) -> Result<()> {
+        let Some(rounds) = self.rounds.as_mut().filter(|rounds| rounds.has_last) else { return Ok(()) };
         memory::reserve(&mut rounds.earlier, 1)?;
         let has_former = rounds.last.former.is_some();
         let transaction = self.transaction.set_aside()?;
@@ -76,24 +84,14 @@ impl<G: Dimension> Mesh<G> {
         }
     }
 
-    /// Makes sure that a round can be [settled](Self::settle_round).
-    pub(in crate::motion) fn make_room_to_settle(&mut self) -> Result<()> {
-        let rounds = self.rounds.as_mut().expect("a round is being made");
-        rounds.last.segments = match &self.segments {
-            Some(segments) => Some(segments.before_settling()?),
-            None => None,
-        };
-        Ok(())
-    }
-
     /// A round has been made: makes it visible to programs that read the cells.
     pub(in crate::motion) fn settle_round(&mut self) {
         self.n_changes += u64::from(self.has_changed());
         self.show_change();
-        if let Some(segments) = &mut self.segments {
-            segments.settle();
-        }
         let rounds = self.rounds.as_mut().expect("a round is being made");
+        if let (Some(segments), Some(before)) = (&mut self.segments, &mut rounds.last.segments) {
+            segments.settle(before);
+        }
         rounds.has_last = true;
     }
 
