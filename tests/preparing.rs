@@ -226,14 +226,19 @@ fn withdrawn_is_as_never_prepared<G: Dimension>(seed: u64) {
             t.commit_timestamp().expect("room");
         });
     }
-    let algorithm = pair.t.algorithm();
+    let (algorithm, statistics) = (pair.t.algorithm(), pair.t.statistics());
     for _ in 0..1 + rng.below(3) {
         pair.prepare(kind, rng, &context);
         pair.withdraw(rng);
     }
     pair.t.set_algorithm(algorithm);
-    assert_eq!(pair.t.statistics(), pair.twin.statistics(), "{}", context());
-    assert!(bytes(&pair.t) == bytes(&pair.twin), "{}: bytes differ", context());
+    assert_eq!(pair.t.statistics(), statistics, "{}", context());
+    // How many certificates several threads evaluate depends on which of them is first.
+    if statistics == pair.twin.statistics() {
+        assert!(bytes(&pair.t) == bytes(&pair.twin), "{}: bytes differ", context());
+    } else {
+        assert_eq!(threads, 2, "{}", context());
+    }
     assert_eq!(told(&mut pair.t), told(&mut pair.twin), "{}", context());
     for _ in 0..3 {
         let rounds = pair.prepare(kind, rng, &context);
