@@ -348,7 +348,10 @@ impl fmt::Display for Error {
                 "{moves} moves, {edits} insertions and removals and {segments} changes of segments are staged, but nothing may be"
             ),
             Error::Prepared { timestamp, rounds: 1 } => {
-                write!(f, "timestamp {timestamp} is prepared, in 1 round: it has to be published or withdrawn first")
+                write!(
+                    f,
+                    "timestamp {timestamp} is prepared, in 1 round: it has to be published or withdrawn first"
+                )
             }
             Error::Prepared { timestamp, rounds } => write!(
                 f,

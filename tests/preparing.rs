@@ -47,8 +47,9 @@ fn drawn<G: Dimension>(t: &MovingTriangulation<G>, kind: Kind, rng: &mut Rng) ->
         }
     }
     let share = *rng.pick(&[3, 20, 100]);
-    staged.coming =
-        (0..rng.below(2 + present.len() / share)).map(|_| draw_one::<G>(kind, present.len().max(4), rng)).collect();
+    staged.coming = (0..rng.below(2 + present.len() / share))
+        .map(|_| draw_one::<G>(kind, present.len().max(4), rng))
+        .collect();
     present.retain(|v| staged.moves.iter().all(|(moved, _)| moved != v));
     rng.shuffle(&mut present);
     present.truncate(rng.below(2 + present.len() / share));

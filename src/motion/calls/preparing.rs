@@ -87,22 +87,6 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
     }
 
-    /// Whether a timestamp is prepared.
-    pub fn is_prepared(&self) -> bool {
-        self.mesh.rounds.is_some()
-    }
-
-    /// Refuses what may not be done while a timestamp is prepared.
-    #[inline(always)]
-    pub(crate) fn reject_prepared(&self) -> Result<()> {
-        if self.is_prepared() { Err(self.prepared()) } else { Ok(()) }
-    }
-
-    #[cold]
-    fn prepared(&self) -> Error {
-        Error::Prepared { timestamp: self.statistics.timestamp + 1, rounds: self.mesh.n_rounds() }
-    }
-
     /// What this is at its timestamp, as far as numbers tell that.
     fn published(&self) -> Published {
         let mut n_ids = self.mesh.site_of.len();

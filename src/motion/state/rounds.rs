@@ -3,12 +3,12 @@
 //! Each round is a change like that of a commit. What undoes it is kept until the timestamp is published or withdrawn: of
 //! the last round where the change has left it, of those before in a list.
 
-use crate::delaunay::{Delaunay, Dimension, KeptChange, Replaced};
+use crate::delaunay::{Delaunay, Dimension, KeptChange};
 use crate::ids::SiteId;
 use crate::machine::memory;
 use crate::motion::report::CommitReport;
 use crate::motion::state::hidden::Hidden;
-use crate::motion::state::segments::SegmentsBefore;
+use crate::motion::state::segments::{KeptSegments, SegmentsBefore};
 use crate::motion::state::transaction::KeptTransaction;
 
 /// A kernel that another one has taken the place of in a round, and what belongs to it.
@@ -52,12 +52,12 @@ pub(in crate::motion) struct Round<G: Dimension> {
     /// `None` if the round has built another kernel: then the former one has it.
     pub(in crate::motion) kernel: Option<KeptChange<G>>,
     pub(in crate::motion) transaction: KeptTransaction<G>,
-    pub(in crate::motion) segments: Option<(Replaced<G>, Option<Vec<[SiteId; 2]>>)>,
+    pub(in crate::motion) segments: Option<KeptSegments<G>>,
 }
 
 impl<G: Dimension> Round<G> {
     fn memory_bytes(&self) -> usize {
-        let of_segments = |(replaced, before): &(Replaced<G>, Option<Vec<[SiteId; 2]>>)| {
+        let of_segments = |(replaced, before): &KeptSegments<G>| {
             replaced.memory_bytes() + before.as_ref().map_or(0, memory::bytes_of)
         };
         self.settled.memory_bytes()
@@ -93,13 +93,7 @@ pub(in crate::motion) struct Rounds<G: Dimension> {
 
 impl<G: Dimension> Rounds<G> {
     pub(in crate::motion) fn new(before: Published) -> Self {
-        Rounds {
-            before,
-            earlier: Vec::new(),
-            last: Settled::default(),
-            has_last: false,
-            wants_order: false,
-        }
+        Rounds { before, earlier: Vec::new(), last: Settled::default(), has_last: false, wants_order: false }
     }
 
     /// How many have been made.

@@ -114,6 +114,10 @@ impl SegmentsBefore {
     }
 }
 
+/// The cells that segments had taken the place of before a change, and the edges that a kernel had to have, while it has
+/// others.
+pub(in crate::motion) type KeptSegments<G> = (Replaced<G>, Option<Vec<[SiteId; 2]>>);
+
 /// Two sites, the lower one first.
 fn ordered([s, t]: [SiteId; 2]) -> [SiteId; 2] {
     if s < t { [s, t] } else { [t, s] }
@@ -522,12 +526,12 @@ impl<G: Dimension> Segments<G> {
     }
 
     /// Takes what was before a change that has been settled out of the way of the next one.
-    pub(in crate::motion) fn set_aside(&mut self) -> (Replaced<G>, Option<Vec<[SiteId; 2]>>) {
+    pub(in crate::motion) fn set_aside(&mut self) -> KeptSegments<G> {
         (std::mem::take(&mut self.next), self.before.take())
     }
 
     /// Takes up what was [set aside](Self::set_aside).
-    pub(in crate::motion) fn take_up(&mut self, kept: (Replaced<G>, Option<Vec<[SiteId; 2]>>)) {
+    pub(in crate::motion) fn take_up(&mut self, kept: KeptSegments<G>) {
         (self.next, self.before) = kept;
     }
 

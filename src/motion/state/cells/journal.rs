@@ -102,12 +102,7 @@ impl<G: Dimension> Cells<G> {
     }
 
     /// Notes what is in the dirty slots, and what will be beyond the end.
-    fn note_rows(
-        &self,
-        journal: &mut Journal<G>,
-        kernel: &Delaunay<G>,
-        dirty: &Marks<Slot>,
-    ) -> Result<()> {
+    fn note_rows(&self, journal: &mut Journal<G>, kernel: &Delaunay<G>, dirty: &Marks<Slot>) -> Result<()> {
         let (n_cells, n_slots) = (self.corners.len(), self.index_of.len());
         let beyond = CellId::range(kernel.complex().n_finite().min(n_cells)..n_cells);
         let slots_beyond = Slot::range(kernel.complex().n_slots().min(n_slots)..n_slots);

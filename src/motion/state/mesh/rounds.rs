@@ -5,7 +5,7 @@ use crate::error::Result;
 use crate::machine::memory;
 use crate::motion::state::hidden::Hidden;
 use crate::motion::state::mesh::{Mesh, REPLACED_TO_SORT_FIRST};
-use crate::motion::state::rounds::{Former, Published, Round, Rounds, Settled};
+use crate::motion::state::rounds::{Former, Published, Rounds, Settled};
 
 impl<G: Dimension> Mesh<G> {
     /// How many rounds have been made.
@@ -27,37 +27,6 @@ impl<G: Dimension> Mesh<G> {
             self.rounds = None;
             self.views.end_rounds();
         }
-    }
-
-    /// What undoes the last round is set aside, so that another change can be begun, and
-    /// [settled](Self::settle_round) without a failure.
-    pub(super) fn make_room_for_round(&mut self) -> Result<()> {
-        self.set_round_aside()?;
-        let Some(rounds) = &mut self.rounds else { return Ok(()) };
-        rounds.last = Settled::default();
-        if let Some(segments) = &self.segments {
-            rounds.last.segments = Some(segments.before_settling()?);
-        }
-        Ok(())
-    }
-
-    /// What undoes the last round, if there is one, is set aside.
-    fn set_round_aside(&mut self) -> Result<()> {
-        let Some(rounds) = self.rounds.as_mut().filter(|rounds| rounds.has_last) else { return Ok(()) };
-        memory::reserve(&mut rounds.earlier, 1)?;
-        let has_former = rounds.last.former.is_some();
-        let transaction = self.transaction.set_aside()?;
-        // From here on nothing fails.
-        let kernel = (!has_former).then(|| self.kernel.set_change_aside());
-        let segments = self.segments.as_mut().map(|segments| segments.set_aside());
-        rounds.earlier.push(Round {
-            settled: std::mem::take(&mut rounds.last),
-            kernel,
-            transaction,
-            segments,
-        });
-        rounds.has_last = false;
-        Ok(())
     }
 
     /// Makes room for the present kernel to be kept while another one takes its place. Nothing without rounds.
