@@ -89,25 +89,27 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// What this is at its timestamp, as far as numbers tell that.
     fn published(&self) -> Published {
-        let mut n_ids = self.mesh.site_of.len();
-        for &(id, _) in self.edits.insertions().iter().rev() {
-            if id.index() + 1 == n_ids {
-                n_ids -= 1;
-            }
+        let (mut n_ids, mut has_keys) = (self.mesh.site_of.len(), self.has_keys());
+        if self.edits.has_insertions() {
+            n_ids = n_ids.min(self.edits.n_known());
+            has_keys = self.edits.had_keys();
         }
         Published {
             statistics: self.statistics,
             n_ids,
             n_pieces: self.made.as_ref().map(|made| made.n_pieces()),
             has_segments: self.mesh.segments.is_some(),
+            has_keys,
         }
     }
 
     /// Makes the moves and the staged edits as a round.
     fn make_round(&mut self, moves: &mut Moves<'_, G>) -> Result<CommitReport> {
+        self.mesh.make_room_to_withhold(self.edits.removals().len())?;
         let before = self.mesh.evaluations();
         let mut report = self.reach(moves)?;
         self.mesh.settle_round();
+        self.mesh.withhold_ids(self.edits.removals());
         self.enter_evaluations(&mut report, before);
         self.end_edits();
         if let Some(made) = &mut self.made {

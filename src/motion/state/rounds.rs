@@ -4,7 +4,7 @@
 //! the last round where the change has left it, of those before in a list.
 
 use crate::delaunay::{Delaunay, Dimension, KeptChange};
-use crate::ids::SiteId;
+use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::motion::report::CommitReport;
 use crate::motion::state::hidden::Hidden;
@@ -76,6 +76,8 @@ pub(in crate::motion) struct Published {
     /// Pieces of segments, if there was a list of them.
     pub(in crate::motion) n_pieces: Option<usize>,
     pub(in crate::motion) has_segments: bool,
+    /// Whether vertices had been given keys.
+    pub(in crate::motion) has_keys: bool,
 }
 
 /// The rounds of a timestamp that is being prepared.
@@ -87,13 +89,22 @@ pub(in crate::motion) struct Rounds<G: Dimension> {
     pub(in crate::motion) last: Settled<G>,
     /// Whether `last` is a round that has been made.
     pub(in crate::motion) has_last: bool,
+    /// The vertices that the rounds have removed, ascending.
+    pub(in crate::motion) removed: Vec<VertexId>,
     /// Whether the cells are worth sorting once the timestamp is published.
     pub(in crate::motion) wants_order: bool,
 }
 
 impl<G: Dimension> Rounds<G> {
     pub(in crate::motion) fn new(before: Published) -> Self {
-        Rounds { before, earlier: Vec::new(), last: Settled::default(), has_last: false, wants_order: false }
+        Rounds {
+            before,
+            earlier: Vec::new(),
+            last: Settled::default(),
+            has_last: false,
+            removed: Vec::new(),
+            wants_order: false,
+        }
     }
 
     /// How many have been made.
@@ -105,5 +116,6 @@ impl<G: Dimension> Rounds<G> {
         self.earlier.capacity() * size_of::<Round<G>>()
             + self.earlier.iter().map(Round::memory_bytes).sum::<usize>()
             + self.last.memory_bytes()
+            + memory::bytes_of(&self.removed)
     }
 }

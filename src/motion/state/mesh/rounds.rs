@@ -1,7 +1,8 @@
 //! Changes that stay until all of them are published or withdrawn: the rounds of a timestamp that is being prepared.
 
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Dimension, Keys};
 use crate::error::Result;
+use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::state::hidden::Hidden;
 use crate::motion::state::mesh::{Mesh, REPLACED_TO_SORT_FIRST};
@@ -50,6 +51,7 @@ impl<G: Dimension> Mesh<G> {
         self.transaction.adopt(former.is_some());
         if let Some(former) = former {
             (former.kernel, former.hidden) = (kernel, hidden);
+            former.kernel.keys_mut().give_away();
         }
     }
 
@@ -62,6 +64,24 @@ impl<G: Dimension> Mesh<G> {
             segments.settle(before);
         }
         rounds.has_last = true;
+    }
+
+    /// Makes room to [withhold](Self::withhold_ids) the ids of `n` more vertices.
+    pub(in crate::motion) fn make_room_to_withhold(&mut self, n: usize) -> Result<()> {
+        let Some(rounds) = &mut self.rounds else { return Ok(()) };
+        memory::reserve(&mut rounds.removed, n)
+    }
+
+    /// The round has removed these vertices, which may come back: their ids are not given again before that is settled.
+    pub(in crate::motion) fn withhold_ids(&mut self, removed: &[VertexId]) {
+        let Some(rounds) = &mut self.rounds else { return };
+        rounds.removed.extend_from_slice(removed);
+        rounds.removed.sort_unstable();
+    }
+
+    /// Whether an id is that of a vertex which a round has removed.
+    pub(in crate::motion) fn is_withheld(&self, vertex: VertexId) -> bool {
+        self.rounds.as_ref().is_some_and(|rounds| rounds.removed.binary_search(&vertex).is_ok())
     }
 
     /// The cells are worth sorting, but are not before the timestamp is published.
@@ -117,6 +137,11 @@ impl<G: Dimension> Mesh<G> {
             self.segments = None;
         }
         self.site_of.truncate(rounds.before.n_ids);
+        if rounds.before.has_keys {
+            self.kernel.keys_mut().truncate(rounds.before.n_ids);
+        } else {
+            *self.kernel.keys_mut() = Keys::default();
+        }
         self.n_changes += 1;
         Some(rounds.before)
     }
@@ -127,6 +152,7 @@ impl<G: Dimension> Mesh<G> {
             let Former { mut kernel, hidden, site_of, sorted_stride } = *former;
             *kernel.pace_mut() = std::mem::take(self.kernel.pace_mut());
             self.kernel.give_scratch_to(&mut kernel);
+            *kernel.keys_mut() = std::mem::take(self.kernel.keys_mut());
             (self.kernel, self.hidden, self.sorted_stride) = (kernel, hidden, sorted_stride);
             self.site_of = site_of;
             self.transaction.reject();
