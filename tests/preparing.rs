@@ -2,9 +2,12 @@
 //! that has never prepared anything and beside fresh builds.
 
 use crate::common::inputs::{Kind, draw, draw_one};
-use crate::common::{Rng, assert_same_cells, cell_set, check_adjacency, fresh_cells, point, seeds, vertex};
-use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options, Segment};
+use crate::common::{
+    CellSet, Rng, assert_same_cells, cell_set, check_adjacency, fresh_cells, point, seeds, vertex,
+};
+use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options, Saved, Segment};
 use deldrift::{Dimension, Error, Plane, SegmentId, Space, VertexId};
+use std::cmp::Ordering;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicI64, Ordering::Relaxed};
 
@@ -15,6 +18,10 @@ const KINDS: [Kind; 6] =
 #[derive(Clone, Debug)]
 struct Staged<P> {
     coming: Vec<P>,
+    /// Keys of those that come.
+    keys: Option<Vec<u64>>,
+    /// Whether those that come are given ids of removed vertices.
+    is_at_free: bool,
     leaving: Vec<VertexId>,
     moves: Vec<(VertexId, P)>,
     all: Option<Vec<P>>,
@@ -22,7 +29,14 @@ struct Staged<P> {
 
 /// Something to be staged in the present state of a triangulation.
 fn drawn<G: Dimension>(t: &MovingTriangulation<G>, kind: Kind, rng: &mut Rng) -> Staged<G::Point> {
-    let mut staged = Staged { coming: Vec::new(), leaving: Vec::new(), moves: Vec::new(), all: None };
+    let mut staged = Staged {
+        coming: Vec::new(),
+        keys: None,
+        is_at_free: rng.one_in(3),
+        leaving: Vec::new(),
+        moves: Vec::new(),
+        all: None,
+    };
     let mut present: Vec<VertexId> = VertexId::range(0..t.id_count()).filter(|&v| t.is_present(v)).collect();
     let place = |v: VertexId, rng: &mut Rng| {
         let p = t.position(v).expect("present");
@@ -50,6 +64,7 @@ fn drawn<G: Dimension>(t: &MovingTriangulation<G>, kind: Kind, rng: &mut Rng) ->
     staged.coming = (0..rng.below(2 + present.len() / share))
         .map(|_| draw_one::<G>(kind, present.len().max(4), rng))
         .collect();
+    staged.keys = rng.one_in(3).then(|| staged.coming.iter().map(|_| drawn_key(rng)).collect());
     present.retain(|v| staged.moves.iter().all(|(moved, _)| moved != v));
     rng.shuffle(&mut present);
     present.truncate(rng.below(2 + present.len() / share));
@@ -57,17 +72,34 @@ fn drawn<G: Dimension>(t: &MovingTriangulation<G>, kind: Kind, rng: &mut Rng) ->
     staged
 }
 
-fn stage<G: Dimension>(t: &mut MovingTriangulation<G>, staged: &Staged<G::Point>) {
+/// A key that many vertices have, or few.
+fn drawn_key(rng: &mut Rng) -> u64 {
+    let n = *rng.pick(&[3, 50, usize::MAX]);
+    rng.below(n) as u64
+}
+
+/// Stages all of it; returns the ids of those that come.
+fn stage<G: Dimension>(t: &mut MovingTriangulation<G>, staged: &Staged<G::Point>) -> Vec<VertexId> {
+    let mut ids = Vec::new();
     if let Some(all) = &staged.all {
-        return t.move_all(all).expect("room");
+        t.move_all(all).expect("room");
+        return ids;
     }
-    if !staged.coming.is_empty() {
-        t.stage_insertions(&staged.coming).expect("room");
+    if staged.is_at_free {
+        let keys = staged.keys.as_deref();
+        t.stage_insertions_at_free_ids(&staged.coming, keys, |v| ids.push(v)).expect("room");
+    } else if !staged.coming.is_empty() {
+        let first = match &staged.keys {
+            Some(keys) => t.stage_insertions_with_keys(&staged.coming, keys),
+            None => t.stage_insertions(&staged.coming),
+        };
+        ids.extend(VertexId::range(first.expect("room").index()..t.id_count()));
     }
     for &(v, p) in &staged.moves {
         t.move_vertices(&[v], &[p]).expect("room");
     }
     t.stage_removals(&staged.leaving).expect("room");
+    ids
 }
 
 /// Changes as they were told.
@@ -96,11 +128,34 @@ fn hidden<G: Dimension>(t: &MovingTriangulation<G>) -> Vec<Option<VertexId>> {
     VertexId::range(0..t.id_count()).map(|v| t.coincident_representative(v).ok()).collect()
 }
 
+fn keys<G: Dimension>(t: &MovingTriangulation<G>) -> Vec<u64> {
+    VertexId::range(0..t.id_count()).map(|v| t.key_of_id(v)).collect()
+}
+
 /// Everything that reads sees the prepared state.
 fn check_prepared<G: Dimension>(t: &mut MovingTriangulation<G>, context: &dyn Fn() -> String) {
     t.validate(Level::Delaunay).unwrap_or_else(|violation| panic!("{}: {violation}", context()));
     check_adjacency(t, context);
-    assert_same_cells(&cell_set(t), &fresh_cells::<G>(&positions(t)), context);
+    assert_same_cells(&cell_set(t), &cells_by_rank(t), context);
+}
+
+/// The cells of a build without keys of the vertices in the order of their keys and places.
+fn cells_by_rank<G: Dimension>(t: &MovingTriangulation<G>) -> CellSet {
+    let mut order: Vec<VertexId> = VertexId::range(0..t.id_count()).filter(|&v| t.is_present(v)).collect();
+    let place = |v| t.position(v).expect("present");
+    order.sort_by(|&v, &w| {
+        let (p, q) = (place(v), place(w));
+        let differing = (0..G::D).map(|k| p[k].total_cmp(&q[k])).find(|order| order.is_ne());
+        let by_key = t.key_of_id(v).cmp(&t.key_of_id(w));
+        by_key.then(differing.unwrap_or(Ordering::Equal)).then(v.cmp(&w))
+    });
+    let places: Vec<Option<G::Point>> = order.iter().map(|&v| Some(place(v))).collect();
+    let named = |cell: &Vec<VertexId>| {
+        let mut cell: Vec<VertexId> = cell.iter().map(|&k| order[k]).collect();
+        cell.sort_unstable();
+        cell
+    };
+    fresh_cells::<G>(&places).iter().map(named).collect()
 }
 
 /// What may not be done while a timestamp is prepared is refused, and does nothing.
@@ -133,9 +188,13 @@ fn pair<G: Dimension>(kind: Kind, n: usize, threads: u32, rng: &mut Rng) -> Pair
     let left = Arc::clone(&patience);
     let monitor = move |_: f64| left.fetch_sub(1, Relaxed) != 0;
     let options = Options { threads, monitor: Some(Box::new(monitor)), ..Options::default() };
-    let t = MovingTriangulation::new(&points, options).expect("a build");
-    let options = Options { threads, ..Options::default() };
-    let twin = MovingTriangulation::new(&points, options).expect("a build");
+    let keys: Option<Vec<u64>> = rng.one_in(3).then(|| points.iter().map(|_| drawn_key(rng)).collect());
+    let build = |options| match &keys {
+        Some(keys) => MovingTriangulation::with_keys(&points, keys, options),
+        None => MovingTriangulation::new(&points, options),
+    };
+    let t = build(options).expect("a build");
+    let twin = build(Options { threads, ..Options::default() }).expect("a build");
     Pair { t, twin, patience }
 }
 
@@ -147,11 +206,13 @@ impl<G: Dimension> Pair<G> {
 
     /// Prepares in a few rounds, with reading in between or without; some are cancelled.
     fn prepare(&mut self, kind: Kind, rng: &mut Rng, context: &dyn Fn() -> String) -> Vec<Staged<G::Point>> {
-        let mut rounds = Vec::new();
+        let (mut rounds, mut removed) = (Vec::new(), Vec::new());
         for _ in 0..1 + rng.below(4) {
             self.t.set_algorithm(*rng.pick(&Algorithm::ALL));
             let staged = drawn(&self.t, kind, rng);
-            stage(&mut self.t, &staged);
+            let ids = stage(&mut self.t, &staged);
+            assert!(ids.iter().all(|id| !removed.contains(id)), "{}: {ids:?}, {removed:?}", context());
+            removed.extend(&staged.leaving);
             if rng.one_in(4) {
                 let (before, was_prepared) = (positions(&self.t), self.t.is_prepared());
                 self.patience.store(rng.below(4) as i64, Relaxed);
@@ -198,6 +259,7 @@ impl<G: Dimension> Pair<G> {
     fn compare_sets(&mut self, context: &dyn Fn() -> String) {
         assert_eq!(positions(&self.t), positions(&self.twin), "{}", context());
         assert_eq!(hidden(&self.t), hidden(&self.twin), "{}", context());
+        assert_eq!(keys(&self.t), keys(&self.twin), "{}", context());
         assert_eq!(self.t.timestamp(), self.twin.timestamp(), "{}", context());
         self.t.validate(Level::Delaunay).unwrap_or_else(|violation| panic!("{}: {violation}", context()));
         assert_same_cells(&cell_set(&self.t), &cell_set(&self.twin), context);
@@ -247,9 +309,11 @@ fn withdrawn_is_as_never_prepared<G: Dimension>(seed: u64) {
             pair.withdraw(rng);
         } else {
             assert_eq!(pair.t.publish_timestamp(), Ok(pair.twin.timestamp() + 1));
+            // Where ids are given again, those of the first round's vertices are free after a commit.
+            let is_committed = rounds.iter().skip(1).all(|staged| !staged.is_at_free);
             for (k, staged) in rounds.iter().enumerate() {
                 stage(&mut pair.twin, staged);
-                if k == 0 {
+                if k == 0 && is_committed {
                     pair.twin.commit_timestamp().expect("room");
                 } else {
                     pair.twin.prepare_timestamp().expect("room");
@@ -288,7 +352,7 @@ fn one_round_is_a_commit<G: Dimension>(seed: u64) {
     pair.both(|t| drop(told(t)));
     for _ in 0..6 {
         let staged = drawn(&pair.t, kind, rng);
-        pair.both(|t| stage(t, &staged));
+        pair.both(|t| drop(stage(t, &staged)));
         let prepared = pair.t.prepare_timestamp().expect("room");
         pair.t.publish_timestamp().expect("it is prepared");
         assert_eq!(prepared, pair.twin.commit_timestamp().expect("room"), "{}", context());
@@ -429,4 +493,20 @@ fn nothing_is_published_or_withdrawn_that_is_not_prepared() {
     // Nothing staged is a round as well.
     t.prepare_timestamp().expect("room");
     assert_eq!((t.is_prepared(), t.publish_timestamp()), (true, Ok(2)));
+}
+
+#[test]
+fn insertions_that_have_been_loaded_give_their_ids_back() {
+    let places = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    let mut t = MovingTriangulation::<Plane>::new(&places, Options::default()).expect("room");
+    t.remove_vertex(vertex(1)).expect("present");
+    t.stage_insertions_at_free_ids(&[[0.2, 0.2], [0.3, 0.7]], Some(&[7, 7]), |_| ()).expect("room");
+    let saved = bytes(&t);
+    let saved = Saved::of(&saved).expect("its own bytes");
+    let mut t = MovingTriangulation::<Plane>::load(&saved, Options::default()).expect("its own bytes");
+    assert_eq!((t.id_count(), t.staged_edits()), (5, (2, 0)));
+    t.prepare_timestamp().expect("room");
+    assert_eq!(t.vertex_count(), 5);
+    t.withdraw_timestamp();
+    assert_eq!((t.id_count(), t.vertex_count(), t.staged_edits()), (4, 3, (0, 0)));
 }

@@ -142,8 +142,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let has_segments = self.mesh.segments.as_ref().is_some_and(|segments| segments.n_ids() > 0);
         let has_made = self.made.as_ref().is_some_and(|made| !made.vertices().is_empty());
         if from == Ids::Free && !has_segments && !has_made {
-            let is_free =
-                |v| self.mesh.is_absent(v) && !self.edits.is_coming(v) && !self.mesh.is_withheld(v);
+            let is_free = |v| self.mesh.is_absent(v) && !self.edits.is_coming(v) && !self.mesh.is_withheld(v);
             ids.extend(VertexId::range(0..n_ids).filter(|&v| is_free(v)).take(n));
         }
         let n_new = n - ids.len();
