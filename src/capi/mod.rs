@@ -98,6 +98,7 @@ pub use motion::*;
 pub use near::*;
 pub use options::*;
 pub use predicates::*;
+pub use preparing::*;
 pub use query::*;
 pub use reach::*;
 pub use refining::*;
