@@ -81,6 +81,12 @@ impl Face {
     }
 }
 
+/// The power of two times which a positive number is from 1 to 2, if that is far enough from the bounds of numbers.
+fn unit_of(size: f64) -> f64 {
+    let exponent = (size.to_bits() >> 52) as i32 - 1023;
+    2f64.powi(-exponent.clamp(-1000, 1000))
+}
+
 /// A box, between two opposite corners.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Clip {
@@ -90,13 +96,21 @@ pub(super) struct Clip {
     pub(super) size: f64,
     /// The greatest magnitude of its coordinates.
     reach: f64,
+    /// A power of two times which its size is about 1: products of lengths in this unit are numbers.
+    pub(super) unit: f64,
 }
 
 impl Clip {
     pub(super) fn new<G: Dimension>(low: &G::Point, high: &G::Point) -> Self {
         let (low, high) = (in_space::<G>(low), in_space::<G>(high));
         let reach = greatest(&low).max(greatest(&high));
-        Clip { low, high, size: greatest(&minus(&high, &low)), reach }
+        let size = greatest(&minus(&high, &low));
+        Clip { low, high, size, reach, unit: unit_of(size) }
+    }
+
+    /// A product of some lengths in the box's unit, in that of its coordinates.
+    pub(super) fn measure_in(&self, dimension: usize, product: f64) -> f64 {
+        (0..dimension).fold(product, |product, _| product / self.unit)
     }
 
     /// The coordinate of a face along its axis.
@@ -112,6 +126,19 @@ impl Clip {
     /// The offset of a place from the corner of least coordinates, or that of the nearest place in the box.
     pub(super) fn offset_within(&self, p: &Vector) -> Vector {
         [0, 1, 2].map(|axis| (p[axis] - self.low[axis]).clamp(0.0, self.extent(axis)))
+    }
+
+    /// The measure of a facet, in the box's unit.
+    pub(super) fn facet_in_unit(&self, dimension: usize, measure: f64) -> f64 {
+        (1..dimension).fold(measure, |measure, _| measure * self.unit)
+    }
+
+    /// The way from an offset from the corner of least coordinates to a face, in the box's unit.
+    pub(super) fn to_face(&self, face: Face, offset: &Vector) -> Vector {
+        let to = if face.is_high { self.extent(face.axis) } else { 0.0 };
+        let mut way = [0.0; 3];
+        way[face.axis] = (to - offset[face.axis]) * self.unit;
+        way
     }
 
     /// The corner of least coordinates.
