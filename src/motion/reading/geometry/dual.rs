@@ -67,6 +67,8 @@ pub(super) struct Piece {
     pub(super) to_centres: Vector,
     /// The measure of the facet times the length of the edge, and times two in space.
     pub(super) weight: f64,
+    /// The distance of the centres.
+    pub(super) step: f64,
 }
 
 /// Edges of which the square of the length, in the unit of a box, is less than that are left to `cut_cells.rs`.
@@ -77,7 +79,8 @@ const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
 impl Piece {
     #[inline(always)]
-    pub(super) fn new<G: Dimension>([a, b]: [&Vector; 2], p: &Vector, step: &Vector, unit: f64) -> Self {
+    pub(super) fn new<G: Dimension>([a, b]: [&Vector; 2], p: &Vector, step: (&Vector, f64), unit: f64) -> Self {
+        let (step, distance) = step;
         let along = minus(b, a).map(|x| x * unit);
         let from_b = minus(p, b).map(|x| x * unit);
         let weight = if G::D == 2 {
@@ -86,7 +89,7 @@ impl Piece {
             dot(&along, &cross(&from_b, step))
         };
         let to_centres = [0, 1, 2].map(|axis| 2.0 * from_b[axis] + step[axis]);
-        Piece { along, square: dot(&along, &along), to_centres, weight }
+        Piece { along, square: dot(&along, &along), to_centres, weight, step: distance }
     }
 
     /// Adds it to the cells of a and b.
@@ -177,13 +180,14 @@ impl<G: Dimension> Voronoi<'_, G> {
                     continue;
                 }
                 let step = minus(&in_space::<G>(&self.centres[next]), &centre).map(|x| x * unit);
+                let distance = dot(&step, &step).sqrt();
                 let face = if G::D == 2 { [(k + 1) % 3, (k + 2) % 3, 0] } else { *face };
                 let n_edges = if G::D == 2 { 1 } else { 3 };
                 let places = face.map(|i| in_space::<G>(kernel.place(sites[i])));
                 for i in 0..n_edges {
                     let j = (i + 1) % 3;
                     let ends = [sites[face[i]], sites[face[j]]];
-                    let piece = Piece::new::<G>([&places[i], &places[j]], &centre, &step, unit);
+                    let piece = Piece::new::<G>([&places[i], &places[j]], &centre, (&step, distance), unit);
                     if piece.square < LEAST_SQUARE {
                         tell_cut(index, &ends);
                     }

@@ -16,7 +16,9 @@
 //!
 //! With h as in [`dual`](super::dual), P the perimeter and d the diameter of a facet, A is off by h P, as its corners
 //! are off by h; the centroid by h P d / A; a derivative, which is linear in the measure and the moment, by
-//! h P (|y − c| + d) / L.
+//! h P (|y − c| + d) / L. Where A ≤ 2 h P the quotient of moment and measure could be anywhere; such facets are put
+//! together from their corners, as those are that the box cuts, and the centroid is a mean of corners with weights that
+//! are not negative: off by d + h at most.
 
 use crate::delaunay::Dimension;
 use crate::error::Result;
@@ -52,6 +54,8 @@ struct Edge {
     first: CellId,
     is_cut: bool,
     weight: f64,
+    /// The sum of the lengths of its sides.
+    perimeter: f64,
     /// From the middle of the edge.
     moment: Vector,
 }
@@ -82,7 +86,7 @@ impl Edges {
             neighbours.list(lower, lower, &mut list, |w, cell| (w, cell))?;
             for &(w, first) in list.iter().filter(|&&(w, _)| wanted.has(lower) || wanted.has(w)) {
                 memory::push(&mut upper, w)?;
-                let edge = Edge { lower, first, is_cut: false, weight: 0.0, moment: [0.0; 3] };
+                let edge = Edge { lower, first, is_cut: false, weight: 0.0, perimeter: 0.0, moment: [0.0; 3] };
                 memory::push(&mut edges, edge)?;
             }
             offsets.push(upper.len() as u32);
@@ -101,15 +105,28 @@ impl Edges {
 }
 
 impl Edge {
+    /// Whether the facet may be narrower than corners are off: then the quotient of its moment and its measure may be
+    /// anywhere, and corners have to be put together.
+    #[inline(always)]
+    fn is_narrow<G: Dimension>(&self, clip: &Clip, [x, y]: &[Vector; 2]) -> bool {
+        let along = minus(y, x).map(|x| x * clip.unit);
+        G::D == 3 && self.weight <= 2.0 * NARROW * self.perimeter * length(&along)
+    }
+
     #[inline(always)]
     fn add<G: Dimension>(&mut self, piece: &Piece) {
         self.weight += piece.weight;
+        self.perimeter += piece.step;
         let weight = piece.weight / G::D as f64;
         for axis in 0..G::D {
             self.moment[axis] += weight * (piece.to_centres[axis] + piece.along[axis]);
         }
     }
 }
+
+/// What the area of a facet is to its perimeter, in sizes of the box, where it is narrow: twice what corners are off,
+/// and room for what the unit is less than the size.
+const NARROW: f64 = 4e-8;
 
 /// A facet: measure, centroid, derivatives.
 type Facet = (f64, Vector, [Vector; 2]);
@@ -165,7 +182,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// Rounded: with h as for [`voronoi_cells`](Self::voronoi_cells), P the perimeter of a facet (in the plane, 2), d
     /// its diameter, A its measure and L the length of its edge, a measure is off by at most h P, a centroid by
-    /// h P d / A, a derivative by h P / L times the sum of d and the distance from the vertex to the centroid.
+    /// h P d / A, or by d + h where A is less than 4 h P, a derivative by h P / L times the sum of d and the distance
+    /// from the vertex to the centroid.
     ///
     /// ```
     /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
@@ -229,7 +247,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         for (edge, &upper) in edges.iter().zip(&*upper) {
             let ends = [edge.lower, upper];
             let places = ends.map(|v| voronoi.place(v));
-            let (area, centroid, derivatives) = if edge.is_cut {
+            let (area, centroid, derivatives) = if edge.is_cut || edge.is_narrow::<G>(&clip, &places) {
                 let facet = voronoi.cut_one(&clip, ends, edge.first)?;
                 progress.advance(voronoi.ring.cells.len())?;
                 facet
