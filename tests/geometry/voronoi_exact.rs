@@ -82,7 +82,7 @@ fn check_cells<G: Exact>(
 ) {
     let context = |of: usize| format!("{of} of {places:?} in {clip:?}");
     let cells = t.voronoi_cells(clip, None, &mut |_| true).expect("room");
-    let facets = t.voronoi_facets_with_derivatives(clip, None, &mut |_| true).expect("room");
+    let facets = t.voronoi_derivatives(clip, None, &mut |_| true).expect("room");
     assert_eq!(facets.edges, t.edges().expect("room"));
     let reach = (0..G::D).map(|axis| clip[1][axis].abs().max(clip[0][axis].abs())).fold(0.0, f64::max);
     let (off, last_bits) = (share * most_off::<G>(clip), 1e-15 * reach);

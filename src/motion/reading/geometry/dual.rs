@@ -124,11 +124,6 @@ impl<'m> Wanted<'m> {
         Wanted(mask)
     }
 
-    /// Whether it may be for less than all.
-    pub(super) fn is_partial(self) -> bool {
-        self.0.is_some()
-    }
-
     #[inline(always)]
     pub(super) fn has(self, v: VertexId) -> bool {
         self.0.is_none_or(|mask| mask[v.index()] != 0)
@@ -232,7 +227,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         mask: Option<&[u8]>,
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<VoronoiCells<G::Point>> {
-        self.check_vertex_mask(mask)?;
+        mask.map_or(Ok(()), |mask| self.check_vertex_mask(mask.len()))?;
         if self.mesh.kernel.is_constrained() {
             return self.without_segments()?.voronoi_cells(clip, mask, monitor);
         }
@@ -273,12 +268,12 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Whether there is an entry for each id.
-    pub(crate) fn check_vertex_mask(&self, mask: Option<&[u8]>) -> Result<()> {
-        let (Some(mask), wanted) = (mask, self.id_count()) else { return Ok(()) };
-        if mask.len() == wanted {
+    pub(crate) fn check_vertex_mask(&self, given: usize) -> Result<()> {
+        let wanted = self.id_count();
+        if given == wanted {
             return Ok(());
         }
-        Err(Error::WrongCount { argument: "mask_count", given: mask.len(), wanted, coming: 0 })
+        Err(Error::WrongCount { argument: "mask_count", given, wanted, coming: 0 })
     }
 
     /// What sums by site say, by id.

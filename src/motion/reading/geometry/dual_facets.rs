@@ -69,38 +69,41 @@ struct Edges {
 }
 
 impl Edges {
-    /// Those of a triangulation with an end that is wanted.
-    fn of<G: Dimension>(t: &MovingTriangulation<G>, wanted: Wanted) -> Result<Self> {
+    fn of<G: Dimension>(t: &MovingTriangulation<G>) -> Result<Self> {
         let n_ids = t.id_count();
         let mut neighbours = Neighbours::new(t.cell_arrays()?, n_ids)?;
         let (mut offsets, mut upper, mut edges) = (Vec::new(), Vec::new(), Vec::new());
         memory::reserve_exact(&mut offsets, n_ids + 1)?;
-        if !wanted.is_partial() {
-            memory::reserve_exact(&mut upper, t.edge_count())?;
-            memory::reserve_exact(&mut edges, t.edge_count())?;
-        }
+        memory::reserve_exact(&mut upper, t.edge_count())?;
+        memory::reserve_exact(&mut edges, t.edge_count())?;
         let mut list = Vec::new();
         offsets.push(0);
         for lower in VertexId::range(0..n_ids) {
             neighbours.prefetch(lower.index() + 2);
             neighbours.list(lower, lower, &mut list, |w, cell| (w, cell))?;
-            for &(w, first) in list.iter().filter(|&&(w, _)| wanted.has(lower) || wanted.has(w)) {
-                memory::push(&mut upper, w)?;
-                let edge = Edge { lower, first, is_cut: false, weight: 0.0, perimeter: 0.0, moment: [0.0; 3] };
-                memory::push(&mut edges, edge)?;
+            for &(w, first) in &list {
+                upper.push(w);
+                edges.push(Edge {
+                    lower,
+                    first,
+                    is_cut: false,
+                    weight: 0.0,
+                    perimeter: 0.0,
+                    moment: [0.0; 3],
+                });
             }
             offsets.push(upper.len() as u32);
         }
         Ok(Edges { offsets, upper, edges })
     }
 
-    /// The edge between two vertices, if it is listed.
+    /// The edge between two vertices of a cell.
     #[inline(always)]
-    fn between(&mut self, a: VertexId, b: VertexId) -> Option<&mut Edge> {
+    fn between(&mut self, a: VertexId, b: VertexId) -> &mut Edge {
         let (lower, upper) = if a < b { (a, b) } else { (b, a) };
         let [from, to] = [0, 1].map(|k| self.offsets[lower.index() + k] as usize);
-        let at = self.upper[from..to].iter().position(|&w| w == upper)?;
-        Some(&mut self.edges[from + at])
+        let at = self.upper[from..to].iter().position(|&w| w == upper);
+        &mut self.edges[from + at.expect("all edges are listed")]
     }
 }
 
@@ -174,8 +177,8 @@ impl<G: Dimension> Voronoi<'_, G> {
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// The Voronoi facets of all edges within the box from `low` to `high`, or of those with an end of which `mask` has
-    /// an entry that is not 0: measures, centroids, and derivatives of the areas or volumes on their sides.
+    /// The Voronoi facets of all edges within the box from `low` to `high`: measures, centroids, and derivatives of the
+    /// areas or volumes on their sides. With a `mask`, NaN for edges that have no end of which the entry is not 0.
     ///
     /// The derivative of the volume of a cell by the position of its own vertex is minus the sum of those of its
     /// neighbours by that position.
@@ -190,7 +193,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
     /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
-    /// let facets = t.voronoi_facets_with_derivatives([&[-1.0, -1.0], &[2.0, 2.0]], None, &mut |_| true)?;
+    /// let facets = t.voronoi_derivatives([&[-1.0, -1.0], &[2.0, 2.0]], None, &mut |_| true)?;
     /// assert_eq!(facets.areas[0], 1.5); // between vertices 0 and 1: from y = -1 to 1/2
     /// assert_eq!(facets.centroids[0], [0.5, -0.25]);
     /// assert_eq!(facets.derivatives[0][0], [0.75, 0.375]); // by the position of vertex 1
@@ -199,19 +202,19 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// # Errors
     /// Those of [`voronoi_cells`](Self::voronoi_cells).
-    pub fn voronoi_facets_with_derivatives(
+    pub fn voronoi_derivatives(
         &self,
         clip: [&G::Point; 2],
         mask: Option<&[u8]>,
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<VoronoiFacets<G::Point>> {
-        self.check_vertex_mask(mask)?;
+        mask.map_or(Ok(()), |mask| self.check_vertex_mask(mask.len()))?;
         if self.mesh.kernel.is_constrained() {
-            return self.without_segments()?.voronoi_facets_with_derivatives(clip, mask, monitor);
+            return self.without_segments()?.voronoi_derivatives(clip, mask, monitor);
         }
         let (clip, wanted) = (checked::<G>(clip)?, Wanted::new(mask));
         let progress = &mut Progress::new(monitor, 2 * self.cell_count());
-        let mut edges = std::cell::RefCell::new(Edges::of(self, wanted)?);
+        let mut edges = std::cell::RefCell::new(Edges::of(self)?);
         let mut voronoi = Voronoi::new(self, Some(&clip))?;
         let id = |s| self.mesh.kernel.site(s).id;
         voronoi.for_pieces(
@@ -220,15 +223,13 @@ impl<G: Dimension> MovingTriangulation<G> {
             progress,
             #[inline(always)]
             |[a, b], piece| {
-                if let Some(edge) = edges.borrow_mut().between(id(a), id(b)) {
-                    edge.add::<G>(piece);
-                }
+                edges.borrow_mut().between(id(a), id(b)).add::<G>(piece);
             },
             |_, sites| {
                 let mut edges = edges.borrow_mut();
                 for (k, &a) in sites.iter().enumerate() {
                     for &b in &sites[..k] {
-                        edges.between(id(a), id(b)).into_iter().for_each(|edge| edge.is_cut = true);
+                        edges.between(id(a), id(b)).is_cut = true;
                     }
                 }
             },
@@ -247,7 +248,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         for (edge, &upper) in edges.iter().zip(&*upper) {
             let ends = [edge.lower, upper];
             let places = ends.map(|v| voronoi.place(v));
-            let (area, centroid, derivatives) = if edge.is_cut || edge.is_narrow::<G>(&clip, &places) {
+            let (area, centroid, derivatives) = if !ends.iter().any(|&v| wanted.has(v)) {
+                (f64::NAN, [f64::NAN; 3], [[f64::NAN; 3]; 2])
+            } else if edge.is_cut || edge.is_narrow::<G>(&clip, &places) {
                 let facet = voronoi.cut_one(&clip, ends, edge.first)?;
                 progress.advance(voronoi.ring.cells.len())?;
                 facet
