@@ -41,6 +41,23 @@ struct Hidden {
     std::size_t size() const noexcept { return vertices.size(); }
 };
 
+// What there is of Voronoi cells in a box, by vertex id: see deldrift_voronoi_cells. NaN where a mask has 0.
+struct VoronoiCells {
+    std::vector<double> volumes;
+    std::vector<double> areas;
+    // Rows of coordinates.
+    std::vector<double> centroids;
+};
+
+// Voronoi facets in a box, in the order of the edges: see deldrift_voronoi_derivatives. NaN where a mask has 0.
+struct VoronoiDerivatives {
+    std::vector<double> measures;
+    // Rows of coordinates.
+    std::vector<double> centroids;
+    // Two rows of coordinates for each edge.
+    std::vector<double> derivatives;
+};
+
 // Numbers for each vertex id, or for each cell, that are written along with a mesh: components for each.
 struct Field {
     std::string name;

@@ -46,7 +46,7 @@ from ._errors import (
     TooMany,
     WrongCount,
 )
-from ._geometry import Boundary
+from ._geometry import Boundary, VoronoiCells, VoronoiDerivatives
 from ._library import QualityReport, Report, version
 from ._mesh import Mesh
 from ._motion import Changes
@@ -98,6 +98,8 @@ __all__ = [
     "StagedVertex",
     "Step",
     "TooMany",
+    "VoronoiCells",
+    "VoronoiDerivatives",
     "WrongCount",
     "frombytes",
     "in_sphere",
