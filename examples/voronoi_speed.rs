@@ -39,7 +39,8 @@ fn speed<G: Dimension>(n: usize, share: f64) {
         let (view, _) = micros(n, || t.cells().map(|view| view.corners.len()).expect("room"));
         let clip = [&low, &high];
         let (cells, made) = micros(n, || t.voronoi_cells(clip, None, &mut |_| true).expect("room"));
-        let (inner, _) = micros(n_masked, || t.voronoi_cells(clip, Some(&mask), &mut |_| true).expect("room"));
+        let (inner, _) =
+            micros(n_masked, || t.voronoi_cells(clip, Some(&mask), &mut |_| true).expect("room"));
         let go = || t.voronoi_derivatives(clip, None, &mut |_| true).expect("room");
         let (facets, _) = micros(n, go);
         let (volumes, _) = micros(n, || t.voronoi_volumes(Some(clip)).expect("room"));

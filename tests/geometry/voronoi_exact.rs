@@ -74,12 +74,7 @@ fn check<G: Exact>(places: &[G::Point], clip: [&G::Point; 2], share: f64) {
 }
 
 /// Compares volumes, boundaries, centroids, facets and derivatives with those of exact cells.
-fn check_cells<G: Exact>(
-    t: &MovingTriangulation<G>,
-    places: &[G::Point],
-    clip: [&G::Point; 2],
-    share: f64,
-) {
+fn check_cells<G: Exact>(t: &MovingTriangulation<G>, places: &[G::Point], clip: [&G::Point; 2], share: f64) {
     let context = |of: usize| format!("{of} of {places:?} in {clip:?}");
     let cells = t.voronoi_cells(clip, None, &mut |_| true).expect("room");
     let facets = t.voronoi_derivatives(clip, None, &mut |_| true).expect("room");

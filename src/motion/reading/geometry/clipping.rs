@@ -9,18 +9,28 @@ use crate::predicates::Meeting;
 pub(super) type Vector = [f64; 3];
 
 /// A point, in the plane at height 0.
+// What follows is written out, as closures over arrays are function calls in hot loops.
+#[inline(always)]
 pub(super) fn in_space<G: Dimension>(p: &G::Point) -> Vector {
-    std::array::from_fn(|axis| if axis < G::D { p[axis] } else { 0.0 })
+    [p[0], p[1], if G::D == 3 { p[2] } else { 0.0 }]
 }
 
+#[inline(always)]
 pub(super) fn minus(p: &Vector, q: &Vector) -> Vector {
-    std::array::from_fn(|axis| p[axis] - q[axis])
+    [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
 }
 
+#[inline(always)]
+pub(super) fn times(p: &Vector, x: f64) -> Vector {
+    [p[0] * x, p[1] * x, p[2] * x]
+}
+
+#[inline(always)]
 pub(super) fn dot(p: &Vector, q: &Vector) -> f64 {
     p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
 }
 
+#[inline(always)]
 pub(super) fn cross(p: &Vector, q: &Vector) -> Vector {
     [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
 }

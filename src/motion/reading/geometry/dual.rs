@@ -36,7 +36,9 @@ use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, SiteId, VertexId};
 use crate::machine::memory;
-use crate::motion::reading::geometry::clipping::{Clip, Vector, cross, dot, in_space, length_by, minus};
+use crate::motion::reading::geometry::clipping::{
+    Clip, Vector, cross, dot, in_space, length_by, minus, times,
+};
 use crate::motion::reading::geometry::incidence::Neighbours;
 use crate::motion::reading::geometry::progress::Progress;
 use crate::motion::reading::geometry::sums::Sums;
@@ -79,16 +81,21 @@ const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
 impl Piece {
     #[inline(always)]
-    pub(super) fn new<G: Dimension>([a, b]: [&Vector; 2], p: &Vector, step: (&Vector, f64), unit: f64) -> Self {
+    pub(super) fn new<G: Dimension>(
+        [a, b]: [&Vector; 2],
+        p: &Vector,
+        step: (&Vector, f64),
+        unit: f64,
+    ) -> Self {
         let (step, distance) = step;
-        let along = minus(b, a).map(|x| x * unit);
-        let from_b = minus(p, b).map(|x| x * unit);
+        let along = times(&minus(b, a), unit);
+        let from_b = times(&minus(p, b), unit);
         let weight = if G::D == 2 {
             step[0] * along[1] - step[1] * along[0]
         } else {
             dot(&along, &cross(&from_b, step))
         };
-        let to_centres = [0, 1, 2].map(|axis| 2.0 * from_b[axis] + step[axis]);
+        let to_centres = [2.0 * from_b[0] + step[0], 2.0 * from_b[1] + step[1], 2.0 * from_b[2] + step[2]];
         Piece { along, square: dot(&along, &along), to_centres, weight, step: distance }
     }
 
@@ -97,11 +104,8 @@ impl Piece {
     pub(super) fn add_to_cells<G: Dimension>(&self, sums: &mut [Sums], [a, b]: [usize; 2]) {
         // Its share of the facet, as the weight has it, and centroids as seen from a and from b: of a triangle with the
         // end, or of a tetrahedron with the end and the middle.
-        let (facet, volume, share, from_a, from_b) = if G::D == 2 {
-            (1.0, 0.25, 1.0 / 3.0, 2.0, 0.0)
-        } else {
-            (0.5, 1.0 / 12.0, 0.25, 2.5, -0.5)
-        };
+        let (facet, volume, share, from_a, from_b) =
+            if G::D == 2 { (1.0, 0.25, 1.0 / 3.0, 2.0, 0.0) } else { (0.5, 1.0 / 12.0, 0.25, 2.5, -0.5) };
         let facet = facet * self.weight / self.square.sqrt();
         let volume = volume * self.weight;
         for (end, factor) in [(a, from_a), (b, from_b)] {
@@ -174,11 +178,12 @@ impl<G: Dimension> Voronoi<'_, G> {
                 if next < index || !fits || !self.fits(next) {
                     continue;
                 }
-                let step = minus(&in_space::<G>(&self.centres[next]), &centre).map(|x| x * unit);
+                let step = times(&minus(&in_space::<G>(&self.centres[next]), &centre), unit);
                 let distance = dot(&step, &step).sqrt();
                 let face = if G::D == 2 { [(k + 1) % 3, (k + 2) % 3, 0] } else { *face };
                 let n_edges = if G::D == 2 { 1 } else { 3 };
-                let places = face.map(|i| in_space::<G>(kernel.place(sites[i])));
+                let place = |i: usize| in_space::<G>(kernel.place(sites[face[i]]));
+                let places = [place(0), place(1), place(2)];
                 for i in 0..n_edges {
                     let j = (i + 1) % 3;
                     let ends = [sites[face[i]], sites[face[j]]];
@@ -287,7 +292,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         memory::lengthen(&mut centroids, n_ids, nowhere)?;
         for (v, s) in self.mesh.sites_of_ids().filter(|&(v, s)| s.is_some() && wanted.has(v)) {
             let site = s.map(|s| self.mesh.kernel.site(s)).filter(|site| site.id == v);
-            let (sums, at) = (s.filter(|_| site.is_some()).map_or(Sums::default(), |s| sums[s.index()]), site);
+            let (sums, at) =
+                (s.filter(|_| site.is_some()).map_or(Sums::default(), |s| sums[s.index()]), site);
             // What is left of negative parts by rounding may be negative.
             volumes[v.index()] = clip.measure_in(G::D, sums.volume).max(0.0);
             areas[v.index()] = clip.measure_in(G::D - 1, sums.facets + sums.wall).max(0.0);

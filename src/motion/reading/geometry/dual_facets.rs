@@ -24,7 +24,7 @@ use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
-use crate::motion::reading::geometry::clipping::{Clip, Vector, minus};
+use crate::motion::reading::geometry::clipping::{Clip, Vector, minus, times};
 use crate::motion::reading::geometry::dual::{Piece, Wanted, length};
 use crate::motion::reading::geometry::incidence::Neighbours;
 use crate::motion::reading::geometry::progress::Progress;
@@ -112,7 +112,7 @@ impl Edge {
     /// anywhere, and corners have to be put together.
     #[inline(always)]
     fn is_narrow<G: Dimension>(&self, clip: &Clip, [x, y]: &[Vector; 2]) -> bool {
-        let along = minus(y, x).map(|x| x * clip.unit);
+        let along = times(&minus(y, x), clip.unit);
         G::D == 3 && self.weight <= 2.0 * NARROW * self.perimeter * length(&along)
     }
 
@@ -137,7 +137,7 @@ type Facet = (f64, Vector, [Vector; 2]);
 impl<G: Dimension> Voronoi<'_, G> {
     /// The facet of an edge that is in the box as a whole, from its sums.
     fn whole(&self, clip: &Clip, edge: &Edge, [x, y]: [Vector; 2]) -> Facet {
-        let along = minus(&y, &x).map(|x| x * clip.unit);
+        let along = times(&minus(&y, &x), clip.unit);
         let length = length(&along);
         let factor = if G::D == 2 { 1.0 } else { 0.5 };
         let measure = (factor * edge.weight / length).max(0.0);

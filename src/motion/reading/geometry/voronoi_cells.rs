@@ -122,9 +122,16 @@ impl<G: Dimension> MovingTriangulation<G> {
         })?;
         let cut = VertexId::range(0..self.id_count()).filter(|v| is_cut[v.index()]);
         cut.clone().for_each(|v| volumes[v.index()] = 0.0);
-        voronoi.cut_cells(clip, neighbours, cut, |_| true, progress, |v, sums| {
-            volumes[v.index()] += clip.measure_in(G::D, sums.volume);
-        })?;
+        voronoi.cut_cells(
+            clip,
+            neighbours,
+            cut,
+            |_| true,
+            progress,
+            |v, sums| {
+                volumes[v.index()] += clip.measure_in(G::D, sums.volume);
+            },
+        )?;
         // Parts may be negative, and what is left of them by rounding.
         volumes.iter_mut().for_each(|volume| *volume = if *volume < 0.0 { 0.0 } else { *volume });
         Ok(())
