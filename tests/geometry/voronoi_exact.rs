@@ -104,8 +104,8 @@ fn check_cells<G: Exact>(t: &MovingTriangulation<G>, places: &[G::Point], clip: 
             && cells.volumes[of] > 0.0
         {
             let most = off * surface * diameter / volume + last_bits;
-            for axis in 0..G::D {
-                is_near(cells.centroids[of][axis], centroid[axis], most, "centroid", of);
+            for (axis, &wanted) in centroid.iter().enumerate().take(G::D) {
+                is_near(cells.centroids[of][axis], wanted, most, "centroid", of);
             }
         }
         for (k, edge) in facets.edges.iter().enumerate().filter(|(_, edge)| edge[0].index() == of) {

@@ -144,7 +144,7 @@ impl Clip {
     }
 
     /// The way from an offset from the corner of least coordinates to a face, in the box's unit.
-    pub(super) fn to_face(&self, face: Face, offset: &Vector) -> Vector {
+    pub(super) fn way_to(&self, face: Face, offset: &Vector) -> Vector {
         let to = if face.is_high { self.extent(face.axis) } else { 0.0 };
         let mut way = [0.0; 3];
         way[face.axis] = (to - offset[face.axis]) * self.unit;

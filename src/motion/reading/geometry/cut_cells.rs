@@ -86,9 +86,9 @@ impl BoxCorner {
     /// What is between it and a place in the box.
     pub(super) fn sums<G: Dimension>(&self, clip: &Clip, apex: &Vector) -> Sums {
         let mut way = [0.0; 3];
-        for axis in 0..G::D {
+        for (axis, way) in way.iter_mut().enumerate().take(G::D) {
             let face = Face { axis, is_high: self.highs >> axis & 1 == 1 };
-            way[axis] = clip.to_face(face, apex)[axis];
+            *way = clip.way_to(face, apex)[axis];
         }
         let area_but = |axis: usize| -> f64 {
             (0..G::D).filter(|&other| other != axis).map(|other| way[other].abs()).product()

@@ -435,7 +435,7 @@ impl CutFacet {
             let p = from_apex(k);
             if self.is_plane {
                 if let Side::On(face) = corner.sides[0] {
-                    let foot = clip.to_face(face, apex);
+                    let foot = clip.way_to(face, apex);
                     let along = 1 - face.axis;
                     let length = f64::from(self.normal[along]) * p[along];
                     sums.wall += length;
@@ -447,14 +447,14 @@ impl CutFacet {
             let first = from_apex(0);
             sums.add(dot(&first, &cross(&p, &q)) / 6.0, 0.25, [&first, &p, &q]);
             if let Side::On(face) = corner.sides[1] {
-                let foot = clip.to_face(face, apex);
+                let foot = clip.way_to(face, apex);
                 let doubled = f64::from(face.outward()) * cross(&q, &p)[face.axis];
                 sums.wall += 0.5 * doubled;
                 sums.add(foot[face.axis].abs() * doubled / 6.0, 0.25, [&foot, &p, &q]);
             }
             if let [Side::On(face), Side::On(next)] = corner.sides {
                 let along = 3 - face.axis - next.axis;
-                let [one, other] = [face, next].map(|face| clip.to_face(face, apex));
+                let [one, other] = [face, next].map(|face| clip.way_to(face, apex));
                 let heights = [one[face.axis].abs(), other[next.axis].abs()];
                 let length = f64::from(self.normal[along]) * p[along];
                 sums.wall += 0.5 * (heights[0] + heights[1]) * length;

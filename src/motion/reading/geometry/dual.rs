@@ -33,7 +33,7 @@
 
 use crate::complex::Corners;
 use crate::delaunay::Dimension;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::ids::{CellId, SiteId, VertexId};
 use crate::machine::memory;
 use crate::motion::reading::geometry::clipping::{
@@ -222,10 +222,10 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Cancelled`] if `monitor`, which is told the fraction done now and then, returns
-    /// `false`; [`Error::NotFinite`], [`Error::OutOfRange`] and
-    /// [`Error::InvalidValue`] for the box; [`Error::WrongCount`]
-    /// if the mask has not an entry for each id; [`Error::OutOfMemory`].
+    /// [`Cancelled`](crate::Error::Cancelled) if `monitor`, which is told the fraction done now and then, returns
+    /// `false`; [`NotFinite`](crate::Error::NotFinite), [`OutOfRange`](crate::Error::OutOfRange) and
+    /// [`InvalidValue`](crate::Error::InvalidValue) for the box; [`WrongCount`](crate::Error::WrongCount) if the mask has
+    /// not an entry for each id; [`OutOfMemory`](crate::Error::OutOfMemory).
     pub fn voronoi_cells(
         &self,
         clip: [&G::Point; 2],
@@ -270,15 +270,6 @@ impl<G: Dimension> MovingTriangulation<G> {
             )?;
         }
         self.cells_of_sums(&clip, wanted, &sums)
-    }
-
-    /// Whether there is an entry for each id.
-    pub(crate) fn check_vertex_mask(&self, given: usize) -> Result<()> {
-        let wanted = self.id_count();
-        if given == wanted {
-            return Ok(());
-        }
-        Err(Error::WrongCount { argument: "mask_count", given, wanted, coming: 0 })
     }
 
     /// What sums by site say, by id.
