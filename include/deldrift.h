@@ -189,6 +189,11 @@ enum
     DELDRIFT_AMBIGUOUS_SEED = 34,
     /// A vertex would pass a segment; deldrift_passings tells all that would.
     DELDRIFT_PASSES_SEGMENT = 35,
+    /// A timestamp is prepared, and the call is not one that may be made before deldrift_publish_timestamp or
+    /// deldrift_withdraw_timestamp; the message has the timestamp and the number of rounds.
+    DELDRIFT_PREPARED = 36,
+    /// No timestamp is prepared that could be published.
+    DELDRIFT_NOT_PREPARED = 37,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -862,6 +867,64 @@ deldrift_status deldrift_commit_positions(deldrift_triangulation *t,
                                           const double *positions,
                                           size_t count,
                                           deldrift_commit_report *report);
+
+/// The first phase of a commit: brings the triangulation to the staged moves, insertions, removals and segments, as
+/// deldrift_commit_timestamp does, so that every call that reads sees the prepared state. It is not a timestamp yet:
+/// deldrift_timestamp gives the last one. deldrift_publish_timestamp makes it the next one, in constant time;
+/// deldrift_withdraw_timestamp takes it back. A solver that rejects a step withdraws it; processes that have to agree
+/// publish or withdraw together.
+///
+/// Rounds: while a timestamp is prepared, more may be staged and prepared, any number of times: another round of the same
+/// timestamp, which begins where the last one has ended. A round that fails is taken back alone: the rounds before stay in
+/// force, and what was staged for it stays staged.
+///
+/// report: receives what this round has done; may be NULL. Its timestamp is the one that is prepared. deldrift_statistics
+/// counts rounds as they are made. Ends all views.
+///
+/// While a timestamp is prepared, these calls give DELDRIFT_PREPARED and do nothing: deldrift_commit_timestamp,
+/// deldrift_commit_positions, deldrift_insert_vertex, deldrift_insert_vertex_with_key, deldrift_remove_vertex, deldrift_relocate_vertex, deldrift_compact,
+/// deldrift_refine, deldrift_coarsen, deldrift_take_changes, deldrift_clone, deldrift_save and deldrift_save_file. All
+/// others may be made, those that stage or check what is staged included. Changes are of published states: between two
+/// calls of deldrift_take_changes, rounds count as commits once they are published. deldrift_cells
+/// gives a cell that was there before the index that it had, as after commits.
+///
+/// Passings are looked at round by round, each on the way from where the round before has left the vertices.
+///
+/// Memory: what the rounds have changed is kept until the timestamp is published or withdrawn; of a round that builds the
+/// triangulation anew, all that was before. If deldrift_cells is called, so is what it brings up to date: where most cells
+/// have changed, a copy of the arrays.
+///
+/// Cost: that of deldrift_commit_timestamp, and in later rounds a copy of where vertices were that the last one has moved.
+///
+/// Errors: those of deldrift_commit_timestamp, DELDRIFT_OUT_OF_MEMORY among them, except DELDRIFT_PREPARED. Not to be called at the same time as any other call
+/// on t.
+deldrift_status deldrift_prepare_timestamp(deldrift_triangulation *t,
+                                           deldrift_commit_report *report);
+
+/// The second phase of a commit: the state that deldrift_prepare_timestamp has prepared is the next timestamp. What has been
+/// staged since the last round stays so. Needs no memory. Ends all views.
+///
+/// Cost: constant, but where a commit would sort the cells for speed.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_PREPARED. Not to be called at the same time as
+/// any other call on t.
+deldrift_status deldrift_publish_timestamp(deldrift_triangulation *t);
+
+/// Takes back what deldrift_prepare_timestamp has prepared, all rounds: the triangulation is as it was at its last timestamp,
+/// with nothing staged. deldrift_save writes the bytes that it would have written then, after deldrift_discard_moves: positions,
+/// cells with their indices and the order of their corners, neighbours, hidden vertices, segments and statistics are those of
+/// that time, and deldrift_take_changes gives what it would have given. What has been staged is forgotten, for the rounds or
+/// since, and ids that were given for it are given again, those of segments included. Without a prepared timestamp nothing is
+/// done, and what is staged stays so.
+///
+/// What algorithms keep between commits may be computed again by the next one; cells that are new after that may have other
+/// indices than without the rounds. Needs no memory, and cannot be refused any. Ends all views.
+///
+/// Cost: in proportion to what the rounds have changed, and, if deldrift_cells has been called since, to what it has brought
+/// up to date.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT. Not to be called at the same time as any other call on t.
+deldrift_status deldrift_withdraw_timestamp(deldrift_triangulation *t);
 
 /// Moves one vertex at once: the triangulation is that of the new position when the call returns. The
 /// timestamp stays, and so do the moves staged for other vertices. Ends all views.
@@ -2381,6 +2444,98 @@ deldrift_status deldrift_voronoi_facets(const deldrift_triangulation *t,
                                         double *measures,
                                         size_t capacity,
                                         size_t *count);
+
+/// The Voronoi cells of all ids within a box, for programs that need them at every step: areas (2D) or volumes (3D),
+/// boundaries and centroids, in one pass over the cells, however many vertices have moved.
+///
+/// low, high: the corners of the box with the least and the greatest coordinates, 2 or 3 numbers each, read during the
+/// call only; vertices may be outside of it. mask, mask_count: a byte for each id, mask_count of them, which must be
+/// deldrift_id_count; only entries of vertices of which the byte is not 0 are computed and written, and the others are
+/// left as they are. NULL and 0 for all vertices. So a program that moves few vertices keeps its arrays by a mask of
+/// what has changed: the vertices that have moved, the corners of all cells around these (deldrift_cells_around), and
+/// the corners of the cells that deldrift_take_changes lists as created or removed.
+///
+/// volumes: a buffer with room for capacity numbers. areas: a buffer with room for as many; receives the length (2D) or area (3D) of the
+/// boundary of what there is of each cell in the box, with what it has of the faces of the box. centroids: a buffer with
+/// room for capacity rows of 2 or 3 coordinates. One that is NULL is not filled. count: receives the number of ids,
+/// which is also written when the buffers are too small. NULL for all three with capacity 0 asks for the count alone.
+///
+/// A removed vertex has NaN, a hidden one volume and area 0; a centroid is NaN where the volume is 0, and nothing else
+/// is. Vertices in one hyperplane, a single one included, have cells too, as in deldrift_voronoi_volumes. Segments are
+/// not looked at.
+///
+/// Rounded: let h be what deldrift_voronoi_volumes has for a box, S the area of a cell's surface (2D: the length of its
+/// boundary), V its volume, d its diameter, and Q the sum over its facets of the perimeter of each (2D: 2) times the
+/// distance of the two vertices. To first order in h, a volume is off by at most h times the greater of S and Q / 6 (2D:
+/// Q / 4), an area by h times the sum of the perimeters of the cell's faces (2D: 2 h for each), and a centroid, where
+/// that is less than d, by that error of the volume times d / V; it is in the box in any case. The volumes of all ids
+/// add up to that of the box but for rounding.
+///
+/// Takes memory for circumcentres, for sums, and, where cells are cut by the box, for the cells of each vertex while it
+/// runs. Cells that are cut take as long as in deldrift_voronoi_volumes. Calls the callbacks of the options.
+///
+/// Cost: n + m; for vertices in one hyperplane, that of deldrift_create. After a change the first call also does what
+/// the first deldrift_cells does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_INVALID_VALUE if high is not above low in every coordinate, DELDRIFT_WRONG_COUNT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+deldrift_status deldrift_voronoi_cells(const deldrift_triangulation *t,
+                                       const double *low,
+                                       const double *high,
+                                       const uint8_t *mask,
+                                       size_t mask_count,
+                                       double *volumes,
+                                       double *areas,
+                                       double *centroids,
+                                       size_t capacity,
+                                       size_t *count);
+
+/// The Voronoi facets of all edges within a box, in the order of deldrift_edges: lengths (2D) or areas (3D), centroids,
+/// and the derivatives of the areas or volumes on their sides by positions.
+///
+/// low, high, mask, mask_count: as deldrift_voronoi_cells has them; only entries of edges that have an end of which the
+/// byte is not 0 are computed and written.
+///
+/// measures: a buffer with room for capacity numbers. centroids: a buffer with room for capacity rows of 2 or 3
+/// coordinates. derivatives: a buffer with room for capacity rows of 4 or 6 numbers: for the edge of the vertices i and
+/// j the derivative of the area or volume of the cell of i by the position of j, and then that of the cell of j by the
+/// position of i. One that is NULL is not filled. count: receives the number of edges, which is also written when the
+/// buffers are too small. NULL for all three with capacity 0 asks for the count alone.
+///
+/// With the measure A and the centroid c of the facet, and the distance L of the vertices at x_i and x_j, the first
+/// derivative is A (x_j - c) / L, the second one A (x_i - c) / L. The derivative of the volume of a cell by the position
+/// of its own vertex is minus the sum, over the edges of that, of the derivatives of the other cells by that position,
+/// as all fill the box, which stays. Where cells come to touch or to part, derivatives are still continuous, as A is 0
+/// there.
+///
+/// A centroid is NaN where nothing of the facet is in the box or its measure is 0; measures and derivatives are 0 there.
+/// Derivatives are infinite where the quotient is beyond the range of numbers. There is one entry for each edge of the
+/// triangulation, as in deldrift_voronoi_facets, and none for vertices in one hyperplane.
+///
+/// Rounded: let h be what deldrift_voronoi_volumes has for a box, P the perimeter of a facet (2D: 2), d its diameter. A
+/// measure is off by at most h P, a centroid by h P d / A, and by d + h where A is less than 4 h P; a derivative by h P
+/// (d + |x - c|) / L, where x is the position by which it is.
+///
+/// Takes memory for circumcentres, edges and the cells of each vertex while it runs. What is cut by the box, and facets
+/// narrower than 1e-7 of it, take about a microsecond each. Calls the callbacks of the options.
+///
+/// Cost: n + m, and d log d for the d neighbours of each vertex. After a change the first call also does what the first
+/// deldrift_cells does.
+///
+/// Errors: those of deldrift_voronoi_cells: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+deldrift_status deldrift_voronoi_derivatives(const deldrift_triangulation *t,
+                                             const double *low,
+                                             const double *high,
+                                             const uint8_t *mask,
+                                             size_t mask_count,
+                                             double *measures,
+                                             double *centroids,
+                                             double *derivatives,
+                                             size_t capacity,
+                                             size_t *count);
 
 /// Interpolates values of the vertices at count positions.
 ///

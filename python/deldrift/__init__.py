@@ -41,18 +41,19 @@ from ._errors import (
     OutOfMemory,
     OutOfRange,
     PassingError,
+    Prepared,
     RemovedVertex,
     StagedVertex,
     TooMany,
     WrongCount,
 )
-from ._geometry import Boundary
+from ._geometry import Boundary, VoronoiCells, VoronoiDerivatives
 from ._library import QualityReport, Report, version
 from ._mesh import Mesh
 from ._motion import Changes
 from ._refining import MadeVertices, RefinedWeights
 from ._segments import Chains, Segments, Splits
-from ._step import Step
+from ._step import Step, Trial
 
 __version__ = "0.1.0"
 
@@ -89,6 +90,7 @@ __all__ = [
     "OutOfMemory",
     "OutOfRange",
     "PassingError",
+    "Prepared",
     "QualityReport",
     "RefinedWeights",
     "RemovedVertex",
@@ -98,6 +100,9 @@ __all__ = [
     "StagedVertex",
     "Step",
     "TooMany",
+    "Trial",
+    "VoronoiCells",
+    "VoronoiDerivatives",
     "WrongCount",
     "frombytes",
     "in_sphere",
