@@ -88,6 +88,8 @@ deldrift_status dm_build(deldrift_mpi *m, const double *points, const uint64_t *
     status = dm_rounds(m);
     if (status != DELDRIFT_OK) return status;
     dm_settle(m);
+    // What came while cells were not yet those of the whole is looked at in the first commit.
+    m->commits_since_drop = m->options.drop_interval - 1;
     m->was_spanning = m->report.is_spanning;
     return DELDRIFT_OK;
 }
