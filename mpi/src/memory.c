@@ -48,15 +48,17 @@ bool dm_reserve_list(dm_refusal *refusal, dm_list *list, size_t needed) {
     return dm_reserve(refusal, &list->at, &list->capacity, needed, sizeof *list->at);
 }
 
+// There is an array also for no ids, or own vertices: copies of nothing need an address.
 bool dm_reserve_ids(deldrift_mpi *m, size_t ids) {
-    if (ids > m->ids_room) {
+    if (ids > m->ids_room || !m->ids_room) {
         size_t room[6] = {m->ids_room, m->ids_room, m->ids_room, m->ids_room, m->ids_room, m->ids_room};
         dm_refusal *r = &m->refusal;
-        if (!dm_reserve(r, &m->id_of, &room[0], ids, sizeof *m->id_of) ||
-            !dm_reserve(r, &m->owner_of, &room[1], ids, sizeof *m->owner_of) ||
-            !dm_reserve(r, &m->is_own, &room[2], ids, 1) || !dm_reserve(r, &m->is_leaving, &room[3], ids, 1) ||
-            !dm_reserve(r, &m->where, &room[4], ids, m->dimension * sizeof *m->where) ||
-            !dm_reserve(r, &m->stamp, &room[5], ids, sizeof *m->stamp))
+        size_t needed = ids ? ids : 1;
+        if (!dm_reserve(r, &m->id_of, &room[0], needed, sizeof *m->id_of) ||
+            !dm_reserve(r, &m->owner_of, &room[1], needed, sizeof *m->owner_of) ||
+            !dm_reserve(r, &m->is_own, &room[2], needed, 1) || !dm_reserve(r, &m->is_leaving, &room[3], needed, 1) ||
+            !dm_reserve(r, &m->where, &room[4], needed, m->dimension * sizeof *m->where) ||
+            !dm_reserve(r, &m->stamp, &room[5], needed, sizeof *m->stamp))
             return false;
         m->ids_room = room[0];
     }
@@ -71,6 +73,7 @@ bool dm_reserve_ids(deldrift_mpi *m, size_t ids) {
 }
 
 bool dm_reserve_own(deldrift_mpi *m, size_t count) {
+    if (!count) count = 1;
     if (count > m->own_room) {
         size_t room[4] = {m->own_room, m->own_room, m->own_room, m->own_room};
         dm_refusal *r = &m->refusal;
