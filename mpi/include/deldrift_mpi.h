@@ -70,9 +70,9 @@ typedef struct deldrift_mpi_options {
     /// Greatest number of boxes in which a process tells the others where its vertices are, from 1 to 256; 0, the default, is 16.
     /// More boxes make a smaller halo where the places of own vertices are far from a box, and take longer to search.
     uint32_t boxes;
-    /// The halo is searched for vertices to be dropped at every so many commits; 0, the default, is 8. 1 keeps the halo least,
-    /// UINT32_MAX drops none.
-    uint32_t drop_interval;
+    /// A process looks which copies of its vertices others do not need any more, when so many in a hundred of those that there are
+    /// have been sent since it last did; 0, the default, is 5. UINT32_MAX has none dropped.
+    uint32_t drop_percent;
     /// Options of the triangulation of the process. NULL, the default, stands for those of deldrift_options_init with one
     /// thread, as each processor has a process of its own. Read during the call only. DELDRIFT_COINCIDENCE_REJECT refuses
     /// vertices at the same place, also where these are of several processes.

@@ -46,7 +46,7 @@ class DeldriftMpiError(RuntimeError):
 class Options(ctypes.Structure):
     """deldrift_mpi_options."""
 
-    _fields_ = [("struct_size", c_size_t), ("boxes", c_uint32), ("drop_interval", c_uint32), ("local", c_void_p)]
+    _fields_ = [("struct_size", c_size_t), ("boxes", c_uint32), ("drop_percent", c_uint32), ("local", c_void_p)]
 
 
 class Report(ctypes.Structure):
@@ -124,12 +124,12 @@ class Delaunay:
         The vertices that this process owns; where there are none, an array of shape (0, 2) or (0, 3).
     ids : (n,) array of uint64, optional
         A global id for each, each once in all processes. By default 0, 1, ... through the processes. All give ids, or none.
-    boxes, drop_interval : int, optional
+    boxes, drop_percent : int, optional
         As in deldrift_mpi_options.
     """
 
     def __init__(
-        self, comm: MPI.Intracomm, points: Any, ids: Any = None, *, boxes: int = 0, drop_interval: int = 0
+        self, comm: MPI.Intracomm, points: Any, ids: Any = None, *, boxes: int = 0, drop_percent: int = 0
     ) -> None:
         self._handle = c_void_p()
         # What is wrong with the shape of one is told to all: the dimension 0 is refused.
@@ -138,7 +138,7 @@ class Delaunay:
         ids = None if ids is None else np.ascontiguousarray(ids, dtype=np.uint64)
         if ids is not None and ids.shape != points.shape[:1]:
             self.dimension = 0
-        options = Options(ctypes.sizeof(Options), boxes, drop_interval, None)
+        options = Options(ctypes.sizeof(Options), boxes, drop_percent, None)
         handle = _Comm.from_address(MPI._addressof(comm))
         _check(
             _library.deldrift_mpi_create(

@@ -6,7 +6,7 @@
 
 // Boxes are widened by so many of the largest displacements in the last commit, so that they need not be told anew at
 // each, but by no more than this share of the spacing of vertices, as a wider box makes a larger halo.
-static const double COMMITS_AHEAD = 8, MOST_ROOM = 0.05;
+static const double COMMITS_AHEAD = 4, MOST_ROOM = 0.02;
 
 bool dm_is_empty_box(const dm_box *box) {
     return box->low[0] > box->high[0];

@@ -189,12 +189,17 @@ static bool stage_moves(deldrift_mpi *m) {
     return dm_took(&m->refusal, deldrift_move_vertices(m->t, m->moved, m->coordinates, m->moved_count));
 }
 
+// Each process decides for its own vertices: the exchange tells who drops.
+static bool is_time_to_drop(const deldrift_mpi *m) {
+    uint64_t copies = 0;
+    for (size_t p = 0; p < m->peer_count; p++) copies += m->peers[p].sent.count;
+    return m->options.drop_percent < UINT32_MAX && m->sent_since_drop * 100 > copies * m->options.drop_percent;
+}
+
 // From what all have agreed to do to what all have, or none.
 static deldrift_status advance(deldrift_mpi *m, const double *positions, bool has_new_boxes) {
-    if (++m->commits_since_drop >= m->options.drop_interval) {
-        m->commits_since_drop = 0;
-        dm_find_drops(m);
-    }
+    m->has_dropped = is_time_to_drop(m);
+    if (m->has_dropped) dm_find_drops(m);
     m->moved_count = 0;
     take_positions(m, positions);
     if (has_new_boxes) share_new_boxes(m);

@@ -4,7 +4,7 @@
 
 #include "internal.h"
 
-enum { DEFAULT_BOXES = 16, DEFAULT_DROP_INTERVAL = 8 };
+enum { DEFAULT_BOXES = 16, DEFAULT_DROP_PERCENT = 5 };
 
 // What the program says of options, with defaults in place. False if it has no meaning.
 static bool read_options(dm_refusal *refusal, const deldrift_mpi_options *given, deldrift_mpi_options *options,
@@ -31,7 +31,7 @@ static bool read_options(dm_refusal *refusal, const deldrift_mpi_options *given,
     }
     options->local = NULL;
     if (!options->boxes) options->boxes = DEFAULT_BOXES;
-    if (!options->drop_interval) options->drop_interval = DEFAULT_DROP_INTERVAL;
+    if (!options->drop_percent) options->drop_percent = DEFAULT_DROP_PERCENT;
     if (options->boxes > DM_MAX_BOXES) {
         dm_refuse(refusal, DELDRIFT_INVALID_OPTIONS, "boxes is %u, above %d", options->boxes, DM_MAX_BOXES);
         options->boxes = DM_MAX_BOXES;
@@ -88,8 +88,6 @@ deldrift_status dm_build(deldrift_mpi *m, const double *points, const uint64_t *
     status = dm_rounds(m);
     if (status != DELDRIFT_OK) return status;
     dm_settle(m);
-    // What came while cells were not yet those of the whole is looked at in the first commit.
-    m->commits_since_drop = m->options.drop_interval - 1;
     m->was_spanning = m->report.is_spanning;
     return DELDRIFT_OK;
 }

@@ -89,7 +89,8 @@ struct deldrift_mpi {
     // Vertices that have moved, with those of the halo; room for all ids.
     uint32_t *moved;
     size_t moved_count, moved_room;
-    uint64_t commits_since_drop;
+    uint64_t sent_since_drop;
+    bool has_dropped; // in the commit that runs
     uint64_t was_spanning;
 
     // Own vertices in the order of their list: local ids, and the box that each is in.

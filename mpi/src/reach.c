@@ -7,7 +7,7 @@
 
 // A copy is dropped only where it would not be sent if the boxes were wider by this share of the spacing of vertices, so that it
 // is not soon sent again.
-static const double DROP_MARGIN = 0.25;
+static const double DROP_MARGIN = 0.1;
 
 // Processes are asked about in groups of this number, and groups of groups, as most are far.
 #ifdef DELDRIFT_MPI_TESTING

@@ -79,6 +79,8 @@ static size_t halo_of(const deldrift_mpi *m) {
 
 void dm_settle(deldrift_mpi *m) {
     dm_publish(m);
+    m->sent_since_drop = (m->has_dropped ? 0 : m->sent_since_drop) + m->report.sent;
+    m->has_dropped = false;
     for (size_t k = 0; k < m->undo_count; k++) m->is_leaving[m->undo[k].vertex] = 0;
     m->undo_count = 0;
     dm_settle_peers(m);
@@ -107,7 +109,7 @@ void dm_restore(deldrift_mpi *m) {
         m->is_own[undo.vertex] = undo.owner == m->rank;
     }
     dm_restore_peers(m);
-    m->has_next_boxes = false;
+    m->has_next_boxes = m->has_dropped = false;
     memset(m->is_leaving, 0, m->ids);
     // There is room, as there was for more ids.
     deldrift_copy_positions(m->t, m->where, m->ids_room, &count);

@@ -157,7 +157,7 @@ static void run(long number, int steps, history *totals) {
     deldrift_mpi_options options;
     deldrift_mpi_options_init(&options);
     options.boxes = 1 + (uint32_t)(random_bits(&h.common) % 8);
-    options.drop_interval = 1 + (uint32_t)(random_bits(&h.common) % 3);
+    options.drop_percent = (uint32_t)(random_bits(&h.common) % 3);
     OK(deldrift_mpi_create(MPI_COMM_WORLD, h.dimension, p.own, p.own_ids, p.own_count, &options, &h.m));
     free_points(&p);
     if (!h.m) return;
