@@ -54,6 +54,10 @@ if(DELDRIFT_MPI)
   string(JOIN "\n" CPACK_COMPONENT_DELDRIFT_MPI_DESCRIPTION
     "One triangulation of vertices that are spread over the processes of an"
     "MPI program.")
+  # Where the library of the other package is that this one is linked with: it is not installed while packages are made.
+  file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/debian/libraries")
+  file(CREATE_LINK "${stripped}/libdeldrift.so" "${PROJECT_BINARY_DIR}/debian/libraries/${DELDRIFT_SONAME}" SYMBOLIC)
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/debian/libraries")
   file(WRITE "${PROJECT_BINARY_DIR}/debian/mpi/shlibs"
     "libdeldrift_mpi ${DELDRIFT_INTERFACE} libdeldrift-mpi-dev (>= ${PROJECT_VERSION})\n")
   file(WRITE "${PROJECT_BINARY_DIR}/debian/mpi/triggers" "activate-noawait ldconfig\n")
