@@ -7,6 +7,7 @@
 #ifdef DELDRIFT_MPI_TESTING
 int deldrift_mpi_fault = DM_FAULT_NONE;
 long deldrift_mpi_allocations_left = -1;
+bool deldrift_mpi_is_preparing = false;
 
 static void *reallocate(void *old, size_t bytes) {
     if (deldrift_mpi_allocations_left == 0) return NULL;

@@ -2,7 +2,9 @@
 #include "internal.h"
 
 bool dm_prepare(deldrift_mpi *m) {
+    DM_SET_PREPARING(true);
     deldrift_status status = deldrift_prepare_timestamp(m->t, NULL);
+    DM_SET_PREPARING(false);
     if (status == DELDRIFT_OK) m->is_prepared = true;
     return dm_took(&m->refusal, status);
 }

@@ -48,6 +48,72 @@ static void plant(void) {
     }
 }
 
+// The system's allocator, which is asked while a timestamp is prepared: request `first_refused` and all later ones are refused.
+static long requests, first_refused = -1;
+
+void *__libc_malloc(size_t bytes);
+void *__libc_calloc(size_t count, size_t bytes);
+void *__libc_realloc(void *block, size_t bytes);
+void *__libc_memalign(size_t alignment, size_t bytes);
+
+static bool is_refused(void) {
+    return deldrift_mpi_is_preparing && first_refused >= 0 && requests++ >= first_refused;
+}
+
+void *malloc(size_t bytes) {
+    return is_refused() ? NULL : __libc_malloc(bytes);
+}
+
+void *calloc(size_t count, size_t bytes) {
+    return is_refused() ? NULL : __libc_calloc(count, bytes);
+}
+
+void *realloc(void *block, size_t bytes) {
+    return is_refused() ? NULL : __libc_realloc(block, bytes);
+}
+
+int posix_memalign(void **block, size_t alignment, size_t bytes) {
+    void *made = is_refused() ? NULL : __libc_memalign(alignment, bytes);
+    if (made) *block = made;
+    return made ? 0 : 12; // ENOMEM
+}
+
+void *aligned_alloc(size_t alignment, size_t bytes) {
+    return is_refused() ? NULL : __libc_memalign(alignment, bytes);
+}
+
+// One process is refused memory while it prepares, in the first round or a later one, which then all take back.
+static void refuse_memory_of_triangulation(uint32_t d, int who, size_t *refused) {
+    point_set p = make_points(d, RANDOM, SLABS, 240, 3 + d);
+    uint64_t state = 17 + (uint64_t)rank;
+    deldrift_mpi *m = NULL;
+    OK(deldrift_mpi_create(MPI_COMM_WORLD, d, p.own, p.own_ids, p.own_count, NULL, &m));
+    double *far = malloc((p.own_count + 1) * d * sizeof *far);
+    for (size_t i = 0; i < p.own_count * d; i++) far[i] = random_number(&state);
+    bool is_done = false;
+    for (long k = 0; !is_done && k < 100000; k += 1 + k / 4) {
+        uint64_t before, after;
+        OK(deldrift_mpi_timestamp(m, &before));
+        requests = 0;
+        first_refused = rank == who ? k : -1;
+        deldrift_status status = deldrift_mpi_commit(m, far, p.own_count, NULL);
+        first_refused = -1;
+        OK(deldrift_mpi_timestamp(m, &after));
+        is_done = status == DELDRIFT_OK;
+        CHECK(is_done ? after == before + 1
+                      : status == DELDRIFT_OUT_OF_MEMORY && after == before && deldrift_mpi_refusing_process() == who);
+        *refused += !is_done;
+        is_serial(m, d, "after memory was refused while preparing");
+    }
+    CHECK(is_done);
+    // Back, as if nothing had been refused.
+    OK(deldrift_mpi_commit(m, p.own, p.own_count, NULL));
+    is_serial(m, d, "back from where memory was refused");
+    free(far);
+    deldrift_mpi_destroy(m);
+    free_points(&p);
+}
+
 // One process is refused memory at its first, second, third, ... request in a commit with edits, until it gets all it asks for.
 static void refuse_memory(uint32_t d, int who, size_t *refused) {
     point_set p = make_points(d, RANDOM, SLABS, 240, 3 + d);
@@ -119,13 +185,16 @@ int main(int argc, char **argv) {
     MPI_Init(&argc, &argv);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &size);
-    size_t refused = 0;
+    size_t refused = 0, refused_within = 0;
     if (size > 1) plant();
     for (uint32_t d = 2; d <= 3; d++) {
         refuse_memory(d, size - 1, &refused);
+        refuse_memory_of_triangulation(d, size / 2, &refused_within);
         refuse_coincidence(d);
     }
-    if (rank == 0) printf("faults, P = %d: memory refused %zu times, %ld failures\n", size, refused, failures);
+    if (rank == 0)
+        printf("faults, P = %d: memory refused %zu times, and %zu times while preparing, %ld failures\n", size, refused,
+               refused_within, failures);
     MPI_Finalize();
     return failures ? 1 : 0;
 }
