@@ -107,6 +107,27 @@ typedef struct deldrift_mpi_report {
     uint64_t reserved[5];
 } deldrift_mpi_report;
 
+/// Own cells that have come and gone since the program last took changes: lists that belong to the handle, valid until the next
+/// call of deldrift_mpi_take_changes or a migration. A cell is its set of global ids: one that was own before and is own now is in
+/// neither list, whatever has happened in between.
+typedef struct deldrift_mpi_changes {
+    /// Number of own cells that there were not.
+    size_t created_count;
+    /// created_count rows of 3 (2D) or 4 (3D) global ids, positively oriented.
+    const uint64_t *created;
+    /// Their indices in the triangulation of the process, as it is.
+    const uint32_t *created_cells;
+    /// Number of own cells that there are not any more.
+    size_t removed_count;
+    /// removed_count rows of 3 (2D) or 4 (3D) global ids, in any order.
+    const uint64_t *removed;
+    /// 1 if all own cells are listed as created, and none as removed: by the first call, and the first one after a
+    /// migration, or after memory was refused.
+    size_t is_anew;
+    /// Zero; later versions may tell more.
+    size_t reserved[3];
+} deldrift_mpi_changes;
+
 /// Creates the triangulation of the vertices of all processes, at timestamp 0. Collective.
 ///
 /// comm: a communicator, of which a copy is used; an intercommunicator is not legal. dimension: 2 or 3, the same on all.
@@ -226,6 +247,15 @@ deldrift_status deldrift_mpi_cells(const deldrift_mpi *m, uint64_t *ids, uint32_
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_mpi_hull_facets(const deldrift_mpi *m, uint64_t *ids, uint32_t *cells, uint8_t *corners, size_t capacity,
                                          size_t *count);
+
+/// The own cells that have come and gone since this was last called, to *changes. It concerns the calling process alone. A
+/// program that never calls it pays nothing.
+///
+/// Cost: what has changed in the triangulation of the process, its halo included, and the stars of vertices that have an id which
+/// was another one's; of a list of all, the cells.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_OUT_OF_MEMORY; then the next list is of all own cells.
+deldrift_status deldrift_mpi_take_changes(deldrift_mpi *m, deldrift_mpi_changes *changes);
 
 /// Brings values of vertices from their owners to all copies. Collective, but messages go between neighbours only.
 ///

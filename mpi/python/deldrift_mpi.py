@@ -61,6 +61,20 @@ class Report(ctypes.Structure):
     ] + [("_reserved", c_uint64 * 5)]
 
 
+class Changes(ctypes.Structure):
+    """deldrift_mpi_changes."""
+
+    _fields_ = [
+        ("created_count", c_size_t),
+        ("created", c_void_p),
+        ("created_cells", c_void_p),
+        ("removed_count", c_size_t),
+        ("removed", c_void_p),
+        ("is_anew", c_size_t),
+        ("_reserved", c_size_t * 3),
+    ]
+
+
 def _load() -> ctypes.CDLL:
     library = ctypes.CDLL(os.environ.get("DELDRIFT_MPI_LIBRARY", "libdeldrift_mpi.so.0.1"))
     pointer, size, count = c_void_p, c_size_t, POINTER(c_size_t)
@@ -76,6 +90,7 @@ def _load() -> ctypes.CDLL:
         "owners": [pointer, pointer, size, count],
         "cells": [pointer, pointer, pointer, size, count],
         "hull_facets": [pointer, pointer, pointer, pointer, size, count],
+        "take_changes": [pointer, POINTER(Changes)],
         "exchange": [pointer, pointer, size, size],
         "partition": [pointer, pointer, size, pointer],
         "migrate": [pointer, pointer, size, pointer, size, POINTER(c_void_p), POINTER(Report)],
@@ -265,6 +280,22 @@ class Delaunay:
             _library.deldrift_mpi_hull_facets(self._handle, _address(rows), None, None, len(rows), byref(count)), False
         )
         return rows
+
+    def take_changes(self) -> tuple[np.ndarray, np.ndarray, bool]:
+        """The own cells that have come and gone since this was last called, as rows of global ids.
+
+        The third is True if all own cells are listed as created, and none as removed: at first, and after a migration.
+        """
+        changes = Changes()
+        _check(_library.deldrift_mpi_take_changes(self._handle, byref(changes)), False)
+
+        def rows(address: int | None, count: int) -> np.ndarray:
+            shape = (count, self.dimension + 1)
+            text = ctypes.string_at(address, 8 * count * shape[1]) if count else b""
+            return np.frombuffer(text, np.uint64).reshape(shape).copy()
+
+        created, removed = rows(changes.created, changes.created_count), rows(changes.removed, changes.removed_count)
+        return created, removed, bool(changes.is_anew)
 
     def stage_insertions(self, points: Any, ids: Any) -> None:
         """Stages vertices of new global ids, which the next commit inserts behind the own ones."""

@@ -57,6 +57,7 @@ typedef struct {
     uint32_t vertex;
     int32_t owner;
     uint64_t id;
+    size_t order; // among those since changes were last taken
 } dm_undo;
 
 // The first thing that this process refused in the collective call that runs.
@@ -123,6 +124,15 @@ struct deldrift_mpi {
 
     dm_undo *undo;
     size_t undo_count, undo_room;
+
+    // Changes: whether they have been taken, what ids stood for then, and the lists that were given last.
+    bool has_taken;
+    dm_undo *rebound;
+    size_t rebound_count, rebound_room;
+    deldrift_mpi_changes changes;
+    uint64_t *created, *removed;
+    uint32_t *created_cells;
+    size_t created_room, removed_room, created_cell_room;
 
     // Scratch room.
     double *low, *high; // boxes that are asked about
@@ -232,6 +242,10 @@ void dm_unset_vertex(deldrift_mpi *m, uint32_t vertex);
 // What the triangulation and the lists say becomes, or does not become, the timestamp in force.
 void dm_settle(deldrift_mpi *m);
 void dm_restore(deldrift_mpi *m);
+
+// changes.c
+// What the ids that have been given or taken away in a commit stood for.
+void dm_note_rebound(deldrift_mpi *m);
 
 // create.c
 // The triangulation of own vertices, for the first time: `points`, with `ids`. Collective.

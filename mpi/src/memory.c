@@ -99,6 +99,7 @@ void dm_free(deldrift_mpi *m) {
                       m->undo,   m->low,         m->high,        m->box_ranks,   m->offsets,
                       m->found,  m->vertices,    m->coordinates, m->numbers,     m->outgoing,
                       m->incoming,               m->chunks,      m->requests,    m->chunk,
-                      m->bases,  m->migrated,    m->moved,      m->nodes};
+                      m->bases,  m->migrated,    m->moved,      m->nodes,
+                      m->rebound, m->created,    m->removed,     m->created_cells};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) free(arrays[i]);
 }

@@ -14,7 +14,7 @@ bool dm_insert(deldrift_mpi *m, const double *positions, const uint64_t *ids, si
 }
 
 static void note(deldrift_mpi *m, uint32_t vertex) {
-    m->undo[m->undo_count++] = (dm_undo){vertex, m->owner_of[vertex], m->id_of[vertex]};
+    m->undo[m->undo_count++] = (dm_undo){vertex, m->owner_of[vertex], m->id_of[vertex], 0};
 }
 
 void dm_set_vertex(deldrift_mpi *m, uint32_t vertex, int32_t owner, uint64_t id, const double *position) {
@@ -82,6 +82,7 @@ void dm_settle(deldrift_mpi *m) {
     m->sent_since_drop = (m->has_dropped ? 0 : m->sent_since_drop) + m->report.sent;
     m->has_dropped = false;
     for (size_t k = 0; k < m->undo_count; k++) m->is_leaving[m->undo[k].vertex] = 0;
+    dm_note_rebound(m);
     m->undo_count = 0;
     dm_settle_peers(m);
     memcpy(m->own, m->next_own, m->next_count * sizeof *m->own);

@@ -125,6 +125,14 @@ static void wrong_calls_of_one_process(deldrift_mpi *m) {
     CHECK(deldrift_mpi_cells(m, NULL, &cell, 0, &count) == (count ? DELDRIFT_BUFFER_TOO_SMALL : DELDRIFT_OK));
     CHECK(deldrift_mpi_hull_facets(m, NULL, &cell, NULL, 0, &count) == (count ? DELDRIFT_BUFFER_TOO_SMALL : DELDRIFT_OK));
     const deldrift_triangulation *t;
+    CHECK(deldrift_mpi_take_changes(m, NULL) == DELDRIFT_NULL_ARGUMENT);
+    deldrift_mpi_changes changes;
+    CHECK(deldrift_mpi_take_changes(NULL, &changes) == DELDRIFT_NULL_ARGUMENT);
+    OK(deldrift_mpi_cells(m, NULL, NULL, 0, &count));
+    OK(deldrift_mpi_take_changes(m, &changes));
+    CHECK(changes.is_anew && changes.created_count == count && !changes.removed_count);
+    OK(deldrift_mpi_take_changes(m, &changes));
+    CHECK(!changes.is_anew && !changes.created_count && !changes.removed_count);
     CHECK(deldrift_mpi_count(m, NULL) == DELDRIFT_NULL_ARGUMENT);
     CHECK(deldrift_mpi_local(m, NULL) == DELDRIFT_NULL_ARGUMENT);
     CHECK(deldrift_mpi_timestamp(m, NULL) == DELDRIFT_NULL_ARGUMENT);

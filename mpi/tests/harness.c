@@ -139,6 +139,11 @@ void free_points(point_set *p) {
     free(p->own_ids);
 }
 
+static int compare_numbers(const void *first, const void *second) {
+    uint64_t a = *(const uint64_t *)first, b = *(const uint64_t *)second;
+    return a < b ? -1 : a > b;
+}
+
 static uint32_t row_length;
 
 static int compare_rows(const void *first, const void *second) {
@@ -166,6 +171,12 @@ static void normalise(uint64_t *row, uint32_t length) {
 
 static void sort_rows(uint64_t *rows, size_t count, uint32_t length) {
     for (size_t i = 0; i < count; i++) normalise(rows + i * length, length);
+    row_length = length;
+    qsort(rows, count, length * sizeof *rows, compare_rows);
+}
+
+void sort_sets(uint64_t *rows, size_t count, uint32_t length) {
+    for (size_t i = 0; i < count; i++) qsort(rows + i * length, length, sizeof *rows, compare_numbers);
     row_length = length;
     qsort(rows, count, length * sizeof *rows, compare_rows);
 }
@@ -217,11 +228,6 @@ static table serial_facets(const deldrift_triangulation *t, const uint64_t *ids,
     for (size_t i = 0; i < count * d; i++) rows.rows[i] = ids[facets[i]];
     free(facets);
     return rows;
-}
-
-static int compare_numbers(const void *first, const void *second) {
-    uint64_t a = *(const uint64_t *)first, b = *(const uint64_t *)second;
-    return a < b ? -1 : a > b;
 }
 
 // The rows with an own id.

@@ -42,6 +42,9 @@ void free_points(point_set *p);
 // Own positions and ids again, from those of all.
 void collect_own(point_set *p);
 
+// Sorts rows, and the ids in each.
+void sort_sets(uint64_t *rows, size_t count, uint32_t length);
+
 // Whether the union of own cells is exactly the triangulation of all vertices, each cell owned once; whether this process has
 // exactly the cells with an own vertex; whether hull facets are those of the whole. What all own is gathered: no argument but m.
 // Collective; the answer is the same on all.
