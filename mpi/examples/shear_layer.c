@@ -1,5 +1,5 @@
-// Gas in the plane on a mesh that moves with it, on several processes: the Euler equations on Voronoi cells. A disc of denser gas
-// turns within gas at rest; the layer of shear around it rolls up. Walls are around all.
+// Gas in the plane on a mesh that moves with it, on several processes: the Euler equations on Voronoi cells. A disc of
+// denser gas turns within gas at rest; the layer of shear around it rolls up. Walls are around all.
 //     mpiexec -n 4 shear_layer [VERTICES [END [PICTURE.svg]]]
 // Mass and energy are kept to rounding, and what is printed is the same on any number of processes.
 #include <deldrift_mpi.h>
@@ -13,8 +13,8 @@ static const double LOW[2] = {0, 0}, HIGH[2] = {1, 1};
 
 enum { DENSITY, X_VELOCITY, Y_VELOCITY, PRESSURE, X_MESH, Y_MESH, STATE };
 
-// What a process has: of own vertices, in the order of their list, positions and what is in their cells (mass, momentum, energy); by
-// id of its triangulation the state that follows, of own vertices and copies.
+// What a process has: of own vertices, in the order of their list, positions and what is in their cells (mass,
+// momentum, energy); by id of its triangulation the state that follows, of own vertices and copies.
 typedef struct {
     deldrift_mpi *m;
     const deldrift_triangulation *t;
@@ -61,12 +61,14 @@ static void read_mesh(gas *g) {
     memset(g->is_own, 0, g->ids);
     for (size_t i = 0; i < g->count; i++) g->is_own[g->vertices[i]] = 1;
     if (g->ids)
-        READ(deldrift_voronoi_cells(g->t, LOW, HIGH, g->is_own, g->ids, g->volumes, NULL, g->centroids, g->ids, &g->ids));
+        READ(deldrift_voronoi_cells(g->t, LOW, HIGH, g->is_own, g->ids, g->volumes, NULL, g->centroids, g->ids,
+                                    &g->ids));
     g->points = resized(g->points, g->count, 2 * sizeof(double));
     for (size_t i = 0; i < g->count; i++) memcpy(g->points + 2 * i, g->places + 2 * g->vertices[i], 2 * sizeof(double));
 }
 
-// Density, velocity and pressure from what is kept, and how the mesh moves: with the gas, and towards the middles of cells.
+// Density, velocity and pressure from what is kept, and how the mesh moves: with the gas, and towards the middles of
+// cells.
 static double find_states(gas *g) {
     double step = 1, all;
     for (size_t i = 0; i < g->count; i++) {
@@ -85,8 +87,9 @@ static double find_states(gas *g) {
     return all;
 }
 
+// Conserved quantities per area, their flux, and the velocity along the normal.
 typedef struct {
-    double u[4], f[4], normal, pressure, sound; // conserved quantities per area, their flux, velocity along the normal
+    double u[4], f[4], normal, pressure, sound;
 } side;
 
 static side side_of(const double *s, const double *n) {
@@ -134,7 +137,8 @@ static void find_fluxes(gas *g) {
         if (!(g->is_own[a] || g->is_own[b]) || !(lengths[e] > 0)) continue;
         // The vertex of lower id is on the left, whichever process asks.
         if (g->keys[a] > g->keys[b]) a = edges[2 * e + 1], b = edges[2 * e];
-        const double *l = g->states + STATE * a, *r = g->states + STATE * b, *p = g->places + 2 * a, *q = g->places + 2 * b;
+        const double *l = g->states + STATE * a, *r = g->states + STATE * b, *p = g->places + 2 * a,
+                     *q = g->places + 2 * b;
         double distance = hypot(q[0] - p[0], q[1] - p[1]), n[2] = {(q[0] - p[0]) / distance, (q[1] - p[1]) / distance};
         double w = 0, flux[4];
         for (int k = 0; k < 2; k++)
@@ -155,7 +159,8 @@ static void advance(gas *g, double step) {
         const double *s = g->states + STATE * g->vertices[i], *f = g->flux + 6 * g->vertices[i];
         double wall[2] = {-f[4], -f[5]}, length = hypot(wall[0], wall[1]);
         double sound = sqrt(GAMMA * s[PRESSURE] / s[DENSITY]), pressure = s[PRESSURE];
-        if (length > 1e-9) pressure += s[DENSITY] * sound * (s[X_VELOCITY] * wall[0] + s[Y_VELOCITY] * wall[1]) / length;
+        if (length > 1e-9)
+            pressure += s[DENSITY] * sound * (s[X_VELOCITY] * wall[0] + s[Y_VELOCITY] * wall[1]) / length;
         for (int k = 0; k < 4; k++) g->kept[4 * i + k] -= step * f[k];
         for (int k = 0; k < 2; k++) {
             g->kept[4 * i + 1 + k] -= step * pressure * wall[k];
@@ -200,7 +205,8 @@ static void report(const gas *g, int steps, double time) {
     MPI_Reduce(sums, all, 2, MPI_DOUBLE, MPI_SUM, 0, MPI_COMM_WORLD);
     MPI_Reduce(&densest, &most, 1, MPI_DOUBLE, MPI_MAX, 0, MPI_COMM_WORLD);
     if (rank == 0)
-        printf("step %4d, time %.4f: mass %.12f, energy %.12f, greatest density %.6f\n", steps, time, all[0], all[1], most);
+        printf("step %4d, time %.4f: mass %.12f, energy %.12f, greatest density %.6f\n", steps, time, all[0], all[1],
+               most);
 }
 
 // Each cell as a dot of the colour of its density, by one process after the other.
@@ -213,7 +219,8 @@ static void draw(const gas *g, const char *path, int size) {
         for (size_t i = 0; i < g->count; i++) {
             double volume = g->volumes[g->vertices[i]], share = fmin(fmax(g->kept[4 * i] / volume - 0.8, 0) / 1.2, 1);
             fprintf(file, "<circle cx='%.0f' cy='%.0f' r='%.0f' fill='#%02x50%02x'/>\n", 1000 * g->points[2 * i],
-                    1000 - 1000 * g->points[2 * i + 1], 1 + 640 * sqrt(volume), (int)(240 * share), (int)(240 * (1 - share)));
+                    1000 - 1000 * g->points[2 * i + 1], 1 + 640 * sqrt(volume), (int)(240 * share),
+                    (int)(240 * (1 - share)));
         }
         if (turn == size - 1) fprintf(file, "</svg>\n");
         fclose(file);
@@ -223,8 +230,7 @@ static void draw(const gas *g, const char *path, int size) {
 int main(int argc, char **argv) {
     int size, steps = 0;
     MPI_Init(&argc, &argv);
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    MPI_Comm_size(MPI_COMM_WORLD, &size);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank), MPI_Comm_size(MPI_COMM_WORLD, &size);
     size_t vertices = argc > 1 ? (size_t)atol(argv[1]) : 2500, row = (size_t)ceil(sqrt((double)vertices));
     double end = argc > 2 ? atof(argv[2]) : 1, time = 0;
     gas g = {0};
@@ -249,7 +255,8 @@ int main(int argc, char **argv) {
     report(&g, steps, time);
     if (argc > 3) draw(&g, argv[3], size);
     deldrift_mpi_destroy(g.m);
-    void *arrays[] = {g.vertices, g.points, g.kept, g.places, g.volumes, g.centroids, g.states, g.flux, g.is_own, g.keys, ids};
+    void *arrays[] = {g.vertices, g.points, g.kept,   g.places, g.volumes, g.centroids,
+                      g.states,   g.flux,   g.is_own, g.keys,   ids};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) free(arrays[i]);
     MPI_Finalize();
 }

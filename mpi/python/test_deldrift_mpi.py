@@ -18,7 +18,8 @@ def serial_cells(points, ids):
     handle, count, dimension = ctypes.c_void_p(), ctypes.c_size_t(), points.shape[1]
     points, ids = np.ascontiguousarray(points), np.ascontiguousarray(ids)
     create = library.deldrift_create_with_keys
-    create.argtypes = [ctypes.c_uint32, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p, ctypes.c_void_p]
+    pointer = ctypes.c_void_p
+    create.argtypes = [ctypes.c_uint32, pointer, pointer, ctypes.c_size_t, pointer, pointer]
     assert create(dimension, points.ctypes.data, ids.ctypes.data, len(ids), None, ctypes.byref(handle)) == 0
     library.deldrift_copy_cells(handle, None, None, 0, ctypes.byref(count))
     cells = np.empty((count.value, dimension + 1), np.uint32)

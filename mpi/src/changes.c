@@ -1,5 +1,5 @@
-// Own cells that have come and gone, by global ids. The triangulation of the process tells them by its own ids, which may have
-// been given to other vertices meanwhile.
+// Own cells that have come and gone, by global ids. The triangulation of the process tells them by its own ids, which
+// may have been given to other vertices meanwhile.
 #include <stdlib.h>
 #include <string.h>
 
@@ -40,8 +40,10 @@ static const dm_undo *note_of(const deldrift_mpi *m, uint32_t vertex) {
     size_t low = 0, high = m->rebound_count;
     while (low < high) {
         size_t middle = low + (high - low) / 2;
-        if (m->rebound[middle].vertex < vertex) low = middle + 1;
-        else high = middle;
+        if (m->rebound[middle].vertex < vertex)
+            low = middle + 1;
+        else
+            high = middle;
     }
     return low < m->rebound_count && m->rebound[low].vertex == vertex ? &m->rebound[low] : NULL;
 }
@@ -83,8 +85,10 @@ static bool is_listed(const uint32_t *list, size_t count, uint32_t cell) {
     size_t low = 0, high = count;
     while (low < high) {
         size_t middle = low + (high - low) / 2;
-        if (list[middle] < cell) low = middle + 1;
-        else high = middle;
+        if (list[middle] < cell)
+            low = middle + 1;
+        else
+            high = middle;
     }
     return low < count && list[low] == cell;
 }
@@ -125,7 +129,8 @@ static bool take(deldrift_mpi *m) {
     deldrift_changes changes;
     deldrift_cells_view view;
     sort_notes(m);
-    if (!dm_took(&m->refusal, deldrift_take_changes(m->t, &changes)) || !dm_took(&m->refusal, deldrift_cells(m->t, &view)))
+    if (!dm_took(&m->refusal, deldrift_take_changes(m->t, &changes)) ||
+        !dm_took(&m->refusal, deldrift_cells(m->t, &view)))
         return false;
     m->changes.is_anew = is_anew;
     for (size_t c = 0; is_anew && c < view.count; c++)

@@ -33,8 +33,10 @@ static bool make_ready(deldrift_mpi *m, dm_peer *peer) {
         peer->requested[k] = counts[k];
         if (!counts[k]) continue;
         int numbers = (int)(counts[k] * d);
-        if (k == 0) MPI_Send_init(now[k], numbers, MPI_DOUBLE, peer->rank, TAG_POSITIONS, m->comm, &peer->requests[k]);
-        else MPI_Recv_init(now[k], numbers, MPI_DOUBLE, peer->rank, TAG_POSITIONS, m->comm, &peer->requests[k]);
+        if (k == 0)
+            MPI_Send_init(now[k], numbers, MPI_DOUBLE, peer->rank, TAG_POSITIONS, m->comm, &peer->requests[k]);
+        else
+            MPI_Recv_init(now[k], numbers, MPI_DOUBLE, peer->rank, TAG_POSITIONS, m->comm, &peer->requests[k]);
     }
     return true;
 }
@@ -117,7 +119,7 @@ void dm_free_peers(deldrift_mpi *m) {
         dm_peer *peer = &m->peers[p];
         for (int k = 0; k < 2; k++)
             if (peer->requests[k] != MPI_REQUEST_NULL) MPI_Request_free(&peer->requests[k]);
-        void *arrays[] = {peer->sent.at,       peer->sent.is_leaving, peer->received.at, peer->received.is_leaving,
+        void *arrays[] = {peer->sent.at,  peer->sent.is_leaving, peer->received.at, peer->received.is_leaving,
                           peer->outgoing, peer->incoming};
         for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) free(arrays[i]);
     }

@@ -59,7 +59,8 @@ static void stage_edits(history *h) {
     size_t insertions = random_bits(&h->state) % 20, removals = 0;
     for (size_t k = 0; k < insertions; k++) {
         for (uint32_t j = 0; j < d; j++) places[k * d + j] = 8 * random_number(&h->state);
-        ids[k] = (h->next_id++ * (uint64_t)size + (uint64_t)rank) * 2; // even; those of the first points are odd multiples
+        ids[k] =
+            (h->next_id++ * (uint64_t)size + (uint64_t)rank) * 2; // even; those of the first points are odd multiples
     }
     OK(deldrift_mpi_stage_insertions(h->m, places, ids, insertions));
     uint32_t *removed = malloc((h->count + 1) * sizeof *removed);
@@ -151,7 +152,8 @@ static uint64_t *own_cells(const history *h, size_t *count) {
     return rows;
 }
 
-// Own cells before, without those that are said to be removed, and with those that are said to be created, are those now.
+// Own cells before, without those that are said to be removed, and with those that are said to be created, are those
+// now.
 static void check_changes(history *h) {
     uint32_t length = h->dimension + 1;
     size_t count = 0, kept = 0, found = 0;
@@ -167,8 +169,10 @@ static void check_changes(history *h) {
     uint64_t *rows = malloc((before + changes.created_count) * length * sizeof *rows + 1);
     for (size_t c = 0; c < before; c++) {
         const uint64_t *row = h->cells + c * length;
-        if (found < changes.removed_count && !memcmp(row, removed + found * length, length * sizeof *row)) found++;
-        else memcpy(rows + kept++ * length, row, length * sizeof *row);
+        if (found < changes.removed_count && !memcmp(row, removed + found * length, length * sizeof *row))
+            found++;
+        else
+            memcpy(rows + kept++ * length, row, length * sizeof *row);
     }
     CHECK(found == changes.removed_count);
     if (changes.created_count)
@@ -245,8 +249,8 @@ static void run(long number, int steps, history *totals) {
         }
         if (choice / 1024 % 5 == 0) refuse_once(&h);
         OK(deldrift_mpi_commit(h.m, h.positions, h.count, &report));
-        snprintf(label, sizeof label, "history %ld, step %d: %uD %s, %s, P = %d", number, step, h.dimension, kind_names[kind],
-                 spread_names[spread], size);
+        snprintf(label, sizeof label, "history %ld, step %d: %uD %s, %s, P = %d", number, step, h.dimension,
+                 kind_names[kind], spread_names[spread], size);
         is_serial(h.m, h.dimension, label);
         check_exchange(&h);
         // Not after each commit, so that ids stand for several vertices in turn.
@@ -277,7 +281,8 @@ int main(int argc, char **argv) {
     memset(&totals, 0, sizeof totals);
     for (long number = first; number < first + count; number++) run(number, steps, &totals);
     if (rank == 0)
-        printf("moving, P = %d: %ld histories, %ld commits, %ld with edits, %ld refusals, %ld migrations, %ld changes of cells here, %ld "
+        printf("moving, P = %d: %ld histories, %ld commits, %ld with edits, %ld refusals, %ld migrations, %ld changes "
+               "of cells here, %ld "
                "failures; %ld commits took more than one round\n",
                size, count, totals.commits, totals.edits, totals.refusals, totals.migrations, totals.changes, failures,
                totals.extra_rounds);
