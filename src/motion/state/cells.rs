@@ -172,6 +172,12 @@ impl<G: Dimension> Cells<G> {
         self.slots.get(index.index()).copied()
     }
 
+    /// The sites of a cell, in the order of its row.
+    #[inline(always)]
+    pub(in crate::motion) fn sites(&self, kernel: &Delaunay<G>, index: CellId) -> G::Corners {
+        self.orderings[index].in_row(kernel.complex().cell(self.slots[index]).corners)
+    }
+
     /// The slot of each cell.
     #[inline(always)]
     pub(in crate::motion) fn slots(&self) -> &[Slot] {

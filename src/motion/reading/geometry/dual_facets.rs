@@ -2,8 +2,9 @@
 //!
 //! # Idea
 //!
-//! The [pieces](super::dual) of a facet add up to its measure A and to the moment of its points as seen from the middle
-//! of its edge. Which edge it is, the list of the edges of the vertex of lower id tells.
+//! A facet is the polygon of the centres of the cells around its edge; triangles from its first corner give its measure A
+//! and the moment of its points as seen from the middle of the edge. Each edge is done by itself, so that several threads
+//! share them.
 //!
 //! Let x and y be the ends, L their distance and c the centroid of the facet. A point z of the facet is as far from x as
 //! from y: |z − x|² = |z − y|². If y moves by dy, and z by dz, (y − x) · dz = (y − z) · dy; so the facet moves by
@@ -16,20 +17,23 @@
 //!
 //! With h as in [`dual`](super::dual), P the perimeter and d the diameter of a facet, A is off by h P, as its corners
 //! are off by h; the centroid by h P d / A; a derivative, which is linear in the measure and the moment, by
-//! h P (|y − c| + d) / L. Where A ≤ 2 h P the quotient of moment and measure could be anywhere; such facets are put
-//! together from their corners, as those are that the box cuts, and the centroid is a mean of corners with weights that
-//! are not negative: off by d + h at most.
+//! h P (|y − c| + d) / L. Where A ≤ 2 h P the quotient of moment and measure could be anywhere; such facets are cut by
+//! the box as those are that it does cut, and the centroid is a mean of corners with weights that are not negative: off
+//! by d + h at most.
 
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
-use crate::machine::memory;
-use crate::motion::reading::geometry::clipping::{Clip, Vector, minus, times};
-use crate::motion::reading::geometry::dual::{Piece, Wanted, length};
-use crate::motion::reading::geometry::incidence::Neighbours;
+use crate::machine::{memory, threads};
+use crate::motion::reading::geometry::centres::{Centres, SHARED_AT_LEAST};
+use crate::motion::reading::geometry::clipping::{
+    Clip, Vector, cross, dot, in_space, length_by, minus, times,
+};
 use crate::motion::reading::geometry::progress::Progress;
-use crate::motion::reading::geometry::voronoi::Voronoi;
+use crate::motion::reading::geometry::sums::LEAST_SQUARE;
+use crate::motion::reading::geometry::voronoi::{Part, Voronoi};
 use crate::motion::reading::geometry::voronoi_cells::checked;
+use crate::motion::state::mesh::Standing;
 use crate::motion::triangulation::MovingTriangulation;
 
 /// The Voronoi facets of edges in a box.
@@ -46,133 +50,132 @@ pub struct VoronoiFacets<P> {
     pub derivatives: Vec<[P; 2]>,
 }
 
-/// An edge, and sums over the pieces of its facet.
-#[derive(Clone, Copy, Debug)]
-struct Edge {
-    lower: VertexId,
-    /// A cell of which it is an edge.
-    first: CellId,
-    is_cut: bool,
-    weight: f64,
-    /// The sum of the lengths of its sides.
-    perimeter: f64,
-    /// From the middle of the edge.
-    moment: Vector,
+/// The Voronoi facet of an edge in a box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VoronoiFacet<P> {
+    /// Length or area.
+    pub area: f64,
+    /// Centroid; NaN where nothing of the facet is in the box.
+    pub centroid: P,
+    /// The derivative of the area or volume of the cell of the edge's first vertex by the position of the second one,
+    /// and of that of the second one by the position of the first.
+    pub derivatives: [P; 2],
 }
 
-/// Edges by their lower vertex.
-struct Edges {
-    offsets: Vec<u32>,
-    /// The upper vertex of each.
-    upper: Vec<VertexId>,
-    edges: Vec<Edge>,
-}
-
-impl Edges {
-    fn of<G: Dimension>(t: &MovingTriangulation<G>) -> Result<Self> {
-        let n_ids = t.id_count();
-        let mut neighbours = Neighbours::new(t.cell_arrays()?, n_ids)?;
-        let (mut offsets, mut upper, mut edges) = (Vec::new(), Vec::new(), Vec::new());
-        memory::reserve_exact(&mut offsets, n_ids + 1)?;
-        memory::reserve_exact(&mut upper, t.edge_count())?;
-        memory::reserve_exact(&mut edges, t.edge_count())?;
-        let mut list = Vec::new();
-        offsets.push(0);
-        for lower in VertexId::range(0..n_ids) {
-            neighbours.prefetch(lower.index() + 2);
-            neighbours.list(lower, lower, &mut list, |w, cell| (w, cell))?;
-            for &(w, first) in &list {
-                upper.push(w);
-                edges.push(Edge {
-                    lower,
-                    first,
-                    is_cut: false,
-                    weight: 0.0,
-                    perimeter: 0.0,
-                    moment: [0.0; 3],
-                });
-            }
-            offsets.push(upper.len() as u32);
-        }
-        Ok(Edges { offsets, upper, edges })
-    }
-
-    /// The edge between two vertices of a cell.
-    #[inline(always)]
-    fn between(&mut self, a: VertexId, b: VertexId) -> &mut Edge {
-        let (lower, upper) = if a < b { (a, b) } else { (b, a) };
-        let [from, to] = [0, 1].map(|k| self.offsets[lower.index() + k] as usize);
-        let at = self.upper[from..to].iter().position(|&w| w == upper);
-        &mut self.edges[from + at.expect("all edges are listed")]
-    }
-}
-
-impl Edge {
-    /// Whether the facet may be narrower than corners are off: then the quotient of its moment and its measure may be
-    /// anywhere, and corners have to be put together.
-    #[inline(always)]
-    fn is_narrow<G: Dimension>(&self, clip: &Clip, [x, y]: &[Vector; 2]) -> bool {
-        let along = times(&minus(y, x), clip.unit);
-        G::D == 3 && self.weight <= 2.0 * NARROW * self.perimeter * length(&along)
-    }
-
-    #[inline(always)]
-    fn add<G: Dimension>(&mut self, piece: &Piece) {
-        self.weight += piece.weight;
-        self.perimeter += piece.step;
-        let weight = piece.weight / G::D as f64;
-        for axis in 0..G::D {
-            self.moment[axis] += weight * (piece.to_centres[axis] + piece.along[axis]);
-        }
-    }
-}
-
-/// What the area of a facet is to its perimeter, in sizes of the box, where it is narrow: twice what corners are off,
-/// and room for what the unit is less than the size.
-const NARROW: f64 = 4e-8;
+/// A facet that is computed: the number of its edge, the edge, and a cell of that.
+type Wanted = (usize, [VertexId; 2], CellId);
 
 /// A facet: measure, centroid, derivatives.
 type Facet = (f64, Vector, [Vector; 2]);
 
+/// Sums over triangles of a facet, with lengths in the unit of a box.
+struct Polygon {
+    /// The measure times the length of the edge, and times two in space.
+    weight: f64,
+    /// The sum of the lengths of its sides.
+    perimeter: f64,
+    /// The sum of the offsets of its points from the middle of the edge, times as much.
+    moment: Vector,
+}
+
+/// What the area of a facet is to its perimeter, in sizes of the box, where it is narrow: twice what corners are off,
+/// and room for what the unit is less than the size. Then the quotient of its moment and its measure may be anywhere.
+const NARROW: f64 = 4e-8;
+
+/// How many facets are computed between two looks at whether to go on.
+const FACETS_AT_A_TIME: usize = 1 << 16;
+
 impl<G: Dimension> Voronoi<'_, G> {
-    /// The facet of an edge that is in the box as a whole, from its sums.
-    fn whole(&self, clip: &Clip, edge: &Edge, [x, y]: [Vector; 2]) -> Facet {
-        let along = times(&minus(&y, &x), clip.unit);
-        let length = length(&along);
-        let factor = if G::D == 2 { 1.0 } else { 0.5 };
-        let measure = (factor * edge.weight / length).max(0.0);
-        let unit = |measure: f64| clip.measure_in(G::D - 1, measure);
-        let centroid = if edge.weight > 0.0 {
-            [0, 1, 2].map(|axis| {
-                let way = (edge.moment[axis] / edge.weight + 0.5 * along[axis]) / clip.unit;
-                (x[axis] + way).clamp(clip.low()[axis], clip.high()[axis])
-            })
-        } else {
-            [f64::NAN; 3]
+    /// The facet of the ring.
+    fn whole_polygon(&self, x: &Vector, along: &Vector, unit: f64) -> Polygon {
+        let half = times(along, 0.5);
+        let from_middle = |cell: CellId| {
+            minus(&times(&minus(&in_space::<G>(&self.centres.of(cell).place), x), unit), &half)
         };
-        let derivative = |sign: f64| {
-            [0, 1, 2].map(|axis| {
-                let from_middle = factor * (edge.moment[axis] / length) / length;
-                unit(sign * 0.5 * measure * (along[axis] / length) - from_middle)
-            })
+        let way = |p: &Vector, q: &Vector| {
+            let way = minus(q, p);
+            dot(&way, &way).sqrt()
         };
-        (unit(measure), centroid, [derivative(1.0), derivative(-1.0)])
+        let first = from_middle(self.ring.cells[0]);
+        let mut before = from_middle(self.ring.cells[1]);
+        if G::D == 2 {
+            let step = minus(&before, &first);
+            let weight = (step[0] * along[1] - step[1] * along[0]).abs();
+            let moment = times(&[first[0] + before[0], first[1] + before[1], 0.0], 0.5 * weight);
+            return Polygon { weight, perimeter: 2.0, moment };
+        }
+        let mut polygon = Polygon { weight: 0.0, perimeter: way(&first, &before), moment: [0.0; 3] };
+        for &cell in &self.ring.cells[2..] {
+            let next = from_middle(cell);
+            let part = dot(along, &cross(&minus(&before, &first), &minus(&next, &first)));
+            polygon.weight += part;
+            polygon.perimeter += way(&before, &next);
+            for axis in 0..3 {
+                polygon.moment[axis] += part * (first[axis] + before[axis] + next[axis]);
+            }
+            before = next;
+        }
+        polygon.perimeter += way(&before, &first);
+        // The ring may go either way around.
+        let sign = if polygon.weight < 0.0 { -1.0 } else { 1.0 };
+        polygon.weight *= sign;
+        polygon.moment = times(&polygon.moment, sign / 3.0);
+        polygon
     }
 
-    /// The facet of an edge that may be cut by the box.
-    fn cut_one(&mut self, clip: &Clip, edge: [VertexId; 2], first: CellId) -> Result<Facet> {
-        if !self.cut_around(edge, first, clip)? {
+    /// The facet of the ring, if it is in the box as a whole and not so narrow that it has to be put together from its
+    /// corners.
+    fn whole(&self, clip: &Clip, [x, y]: &[Vector; 2]) -> Option<Facet> {
+        let along = times(&minus(y, x), clip.unit);
+        let square = dot(&along, &along);
+        if square < LEAST_SQUARE {
+            return None;
+        }
+        let length = square.sqrt();
+        let polygon = self.whole_polygon(x, &along, clip.unit);
+        if G::D == 3 && polygon.weight <= 2.0 * NARROW * polygon.perimeter * length {
+            return None;
+        }
+        let factor = if G::D == 2 { 1.0 } else { 0.5 };
+        let measure = factor * polygon.weight / length;
+        let unit = |measure: f64| clip.measure_in(G::D - 1, measure);
+        let mut centroid = [f64::NAN; 3];
+        let mut derivatives = [[0.0; 3]; 2];
+        for axis in 0..3 {
+            if polygon.weight > 0.0 {
+                let way = (polygon.moment[axis] / polygon.weight + 0.5 * along[axis]) / clip.unit;
+                centroid[axis] = (x[axis] + way).clamp(clip.low()[axis], clip.high()[axis]);
+            }
+            let from_middle = factor * (polygon.moment[axis] / length) / length;
+            let half = 0.5 * measure * (along[axis] / length);
+            derivatives[0][axis] = unit(half - from_middle);
+            derivatives[1][axis] = unit(-half - from_middle);
+        }
+        Some((unit(measure), centroid, derivatives))
+    }
+
+    /// The facet of an edge, of which `first` is a cell.
+    fn facet_of(&mut self, clip: &Clip, edge: [VertexId; 2], first: CellId) -> Result<Facet> {
+        let ends = edge.map(|v| self.place(v));
+        self.ring.go_around(self.cells, edge, first)?;
+        if let Part::All = self.part()
+            && let Some(facet) = self.whole(clip, &ends)
+        {
+            return Ok(facet);
+        }
+        if self.is_outside() {
             return Ok((0.0, [f64::NAN; 3], [[0.0; 3]; 2]));
         }
-        let [x, y] = edge.map(|v| self.place(v));
+        self.cut(edge, clip)?;
         let (measure, offset) = self.facet.measure_and_centroid();
         let centroid = [0, 1, 2].map(|axis| (clip.low()[axis] + offset[axis]).min(clip.high()[axis]));
-        let length = length(&minus(&y, &x));
+        let way = minus(&ends[1], &ends[0]);
+        let length = length_by(dot(&way, &way), &way);
         let derivative = |of: &Vector| {
             let by = |axis: usize| measure * ((of[axis] - centroid[axis]) / length);
             if measure > 0.0 { [0, 1, 2].map(by) } else { [0.0; 3] }
         };
-        Ok((measure, centroid, [derivative(&y), derivative(&x)]))
+        Ok((measure, centroid, [derivative(&ends[1]), derivative(&ends[0])]))
     }
 }
 
@@ -208,61 +211,90 @@ impl<G: Dimension> MovingTriangulation<G> {
         mask: Option<&[u8]>,
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<VoronoiFacets<G::Point>> {
-        mask.map_or(Ok(()), |mask| self.check_vertex_mask(mask.len()))?;
         if self.mesh.kernel.is_constrained() {
+            mask.map_or(Ok(()), |mask| self.check_vertex_mask(mask.len()))?;
             return self.without_segments()?.voronoi_derivatives(clip, mask, monitor);
         }
-        let (clip, wanted) = (checked::<G>(clip)?, Wanted::new(mask));
-        let progress = &mut Progress::new(monitor, 2 * self.cell_count());
-        let mut edges = std::cell::RefCell::new(Edges::of(self)?);
-        let mut voronoi = Voronoi::new(self, Some(&clip))?;
-        let id = |s| self.mesh.kernel.site(s).id;
-        voronoi.for_pieces(
-            clip.unit,
-            wanted,
-            progress,
-            #[inline(always)]
-            |[a, b], piece| {
-                edges.borrow_mut().between(id(a), id(b)).add::<G>(piece);
-            },
-            |_, sites| {
-                let mut edges = edges.borrow_mut();
-                for (k, &a) in sites.iter().enumerate() {
-                    for &b in &sites[..k] {
-                        edges.between(id(a), id(b)).is_cut = true;
-                    }
-                }
-            },
-        )?;
-        let Edges { upper, edges, .. } = edges.get_mut();
-        let mut found = VoronoiFacets {
-            edges: Vec::new(),
-            areas: Vec::new(),
-            centroids: Vec::new(),
-            derivatives: Vec::new(),
-        };
-        memory::reserve_exact(&mut found.edges, edges.len())?;
-        memory::reserve_exact(&mut found.areas, edges.len())?;
-        memory::reserve_exact(&mut found.centroids, edges.len())?;
-        memory::reserve_exact(&mut found.derivatives, edges.len())?;
-        for (edge, &upper) in edges.iter().zip(&*upper) {
-            let ends = [edge.lower, upper];
-            let places = ends.map(|v| voronoi.place(v));
-            let (area, centroid, derivatives) = if !ends.iter().any(|&v| wanted.has(v)) {
-                (f64::NAN, [f64::NAN; 3], [[f64::NAN; 3]; 2])
-            } else if edge.is_cut || edge.is_narrow::<G>(&clip, &places) {
-                let facet = voronoi.cut_one(&clip, ends, edge.first)?;
-                progress.advance(voronoi.ring.cells.len())?;
-                facet
-            } else {
-                voronoi.whole(&clip, edge, places)
-            };
-            found.edges.push(ends);
-            found.areas.push(area);
-            found.centroids.push(of_space::<G>(&centroid));
-            found.derivatives.push(derivatives.each_ref().map(of_space::<G>));
+        let nowhere = of_space::<G>(&[f64::NAN; 3]);
+        let (mut areas, mut centroids, mut derivatives) = (Vec::new(), Vec::new(), Vec::new());
+        memory::lengthen(&mut areas, self.edge_count(), f64::NAN)?;
+        memory::lengthen(&mut centroids, self.edge_count(), nowhere)?;
+        memory::lengthen(&mut derivatives, self.edge_count(), [nowhere; 2])?;
+        self.for_voronoi_facets(clip, mask, monitor, |edge, facet| {
+            areas[edge] = facet.area;
+            centroids[edge] = facet.centroid;
+            derivatives[edge] = facet.derivatives;
+        })?;
+        Ok(VoronoiFacets { edges: self.edges()?, areas, centroids, derivatives })
+    }
+
+    /// Tells the [`voronoi_derivatives`](Self::voronoi_derivatives) of all edges, or of those that have an end of which
+    /// `mask` has an entry that is not 0, in ascending order: the number of the edge in the order of
+    /// [`edges`](Self::edges), those of the triangulation without its segments, and the facet.
+    ///
+    /// # Errors
+    /// Those of [`voronoi_derivatives`](Self::voronoi_derivatives); then some may have been told.
+    pub fn for_voronoi_facets(
+        &self,
+        clip: [&G::Point; 2],
+        mask: Option<&[u8]>,
+        monitor: &mut dyn FnMut(f64) -> bool,
+        mut tell: impl FnMut(usize, VoronoiFacet<G::Point>),
+    ) -> Result<()> {
+        mask.map_or(Ok(()), |mask| self.check_vertex_mask(mask.len()))?;
+        if self.mesh.kernel.is_constrained() {
+            return self.without_segments()?.for_voronoi_facets(clip, mask, monitor, tell);
         }
-        Ok(found)
+        let clip = checked::<G>(clip)?;
+        let wanted = self.wanted_edges(mask)?;
+        let progress = &mut Progress::new(monitor, wanted.len());
+        let chosen = mask.map(|mask| self.cells_around_masked(mask)).transpose()?;
+        let cells = self.cell_arrays()?;
+        let centres = Centres::new(self, cells, Some(&clip), chosen.as_deref())?;
+        for some in wanted.chunks(FACETS_AT_A_TIME) {
+            let n_threads = self.mesh.kernel.threads().for_work(some.len(), SHARED_AT_LEAST, 64);
+            let parts = threads::for_ranges(some.len(), n_threads, |range| {
+                let mut voronoi = Voronoi::new(self, cells, &centres);
+                let mut facets = Vec::new();
+                memory::reserve_exact(&mut facets, range.len())?;
+                for &(_, edge, first) in &some[range] {
+                    facets.push(voronoi.facet_of(&clip, edge, first)?);
+                }
+                Ok(facets)
+            })?;
+            let mut edges = some.iter();
+            for part in parts {
+                for ((area, centroid, derivatives), &(edge, ..)) in part?.into_iter().zip(edges.by_ref()) {
+                    let derivatives = derivatives.each_ref().map(of_space::<G>);
+                    tell(edge, VoronoiFacet { area, centroid: of_space::<G>(&centroid), derivatives });
+                }
+            }
+            progress.advance(some.len())?;
+        }
+        Ok(())
+    }
+
+    /// The edges that have an end in a mask, if there is one.
+    fn wanted_edges(&self, mask: Option<&[u8]>) -> Result<Vec<Wanted>> {
+        let (mut wanted, mut n) = (Vec::new(), 0);
+        memory::reserve_exact(&mut wanted, if mask.is_none() { self.edge_count() } else { 0 })?;
+        self.for_edges(VertexId::range(0..self.id_count()), |edge, first| {
+            n += 1;
+            if mask.is_some_and(|mask| edge.iter().all(|v| mask[v.index()] == 0)) {
+                return Ok(());
+            }
+            memory::push(&mut wanted, (n - 1, edge, first))
+        })?;
+        Ok(wanted)
+    }
+
+    /// The cells around the vertices of a mask.
+    fn cells_around_masked(&self, mask: &[u8]) -> Result<Vec<CellId>> {
+        let mut shown = Vec::new();
+        let is_shown = |v: &VertexId| matches!(self.mesh.standing(*v), Standing::Shown(_));
+        let masked = VertexId::range(0..mask.len()).filter(|v| mask[v.index()] != 0);
+        memory::collect(&mut shown, masked.filter(is_shown))?;
+        self.cells_around(&shown)
     }
 }
 

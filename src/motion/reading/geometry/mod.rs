@@ -12,6 +12,7 @@
 //! | `star` | stars in circulation order |
 //! | `rings` | what is around an edge, in order |
 //! | `voronoi`, `voronoi_cells`, `progress` | Voronoi cells and facets |
+//! | `centres` | circumcentres for these, of all cells or of chosen ones |
 //! | `dual`, `dual_facets`, `sums` | volumes, boundaries and centroids of Voronoi cells; their facets, with derivatives |
 //! | `clipping`, `cut_facets`, `cut_cells` | those that are cut by a box |
 //! | `flat_cells` | Voronoi cells of vertices in one hyperplane |
@@ -23,6 +24,7 @@
 
 mod around;
 mod boundary;
+mod centres;
 mod clipping;
 mod cut_cells;
 mod cut_facets;
