@@ -7,7 +7,6 @@ use super::pointers::{Array, Buffer, Output, Point, fill_all, given};
 use super::query::dimension_of;
 use super::status::{Failure, deldrift_status};
 use crate::delaunay::Dimension;
-use crate::ids::VertexId;
 use crate::in_its_dimension;
 use crate::motion::MovingTriangulation;
 
@@ -170,11 +169,11 @@ pub unsafe extern "C" fn deldrift_voronoi_cells(
                 let volumes = volumes.places_if_any(needed)?;
                 let areas = areas.places_if_any(needed)?;
                 let centroids = centroids.places_if_any(needed * d)?;
-                let made = t.voronoi_cells(clip, mask, monitor)?;
-                let is_wanted = |id: usize| mask.is_none_or(|mask| mask[id] != 0);
-                write_wanted(volumes, 1, is_wanted, made.volumes.iter().map(std::slice::from_ref));
-                write_wanted(areas, 1, is_wanted, made.areas.iter().map(std::slice::from_ref));
-                write_wanted(centroids, d, is_wanted, made.centroids.iter().map(AsRef::as_ref));
+                t.for_voronoi_cells(clip, mask, monitor, &mut |v, cell| {
+                    write(volumes, v.index(), &[cell.volume]);
+                    write(areas, v.index(), &[cell.area]);
+                    write(centroids, v.index(), cell.centroid.as_ref());
+                })?;
                 Ok(())
             })
         })
@@ -245,30 +244,23 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives(
                 let measures = measures.places_if_any(needed)?;
                 let centroids = centroids.places_if_any(needed * d)?;
                 let derivatives = derivatives.places_if_any(needed * 2 * d)?;
-                let made = t.voronoi_derivatives(clip, mask, monitor)?;
-                let has = |v: VertexId| mask.is_none_or(|mask| mask[v.index()] != 0);
-                let is_wanted = |edge: usize| made.edges[edge].into_iter().any(has);
-                write_wanted(measures, 1, is_wanted, made.areas.iter().map(std::slice::from_ref));
-                write_wanted(centroids, d, is_wanted, made.centroids.iter().map(AsRef::as_ref));
-                let both = made.derivatives.as_flattened().iter().map(AsRef::as_ref);
-                write_wanted(derivatives, d, |row| is_wanted(row / 2), both);
+                t.for_voronoi_facets(clip, mask, monitor, &mut |edge, facet| {
+                    write(measures, edge, &[facet.area]);
+                    write(centroids, edge, facet.centroid.as_ref());
+                    write(derivatives, 2 * edge, facet.derivatives[0].as_ref());
+                    write(derivatives, 2 * edge + 1, facet.derivatives[1].as_ref());
+                })?;
                 Ok(())
             })
         })
     })
 }
 
-/// Writes rows of `d` numbers of those that are wanted.
-fn write_wanted<'a>(
-    places: &mut [MaybeUninit<f64>],
-    d: usize,
-    is_wanted: impl Fn(usize) -> bool,
-    rows: impl Iterator<Item = &'a [f64]>,
-) {
-    for (k, (places, row)) in places.chunks_exact_mut(d).zip(rows).enumerate() {
-        if is_wanted(k) {
-            places.iter_mut().zip(row).for_each(|(place, &x)| _ = place.write(x));
-        }
+/// Writes a row of numbers, if there is a buffer for rows.
+fn write(places: &mut [MaybeUninit<f64>], row: usize, numbers: &[f64]) {
+    let first = row * numbers.len();
+    if let Some(places) = places.get_mut(first..first + numbers.len()) {
+        places.iter_mut().zip(numbers).for_each(|(place, &x)| _ = place.write(x));
     }
 }
 

@@ -350,7 +350,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         memory::lengthen(&mut volumes, n_ids, f64::NAN)?;
         memory::lengthen(&mut areas, n_ids, f64::NAN)?;
         memory::lengthen(&mut centroids, n_ids, nowhere::<G>())?;
-        self.for_voronoi_cells(clip, mask, monitor, |v, cell| {
+        self.for_voronoi_cells(clip, mask, monitor, &mut |v, cell| {
             volumes[v.index()] = cell.volume;
             areas[v.index()] = cell.area;
             centroids[v.index()] = cell.centroid;
@@ -368,7 +368,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         clip: [&G::Point; 2],
         mask: Option<&[u8]>,
         monitor: &mut dyn FnMut(f64) -> bool,
-        tell: impl FnMut(VertexId, VoronoiCell<G::Point>),
+        tell: &mut dyn FnMut(VertexId, VoronoiCell<G::Point>),
     ) -> Result<()> {
         mask.map_or(Ok(()), |mask| self.check_vertex_mask(mask.len()))?;
         if self.mesh.kernel.is_constrained() {
@@ -423,7 +423,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         clip: &Clip,
         wanted: impl Iterator<Item = VertexId>,
         mut targets: Targets<impl Numbering>,
-        mut tell: impl FnMut(VertexId, VoronoiCell<G::Point>),
+        tell: &mut dyn FnMut(VertexId, VoronoiCell<G::Point>),
     ) {
         for v in wanted {
             let none = |x| VoronoiCell { volume: x, area: x, centroid: nowhere::<G>() };

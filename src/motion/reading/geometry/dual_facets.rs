@@ -211,16 +211,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         mask: Option<&[u8]>,
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<VoronoiFacets<G::Point>> {
-        if self.mesh.kernel.is_constrained() {
-            mask.map_or(Ok(()), |mask| self.check_vertex_mask(mask.len()))?;
-            return self.without_segments()?.voronoi_derivatives(clip, mask, monitor);
-        }
         let nowhere = of_space::<G>(&[f64::NAN; 3]);
         let (mut areas, mut centroids, mut derivatives) = (Vec::new(), Vec::new(), Vec::new());
         memory::lengthen(&mut areas, self.edge_count(), f64::NAN)?;
         memory::lengthen(&mut centroids, self.edge_count(), nowhere)?;
         memory::lengthen(&mut derivatives, self.edge_count(), [nowhere; 2])?;
-        self.for_voronoi_facets(clip, mask, monitor, |edge, facet| {
+        self.for_voronoi_facets(clip, mask, monitor, &mut |edge, facet| {
             areas[edge] = facet.area;
             centroids[edge] = facet.centroid;
             derivatives[edge] = facet.derivatives;
@@ -230,20 +226,20 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Tells the [`voronoi_derivatives`](Self::voronoi_derivatives) of all edges, or of those that have an end of which
     /// `mask` has an entry that is not 0, in ascending order: the number of the edge in the order of
-    /// [`edges`](Self::edges), those of the triangulation without its segments, and the facet.
+    /// [`edges`](Self::edges), and the facet. All are computed before.
     ///
     /// # Errors
-    /// Those of [`voronoi_derivatives`](Self::voronoi_derivatives); then some may have been told.
+    /// Those of [`voronoi_derivatives`](Self::voronoi_derivatives); then nothing has been told.
     pub fn for_voronoi_facets(
         &self,
         clip: [&G::Point; 2],
         mask: Option<&[u8]>,
         monitor: &mut dyn FnMut(f64) -> bool,
-        mut tell: impl FnMut(usize, VoronoiFacet<G::Point>),
+        tell: &mut dyn FnMut(usize, VoronoiFacet<G::Point>),
     ) -> Result<()> {
         mask.map_or(Ok(()), |mask| self.check_vertex_mask(mask.len()))?;
         if self.mesh.kernel.is_constrained() {
-            return self.without_segments()?.for_voronoi_facets(clip, mask, monitor, tell);
+            return self.facets_at_own_edges(clip, mask, monitor, tell);
         }
         let clip = checked::<G>(clip)?;
         let wanted = self.wanted_edges(mask)?;
@@ -251,25 +247,53 @@ impl<G: Dimension> MovingTriangulation<G> {
         let chosen = mask.map(|mask| self.cells_around_masked(mask)).transpose()?;
         let cells = self.cell_arrays()?;
         let centres = Centres::new(self, cells, Some(&clip), chosen.as_deref())?;
+        let mut facets = Vec::new();
+        memory::reserve_exact(&mut facets, wanted.len())?;
         for some in wanted.chunks(FACETS_AT_A_TIME) {
             let n_threads = self.mesh.kernel.threads().for_work(some.len(), SHARED_AT_LEAST, 64);
             let parts = threads::for_ranges(some.len(), n_threads, |range| {
                 let mut voronoi = Voronoi::new(self, cells, &centres);
-                let mut facets = Vec::new();
+                let mut facets: Vec<Facet> = Vec::new();
                 memory::reserve_exact(&mut facets, range.len())?;
                 for &(_, edge, first) in &some[range] {
                     facets.push(voronoi.facet_of(&clip, edge, first)?);
                 }
                 Ok(facets)
             })?;
-            let mut edges = some.iter();
             for part in parts {
-                for ((area, centroid, derivatives), &(edge, ..)) in part?.into_iter().zip(edges.by_ref()) {
-                    let derivatives = derivatives.each_ref().map(of_space::<G>);
-                    tell(edge, VoronoiFacet { area, centroid: of_space::<G>(&centroid), derivatives });
-                }
+                memory::append(&mut facets, &part?)?;
             }
             progress.advance(some.len())?;
+        }
+        for ((area, centroid, derivatives), (edge, ..)) in facets.into_iter().zip(wanted) {
+            let derivatives = derivatives.each_ref().map(of_space::<G>);
+            tell(edge, VoronoiFacet { area, centroid: of_space::<G>(&centroid), derivatives });
+        }
+        Ok(())
+    }
+
+    /// Tells the facets of the own edges of a constrained triangulation: there is none where the Voronoi cells of the
+    /// ends do not meet.
+    fn facets_at_own_edges(
+        &self,
+        clip: [&G::Point; 2],
+        mask: Option<&[u8]>,
+        monitor: &mut dyn FnMut(f64) -> bool,
+        tell: &mut dyn FnMut(usize, VoronoiFacet<G::Point>),
+    ) -> Result<()> {
+        let nothing = |x| {
+            let row = of_space::<G>(&[x; 3]);
+            VoronoiFacet { area: x, centroid: of_space::<G>(&[f64::NAN; 3]), derivatives: [row; 2] }
+        };
+        let plain = self.without_segments()?;
+        let (there, own) = (plain.edges()?, self.edges()?);
+        let mut facets = Vec::new();
+        memory::lengthen(&mut facets, there.len(), nothing(f64::NAN))?;
+        plain.for_voronoi_facets(clip, mask, monitor, &mut |edge, facet| facets[edge] = facet)?;
+        for (k, edge) in own.iter().enumerate() {
+            if mask.is_none_or(|mask| edge.iter().any(|v| mask[v.index()] != 0)) {
+                tell(k, there.binary_search(edge).map_or(nothing(0.0), |at| facets[at]));
+            }
         }
         Ok(())
     }
