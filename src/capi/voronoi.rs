@@ -7,6 +7,7 @@ use super::pointers::{Array, Buffer, Output, Point, fill_all, given};
 use super::query::dimension_of;
 use super::status::{Failure, deldrift_status};
 use crate::delaunay::Dimension;
+use crate::ids::VertexId;
 use crate::in_its_dimension;
 use crate::motion::MovingTriangulation;
 
@@ -252,6 +253,45 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives(
                 })?;
                 Ok(())
             })
+        })
+    })
+}
+
+/// Marks the vertices whose Voronoi cell has changed, or may have: a mask for deldrift_voronoi_cells, so that a step costs
+/// what has changed.
+///
+/// moved: moved_count ids of the vertices that have moved since the deldrift_take_changes before the last one, in any order, some maybe more
+/// than once; NULL if there are none. To be called after deldrift_take_changes, before the next change. mask: a buffer
+/// with room for capacity bytes; receives, for each id, 1 if the vertex has moved, shares a cell with one that has, or is
+/// in the star of the changes that were taken last, hidden, shown, a corner of a renumbered cell, or has been removed; 0 for all others.
+/// count: receives the number of ids, which is also written when the buffer is too small. NULL with capacity 0 asks for
+/// the count alone.
+///
+/// A program keeps arrays of deldrift_voronoi_cells for a box. It moves vertices, commits, takes the changes, and calls
+/// this and then deldrift_voronoi_cells with the mask. If changes are taken after every commit, its arrays are those of a call without a mask, to
+/// the last bit; otherwise they are so within the errors documented, as cells that have come back meanwhile may list
+/// their corners in another order. All are marked where nothing is known of single cells: if changes have not been taken
+/// since the last change or since deldrift_compact, while all vertices are in one hyperplane, and where there are
+/// segments.
+///
+/// Cost: a byte for each id; the changes taken, and the cells around the moved vertices, of k cells k log k.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX,
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_voronoi_changed(
+    t: *const deldrift_triangulation,
+    moved: *const u32,
+    moved_count: usize,
+    mask: *mut u8,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    given!(t: Reading, moved[moved_count]: Array, mask[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        in_its_dimension!(t => {
+            let moved = VertexId::of_numbers(moved.get()?);
+            mask.fill(count, t.id_count(), || Ok(t.voronoi_changed(moved)?))
         })
     })
 }

@@ -209,6 +209,11 @@ impl<G: Dimension> Cells<G> {
         taken.list(tracker, &self.corners, n_ids)
     }
 
+    /// Whether all changes of arrays that are up to date have been taken.
+    pub(in crate::motion) fn are_changes_taken(&self) -> bool {
+        self.since_taken.as_ref().is_some_and(Tracker::is_clean)
+    }
+
     /// What has been listed has been taken.
     pub(in crate::motion) fn end_taking(&mut self) {
         self.since_taken.as_mut().expect("it has been listed").reset();

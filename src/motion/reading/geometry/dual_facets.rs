@@ -62,8 +62,9 @@ pub struct VoronoiFacet<P> {
     pub derivatives: [P; 2],
 }
 
-/// A facet that is computed: the number of its edge, the edge, and a cell of that.
-type Wanted = (usize, [VertexId; 2], CellId);
+/// A facet that is computed: the edge, the vertex of lower id first, its number among those of that vertex, and a cell
+/// of it.
+type Wanted = ([VertexId; 2], u32, CellId);
 
 /// A facet: measure, centroid, derivatives.
 type Facet = (f64, Vector, [Vector; 2]);
@@ -225,7 +226,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Tells the [`voronoi_derivatives`](Self::voronoi_derivatives) of all edges, or of those that have an end of which
-    /// `mask` has an entry that is not 0, in ascending order: the number of the edge in the order of
+    /// `mask` has an entry that is not 0, in any order: the number of the edge in the order of
     /// [`edges`](Self::edges), and the facet. All are computed before.
     ///
     /// # Errors
@@ -242,7 +243,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             return self.facets_at_own_edges(clip, mask, monitor, tell);
         }
         let clip = checked::<G>(clip)?;
-        let wanted = self.wanted_edges(mask)?;
+        let (wanted, offsets) = self.wanted_edges(mask)?;
         let progress = &mut Progress::new(monitor, wanted.len());
         let chosen = mask.map(|mask| self.cells_around_masked(mask)).transpose()?;
         let cells = self.cell_arrays()?;
@@ -255,7 +256,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 let mut voronoi = Voronoi::new(self, cells, &centres);
                 let mut facets: Vec<Facet> = Vec::new();
                 memory::reserve_exact(&mut facets, range.len())?;
-                for &(_, edge, first) in &some[range] {
+                for &(edge, _, first) in &some[range] {
                     facets.push(voronoi.facet_of(&clip, edge, first)?);
                 }
                 Ok(facets)
@@ -265,9 +266,12 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
             progress.advance(some.len())?;
         }
-        for ((area, centroid, derivatives), (edge, ..)) in facets.into_iter().zip(wanted) {
+        for ((area, centroid, derivatives), ([v, _], k, _)) in facets.into_iter().zip(wanted) {
             let derivatives = derivatives.each_ref().map(of_space::<G>);
-            tell(edge, VoronoiFacet { area, centroid: of_space::<G>(&centroid), derivatives });
+            tell(
+                (offsets[v.index()] + k) as usize,
+                VoronoiFacet { area, centroid: of_space::<G>(&centroid), derivatives },
+            );
         }
         Ok(())
     }
@@ -298,18 +302,25 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// The edges that have an end in a mask, if there is one.
-    fn wanted_edges(&self, mask: Option<&[u8]>) -> Result<Vec<Wanted>> {
-        let (mut wanted, mut n) = (Vec::new(), 0);
+    /// The edges that have an end in a mask, if there is one, in the order of storage of the vertices; and how many edges
+    /// have a vertex of lower id as their first one, by id.
+    fn wanted_edges(&self, mask: Option<&[u8]>) -> Result<(Vec<Wanted>, Vec<u32>)> {
+        let (mut wanted, mut offsets) = (Vec::new(), Vec::new());
         memory::reserve_exact(&mut wanted, if mask.is_none() { self.edge_count() } else { 0 })?;
-        self.for_edges(VertexId::range(0..self.id_count()), |edge, first| {
-            n += 1;
+        memory::lengthen(&mut offsets, self.id_count() + 1, 0)?;
+        let vertices = self.mesh.kernel.live_sites().map(|s| self.mesh.kernel.site(s).id);
+        self.for_edges(vertices, |edge, first| {
+            let n = &mut offsets[edge[0].index() + 1];
+            *n += 1;
             if mask.is_some_and(|mask| edge.iter().all(|v| mask[v.index()] == 0)) {
                 return Ok(());
             }
-            memory::push(&mut wanted, (n - 1, edge, first))
+            memory::push(&mut wanted, (edge, *n - 1, first))
         })?;
-        Ok(wanted)
+        for k in 1..offsets.len() {
+            offsets[k] += offsets[k - 1];
+        }
+        Ok((wanted, offsets))
     }
 
     /// The cells around the vertices of a mask.
