@@ -93,6 +93,11 @@ pub enum deldrift_status {
     DELDRIFT_AMBIGUOUS_SEED = 34,
     /// A vertex would pass a segment; deldrift_passings tells all that would.
     DELDRIFT_PASSES_SEGMENT = 35,
+    /// A timestamp is prepared, and the call is not one that may be made before deldrift_publish_timestamp or
+    /// deldrift_withdraw_timestamp; the message has the timestamp and the number of rounds.
+    DELDRIFT_PREPARED = 36,
+    /// No timestamp is prepared that could be published.
+    DELDRIFT_NOT_PREPARED = 37,
 }
 
 use deldrift_status::*;
@@ -102,7 +107,7 @@ pub type StatusCode = u32;
 
 impl deldrift_status {
     /// Every status, in the order of their values.
-    const ALL: [deldrift_status; 36] = [
+    const ALL: [deldrift_status; 38] = [
         DELDRIFT_OK,
         DELDRIFT_NULL_ARGUMENT,
         DELDRIFT_MISALIGNED_ARGUMENT,
@@ -139,6 +144,8 @@ impl deldrift_status {
         DELDRIFT_ENDS_MEET,
         DELDRIFT_AMBIGUOUS_SEED,
         DELDRIFT_PASSES_SEGMENT,
+        DELDRIFT_PREPARED,
+        DELDRIFT_NOT_PREPARED,
     ];
 
     fn text(self) -> &'static CStr {
@@ -179,6 +186,8 @@ impl deldrift_status {
             DELDRIFT_ENDS_MEET => c"both ends of a segment would be at the same place",
             DELDRIFT_AMBIGUOUS_SEED => c"a seed is on the boundary of several regions",
             DELDRIFT_PASSES_SEGMENT => c"a vertex would pass a segment",
+            DELDRIFT_PREPARED => c"a timestamp is prepared",
+            DELDRIFT_NOT_PREPARED => c"no timestamp is prepared",
         }
     }
 }
@@ -287,6 +296,8 @@ impl Failure {
                     Conflict::EndsMeet { .. } => DELDRIFT_ENDS_MEET,
                 },
                 Error::Passing { .. } => DELDRIFT_PASSES_SEGMENT,
+                Error::Prepared { .. } => DELDRIFT_PREPARED,
+                Error::NotPrepared => DELDRIFT_NOT_PREPARED,
                 Error::DuplicateMove { .. } => DELDRIFT_DUPLICATE_MOVE,
                 Error::WrongCount { .. } => DELDRIFT_WRONG_COUNT,
                 Error::InvalidValue { .. } => DELDRIFT_INVALID_VALUE,
