@@ -27,7 +27,7 @@
 //! Both feet are on the circle over the perpendicular of the vertex to E, of length ρ, so that |f₁ − f₂| = ρ sin θ with
 //! the angle θ between the normals. So with T the sum over the edges of the areas |E| ρ / 2 of the triangles that the
 //! vertex makes with them, a volume is off by at most 2/3 h T: less than h times the surface unless a cell has dozens of
-//! facets or is flat. In the plane, with r the distance of a corner, it is h/2 times the sum of r sin θ. With the
+//! facets. In the plane, with r the distance of a corner, it is h/2 times the sum of r sin θ. With the
 //! support function s of the cell, seen from the vertex, that is at most ∫ √(s² + s'²) ≤ ∫ s + ∫ |s'| over all
 //! directions. The first is the length of the boundary, and so the second one at most: from a direction in which s is
 //! greatest, M, to one in which it is least, it goes down by less than the integral of M times the cosine, which it
@@ -317,8 +317,10 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// or of those of which `mask` has an entry that is not 0.
     ///
     /// Rounded: let h be 10⁻⁸ times the greatest extent of the box and 10⁻¹⁵ times the greatest magnitude of its
-    /// coordinates. A volume is off by at most h times the area S of the cell's surface, an area by h times the sum of
-    /// the perimeters of its facets, and a centroid by h S d / V, where d is the diameter of the cell and V its volume.
+    /// coordinates. To first order in h, a volume is off by at most h times the area of the cell's surface or two
+    /// thirds of that of the triangles that the vertex makes with its edges, whichever is more (an area, by h times the
+    /// length of the boundary), an area by h times the sum of the perimeters of its facets, and a centroid by the error
+    /// of the volume times d / V, where d is the diameter of the cell and V its volume.
     /// In place of 10⁻⁸ it is some last bits unless cells are nearly flat. The volumes of all ids add up to that of the
     /// box.
     ///

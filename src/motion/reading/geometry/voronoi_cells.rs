@@ -23,9 +23,10 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// Rounded: let h be 10⁻⁸ times the greatest extent of the box and 10⁻¹⁵ times the greatest magnitude of its
     /// coordinates; without a box, 10⁻⁸ times the greatest circumradius around the vertex and 10⁻¹⁵ times the greatest
-    /// magnitude of coordinates of the circumcentres. A corner of a cell is off by at most h, and so the area or volume
-    /// by h times the length or area of the surface of the cell; by a few last bits in place of 10⁻⁸, unless there are
-    /// cells that are nearly flat. In the box, no corner is left out and none is too many.
+    /// magnitude of coordinates of the circumcentres. A corner of a cell is off by at most h, and so, to first order, an
+    /// area by h times the length of the boundary, and a volume by h times the area of the surface or two thirds of that
+    /// of the triangles that the vertex makes with the edges of its cell, whichever is more; by a few last bits in place
+    /// of 10⁻⁸, unless there are cells that are nearly flat. In the box, no corner is left out and none is too many.
     ///
     /// ```
     /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
