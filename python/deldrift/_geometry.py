@@ -367,7 +367,7 @@ class Geometry(Scipy):
     def voronoi_changed(self, moved: Any) -> np.ndarray:
         """Which Voronoi cells have changed, or may have, by the changes that were taken last.
 
-        To be called after `take_changes`, before the next change; otherwise all are. With the mask `voronoi_cells` gives
+        To be called after `changes`, before the next change; otherwise all are. With the mask `voronoi_cells` gives
         what it gives for all vertices, to the last bit if changes are taken after every commit.
 
         Parameters
@@ -384,9 +384,9 @@ class Geometry(Scipy):
         --------
         >>> import deldrift, numpy as np
         >>> tri = deldrift.Delaunay(np.mgrid[:9, :9].reshape(2, -1).T)
-        >>> changes = tri.take_changes()
+        >>> changes = tri.changes()
         >>> report = tri.move([[4.1, 4.2]], ids=[40])
-        >>> changes = tri.take_changes()
+        >>> changes = tri.changes()
         >>> changed = tri.voronoi_changed([40])
         >>> bool(changed[40]), bool(changed[0])
         (True, False)

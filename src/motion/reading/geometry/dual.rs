@@ -377,46 +377,59 @@ impl<G: Dimension> MovingTriangulation<G> {
             return self.without_segments()?.for_voronoi_cells(clip, mask, monitor, tell);
         }
         let clip = checked::<G>(clip)?;
-        let n_sites = self.mesh.kernel.sites().len();
-        let wanted =
-            VertexId::range(0..self.id_count()).filter(|v| mask.is_none_or(|mask| mask[v.index()] != 0));
+        let is_wanted = |v: &VertexId| mask.is_none_or(|mask| mask[v.index()] != 0);
+        let wanted = VertexId::range(0..self.id_count()).filter(is_wanted);
         if self.cell_count() == 0 {
-            let mut targets = Targets::new(All, n_sites)?;
-            let progress = &mut Progress::new(monitor, 1);
-            targets.list.iter_mut().for_each(|target| target.is_cut = true);
-            self.flat_cells(&clip, progress, |v, part| {
-                targets.of(self.mesh.site_of[v]).sums.join(part);
-            })?;
+            let targets = self.flat_targets(&clip, monitor)?;
             self.tell_cells(&clip, wanted, targets, tell);
             return Ok(());
         }
-        let cells = self.cell_arrays()?;
-        let is_shown = |v: &VertexId| matches!(self.mesh.standing(*v), Standing::Shown(_));
-        let mut shown = Vec::new();
-        if mask.is_none() {
-            memory::reserve_exact(&mut shown, self.vertex_count())?;
-            shown.extend(self.mesh.kernel.live_sites().map(|s| self.mesh.kernel.site(s).id));
-            let mut targets = Targets::new(All, n_sites)?;
+        let (cells, n_sites) = (self.cell_arrays()?, self.mesh.kernel.sites().len());
+        let Some(mask) = mask else {
+            let mut vertices = Vec::new();
+            memory::reserve_exact(&mut vertices, self.vertex_count())?;
+            vertices.extend(self.mesh.kernel.live_sites().map(|s| self.mesh.kernel.site(s).id));
             let centres = Centres::new(self, cells, Some(&clip), None)?;
-            let mut voronoi = Voronoi::new(self, cells, &centres);
-            let progress = &mut Progress::new(monitor, 2 * self.cell_count());
-            voronoi.add_all(clip.unit, All, progress, &mut targets)?;
-            voronoi.cut_all(&clip, &shown, progress, &mut targets)?;
+            let targets = Targets::new(All, n_sites)?;
+            let targets = self.targets_of(&clip, (&centres, All), &vertices, targets, monitor)?;
             self.tell_cells(&clip, wanted, targets, tell);
             return Ok(());
-        }
-        memory::collect(&mut shown, wanted.clone().filter(is_shown))?;
-        let chosen = self.cells_around(&shown)?;
-        let numbers = Ranks::of(n_sites, shown.iter().map(|&v| self.mesh.site_of[v].index()))?;
-        let mut targets = Targets::new(&numbers, shown.len())?;
+        };
+        let vertices = self.shown_in(mask)?;
+        let chosen = self.cells_around(&vertices)?;
         let centres = Centres::new(self, cells, Some(&clip), Some(&chosen))?;
-        let mut voronoi = Voronoi::new(self, cells, &centres);
-        let progress = &mut Progress::new(monitor, 2 * chosen.len());
         let (_, ranks) = centres.chosen.as_ref().expect("cells are chosen");
-        voronoi.add_all(clip.unit, ranks, progress, &mut targets)?;
-        voronoi.cut_all(&clip, &shown, progress, &mut targets)?;
+        let numbers = Ranks::of(n_sites, vertices.iter().map(|&v| self.mesh.site_of[v].index()))?;
+        let targets = Targets::new(&numbers, vertices.len())?;
+        let targets = self.targets_of(&clip, (&centres, ranks), &vertices, targets, monitor)?;
         self.tell_cells(&clip, wanted, targets, tell);
         Ok(())
+    }
+
+    /// Sums for vertices in one hyperplane.
+    fn flat_targets(&self, clip: &Clip, monitor: &mut dyn FnMut(f64) -> bool) -> Result<Targets<All>> {
+        let mut targets = Targets::new(All, self.mesh.kernel.sites().len())?;
+        targets.list.iter_mut().for_each(|target| target.is_cut = true);
+        self.flat_cells(clip, &mut Progress::new(monitor, 1), |v, part| {
+            targets.of(self.mesh.site_of[v]).sums.join(part);
+        })?;
+        Ok(targets)
+    }
+
+    /// Sums for some vertices, which have targets, by the centres of all cells around these, which are numbered.
+    fn targets_of<S: Numbering>(
+        &self,
+        clip: &Clip,
+        (centres, numbers): (&Centres<G::Point>, impl Numbering),
+        vertices: &[VertexId],
+        mut targets: Targets<S>,
+        monitor: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<Targets<S>> {
+        let mut voronoi = Voronoi::new(self, self.cell_arrays()?, centres);
+        let progress = &mut Progress::new(monitor, 2 * centres.list.len());
+        voronoi.add_all(clip.unit, numbers, progress, &mut targets)?;
+        voronoi.cut_all(clip, vertices, progress, &mut targets)?;
+        Ok(targets)
     }
 
     /// Tells what is known of vertices.

@@ -33,7 +33,6 @@ use crate::motion::reading::geometry::progress::Progress;
 use crate::motion::reading::geometry::sums::LEAST_SQUARE;
 use crate::motion::reading::geometry::voronoi::{Part, Voronoi};
 use crate::motion::reading::geometry::voronoi_cells::checked;
-use crate::motion::state::mesh::Standing;
 use crate::motion::triangulation::MovingTriangulation;
 
 /// The Voronoi facets of edges in a box.
@@ -245,7 +244,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let clip = checked::<G>(clip)?;
         let (wanted, offsets) = self.wanted_edges(mask)?;
         let progress = &mut Progress::new(monitor, wanted.len());
-        let chosen = mask.map(|mask| self.cells_around_masked(mask)).transpose()?;
+        let chosen = mask.map(|mask| self.cells_around(&self.shown_in(mask)?)).transpose()?;
         let cells = self.cell_arrays()?;
         let centres = Centres::new(self, cells, Some(&clip), chosen.as_deref())?;
         let mut facets = Vec::new();
@@ -321,15 +320,6 @@ impl<G: Dimension> MovingTriangulation<G> {
             offsets[k] += offsets[k - 1];
         }
         Ok((wanted, offsets))
-    }
-
-    /// The cells around the vertices of a mask.
-    fn cells_around_masked(&self, mask: &[u8]) -> Result<Vec<CellId>> {
-        let mut shown = Vec::new();
-        let is_shown = |v: &VertexId| matches!(self.mesh.standing(*v), Standing::Shown(_));
-        let masked = VertexId::range(0..mask.len()).filter(|v| mask[v.index()] != 0);
-        memory::collect(&mut shown, masked.filter(is_shown))?;
-        self.cells_around(&shown)
     }
 }
 
