@@ -1,7 +1,7 @@
-// A gas whose parcels are Voronoi cells of a square. Each has a mass; its pressure is the mass by the area of the cell. The
-// parcels in a disk are heavier, and push the others away until all pressures are equal: the areas are as the masses then.
-// A parcel goes where the energy, minus the sum of mass times the logarithm of area, falls; its derivatives are those of the
-// areas by positions. A step that does not make the energy less is made again with half the length.
+// A gas whose parcels are Voronoi cells of a square. Each has a mass; its pressure is the mass by the area of the cell.
+// The parcels in a disk are heavier, and push the others away until all pressures are equal: the areas are as the
+// masses then. A parcel goes where the energy falls, minus the sum of mass times the logarithm of area; its derivatives
+// are those of the areas by positions. A step that does not make the energy less is made again with half the length.
 //
 //   gas [parcels [steps [picture.svg]]]
 #include "svg.hpp"
@@ -87,7 +87,8 @@ double difference_from_forces(const Parcels &parcels, const Numbers &forces) {
         for (int side = 0; side < 2; side++) {
             Numbers positions = parcels.positions;
             positions[k] += side == 0 ? step : -step;
-            energies[side] = energy(parcels.masses, deldrift::Triangulation(2, positions).voronoi_cells(low, high).volumes);
+            const deldrift::Triangulation moved(2, positions);
+            energies[side] = energy(parcels.masses, moved.voronoi_cells(low, high).volumes);
         }
         worst = std::max(worst, std::abs((energies[1] - energies[0]) / (2 * step) - forces[k]) / greatest);
     }
@@ -102,10 +103,11 @@ void draw(Picture &picture, const State &state, const Numbers &positions, double
         if (!(length > 0)) continue;
         const double *const ends[] = {&positions[2 * state.edges[2 * k]], &positions[2 * state.edges[2 * k + 1]]};
         const double x = ends[1][0] - ends[0][0], y = ends[1][1] - ends[0][1], half = length / (2 * std::hypot(x, y));
-        const double from[] = {middle[0] - half * y, middle[1] + half * x}, to[] = {middle[0] + half * y, middle[1] - half * x};
+        const double from[] = {middle[0] - half * y, middle[1] + half * x};
+        const double to[] = {middle[0] + half * y, middle[1] - half * x};
         for (int end = 0; end < 2; end++) {
             const double pressure = state.pressures[state.edges[2 * k + end]] / mean;
-            picture.triangle((std::log2(pressure) + 2) / 4, ends[end], from, to);
+            picture.triangle((std::log2(pressure) + 1.75) / 4, ends[end], from, to);
         }
         picture.segment(from, to);
     }
@@ -114,12 +116,12 @@ void draw(Picture &picture, const State &state, const Numbers &positions, double
 }  // namespace
 
 int main(int n_arguments, char **arguments) {
-    const int side = static_cast<int>(std::sqrt(n_arguments > 1 ? std::atoi(arguments[1]) : 900));
-    const int n_steps = n_arguments > 2 ? std::atoi(arguments[2]) : 3000, shown[] = {0, n_steps / 30, n_steps};
+    const int side = static_cast<int>(std::sqrt(n_arguments > 1 ? std::atoi(arguments[1]) : 400));
+    const int n_steps = n_arguments > 2 ? std::atoi(arguments[2]) : 4000, shown[] = {0, n_steps / 200, n_steps};
     Parcels parcels = parcels_in_square(side);
     const double mean = sum(parcels.masses);  // the square has area 1
     deldrift::Triangulation t(2, parcels.positions);
-    Picture picture(Picture::Point{0, 0}, Picture::Point{1, 1}, 300, 3, "pressure 1/4 (by octaves)", "4");
+    Picture picture(Picture::Point{0, 0}, Picture::Point{1, 1}, 300, 3, "pressure 0.3 (by half octaves)", "4.8");
     State state = read(t, parcels.masses);
     Numbers push = forces(state);
     const double first = energy(parcels.masses, state.cells.volumes);
