@@ -83,7 +83,7 @@ struct Polygon {
 const NARROW: f64 = 4e-8;
 
 /// How many facets are computed between two looks at whether to go on.
-const FACETS_AT_A_TIME: usize = 1 << 16;
+const FACETS_AT_A_TIME: usize = 1 << 15;
 
 impl<G: Dimension> Voronoi<'_, G> {
     /// The facet of the ring.
@@ -242,8 +242,8 @@ impl<G: Dimension> MovingTriangulation<G> {
             return self.facets_at_own_edges(clip, mask, monitor, tell);
         }
         let clip = checked::<G>(clip)?;
-        let (wanted, offsets) = self.wanted_edges(mask)?;
-        let progress = &mut Progress::new(monitor, wanted.len());
+        let progress = &mut Progress::new(monitor, 2 * self.edge_count());
+        let (wanted, offsets) = self.wanted_edges(mask, progress)?;
         let chosen = mask.map(|mask| self.cells_around(&self.shown_in(mask)?)).transpose()?;
         let cells = self.cell_arrays()?;
         let centres = Centres::new(self, cells, Some(&clip), chosen.as_deref())?;
@@ -303,12 +303,13 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// The edges that have an end in a mask, if there is one, in the order of storage of the vertices; and how many edges
     /// have a vertex of lower id as their first one, by id.
-    fn wanted_edges(&self, mask: Option<&[u8]>) -> Result<(Vec<Wanted>, Vec<u32>)> {
+    fn wanted_edges(&self, mask: Option<&[u8]>, progress: &mut Progress) -> Result<(Vec<Wanted>, Vec<u32>)> {
         let (mut wanted, mut offsets) = (Vec::new(), Vec::new());
         memory::reserve_exact(&mut wanted, if mask.is_none() { self.edge_count() } else { 0 })?;
         memory::lengthen(&mut offsets, self.id_count() + 1, 0)?;
         let vertices = self.mesh.kernel.live_sites().map(|s| self.mesh.kernel.site(s).id);
         self.for_edges(vertices, |edge, first| {
+            progress.advance(1)?;
             let n = &mut offsets[edge[0].index() + 1];
             *n += 1;
             if mask.is_some_and(|mask| edge.iter().all(|v| mask[v.index()] == 0)) {
