@@ -241,6 +241,7 @@ deldrift_status deldrift_mpi_commit(deldrift_mpi *m, const double *positions, si
     deldrift_status status = vote.status;
     if (status == DELDRIFT_OK && vote.most[0]) status = advance(m, positions, vote.most[1]);
     if (status != DELDRIFT_OK) return status;
+    dm_count_copies(m);
     m->was_spanning = m->report.is_spanning;
     m->report.timestamp = ++m->timestamp;
     if (report) *report = m->report;

@@ -245,6 +245,7 @@ void dm_set_vertex(deldrift_mpi *m, uint32_t vertex, int32_t owner, uint64_t id,
 void dm_unset_vertex(deldrift_mpi *m, uint32_t vertex);
 // What the triangulation and the lists say becomes, or does not become, the timestamp in force.
 void dm_settle(deldrift_mpi *m);
+void dm_count_copies(deldrift_mpi *m); // to the report
 void dm_restore(deldrift_mpi *m);
 
 // changes.c

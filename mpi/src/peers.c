@@ -1,4 +1,5 @@
 // Lists of what other processes have of this one, and this one of them, and the exchange of positions by these lists.
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,6 +22,11 @@ dm_peer *dm_peer_of(deldrift_mpi *m, int rank) {
 // Requests know the address and the size of a buffer: they are made again where either has changed.
 static bool make_ready(deldrift_mpi *m, dm_peer *peer) {
     uint32_t d = m->dimension;
+    size_t longest = peer->sent.count > peer->received.count ? peer->sent.count : peer->received.count;
+    if (longest > INT_MAX / d) {
+        dm_refuse(&m->refusal, DELDRIFT_SIZE_OVERFLOW, "%zu vertices go between two processes in one message", longest);
+        return false;
+    }
     const double *before[2] = {peer->outgoing, peer->incoming};
     if (!dm_reserve(&m->refusal, &peer->outgoing, &peer->outgoing_room, peer->sent.count, d * sizeof(double)) ||
         !dm_reserve(&m->refusal, &peer->incoming, &peer->incoming_room, peer->received.count, d * sizeof(double)))

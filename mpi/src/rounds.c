@@ -71,10 +71,12 @@ deldrift_status dm_rounds(deldrift_mpi *m) {
     }
 }
 
-static size_t halo_of(const deldrift_mpi *m) {
-    size_t halo = 0;
-    for (size_t p = 0; p < m->peer_count; p++) halo += m->peers[p].received.count;
-    return halo;
+void dm_count_copies(deldrift_mpi *m) {
+    m->report.halo = m->report.neighbours = 0;
+    for (size_t p = 0; p < m->peer_count; p++) {
+        m->report.halo += m->peers[p].received.count;
+        m->report.neighbours += m->peers[p].sent.count || m->peers[p].received.count;
+    }
 }
 
 void dm_settle(deldrift_mpi *m) {
@@ -94,10 +96,7 @@ void dm_settle(deldrift_mpi *m) {
         m->next_boxes = boxes;
         m->has_next_boxes = false;
     }
-    m->report.halo = halo_of(m);
-    m->report.neighbours = 0;
-    for (size_t p = 0; p < m->peer_count; p++)
-        m->report.neighbours += m->peers[p].sent.count || m->peers[p].received.count;
+    dm_count_copies(m);
 }
 
 void dm_restore(deldrift_mpi *m) {

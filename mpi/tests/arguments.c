@@ -166,12 +166,18 @@ static void wrong_calls_of_one_process(deldrift_mpi *m) {
 static void rest(deldrift_mpi *m, const double *points) {
     deldrift_mpi_report report;
     uint64_t before = 0;
-    OK(deldrift_mpi_commit(m, points, 4, NULL));
+    double other[8];
+    memcpy(other, points, sizeof other);
+    other[0] += 0.125;
+    OK(deldrift_mpi_commit(m, other, 4, NULL));
+    OK(deldrift_mpi_commit(m, points, 4, &report));
+    uint64_t halo = report.halo;
+    CHECK(size == 1 ? halo == 0 : halo > 0);
     OK(deldrift_mpi_timestamp(m, &before));
     for (int step = 0; step < 20; step++) {
         OK(deldrift_mpi_commit(m, step % 2 ? points : NULL, step % 2 ? 4 : 0, &report));
         CHECK(report.messages == 0 && report.bytes == 0 && report.collectives == 1 && report.rounds == 0);
-        CHECK(report.is_spanning == 1 && report.timestamp == ++before);
+        CHECK(report.halo == halo && report.is_spanning == 1 && report.timestamp == ++before);
     }
     is_serial(m, 2, "at rest");
 }
