@@ -96,7 +96,7 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("const double *", "low" | "high") => Role::BoxCorner,
         ("const double *", "values") => Role::Numbers,
         ("const double *", "outside") => Role::NumbersIfAny,
-        ("const uint32_t *", "vertices" | "moved") => Role::Ids,
+        ("const uint32_t *", "vertices") => Role::Ids,
         ("const uint32_t *", "ends") => Role::Ends,
         ("const uint32_t *", "segments") => Role::SegmentIds,
         ("const int32_t *", "labels" | "references") => Role::Wholes,
@@ -127,9 +127,7 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("uint32_t", "corners_per_simplex") => Role::Corners,
         ("double", "squared_radius" | "tolerance") => Role::Magnitude,
         ("size_t", "count") if function.name == "deldrift_commit_positions" => Role::FixedCount,
-        ("size_t", "count" | "vertex_count" | "moved_count" | "cell_count" | "seed_count" | "box_count") => {
-            Role::Count
-        }
+        ("size_t", "count" | "vertex_count" | "cell_count" | "seed_count" | "box_count") => Role::Count,
         ("size_t", "vertex_field_count" | "cell_field_count") => Role::Count,
         ("size_t", "value_count" | "mask_count" | "offset_count" | "reference_count") => Role::FixedCount,
         ("size_t", "n_values" | "k") => Role::CountOfEach,
