@@ -136,8 +136,8 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let mut goals = Vec::new();
         let mut ids = Vec::new();
         for (k, &(v, shift)) in self.images.iter().enumerate() {
-            let _ = k;
-            let (place, _) = self.lattice.wrapped("positions", v.index(), &positions[v])?;
+            let (place, wrap) = self.lattice.wrapped("positions", v.index(), &positions[v])?;
+            self.wraps[v] = wrap;
             memory::push(&mut goals, self.lattice.translated(&place, shift))?;
             memory::push(&mut ids, VertexId::at(k))?;
         }

@@ -105,8 +105,8 @@ fn check<G: Dimension>(seed: u64, basis: &[G::Point], n: usize) {
             }
         }
         t.commit(&points).unwrap();
-        // Wrapped again, positions are other translations.
-        assert_eq!(classes(&t, &points, basis).len(), by_copies::<G>(&points, basis, copies + 1).len());
+        let expected = by_copies::<G>(&points, basis, copies + 1);
+        assert_eq!(classes(&t, &points, basis), expected, "seed {seed}, {n}, {basis:?}, {points:?}");
     }
 }
 
