@@ -115,6 +115,23 @@ static void ask_what_is_near(deldrift_triangulation *t) {
     expect(count == n_cells, "and undone by a removal");
 }
 
+// What a vertex beyond the right side could change: the cells and edges there, whose corners another process would need.
+static void ask_what_is_in_reach(deldrift_triangulation *t) {
+    static uint32_t cells[MOST], edges[MOST], vertices[MOST];
+    static uint8_t corners[MOST];
+    static double centres[2 * MOST], radii[MOST];
+    const double low[] = {1.5, -INFINITY}, high[] = {INFINITY, INFINITY};
+    size_t n_cells, n_edges, count, offsets[2];
+    check(deldrift_cells_in_reach(t, low, high, 1, NULL, 0, cells, centres, radii, MOST, &n_cells));
+    for (size_t k = 0; k < n_cells; k++) {
+        expect(centres[2 * k] + radii[k] >= low[0], "the circle of each cell in reach comes to the box");
+    }
+    check(deldrift_hull_facets_in_reach(t, low, high, 1, NULL, 0, edges, corners, MOST, &n_edges));
+    expect(n_edges > 0, "from far away a part of the hull is seen");
+    check(deldrift_vertices_in_reach(t, low, high, 1, NULL, 0, vertices, offsets, MOST, &count));
+    expect(offsets[0] == 0 && offsets[1] == count && count > n_edges, "one list, with both ends of all edges");
+}
+
 static void ask_for_corners(deldrift_triangulation *t) {
     static double positions[2 * VERTICES];
     static uint32_t cells[VERTICES];
@@ -303,6 +320,39 @@ static void ask_for_a_domain(void) {
     deldrift_destroy(t);
 }
 
+// Four points on a circle, of which the order of keys says which two are joined, whatever their ids; and an id that is given
+// again.
+static void break_ties_by_keys(void) {
+    static const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};
+    static const uint64_t keys[2][4] = {{10, 20, 30, 40}, {20, 10, 40, 30}};
+    uint32_t vertices[2], first, id;
+    uint64_t found[7];
+    size_t count;
+    deldrift_triangulation *t;
+    bool has_first[2];
+    for (int k = 0; k < 2; k++) {
+        check(deldrift_create_with_keys(2, square, keys[k], 4, NULL, &t));
+        deldrift_cells_view view;
+        check(deldrift_cells(t, &view));
+        has_first[k] = true;
+        for (size_t c = 0; c < view.count; c++) {
+            const uint32_t *row = view.vertices + 3 * c;
+            has_first[k] = has_first[k] && (row[0] == 0 || row[1] == 0 || row[2] == 0);
+        }
+        if (k == 0) deldrift_destroy(t);
+    }
+    expect(has_first[0] != has_first[1], "keys choose the diagonal");
+    check(deldrift_remove_vertex(t, 1));
+    check(deldrift_stage_insertions_at_free_ids(t, (double[]){0.5, 0.25, 0.5, 0.75}, (uint64_t[]){7, 8}, 2, vertices));
+    expect(vertices[0] == 1 && vertices[1] == 4, "the id of a vertex that has gone is given again");
+    check(deldrift_stage_insertions_with_keys(t, (double[]){0.25, 0.5}, (uint64_t[]){9}, 1, &first));
+    check(deldrift_commit_timestamp(t, NULL));
+    check(deldrift_insert_vertex_with_key(t, (double[]){0.75, 0.5}, 11, &id));
+    check(deldrift_keys(t, found, 7, &count));
+    expect(count == 7 && found[1] == 7 && found[first] == 9 && found[id] == 11, "keys are read by id");
+    deldrift_destroy(t);
+}
+
 // A square of two regions whose mesh is refined: where vertices and pieces come from, labels, and the boundary.
 static void refine_a_domain(void) {
     enum { ROOM = 4096 };
@@ -355,11 +405,13 @@ int main(void) {
     change_one_at_a_time(t);
     ask_for_places(t);
     ask_what_is_near(t);
+    ask_what_is_in_reach(t);
     ask_for_corners(t);
     ask_for_geometry(t);
     keep_and_write(t);
     ask_for_signs();
     ask_for_a_domain();
+    break_ties_by_keys();
     refine_a_domain();
     check(deldrift_validate(t, 3));
     check(deldrift_dimension(t, &dimension));

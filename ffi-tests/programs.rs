@@ -99,6 +99,18 @@ fn programs_for_cgal_write_the_same() {
     }
 }
 
+/// Meshes under CGAL's names are as good as CGAL's, and about as small.
+#[test]
+#[ignore = "needs CGAL"]
+fn meshes_have_few_more_faces_than_those_of_cgal() {
+    let flags = ["-O1", "-g0", "-w", "-Wl,--no-as-needed", "-lgmp", "-lmpfr"];
+    let program =
+        build(&repository("ffi-tests/cgal/meshing.cpp"), &fresh_folder("meshing"), Linkage::Shared, &flags);
+    let said = succeed(&mut command(program));
+    assert!(said.lines().count() > 50, "{said}");
+    println!("{said}");
+}
+
 /// The example of a solver carries its data to the end, and checks them.
 #[test]
 fn the_example_of_a_solver_keeps_its_data() {

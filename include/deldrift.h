@@ -7,7 +7,7 @@
  * deldrift_compact gives new ids. Then the points move: stage the moves, commit them as the next
  * timestamp, read the cells. After every commit the cells are exactly those of the Delaunay triangulation
  * of the current positions. Ties (cocircular and cospherical points) are broken by vertex id, so the cells
- * depend only on positions and ids. In 2D edges can be prescribed: with segments (deldrift_stage_segments) the
+ * depend only on positions and ids; or by keys that the program gives (deldrift_create_with_keys). In 2D edges can be prescribed: with segments (deldrift_stage_segments) the
  * triangulation is the constrained Delaunay triangulation.
  *
  *     #include <deldrift.h>
@@ -291,7 +291,7 @@ enum
   deldrift_coincidence : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    /// The lowest id represents the place in the cells; the others are hidden until they move apart.
+    /// The lowest id, or key, represents the place in the cells; the others are hidden until they move apart.
     DELDRIFT_COINCIDENCE_MERGE = 0,
     /// The call fails with DELDRIFT_COINCIDENT and has no effect.
     DELDRIFT_COINCIDENCE_REJECT = 1,
@@ -437,7 +437,7 @@ typedef struct deldrift_commit_report {
     uint64_t flips;
     /// 1 if the triangulation was rebuilt (in the statistics, how often).
     uint64_t rebuilds;
-    /// Hidden vertices at the end: those at the place of a vertex with a lower id.
+    /// Hidden vertices at the end: those at the place of a vertex with a lower id, or key.
     uint64_t coincident;
     /// Vertices that were certainly within their tolerance, with an algorithm that tests it.
     uint64_t within_tolerance;
@@ -517,7 +517,7 @@ typedef struct deldrift_changes {
     size_t star_count;
     /// These vertices, ascending. Some may have been removed.
     const uint32_t *stars;
-    /// Number of vertices that are hidden and were not: a vertex of lower id is at the same place now.
+    /// Number of vertices that are hidden and were not: a vertex of lower id, or key, is at the same place now.
     size_t hidden_count;
     /// These vertices, ascending.
     const uint32_t *hidden;
@@ -586,16 +586,23 @@ typedef struct deldrift_quality {
     const double *sizes;
     /// How many sizes there are: as many as ids, or 0.
     size_t size_count;
-    /// Another criterion: whether a cell is too large, with the coordinates of its corners, 6 numbers, counter-clockwise. It
-    /// has to give the same answer for the same corners, and to be false for cells that are small enough. It is called from
-    /// inside the call as the callbacks of deldrift_options are. NULL, the default, for none.
-    bool (*is_too_large)(void *user_data, const double *corners);
+    /// Another criterion: whether a cell is too large, with the coordinates of its corners, 6 numbers, counter-clockwise: 1
+    /// if it is, otherwise 0. It has to give the same answer for the same corners, and 0 for cells that are small enough. A
+    /// number below 0 is to stop: it is not called again, and the call ends in DELDRIFT_CANCELLED and has had no effect. It is
+    /// called from inside the call as the callbacks of deldrift_options are. NULL, the default, for none.
+    int (*is_too_large)(void *user_data, const double *corners);
     /// Handed to is_too_large as it is.
     void *user_data;
     /// Which segments deldrift_refine keeps whole: default DELDRIFT_KEPT_NONE. Cells at those that it keeps may stay bad.
     deldrift_kept keeps;
     /// Not 0 if deldrift_refined_weights will be asked for. Default 0.
     uint32_t has_weights;
+    /// Not 0 if no corner of a cell is to be strictly inside the circle that has a segment at the cell for a diameter. Then no
+    /// vertex is inside the circle of a cell that it sees, segments or not: a conforming Delaunay triangulation. Segments that
+    /// are kept whole may have such corners. Refinement then ends, as is proved, up to 20.7 degrees, and makes more cells. At
+    /// angles between segments so small that rounding decides, below some millionth of a degree, it may reach the limit.
+    /// Default 0: segments are split where angles, areas and lengths need it.
+    uint32_t is_conforming;
     /// Greatest number of vertices that deldrift_refine inserts: default SIZE_MAX.
     size_t limit;
     /// By how many degrees the angles of cells that come by deldrift_coarsen have to be above the least one, so that the
@@ -625,7 +632,7 @@ typedef struct deldrift_quality_report {
     /// Pieces that had to be split and are whole, as there is no room for a vertex between their ends.
     uint64_t unsplit;
     /// Cells that are still bad, of those that were to be refined: at small angles between segments, at segments that are
-    /// kept whole, and where the limit was reached.
+    /// kept whole, and where the limit was reached. What is_conforming asks of segments does not count.
     uint64_t bad_cells;
     /// 1 if the limit was reached, otherwise 0.
     uint64_t is_cut_short;
@@ -889,7 +896,7 @@ deldrift_status deldrift_insert_vertex(deldrift_triangulation *t,
                                        uint32_t *out_vertex);
 
 /// Removes a vertex at once, with the move or the removal staged for it, if any. Its id is not given again before a
-/// deldrift_compact, nor is all of its memory. Ends all views.
+/// deldrift_compact, but by deldrift_stage_insertions_at_free_ids, nor is all of its memory. Ends all views.
 ///
 /// Cost: up to 64 neighbours at most the square of their number, beyond that a build of the neighbours alone. In 3D
 /// that may have as many cells as half the square of their number, as where all points are on the moment curve; each
@@ -902,7 +909,7 @@ deldrift_status deldrift_remove_vertex(deldrift_triangulation *t,
                                        uint32_t vertex);
 
 /// Frees the memory that has served removed vertices, and gives the others new ids: 0, 1, ... in the order
-/// of those that they have. Ties between cocircular or cospherical points are broken by the order of ids, so
+/// of those that they have. Ties between cocircular or cospherical points are broken by keys, or the order of ids, so
 /// the cells stay the same, with their indices in deldrift_cells; so do positions, staged moves, the ids of segments and the
 /// timestamp. Memory and the time of commits are those of a fresh triangulation then. Ends all views.
 ///
@@ -923,6 +930,101 @@ deldrift_status deldrift_compact(deldrift_triangulation *t,
                                  uint32_t *map,
                                  size_t capacity,
                                  size_t *count);
+
+/// Creates a triangulation, as deldrift_create does, of vertices that have keys.
+///
+/// A key is what breaks ties in place of the id. Where points are cocircular or cospherical, the cells are those of the
+/// order of keys; vertices of equal keys are in the order of their positions, by x, then y, then z. Of several vertices at the
+/// same place the one of the lowest key, and of those the one of the lowest id, is the corner of cells. So cells follow from
+/// positions and keys, and a program may give ids in any order: images of a vertex in a periodic box, or copies of those of
+/// other processes, have the key of the vertex. Without a key of its own a vertex has its id for one.
+///
+/// keys: count of them, in the order of positions, any numbers; read during the call only. NULL stands for the ids.
+/// All else is as in deldrift_create. Where vertices have keys they take 8 bytes for each id, deldrift_compact leaves them
+/// as they are, and vertices that deldrift_refine and deldrift_stage_splits make have the greatest key, 2^64 - 1.
+///
+/// Cost: that of deldrift_create.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_INVALID_OPTIONS, DELDRIFT_NULL_ARGUMENT,
+/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. May be called from any number of threads at once.
+deldrift_status deldrift_create_with_keys(uint32_t dimension,
+                                          const double *positions,
+                                          const uint64_t *keys,
+                                          size_t count,
+                                          const deldrift_options *options,
+                                          deldrift_triangulation **out);
+
+/// Stages the insertion of count vertices, as deldrift_stage_insertions does, with keys; see deldrift_create_with_keys.
+///
+/// keys: count of them, in the order of positions, read during the call only. NULL stands for the ids. The others are as in
+/// deldrift_stage_insertions.
+///
+/// Cost: count, in the mean over many calls; the first keys of a triangulation also n.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
+/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_OUT_OF_MEMORY. Not to
+/// be called at the same time as any other call on t.
+deldrift_status deldrift_stage_insertions_with_keys(deldrift_triangulation *t,
+                                                    const double *positions,
+                                                    const uint64_t *keys,
+                                                    size_t count,
+                                                    uint32_t *first_vertex);
+
+/// Stages the insertion of count vertices, as deldrift_stage_insertions_with_keys does, under ids that are given again:
+/// those of removed vertices, the lowest first, and after these the ones above the highest id given so far. So
+/// deldrift_id_count does not grow where vertices come and go for ever. An id is free from the removal of its vertex, or the
+/// commit of that, until it is given here; deldrift_discard_moves makes those that are staged free again.
+///
+/// Who has kept an id of a removed vertex sees another vertex under it. In lists of changes it is as if the vertex had
+/// moved: cells that have the same ids as before are not listed, whether or not an id is that of another vertex. Where there
+/// have been segments, or deldrift_refine has made vertices, ids are not given again: what is known of those by id lasts
+/// longer than they do.
+///
+/// keys: count keys, or NULL for the ids. vertices: room for count ids, receives that of each vertex, ascending; both may be
+/// NULL if count is 0. The others are as in deldrift_stage_insertions.
+///
+/// Cost: n + count, a pass over 4 bytes for each id.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
+/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_OUT_OF_MEMORY. Not to
+/// be called at the same time as any other call on t.
+deldrift_status deldrift_stage_insertions_at_free_ids(deldrift_triangulation *t,
+                                                      const double *positions,
+                                                      const uint64_t *keys,
+                                                      size_t count,
+                                                      uint32_t *vertices);
+
+/// Inserts a vertex at once, as deldrift_insert_vertex does, with a key; see deldrift_create_with_keys.
+///
+/// position: 2 or 3 numbers, read during the call only. key: any number. out_vertex: receives the id, one above the highest
+/// given so far.
+///
+/// Cost: that of deldrift_insert_vertex; the first key of a triangulation also n.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_ON_SEGMENT, DELDRIFT_TOO_MANY_VERTICES,
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other
+/// call on t.
+deldrift_status deldrift_insert_vertex_with_key(deldrift_triangulation *t,
+                                                const double *position,
+                                                uint64_t key,
+                                                uint32_t *out_vertex);
+
+/// The key of each vertex by id, to keys: what it has been given, or else its id; also of vertices whose insertion is
+/// staged. The entries of removed vertices are 0.
+///
+/// keys: receives them: a buffer with room for capacity keys; NULL with capacity 0 if it is not wanted, NULL with another is
+/// DELDRIFT_NULL_ARGUMENT. count: receives deldrift_id_count, which is also written when the buffer is too small.
+///
+/// Cost: n.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
+deldrift_status deldrift_keys(const deldrift_triangulation *t,
+                              uint64_t *keys,
+                              size_t capacity,
+                              size_t *count);
 
 /// Stages segments between vertices: all of them, or none if it fails. From the next commit on, which makes them together
 /// with the staged moves, insertions and removals, each is an edge, and the cells are the constrained Delaunay
@@ -1347,7 +1449,8 @@ deldrift_status deldrift_locate_points(const deldrift_triangulation *t,
                                        const deldrift_location *hint,
                                        deldrift_location *locations);
 
-/// The vertex nearest to a point, to *vertex: the lowest id among the nearest; DELDRIFT_NONE if the
+/// The vertex nearest to a point, to *vertex: the lowest id among the nearest, or where vertices have keys the one
+/// of the lowest key; DELDRIFT_NONE if the
 /// triangulation has no vertices.
 ///
 /// position: 2 or 3 numbers.
@@ -1361,8 +1464,8 @@ deldrift_status deldrift_nearest_vertex(const deldrift_triangulation *t,
                                         const double *position,
                                         uint32_t *vertex);
 
-/// The lowest id among the vertices at the place of this one, to *representative: the one that is a
-/// corner of cells. It is the vertex itself unless the vertex is hidden.
+/// The lowest id among the vertices at the place of this one, or where vertices have keys the one of the lowest key and then
+/// of the lowest id, to *representative: the one that is a corner of cells. It is the vertex itself unless the vertex is hidden.
 ///
 /// Cost: constant.
 ///
@@ -1387,7 +1490,8 @@ deldrift_status deldrift_hidden_vertices(const deldrift_triangulation *t,
                                          size_t capacity,
                                          size_t *count);
 
-/// The k vertices nearest to each of count positions: rows of k ids, by distance and, at the same distance, by id;
+/// The k vertices nearest to each of count positions: rows of k ids, by distance and, at the same distance, by id, or by key
+/// where vertices have keys;
 /// DELDRIFT_NONE where there are fewer vertices than k. Distances are compared exactly. Hidden vertices count like
 /// others.
 ///
@@ -1469,6 +1573,110 @@ deldrift_status deldrift_conflicts(const deldrift_triangulation *t,
                                    uint32_t *cells,
                                    size_t capacity,
                                    size_t *count);
+
+/// The cells that a vertex at a place in one of some boxes could change: with deldrift_hull_facets_in_reach, what a process
+/// has to know of vertices that it does not have, given where they may be.
+///
+/// A cell is in reach of a box if its closed circumscribed disc or ball meets the closed box. Exactly these are told,
+/// decided without rounding: none is missing, and none is too many. A vertex that is inserted, or moves to, a place in the box
+/// removes no other cell, whatever its id, and joins no facet of the hull but those in reach, and those in whose line or
+/// plane its place is, where the cell behind is in reach.
+///
+/// low, high: box_count rows of 2 (2D) or 3 (3D) numbers, the least and the greatest coordinates of each box, which may
+/// be infinite; NULL if box_count is 0. Places beyond the range of coordinates, of magnitudes above 1e57, do not count. A
+/// box is empty, and nothing in reach of it, where one of low is above that of high. It may be a place, or flat. The
+/// outside of a box is 4 (2D) or 6 (3D) boxes with infinite sides.
+/// mask: an entry for each vertex id; only cells count that have a corner at the place of a vertex whose entry is not 0.
+/// NULL for all cells. mask_count: deldrift_id_count; without a mask it is not looked at.
+///
+/// cells, centres, radii: buffers with room for capacity cells. They receive the indices of those in reach of any of the
+/// boxes, ascending and each once; rows of 2 or 3 coordinates; and numbers. The closed ball with this centre and radius
+/// certainly has the closed disc or ball of the cell in it. It is larger by some 1e-12 of the radius and last bits of the
+/// coordinates, where the cell is nearly flat by up to 4e-9 of the radius. Where numbers do not suffice, the radius is
+/// infinite and the centre a corner of the cell. A ball may cover all vertices though few are in that of the cell, if its
+/// radius is 1e8 times their extent: whether the cell is in reach does not depend on that.
+/// One that is NULL is not filled. count: receives the number of cells, which is also written when the buffers are too
+/// small. NULL for all three with capacity 0 asks for the count alone.
+///
+/// While there are no cells, as all vertices are in one line or plane, or fewer than 3 or 4, none are told: then a vertex
+/// anywhere could change all there is.
+/// Where cells are constrained by segments, they are those whose discs meet the box and that are connected, by such cells,
+/// with those that have a place of the box. Segments between them do not count. All that the insertion of a vertex in the
+/// box would remove are among them.
+///
+/// Cost: for each box that of deldrift_locate, and the cells and hull facets in its reach, whether in the mask or not; k
+/// log k for the k cells told. After a change the first call also does what the first deldrift_cells does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT for a mask
+/// of another length, DELDRIFT_INVALID_VALUE for NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_cells_in_reach(const deldrift_triangulation *t,
+                                        const double *low,
+                                        const double *high,
+                                        size_t box_count,
+                                        const uint8_t *mask,
+                                        size_t mask_count,
+                                        uint32_t *cells,
+                                        double *centres,
+                                        double *radii,
+                                        size_t capacity,
+                                        size_t *count);
+
+/// The facets of the convex hull that a place in one of some boxes is strictly beyond: those to which a vertex there
+/// would be joined. Exact.
+///
+/// low, high, box_count, mask, mask_count: as for deldrift_cells_in_reach; with a mask, only facets count that have a
+/// corner at the place of a vertex of it. cells, corners: buffers with room for capacity numbers, which receive the cell
+/// of each facet and which of its corners (0, 1, ...) is opposite, as deldrift_hull_facets has them, ascending and each
+/// once. One that is NULL is not filled. count: receives the number of facets, which is also written when the buffers are
+/// too small. NULL for both with capacity 0 asks for the count alone.
+///
+/// While there are no cells, there are none.
+///
+/// Cost: that of deldrift_cells_in_reach.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT for a mask
+/// of another length, DELDRIFT_INVALID_VALUE for NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_hull_facets_in_reach(const deldrift_triangulation *t,
+                                              const double *low,
+                                              const double *high,
+                                              size_t box_count,
+                                              const uint8_t *mask,
+                                              size_t mask_count,
+                                              uint32_t *cells,
+                                              uint8_t *corners,
+                                              size_t capacity,
+                                              size_t *count);
+
+/// For each of some boxes the vertices of the cells and hull facets in its reach: those that a process sends to another
+/// one whose vertices are in the box.
+///
+/// They are the corners of what deldrift_cells_in_reach and deldrift_hull_facets_in_reach tell for this box alone, and the
+/// vertices hidden behind them; with a mask, those of which the entry is not 0. low, high, box_count, mask, mask_count: as
+/// there.
+///
+/// vertices: a buffer with room for capacity ids, which receives a list for each box, ascending, one after the other.
+/// offsets: a buffer with room for box_count + 1 numbers: the list of box k is in vertices from the index that is entry k of
+/// offsets on, and ends before entry k + 1. One that is NULL is not filled. count: receives the number of entries, which
+/// is also written when vertices is too small. NULL for both with capacity 0 asks for the count alone, which takes as long.
+///
+/// While there are no cells, a vertex anywhere could change all there is: all vertices of the mask are in reach of each
+/// box that is not empty.
+///
+/// Cost: that of deldrift_cells_in_reach, and k log k for the k vertices of each list; while there are no cells, n for
+/// each box.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT for a mask
+/// of another length, DELDRIFT_INVALID_VALUE for NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_vertices_in_reach(const deldrift_triangulation *t,
+                                           const double *low,
+                                           const double *high,
+                                           size_t box_count,
+                                           const uint8_t *mask,
+                                           size_t mask_count,
+                                           uint32_t *vertices,
+                                           size_t *offsets,
+                                           size_t capacity,
+                                           size_t *count);
 
 /// The circumcentres and squared circumradii of all cells, in the order of deldrift_cells.
 ///
@@ -1688,11 +1896,13 @@ deldrift_status deldrift_label_cells(const deldrift_triangulation *t,
 /// are not listed. Other entries are not touched.
 ///
 /// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once: the created ones of
-/// deldrift_take_changes. NULL if cell_count is 0. other: the label of cells that are reached from the outside of the hull alone,
-/// from no cell that is not listed, or from some of different labels. label_of: an array of capacity numbers, of which those
-/// of cells that are not listed are read. capacity: at least deldrift_cell_count. undecided: receives the number of cells of
-/// the last two kinds: if it is not 0, a region has new cells only, or touches two labels, and it is time for
-/// deldrift_label_cells.
+/// deldrift_take_changes, and those that have been turned over. These are no changes, and are known by a row that lists the
+/// corners in the other order: where the end of a segment goes to the other side of two vertices, the cell of the three comes
+/// to be beyond the segment, though no vertex passes one. NULL if cell_count is 0. other: the label of cells that are reached
+/// from the outside of the hull alone, from no cell that is not listed, or from some of different labels. label_of: an array of
+/// capacity numbers, of which those of cells that are not listed are read. capacity: at least deldrift_cell_count. undecided:
+/// receives the number of cells of the last two kinds: if it is not 0, a region has listed cells only, or touches two labels,
+/// and it is time for deldrift_label_cells.
 ///
 /// deldrift_update_circumcentres has the steps by which an array for all cells is brought up to date. While segments stay,
 /// and vertices move without passing any, labels stay with their regions: that is what deldrift_label_cells would give for

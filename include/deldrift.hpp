@@ -64,6 +64,20 @@ public:
         require_ok(deldrift_create(dimension, numbers.data(), count_of("positions", numbers), &options, &t));
         t_.reset(t);
     }
+    // keys: an unsigned number of 64 bits for each point, by which ties are broken in place of ids. Equal keys are in the order
+    // of x, then y, then z.
+    //     const std::vector<std::uint64_t> tags = global_numbers_of(points);
+    //     deldrift::Triangulation t(3, points, tags);
+    Triangulation(std::uint32_t dimension, const Positions &positions, span<const std::uint64_t> keys,
+                  const deldrift_options &options = default_options())
+        : dimension_(dimension) {
+        deldrift_triangulation *t = nullptr;
+        const span<const double> numbers = gathered(positions);
+        const std::size_t count = count_of("positions", numbers);
+        expect("keys", keys.size(), count);
+        require_ok(deldrift_create_with_keys(dimension, numbers.data(), keys.data(), count, &options, &t));
+        t_.reset(t);
+    }
     // Takes over what deldrift_create has made.
     explicit Triangulation(deldrift_triangulation *t) : t_(t) { require_ok(deldrift_dimension(t, &dimension_)); }
 
@@ -193,6 +207,26 @@ public:
         require_ok(deldrift_stage_insertions(native(), numbers.data(), count_of("positions", numbers), &first));
         return first;
     }
+    std::uint32_t stage_insertions(const Positions &positions, span<const std::uint64_t> keys) {
+        const span<const double> numbers = gathered(positions);
+        const std::size_t count = count_of("positions", numbers);
+        expect("keys", keys.size(), count);
+        std::uint32_t first;
+        require_ok(deldrift_stage_insertions_with_keys(native(), numbers.data(), keys.data(), count, &first));
+        return first;
+    }
+    // For the next commit, under the ids of removed vertices, the lowest first, and then new ones; returns them. keys: one
+    // for each, or none.
+    std::vector<std::uint32_t> stage_insertions_at_free_ids(const Positions &positions,
+                                                            span<const std::uint64_t> keys = {}) {
+        const span<const double> numbers = gathered(positions);
+        const std::size_t count = count_of("positions", numbers);
+        if (!keys.empty()) expect("keys", keys.size(), count);
+        std::vector<std::uint32_t> vertices(count);
+        require_ok(deldrift_stage_insertions_at_free_ids(native(), numbers.data(), keys.empty() ? nullptr : keys.data(),
+                                                         count, vertices.data()));
+        return vertices;
+    }
     void stage_removals(span<const std::uint32_t> vertices) {
         require_ok(deldrift_stage_removals(native(), vertices.data(), vertices.size()));
     }
@@ -204,6 +238,18 @@ public:
         std::uint32_t vertex;
         require_change(deldrift_insert_vertex(native(), point(position), &vertex));
         return vertex;
+    }
+    std::uint32_t insert_vertex_with_key(span<const double> position, std::uint64_t key) {
+        std::uint32_t vertex;
+        require_change(deldrift_insert_vertex_with_key(native(), point(position), key, &vertex));
+        return vertex;
+    }
+    // By id; 0 for removed vertices.
+    std::vector<std::uint64_t> keys() const {
+        std::size_t count = id_count();
+        std::vector<std::uint64_t> keys(count);
+        require_ok(deldrift_keys(native(), keys.data(), count, &count));
+        return keys;
     }
     void remove_vertex(std::uint32_t vertex) { require_change(deldrift_remove_vertex(native(), vertex)); }
     // The new id of each old one, DELDRIFT_NONE for removed vertices.
@@ -404,6 +450,15 @@ public:
         require_ok(deldrift_label_cells(native(), numbers.data(), labels.data(), labels.size(), other, label_of.data(),
                                         count, &count));
         return label_of;
+    }
+    // Of the cells listed alone, in an array for all cells: the label of those of the others that each is reached from without
+    // crossing a segment, or the other one. Returns for how many labels cannot tell: if it is not 0, label anew. The cells
+    // are those that take_changes() tells as created, and those whose rows list the corners in the other order around.
+    std::size_t update_labels(span<const std::uint32_t> cells, std::int32_t other, span<std::int32_t> label_of) const {
+        std::size_t undecided;
+        require_ok(deldrift_update_labels(native(), cells.data(), cells.size(), other, label_of.data(), label_of.size(),
+                                          &undecided));
+        return undecided;
     }
     // The boundary of the cells in a mask, which are on the left of the edges of its chains.
     Chains boundary_chains(span<const std::uint8_t> mask) const {
@@ -628,6 +683,49 @@ public:
             return deldrift_vertices_in_box(native(), low.data(), high.data(), vertices, capacity, count);
         });
     }
+    // The cells that a vertex at a place in a box could change, with balls that certainly cover their discs or balls. Corners
+    // of boxes come one after the other, and may be infinite; a mask has an entry for each id, and an empty one is none.
+    InReach cells_in_reach(span<const double> low, span<const double> high, span<const std::uint8_t> mask = {}) const {
+        const std::size_t boxes = boxes_of(low, high);
+        const std::uint8_t *const chosen = mask.size() == 0 ? nullptr : mask.data();
+        InReach reach;
+        reach.cells = found([&](std::uint32_t *cells, std::size_t capacity, std::size_t *count) {
+            reach.centres.resize(capacity * dimension_);
+            reach.radii.resize(capacity);
+            return deldrift_cells_in_reach(native(), low.data(), high.data(), boxes, chosen, mask.size(), cells,
+                                           reach.centres.data(), reach.radii.data(), capacity, count);
+        });
+        reach.centres.resize(reach.cells.size() * dimension_);
+        reach.radii.resize(reach.cells.size());
+        return reach;
+    }
+    // The facets of the convex hull that a place in a box is strictly beyond, without their vertices.
+    Facets hull_facets_in_reach(span<const double> low, span<const double> high,
+                                span<const std::uint8_t> mask = {}) const {
+        const std::size_t boxes = boxes_of(low, high);
+        const std::uint8_t *const chosen = mask.size() == 0 ? nullptr : mask.data();
+        Facets facets{};
+        facets.cells = found([&](std::uint32_t *cells, std::size_t capacity, std::size_t *count) {
+            facets.corners.resize(capacity);
+            return deldrift_hull_facets_in_reach(native(), low.data(), high.data(), boxes, chosen, mask.size(), cells,
+                                                 facets.corners.data(), capacity, count);
+        });
+        facets.corners.resize(facets.cells.size());
+        return facets;
+    }
+    // For each box the vertices of the cells and hull facets in its reach, in ascending order, hidden vertices included.
+    BoxLists vertices_in_reach(span<const double> low, span<const double> high,
+                               span<const std::uint8_t> mask = {}) const {
+        const std::size_t boxes = boxes_of(low, high);
+        const std::uint8_t *const chosen = mask.size() == 0 ? nullptr : mask.data();
+        BoxLists lists;
+        lists.offsets.resize(boxes + 1);
+        lists.vertices = found([&](std::uint32_t *vertices, std::size_t capacity, std::size_t *count) {
+            return deldrift_vertices_in_reach(native(), low.data(), high.data(), boxes, chosen, mask.size(), vertices,
+                                              lists.offsets.data(), capacity, count);
+        });
+        return lists;
+    }
     // The cells that the insertion of a vertex would remove.
     std::vector<std::uint32_t> conflicts(span<const double> position, const deldrift_location *hint = nullptr) const {
         return found([&](std::uint32_t *cells, std::size_t capacity, std::size_t *count) {
@@ -668,15 +766,9 @@ private:
     template <class Call>
     deldrift_quality_report improve(Call call, const Quality &quality, span<const std::uint8_t> mask) {
         detail::GivenQuality given(quality);
-        deldrift_triangulation *before = nullptr;
-        if (given.has_function()) require_ok(deldrift_clone(native(), &before));
-        std::unique_ptr<deldrift_triangulation, Destroy> unchanged(before);
         deldrift_quality_report report;
         const deldrift_status status = call(native(), given.get(), mask.data(), mask.size(), &report);
-        if (given.has_thrown()) {
-            if (status == DELDRIFT_OK) t_.swap(unchanged);
-            given.throw_again();
-        }
+        given.throw_again();
         require_change(status);
         return report;
     }
@@ -752,6 +844,12 @@ private:
     const double *point(span<const double> position) const {
         expect("position", position.size(), dimension_);
         return position.data();
+    }
+    // How many boxes have these corners.
+    std::size_t boxes_of(span<const double> low, span<const double> high) const {
+        const std::size_t boxes = count_of("low", low);
+        expect("high", high.size(), low.size());
+        return boxes;
     }
     std::size_t count_of(const char *argument, span<const double> positions) const {
         const std::size_t count = positions.size() / (dimension_ == 0 ? 1 : dimension_);

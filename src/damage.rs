@@ -76,7 +76,7 @@ pub enum Damage {
         /// What is there, in place of NaN.
         value: f64,
     },
-    /// The vertex that stands for the place of another has a higher id, is not there, or does not stand for its own.
+    /// The vertex that stands for the place of another has a higher key, or an equal one and a higher id, is not there, or does not stand for its own.
     Representative {
         /// The other.
         vertex: VertexId,
@@ -156,6 +156,13 @@ pub enum Damage {
         /// The id.
         vertex: VertexId,
     },
+    /// An id that is not present, and not that of a staged insertion, has a key.
+    Key {
+        /// The id.
+        vertex: VertexId,
+        /// What is there, in place of 0.
+        given: u64,
+    },
     /// A staged insertion has an id that is taken, or not above that of the insertion before.
     Insertion {
         /// The id.
@@ -232,6 +239,9 @@ impl fmt::Display for Damage {
             NotConvex { cell } => write!(f, "the hull is not convex at cell {cell}"),
             NotATriangulation => {
                 write!(f, "the hull of the cells is in several parts, or winds more than once")
+            }
+            Key { vertex, given } => {
+                write!(f, "id {vertex} is not that of a vertex, but its key is {given}, not 0")
             }
             Insertion { vertex } => {
                 write!(f, "the id {vertex} of a staged insertion is taken, or out of order")

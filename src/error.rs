@@ -198,7 +198,7 @@ pub enum Error {
         /// Bytes of the request that failed.
         bytes: usize,
     },
-    /// The cancel callback asked to stop.
+    /// A callback asked to stop.
     Cancelled,
 }
 
@@ -366,7 +366,7 @@ impl fmt::Display for Error {
             }
             Error::TooManyCells { limit } => write!(f, "the triangulation needs more than {limit} cells"),
             Error::OutOfMemory { bytes } => write!(f, "no memory for {bytes} more bytes"),
-            Error::Cancelled => write!(f, "the cancel callback asked to stop"),
+            Error::Cancelled => write!(f, "a callback asked to stop"),
         }
     }
 }

@@ -8,7 +8,8 @@
 //!    [commits](motion::MovingTriangulation::commit_timestamp) them as the next timestamp.
 //! 2. *Rebuilding* triangulates all positions again; *placement* relocates vertices one at a time, and where
 //!    no certificate of a star fails, only coordinates change.
-//! 3. Signs are exact, ties are broken by vertex id: the cells are a function of positions and ids alone.
+//! 3. Signs are exact, ties are broken by vertex id, or by keys that are given: the cells are a function of
+//!    positions and these alone.
 //!    Whatever the algorithm and the history, they are the cells that rebuilding gives.
 //! 4. A call that fails has no effect.
 //!

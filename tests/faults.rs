@@ -254,6 +254,8 @@ enum Call {
     VerticesInBall,
     VerticesInBox,
     Conflicts(Goal),
+    CellsInReach,
+    VerticesInReach,
     /// Of two edges, or of as many as half the vertices.
     FindSimplices(bool),
     CellOfEachVertex,
@@ -286,6 +288,7 @@ impl Call {
         calls.extend([Interpolation::Linear, Interpolation::NaturalNeighbour].map(Call::Interpolate));
         calls.extend([Call::CellsAround(false), Call::CellsAround(true)]);
         calls.extend([Call::NearestVertices, Call::VerticesInBall, Call::VerticesInBox]);
+        calls.extend([Call::CellsInReach, Call::VerticesInReach]);
         calls.extend([Goal::Near, Goal::Far, Goal::Shared].map(Call::Conflicts));
         calls.extend([Call::FindSimplices(false), Call::FindSimplices(true)]);
         calls.extend([Call::CellOfEachVertex, Call::Barycentric, Call::MaskWithoutFlatCells]);
@@ -595,6 +598,16 @@ impl<G: Dimension> Scene<G> {
             Call::VerticesInBox => {
                 let (low, high) = (point::<G>(|_| 0.3), point::<G>(|axis| 0.6 + axis as f64));
                 Given::Ids(given(t.vertices_in_box(&low, &high))?)
+            }
+            Call::CellsInReach => {
+                let (low, high) = (point::<G>(|_| 0.3), point::<G>(|axis| 0.6 + axis as f64));
+                let found = given(t.cells_in_reach(&[low], &[high], None))?;
+                let rows = t.cells()?.corners;
+                Given::Cells(found.cells.iter().map(|&c| sorted(rows[c].as_ref())).collect())
+            }
+            Call::VerticesInReach => {
+                let (low, high) = (point::<G>(|_| 0.3), point::<G>(|axis| 0.6 + axis as f64));
+                Given::Ids(given(t.vertices_in_reach(&[low], &[high], None))?.vertices)
             }
             Call::Conflicts(to) => {
                 let found = given(t.conflicts(&goal(to), None))?;

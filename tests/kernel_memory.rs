@@ -292,12 +292,22 @@ type Call<G> = fn(&mut MovingTriangulation<G>, &<G as Shape>::Point) -> Result<(
 
 /// A vertex goes next to another one, one comes, one goes, each without every allocation in turn: positions and cells
 /// are as they were.
-fn immediate_calls<G: Dimension>(algorithm: Algorithm) {
+/// Keys of so many vertices, or their ids.
+fn keyed<G: Dimension>(points: &[G::Point], options: Options, has_keys: bool) -> MovingTriangulation<G> {
+    let keys: Vec<u64> = (0..points.len() as u64).map(|v| 7 * v % 11).collect();
+    if has_keys {
+        MovingTriangulation::with_keys(points, &keys, options).expect("room")
+    } else {
+        MovingTriangulation::new(points, options).expect("room")
+    }
+}
+
+fn immediate_calls<G: Dimension>(algorithm: Algorithm, has_keys: bool) {
     let mut points = random::<G>(60);
     points[7] = points[30];
     let make = || {
         let options = Options { algorithm, threads: 1, ..Options::default() };
-        let mut t = MovingTriangulation::<G>::new(&points, options).expect("room");
+        let mut t = keyed::<G>(&points, options, has_keys);
         for p in [points[1], points[2]] {
             // What the algorithm keeps for such calls is there.
             t.relocate_vertex(VertexId::new(1), &p).expect("room");
@@ -308,7 +318,8 @@ fn immediate_calls<G: Dimension>(algorithm: Algorithm) {
     };
     let state = |t: &MovingTriangulation<G>| {
         let positions: Vec<_> = (0..t.id_count()).map(|v| t.position(VertexId::new(v as u32)).ok()).collect();
-        (positions, t.cells().expect("room").corners.to_vec())
+        let keys: Vec<_> = (0..t.id_count()).map(|v| t.key_of_id(VertexId::at(v))).collect();
+        (positions, keys, t.has_keys(), t.cells().expect("room").corners.to_vec())
     };
     let before = state(&make());
     let mut after = |t: &mut MovingTriangulation<G>, is_done: bool| {
@@ -320,7 +331,7 @@ fn immediate_calls<G: Dimension>(algorithm: Algorithm) {
         p[0] += 1e-3;
         p
     };
-    let calls: [Call<G>; 5] = [
+    let calls: [Call<G>; 8] = [
         |t, p| t.relocate_vertex(VertexId::new(5), p),
         |t, _| {
             // By flips.
@@ -330,6 +341,13 @@ fn immediate_calls<G: Dimension>(algorithm: Algorithm) {
         },
         |t, p| t.relocate_vertex(VertexId::new(30), p),
         |t, p| t.insert_vertex(p).map(drop),
+        |t, p| t.insert_vertex_with_key(p, 4).map(drop),
+        |t, _| {
+            // It takes the place of another one.
+            let there = t.position(VertexId::new(19)).expect("a vertex");
+            t.insert_vertex_with_key(&there, 0).map(drop)
+        },
+        |t, p| t.stage_insertions_at_free_ids(&[*p, *p], Some(&[5, 6]), |_| {}),
         |t, _| t.remove_vertex(VertexId::new(30)),
     ];
     let n_refused: u64 = calls.map(|call| without_each(make, |t| call(t, &near), &mut after)).iter().sum();
@@ -339,8 +357,12 @@ fn immediate_calls<G: Dimension>(algorithm: Algorithm) {
 #[test]
 fn immediate_calls_leave_all_alone() {
     for algorithm in Algorithm::ALL {
-        immediate_calls::<Plane>(algorithm);
-        immediate_calls::<Space>(algorithm);
+        for has_keys in [false, true] {
+            immediate_calls::<Plane>(algorithm, has_keys);
+        }
+        for has_keys in [false, true] {
+            immediate_calls::<Space>(algorithm, has_keys);
+        }
     }
 }
 
@@ -407,13 +429,13 @@ fn commits_leave_all_alone() {
 
 /// After each change the bytes that the triangulation says to hold are those that the allocator has given and not got
 /// back. Some vertices share a place.
-fn holds_what_it_says<G: Dimension>(algorithm: Algorithm) {
+fn holds_what_it_says<G: Dimension>(algorithm: Algorithm, has_keys: bool) {
     let rng = &mut Rng::new(4);
     let mut points = random::<G>(400);
     points[7] = points[300];
     let before = HELD.get();
     let options = Options { algorithm, threads: 1, ..Options::default() };
-    let mut t = MovingTriangulation::<G>::new(&points, options).expect("room");
+    let mut t = keyed::<G>(&points, options, has_keys);
     let same = |t: &MovingTriangulation<G>, when: &str| {
         assert_eq!(t.memory_bytes(), HELD.get() - before, "{algorithm:?} {when}");
     };
@@ -450,6 +472,10 @@ fn holds_what_it_says<G: Dimension>(algorithm: Algorithm) {
     same(&t, "with staged edits");
     t.commit_timestamp().expect("room");
     same(&t, "after staged edits");
+    t.stage_insertions_at_free_ids(&random::<G>(9), Some(&[3; 9]), |_| {}).expect("room");
+    same(&t, "with keys staged");
+    t.commit_timestamp().expect("room");
+    same(&t, "with keys");
     t.take_changes().expect("room");
     let ids = t.compact().expect("room");
     drop(ids);
@@ -461,8 +487,10 @@ fn holds_what_it_says<G: Dimension>(algorithm: Algorithm) {
 #[test]
 fn triangulations_hold_what_they_say() {
     for algorithm in Algorithm::ALL {
-        holds_what_it_says::<Plane>(algorithm);
-        holds_what_it_says::<Space>(algorithm);
+        for has_keys in [false, true] {
+            holds_what_it_says::<Plane>(algorithm, has_keys);
+            holds_what_it_says::<Space>(algorithm, has_keys);
+        }
     }
 }
 

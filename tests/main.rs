@@ -14,6 +14,7 @@ mod geometry;
 #[path = "../soak/histories/mod.rs"]
 mod histories;
 mod imports;
+mod keys;
 mod lasting;
 mod location;
 mod long_runs;
@@ -24,6 +25,7 @@ mod passings;
 mod predicates;
 mod predicates_range;
 mod predicates_suites;
+mod reach;
 mod refining;
 mod repair;
 mod saving;

@@ -1,6 +1,7 @@
 //! Refinement and coarsening of domains: against fresh builds, and against their criteria in exact integers.
 
 mod coarsening;
+mod conforming;
 
 use crate::common::{Rng, assert_same_cells, cell_set, check_adjacency, seeds};
 use deldrift::motion::{
@@ -10,6 +11,7 @@ use deldrift::motion::{
 use deldrift::{CellId, Error, Plane, SegmentId, VertexId};
 use num_bigint::BigInt;
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::ControlFlow;
 
 type Triangulation = MovingTriangulation<Plane>;
 
@@ -434,16 +436,17 @@ fn sizes_are_those_asked_for() {
 
     // A callback.
     let mut t = domain.build();
-    let is_too_large = |points: [[f64; 2]; 3]| {
+    let is_large = |points: [[f64; 2]; 3]| {
         let x = points.iter().map(|p| p[0]).fold(f64::INFINITY, f64::min);
         let width = points.iter().map(|p| p[0]).fold(f64::NEG_INFINITY, f64::max) - x;
         width > 0.05 + 0.2 * x
     };
+    let is_too_large = |points| ControlFlow::Continue(is_large(points));
     let quality = Quality { least_angle: 28.0, is_too_large: Some(&is_too_large), ..Quality::default() };
     let all = vec![1; t.cell_count()];
     refine(&mut t, &quality, &RefineOptions::default(), &all);
     check_fresh(&t, &context);
-    assert!(t.cell_count() > 50 && places(&t).into_iter().all(|points| !is_too_large(points)));
+    assert!(t.cell_count() > 50 && places(&t).into_iter().all(|points| !is_large(points)));
 }
 
 /// Segments that have hardly any numbers between their ends are not split where nothing fits, and a mask that does not end
@@ -563,7 +566,11 @@ fn a_square_of_subnormal_numbers_is_refined() {
         let side = side * f64::from_bits(1);
         let domain = Domain::default().with_ring(&rectangle([0.0; 2], [side, side]));
         let mut t = domain.build();
-        let quality = Quality { least_angle: 20.0, is_too_large: Some(&|_| true), ..Quality::default() };
+        let quality = Quality {
+            least_angle: 20.0,
+            is_too_large: Some(&|_| ControlFlow::Continue(true)),
+            ..Quality::default()
+        };
         let options = RefineOptions { limit: 50, ..RefineOptions::default() };
         let inside = mask(&t, |_| true);
         let report = refine(&mut t, &quality, &options, &inside);

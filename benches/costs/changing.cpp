@@ -98,6 +98,13 @@ void stage_insertions(Context &c, const Points &p) {
 
 void stage_removals(Context &c, const Ids &ids) { must(deldrift_stage_removals(c.t, ids.data(), ids.size())); }
 
+/// Keys of which each is that of several vertices.
+std::vector<std::uint64_t> few_keys(std::size_t count) {
+    std::vector<std::uint64_t> keys(count);
+    for (std::size_t i = 0; i < count; ++i) keys[i] = i * 7 % 1009;
+    return keys;
+}
+
 /// The vertex with the most cells.
 std::uint32_t highest_degree(Context &c) {
     std::vector<std::size_t> degrees(c.n);
@@ -154,6 +161,43 @@ std::vector<Call> changing_calls() {
          }},
         {"deldrift_stage_insertions", "as many as there are", [](Context &c) {
              c.meter.time([&] { stage_insertions(c, c.points); });
+             c.meter.count(double(c.n));
+         }},
+        {"deldrift_create_with_keys", "", [](Context &c) {
+             deldrift_destroy(c.t);
+             c.t = nullptr;
+             const deldrift_options options = c.options();
+             const std::vector<std::uint64_t> keys = few_keys(c.n);
+             c.meter.time([&] {
+                 must(deldrift_create_with_keys(c.dimension, c.points.data(), keys.data(), c.n, &options, &c.t));
+             });
+             c.meter.count(double(c.n + c.cells()));
+         }},
+        {"deldrift_stage_insertions_with_keys", "as many as there are", [](Context &c) {
+             std::uint32_t first;
+             const std::vector<std::uint64_t> keys = few_keys(c.n);
+             c.meter.time([&] {
+                 must(deldrift_stage_insertions_with_keys(c.t, c.points.data(), keys.data(), c.n, &first));
+             });
+             c.meter.count(double(c.n));
+         }},
+        {"deldrift_stage_insertions_at_free_ids", "as many as there are", [](Context &c) {
+             Ids ids(c.n);
+             const std::vector<std::uint64_t> keys = few_keys(c.n);
+             c.meter.time([&] {
+                 must(deldrift_stage_insertions_at_free_ids(c.t, c.points.data(), keys.data(), c.n, ids.data()));
+             });
+             c.meter.count(double(c.n));
+         }},
+        {"deldrift_insert_vertex_with_key", "the first of a triangulation", [](Context &c) {
+             std::uint32_t v;
+             c.meter.time([&] { must(deldrift_insert_vertex_with_key(c.t, c.place(c.n / 2), 7, &v)); });
+             c.meter.count(double(c.n));
+         }},
+        {"deldrift_keys", "", [](Context &c) {
+             std::vector<std::uint64_t> keys(c.n);
+             std::size_t count;
+             c.meter.time([&] { must(deldrift_keys(c.t, keys.data(), c.n, &count)); });
              c.meter.count(double(c.n));
          }},
         {"deldrift_stage_insertions", "as many, one by one", [](Context &c) {

@@ -310,6 +310,52 @@ std::vector<Call> reading_calls() {
              });
              c.meter.count(double(c.n));
          }},
+        {"deldrift_cells_in_reach", "of boxes to the next vertex, for one vertex in eight", [](Context &c) {
+             Ids room(c.cells() + 1);
+             for (std::size_t i = 0; i < c.some(); ++i) {
+                 const std::uint32_t v = c.some_vertex(i);
+                 Points low(c.place(v), c.place(v) + c.dimension), high(low);
+                 for (unsigned k = 0; k < c.dimension; ++k) low[k] -= c.spacing[v], high[k] += c.spacing[v];
+                 std::size_t count, facets;
+                 c.meter.time([&] {
+                     must(deldrift_cells_in_reach(c.t, low.data(), high.data(), 1, nullptr, 0, room.data(), nullptr,
+                                                  nullptr, room.size(), &count));
+                 });
+                 must(deldrift_hull_facets_in_reach(c.t, low.data(), high.data(), 1, nullptr, 0, nullptr, nullptr, 0,
+                                                    &facets));
+                 c.meter.count(1 + double(count + facets));
+             }
+         }},
+        {"deldrift_cells_in_reach", "of everything, with balls", [](Context &c) {
+             const auto [low, high] = c.box(1);
+             Ids room(c.cells() + 1);
+             Points centres(room.size() * c.dimension), radii(room.size());
+             std::size_t count;
+             c.meter.time([&, low = low.data(), high = high.data()] {
+                 must(deldrift_cells_in_reach(c.t, low, high, 1, nullptr, 0, room.data(), centres.data(), radii.data(),
+                                              room.size(), &count));
+             });
+             c.meter.count(double(c.n + c.cells()));
+         }},
+        {"deldrift_hull_facets_in_reach", "of everything", [](Context &c) {
+             const auto [low, high] = c.box(1);
+             Ids room(c.cells() * (c.dimension + 1) + 1);
+             std::size_t count;
+             c.meter.time([&, low = low.data(), high = high.data()] {
+                 must(deldrift_hull_facets_in_reach(c.t, low, high, 1, nullptr, 0, room.data(), nullptr, room.size(),
+                                                    &count));
+             });
+             c.meter.count(double(c.n + c.cells()));
+         }},
+        {"deldrift_vertices_in_reach", "of everything", [](Context &c) {
+             const auto [low, high] = c.box(1);
+             Ids room(c.n);
+             std::size_t count, offsets[2];
+             c.meter.time([&, low = low.data(), high = high.data()] {
+                 must(deldrift_vertices_in_reach(c.t, low, high, 1, nullptr, 0, room.data(), offsets, c.n, &count));
+             });
+             c.meter.count(double(c.n + c.cells()));
+         }},
         {"deldrift_conflicts", "near vertices, for one in eight", [](Context &c) {
              Ids room(c.cells() + 1);
              for (std::size_t i = 0; i < c.some(); ++i) {

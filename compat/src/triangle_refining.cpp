@@ -8,7 +8,6 @@
 
 #include "settings.hpp"
 #include "triangle_carving.hpp"
-#include "triangle_encroached.hpp"
 
 namespace compat {
 
@@ -53,7 +52,7 @@ class Refiner {
 public:
     Refiner(const TriangleSwitches &switches, const triangulateio &in, deldrift_triangulation *t, const Mesh &outline,
             const std::vector<std::int32_t> &labels)
-        : switches_(switches), t_(t), outline_(outline), labels_(labels), left_(switches.limit) {
+        : switches_(switches), t_(t), outline_(outline), labels_(labels) {
         outline_.own_points.assign(outline.points, outline.points + 2 * outline.n_points);
         if (outline.n_attributes > 0)
             outline_.own_attributes.assign(outline.attributes,
@@ -68,19 +67,31 @@ public:
                 {outline.segments.markers[i], label(segments.cells[2 * i]), label(segments.cells[2 * i + 1])});
     }
 
-    // For D triangles at encroached segments are too large. The circumcentre of such a triangle is behind the segment,
-    // which is split then.
+    // Until the quality is reached.
     void run() {
-        if (has_criterion()) insert_points(nullptr);
-        if (!switches_.conforms) return;
-        for (;;) {
-            Encroached encroached = find_encroached();
-            if (encroached.count() == 0 || left_ == 0) return;
-            if (insert_points(&encroached) > 0) continue;
-            complain("triangulate", "switch D: rounding leaves no room to split the segments at %zu triangles",
-                     encroached.count());
-            return;
-        }
+        if (switches_.limit == 0) return;
+        deldrift_quality quality{};
+        require(deldrift_quality_init(&quality));
+        quality.least_angle = switches_.least_angle;
+        quality.greatest_area = switches_.greatest_area;
+        quality.labels = labels_.data();
+        quality.label_count = labels_.size();
+        quality.areas = areas_.data();
+        quality.area_count = areas_.size();
+        quality.keeps = keeps();
+        quality.has_weights = outline_.n_attributes > 0;
+        quality.is_conforming = switches_.conforms;
+        quality.limit = switches_.limit;
+        std::vector<std::uint8_t> mask(labels_.size());
+        for (std::size_t c = 0; c < mask.size(); c++) mask[c] = labels_[c] != eaten;
+        deldrift_quality_report report{};
+        require(deldrift_refine(t_, &quality, mask.data(), mask.size(), &report));
+        if (switches_.conforms && report.unsplit > 0)
+            complain("triangulate", "switch D: rounding leaves no room to split %llu pieces of segments",
+                     static_cast<unsigned long long>(report.unsplit));
+        if (report.inserted == 0) return;
+        add_points(static_cast<std::size_t>(report.inserted));
+        follow();
     }
 
     const std::vector<std::int32_t> &labels() const { return labels_; }
@@ -113,41 +124,9 @@ private:
         return at;
     }
 
-    bool has_criterion() const {
-        return switches_.least_angle > 0 || switches_.greatest_area > 0 || switches_.has_region_areas;
-    }
-
     deldrift_kept keeps() const {
         const deldrift_kept kinds[] = {DELDRIFT_KEPT_NONE, DELDRIFT_KEPT_OUTER, DELDRIFT_KEPT_ALL};
         return kinds[std::min(switches_.n_kept, 2)];
-    }
-
-    // Until the quality is reached; how many.
-    std::size_t insert_points(Encroached *encroached) {
-        if (left_ == 0) return 0;
-        deldrift_quality quality{};
-        require(deldrift_quality_init(&quality));
-        quality.least_angle = switches_.least_angle;
-        quality.greatest_area = switches_.greatest_area;
-        quality.labels = labels_.data();
-        quality.label_count = labels_.size();
-        quality.areas = areas_.data();
-        quality.area_count = areas_.size();
-        quality.keeps = keeps();
-        quality.has_weights = outline_.n_attributes > 0;
-        quality.limit = left_;
-        quality.is_too_large = encroached == nullptr ? nullptr : Encroached::has;
-        quality.user_data = encroached;
-        std::vector<std::uint8_t> mask(labels_.size());
-        for (std::size_t c = 0; c < mask.size(); c++) mask[c] = labels_[c] != eaten;
-        deldrift_quality_report report{};
-        require(deldrift_refine(t_, &quality, mask.data(), mask.size(), &report));
-        const std::size_t n_inserted = static_cast<std::size_t>(report.inserted);
-        if (n_inserted == 0) return 0;
-        left_ -= n_inserted;
-        add_points(n_inserted);
-        follow();
-        return n_inserted;
     }
 
     // Places, attributes and markers of the points that were inserted last.
@@ -220,29 +199,10 @@ private:
         std::replace(labels_.begin(), labels_.end(), unknown, eaten);
     }
 
-    // Triangles at encroached segments that may be split.
-    Encroached find_encroached() const {
-        const InForce segments(t_);
-        const Cells cells = cells_of(t_);
-        Encroached encroached;
-        for (std::size_t i = 0; i < segments.count(); i++) {
-            const auto is_taken = [&](std::uint32_t cell) { return cell == no_cell || labels_[cell] == eaten; };
-            const std::uint32_t *sides = &segments.cells[2 * i];
-            const bool is_outer = is_taken(sides[0]) || is_taken(sides[1]);
-            if (switches_.n_kept > 1 || (switches_.n_kept == 1 && is_outer)) continue;
-            for (int side = 0; side < 2; side++)
-                if (!is_taken(sides[side]))
-                    encroached.add_if_encroached(cells.vertices + std::size_t{3} * sides[side], &segments.ends[2 * i],
-                                                 outline_.own_points);
-        }
-        return encroached;
-    }
-
     const TriangleSwitches &switches_;
     deldrift_triangulation *t_;
     Mesh outline_;
     std::vector<std::int32_t> labels_;
-    std::size_t left_; // how many points may be added
     std::vector<double> areas_;
     std::vector<Origin> origins_; // by the id of the segment
 };

@@ -174,7 +174,9 @@ impl Cases<'_> {
             | Role::ResearchOptions
             | Role::OutputIfAny
             | Role::NumbersIfAny
-            | Role::WholesIfAny => true,
+            | Role::WholesIfAny
+            | Role::MaskIfAny
+            | Role::KeysIfAny => true,
             Role::Ids => self.function.name == "deldrift_move_vertices",
             Role::Buffer => {
                 self.function.name != "deldrift_compact" && n_buffers > 1 && (!is_list || name == "offsets")
@@ -256,6 +258,9 @@ impl Cases<'_> {
             Role::SegmentIds => self.segments(at),
             Role::Wholes | Role::WholesIfAny => {
                 self.legal("value", at, "the least number", "bad_wholes(1, INT32_MIN)");
+            }
+            Role::KeysIfAny => {
+                self.legal("value", at, "the greatest number, more than once", "greatest_keys")
             }
             Role::CellIds | Role::CellIdsIfAny => {
                 self.legal("value", at, "one twice", "bad_ids(1, 0)");
@@ -380,6 +385,7 @@ impl Cases<'_> {
             ("nan", "what is joined", "joins = NAN", "INVALID_VALUE", "joins[0] is NaN"),
             ("value", "what is joined, above 1", "joins = 2", "INVALID_VALUE", "joins[0] is 2"),
             ("zero", "a limit of 0", "limit = 0", "OK", ""),
+            ("value", "circles, any number", "is_conforming = 999", "OK", ""),
             ("huge", "labels, SIZE_MAX", "label_count = SIZE_MAX", "NULL_ARGUMENT", "labels is NULL"),
             ("null", "labels", "label_count = n_cells", "NULL_ARGUMENT", "labels is NULL"),
             ("null", "areas", "area_count = 2", "NULL_ARGUMENT", "areas is NULL"),
@@ -633,6 +639,10 @@ impl Cases<'_> {
                 self.legal("zero", at, "0", "0");
             }
             Role::Whole => self.legal("value", at, "the least number", "INT32_MIN"),
+            Role::Key => {
+                self.legal("zero", at, "0", "0");
+                self.legal("value", at, "UINT64_MAX", "UINT64_MAX");
+            }
             Role::Limit => {
                 self.legal("zero", at, "0", "0");
                 self.legal("value", at, "SIZE_MAX", "SIZE_MAX");
@@ -691,7 +701,7 @@ impl Cases<'_> {
                     let odd = vec![(at, "0".to_string()), (pointer.expect("an array"), "odd".to_string())];
                     self.add("zero", "0, and an odd address", "OK", "", &odd, "");
                 }
-                let is_creation = self.function.name == "deldrift_create";
+                let is_creation = self.function.name.starts_with("deldrift_create");
                 let status = if is_creation { "TOO_MANY_VERTICES" } else { "SIZE_OVERFLOW" };
                 let message = "\"18446744073709551615\"";
                 self.refused("huge", at, "SIZE_MAX", "SIZE_MAX", status, message);
@@ -746,7 +756,9 @@ impl Cases<'_> {
             let is_read = matches!(role, Role::Points | Role::BoxCorner | Role::OpenBoxCorner)
                 || matches!(role, Role::Numbers | Role::NumbersIfAny);
             let is_list = matches!(role, Role::Ends | Role::SegmentIds | Role::Wholes | Role::WholesIfAny);
-            is_read || is_list || matches!(role, Role::Mask | Role::Hint | Role::Buffer | Role::Output)
+            is_read
+                || is_list
+                || matches!(role, Role::Mask | Role::MaskIfAny | Role::Hint | Role::Buffer | Role::Output)
         };
         let element = |k: usize| {
             let c_type = self.function.parameters[k].c_type.as_str();

@@ -37,8 +37,10 @@ typedef struct {
     deldrift_cells_view cells;
     deldrift_location location, locations[8];
     double numbers[ROOM], more_numbers[ROOM], few_numbers[8];
+    size_t offsets[8];
     uint32_t ids[ROOM], more_ids[ROOM], few_ids[ROOM / 8], fewer_ids[ROOM / 8];
     int32_t labels[ROOM];
+    uint64_t keys[ROOM];
     deldrift_conflict conflicts[8];
     deldrift_quality quality;
     deldrift_quality_report quality_report;
@@ -58,6 +60,7 @@ static double points[(COUNT + 2) * 3], moved[(COUNT + 2) * 3], values[(COUNT + 2
 static double outside[ROOM], low[ROOM], high[ROOM];
 static uint32_t ids[3], ends[6], segments[2];
 static int32_t wholes[ROOM];
+static uint64_t keys[COUNT], greatest_keys[COUNT];
 static uint8_t mask[ROOM], fenced[ROOM], saved[BYTES];
 static size_t saved_size;
 static deldrift_options options;
@@ -243,6 +246,10 @@ static void before(void) {
         ids[i] = (uint32_t[]){0, 1, 4}[i];
     }
     for (size_t i = 0; i < ROOM; i++) wholes[i] = -5 * (int32_t)i;
+    for (size_t i = 0; i < COUNT; i++) {
+        keys[i] = 7 * i % 5;
+        greatest_keys[i] = UINT64_MAX;
+    }
     for (size_t i = 0; i < 6; i++) ends[i] = (uint32_t[]){0, 1, 4, 2, 8, 11}[i];
     for (size_t i = 0; i < 2; i++) segments[i] = (uint32_t)(2 - 2 * i);
     for (size_t i = 0; i < ROOM; i++) sizes[i] = 1;

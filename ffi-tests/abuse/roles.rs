@@ -28,10 +28,15 @@ pub enum Role {
     Whole,
     Wholes,
     WholesIfAny,
+    /// Keys of vertices, which may be left out, and one of any value.
+    KeysIfAny,
+    Key,
     /// Indices of cells, and of cells if there are any.
     CellIds,
     CellIdsIfAny,
+    /// A mask, and one that may be left out.
     Mask,
+    MaskIfAny,
     Hint,
     Options,
     ResearchOptions,
@@ -85,6 +90,7 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("const double *", "low" | "high") if function.name == "deldrift_vertices_in_box" => {
             Role::OpenBoxCorner
         }
+        ("const double *", "low" | "high") if function.has("box_count") => Role::OpenBoxCorner,
         ("const double *", "low" | "high") => Role::BoxCorner,
         ("const double *", "values") => Role::Numbers,
         ("const double *", "outside") => Role::NumbersIfAny,
@@ -94,8 +100,11 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("const int32_t *", "labels" | "references") => Role::Wholes,
         ("const int32_t *", "markers") => Role::WholesIfAny,
         ("int32_t", "other") => Role::Whole,
+        ("const uint64_t *", "keys") => Role::KeysIfAny,
+        ("uint64_t", "key") => Role::Key,
         ("const uint32_t *", "cells") if function.name == "deldrift_barycentric" => Role::CellIdsIfAny,
         ("const uint32_t *", "cells") => Role::CellIds,
+        ("const uint8_t *", "mask") if function.has("box_count") => Role::MaskIfAny,
         ("const uint8_t *", "mask") => Role::Mask,
         ("const deldrift_location *", "hint") => Role::Hint,
         ("const deldrift_options *" | "deldrift_options *", "options") => Role::Options,
@@ -116,7 +125,7 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("uint32_t", "corners_per_simplex") => Role::Corners,
         ("double", "squared_radius" | "tolerance") => Role::Magnitude,
         ("size_t", "count") if function.name == "deldrift_commit_positions" => Role::FixedCount,
-        ("size_t", "count" | "vertex_count" | "cell_count" | "seed_count") => Role::Count,
+        ("size_t", "count" | "vertex_count" | "cell_count" | "seed_count" | "box_count") => Role::Count,
         ("size_t", "vertex_field_count" | "cell_field_count") => Role::Count,
         ("size_t", "value_count" | "mask_count" | "offset_count" | "reference_count") => Role::FixedCount,
         ("size_t", "n_values" | "k") => Role::CountOfEach,

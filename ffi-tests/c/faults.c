@@ -126,7 +126,7 @@ static void faults_of(uint32_t dimension, call call, size_t which, double share,
     const bool is_of_segments = call.kind == CHECK_STAGED || call.kind == CHECK_PASSINGS || call.kind == STAGE_SPLITS;
     if (setting->segments > 0 ? dimension == 3 : is_of_segments) return;
     // There for what several threads build.
-    bool builds = call.kind == CREATE || (call.kind == COMMIT && call.algorithm == DELDRIFT_REBUILDING);
+    bool builds = call.kind == CREATE || call.kind == CREATE_WITH_KEYS || (call.kind == COMMIT && call.algorithm == DELDRIFT_REBUILDING);
     if (setting->n > 1000 && !builds) return;
     // Larger ones are slower.
     share *= setting->n > 1000 ? 3 : setting->n > 100 ? 0.5 : 1;
@@ -207,6 +207,7 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     OK(deldrift_dimension(s.t, &number));
     OK(deldrift_get_algorithm(s.t, &number));
     OK(deldrift_vertex_count(s.t, &count));
+    OK(deldrift_keys(s.t, NULL, 0, &count));
     OK(deldrift_cell_count(s.t, &count));
     OK(deldrift_staged_count(s.t, &count));
     OK(deldrift_memory_bytes(s.t, &count));
@@ -299,8 +300,8 @@ int main(void) {
         other_functions_ask_for_nothing(dimension);
         for (size_t which = 0; which < N_SETTINGS; which++) {
             for (kind k = 0; k < N_KINDS; k++) {
-                bool is_of_one = k == RELOCATE || k == INSERT || k == REMOVE || k == LOCATE || k == LOCATE_POINTS ||
-                                 k == NEAREST || k == NEAREST_VERTICES || k == CONFLICTS;
+                bool is_of_one = k == RELOCATE || k == INSERT || k == INSERT_WITH_KEY || k == REMOVE || k == LOCATE ||
+                                 k == LOCATE_POINTS || k == NEAREST || k == NEAREST_VERTICES || k == CONFLICTS;
                 // Moves and edits that are staged already would be in the way.
                 if (SETTINGS[which].edits && (k == STAGE_REMOVALS || k == MOVE_ALL)) continue;
                 if (dimension == 3 && is_of_plane(k)) continue;

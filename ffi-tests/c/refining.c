@@ -136,7 +136,7 @@ static void a_domain_gets_the_quality_asked_for(void) {
     deldrift_destroy(t);
 }
 
-static bool is_wide(void *calls, const double *corners) {
+static int is_wide(void *calls, const double *corners) {
     ++*(size_t *)calls;
     const double low = fmin(corners[0], fmin(corners[2], corners[4])), high = fmax(corners[0], fmax(corners[2], corners[4]));
     return high - low > 0.5;
@@ -185,6 +185,84 @@ static void cells_are_of_the_sizes_asked_for(void) {
     quality.user_data = &calls;
     OK(deldrift_refine(t, &quality, NULL, 0, &report));
     CHECK(calls > report.inserted && report.inserted > 10 && report.inserted < in_all);
+    measure(t);
+    check_pieces(t);
+    deldrift_destroy(t);
+}
+
+static int stops(void *left, const double *corners) {
+    (void)corners;
+    return --*(int *)left == 0 ? -1 : *(int *)left > 0;
+}
+
+// It is not called again, and nothing has changed.
+static void a_callback_may_stop_the_call(void) {
+    deldrift_triangulation *t = domain(NULL);
+    deldrift_quality quality;
+    deldrift_quality_report report;
+    size_t ids;
+    uint64_t before, after;
+    OK(deldrift_timestamp(t, &before));
+    OK(deldrift_quality_init(&quality));
+    quality.greatest_area = 0.5;
+    quality.is_too_large = stops;
+    for (int calls = 1; calls < 60; calls += 7) {
+        int left = calls;
+        quality.user_data = &left;
+        CHECK_STATUS(deldrift_refine(t, &quality, NULL, 0, &report), DELDRIFT_CANCELLED);
+        CHECK_MESSAGE("a callback asked to stop");
+        OK(deldrift_id_count(t, &ids));
+        OK(deldrift_timestamp(t, &after));
+        CHECK(left == 0 && ids == CORNERS && before == after);
+    }
+    quality.is_too_large = NULL;
+    OK(deldrift_refine(t, &quality, NULL, 0, &report));
+    OK(deldrift_id_count(t, &ids));
+    int left = 1;
+    quality.is_too_large = stops;
+    quality.user_data = &left;
+    CHECK_STATUS(deldrift_coarsen(t, &quality, NULL, 0, &report), DELDRIFT_CANCELLED);
+    CHECK(left == 0);
+    measure(t);
+    check_pieces(t);
+    deldrift_destroy(t);
+}
+
+// The most that a corner of a cell at a segment is inside the circle around it.
+static double depth_in_circles(const deldrift_triangulation *t) {
+    static uint32_t levels[ROOM], sides[ROOM][3];
+    size_t n;
+    const deldrift_cells_view view = cells_of(t);
+    OK(deldrift_copy_positions(t, positions, ROOM, &n));
+    OK(deldrift_nesting_levels(t, levels, ROOM, &n));
+    OK(deldrift_segments_of_cells(t, sides[0], ROOM, &n));
+    double depth = 0;
+    for (size_t c = 0; c < n; c++) {
+        for (size_t i = 0; i < 3; i++) {
+            if (levels[c] % 2 == 0 || sides[c][i] == DELDRIFT_NONE) continue;
+            const double *o = positions + 2 * view.vertices[3 * c + i], *a = positions + 2 * view.vertices[3 * c + (i + 1) % 3],
+                         *b = positions + 2 * view.vertices[3 * c + (i + 2) % 3];
+            depth = fmax(depth, -((a[0] - o[0]) * (b[0] - o[0]) + (a[1] - o[1]) * (b[1] - o[1])));
+        }
+    }
+    return depth;
+}
+
+static void all_cells_are_delaunay_on_request(void) {
+    deldrift_triangulation *t = domain(NULL);
+    deldrift_quality quality;
+    deldrift_quality_report report;
+    OK(deldrift_quality_init(&quality));
+    CHECK(depth_in_circles(t) > 0);
+    quality.is_conforming = 1;
+    OK(deldrift_refine(t, &quality, NULL, 0, &report));
+    CHECK(report.inserted > 0 && report.inserted == report.on_segments && report.unsplit == 0 && depth_in_circles(t) == 0);
+    quality.greatest_area = 0.01;
+    OK(deldrift_refine(t, &quality, NULL, 0, &report));
+    CHECK(report.inserted > 500 && depth_in_circles(t) == 0);
+    quality.greatest_area = 1;
+    OK(deldrift_coarsen(t, &quality, NULL, 0, &report));
+    CHECK(report.removed > 400 && depth_in_circles(t) == 0);
     measure(t);
     check_pieces(t);
     deldrift_destroy(t);
@@ -327,6 +405,8 @@ static void what_has_no_meaning_is_refused(void) {
 int main(void) {
     a_domain_gets_the_quality_asked_for();
     cells_are_of_the_sizes_asked_for();
+    a_callback_may_stop_the_call();
+    all_cells_are_delaunay_on_request();
     segments_stay_whole_on_request();
     a_squeezed_domain_keeps_its_number_of_vertices();
     what_has_no_meaning_is_refused();

@@ -24,6 +24,8 @@ typedef struct {
     // Segments, in the plane alone: half of them in force, the others staged with a commit; what is staged conflicts.
     size_t segments;
     bool conflicts;
+    // Keys, some of them equal.
+    bool keyed;
 } setting;
 
 static const setting SETTINGS[] = {
@@ -44,10 +46,14 @@ static const setting SETTINGS[] = {
     {.n = 60, .threads = 1, .takes = true, .edits = true, .segments = 6},
     {.n = 60, .threads = 1, .reads = true, .takes = true, .stages = 2, .segments = 8, .conflicts = true},
     {.n = 700, .threads = 3, .reads = true, .warm = 1, .stages = 16, .segments = 16},
+    {.n = 60, .threads = 1, .hides = true, .takes = true, .edits = true, .warm = 1, .stages = 3, .keyed = true},
+    {.n = 700, .threads = 3, .hides = true, .reads = true, .takes = true, .stages = 16, .keyed = true},
+    {.n = 60, .threads = 1, .hides = true, .is_flat = true, .stages = 5, .keyed = true},
 };
 enum { N_SETTINGS = sizeof SETTINGS / sizeof *SETTINGS };
 
-typedef enum { CREATE, RELOCATE, INSERT, REMOVE, MOVE, MOVE_SOME, MOVE_ALL, STAGE_INSERTIONS, STAGE_REMOVALS,
+typedef enum { CREATE, CREATE_WITH_KEYS, RELOCATE, INSERT, INSERT_WITH_KEY, REMOVE, MOVE, MOVE_SOME, MOVE_ALL,
+    STAGE_INSERTIONS, STAGE_WITH_KEYS, STAGE_AT_FREE_IDS, STAGE_REMOVALS,
     STAGE_SEGMENTS, STAGE_SEGMENT_REMOVALS, COMMIT,
     COMMIT_SOME, COMMIT_POSITIONS, CHECK_STAGED, CHECK_PASSINGS, STAGE_SPLITS, COMPACT, TAKE_CHANGES, CELLS,
     COPY_CELLS, STAR, TOLERANCE, ANNULUS_WIDTHS,
@@ -55,13 +61,16 @@ typedef enum { CREATE, RELOCATE, INSERT, REMOVE, MOVE, MOVE_SOME, MOVE_ALL, STAG
     MASK_BOUNDARY, HULL_FACETS, EDGES, VERTEX_NEIGHBOURS, VERTEX_CELLS, MIRROR_INDICES, MIRROR_INDEX, ORDERED_STAR,
     CELLS_AROUND, CELLS_AROUND_ALL, UPDATE_CIRCUMCENTRES, UPDATE_VOLUMES, UPDATE_MASK,
     VORONOI_VOLUMES, VORONOI_FACETS, INTERPOLATE, INTERPOLATE_NATURAL,
-    NEAREST_VERTICES, VERTICES_IN_BALL, VERTICES_IN_BOX, CONFLICTS, FIND_SIMPLICES, FIND_SIMPLICES_ALL,
+    NEAREST_VERTICES, VERTICES_IN_BALL, VERTICES_IN_BOX, CONFLICTS,
+    CELLS_IN_REACH, HULL_FACETS_IN_REACH, VERTICES_IN_REACH, FIND_SIMPLICES, FIND_SIMPLICES_ALL,
     CELL_OF_EACH_VERTEX, BARYCENTRIC, MASK_WITHOUT_FLAT_CELLS, SEGMENTS_OF_CELLS, CELLS_OF_SEGMENTS, NESTING_LEVELS,
     LABEL_CELLS, UPDATE_LABELS, BOUNDARY_CHAINS, REFINE, COARSEN, RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
-    "deldrift_create", "deldrift_relocate_vertex", "deldrift_insert_vertex", "deldrift_remove_vertex",
+    "deldrift_create", "deldrift_create_with_keys", "deldrift_relocate_vertex", "deldrift_insert_vertex",
+    "deldrift_insert_vertex_with_key", "deldrift_remove_vertex",
     "deldrift_move_vertex", "deldrift_move_vertices", "deldrift_move_vertices, all", "deldrift_stage_insertions",
+    "deldrift_stage_insertions_with_keys", "deldrift_stage_insertions_at_free_ids",
     "deldrift_stage_removals", "deldrift_stage_segments", "deldrift_stage_segment_removals",
     "deldrift_commit_timestamp", "deldrift_commit_timestamp, some",
     "deldrift_commit_positions", "deldrift_check_staged", "deldrift_check_passings", "deldrift_stage_splits",
@@ -76,6 +85,7 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_voronoi_volumes", "deldrift_voronoi_facets",
     "deldrift_interpolate", "deldrift_interpolate, natural",
     "deldrift_nearest_vertices", "deldrift_vertices_in_ball", "deldrift_vertices_in_box", "deldrift_conflicts",
+    "deldrift_cells_in_reach", "deldrift_hull_facets_in_reach", "deldrift_vertices_in_reach",
     "deldrift_find_simplices", "deldrift_find_simplices, all", "deldrift_cell_of_each_vertex", "deldrift_barycentric",
     "deldrift_mask_without_flat_cells", "deldrift_segments_of_cells", "deldrift_cells_of_segments",
     "deldrift_nesting_levels", "deldrift_label_cells", "deldrift_update_labels", "deldrift_boundary_chains",
@@ -261,6 +271,14 @@ static void lay_domain(scene *s) {
     OK(deldrift_copy_positions(s->t, s->points, s->n + report.inserted, &s->n));
 }
 
+// Keys of so many vertices: few numbers, each of several.
+static const uint64_t *keys_of(size_t count) {
+    static uint64_t keys[ROOM];
+    CHECK(count <= ROOM);
+    for (size_t i = 0; i < count; i++) keys[i] = 7 * i % 11;
+    return keys;
+}
+
 // The same each time.
 static scene make_scene(uint32_t dimension, call call, const setting *setting) {
     scene s = {.dimension = dimension, .call = call, .setting = setting, .n = setting->n};
@@ -276,7 +294,13 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
     if (setting->is_flat) flatten(s.points, s.n, d);
     hide(&s, s.points);
     deldrift_options options = options_of(&s);
-    s.t = create(d, s.points, s.n, &options);
+    if (setting->keyed) {
+        if (is_of_research(call.algorithm)) options.algorithm = DELDRIFT_AUTO;
+        OK(deldrift_create_with_keys(d, s.points, keys_of(s.n), s.n, &options, &s.t));
+        OK(choose(s.t, call.algorithm));
+    } else {
+        s.t = create(d, s.points, s.n, &options);
+    }
     for (int k = 0; k < setting->warm; k++) {
         nudge(s.points, s.n * d, 0.02 * spacing, &state);
         hide(&s, s.points);
@@ -419,12 +443,20 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     switch (s->call.kind) {
         case CREATE: status = deldrift_create(d, s->points, s->n, &options, &made); break;
         case RELOCATE: status = deldrift_relocate_vertex(s->t, vertex, to); break;
+        case CREATE_WITH_KEYS: status = deldrift_create_with_keys(d, s->points, keys_of(s->n), s->n, &options, &made); break;
+        case INSERT_WITH_KEY: status = deldrift_insert_vertex_with_key(s->t, to, 3, &out); break;
         case INSERT: status = deldrift_insert_vertex(s->t, to, &out); break;
         case REMOVE: status = deldrift_remove_vertex(s->t, vertex); break;
         case MOVE: status = deldrift_move_vertex(s->t, 12, to); break;
         case MOVE_SOME: status = deldrift_move_vertices(s->t, (uint32_t[]){1, 2, 5}, s->places, 3); break;
         case MOVE_ALL: status = deldrift_move_vertices(s->t, NULL, s->places, s->n); break;
         case STAGE_INSERTIONS: status = deldrift_stage_insertions(s->t, s->points, 20, &out); break;
+        case STAGE_WITH_KEYS:
+            status = deldrift_stage_insertions_with_keys(s->t, s->points, keys_of(20), 20, &out);
+            break;
+        case STAGE_AT_FREE_IDS:
+            status = deldrift_stage_insertions_at_free_ids(s->t, s->points, keys_of(20), 20, ids_out);
+            break;
         case STAGE_REMOVALS: status = deldrift_stage_removals(s->t, (uint32_t[]){10, 20, 21, 22}, 4); break;
         case STAGE_SEGMENTS:
             status = deldrift_stage_segments(s->t, s->pairs[n_segments / 2], NULL, n_more, &out);
@@ -486,6 +518,15 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case VERTICES_IN_BALL: status = deldrift_vertices_in_ball(s->t, at, 0.09, ids_out, ROOM, &count); break;
         case VERTICES_IN_BOX: status = deldrift_vertices_in_box(s->t, low, high, ids_out, ROOM, &count); break;
         case CONFLICTS: status = deldrift_conflicts(s->t, to, NULL, ids_out, ROOM, &count); break;
+        case CELLS_IN_REACH:
+            status = deldrift_cells_in_reach(s->t, low, high, 1, NULL, 0, ids_out, numbers_out, NULL, ROOM / 3, &count);
+            break;
+        case HULL_FACETS_IN_REACH:
+            status = deldrift_hull_facets_in_reach(s->t, low, high, 1, NULL, 0, ids_out, bytes_out, ROOM, &count);
+            break;
+        case VERTICES_IN_REACH:
+            status = deldrift_vertices_in_reach(s->t, low, high, 1, NULL, 0, ids_out, NULL, ROOM, &count);
+            break;
         case FIND_SIMPLICES: status = deldrift_find_simplices(s->t, 2, vertices, 2, ids_out); break;
         case FIND_SIMPLICES_ALL: status = deldrift_find_simplices(s->t, 2, vertices, n_vertices / 2, ids_out); break;
         case CELL_OF_EACH_VERTEX: status = deldrift_cell_of_each_vertex(s->t, ids_out, ROOM, &count); break;
@@ -548,6 +589,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     }
     switch (s->call.kind) {
         case CREATE:
+        case CREATE_WITH_KEYS:
         case CLONE:
         case LOAD:
         case LOAD_FILE:
@@ -566,6 +608,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             break;
         case TAKE_CHANGES: *wrong = follow(&s->mirror, &changes, s->t); break;
         case STAGE_SPLITS: *given = digest_of(&split, sizeof split); break;
+        case STAGE_AT_FREE_IDS: *given = digest_of(ids_out, 20 * sizeof *ids_out); break;
         case CELLS: *given = cells.count; break;
         case COPY_CELLS: {
             deldrift_cells_view view;
@@ -583,10 +626,12 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             deldrift_free_cells(owner);
             break;
         case ORDERED_STAR:
+        case HULL_FACETS_IN_REACH:
         case SAVE: *given = count; break;
         case CELLS_AROUND:
         case CELLS_AROUND_ALL:
         case CONFLICTS:
+        case CELLS_IN_REACH:
         case STAR: *given = digest_of_cells(s->t, ids_out, count); break;
         case INTERPOLATE:
         case INTERPOLATE_NATURAL:
@@ -606,6 +651,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             break;
         case NEAREST_VERTICES: *given = digest_of(ids_out, 9 * sizeof *ids_out); break;
         case VERTICES_IN_BALL:
+        case VERTICES_IN_REACH:
         case VERTICES_IN_BOX: *given = digest_of(ids_out, count * sizeof *ids_out); break;
         case FIND_SIMPLICES: count = 2; // fall through
         case FIND_SIMPLICES_ALL:

@@ -33,7 +33,8 @@ static inline uint64_t digest_of_row(const uint32_t *row, uint32_t corners) {
 typedef struct {
     size_t ids, vertices, cells, staged;
     uint64_t timestamp;
-    // Bits of all positions; of each vertex the one that stands for its place; segments in force; what refinement has made.
+    // Bits of all positions; of each vertex the one that stands for its place; segments in force; what refinement has made,
+    // and keys.
     uint64_t positions, representatives, segments, made;
 } numbers;
 
@@ -77,6 +78,16 @@ static inline uint64_t digest_of_made(const deldrift_triangulation *t, uint32_t 
     return digest;
 }
 
+static inline uint64_t digest_of_keys(const deldrift_triangulation *t, size_t n_ids) {
+    size_t count = 0;
+    uint64_t *keys = malloc((n_ids + 1) * sizeof *keys);
+    CHECK(keys != NULL);
+    OK(deldrift_keys(t, keys, n_ids + 1, &count));
+    const uint64_t digest = digest_of(keys, count * sizeof *keys);
+    free(keys);
+    return digest;
+}
+
 // What can be read without cells being made for the one who reads.
 static inline numbers numbers_of(const deldrift_triangulation *t) {
     numbers n = {0};
@@ -102,7 +113,7 @@ static inline numbers numbers_of(const deldrift_triangulation *t) {
         n.representatives = mixed(n.representatives, representative);
     }
     n.segments = digest_of_segments(t, dimension);
-    n.made = digest_of_made(t, dimension);
+    n.made = mixed(digest_of_made(t, dimension), digest_of_keys(t, n.ids));
     return n;
 }
 

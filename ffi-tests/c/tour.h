@@ -95,7 +95,7 @@ static void tour_progress(void *user_data, double fraction) {
 }
 
 // An answer for a cell that depends on its corners alone, whatever their order.
-static bool tour_is_too_large(void *user_data, const double *corners) {
+static int tour_is_too_large(void *user_data, const double *corners) {
     (void)user_data;
     if (in_callback != NULL) in_callback();
     uint64_t sum = 0;
@@ -301,6 +301,17 @@ static void ask_about(const deldrift_triangulation *t, const places *p) {
     }
     GO(deldrift_vertices_in_box(t, p->low, p->high, ids, TOUR_ROOM, &count));
     note(ids, count * sizeof *ids);
+    GO(deldrift_cells_in_reach(t, p->low, p->high, 1, NULL, 0, ids, numbers, more, TOUR_ROOM / 3, &count));
+    note(ids, count * sizeof *ids);
+    note(numbers, count * d * sizeof *numbers);
+    note(more, count * sizeof *more);
+    GO(deldrift_hull_facets_in_reach(t, p->low, p->high, 1, NULL, 0, ids, bytes, TOUR_ROOM, &count));
+    note(ids, count * sizeof *ids);
+    note(bytes, count);
+    size_t offsets[2];
+    GO(deldrift_vertices_in_reach(t, p->low, p->high, 1, NULL, 0, ids, offsets, TOUR_ROOM, &count));
+    note(ids, count * sizeof *ids);
+    note(offsets, sizeof offsets);
     GO(deldrift_cell_of_each_vertex(t, ids, TOUR_ROOM, &count));
     note(ids, count * sizeof *ids);
     for (size_t k = 0; k < p->n; k++) {
@@ -485,6 +496,23 @@ static void make_tour(const places *p, record *made) {
     prescribe(t);
     improve(t);
     keep(t, p, &options);
+    DO(deldrift_destroy(t));
+
+    // Keys, some of them equal; ids that are given again.
+    static const uint64_t keys[] = {4, 1, 4, 1, 5, 9, 2, 6, 5, 3, 5, 8};
+    t = NULL;
+    GO(deldrift_create_with_keys(d, p->at, keys, 12, &options, &t));
+    GO(deldrift_remove_vertex(t, 3));
+    GO(deldrift_stage_insertions_at_free_ids(t, p->later, keys, 2, tour_out.ids));
+    note(tour_out.ids, 2 * sizeof *tour_out.ids);
+    GO(deldrift_stage_insertions_with_keys(t, p->later + 2 * d, keys, 2, &first));
+    GO(deldrift_commit_timestamp(t, &report));
+    note(&report, sizeof report);
+    GO(deldrift_insert_vertex_with_key(t, p->at + 13 * d, 7, &first));
+    note(&first, sizeof first);
+    static uint64_t keys_out[TOUR_POINTS];
+    GO(deldrift_keys(t, keys_out, TOUR_POINTS, &count));
+    note(keys_out, count * sizeof *keys_out);
     DO(deldrift_destroy(t));
 
     // Calls that are refused: what a number is like is told.

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "big.hpp"
 #include "check.hpp"
 
 using K = deldrift::cgal::Kernel;
@@ -23,97 +24,6 @@ template class deldrift::cgal::Constrained_Delaunay_triangulation_2<K, deldrift:
                                                                     deldrift::cgal::Exact_predicates_tag>;
 
 using Constraints = std::vector<std::array<double, 4>>;
-
-// Whole numbers of any size.
-class Big {
-public:
-    Big() = default;
-    // x times 2^(-exponent), where that is whole.
-    Big(double x, int exponent) : is_negative_(x < 0) {
-        int own = 0;
-        auto mantissa = static_cast<std::uint64_t>(std::ldexp(std::frexp(std::fabs(x), &own), 53));
-        if (mantissa == 0) return;
-        const int shift = own - 53 - exponent;
-        CHECK(shift >= 0);
-        digits_.assign(static_cast<std::size_t>(shift / 32), 0);
-        for (unsigned carry = static_cast<unsigned>(shift % 32), k = 0; k < 4; k++) {
-            digits_.push_back(static_cast<std::uint32_t>(mantissa << carry));
-            mantissa >>= 32 - carry;
-            carry = 0;
-        }
-        trim();
-    }
-    int sign() const { return digits_.empty() ? 0 : is_negative_ ? -1 : 1; }
-    friend Big operator*(const Big &a, const Big &b) {
-        Big c;
-        c.is_negative_ = a.is_negative_ != b.is_negative_;
-        c.digits_.assign(a.digits_.size() + b.digits_.size(), 0);
-        for (std::size_t i = 0; i < a.digits_.size(); i++) {
-            std::uint64_t carry = 0;
-            for (std::size_t j = 0; j < b.digits_.size(); j++) {
-                carry += std::uint64_t{a.digits_[i]} * b.digits_[j] + c.digits_[i + j];
-                c.digits_[i + j] = static_cast<std::uint32_t>(carry);
-                carry >>= 32;
-            }
-            c.digits_[i + b.digits_.size()] = static_cast<std::uint32_t>(carry);
-        }
-        c.trim();
-        return c;
-    }
-    friend Big operator-(const Big &a) {
-        Big b = a;
-        b.is_negative_ = !a.is_negative_;
-        return b;
-    }
-    friend Big operator+(const Big &a, const Big &b) {
-        if (a.is_negative_ != b.is_negative_) return is_less(a, b) ? without(b, a) : without(a, b);
-        Big c = a;
-        c.digits_.resize(std::max(a.digits_.size(), b.digits_.size()) + 1);
-        std::uint64_t carry = 0;
-        for (std::size_t i = 0; i < c.digits_.size(); i++) {
-            carry += std::uint64_t{c.digits_[i]} + (i < b.digits_.size() ? b.digits_[i] : 0);
-            c.digits_[i] = static_cast<std::uint32_t>(carry);
-            carry >>= 32;
-        }
-        c.trim();
-        return c;
-    }
-    friend Big operator-(const Big &a, const Big &b) { return a + (-b); }
-
-private:
-    // By magnitude.
-    static bool is_less(const Big &a, const Big &b) {
-        if (a.digits_.size() != b.digits_.size()) return a.digits_.size() < b.digits_.size();
-        return std::lexicographical_compare(a.digits_.rbegin(), a.digits_.rend(), b.digits_.rbegin(), b.digits_.rend());
-    }
-    // The difference of the magnitudes, of which the first is the larger, with the sign of the first.
-    static Big without(const Big &a, const Big &b) {
-        Big c = a;
-        std::int64_t carry = 0;
-        for (std::size_t i = 0; i < c.digits_.size(); i++) {
-            carry += std::int64_t{c.digits_[i]} - (i < b.digits_.size() ? std::int64_t{b.digits_[i]} : 0);
-            c.digits_[i] = static_cast<std::uint32_t>(carry);
-            carry = carry < 0 ? -1 : 0;
-        }
-        c.trim();
-        return c;
-    }
-    void trim() {
-        while (!digits_.empty() && digits_.back() == 0) digits_.pop_back();
-    }
-
-    bool is_negative_ = false;
-    // The least first.
-    std::vector<std::uint32_t> digits_{};
-};
-
-struct Place {
-    Big x, y;
-};
-
-static Big cross(const Place &a, const Place &b, const Place &p) {
-    return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-}
 
 // Positive if p is inside of the circle through a, b and c, which are in counter-clockwise order.
 static int side_of_circle(const Place &a, const Place &b, const Place &c, const Place &p) {
@@ -162,17 +72,7 @@ static void check_against_fresh_build(const T &t) {
 // a triangulation with all constraints that is the same as that no vertex in the circle is seen from the face.)
 template <class T>
 static void check_definition(const T &t) {
-    const std::vector<double> numbers = t.triangulation().positions();
-    int least = 0;
-    for (double x : numbers) {
-        int exponent = 0;
-        std::frexp(x, &exponent);
-        if (x != 0) least = std::min(least, exponent - 53);
-    }
-    std::vector<Place> places;
-    for (std::size_t i = 0; i < numbers.size(); i += 2) {
-        places.push_back({Big(numbers[i], least), Big(numbers[i + 1], least)});
-    }
+    const std::vector<Place> places = places_of(t.triangulation().positions());
     const auto at = [&](auto v) -> const Place & { return places[v->id()]; };
     std::size_t n_hull = 0;
     for (auto f : t.finite_face_handles()) {
@@ -373,7 +273,49 @@ static void in_a_copy() {
     move_to_and_fro(copy);
 }
 
+// Many through nearly one place, and along nearly one line, so that some are rounded to the same edges: each has one segment,
+// and goes at once when its constraint is removed.
+static void through_nearly_one_place() {
+    Constraints star, bundle;
+    for (int i = 0; i < 14; i++) {
+        const double turn = 0.21 * i, x = std::cos(turn), y = std::sin(turn);
+        star.push_back({1e6 + x, 1e6 + y, 1e6 - 1.5 * x, 1e6 - 1.25 * y});
+        bundle.push_back({0, 1 + 2.5e-16 * (i % 4), 1 + 0.125 * i, 1 + 2.5e-16 * (i * 5 % 7)});
+    }
+    for (const Constraints &lines : {star, bundle}) {
+        cross(lines, true);
+        std::vector<std::pair<Point, Point>> given;
+        for (const auto &[ax, ay, bx, by] : lines) given.emplace_back(Point(ax, ay), Point(bx, by));
+        Rounding t;
+        t.insert_constraints(given.begin(), given.end());
+        check(t);
+        std::set<std::array<std::uint32_t, 2>> edges;
+        for (const auto [id, ends, marker] : t.triangulation().segments()) {
+            CHECK(marker == 0 && edges.insert({std::min(ends[0], ends[1]), std::max(ends[0], ends[1])}).second);
+        }
+        for (std::size_t n = edges.size(); n > 0; n--) {
+            CHECK(number_of_constraints(t) == n);
+            const auto [f, i] = *t.constrained_edges_begin();
+            t.remove_constrained_edge(f, i);
+        }
+        CHECK(number_of_constraints(t) == 0);
+    }
+
+    // A move that waits goes on waiting.
+    Rounding t;
+    const auto v = t.insert(Point(0, 0)), w = t.insert(Point(4, 4)), free = t.insert(Point(9, 1));
+    t.insert_constraint(v, w);
+    t.stage_move(free, Point(9, 2));
+    t.insert_constraint(Point(0, 4), Point(4, 0));
+    CHECK(t.number_of_vertices() == 6 && free->point() == Point(9, 1) && t.nearest_vertex(Point(2, 2))->info() == 0);
+    CHECK(t.nearest_vertex(Point(2, 2))->point() == Point(2, 2));
+    t.commit_timestamp();
+    CHECK(free->point() == Point(9, 2) && number_of_constraints(t) == 4);
+    check(t);
+}
+
 int main() {
+    through_nearly_one_place();
     inserted_twice();
     restored();
     through_own_vertices();

@@ -65,6 +65,35 @@ static void vertices_are_found() {
     CHECK_THROWS(t.nearest_vertices({1.0, NAN}, 3), DELDRIFT_NOT_FINITE, "positions[0]");
 }
 
+static void what_is_in_reach_is_found() {
+    const Triangulation t(2, points);
+    const double infinity = std::numeric_limits<double>::infinity();
+    const deldrift::Circumspheres spheres = t.circumcentres();
+    const std::vector<double> low = {7.25, 3.75, -infinity, 40.0}, high = {8.0, 5.5, infinity, infinity};
+    const deldrift::InReach reach = t.cells_in_reach(low, high);
+    const deldrift::Facets facets = t.hull_facets_in_reach(low, high), hull = t.hull_facets();
+    CHECK(reach.size() > 0 && reach.centres.size() == 2 * reach.size() && reach.radii.size() == reach.size());
+    for (std::size_t k = 0; k < reach.size(); k++) {
+        const std::size_t cell = reach.cells[k];
+        CHECK(k == 0 || reach.cells[k - 1] < cell);
+        CHECK(reach.radii[k] * reach.radii[k] >= spheres.squared_radii[cell]);
+    }
+    CHECK(facets.size() > 0 && facets.size() < hull.size() && facets.corners.size() == facets.size());
+    const deldrift::BoxLists lists = t.vertices_in_reach(low, high);
+    CHECK(lists.offsets.size() == 3 && lists.offsets.back() == lists.vertices.size());
+    CHECK(lists.of_box(0).size() > 0 && lists.of_box(1).size() > 0);
+    const Ids inside = t.vertices_in_box({7.25, 3.75}, {8.0, 5.5});
+    for (std::uint32_t v : inside) {
+        CHECK(std::count(lists.of_box(0).begin(), lists.of_box(0).end(), v) == 1);
+    }
+    std::vector<std::uint8_t> mask(n, 0);
+    CHECK(t.cells_in_reach(low, high, mask).size() == 0 && t.vertices_in_reach(low, high, mask).vertices.empty());
+    mask.pop_back();
+    CHECK_THROWS(t.cells_in_reach(low, high, mask), DELDRIFT_WRONG_COUNT, "mask_count is ");
+    CHECK_THROWS(t.cells_in_reach({1.0}, {2.0}), DELDRIFT_WRONG_COUNT, "low has 1 numbers");
+    CHECK_THROWS(t.vertices_in_reach(low, {2.0, 2.0}), DELDRIFT_WRONG_COUNT, "high has 2 numbers");
+}
+
 static void hidden_vertices_are_listed() {
     const Triangulation t(2, points);
     const deldrift::Hidden hidden = t.hidden_vertices();
@@ -165,6 +194,7 @@ int main() {
     vertices_are_found();
     hidden_vertices_are_listed();
     simplices_are_found();
+    what_is_in_reach_is_found();
     conflicts_are_what_an_insertion_removes();
     weights_reproduce_a_position();
     flat_cells_are_left_out();

@@ -185,6 +185,7 @@ static void functions_are_asked_and_may_throw() {
     for (const int after : {0, 5, 200}) {
         Triangulation other = domain();
         const std::vector<unsigned char> before = other.save();
+        const deldrift_triangulation *const native = other.native();
         quality.greatest_area = 0.01;
         int left = after;
         quality.is_too_large = [&left, after](const Corners &) {
@@ -197,11 +198,32 @@ static void functions_are_asked_and_may_throw() {
         } catch (const Broken &broken) {
             is_caught = broken.after == after && left == -1;
         }
-        CHECK(is_caught && other.save() == before && other.id_count() == 8);
+        CHECK(is_caught && other.save() == before && other.id_count() == 8 && other.native() == native);
         other.validate(3);
         quality.is_too_large = nullptr;
         CHECK(other.refine(quality).inserted > 1000 && other.timestamp() == 2);
     }
+}
+
+static void cells_are_delaunay_on_request() {
+    Triangulation t = domain();
+    Quality quality;
+    quality.is_conforming = true;
+    CHECK(t.refine(quality).inserted > 0 && t.refine(quality).inserted == 0);
+    const std::vector<std::array<std::uint32_t, 3>> sides = t.segments_of_cells();
+    const auto levels = t.nesting_levels();
+    const auto positions = t.positions<2>();
+    std::size_t cell = 0, n_sides = 0;
+    for (const auto row : t.cells().rows<3>()) {
+        for (std::size_t i = 0; i < 3 && levels[cell] % 2 == 1; i++) {
+            if (sides[cell][i] == DELDRIFT_NONE) continue;
+            const auto &o = positions[row[i]], &a = positions[row[(i + 1) % 3]], &b = positions[row[(i + 2) % 3]];
+            CHECK((a[0] - o[0]) * (b[0] - o[0]) + (a[1] - o[1]) * (b[1] - o[1]) >= 0);
+            n_sides++;
+        }
+        cell++;
+    }
+    CHECK(n_sides == t.segments().size());
 }
 
 static void what_fails_has_no_effect() {
@@ -221,6 +243,7 @@ int main() {
     cells_have_the_quality();
     sizes_and_labels_are_taken();
     functions_are_asked_and_may_throw();
+    cells_are_delaunay_on_request();
     what_fails_has_no_effect();
     return 0;
 }

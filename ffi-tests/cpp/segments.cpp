@@ -219,7 +219,40 @@ static void domains_are_known() {
     CHECK_THROWS(t.boundary_chains({1, 0}), DELDRIFT_WRONG_COUNT, "mask_count is 2");
 }
 
+// Cells that come have the labels of those around, as if labelled anew.
+static void labels_follow() {
+    Triangulation t(2, {0, 0, 4, 0, 4, 4, 0, 4, 1, 1, 3, 2.5, 1, 2.5, 2, 0.5});
+    const std::vector<Ends> sides{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {1, 3}};
+    t.stage_segments(sides);
+    t.commit_timestamp();
+    std::vector<std::int32_t> labels = t.label_cells({1.0, 0.5, 3.0, 3.0}, {5, 6}, 0);
+    t.take_changes();
+    for (int step = 0; step < 12; step++) {
+        const double x = 1 + 0.25 * (step % 4);
+        const std::vector<std::uint32_t> moved{4, 5};
+        t.move_vertices(moved, {x, 2 - x / 2, 4.5 - x, 3.25});
+        t.commit_timestamp();
+        const std::uint32_t inserted = t.insert_vertex(std::vector<double>{2.5 - x / 4, 0.25});
+        if (step > 0) t.remove_vertex(inserted - 1);
+        const deldrift_changes changes = t.take_changes();
+        std::vector<std::int32_t> after(labels);
+        after.resize(t.cell_count());
+        for (std::size_t k = 0; k < changes.renumbered_count; k++) {
+            after[changes.renumbered_to[k]] = labels[changes.renumbered_from[k]];
+        }
+        const std::vector<std::uint32_t> created(changes.created, changes.created + changes.created_count);
+        CHECK(!created.empty() && t.update_labels(created, 0, after) == 0);
+        CHECK(after == t.label_cells({0.1, 0.0625, 3.0, 3.5}, {5, 6}, 0));
+        labels = after;
+    }
+    const std::vector<std::uint32_t> wrong{99};
+    CHECK_THROWS(t.update_labels(wrong, 0, labels), DELDRIFT_NO_SUCH_FACET, "cells[0]");
+    labels.pop_back();
+    CHECK_THROWS(t.update_labels({}, 0, labels), DELDRIFT_BUFFER_TOO_SMALL, "capacity");
+}
+
 int main() {
+    labels_follow();
     segments_are_kept();
     errors_tell_conflicts();
     errors_tell_passings();

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <set>
 #include <type_traits>
 
 using deldrift::Triangulation;
@@ -69,6 +70,30 @@ static void motion() {
     const deldrift_changes changes = t.take_changes();
     CHECK(changes.created_count > 0 && changes.removed_count > 0 && changes.stars[0] == 0);
     CHECK(t.commit_positions(t.positions()).moved == 0);
+}
+
+// Four points on a circle, of which the order of keys says which two are joined; an id that is given again.
+static void keys() {
+    const std::vector<double> corners{0, 0, 1, 0, 1, 1, 0, 1};
+    const std::vector<std::uint64_t> ascending{10, 20, 30, 40}, other{20, 10, 40, 30};
+    const auto rows = [](const Triangulation &t) {
+        std::set<std::set<std::uint32_t>> all;
+        for (const auto &row : t.cells().rows<3>()) all.insert({row[0], row[1], row[2]});
+        return all;
+    };
+    const Triangulation plain(2, corners);
+    Triangulation t(2, corners, ascending), turned(2, corners, other);
+    CHECK(rows(t) == rows(plain) && rows(turned) != rows(plain));
+    CHECK(t.keys() == ascending);
+    t.remove_vertex(1);
+    CHECK(t.stage_insertions_at_free_ids({0.5, 0.25, 0.5, 0.75}, std::vector<std::uint64_t>{7, 8}) ==
+          (std::vector<std::uint32_t>{1, 4}));
+    CHECK(t.stage_insertions({0.25, 0.5}, std::vector<std::uint64_t>{9}) == 5);
+    CHECK(t.stage_insertions_at_free_ids({0.125, 0.5}) == (std::vector<std::uint32_t>{6}));
+    t.commit_timestamp();
+    CHECK(t.insert_vertex_with_key({0.75, 0.5}, 11) == 7);
+    CHECK((t.keys() == std::vector<std::uint64_t>{10, 7, 30, 40, 8, 9, 6, 11}));
+    t.validate(3);
 }
 
 static void queries() {
@@ -204,6 +229,7 @@ static void ownership_moves() {
 int main() {
     cells_are_spans();
     motion();
+    keys();
     queries();
     tolerances();
     algorithms(2);

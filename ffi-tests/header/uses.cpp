@@ -24,6 +24,7 @@ template class deldrift::cgal::Delaunay_triangulation_2<Kernel, unsigned>;
 template class deldrift::cgal::Constrained_Delaunay_triangulation_2<Kernel>;
 template class deldrift::cgal::Constrained_Delaunay_triangulation_2<Kernel, deldrift::cgal::Infos<int, int>,
                                                                     deldrift::cgal::Exact_predicates_tag>;
+template class deldrift::cgal::Delaunay_mesher_2<deldrift::cgal::Constrained_Delaunay_triangulation_2<Kernel>>;
 template class deldrift::cgal::Delaunay_triangulation_3<Kernel>;
 template class deldrift::cgal::Delaunay_triangulation_3<Kernel, unsigned>;
 

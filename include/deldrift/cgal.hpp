@@ -1,5 +1,5 @@
 // CGAL's names for deldrift: Delaunay_triangulation_2, Delaunay_triangulation_3 and
-// Constrained_Delaunay_triangulation_2, so far as common programs use them.
+// Constrained_Delaunay_triangulation_2, and meshes of the latter, so far as common programs use them.
 //
 //     using K = deldrift::cgal::Kernel;  // or any kernel of CGAL's with coordinates in double
 //     using Dt = deldrift::cgal::Delaunay_triangulation_2<K, unsigned>;  // unsigned: the info of vertices
@@ -18,6 +18,7 @@
 // - Cells in conflict with a point have it inside of their circle or sphere: what is on it exactly is not in conflict.
 //   Only they can be given to star_hole and insert_in_hole.
 // - A call that fails throws deldrift::Error and has no effect. Coordinates are finite and of magnitude up to 1e57.
+// - Meshes have other vertices, and fulfil criteria that CGAL has itself: see meshing.hpp.
 // - Constraints that cross are an exception, or, with Exact_predicates_tag, get a vertex there, rounded.
 //
 // Besides the functions of CGAL there are stage_move() and commit_timestamp(), by which many vertices move at the
@@ -34,6 +35,7 @@
 #include <ostream>
 
 #include "cgal/constrained.hpp"
+#include "cgal/meshing.hpp"
 #include "cgal/plane.hpp"
 #include "cgal/space.hpp"
 

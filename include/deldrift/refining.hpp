@@ -34,12 +34,13 @@ public:
     std::vector<double> areas{};
     // By vertex id; carry(quality.sizes) adds those of new vertices.
     std::vector<double> sizes{};
-    // What it throws comes out of refine() or coarsen(), which has had no effect then. For that they make a clone first, if
-    // there is such a function. It takes the place of the triangulation then, so that native() is another one.
+    // What it throws comes out of refine() or coarsen(), which has had no effect then.
     std::function<bool(const Corners &)> is_too_large{};
     deldrift_kept keeps = DELDRIFT_KEPT_NONE;
     // Whether refined_weights() and carry() are to know the vertices that refine() inserts.
     bool has_weights = false;
+    // Whether segments are split until all cells are Delaunay, segments or not.
+    bool is_conforming = false;
     std::size_t limit;
     double margin, share, joins;
 
@@ -103,34 +104,34 @@ class GivenQuality {
         given_.size_count = quality.sizes.size();
         given_.keeps = quality.keeps;
         given_.has_weights = quality.has_weights ? 1 : 0;
+        given_.is_conforming = quality.is_conforming ? 1 : 0;
         given_.limit = quality.limit;
         given_.margin = quality.margin;
         given_.share = quality.share;
         given_.joins = quality.joins;
-        if (has_function()) {
+        if (quality_.is_too_large) {
             given_.is_too_large = ask;
             given_.user_data = this;
         }
     }
     const deldrift_quality *get() const noexcept { return &given_; }
-    bool has_function() const noexcept { return static_cast<bool>(quality_.is_too_large); }
-    bool has_thrown() const noexcept { return thrown_ != nullptr; }
-    [[noreturn]] void throw_again() const { std::rethrow_exception(thrown_); }
+    // What the function has thrown comes out of it.
+    void throw_again() const {
+        if (thrown_ != nullptr) std::rethrow_exception(thrown_);
+    }
     // NULL for none, also where there is room for some.
     template <class T>
     static const T *begin_of(const std::vector<T> &values) noexcept {
         return values.empty() ? nullptr : values.data();
     }
-    // Once it has thrown it is not asked any more.
-    static bool ask(void *self, const double *corners) noexcept {
+    static int ask(void *self, const double *corners) noexcept {
         GivenQuality &given = *static_cast<GivenQuality *>(self);
-        if (given.has_thrown()) return false;
         try {
             const double *c = corners;
-            return given.quality_.is_too_large({{{c[0], c[1]}, {c[2], c[3]}, {c[4], c[5]}}});
+            return given.quality_.is_too_large({{{c[0], c[1]}, {c[2], c[3]}, {c[4], c[5]}}}) ? 1 : 0;
         } catch (...) {
             given.thrown_ = std::current_exception();
-            return false;
+            return -1;
         }
     }
 

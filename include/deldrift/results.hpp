@@ -41,6 +41,23 @@ struct Hidden {
     std::size_t size() const noexcept { return vertices.size(); }
 };
 
+// Cells that a vertex in a box could change, and balls that cover theirs; see deldrift_cells_in_reach.
+struct InReach {
+    std::vector<std::uint32_t> cells{};
+    std::vector<double> centres{};  // rows of as many as the dimension says
+    std::vector<double> radii{};
+    std::size_t size() const noexcept { return cells.size(); }
+};
+
+// A list of vertices for each box; see deldrift_vertices_in_reach.
+struct BoxLists {
+    std::vector<std::size_t> offsets{};
+    std::vector<std::uint32_t> vertices{};
+    span<const std::uint32_t> of_box(std::size_t box) const noexcept {
+        return {vertices.data() + offsets[box], offsets[box + 1] - offsets[box]};
+    }
+};
+
 // Numbers for each vertex id, or for each cell, that are written along with a mesh: components for each.
 struct Field {
     std::string name;

@@ -14,6 +14,7 @@ from ._errors import InvalidDimension, InvalidShape, InvalidValue, NoSuchSimplex
 
 F64 = np.dtype(np.float64)
 U32 = np.dtype(np.uint32)
+U64 = np.dtype(np.uint64)
 I32 = np.dtype(np.int32)
 
 # A view is known to be out of use when nothing refers to it any more, which only counted references tell at once.
@@ -162,6 +163,44 @@ def numbers(argument: str, values: Any, count: int, entries: str) -> np.ndarray:
     return contiguous(np.broadcast_to(array, (count,)), I32)
 
 
+def keys(argument: str, values: Any, count: int) -> Optional[np.ndarray]:
+    """Keys of vertices, which are unsigned whole numbers of 64 bits; None stands for the ids."""
+    if values is None:
+        return None
+    if isinstance(values, np.ma.MaskedArray):
+        raise InvalidShape(
+            f"{argument} is a masked array, of which it is not known what its masked entries are", argument
+        )
+    array = np.asarray(values)
+    if array.ndim != 1:
+        raise InvalidShape(f"{argument} has the shape {array.shape}, and must be a list", argument)
+    if len(array) != count:
+        raise WrongCount(
+            f"{argument} has {len(array)} entries, and there are {count} vertices", argument, None, len(array)
+        )
+    if array.size and array.dtype.kind == "f" and not hasattr(values, "dtype"):
+        # Lists of numbers of which some have more than 63 bits.
+        array = np.asarray(values, dtype=object)
+    if array.size and array.dtype.kind == "O":
+        array = np.array([one_key(f"{argument}[{index}]", value) for index, value in enumerate(array)], U64)
+    elif array.size and array.dtype.kind not in "iu":
+        raise TypeError(f"{argument} has the type {array.dtype}, and must have whole numbers")
+    if array.dtype.kind == "i" and (array < 0).any():
+        index = int(np.argmax(array < 0))
+        one_key(f"{argument}[{index}]", array[index])
+    return contiguous(array, U64)
+
+
+def one_key(argument: str, value: Any) -> int:
+    """The key of a vertex."""
+    number = whole(argument, value)
+    if not 0 <= number < 1 << 64:
+        raise InvalidValue(
+            f"{argument} is {number}, and must be an unsigned number of 64 bits", argument.split("[")[0], None, number
+        )
+    return number
+
+
 def one_number(argument: str, value: Any) -> int:
     """A whole number of 32 bits with a sign."""
     number = whole(argument, value)
@@ -211,6 +250,18 @@ def real(argument: str, value: Any) -> float:
 def simplex_ids(argument: str, values: Any) -> np.ndarray:
     """Indices of simplices."""
     return ids(argument, values, NoSuchSimplex)
+
+
+def check_output(argument: str, array: Any, dtype: np.dtype, least: tuple[int, ...]) -> None:
+    """Raises unless `array` can be written to, with so many entries at least, which are for simplices."""
+    if not isinstance(array, np.ndarray) or array.dtype != dtype or not array.flags.carray:
+        raise TypeError(f"{argument} must be a contiguous, writeable array of {dtype}")
+    if array.ndim != len(least) or array.shape[1:] != least[1:]:
+        raise InvalidShape(f"{argument} has the shape {array.shape}, and must have {least}", argument)
+    if len(array) < least[0]:
+        raise WrongCount(
+            f"{argument} has {len(array)} entries, and there are {least[0]} simplices", argument, None, len(array)
+        )
 
 
 def box_corners(box: Any, ndim: int) -> tuple[Optional[np.ndarray], Optional[np.ndarray]]:

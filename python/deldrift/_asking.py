@@ -8,13 +8,28 @@ from typing import Any, NamedTuple, Optional
 import numpy as np
 
 from . import _library
-from ._arrays import F64, I32, address, ids, one_id, one_point, places, points as point_rows, real, simplex_ids, whole
-from ._core import check, count_of
+from ._arrays import (
+    F64,
+    I32,
+    address,
+    address_if,
+    ids,
+    mask as mask_of,
+    one_id,
+    one_point,
+    places,
+    points as point_rows,
+    real,
+    simplex_ids,
+    whole,
+)
+from ._core import check, count_of, id_count
 from ._errors import InvalidDimension, InvalidShape, InvalidValue, WrongCount
 from ._scipy import Scipy
 
 _vertex_count = _library.function("vertex_count")
 _memory_bytes = _library.function("memory_bytes")
+_keys = _library.function("keys")
 _is_present = _library.function("is_present")
 _star = _library.function("star")
 _ordered_star = _library.function("ordered_star")
@@ -25,6 +40,10 @@ _nearest_vertices = _library.function("nearest_vertices")
 _vertices_in_ball = _library.function("vertices_in_ball")
 _vertices_in_box = _library.function("vertices_in_box")
 _conflicts = _library.function("conflicts")
+_cells_in_reach = _library.function("cells_in_reach")
+_hull_facets_in_reach = _library.function("hull_facets_in_reach")
+_vertices_in_reach = _library.function("vertices_in_reach")
+_id_count = _library.function("id_count")
 _find_simplices = _library.function("find_simplices")
 _barycentric = _library.function("barycentric")
 _orientation = _library.function("orientation")
@@ -39,6 +58,21 @@ class Locations(NamedTuple):
     """0 at a vertex, 1 in a simplex or on its boundary, 2 outside the convex hull, 3 where there are no simplices."""
     indices: np.ndarray
     """The vertex; the simplex; one with a facet on the hull that faces the point; -1."""
+
+
+class Reach(NamedTuple):
+    """What a vertex in one of some boxes could change."""
+
+    simplices: np.ndarray
+    """The simplices whose circumspheres, with their insides, meet a box: ascending."""
+    centres: np.ndarray
+    """For each the centre of a ball that certainly has its circumsphere inside."""
+    radii: np.ndarray
+    """The radius of that ball; infinite where numbers do not suffice."""
+    hull_simplices: np.ndarray
+    """The simplex of each facet of the convex hull that a place of a box is strictly beyond."""
+    hull_corners: np.ndarray
+    """Which of its corners is opposite the facet."""
 
 
 class Asking(Scipy):
@@ -77,8 +111,17 @@ class Asking(Scipy):
             self._check(_is_present(t, number, present))
         return present.value
 
+    @property
+    def keys(self) -> np.ndarray:
+        """The key of each id, by which ties are broken: the id unless another was given, and 0 if it was removed."""
+        with self._reading as t:
+            count = ctypes.c_size_t()
+            keys = np.empty(id_count(t), np.uint64)
+            self._check(_keys(t, address(keys), len(keys), count))
+        return keys
+
     def representative(self, vertex: int) -> int:
-        """The lowest id among the vertices at the place of one: the corner of simplices there.
+        """The vertex of the lowest key, and then of the lowest id, at the place of one: the corner of simplices there.
 
         Parameters
         ----------
@@ -278,6 +321,92 @@ class Asking(Scipy):
             cells = np.empty(count.value, I32)
             self._check(_conflicts(t, address(position), None, address(cells), len(cells), count), position="point!")
         return cells
+
+    def _boxes(self, low: Any, high: Any) -> tuple[np.ndarray, np.ndarray]:
+        """The corners of boxes, a row for each."""
+        (least, rows), (greatest, others) = places("low", low, self.ndim), places("high", high, self.ndim)
+        if rows != others:
+            raise InvalidShape(f"high has the shape {np.shape(high)}, and low {np.shape(low)}", "high")
+        return least, greatest
+
+    def _mask_of_vertices(self, t: Any, mask: Any) -> Optional[np.ndarray]:
+        """Whether each vertex id is in a mask; None for no mask."""
+        if mask is None:
+            return None
+        chosen, n = mask_of("mask", mask), count_of(_id_count, t)
+        if len(chosen) != n:
+            raise WrongCount(f"mask has {len(chosen)} entries, and there are {n} vertex ids", "mask", None, len(chosen))
+        return chosen
+
+    def simplices_in_reach(self, low: Any, high: Any, mask: Any = None) -> Reach:
+        """The simplices and facets of the convex hull that a vertex in one of some boxes could change, exactly.
+
+        Parameters
+        ----------
+        low, high : array_like
+            Corners of least and of greatest coordinates, which may be infinite: of one box, or a row for each.
+        mask : array_like of bool, optional
+            For each vertex id whether simplices and facets with a corner at its place count; all do by default.
+
+        Returns
+        -------
+        Reach
+            Simplices, with balls that certainly cover their circumspheres, and facets of the hull.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3]])
+        >>> reach = tri.simplices_in_reach([-9, 1], [-0.6, 2])
+        >>> len(reach.simplices), len(reach.hull_simplices)
+        (0, 1)
+        >>> len(tri.simplices_in_reach([-9, 1], [-0.5, 2]).simplices)  # It touches the circle.
+        2
+        """
+        least, greatest = self._boxes(low, high)
+        with self._reading as t:
+            chosen = self._mask_of_vertices(t, mask)
+            n_masked = 0 if chosen is None else len(chosen)
+            given = (address(least), address(greatest), len(least), address_if(chosen), n_masked)
+            count = ctypes.c_size_t()
+            self._check(_cells_in_reach(t, *given, None, None, None, 0, count))
+            n = count.value
+            cells, centres, radii = np.empty(n, I32), np.empty((n, self.ndim), F64), np.empty(n, F64)
+            self._check(_cells_in_reach(t, *given, address(cells), address(centres), address(radii), n, count))
+            self._check(_hull_facets_in_reach(t, *given, None, None, 0, count))
+            n = count.value
+            hull, corners = np.empty(n, I32), np.empty(n, np.uint8)
+            self._check(_hull_facets_in_reach(t, *given, address(hull), address(corners), n, count))
+        return Reach(cells, centres, radii, hull, corners)
+
+    def vertices_in_reach(self, low: Any, high: Any, mask: Any = None) -> tuple[np.ndarray, np.ndarray]:
+        """For each of some boxes the vertices of the simplices and hull facets in its reach, hidden ones included.
+
+        Parameters
+        ----------
+        low, high : array_like
+            Corners of least and of greatest coordinates, which may be infinite: of one box, or a row for each.
+        mask : array_like of bool, optional
+            For each vertex id whether it counts; all do by default.
+
+        Returns
+        -------
+        offsets : ndarray of int
+            Where the list of each box begins, and where the last one ends.
+        vertices : ndarray of int
+            The lists, each ascending. While there are no simplices, all vertices of the mask for each box.
+        """
+        least, greatest = self._boxes(low, high)
+        with self._reading as t:
+            chosen = self._mask_of_vertices(t, mask)
+            n_masked = 0 if chosen is None else len(chosen)
+            given = (address(least), address(greatest), len(least), address_if(chosen), n_masked)
+            count = ctypes.c_size_t()
+            self._check(_vertices_in_reach(t, *given, None, None, 0, count))
+            offsets, vertices = np.empty(len(least) + 1, np.uintp), np.empty(count.value, I32)
+            status = _vertices_in_reach(t, *given, address(vertices), address(offsets), len(vertices), count)
+            self._check(status)
+        return offsets.astype(np.intp), vertices
 
     def simplices_with(self, vertices: Any) -> np.ndarray:
         """Simplices that have given vertices as corners: so it tells which edges, facets or simplices there are.

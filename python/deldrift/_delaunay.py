@@ -8,7 +8,7 @@ from typing import Any, Callable, Optional
 import numpy as np
 
 from . import _library
-from ._arrays import Handle, address, points as point_rows
+from ._arrays import Handle, address, address_if, keys as given_keys, points as point_rows
 from ._asking import Asking
 from ._callbacks import Callbacks
 from ._core import check, make_options
@@ -18,7 +18,7 @@ from ._motion import Motion
 from ._refining import Refining
 from ._scipy import check_scipy_options
 
-_create = _library.function("create")
+_create = _library.function("create_with_keys")
 _clone = _library.function("clone")
 _dimension = _library.function("dimension")
 _discard_moves = _library.function("discard_moves")
@@ -32,8 +32,9 @@ SEGMENT_ARGUMENTS = "segments", "segment_markers"
 class Delaunay(Motion, Refining, Asking, Geometry, Files):
     """The Delaunay triangulation of points in the plane or in space, whose points may move.
 
-    Simplices are exact, and a function of positions and ids alone: ties between cocircular and cospherical points are
-    broken by id. Points at the place of one of lower id are in no simplex (see `coplanar`). Points that do not span the
+    Simplices are exact, and a function of positions and keys alone, which are ids by default: ties between cocircular and
+    cospherical points are broken by key. Of points at one place that of the lowest key, and of those that of the lowest id,
+    is in simplices, and the others in none (see `coplanar`). Points that do not span the
     dimension have no simplices.
 
     Parameters
@@ -66,6 +67,9 @@ class Delaunay(Motion, Refining, Asking, Geometry, Files):
         segments are laid by a commit.
     segment_markers : array_like of int, optional
         A number of 32 bits to keep with each segment, or one for all; 0 by default.
+    keys : array_like of int, optional
+        A key for each point: unsigned numbers of 64 bits, by which ties are broken in place of ids. Points of equal keys
+        are in the order of x, then y, then z. So simplices do not depend on the order in which points are given.
 
     Examples
     --------
@@ -93,9 +97,11 @@ class Delaunay(Motion, Refining, Asking, Geometry, Files):
         cancel: Optional[Callable[[], bool]] = None,
         segments: Any = None,
         segment_markers: Any = None,
+        keys: Any = None,
     ) -> None:
         check_scipy_options(furthest_site, qhull_options)
-        self._create(point_rows("points", points), algorithm, threads, coincidence, passing, progress, cancel)
+        rows = point_rows("points", points)
+        self._create(rows, algorithm, threads, coincidence, passing, progress, cancel, keys=keys)
         if segments is not None or segment_markers is not None:
             with self.step():
                 self._stage_segments(() if segments is None else segments, segment_markers, *SEGMENT_ARGUMENTS)
@@ -110,11 +116,13 @@ class Delaunay(Motion, Refining, Asking, Geometry, Files):
         progress: Any,
         cancel: Optional[Callable[[], bool]],
         name: str = "points",
+        keys: Any = None,
     ) -> None:
+        given = given_keys("keys", keys, len(rows))
         callbacks = _callbacks(progress, cancel)
         options = make_options(algorithm, threads, coincidence, passing, callbacks)
         pointer = ctypes.c_void_p()
-        status = _create(rows.shape[1], address(rows), len(rows), options, pointer)
+        status = _create(rows.shape[1], address(rows), address_if(given), len(rows), options, pointer)
         check(status, {"positions": name}, callbacks)
         self._start(Handle(pointer.value or 0, callbacks), rows.shape[1], threads, coincidence, passing, callbacks)
 
@@ -126,7 +134,7 @@ class Delaunay(Motion, Refining, Asking, Geometry, Files):
         points : array_like
             A row of coordinates for each.
         restart : bool, optional
-            Without an effect: simplices depend on positions and ids alone.
+            Without an effect: simplices depend on positions and keys alone.
         """
         with self.step() as step:
             step.insert(points)

@@ -14,6 +14,7 @@ from ._arrays import (
     address,
     address_if,
     box_corners,
+    check_output,
     choice,
     contiguous,
     floats,
@@ -246,7 +247,7 @@ class Geometry(Scipy):
         """
         listed = simplex_ids("simplices", simplices)
         with self._reading as t:
-            _check_output("volumes", volumes, F64, (cell_count(t),))
+            check_output("volumes", volumes, F64, (cell_count(t),))
             status = _update_volumes(t, address(listed), len(listed), address(volumes), len(volumes))
             self._check(status, cells="simplices")
 
@@ -263,8 +264,8 @@ class Geometry(Scipy):
         listed = simplex_ids("simplices", simplices)
         with self._reading as t:
             cells = cell_count(t)
-            _check_output("centres", centres, F64, (cells, self.ndim))
-            _check_output("squared_radii", squared_radii, F64, (cells,))
+            check_output("centres", centres, F64, (cells, self.ndim))
+            check_output("squared_radii", squared_radii, F64, (cells,))
             capacity = min(len(centres), len(squared_radii))
             status = _update_circumcentres(
                 t, address(listed), len(listed), address(centres), address(squared_radii), capacity
@@ -286,7 +287,7 @@ class Geometry(Scipy):
         listed = simplex_ids("simplices", simplices)
         limit = real("squared_radius", squared_radius)
         with self._reading as t:
-            _check_output("mask", mask, np.dtype(np.bool_), (cell_count(t),))
+            check_output("mask", mask, np.dtype(np.bool_), (cell_count(t),))
             status = _update_mask_by_circumradius(t, address(listed), len(listed), limit, address(mask), len(mask))
             self._check(status, cells="simplices", squared_radius="squared_radius!")
 
@@ -399,14 +400,3 @@ def _fill(argument: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
         raise InvalidShape(
             f"{argument} has the shape {np.shape(value)}, and must be a number or {shape}", argument
         ) from None
-
-
-def _check_output(argument: str, array: Any, dtype: np.dtype, least: tuple[int, ...]) -> None:
-    if not isinstance(array, np.ndarray) or array.dtype != dtype or not array.flags.carray:
-        raise TypeError(f"{argument} must be a contiguous, writeable array of {dtype}")
-    if array.ndim != len(least) or array.shape[1:] != least[1:]:
-        raise InvalidShape(f"{argument} has the shape {array.shape}, and must have {least}", argument)
-    if len(array) < least[0]:
-        raise WrongCount(
-            f"{argument} has {len(array)} entries, and there are {least[0]} simplices", argument, None, len(array)
-        )

@@ -8,7 +8,7 @@ from __future__ import annotations
 import ctypes
 import os
 import sys
-from ctypes import POINTER, c_bool, c_char_p, c_double, c_int32, c_size_t, c_uint32, c_uint64, c_void_p
+from ctypes import POINTER, c_bool, c_char_p, c_double, c_int, c_int32, c_size_t, c_uint32, c_uint64, c_void_p
 from typing import Any
 
 NONE = 0xFFFFFFFF
@@ -28,7 +28,7 @@ PASSES_SEGMENT = 35
 
 CancelCallback = ctypes.CFUNCTYPE(c_bool, c_void_p)
 ProgressCallback = ctypes.CFUNCTYPE(None, c_void_p, c_double)
-TooLargeCallback = ctypes.CFUNCTYPE(c_bool, c_void_p, c_void_p)
+TooLargeCallback = ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p)
 
 
 class Options(ctypes.Structure):
@@ -128,6 +128,7 @@ class Quality(ctypes.Structure):
         ("user_data", c_void_p),
         ("keeps", c_uint32),
         ("has_weights", c_uint32),
+        ("is_conforming", c_uint32),
         ("limit", c_size_t),
         ("margin", c_double),
         ("share", c_double),
@@ -250,6 +251,11 @@ PROTOTYPES = {
     "commit_positions": (T, A, N, POINTER(Report)),
     "relocate_vertex": (T, U32, A),
     "insert_vertex": (T, A, POINTER(U32)),
+    "create_with_keys": (U32, A, A, N, POINTER(Options), POINTER(T)),
+    "stage_insertions_with_keys": (T, A, A, N, POINTER(U32)),
+    "stage_insertions_at_free_ids": (T, A, A, N, A),
+    "insert_vertex_with_key": (T, A, c_uint64, POINTER(U32)),
+    "keys": (T, A, N, C),
     "remove_vertex": (T, U32),
     "compact": (T, A, N, C),
     "take_changes": (T, POINTER(ChangesView)),
@@ -273,6 +279,9 @@ PROTOTYPES = {
     "vertices_in_ball": (T, A, F64, A, N, C),
     "vertices_in_box": (T, A, A, A, N, C),
     "conflicts": (T, A, A, A, N, C),
+    "cells_in_reach": (T, A, A, N, A, N, A, A, A, N, C),
+    "hull_facets_in_reach": (T, A, A, N, A, N, A, A, N, C),
+    "vertices_in_reach": (T, A, A, N, A, N, A, A, N, C),
     "hidden_vertices": (T, A, A, N, C),
     "cell_of_each_vertex": (T, A, N, C),
     "find_simplices": (T, U32, A, N, A),
@@ -302,6 +311,7 @@ PROTOTYPES = {
     "cells_of_segments": (T, A, N, C),
     "nesting_levels": (T, A, N, C),
     "label_cells": (T, A, A, N, c_int32, A, N, C),
+    "update_labels": (T, A, N, c_int32, A, N, C),
     "boundary_chains": (T, A, N, A, A, A, A, A, N, C),
     "quality_init": (POINTER(Quality),),
     "refine": (T, POINTER(Quality), A, N, POINTER(QualityReport)),

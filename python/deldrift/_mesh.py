@@ -123,9 +123,9 @@ class Mesh:
             label and greatest area.
         switches : str, optional
             As of `triangle.triangulate`, those for which the mesh is refined: `q`, with the least angle behind it or 20
-            degrees; `a`, with a greatest area behind it, or alone for those of regions; `Y` to keep the boundary of the
-            domain whole, and `YY` all segments; `S` with a greatest number of new vertices. `p` and `A` are what is
-            done anyway, and others raise.
+            degrees; `a`, with a greatest area behind it, or alone for those of regions; `D` for triangles that are Delaunay
+            beside segments, too; `Y` to keep the boundary of the domain whole, and `YY` all segments; `S` with a greatest
+            number of new vertices. `p` and `A` are what is done anyway, and others raise.
         **options
             As of `Mesh`: `algorithm`, `threads`, `coincidence`, `passing`, `progress` and `cancel`.
 
@@ -357,6 +357,7 @@ class Mesh:
         is_too_large: Optional[TooLarge] = None,
         keep: str = "none",
         limit: Optional[int] = None,
+        is_conforming: bool = False,
         values: Any = None,
     ) -> QualityReport:
         """Inserts vertices until the triangles of the domain are of a quality, and makes that the next timestamp.
@@ -366,7 +367,7 @@ class Mesh:
 
         Parameters
         ----------
-        least_angle, greatest_area, sizes, is_too_large, keep, limit, values
+        least_angle, greatest_area, sizes, is_too_large, keep, limit, is_conforming, values
             As of `Delaunay.refine`.
         areas : dict, optional
             The greatest area of triangles by the label of their region, 0 for any.
@@ -394,6 +395,7 @@ class Mesh:
             is_too_large=is_too_large,
             keep=keep,
             limit=limit,
+            is_conforming=is_conforming,
             values=values,
             **self._selected(areas),
         )
@@ -409,12 +411,13 @@ class Mesh:
         margin: float = 2.0,
         share: float = 0.9,
         joins: float = 1e-9,
+        is_conforming: bool = False,
     ) -> QualityReport:
         """Removes vertices that `refine` has inserted and that are not needed any more.
 
         Parameters
         ----------
-        least_angle, greatest_area, sizes, is_too_large, margin, share, joins
+        least_angle, greatest_area, sizes, is_too_large, margin, share, joins, is_conforming
             As of `Delaunay.coarsen`.
         areas : dict, optional
             The greatest area of triangles by the label of their region, 0 for any.
@@ -432,6 +435,7 @@ class Mesh:
             margin=margin,
             share=share,
             joins=joins,
+            is_conforming=is_conforming,
             **self._selected(areas),
         )
 
@@ -524,7 +528,7 @@ class Mesh:
         return f"<deldrift.Mesh of {len(self.triangles)} triangles within {len(self.segments.ids)} segments>"
 
 
-SWITCH = re.compile(r"[pA]|(?P<angle>q)(?P<degrees>[\d.]*)|(?P<area>a)(?P<most>[\d.]*)|(?P<keep>YY?)|S(?P<limit>\d+)")
+SWITCH = re.compile(r"[pA]|(?P<angle>q)(?P<degrees>[\d.]*)|(?P<area>a)(?P<most>[\d.]*)|(?P<keep>YY?)|S(?P<limit>\d+)|(?P<circles>D)")
 
 
 def _switches(text: Any) -> tuple[dict[str, Any], bool]:
@@ -536,7 +540,7 @@ def _switches(text: Any) -> tuple[dict[str, Any], bool]:
     while at < len(text):
         found = SWITCH.match(text, at)
         if found is None:
-            raise InvalidOption(f"switches has {text[at:]!r}, and may have p, A, q, a, Y, YY and S", "switches")
+            raise InvalidOption(f"switches has {text[at:]!r}, and may have p, A, q, a, D, Y, YY and S", "switches")
         if found["angle"]:
             wanted["least_angle"] = real("switches", found["degrees"] or 20)
         elif found["most"]:
@@ -547,6 +551,8 @@ def _switches(text: Any) -> tuple[dict[str, Any], bool]:
             wanted["keep"] = "all" if found["keep"] == "YY" else "outer"
         elif found["limit"]:
             wanted["limit"] = int(found["limit"])
+        elif found["circles"]:
+            wanted["is_conforming"] = True
         at = found.end()
     return wanted, has_areas
 

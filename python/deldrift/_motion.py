@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, Optional, cast
 import numpy as np
 
 from . import _library
-from ._arrays import I32, address, choice, ids, one_id, one_point, points, taken
+from ._arrays import I32, address, choice, ids, one_id, one_key, one_point, points, taken
 from ._core import fixed, id_count
 from ._errors import InvalidOption, WrongCount
 from ._library import Report
@@ -19,6 +19,7 @@ _move_vertices = _library.function("move_vertices")
 _commit_positions = _library.function("commit_positions")
 _relocate_vertex = _library.function("relocate_vertex")
 _insert_vertex = _library.function("insert_vertex")
+_insert_vertex_with_key = _library.function("insert_vertex_with_key")
 _remove_vertex = _library.function("remove_vertex")
 _compact = _library.function("compact")
 _take_changes = _library.function("take_changes")
@@ -231,13 +232,15 @@ class Motion(Segmented):
         with self._changing as t:
             self._check(_relocate_vertex(t, number, address(position)), vertex="vertex!", position="point!")
 
-    def insert(self, point: Any) -> int:
+    def insert(self, point: Any, key: Optional[int] = None) -> int:
         """Inserts one vertex at once; the timestamp stays.
 
         Parameters
         ----------
         point : array_like
             Where it is.
+        key : int, optional
+            Its key, as those of `Delaunay`; its id by default.
 
         Returns
         -------
@@ -252,9 +255,14 @@ class Motion(Segmented):
         4
         """
         position = one_point("point", point, self.ndim)
+        number = None if key is None else one_key("key", key)
         with self._changing as t:
             vertex = ctypes.c_uint32()
-            self._check(_insert_vertex(t, address(position), vertex), position="point!")
+            if number is None:
+                status = _insert_vertex(t, address(position), vertex)
+            else:
+                status = _insert_vertex_with_key(t, address(position), number, vertex)
+            self._check(status, position="point!")
         return vertex.value
 
     def remove(self, vertex: int) -> None:

@@ -8,7 +8,7 @@ from typing import Any, Callable, Mapping, NamedTuple, Optional, Union
 import numpy as np
 
 from . import _library
-from ._arrays import F64, I32, Handle, address, choice, contiguous, floats, mask as mask_of, numbers, real, whole
+from ._arrays import F64, I32, address, choice, contiguous, floats, mask as mask_of, numbers, real, whole
 from ._core import cell_count, count_of, id_count
 from ._errors import InvalidShape, InvalidValue, WrongCount
 from ._library import QualityReport
@@ -20,7 +20,6 @@ _coarsen = _library.function("coarsen")
 _made_vertices = _library.function("made_vertices")
 _original_segments = _library.function("original_segments")
 _refined_weights = _library.function("refined_weights")
-_clone = _library.function("clone")
 
 TooLarge = Callable[[np.ndarray], bool]
 Values = Union[np.ndarray, dict[str, np.ndarray], None]
@@ -67,15 +66,12 @@ class _Asked:
         self.raised: Optional[BaseException] = None
         self.callback = _library.TooLargeCallback(self._ask)
 
-    def _ask(self, _user_data: Any, corners: int) -> bool:
-        # Once it has raised it is not asked any more.
-        if self.raised is not None:
-            return False
+    def _ask(self, _user_data: Any, corners: int) -> int:
         try:
             return bool(self.is_too_large(np.array((ctypes.c_double * 6).from_address(corners)).reshape(3, 2)))
         except BaseException as error:
             self.raised = error
-            return False
+            return -1
 
 
 class _Wanted:
@@ -136,6 +132,7 @@ class Refining(Segmented):
         mask: Any = None,
         keep: str = "none",
         limit: Optional[int] = None,
+        is_conforming: bool = False,
         values: Any = None,
     ) -> QualityReport:
         """Inserts vertices until simplices are of a quality, in 2D, and makes that the next timestamp.
@@ -166,6 +163,9 @@ class Refining(Segmented):
             Which segments stay whole: none, those at the boundary of what is refined, or all.
         limit : int, optional
             The greatest number of vertices to insert.
+        is_conforming : bool, optional
+            Whether segments are split until all these simplices are Delaunay, segments or not: no corner of one is
+            inside the circle around a segment at it.
         values : array_like or dict of array_like, optional
             Values by vertex id, to be carried over to the new vertices: linear in each simplex.
 
@@ -190,6 +190,7 @@ class Refining(Segmented):
                 "keeps": choice("keep", keep, _library.KEPT),
                 "limit": _library.NO_LIMIT if limit is None else _count("limit", limit),
                 "has_weights": 1,
+                "is_conforming": bool(is_conforming),
             },
             values,
         )
@@ -207,6 +208,7 @@ class Refining(Segmented):
         margin: float = 2.0,
         share: float = 0.9,
         joins: float = 1e-9,
+        is_conforming: bool = False,
     ) -> QualityReport:
         """Removes vertices that `refine` has inserted and that are not needed any more, in 2D.
 
@@ -224,6 +226,8 @@ class Refining(Segmented):
         joins : float, optional
             How far the vertex between two pieces may be off the line through their other ends to be removed, as a share
             of the distance of these, from 0 to 1.
+        is_conforming : bool, optional
+            As of `refine`.
 
         Returns
         -------
@@ -243,7 +247,12 @@ class Refining(Segmented):
         return self._improve(
             _coarsen,
             [least_angle, greatest_area, areas, labels, sizes, is_too_large, mask],
-            {"margin": real("margin", margin), "share": real("share", share), "joins": real("joins", joins)},
+            {
+                "margin": real("margin", margin),
+                "share": real("share", share),
+                "joins": real("joins", joins),
+                "is_conforming": bool(is_conforming),
+            },
             None,
         )
 
@@ -259,11 +268,8 @@ class Refining(Segmented):
             for name, array in given.items():
                 _expect(name, array, ids, "ids")
             mask, count = wanted.enter(quality, cell_count(t), ids)
-            backup = self._backup(t) if wanted.asked is not None else None
             status = call(t, quality, mask, count, report)
             if wanted.asked is not None and wanted.asked.raised is not None:
-                if not status and backup is not None:
-                    self._handle = backup
                 if self._callbacks is not None:
                     self._callbacks.raised()
                 raise wanted.asked.raised
@@ -273,12 +279,6 @@ class Refining(Segmented):
             carried = [rows.carried(array) for array in given.values()]
             report.values = dict(zip(values, carried)) if isinstance(values, Mapping) else carried[0]
         return report
-
-    def _backup(self, t: int) -> Handle:
-        """A triangulation that is as this one, to take its place if a function of the program raises."""
-        pointer = ctypes.c_void_p()
-        self._check(_clone(t, pointer))
-        return Handle(pointer.value or 0, self._callbacks)
 
     def made_vertices(self) -> MadeVertices:
         """The vertices that `refine` has inserted and that are there, ascending, in 2D.

@@ -8,7 +8,8 @@ from typing import Any, NamedTuple, Optional
 import numpy as np
 
 from . import _library
-from ._arrays import I32, address, ids, mask as mask_of, numbers, one_number, pairs, points as point_rows, whole
+from ._arrays import I32, address, check_output, ids, numbers, one_number, pairs, simplex_ids, whole
+from ._arrays import mask as mask_of, points as point_rows
 from ._core import PASSING, Core, cell_count, count_of, fixed
 from ._errors import InvalidDimension, InvalidValue, NoSuchSegment, WrongCount
 
@@ -22,6 +23,7 @@ _segments_of_cells = _library.function("segments_of_cells")
 _cells_of_segments = _library.function("cells_of_segments")
 _nesting_levels = _library.function("nesting_levels")
 _label_cells = _library.function("label_cells")
+_update_labels = _library.function("update_labels")
 _boundary_chains = _library.function("boundary_chains")
 
 
@@ -277,6 +279,52 @@ class Segmented(Core):
             )
             self._check(status, positions=name, seeds=name)
         return found
+
+    def update_labels(self, simplices: Any, labels: np.ndarray, other: int = 0) -> int:
+        """Computes entries of an array again that `label_cells` or `nesting_levels` gave, or that follows it.
+
+        Each simplex listed gets the label of those that are not listed and that it is reached from without crossing a
+        segment. So labels stay with their regions while segments stay, and no vertex passes one.
+
+        Parameters
+        ----------
+        simplices : array_like of int
+            Indices of simplices: those that `changes` tells as created, and those that have been turned over, whose
+            rows list the corners in the other order around: these may have come to be beyond a segment.
+        labels : ndarray of int32
+            Entries of these are written; there must be one for each simplex, or more.
+        other : int, optional
+            The label of simplices that are reached from the outside of the convex hull alone, from listed ones alone,
+            or from several labels.
+
+        Returns
+        -------
+        int
+            How many are reached from listed ones alone, or from several labels: if it is not 0, label anew.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> square, free = [[0, 0], [4, 0], [4, 4], [0, 4]], [[3, 1], [3.5, 2]]
+        >>> tri = deldrift.Delaunay(square + free, segments=[[0, 2]])
+        >>> labels, changes = tri.label_cells([[2, 1], [1, 3]], [5, 6]), tri.changes()
+        >>> tri.remove(5)
+        >>> changes, before = tri.changes(), labels
+        >>> labels = before[: tri.nsimplex].copy()
+        >>> labels[changes.renumbered_to] = before[changes.renumbered_from]
+        >>> tri.update_labels(changes.created, labels)
+        0
+        >>> bool((labels == tri.label_cells([[2, 1], [1, 3]], [5, 6])).all())
+        True
+        """
+        self._check_plane()
+        listed = simplex_ids("simplices", simplices)
+        rest, undecided = one_number("other", other), ctypes.c_size_t()
+        with self._reading as t:
+            check_output("labels", labels, I32, (cell_count(t),))
+            status = _update_labels(t, address(listed), len(listed), rest, address(labels), len(labels), undecided)
+            self._check(status, cells="simplices")
+        return undecided.value
 
     def boundary_chains(self, mask: Any = None) -> Chains:
         """The boundary of the simplices in a mask, in closed chains of edges.

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _library
-from ._arrays import I32, address, ids as listed_ids, points as point_rows
+from ._arrays import I32, address, address_if, ids as listed_ids, keys as given_keys, points as point_rows
 from ._core import CONFLICT, PASSING
 from ._errors import Busy, ConflictError, PassingError
 from ._library import Report
@@ -17,7 +17,8 @@ from ._segments import Splits
 if TYPE_CHECKING:
     from ._motion import Motion
 
-_stage_insertions = _library.function("stage_insertions")
+_stage_insertions = _library.function("stage_insertions_with_keys")
+_stage_at_free_ids = _library.function("stage_insertions_at_free_ids")
 _stage_removals = _library.function("stage_removals")
 _commit_timestamp = _library.function("commit_timestamp")
 
@@ -74,13 +75,18 @@ class Step:
         self._check_open()
         self._owner._stage_moves(points, ids)
 
-    def insert(self, points: Any) -> np.ndarray:
+    def insert(self, points: Any, keys: Any = None, *, reuse_ids: bool = False) -> np.ndarray:
         """Inserts vertices.
 
         Parameters
         ----------
         points : array_like
             A row of coordinates for each new vertex.
+        keys : array_like of int, optional
+            A key for each, as those of `Delaunay`; their ids by default.
+        reuse_ids : bool, optional
+            Whether vertices get the ids of removed ones, the lowest first, and only then new ones. Not where there have
+            been segments, or vertices that `refine` has made.
 
         Returns
         -------
@@ -90,9 +96,17 @@ class Step:
         self._check_open()
         owner = self._owner
         positions = point_rows("points", points, owner.ndim)
+        given = given_keys("keys", keys, len(positions))
+        count = len(positions)
         with owner._staging as t:
+            if reuse_ids:
+                vertices = np.empty(count, np.uint32)
+                status = _stage_at_free_ids(t, address(positions), address_if(given), count, address(vertices))
+                owner._check(status, positions="points")
+                return vertices.astype(I32)
             first = ctypes.c_uint32()
-            owner._check(_stage_insertions(t, address(positions), len(positions), first), positions="points")
+            status = _stage_insertions(t, address(positions), address_if(given), count, first)
+            owner._check(status, positions="points")
         return np.arange(first.value, first.value + len(positions), dtype=I32)
 
     def remove(self, ids: Any) -> None:

@@ -1,8 +1,8 @@
-"""A disc with a hole, an ellipse, that turns in it: the mesh of what is between, at each step.
+"""A disc with a hole, an ellipse, that turns in it and stirs a dye: the mesh of what is between, at each step.
 
-What is between shears, vertices there then go to the middle of their neighbours, and triangles are those of the new
-places. Nothing tells the mesh where the hole is but a seed at the beginning. `python turning_hole.py
-docs/python_mesh.png` draws it.
+What is between shears. Then vertices that are not needed any more go, and others come where triangles have become too
+narrow or too large, with the dye of what is around them. Nothing tells the mesh where the hole is but a seed at the
+beginning. `python turning_hole.py docs/python_mesh.png` draws it.
 """
 
 import sys
@@ -29,19 +29,18 @@ def sheared(points, turn):
 
 
 class Stirrer:
-    """The mesh, and what moves it."""
+    """The mesh, the dye at each vertex, and what moves them."""
 
-    def __init__(self, n_free=700, n_outer=72, n_hole=56, seed=1):
+    def __init__(self, n_outer=72, n_hole=56, greatest_area=0.003):
         self.angle, self.n_outer, self.n_hole, self.n_cut = 0.0, n_outer, n_hole, 0
-        places = np.random.default_rng(seed).uniform(-1, 1, (8 * n_free, 2))
-        is_between = (np.hypot(*places.T) < 0.97) & (np.hypot(places[:, 0] / 0.75, places[:, 1] / 0.25) > 1.05)
-        vertices = np.concatenate([ellipse(n_outer, (1, 1)), self.hole_at(0), places[is_between][:n_free]])
+        self.quality = dict(least_angle=25, greatest_area=greatest_area)
         outer, hole = np.arange(n_outer), np.arange(n_hole) + n_outer
         segments = np.concatenate([np.stack([ring, np.roll(ring, -1)], axis=1) for ring in (outer, hole)])
         markers = np.repeat([OUTER, HOLE], [n_outer, n_hole])
+        vertices = np.concatenate([ellipse(n_outer, (1, 1)), self.hole_at(0)])
         self.mesh = deldrift.Mesh(vertices, segments, markers, holes=[[0, 0]])
-        for _ in range(30):
-            self.smooth()
+        self.mesh.refine(**self.quality)
+        self.dye = (self.mesh.points[:, 1] > 0).astype(float)
 
     def hole_at(self, angle):
         return ellipse(self.n_hole, (0.72, 0.22), angle)
@@ -53,27 +52,13 @@ class Stirrer:
         part = self.mesh.advance(goals)
         self.angle += part * turn
         self.n_cut += part < 1
-        self.smooth()
+        self.improve()
 
-    def smooth(self):
-        """Moves vertices to the middle of their neighbours, those that stay in the domain."""
-        mesh = self.mesh
-        free = np.arange(self.n_outer + self.n_hole, len(mesh.points))
-        goals = 0.5 * (mesh.points + middles(mesh))[free]
-        at = mesh.delaunay.find_simplex(goals)
-        stays = (at >= 0) & mesh.mask[at]
-        mesh.advance(goals[stays], free[stays])
-
-
-def middles(mesh):
-    """For each vertex the mean of those that it shares a triangle of the domain with."""
-    sums, counts = np.zeros_like(mesh.points), np.zeros(len(mesh.points))
-    triangles = mesh.triangles
-    for k in range(3):
-        for beside in (triangles[:, (k + 1) % 3], triangles[:, (k + 2) % 3]):
-            np.add.at(sums, triangles[:, k], mesh.points[beside])
-            np.add.at(counts, triangles[:, k], 1)
-    return sums / np.maximum(counts, 1)[:, None]
+    def improve(self):
+        """Vertices go and come. Dye stays with its vertices; those that come have what is between others."""
+        self.mesh.coarsen(**self.quality)
+        self.dye = self.dye[self.mesh.delaunay.compact() >= 0]
+        self.dye = self.mesh.refine(**self.quality, values=self.dye).values
 
 
 def run(angles, turn=0.02):
@@ -82,7 +67,7 @@ def run(angles, turn=0.02):
     for angle in angles:
         while stirrer.angle < angle - turn / 2:
             stirrer.step(turn)
-        kept.append((stirrer.angle, stirrer.mesh.copy()))
+        kept.append((stirrer.angle, stirrer.mesh.copy(), stirrer.dye))
     return stirrer, kept
 
 
@@ -91,24 +76,30 @@ def draw(path, kept):
 
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
-    from distmesh import qualities
 
     figure, axes = plt.subplots(1, len(kept), figsize=(5 * len(kept), 5.4))
-    for ax, (angle, mesh) in zip(axes, kept):
-        quality = qualities(mesh.points, mesh.triangles)
-        style = dict(vmin=0, vmax=1, cmap="viridis", edgecolor="white", linewidth=0.3)
-        ax.tripcolor(*mesh.points.T, mesh.triangles, quality, **style)
+    for ax, (angle, mesh, dye) in zip(axes, kept):
+        ax.tripcolor(*mesh.points.T, mesh.triangles, dye, vmin=0, vmax=1, cmap="coolwarm", shading="gouraud")
+        ax.triplot(*mesh.points.T, mesh.triangles, color="white", linewidth=0.3)
         for loop in mesh.boundary.loops():
             ax.plot(*mesh.points[np.append(loop, loop[0])].T, color="black", linewidth=1.5)
-        ax.set_title(f"{np.degrees(angle):.0f}°, {len(mesh.triangles)} triangles, mean quality {quality.mean():.2f}")
+        said = f"{len(mesh.triangles)} triangles, least angle {least_angle(mesh):.1f}°"
+        ax.set_title(f"{np.degrees(angle):.0f}°, {said}")
         ax.set_aspect("equal")
         ax.axis("off")
     figure.tight_layout()
     figure.savefig(path, dpi=60)
 
 
+def least_angle(mesh):
+    """In degrees, of all triangles of the domain."""
+    corners = mesh.points[mesh.triangles]
+    u, v = (np.roll(corners, -k, axis=1) - corners for k in (1, 2))
+    return np.degrees(np.arctan2(u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0], (u * v).sum(axis=-1))).min()
+
+
 if __name__ == "__main__":
-    last, meshes = run([0.0, np.pi / 4, np.pi / 2])
+    last, meshes = run([0.0, np.pi / 2, np.pi])
     report = last.mesh.delaunay.statistics
     steps = last.mesh.delaunay.timestamp
     print(f"{last.mesh}, {steps} steps, {last.n_cut} of them cut, {report.flips} flips, {report.rebuilds} rebuilt")

@@ -163,6 +163,37 @@ def test_places_and_near_vertices(tri, rng):
         np.testing.assert_array_equal(tri.vertices_in_box(place, place + 0.5), np.flatnonzero(is_in))
 
 
+def test_what_is_in_reach_of_boxes(tri, rng):
+    low = rng.random((12, tri.ndim)) * 1.6 - 0.3
+    high = low + rng.random((12, 1)) * 0.5
+    high[0], low[1] = np.inf, -np.inf
+    centres, squared_radii = tri.circumcentres()
+    boundary = tri.boundary()
+    mask = rng.random(tri.npoints) < 0.3
+    offsets, vertices = tri.vertices_in_reach(low, high, mask)
+    everywhere = set()
+    for k in range(len(low)):
+        # The places of all are random: none is at a distance of a last bit.
+        apart = np.maximum(np.maximum(low[k] - centres, centres - high[k]), 0)
+        simplices = np.flatnonzero((apart**2).sum(axis=1) <= squared_radii)
+        reach = tri.simplices_in_reach(low[k], high[k])
+        np.testing.assert_array_equal(reach.simplices, simplices)
+        np.testing.assert_allclose(reach.centres, centres[simplices], rtol=1e-8)
+        assert (reach.radii >= np.sqrt(squared_radii[simplices])).all()
+        np.testing.assert_allclose(reach.radii, np.sqrt(squared_radii[simplices]), rtol=1e-7)
+        corners = set(np.asarray(tri.simplices[simplices]).ravel())
+        pairs = set(zip(reach.hull_simplices, reach.hull_corners))
+        assert pairs <= set(zip(boundary.simplices, boundary.corners))
+        for cell, corner in pairs:
+            corners |= set(np.delete(tri.simplices[cell], corner))
+        assert list(vertices[offsets[k] : offsets[k + 1]]) == sorted(v for v in corners if mask[v])
+        everywhere |= set(simplices)
+    together = tri.simplices_in_reach(low, high, mask)
+    is_masked = mask[np.asarray(tri.simplices)].any(axis=1)
+    assert list(together.simplices) == sorted(c for c in everywhere if is_masked[c])
+    assert len(tri.simplices_in_reach(high[2], low[2]).simplices) == 0
+
+
 def test_conflicts_are_what_an_insertion_removes(tri, rng):
     tri.changes()
     for place in rng.random((10, tri.ndim)):

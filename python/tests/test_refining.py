@@ -48,9 +48,28 @@ def test_a_mesh_has_the_quality_and_keeps_its_regions(copied):
     assert set(mesh.labels) == {5, 7}
 
 
+def deepest_in_circles(tri):
+    """The most that a corner of the domain is inside the circle around a segment beside it."""
+    inside = tri.nesting_levels() % 2 == 1
+    corners, at = tri.points[tri.simplices[inside]], tri.segments_of_cells()[inside] >= 0
+    dots = [((corners[:, k - 1] - corners[:, k]) * (corners[:, k - 2] - corners[:, k])).sum(axis=1) for k in range(3)]
+    return max(-dots[k][at[:, k]].min() for k in range(3))
+
+
+def test_all_triangles_are_delaunay_on_request():
+    tri = deldrift.Delaunay(SQUARE + HOLE, segments=SIDES)
+    assert deepest_in_circles(tri) > 0
+    report = tri.refine(is_conforming=True)
+    assert report.inserted == report.on_segments > 0 and deepest_in_circles(tri) <= 0
+    assert tri.refine(is_conforming=True, greatest_area=0.1).inserted > 50 and deepest_in_circles(tri) <= 0
+    assert tri.coarsen(is_conforming=True, greatest_area=2).removed > 50 and deepest_in_circles(tri) <= 0
+    mesh = deldrift.Mesh.from_triangle({"vertices": SQUARE + HOLE, "segments": SIDES}, "pq20D")
+    assert len(mesh.points) > 8 and deepest_in_circles(mesh.delaunay) <= 0
+
+
 def test_an_exception_leaves_all_as_it_was():
     tri = deldrift.Delaunay(SQUARE + HOLE, segments=SIDES)
-    before, left = tri.tobytes(), [20]
+    before, left, handle = tri.tobytes(), [20], tri._handle
 
     def is_too_large(corners):
         left[0] -= 1
@@ -58,7 +77,7 @@ def test_an_exception_leaves_all_as_it_was():
 
     with pytest.raises(ZeroDivisionError):
         tri.refine(is_too_large=is_too_large, greatest_area=0.1)
-    assert tri.tobytes() == before and tri.npoints == 8
+    assert tri.tobytes() == before and tri.npoints == 8 and tri._handle is handle
     report = tri.refine(is_too_large=lambda corners: np.ptp(corners[:, 0]) > 0.5, sizes=2.0)
     inside = tri.nesting_levels() % 2 == 1
     assert report.inserted > 10 and np.ptp(tri.points[tri.simplices[inside]][..., 0], axis=1).max() <= 0.5

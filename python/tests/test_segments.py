@@ -417,6 +417,78 @@ def test_levels_and_labels_by_polygons(seed):
         rings = np.split(tri.points[: len(vertices)], np.cumsum([len(one) for one in rings])[:-1])
 
 
+@pytest.mark.parametrize("seed", range(8))
+def test_labels_follow_what_changes(seed):
+    """While no vertex passes a segment, as if labelled anew: also vertices that come and go, and pieces of segments."""
+    rng = np.random.default_rng(seed)
+    rings = polygons.nested(rng)
+    vertices, segments, _ = polygons.joined(rings)
+    free = polygons.sprinkled(rng, rings)
+    tri = deldrift.Delaunay(np.concatenate([vertices, free]), segments=segments, passing="refuse")
+    names = np.array([9, -4, 1 << 30, 0, 77, -3], np.int32)
+    levels, labels = tri.nesting_levels(), names[tri.nesting_levels()]
+    tri.changes()
+    n_told = n_steps = 0
+    for n_steps in range(1, 31):
+        rows = tri.simplices.copy()
+        change(rng, tri, n_steps)
+        changes = tri.changes()
+        levels, labels = (followed(tri, changes, before) for before in (levels, labels))
+        listed = np.union1d(changes.created, turned_over(tri, followed(tri, changes, rows)))
+        undecided = tri.update_labels(listed, levels)
+        assert tri.update_labels(listed, labels, int(names[0])) == undecided
+        np.testing.assert_array_equal(labels, names[levels])
+        expected = tri.nesting_levels()
+        # In a region whose simplices are all listed nothing tells the label.
+        is_other = levels != expected
+        assert is_other.sum() == undecided and not levels[is_other].any()
+        assert set(np.flatnonzero(is_other)) <= set(listed)
+        n_told += undecided == 0
+        levels, labels = expected, names[expected]
+    assert n_told > n_steps / 2
+    # From nothing that is not listed nothing can be told, but outside.
+    everything = np.full(tri.nsimplex + 3, 5, np.int32)
+    inside = int((levels > 0).sum())
+    assert tri.update_labels(np.arange(tri.nsimplex), everything, 8) == inside
+    assert set(everything[: tri.nsimplex]) == {8} and set(everything[tri.nsimplex :]) == {5}
+
+
+def change(rng, tri, k):
+    """A step of all vertices, or of one that comes or goes, or many that come."""
+    if k % 3 == 0:
+        tri.insert(rng.uniform(-1, 1, 2))
+    elif k % 3 == 1:
+        free = np.setdiff1d(np.flatnonzero(~np.isnan(tri.points[:, 0])), tri.segments.ends)
+        tri.remove(int(rng.choice(free)))
+    else:
+        size = 0.05
+        while True:
+            try:
+                tri.move(tri.points + size * rng.standard_normal(tri.points.shape))
+                break
+            except (deldrift.PassingError, deldrift.ConflictError):
+                size /= 2
+        if k == 20:
+            tri.refine(least_angle=15)
+
+
+def followed(tri, changes, before):
+    """An array for all simplices, which follows those that have another index."""
+    after = np.zeros((tri.nsimplex, *before.shape[1:]), before.dtype)
+    same = min(len(before), len(after))
+    after[:same] = before[:same]
+    after[changes.renumbered_to] = before[changes.renumbered_from]
+    return after
+
+
+def turned_over(tri, before):
+    """The simplices whose corners were in the other order around, which are no changes, and may be beyond a segment."""
+    rows = np.sort(before, axis=1) == np.sort(tri.simplices, axis=1)
+    steps = np.argmax(tri.simplices == before[:, :1], axis=1)
+    second = tri.simplices[np.arange(tri.nsimplex), (steps + 1) % 3]
+    return np.flatnonzero(rows.all(axis=1) & (second != before[:, 1]))
+
+
 def test_slits_divide_nothing(rng):
     square = np.array([[0.0, 0], [4, 0], [4, 4], [0, 4], [1, 1], [3, 3], [2, 3.5]])
     tri = deldrift.Delaunay(square, segments=[[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6]])

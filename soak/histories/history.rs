@@ -4,8 +4,8 @@ use super::family::{Frame, Source};
 use super::fingerprint::Fingerprint;
 use super::mirror::Mirror;
 use super::motion::Phase;
-use super::{Outcome, Tally};
-use crate::common::{CellSet, Rng, assert_same_cells, cell_set, fresh_cells};
+use super::{Outcome, RECORDED, Tally};
+use crate::common::{CellSet, Rng, assert_same_cells, cell_set, fresh_cells, sorted};
 use deldrift::motion::{
     Algorithm, CommitReport, Commits, Level, MovingTriangulation, NO_CELL, Options, Saved,
 };
@@ -21,6 +21,8 @@ pub struct History<G: Dimension> {
     frame: Frame<G>,
     /// By id, before the frame is applied; `None` once removed.
     now: Vec<Option<G::Point>>,
+    /// By id, where vertices have keys, and what these are drawn from.
+    keys: Option<(Vec<u64>, KeySource)>,
     spacing: f64,
     mirror: Mirror<G>,
     algorithm: Algorithm,
@@ -33,6 +35,26 @@ pub struct History<G: Dimension> {
     is_loud: bool,
     tally: Tally,
     checksum: u64,
+}
+
+/// What keys are drawn from: a source of their own, as histories without keys are recorded.
+struct KeySource {
+    rng: Rng,
+    /// How many there are to be drawn.
+    n: u64,
+}
+
+impl KeySource {
+    /// Of one in four histories behind the recorded ones: different keys, few, or one for all.
+    fn of(seed: u64) -> Option<Self> {
+        let is_recorded = seed < RECORDED.len() as u64;
+        let n = [u64::MAX, 5, 1][(seed / 4 % 3) as usize];
+        (!is_recorded && seed % 4 >= 2 && seed % 8 < 4).then(|| KeySource { rng: Rng::new(seed), n })
+    }
+
+    fn draw(&mut self) -> u64 {
+        self.rng.next() % self.n
+    }
 }
 
 /// How many points a history has at most, by its seed: they grow, up to some 10,000s.
@@ -65,11 +87,20 @@ impl<G: Dimension> History<G> {
         }
         let places: Vec<G::Point> = now.iter().map(|p| frame.place(p)).collect();
         let options = Options { algorithm, threads, ..Options::default() };
-        let t = MovingTriangulation::new(&places, options).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let keys = KeySource::of(seed).map(|mut source| {
+            let drawn: Vec<u64> = places.iter().map(|_| source.draw()).collect();
+            (drawn, source)
+        });
+        let made = match &keys {
+            Some((keys, _)) => MovingTriangulation::with_keys(&places, keys, options),
+            None => MovingTriangulation::new(&places, options),
+        };
+        let t = made.unwrap_or_else(|error| panic!("{name}: {error}"));
         History {
             t,
             spacing: spacing_of::<G>(&now),
             now: now.into_iter().map(Some).collect(),
+            keys,
             source,
             frame,
             mirror: Mirror::default(),
@@ -102,9 +133,7 @@ impl<G: Dimension> History<G> {
             }
             self.go_back(&phase);
         }
-        let places = self.places();
-        let expected = fresh_cells::<G>(&places);
-        assert_same_cells(&cell_set(&self.t), &expected, || self.context("in the end"));
+        assert_same_cells(&cell_set(&self.t), &self.expected_cells(), || self.context("in the end"));
         Outcome { tally: self.tally, checksum: self.checksum }
     }
 
@@ -201,7 +230,15 @@ impl<G: Dimension> History<G> {
         let leaving: BTreeSet<VertexId> = (0..n_leaving).map(|_| *self.rng.pick(&present)).collect();
         self.note(|| format!("stage {} insertions and removals of {leaving:?}", coming.len()));
         let places: Vec<G::Point> = coming.iter().map(|p| self.frame.place(p)).collect();
-        let first = self.t.stage_insertions(&places).expect("room");
+        let staged = match &mut self.keys {
+            Some((keys, source)) => {
+                let drawn: Vec<u64> = places.iter().map(|_| source.draw()).collect();
+                keys.extend(&drawn);
+                self.t.stage_insertions_with_keys(&places, &drawn)
+            }
+            None => self.t.stage_insertions(&places),
+        };
+        let first = staged.expect("room");
         assert_eq!(first.index(), self.now.len(), "{}", self.context("first id of staged insertions"));
         let numbers: Vec<VertexId> = leaving.iter().copied().collect();
         self.t.stage_removals(&numbers).expect("they are present");
@@ -223,7 +260,15 @@ impl<G: Dimension> History<G> {
                 0 => {
                     let p = self.source.draw_one(&mut self.rng);
                     self.note(|| format!("insert {p:?}"));
-                    let id = self.t.insert_vertex(&self.frame.place(&p)).expect("room");
+                    let place = self.frame.place(&p);
+                    let inserted = match &mut self.keys {
+                        Some((keys, source)) => {
+                            keys.push(source.draw());
+                            self.t.insert_vertex_with_key(&place, keys[keys.len() - 1])
+                        }
+                        None => self.t.insert_vertex(&place),
+                    };
+                    let id = inserted.expect("room");
                     assert_eq!(id.index(), self.now.len(), "{}", self.context("id of an insertion"));
                     self.now.push(Some(p));
                     self.tally.insertions += 1;
@@ -251,6 +296,10 @@ impl<G: Dimension> History<G> {
         self.note(|| "compact".to_string());
         self.follow_changes();
         let new = self.t.compact().expect("room");
+        if let Some((keys, _)) = &mut self.keys {
+            let mut is_present = self.now.iter().map(Option::is_some);
+            keys.retain(|_| is_present.next() == Some(true));
+        }
         self.now.retain(Option::is_some);
         self.mirror.rename(&new, self.now.len());
         self.tally.compactions += 1;
@@ -282,6 +331,21 @@ impl<G: Dimension> History<G> {
         VertexId::range(0..self.now.len()).filter(|&v| self.now[v].is_some()).collect()
     }
 
+    /// The vertices that are present, in the order that breaks ties: by id, or by key, position and id.
+    fn ranked(&self) -> Vec<VertexId> {
+        let mut present = self.present();
+        if let Some((keys, _)) = &self.keys {
+            let rank = |v: VertexId| {
+                let place = self.place(v);
+                // Of numbers that have the order of places, which are no negative zeros.
+                let bits = [0, 1, G::D - 1].map(|k| place[k].to_bits() as i64);
+                (keys[v.index()], bits.map(|x| if x < 0 { x ^ i64::MAX } else { x }), v)
+            };
+            present.sort_by_key(|&v| rank(v));
+        }
+        present
+    }
+
     fn place(&self, v: VertexId) -> G::Point {
         self.frame.place(&self.now[v].expect("present"))
     }
@@ -298,8 +362,8 @@ impl<G: Dimension> History<G> {
             let found = self.t.position(VertexId::at(v)).ok();
             assert!(found == *p, "{}", self.context(&format!("vertex {v} is at {found:?}, not at {p:?}")));
         }
-        let present = self.present();
-        let points: Vec<G::Point> = places.iter().copied().flatten().collect();
+        let present = self.ranked();
+        let points: Vec<G::Point> = present.iter().map(|&v| places[v].expect("present")).collect();
         let options = Options { threads: 1, ..Options::default() };
         let fresh = MovingTriangulation::<G>::new(&points, options).expect("a fresh build");
         let cells = self.t.cells().expect("room").corners;
@@ -352,8 +416,16 @@ impl<G: Dimension> History<G> {
     }
 
     /// Panics with the first cells that are wrong, and where their vertices are.
+    /// The cells of a fresh build.
+    fn expected_cells(&self) -> CellSet {
+        let (places, order) = (self.places(), self.ranked());
+        let ranked: Vec<_> = order.iter().map(|&v| places[v]).collect();
+        let named = |cell: &Vec<VertexId>| sorted(&cell.iter().map(|&k| order[k]).collect::<Vec<_>>());
+        fresh_cells::<G>(&ranked).iter().map(named).collect()
+    }
+
     fn tell_cells(&self, places: &[Option<G::Point>]) -> ! {
-        let (found, expected) = (cell_set(&self.t), fresh_cells::<G>(places));
+        let (found, expected) = (cell_set(&self.t), self.expected_cells());
         let first = |cells: &CellSet, others: &CellSet| -> Vec<Vec<VertexId>> {
             cells.difference(others).take(4).cloned().collect()
         };

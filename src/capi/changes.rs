@@ -41,7 +41,7 @@ pub struct deldrift_changes {
     pub star_count: usize,
     /// These vertices, ascending. Some may have been removed.
     pub stars: *const u32,
-    /// Number of vertices that are hidden and were not: a vertex of lower id is at the same place now.
+    /// Number of vertices that are hidden and were not: a vertex of lower id, or key, is at the same place now.
     pub hidden_count: usize,
     /// These vertices, ascending.
     pub hidden: *const u32,

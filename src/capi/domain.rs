@@ -148,11 +148,13 @@ pub unsafe extern "C" fn deldrift_label_cells(
 /// are not listed. Other entries are not touched.
 ///
 /// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once: the created ones of
-/// deldrift_take_changes. NULL if cell_count is 0. other: the label of cells that are reached from the outside of the hull alone,
-/// from no cell that is not listed, or from some of different labels. label_of: an array of capacity numbers, of which those
-/// of cells that are not listed are read. capacity: at least deldrift_cell_count. undecided: receives the number of cells of
-/// the last two kinds: if it is not 0, a region has new cells only, or touches two labels, and it is time for
-/// deldrift_label_cells.
+/// deldrift_take_changes, and those that have been turned over. These are no changes, and are known by a row that lists the
+/// corners in the other order: where the end of a segment goes to the other side of two vertices, the cell of the three comes
+/// to be beyond the segment, though no vertex passes one. NULL if cell_count is 0. other: the label of cells that are reached
+/// from the outside of the hull alone, from no cell that is not listed, or from some of different labels. label_of: an array of
+/// capacity numbers, of which those of cells that are not listed are read. capacity: at least deldrift_cell_count. undecided:
+/// receives the number of cells of the last two kinds: if it is not 0, a region has listed cells only, or touches two labels,
+/// and it is time for deldrift_label_cells.
 ///
 /// deldrift_update_circumcentres has the steps by which an array for all cells is brought up to date. While segments stay,
 /// and vertices move without passing any, labels stay with their regions: that is what deldrift_label_cells would give for

@@ -222,7 +222,7 @@ pub unsafe extern "C" fn deldrift_hull_facets(
 
 /// Writes an entry of a buffer, if there is one.
 #[inline(always)]
-fn write_next<T>(places: &mut slice::IterMut<'_, MaybeUninit<T>>, value: T) {
+pub(super) fn write_next<T>(places: &mut slice::IterMut<'_, MaybeUninit<T>>, value: T) {
     if let Some(place) = places.next() {
         place.write(value);
     }

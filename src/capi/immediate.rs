@@ -67,7 +67,7 @@ pub unsafe extern "C" fn deldrift_insert_vertex(
 }
 
 /// Removes a vertex at once, with the move or the removal staged for it, if any. Its id is not given again before a
-/// deldrift_compact, nor is all of its memory. Ends all views.
+/// deldrift_compact, but by deldrift_stage_insertions_at_free_ids, nor is all of its memory. Ends all views.
 ///
 /// Cost: up to 64 neighbours at most the square of their number, beyond that a build of the neighbours alone. In 3D
 /// that may have as many cells as half the square of their number, as where all points are on the moment curve; each
@@ -86,7 +86,7 @@ pub unsafe extern "C" fn deldrift_remove_vertex(
 }
 
 /// Frees the memory that has served removed vertices, and gives the others new ids: 0, 1, ... in the order
-/// of those that they have. Ties between cocircular or cospherical points are broken by the order of ids, so
+/// of those that they have. Ties between cocircular or cospherical points are broken by keys, or the order of ids, so
 /// the cells stay the same, with their indices in deldrift_cells; so do positions, staged moves, the ids of segments and the
 /// timestamp. Memory and the time of commits are those of a fresh triangulation then. Ends all views.
 ///

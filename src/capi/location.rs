@@ -105,7 +105,8 @@ pub unsafe extern "C" fn deldrift_locate_points(
     })
 }
 
-/// The vertex nearest to a point, to *vertex: the lowest id among the nearest; DELDRIFT_NONE if the
+/// The vertex nearest to a point, to *vertex: the lowest id among the nearest, or where vertices have keys the one
+/// of the lowest key; DELDRIFT_NONE if the
 /// triangulation has no vertices.
 ///
 /// position: 2 or 3 numbers.
@@ -125,8 +126,8 @@ pub unsafe extern "C" fn deldrift_nearest_vertex(
     tell!(t, vertex => t.nearest_vertex(position.of("position", t)?)?.map_or(DELDRIFT_NONE, VertexId::get))
 }
 
-/// The lowest id among the vertices at the place of this one, to *representative: the one that is a
-/// corner of cells. It is the vertex itself unless the vertex is hidden.
+/// The lowest id among the vertices at the place of this one, or where vertices have keys the one of the lowest key and then
+/// of the lowest id, to *representative: the one that is a corner of cells. It is the vertex itself unless the vertex is hidden.
 ///
 /// Cost: constant.
 ///

@@ -28,7 +28,7 @@ pub struct deldrift_commit_report {
     pub flips: u64,
     /// 1 if the triangulation was rebuilt (in the statistics, how often).
     pub rebuilds: u64,
-    /// Hidden vertices at the end: those at the place of a vertex with a lower id.
+    /// Hidden vertices at the end: those at the place of a vertex with a lower id, or key.
     pub coincident: u64,
     /// Vertices that were certainly within their tolerance, with an algorithm that tests it.
     pub within_tolerance: u64,

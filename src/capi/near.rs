@@ -9,7 +9,8 @@ use crate::ids::{CellId, VertexId};
 use crate::in_its_dimension;
 use crate::machine::memory;
 
-/// The k vertices nearest to each of count positions: rows of k ids, by distance and, at the same distance, by id;
+/// The k vertices nearest to each of count positions: rows of k ids, by distance and, at the same distance, by id, or by key
+/// where vertices have keys;
 /// DELDRIFT_NONE where there are fewer vertices than k. Distances are compared exactly. Hidden vertices count like
 /// others.
 ///

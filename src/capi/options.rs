@@ -17,7 +17,7 @@ use crate::motion::{Algorithm, CoincidencePolicy, Monitor, Options, PassingPolic
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum deldrift_coincidence {
-    /// The lowest id represents the place in the cells; the others are hidden until they move apart.
+    /// The lowest id, or key, represents the place in the cells; the others are hidden until they move apart.
     DELDRIFT_COINCIDENCE_MERGE = 0,
     /// The call fails with DELDRIFT_COINCIDENT and has no effect.
     DELDRIFT_COINCIDENCE_REJECT = 1,

@@ -1,7 +1,8 @@
 //! Refinement and coarsening of the cells of a domain.
 
-use std::ffi::c_void;
+use std::ffi::{c_int, c_void};
 use std::mem::offset_of;
+use std::ops::ControlFlow;
 use std::ptr;
 
 use super::domain::of_the_plane;
@@ -65,16 +66,23 @@ pub struct deldrift_quality {
     pub sizes: *const f64,
     /// How many sizes there are: as many as ids, or 0.
     pub size_count: usize,
-    /// Another criterion: whether a cell is too large, with the coordinates of its corners, 6 numbers, counter-clockwise. It
-    /// has to give the same answer for the same corners, and to be false for cells that are small enough. It is called from
-    /// inside the call as the callbacks of deldrift_options are. NULL, the default, for none.
-    pub is_too_large: Option<unsafe extern "C" fn(user_data: *mut c_void, corners: *const f64) -> bool>,
+    /// Another criterion: whether a cell is too large, with the coordinates of its corners, 6 numbers, counter-clockwise: 1
+    /// if it is, otherwise 0. It has to give the same answer for the same corners, and 0 for cells that are small enough. A
+    /// number below 0 is to stop: it is not called again, and the call ends in DELDRIFT_CANCELLED and has had no effect. It is
+    /// called from inside the call as the callbacks of deldrift_options are. NULL, the default, for none.
+    pub is_too_large: Option<unsafe extern "C" fn(user_data: *mut c_void, corners: *const f64) -> c_int>,
     /// Handed to is_too_large as it is.
     pub user_data: *mut c_void,
     /// Which segments deldrift_refine keeps whole: default DELDRIFT_KEPT_NONE. Cells at those that it keeps may stay bad.
     pub keeps: KeptCode,
     /// Not 0 if deldrift_refined_weights will be asked for. Default 0.
     pub has_weights: u32,
+    /// Not 0 if no corner of a cell is to be strictly inside the circle that has a segment at the cell for a diameter. Then no
+    /// vertex is inside the circle of a cell that it sees, segments or not: a conforming Delaunay triangulation. Segments that
+    /// are kept whole may have such corners. Refinement then ends, as is proved, up to 20.7 degrees, and makes more cells. At
+    /// angles between segments so small that rounding decides, below some millionth of a degree, it may reach the limit.
+    /// Default 0: segments are split where angles, areas and lengths need it.
+    pub is_conforming: u32,
     /// Greatest number of vertices that deldrift_refine inserts: default SIZE_MAX.
     pub limit: usize,
     /// By how many degrees the angles of cells that come by deldrift_coarsen have to be above the least one, so that the
@@ -104,6 +112,7 @@ impl Growing for deldrift_quality {
         user_data: ptr::null_mut(),
         keeps: 0,
         has_weights: 0,
+        is_conforming: 0,
         limit: usize::MAX,
         margin: 2.0,
         share: 0.9,
@@ -121,6 +130,7 @@ impl Growing for deldrift_quality {
         offset_of!(deldrift_quality, user_data),
         offset_of!(deldrift_quality, keeps),
         offset_of!(deldrift_quality, has_weights),
+        offset_of!(deldrift_quality, is_conforming),
         offset_of!(deldrift_quality, limit),
         offset_of!(deldrift_quality, margin),
         offset_of!(deldrift_quality, share),
@@ -148,7 +158,7 @@ pub struct deldrift_quality_report {
     /// Pieces that had to be split and are whole, as there is no room for a vertex between their ends.
     pub unsplit: u64,
     /// Cells that are still bad, of those that were to be refined: at small angles between segments, at segments that are
-    /// kept whole, and where the limit was reached.
+    /// kept whole, and where the limit was reached. What is_conforming asks of segments does not count.
     pub bad_cells: u64,
     /// 1 if the limit was reached, otherwise 0.
     pub is_cut_short: u64,
@@ -388,7 +398,10 @@ fn improve(
             move |corners: [[f64; 2]; 3]| {
                 // SAFETY: the caller set both, the one for the other, and the corners are 6 numbers.
                 let ask = || unsafe { is_too_large(given.user_data, corners.as_ptr().cast()) };
-                tally::uncounted(|| guard::call_back(ask))
+                match tally::uncounted(|| guard::call_back(ask)) {
+                    answer if answer < 0 => ControlFlow::Break(()),
+                    answer => ControlFlow::Continue(answer != 0),
+                }
             }
         });
         let quality = Quality {
@@ -398,6 +411,7 @@ fn improve(
             areas: array("quality.areas", given.areas, given.area_count)?.unwrap_or_default(),
             sizes: array("quality.sizes", given.sizes, given.size_count)?,
             is_too_large: is_too_large.as_ref().map(|is_too_large| is_too_large as TooLarge),
+            is_conforming: given.is_conforming != 0,
         };
         let done = body(t, &given, &quality, mask).map_err(of_quality)?;
         if let Some(report) = report {

@@ -3,8 +3,8 @@
 use super::guard;
 use super::handle::{Changing, Reading, deldrift_triangulation, tell};
 use super::options::{self, AlgorithmCode, GivenOptions, deldrift_options};
-use super::pointers::{Output, Points, given};
-use super::status::deldrift_status;
+use super::pointers::{Array, Output, Points, given};
+use super::status::{Failure, deldrift_status};
 use crate::either::AnyTriangulation;
 use crate::error::Error;
 use crate::in_its_dimension;
@@ -38,37 +38,53 @@ pub unsafe extern "C" fn deldrift_create(
     out: *mut *mut deldrift_triangulation,
 ) -> deldrift_status {
     given!(positions[count]: Points, options: GivenOptions, out: Output);
-    guard::enter(|| {
-        let out = out.place()?;
-        let is_plane = match dimension {
-            2 => true,
-            3 => false,
-            given => return Err(Error::InvalidDimension { given }.into()),
-        };
-        let options = options.read()?;
-        let callbacks = options.callbacks();
-        let options = options.convert()?;
-        // Looked at here as well, lest an absurd count becomes the length of a slice.
-        if count > MAX_VERTICES {
-            return Err(Error::TooManyVertices { given: count, limit: MAX_VERTICES }.into());
+    guard::enter(|| create(dimension, positions, None, count, options, out))
+}
+
+/// Creates a triangulation, of vertices with these keys if there are some.
+pub(super) fn create(
+    dimension: u32,
+    positions: Points<'_>,
+    keys: Option<Array<'_, u64>>,
+    count: usize,
+    options: GivenOptions<'_>,
+    out: Output<'_, *mut deldrift_triangulation>,
+) -> Result<(), Failure> {
+    let out = out.place()?;
+    let is_plane = match dimension {
+        2 => true,
+        3 => false,
+        given => return Err(Error::InvalidDimension { given }.into()),
+    };
+    let options = options.read()?;
+    let callbacks = options.callbacks();
+    let options = options.convert()?;
+    // Looked at here as well, lest an absurd count becomes the length of a slice.
+    if count > MAX_VERTICES {
+        return Err(Error::TooManyVertices { given: count, limit: MAX_VERTICES }.into());
+    }
+    let mut made = if is_plane {
+        deldrift_triangulation::unbuilt(
+            #[inline(always)]
+            || AnyTriangulation::Plane(MovingTriangulation::unbuilt(options)),
+            callbacks,
+        )?
+    } else {
+        deldrift_triangulation::unbuilt(
+            #[inline(always)]
+            || AnyTriangulation::Space(MovingTriangulation::unbuilt(options)),
+            callbacks,
+        )?
+    };
+    match keys {
+        Some(keys) => {
+            let keys = keys.get()?;
+            in_its_dimension!(made.content_mut(), t => t.build_first_with_keys(positions.of(t)?, keys))?;
         }
-        let mut made = if is_plane {
-            deldrift_triangulation::unbuilt(
-                #[inline(always)]
-                || AnyTriangulation::Plane(MovingTriangulation::unbuilt(options)),
-                callbacks,
-            )?
-        } else {
-            deldrift_triangulation::unbuilt(
-                #[inline(always)]
-                || AnyTriangulation::Space(MovingTriangulation::unbuilt(options)),
-                callbacks,
-            )?
-        };
-        in_its_dimension!(made.content_mut(), t => t.build_first(positions.of(t)?))?;
-        out.write(Box::into_raw(made));
-        Ok(())
-    })
+        None => in_its_dimension!(made.content_mut(), t => t.build_first(positions.of(t)?))?,
+    }
+    out.write(Box::into_raw(made));
+    Ok(())
 }
 
 /// Destroys a triangulation: its memory is freed and its views end. NULL is legal and does nothing.

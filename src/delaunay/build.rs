@@ -15,7 +15,7 @@ use crate::machine::memory;
 use crate::machine::pace::ASKED_EVERY;
 use crate::predicates::{StaticFilter, distance_above, squared_distance};
 
-/// A vertex that is hidden by one of a lower id at the same place.
+/// A vertex that is hidden by one of a lower [key](super::keys) at the same place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Merge {
     /// The id of the vertex.
@@ -120,9 +120,9 @@ impl<G: Dimension> Delaunay<G> {
         memory::reserve(&mut self.free_sites, coincident.len())?;
         for (s, t) in coincident {
             // Without cells an id decides nothing but the name of the site.
-            let low = self.site(s).id.min(self.site(t).id);
-            merges.push(Merge { hidden: self.site(s).id.max(self.site(t).id), site: t });
-            self.sites[t].id = low;
+            let [other, there] = [s, t].map(|s| self.site(s).id);
+            merges.push(Merge { hidden: self.keys.higher(other, there), site: t });
+            self.sites[t].id = self.keys.lower(other, there);
             self.drop_site(s);
         }
         self.find_flat_basis(SiteId::NONE);
@@ -173,8 +173,12 @@ impl<G: Dimension> Delaunay<G> {
         Ok(coincident)
     }
 
-    /// Bounds for the box of the filter if it and the sites are on a lattice, and few steps of it apart.
+    /// Bounds for the box of the filter if it and the sites are on a lattice, and few steps of it apart. With keys there are
+    /// none: what exact bounds are for, ties that ids decide, would have to ask for keys first.
     fn exact_filter(&self) -> Option<StaticFilter> {
+        if !self.keys.are_ids() {
+            return None;
+        }
         let places = self.sites[1..].iter().filter(|site| site.is_live()).map(|site| &site.point);
         G::exact_filter(&self.lower, &self.upper, places)
     }
@@ -250,7 +254,7 @@ impl<G: Dimension> Delaunay<G> {
         Ok(coincident)
     }
 
-    /// Drops the sites that found others at their places, and gives those the lowest id.
+    /// Drops the sites that found others at their places, and gives those the vertex of the lowest key.
     fn merge(&mut self, coincident: Vec<(SiteId, SiteId)>) -> Result<Vec<Merge>> {
         if coincident.is_empty() {
             return Ok(Vec::new());
@@ -263,15 +267,17 @@ impl<G: Dimension> Delaunay<G> {
         for &(s, _) in &coincident {
             self.drop_site(s);
         }
-        ids.sort_unstable();
+        let keys = &self.keys;
+        ids.sort_unstable_by(|(s, v), (t, w)| s.cmp(t).then_with(|| keys.order_of(*v, *w)));
         for there in ids.chunk_by(|(t, _), (other, _)| t == other) {
             let (site, lowest) = there[0];
             let before = self.site(site).id;
-            if lowest < before {
+            let hidden = self.keys.higher(lowest, before);
+            if hidden == before {
                 self.rename_site(site, lowest)?;
             }
             // All but the lowest are hidden, in its place the one that was there.
-            let of_lowest = Merge { hidden: lowest.max(before), site };
+            let of_lowest = Merge { hidden, site };
             merges.push(of_lowest);
             merges.extend(there[1..].iter().map(|&(_, hidden)| Merge { hidden, site }));
         }
@@ -329,9 +335,9 @@ impl<G: Dimension> Delaunay<G> {
         self.threads.for_work(n_cells, LARGE, LARGE / 64)
     }
 
-    /// A copy without memory for what is gone, in which the vertices have other ids, in the same order: those listed by
-    /// the old ones. Sites and cells are sorted. Also the new slot of each cell, [`Slot::NONE`] for free ones.
-    pub(crate) fn compacted(&self, ids: &[VertexId]) -> Result<(Self, Vec<Slot>)> {
+    /// A copy without memory for what is gone, in which the vertices have other ids, `n_ids` in all and in the same order:
+    /// those listed by the old ones. Sites and cells are sorted. Also the new slot of each cell, [`Slot::NONE`] for free ones.
+    pub(crate) fn compacted(&self, ids: &[VertexId], n_ids: usize) -> Result<(Self, Vec<Slot>)> {
         let sites = &self.sites;
         let n = sites.len() - 1 - self.free_sites.len();
         let (parts, keyed) =
@@ -365,6 +371,7 @@ impl<G: Dimension> Delaunay<G> {
             relocated: SiteId::NONE,
             recent: index.get(self.recent.index()).copied().unwrap_or(Slot::new(0)),
             complex,
+            keys: self.keys.renumbered(ids, n_ids)?,
             certificates: self.certificates,
             link_sites: self.link_sites,
             threads: self.threads,

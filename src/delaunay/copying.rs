@@ -9,6 +9,7 @@ impl<G: Dimension> Delaunay<G> {
     pub(crate) fn copied(&self) -> Result<Self> {
         Ok(Delaunay {
             sites: memory::copy_of(&self.sites)?,
+            keys: self.keys.copied()?,
             free_sites: memory::copy_of(&self.free_sites)?,
             parts: self.parts.copy()?,
             complex: self.complex.copied()?,

@@ -190,7 +190,7 @@ impl<G: Dimension> Delaunay<G> {
         }
         let (own, are_sites_far) = (&mut flips.own, self.is_far());
         loop {
-            let sites = Sites::new(&self.sites);
+            let sites = Sites::new(&self.sites, &self.keys);
             let cells = &mut self.complex.whole();
             Flipper { filter: &self.filter, sites, cells, are_sites_far }.flip_all(own);
             if own.has_failed {
@@ -227,7 +227,8 @@ impl<G: Dimension> Delaunay<G> {
                 memory::push(&mut part.suspects, facet)?;
             }
         }
-        let (sites, filter, are_sites_far) = (Sites::new(&self.sites), &self.filter, self.is_far());
+        let (sites, filter, are_sites_far) =
+            (Sites::new(&self.sites, &self.keys), &self.filter, self.is_far());
         self.complex.divided(&starts, parts, |cells, part| {
             Flipper { filter, sites, cells, are_sites_far }.flip_all(part);
         })?;

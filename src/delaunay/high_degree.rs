@@ -121,6 +121,7 @@ impl<G: Dimension> Delaunay<G> {
     /// The triangulation of the link's sites, and the site of each of its own.
     fn link_alone(&self, link: &[SiteId], pace: &mut Pace) -> Result<(Self, Vec<SiteId>)> {
         let mut local = Delaunay::<G>::on(Threads::ONE)?;
+        local.keys = self.keys.another();
         local.reserve_sites(link.len())?;
         let mut by_id = Vec::new();
         memory::reserve_exact(&mut by_id, link.len())?;

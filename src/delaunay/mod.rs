@@ -1,7 +1,7 @@
 //! The kernel: a Delaunay triangulation of *sites* under insertion, removal and relocation.
 //!
-//! Written once for both dimensions, over [`Dimension`]. Ties between signs are broken by the ids of the sites
-//! (see [`crate::predicates`]), so the cells are a function of the live sites alone: whatever the order of
+//! Written once for both dimensions, over [`Dimension`]. Ties between signs are broken by the keys of the sites' vertices,
+//! by default their ids (see [`crate::predicates`]), so the cells are a function of the live sites alone: whatever the order of
 //! insertions, removals and relocations, they are those of a fresh build.
 //!
 //! | file | what |
@@ -25,6 +25,7 @@
 //! | `copying`, `restoring` | a copy of a kernel; one of cells that are known, all of them checked |
 //! | `certify`, `uncertain`, `failures` | all certificates at once |
 //! | `sample` | those of a few cells |
+//! | `keys` | what ties are broken by |
 //! | `flat` | fewer than `D + 1` sites, or all in one hyperplane: no cells |
 //! | `validate` | the exact check of everything |
 //! | `set` | small sets of indices |
@@ -53,6 +54,7 @@ mod flip;
 mod flipper;
 mod flips;
 mod high_degree;
+mod keys;
 mod landmarks;
 mod lane_tests;
 mod locate;
@@ -88,6 +90,7 @@ pub(crate) use certify::Waiting;
 pub use dimension::Dimension;
 pub use failures::Failures;
 pub(crate) use flips::CERTIFICATES_PER_EXACT;
+pub(crate) use keys::Keys;
 pub use locate::Place;
 pub use relocate::{Relocation, Shortcut};
 pub(crate) use restoring::Rows;
@@ -121,6 +124,8 @@ const GHOST: VertexId = VertexId::new(0);
 #[derive(Debug)]
 pub struct Delaunay<G: Dimension> {
     sites: Vec<Site<G>>,
+    /// What ranks the vertices at the sites.
+    keys: Keys,
     free_sites: Vec<SiteId>,
     parts: Parts,
     complex: Complex<G::Corners>,
@@ -189,6 +194,7 @@ impl<G: Dimension> Delaunay<G> {
         let origin = G::Point::default();
         Delaunay {
             sites: Vec::new(),
+            keys: Keys::default(),
             free_sites: Vec::new(),
             parts: Parts::default(),
             complex: Complex::default(),
@@ -245,6 +251,17 @@ impl<G: Dimension> Delaunay<G> {
         &self.sites
     }
 
+    /// The keys of vertices.
+    #[inline(always)]
+    pub(crate) fn keys(&self) -> &Keys {
+        &self.keys
+    }
+
+    /// The keys of vertices, of which those may be changed that are in no cell.
+    pub(crate) fn keys_mut(&mut self) -> &mut Keys {
+        &mut self.keys
+    }
+
     /// All sites by index, to write places without any change to the cells.
     pub(crate) fn sites_mut(&mut self) -> &mut [Site<G>] {
         &mut self.sites
@@ -253,7 +270,7 @@ impl<G: Dimension> Delaunay<G> {
     /// The sites, as predicates read them.
     #[inline(always)]
     fn view(&self) -> site::Sites<'_, G> {
-        site::Sites::new(&self.sites)
+        site::Sites::new(&self.sites, &self.keys)
     }
 
     /// The place of a corner of a cell, not the ghost vertex.
@@ -456,6 +473,7 @@ impl<G: Dimension> Delaunay<G> {
     /// Bytes held.
     pub fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.sites)
+            + self.keys.memory_bytes()
             + memory::bytes_of(&self.free_sites)
             + self.parts.memory_bytes()
             + self.complex.memory_bytes()

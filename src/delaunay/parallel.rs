@@ -6,7 +6,7 @@
 //!
 //! Invariants: a thread changes nothing but its own part's triangulation, of which it is the owner; that of the first
 //! part has the sites of all and room for all cells, each other one a copy of its own sites and a part of that room,
-//! where its cells stay; the monitor is called by the calling thread alone. Ids break the ties in a part as in the
+//! where its cells stay; the monitor is called by the calling thread alone. Keys break the ties in a part as in the
 //! whole, so the cells are those of a build on one thread.
 //!
 //! Cost: that of the largest part, and of uniting. Of a million sites in two parts 0.15 % are inserted again
@@ -20,7 +20,7 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use super::order::{bounding_box, in_rounds};
 use super::parts::{self, Parts};
 use super::unite::Open;
-use super::{Delaunay, Dimension, Site};
+use super::{Delaunay, Dimension, Keys, Site};
 use crate::complex::INFINITE;
 use crate::error::{Error, Result};
 use crate::ids::SiteId;
@@ -36,6 +36,7 @@ type Coincident = Vec<(SiteId, SiteId)>;
 /// What all threads read.
 struct Build<'t, G: Dimension> {
     parts: &'t Parts,
+    keys: Keys,
     n_sites: usize,
     /// The sites of each part but the first, after a placeholder, for the thread that triangulates it.
     copies: Vec<Mutex<Vec<Site<G>>>>,
@@ -69,7 +70,14 @@ impl<G: Dimension> Delaunay<G> {
         }
         let Ok(copies) = self.copies() else { return Ok(None) };
         let parts = std::mem::take(&mut self.parts);
-        let build = Build { parts: &parts, n_sites, copies, boxes, stop: AtomicBool::new(false) };
+        let build = Build {
+            parts: &parts,
+            keys: self.keys.another(),
+            n_sites,
+            copies,
+            boxes,
+            stop: AtomicBool::new(false),
+        };
         let mut is_cancelled = false;
         self.complex.clear();
         // The first part is triangulated here, where the sites of all are.
@@ -147,7 +155,8 @@ impl<G: Dimension> Build<'_, G> {
             || self.triangulate(t, parts.start..middle, monitor),
             || {
                 let goes_on = &mut |_| !self.stop.load(Relaxed);
-                let mut right = Delaunay { complex, ..Delaunay::on(Threads::ONE)? };
+                let keys = self.keys.another();
+                let mut right = Delaunay { complex, keys, ..Delaunay::on(Threads::ONE)? };
                 let coincident = self.triangulate(&mut right, middle..parts.end, goes_on)?;
                 let (lower, upper) = self.box_of(parts.start..middle);
                 Ok((right.open(&lower, &upper)?, coincident))

@@ -44,8 +44,8 @@ impl Signs for Plane {
         debug_assert!(v[2] != INFINITE);
         let [a, b, c] = v.map(|s| sites.point(s));
         predicates::incircle_perturbed(f, [a, b, c, q], || {
-            let [i, j, k] = v.map(|s| sites.id(s).get());
-            [i, j, k, id.get()]
+            let [i, j, k] = v.map(|s| sites.id(s));
+            sites.keys().ranks::<Plane, 4>([i, j, k, id], || [*a, *b, *c, *q])
         })
     }
 

@@ -13,7 +13,7 @@
 //! star overlap neither the others nor each other. What they all fill together is convex at every ridge of its
 //! boundary, hence convex.
 //!
-//! The id of a site breaks ties, so a change of id is a relocation to the same place.
+//! The key of a site's vertex breaks ties, so a change of vertex is a relocation to the same place.
 
 use super::{Delaunay, Dimension, Insertion, Site};
 use crate::complex::{Corners, Facet, INFINITE};

@@ -5,7 +5,7 @@
 //! and one over the hull, whatever the cells are. Time and memory are in proportion to their number and that of the
 //! positions, but for the sort's `n log n`.
 
-use super::{Delaunay, Dimension, Failures, Site};
+use super::{Delaunay, Dimension, Failures, Keys, Site};
 use crate::complex::{Complex, Corners, Facet};
 use crate::damage::{Damage, LoadError};
 use crate::error::{Error, Result};
@@ -53,10 +53,12 @@ impl<G: Dimension> Delaunay<G> {
         positions: &[G::Point],
         is_site: impl Fn(VertexId) -> bool + Copy + Sync,
         rows: Rows<'_, G>,
+        keys: Keys,
         threads: Threads,
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<(Self, Vec<SiteId>), LoadError> {
         let mut t = Delaunay::on(threads)?;
+        t.keys = keys;
         go_on(monitor, 0.0)?;
         let vertices = 0..positions.len() as u32;
         let n = vertices.clone().filter(|&v| is_site(VertexId::new(v))).count();

@@ -5,6 +5,7 @@
 
 #![allow(unsafe_code)]
 
+use super::keys::Keys;
 use super::shape::{Shape, Space};
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::prefetch::prefetch;
@@ -17,8 +18,8 @@ pub struct Site<G: Shape> {
     pub point: G::Point,
     /// A cell that has the site as a corner; [`Slot::NONE`] while there is none.
     pub cell: Slot,
-    /// The vertex at the place, the lowest id if there are several: ties between signs are broken by it.
-    /// [`VertexId::NONE`] if the index is free.
+    /// The vertex at the place, the one of the lowest key and then of the lowest id if there are several: ties between
+    /// signs are broken by its key. [`VertexId::NONE`] if the index is free.
     pub id: VertexId,
 }
 
@@ -37,20 +38,29 @@ impl<G: Shape> Site<G> {
 
 /// The sites of a triangulation, for its own corners.
 #[derive(Clone, Copy, Debug)]
-pub struct Sites<'s, G: Shape>(&'s [Site<G>]);
+pub struct Sites<'s, G: Shape> {
+    sites: &'s [Site<G>],
+    keys: &'s Keys,
+}
 
 impl<'s, G: Shape> Sites<'s, G> {
     /// The caller passes only corners of cells of the triangulation whose sites these are, and such sites themselves.
-    pub(super) fn new(sites: &'s [Site<G>]) -> Self {
-        Sites(sites)
+    #[inline(always)]
+    pub(super) fn new(sites: &'s [Site<G>], keys: &'s Keys) -> Self {
+        Sites { sites, keys }
+    }
+
+    #[inline(always)]
+    fn site(self, s: SiteId) -> &'s Site<G> {
+        debug_assert!(s.index() < self.sites.len());
+        // SAFETY: `s` is a corner of a cell, so the index of a site (see `new`).
+        unsafe { self.sites.get_unchecked(s.index()) }
     }
 
     /// The place of a corner; a meaningless one for the ghost vertex.
     #[inline(always)]
     pub fn point(self, s: SiteId) -> &'s G::Point {
-        debug_assert!(s.index() < self.0.len());
-        // SAFETY: `s` is a corner of a cell, so the index of a site (see `new`).
-        unsafe { &self.0.get_unchecked(s.index()).point }
+        &self.site(s).point
     }
 
     /// The places of the corners of a cell, as [`point`](Self::point) has them; in the plane the last is there twice.
@@ -62,15 +72,19 @@ impl<'s, G: Shape> Sites<'s, G> {
     /// Asks for a site.
     #[inline(always)]
     pub(super) fn prefetch(self, s: SiteId) {
-        prefetch(self.0, s.index());
+        prefetch(self.sites, s.index());
     }
 
     /// The vertex id of a corner.
     #[inline(always)]
     pub fn id(self, s: SiteId) -> VertexId {
-        debug_assert!(s.index() < self.0.len());
-        // SAFETY: `s` is a corner of a cell, so the index of a site (see `new`).
-        unsafe { self.0.get_unchecked(s.index()).id }
+        self.site(s).id
+    }
+
+    /// The keys of vertices.
+    #[inline(always)]
+    pub(super) fn keys(self) -> &'s Keys {
+        self.keys
     }
 }
 
@@ -80,9 +94,7 @@ impl<'s> Sites<'s, Space> {
     /// The place of a corner, and a fourth number without a meaning: one load for all three coordinates.
     #[inline(always)]
     pub fn padded_point(self, s: SiteId) -> &'s [f64; 4] {
-        debug_assert!(s.index() < self.0.len());
-        // SAFETY: `s` is a corner of a cell, so the index of a site (see `new`).
-        unsafe { self.0.get_unchecked(s.index()) }.padded()
+        self.site(s).padded()
     }
 }
 

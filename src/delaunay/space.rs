@@ -43,8 +43,8 @@ impl Signs for Space {
         debug_assert!(v[3] != INFINITE);
         let [a, b, c, d] = v.map(|s| sites.point(s));
         predicates::insphere_perturbed(f, [a, b, c, d, q], || {
-            let [i, j, k, l] = v.map(|s| sites.id(s).get());
-            [i, j, k, l, id.get()]
+            let [i, j, k, l] = v.map(|s| sites.id(s));
+            sites.keys().ranks::<Space, 5>([i, j, k, l, id], || [*a, *b, *c, *d, *q])
         })
     }
 

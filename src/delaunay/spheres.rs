@@ -263,7 +263,7 @@ fn is_in_uncertain_conflict<const BY_LENGTHS: bool>(
     }
     let [a, b, c, d] = corners.map(|s| t.view().point(s));
     if t.filter.is_exact {
-        // The side of the sphere is exact, so it is zero: a tie.
+        // The side of the sphere is exact, so it is zero: a tie, which ids decide, as there are no keys.
         debug_assert_eq!(side, 0.0);
         let [i, j, k, l] = corners.map(|s| t.view().id(s).get());
         return predicates::is_inside_cospherical_on_lattice([a, b, c, d, q], [i, j, k, l, id.get()]);

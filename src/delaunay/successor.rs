@@ -28,7 +28,14 @@ impl<G: Dimension> Delaunay<G> {
             let point = if site.is_live() { place(site) } else { site.point };
             sites.push(Site { point, cell: Slot::NONE, id: site.id });
         }
-        let mut next = Delaunay { sites, free_sites, parts, threads: self.threads, ..Delaunay::empty() };
+        let mut next = Delaunay {
+            sites,
+            keys: self.keys.another(),
+            free_sites,
+            parts,
+            threads: self.threads,
+            ..Delaunay::empty()
+        };
         self.give_scratch_to(&mut next);
         (next.certificates, next.link_sites) = (self.certificates, self.link_sites);
         Ok(next)

@@ -4,6 +4,7 @@
 //! It uses [`simd`](crate::simd) and [`error`](crate::error) alone: all else is above.
 
 pub(crate) mod aligned;
+pub(crate) mod counted;
 pub(crate) mod environment;
 pub mod memory;
 pub(crate) mod pace;

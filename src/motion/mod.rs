@@ -18,7 +18,7 @@
 //!
 //! Invariants between calls:
 //! - the cells are those of a fresh build of (positions, ids), whatever happened before;
-//! - the vertices at one place share a site; the lowest id represents it, the others are *hidden*;
+//! - the vertices at one place share a site; the lowest key and then id represents it, the others are *hidden*;
 //! - a call that fails has no effect: every change is a transaction, which is undone from its own record.
 //!
 //! Memory per vertex: the kernel's, 4 bytes for the site of an id, once there was a commit a position, and once moves
@@ -47,6 +47,7 @@ pub use options::{
 pub use reading::domain::ChainEdge;
 pub use reading::exporting::Field;
 pub use reading::geometry::{BoundaryFacet, Interpolation, OrderedStar, Rows, VertexValues};
+pub use reading::near::{InReach, VerticesInReach};
 pub use reading::query::Location;
 pub(crate) use reading::query::cells_at;
 pub use reading::saving::Saved;

@@ -125,19 +125,19 @@ fn differences<'r, const D: usize, const N: usize>(
 
 /// The differences from `origin` to `points`, after the exponent of their unit: the greatest one possible that is not
 /// above `most`, unless all coordinates are zero.
-pub(super) fn differences_in_units<'r, const D: usize, const N: usize>(
-    room: &'r Room,
+pub(super) fn differences_in_units<'r, const D: usize, const N: usize, const LIMBS: usize>(
+    room: &'r Room<LIMBS>,
     origin: &[f64; D],
     points: [&[f64; D]; N],
     most: i32,
-) -> (i32, [[Integer<'r>; D]; N]) {
+) -> (i32, [[Integer<'r, LIMBS>; D]; N]) {
     let coordinates = || points.into_iter().flatten().chain(origin).filter(|&&x| x != 0.0);
     let unit = coordinates().map(|&x| decode(x).1).min().unwrap_or(0).min(most);
     let integer = |x: f64| {
         let (mantissa, exponent) = decode(x);
         Integer::shifted(room, mantissa, if mantissa == 0 { 0 } else { (exponent - unit) as u32 })
     };
-    let origin: [Integer; D] = std::array::from_fn(|axis| integer(origin[axis]));
+    let origin: [_; D] = std::array::from_fn(|axis| integer(origin[axis]));
     (unit, points.map(|p| std::array::from_fn(|axis| integer(p[axis]) - origin[axis])))
 }
 
@@ -156,17 +156,21 @@ pub(super) fn decode(x: f64) -> (i64, i32) {
     (if x < 0.0 { -mantissa } else { mantissa }, exponent)
 }
 
-pub(super) fn square<'r, const D: usize>(p: &[Integer<'r>; D]) -> Integer<'r> {
+/// What determinants are evaluated in.
+pub(super) trait Ring: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {}
+impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>> Ring for T {}
+
+pub(super) fn square<T: Ring, const D: usize>(p: &[T; D]) -> T {
     p[1..].iter().fold(p[0] * p[0], |sum, &x| sum + x * x)
 }
 
 /// Minor of the first two columns.
-pub(super) fn minor<'r, const D: usize>(p: &[Integer<'r>; D], q: &[Integer<'r>; D]) -> Integer<'r> {
+pub(super) fn minor<T: Ring, const D: usize>(p: &[T; D], q: &[T; D]) -> T {
     p[0] * q[1] - p[1] * q[0]
 }
 
 /// Determinant of three differences.
-pub(super) fn volume<'r>(u: &[Integer<'r>; 3], v: &[Integer<'r>; 3], w: &[Integer<'r>; 3]) -> Integer<'r> {
+pub(super) fn volume<T: Ring>(u: &[T; 3], v: &[T; 3], w: &[T; 3]) -> T {
     minor(v, w) * u[2] - minor(u, w) * v[2] + minor(u, v) * w[2]
 }
 
@@ -177,15 +181,21 @@ pub(super) fn volume<'r>(u: &[Integer<'r>; 3], v: &[Integer<'r>; 3], w: &[Intege
 /// 27 · 21. A square is 3 · 40 + 2 · 41, a minor 2 · 40 + 41, a volume three of these and 3 · 60 + 2 · 61. `insphere`
 /// has four squares, four volumes, four products of 100 and three sums of 101: 4,738 in all.
 ///
-/// The most are those of comparing the radius of a sphere (`measures.rs`). 12 coordinates and 9 differences are 21 ·
-/// 21; three squares; nine minors; a volume of them, 3 · 60 + 2 · 61; a vector, three times 3 · 80 + 2 · 81; its
-/// square, 3 · 160 + 2 · 161; that of the volume, 120; the given radius and its product with that, 53 + 173. These are
-/// 4,792.
+/// The most are those of comparing the radius of a sphere (`measures.rs`). 12 coordinates and 9 differences are 21 · 21; three
+/// squares; nine minors; a volume of them, 3 · 60 + 2 · 61; a vector, three times 3 · 80 + 2 · 81; its square, 3 · 160 +
+/// 2 · 161; that of the volume, 120; the given radius and its product with that, 53 + 173. These are 4,792.
 const LIMBS: usize = 4800;
 
+/// Limbs of all integers that a sphere and a box take (`reach.rs`).
+///
+/// The vector of a sphere with its square as above, 4,446; twice the volume, 61; 6 coordinates and 6 differences, 12 · 21;
+/// for each side of the box a product of 80 and a difference of 82; for each axis a square of 162 and a difference of at
+/// most 165. These are 6,712.
+pub(super) const MOST_LIMBS: usize = 6720;
+
 /// Room for integers, which are given up together.
-pub(super) struct Room {
-    limbs: UnsafeCell<[MaybeUninit<u64>; LIMBS]>,
+pub(super) struct Room<const N: usize = LIMBS> {
+    limbs: UnsafeCell<[MaybeUninit<u64>; N]>,
     /// How many are in use: the first ones.
     n: Cell<usize>,
 }
@@ -193,14 +203,21 @@ pub(super) struct Room {
 impl Room {
     #[inline(always)]
     pub(super) fn new() -> Self {
-        Room { limbs: UnsafeCell::new([MaybeUninit::uninit(); LIMBS]), n: Cell::new(0) }
+        Self::of_any_size()
+    }
+}
+
+impl<const N: usize> Room<N> {
+    #[inline(always)]
+    pub(super) fn of_any_size() -> Self {
+        Room { limbs: UnsafeCell::new([MaybeUninit::uninit(); N]), n: Cell::new(0) }
     }
 
     /// Takes `n` limbs, and sets them to zero.
     #[allow(clippy::mut_from_ref)] // Each call gives other limbs.
     fn zeros(&self, n: usize) -> &mut [u64] {
         let first = self.n.get();
-        assert!(n <= LIMBS - first, "room for a determinant");
+        assert!(n <= N - first, "room for a determinant");
         self.n.set(first + n);
         // SAFETY: there are so many, and nothing else has them, as the number of those in use never falls, and they are
         // written before they are handed out.
@@ -214,22 +231,22 @@ impl Room {
 
 /// An integer: sign and magnitude.
 #[derive(Clone, Copy)]
-pub(super) struct Integer<'r> {
-    room: &'r Room,
+pub(super) struct Integer<'r, const N: usize = LIMBS> {
+    room: &'r Room<N>,
     /// False for zero.
     is_negative: bool,
     /// The lowest limb first; the highest is not zero.
     magnitude: &'r [u64],
 }
 
-impl<'r> Integer<'r> {
-    fn new(room: &'r Room, is_negative: bool, limbs: &'r [u64]) -> Self {
+impl<'r, const N: usize> Integer<'r, N> {
+    fn new(room: &'r Room<N>, is_negative: bool, limbs: &'r [u64]) -> Self {
         let n = limbs.iter().rposition(|&limb| limb != 0).map_or(0, |highest| highest + 1);
         Integer { room, is_negative: is_negative & (n > 0), magnitude: &limbs[..n] }
     }
 
     /// `x` · 2^`shift`.
-    pub(super) fn shifted(room: &'r Room, x: i64, shift: u32) -> Self {
+    pub(super) fn shifted(room: &'r Room<N>, x: i64, shift: u32) -> Self {
         let at = (shift / 64) as usize;
         let limbs = room.zeros(at + 2);
         let magnitude = u128::from(x.unsigned_abs()) << (shift % 64);
@@ -287,13 +304,13 @@ impl<'r> Integer<'r> {
     }
 }
 
-impl PartialEq for Integer<'_> {
+impl<const N: usize> PartialEq for Integer<'_, N> {
     fn eq(&self, other: &Self) -> bool {
         self.is_negative == other.is_negative && self.magnitude == other.magnitude
     }
 }
 
-impl Add for Integer<'_> {
+impl<const N: usize> Add for Integer<'_, N> {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
@@ -311,7 +328,7 @@ impl Add for Integer<'_> {
     }
 }
 
-impl Sub for Integer<'_> {
+impl<const N: usize> Sub for Integer<'_, N> {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
@@ -319,7 +336,7 @@ impl Sub for Integer<'_> {
     }
 }
 
-impl Mul for Integer<'_> {
+impl<const N: usize> Mul for Integer<'_, N> {
     type Output = Self;
 
     fn mul(self, other: Self) -> Self {

@@ -6,6 +6,7 @@ use std::ops::{Index, IndexMut};
 use super::array::Array;
 use super::bicells::BiCellTolerances;
 use super::measures::Measures;
+use super::reach::Reach;
 
 /// Coordinates of one point: `[f64; D]`.
 pub trait Coordinates:
@@ -19,6 +20,7 @@ pub trait Coordinates:
     + Array
     + BiCellTolerances
     + Measures
+    + Reach
     + Send
     + Sync
 {

@@ -21,7 +21,7 @@
 //! circumcentre or the squared radius itself is beyond the range of numbers.
 
 use super::big::{
-    Integer, Room, decode, differences_in_units, minor as big_minor, square, volume as big_volume,
+    Integer, Ring, Room, decode, differences_in_units, minor as big_minor, square, volume as big_volume,
 };
 use super::filter::{CIRCLE_VECTOR, SPHERE_VECTOR, semi_static_bounds_2d, semi_static_bounds_3d};
 use super::integer::power_of_two;
@@ -69,13 +69,13 @@ pub trait Measures: Sized {
 }
 
 /// What is known of a circumsphere from rounded numbers.
-struct Rounded<const D: usize> {
+pub(super) struct Rounded<const D: usize> {
     /// From the first corner to the centre.
-    offset: [f64; D],
+    pub(super) offset: [f64; D],
     /// Whether the offset is as accurate as the module's documentation says.
-    is_sharp: bool,
+    pub(super) is_sharp: bool,
     /// Greatest magnitude of a difference along an axis.
-    extent: f64,
+    pub(super) extent: f64,
 }
 
 impl<const D: usize> Rounded<D> {
@@ -114,14 +114,14 @@ impl Measures for [f64; 2] {
     #[inline(always)]
     fn circumsphere(cell: &[&Self]) -> (Self, f64) {
         let &[a, b, c] = cell else { unreachable!("a triangle") };
-        finish(a, rounded2d([a, b, c]), || exact_offset([a, b, c], exact_circle))
+        finish(a, rounded2d([a, b, c]), || exact_offset([a, b, c], |p| exact_circle(p)))
     }
 
     #[inline(always)]
     fn is_circumradius_within(cell: &[&Self], squared: f64) -> bool {
         let &[a, b, c] = cell else { unreachable!("a triangle") };
         let rounded = rounded2d([a, b, c]);
-        rounded.is_within(squared, || is_exactly_within([a, b, c], squared, exact_circle))
+        rounded.is_within(squared, || is_exactly_within([a, b, c], squared, |p| exact_circle(p)))
     }
 }
 
@@ -143,25 +143,25 @@ impl Measures for [f64; 3] {
     #[inline(always)]
     fn circumsphere(cell: &[&Self]) -> (Self, f64) {
         let &[a, b, c, d] = cell else { unreachable!("a tetrahedron") };
-        finish(a, rounded3d([a, b, c, d]), || exact_offset([a, b, c, d], exact_sphere))
+        finish(a, rounded3d([a, b, c, d]), || exact_offset([a, b, c, d], |p| exact_sphere(p)))
     }
 
     #[inline(always)]
     fn is_circumradius_within(cell: &[&Self], squared: f64) -> bool {
         let &[a, b, c, d] = cell else { unreachable!("a tetrahedron") };
         let rounded = rounded3d([a, b, c, d]);
-        rounded.is_within(squared, || is_exactly_within([a, b, c, d], squared, exact_sphere))
+        rounded.is_within(squared, || is_exactly_within([a, b, c, d], squared, |p| exact_sphere(p)))
     }
 }
 
 /// The greatest magnitudes along each axis.
 #[inline(always)]
-fn greatest<const D: usize, const N: usize>(differences: [&[f64; D]; N]) -> [f64; D] {
+pub(super) fn greatest<const D: usize, const N: usize>(differences: [&[f64; D]; N]) -> [f64; D] {
     std::array::from_fn(|axis| differences.iter().fold(0.0, |most, u| Real::max(u[axis].abs(), most)))
 }
 
 #[inline(always)]
-fn rounded2d([a, b, c]: [&[f64; 2]; 3]) -> Rounded<2> {
+pub(super) fn rounded2d([a, b, c]: [&[f64; 2]; 3]) -> Rounded<2> {
     let [x, y, volume] = circle(a, b, c);
     let [e, f] = greatest([&minus(b, a), &minus(c, a)]);
     let extent = Real::max(e, f);
@@ -169,7 +169,7 @@ fn rounded2d([a, b, c]: [&[f64; 2]; 3]) -> Rounded<2> {
 }
 
 #[inline(always)]
-fn rounded3d([a, b, c, d]: [&[f64; 3]; 4]) -> Rounded<3> {
+pub(super) fn rounded3d([a, b, c, d]: [&[f64; 3]; 4]) -> Rounded<3> {
     let [x, y, z, volume] = sphere(a, b, c, d);
     let [e, f, g] = greatest([&minus(b, a), &minus(c, a), &minus(d, a)]);
     let (more, less) = (Real::max(e, f), Real::min(e, f));
@@ -190,14 +190,14 @@ fn finish<const D: usize>(
 }
 
 /// The vector and the determinant of a circle.
-fn exact_circle<'r>([u, v]: &[[Integer<'r>; 2]; 2]) -> ([Integer<'r>; 2], Integer<'r>) {
+pub(super) fn exact_circle<T: Ring>([u, v]: &[[T; 2]; 2]) -> ([T; 2], T) {
     let (uu, vv) = (square(u), square(v));
     ([uu * v[1] - vv * u[1], vv * u[0] - uu * v[0]], big_minor(u, v))
 }
 
 /// The vector and the determinant of a sphere.
-fn exact_sphere<'r>([u, v, w]: &[[Integer<'r>; 3]; 3]) -> ([Integer<'r>; 3], Integer<'r>) {
-    let cross = |p: &[Integer<'r>; 3], q: &[Integer<'r>; 3]| {
+pub(super) fn exact_sphere<T: Ring>([u, v, w]: &[[T; 3]; 3]) -> ([T; 3], T) {
+    let cross = |p: &[T; 3], q: &[T; 3]| {
         [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
     };
     let (uu, vv, ww) = (square(u), square(v), square(w));
@@ -224,7 +224,7 @@ fn exact_volume<const D: usize, const M: usize, const N: usize>(
 /// From the first corner to the centre, rounded.
 #[cold]
 #[inline(never)]
-fn exact_offset<const D: usize, const M: usize, const N: usize>(
+pub(super) fn exact_offset<const D: usize, const M: usize, const N: usize>(
     points: [&[f64; D]; N],
     sphere: impl for<'r> FnOnce(&[[Integer<'r>; D]; M]) -> ([Integer<'r>; D], Integer<'r>),
 ) -> [f64; D] {

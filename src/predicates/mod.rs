@@ -83,6 +83,7 @@ mod big;
 mod coordinates;
 mod corners;
 mod crossing;
+mod diametral;
 mod distance;
 #[cfg(test)]
 mod dyadic;
@@ -100,6 +101,7 @@ mod passing;
 mod path;
 mod perturbation;
 mod plane;
+mod reach;
 mod running;
 mod separator;
 mod space;
@@ -119,6 +121,7 @@ pub(crate) use bicells::{
 pub use coordinates::Coordinates;
 pub use corners::{Meeting, sign_of_cross};
 pub use crossing::{crossing, passes_near};
+pub use diametral::is_in_diametral_circle;
 pub use distance::{compare_distance, is_collinear3, is_within_distance};
 pub use filter::StaticFilter;
 pub use hull::{area, ray_and_segment, ray_and_triangle, volumes_over};
@@ -130,6 +133,7 @@ pub use passing::passes;
 pub use path::{stays_positive2d, stays_positive3d};
 pub use perturbation::{incircle_perturbed, insphere_perturbed, is_inside_cospherical_on_lattice};
 pub use plane::{incircle, orient2d};
+pub use reach::Reach;
 pub use separator::{delimiter3d, separator3d, tolerances3d};
 pub use space::{insphere, orient3d};
 pub use sphere::{

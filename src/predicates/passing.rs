@@ -67,7 +67,7 @@ fn winds(corners: &[[f64; 2]; 4], pairs: &[[&[f64; 2]; 2]; 4]) -> bool {
 }
 
 /// The sign of the cross product of two differences, of which the rounded ones are given, and the points.
-fn sign_of_cross([u, v]: [[f64; 2]; 2], pairs: [[&[f64; 2]; 2]; 2]) -> Ordering {
+pub(super) fn sign_of_cross([u, v]: [[f64; 2]; 2], pairs: [[&[f64; 2]; 2]; 2]) -> Ordering {
     let det = minor(&u, &v);
     let extents = [u[0].abs().max(v[0].abs()), u[1].abs().max(v[1].abs())];
     if is_certain(det, orient2d_bound(extents), extents) {

@@ -54,12 +54,25 @@ impl Mesh<'_> {
 
     /// Whether the corner of a triangle, which may not have been copied, is between two segments.
     pub(super) fn is_between_segments(&self, t: u32, corner: usize) -> bool {
+        let pieces = self.pieces_of(t);
+        [next(corner), previous(corner)].iter().all(|&i| pieces[i] != NONE)
+    }
+
+    /// Whether the side of a triangle, which may not have been copied, that is opposite one of its corners has these ends and
+    /// is a segment.
+    pub(super) fn is_segment_opposite(&self, t: u32, corner: VertexId, ends: [VertexId; 2]) -> bool {
+        let corners = self.corners_of(t).0;
+        let i = corner_of(corners, corner);
+        [corners[next(i)], corners[previous(i)]] == ends && self.pieces_of(t)[i] != NONE
+    }
+
+    /// The segments at the sides of a triangle that may not have been copied.
+    fn pieces_of(&self, t: u32) -> [u32; 3] {
         let copy = if t & UNREAD == 0 { Some(t) } else { self.copy_of(t & !UNREAD) };
-        let pieces = match copy {
+        match copy {
             Some(copy) => self.triangle(copy).pieces,
             None => self.given.sides_of(t & !UNREAD),
-        };
-        [next(corner), previous(corner)].iter().all(|&i| pieces[i] != NONE)
+        }
     }
 
     /// The triangle beyond a side of one that may not have been copied, and may not have been either.

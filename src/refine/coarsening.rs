@@ -112,6 +112,7 @@ impl Coarsening<'_> {
             if (is_touched || !candidate.is_kept) && self.may_go(candidate)? {
                 memory::push(&mut able, (self.shortest_edge(candidate.vertex), candidate))?;
             }
+            self.tests.check_stop()?;
         }
         Ok(able)
     }
@@ -122,7 +123,9 @@ impl Coarsening<'_> {
         able.sort_unstable_by(|(one, a), (other, b)| one.total_cmp(other).then(a.vertex.cmp(&b.vertex)));
         for &(_, candidate) in &*able {
             self.is_touched[candidate.vertex] = false;
-            if self.may_go(candidate)? {
+            let may_go = self.may_go(candidate)?;
+            self.tests.check_stop()?;
+            if may_go {
                 self.remove(candidate)?;
             }
         }
@@ -173,18 +176,39 @@ impl Coarsening<'_> {
         }
         let worst = self.worst(vertex, &self.mesh.cells);
         let Coarsening { mesh, tests, room, hole, .. } = self;
-        mesh.fill_joined([before, behind], hole, &|mesh, corners, label| {
+        let is_filled = mesh.fill_joined([before, behind], hole, &|mesh, corners, label| {
             is_good(mesh, tests, room.share, worst, corners, label)
-        })
+        })?;
+        Ok(is_filled && !self.would_encroach(vertex, &self.mesh.cells, Some([a, b])))
     }
 
     fn may_go_inside(&mut self, vertex: VertexId) -> Result<bool> {
         let Some(label) = self.mesh.look_around(vertex, &mut self.hole)? else { return Ok(false) };
         let worst = self.worst(vertex, &self.hole.around);
         let Coarsening { mesh, tests, room, hole, .. } = self;
-        mesh.fill_polygon(hole, label, &|mesh, corners, label| {
+        let is_filled = mesh.fill_polygon(hole, label, &|mesh, corners, label| {
             is_good(mesh, tests, room.share, worst, corners, label)
-        })
+        })?;
+        Ok(is_filled && !self.would_encroach(vertex, &self.hole.around, None))
+    }
+
+    /// Whether what has been found would encroach a piece: one at the triangles around the vertex, or the joined one. What
+    /// is in a lens is of a small angle, so that only circles need be looked at.
+    fn would_encroach(&self, vertex: VertexId, around: &[u32], joined: Option<[VertexId; 2]>) -> bool {
+        let is_piece = |ends: [VertexId; 2]| {
+            let is_joined = |[a, b]: [VertexId; 2]| ends == [a, b] || ends == [b, a];
+            joined.is_some_and(is_joined)
+                || around.iter().any(|&t| self.mesh.is_segment_opposite(t, vertex, ends))
+        };
+        self.tests.are_conforming()
+            && self.hole.triangles.iter().any(|&(corners, label)| {
+                Tests::is_selected(label)
+                    && (0..3).any(|i| {
+                        let ends = [corners[next(i)], corners[previous(i)]];
+                        let places = ends.map(|v| self.mesh.point(v));
+                        self.tests.is_encroached(places, self.mesh.point(corners[i])) && is_piece(ends)
+                    })
+            })
     }
 
     /// The piece that a segment is a part of by now.

@@ -4,8 +4,11 @@
 //! of two so that their fourth powers neither overflow nor, where they matter, underflow.
 
 use super::parts::NOT_SELECTED;
+use crate::error::{Error, Result};
 use crate::ids::VertexId;
-use crate::predicates::{dot, minus};
+use crate::predicates::{dot, is_in_diametral_circle, minus};
+use std::cell::Cell;
+use std::ops::ControlFlow;
 
 /// Rounded cosines are off by less than this, squared ones by less than twice as much: products of differences that are
 /// off by half a last bit each.
@@ -15,8 +18,8 @@ const ROUNDING: f64 = 1e-14;
 /// rounding, and its neighbours have room (Üngör, 10.1016/j.comgeo.2008.06.002, leaves the factor open).
 const OFF_CENTRE: f64 = 0.475;
 
-/// Says whether a triangle is too large.
-pub(crate) type TooLarge<'a> = &'a dyn Fn([[f64; 2]; 3]) -> bool;
+/// Says whether a triangle is too large, or that nothing more is to be done.
+pub(crate) type TooLarge<'a> = &'a dyn Fn([[f64; 2]; 3]) -> ControlFlow<(), bool>;
 
 /// What triangles must fulfil.
 #[derive(Clone, Copy)]
@@ -30,6 +33,8 @@ pub(crate) struct Criteria<'a> {
     /// The greatest length of an edge at each vertex; empty for none.
     pub sizes: &'a [f64],
     pub is_too_large: Option<TooLarge<'a>>,
+    /// Whether pieces are encroached by what is in their diametral circles, and not only in the lenses.
+    pub is_conforming: bool,
 }
 
 /// Why a triangle is bad.
@@ -52,6 +57,8 @@ pub(crate) struct Tests<'a> {
     pub(super) off: f64,
     /// A power of two by which lengths are multiplied.
     scale: f64,
+    /// Whether the function of the criteria has said to stop: it is not asked any more.
+    is_stopped: Cell<bool>,
 }
 
 /// What has been measured of a triangle.
@@ -77,7 +84,14 @@ impl<'a> Tests<'a> {
             off: OFF_CENTRE * ((1.0 + cosine) / (1.0 - cosine)).sqrt(),
             // The inverse of a subnormal number may be infinite.
             scale: if extent > 0.0 { power_of_two_below((1.0 / extent).min(f64::MAX)) } else { 1.0 },
+            is_stopped: Cell::new(false),
         }
+    }
+
+    /// An error if the function of the criteria has said to stop.
+    #[inline(always)]
+    pub(crate) fn check_stop(&self) -> Result<()> {
+        if self.is_stopped.get() { Err(Error::Cancelled) } else { Ok(()) }
     }
 
     pub(super) fn has_sizes(&self) -> bool {
@@ -143,7 +157,13 @@ impl<'a> Tests<'a> {
                 return true;
             }
         }
-        is_too_large.is_some_and(|is_too_large| is_too_large(p.map(|p| *p)))
+        is_too_large.is_some_and(|is_too_large| {
+            !self.is_stopped.get()
+                && is_too_large(p.map(|p| *p)).continue_value().unwrap_or_else(|| {
+                    self.is_stopped.set(true);
+                    false
+                })
+        })
     }
 
     /// Whether a triangle is bad.
@@ -172,9 +192,12 @@ impl<'a> Tests<'a> {
     }
 
     /// Whether a vertex sees the two ends of a piece under so large an angle that the piece has to be split: in its
-    /// diametral lens.
+    /// diametral lens, or circle.
     #[inline(always)]
-    pub(crate) fn is_in_lens(&self, ends: [&[f64; 2]; 2], p: &[f64; 2]) -> bool {
+    pub(crate) fn is_encroached(&self, ends: [&[f64; 2]; 2], p: &[f64; 2]) -> bool {
+        if self.criteria.is_conforming {
+            return is_in_diametral_circle(ends, p);
+        }
         let [u, v] = ends.map(|end| minus::<f64, 2>(end, p).map(|x| x * self.scale));
         let cosine = dot(&u, &v);
         cosine < 0.0 && cosine * cosine > self.lens * (dot(&u, &u) * dot(&v, &v))
@@ -201,8 +224,10 @@ impl<'a> Tests<'a> {
 
     /// Whether there is no criterion.
     pub(crate) fn are_none(&self) -> bool {
-        let Criteria { least_angle, greatest_area, areas, sizes, is_too_large } = &self.criteria;
+        let Criteria { least_angle, greatest_area, areas, sizes, is_too_large, is_conforming } =
+            &self.criteria;
         *least_angle == 0.0
+            && !is_conforming
             && *greatest_area == f64::INFINITY
             && areas.iter().all(|&area| area == f64::INFINITY)
             && sizes.is_empty()
@@ -212,6 +237,11 @@ impl<'a> Tests<'a> {
     /// Whether cells of a label are to be refined.
     pub(crate) fn is_selected(label: u32) -> bool {
         label != NOT_SELECTED
+    }
+
+    /// Whether every triangle is to be Delaunay, segments or not.
+    pub(super) fn are_conforming(&self) -> bool {
+        self.criteria.is_conforming
     }
 
     /// The size given at a vertex.
@@ -232,12 +262,6 @@ pub(super) fn narrowest(p: [&[f64; 2]; 3]) -> usize {
         let u = minus::<f64, 2>(p[j], p[i]);
         dot(&u, &u)
     }))
-}
-
-/// Whether a place is strictly inside the circle of which two others are opposite ends, to rounding.
-pub(super) fn is_in_diametral_circle(ends: [&[f64; 2]; 2], p: &[f64; 2]) -> bool {
-    let [u, v] = ends.map(|end| minus::<f64, 2>(end, p));
-    dot(&u, &v) < 0.0
 }
 
 pub(super) fn distance(p: &[f64; 2], q: &[f64; 2]) -> f64 {

@@ -1,6 +1,7 @@
 //! A triangulation that is to be refined.
 
 use super::parts::{NONE, NOT_SELECTED};
+use crate::delaunay::Keys;
 use crate::ids::{CellId, VertexId};
 
 /// Cells, segments at them, and what is selected of them.
@@ -24,6 +25,8 @@ pub(crate) struct Given<'a> {
     pub sides: &'a [(u32, [u32; 3])],
     /// Ends of each segment.
     pub segments: &'a [[VertexId; 2]],
+    /// What breaks ties; of vertices that are made as `Keys` tells.
+    pub keys: &'a Keys,
 }
 
 impl Given<'_> {

@@ -10,6 +10,7 @@
 
 use super::given::Given;
 use super::parts::{NONE, Piece, Rim, Side, Triangle, UNREAD, next, previous};
+use crate::delaunay::Plane;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
@@ -196,8 +197,9 @@ impl<'a> Mesh<'a> {
     pub(super) fn is_inside(&self, corners: [VertexId; 3], p: &[f64; 2], id: VertexId) -> bool {
         let [a, b, c] = corners.map(|v| self.point(v));
         predicates::incircle_perturbed(&self.filter, [a, b, c, p], || {
-            let [i, j, k] = corners.map(VertexId::get);
-            [i, j, k, id.get()]
+            let [i, j, k] = corners;
+            let first_made = VertexId::at(self.given.at.len());
+            self.given.keys.ranks_with_made::<Plane, 4>(first_made, [i, j, k, id], || [*a, *b, *c, *p])
         })
     }
 

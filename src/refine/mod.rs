@@ -14,7 +14,9 @@
 //! ```
 //!
 //! A piece is *encroached* by a vertex in its diametral lens, that sees its ends under more than 180 degrees less twice the
-//! least angle. Before it is split, vertices of this call in its diametral circle are taken away.
+//! least angle. Before it is split, vertices of this call in its diametral circle are taken away. Where every triangle is to
+//! be Delaunay, segments or not, a piece is encroached by what is strictly inside its diametral circle: of two triangles at
+//! a segment the corners opposite then see it under 90 degrees at most, so neither is inside the other's circle.
 //!
 //! | file | what |
 //! |---|---|
@@ -44,9 +46,17 @@
 //! the queue and off-centres keep that: an off-centre is no nearer to other vertices than the shortest edge of its
 //! triangle is long. Above, it ends in practice up to some 34 degrees, which is why more is refused.
 //!
+//! With circles in the place of lenses this is Ruppert's algorithm, and ends for a least angle up to 20.7 degrees, by
+//! Shewchuk's proof too. A vertex that is taken away from a circle makes no difference: each time a piece is split, of
+//! which there can only be so many, as none becomes shorter than that feature size allows. Vertices on one circle are told
+//! apart exactly, so that a right angle, as in a square with its diagonal, is no cause for splitting.
+//!
 //! At an apex of segments with a smaller angle, segments are split at powers of two from it, and a triangle across the angle
 //! stays as it is if its shortest edge is between two vertices on one shell: that is as long as the angle makes it, and what
 //! would come of it is smaller by the same factor each time. Other triangles have angles that refinement mends.
+//! Vertices on common shells are in no circles of each other's pieces: from distance d at an angle w, the piece from d to
+//! 2d is seen under 90 degrees at most, since 2d² - 3d² cos w + d² is not negative. Places are rounded, and w² has to be
+//! above that: at angles below 1e-8 or so vertices on two segments are in each other's circles until the last bits.
 //!
 //! A bad triangle waits again only after a piece has been split, and vertices on pieces stay. Pieces that cannot be split,
 //! since they are kept whole or there is no number between their ends, are left, and so are triangles that need it.

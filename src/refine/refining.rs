@@ -131,6 +131,7 @@ impl Refinement<'_> {
                 if self.n_added >= limit {
                     return Ok(true);
                 }
+                self.tests.check_stop()?;
                 let (piece, ends, is_forced) = self.encroached[k];
                 k += 1;
                 if self.mesh.pieces[piece as usize].ends == ends && (is_forced || self.is_encroached(piece)) {
@@ -138,6 +139,7 @@ impl Refinement<'_> {
                 }
             }
             self.encroached.clear();
+            self.tests.check_stop()?;
             let Some(waiting) = self.queues.pop() else { return Ok(false) };
             if self.mesh.triangle(waiting.triangle).corners != waiting.corners {
                 continue;
@@ -169,7 +171,7 @@ impl Refinement<'_> {
             }
             let is_too_long =
                 self.tests.is_too_long(triangle.ends(i).map(|v| self.mesh.point(v)), triangle.label);
-            if (is_too_long || self.is_in_lens(Side::new(t, i))) && self.may_split(piece) {
+            if (is_too_long || self.is_encroached_from(Side::new(t, i))) && self.may_split(piece) {
                 self.enter(piece, is_too_long)?;
             }
         }
@@ -190,15 +192,15 @@ impl Refinement<'_> {
         memory::push(&mut self.encroached, (piece, ends, is_forced))
     }
 
-    /// Whether the corner opposite a side is in the lens of the side.
-    pub(super) fn is_in_lens(&self, side: Side) -> bool {
+    /// Whether a piece at a side would have to be split for the corner opposite it.
+    pub(super) fn is_encroached_from(&self, side: Side) -> bool {
         let triangle = self.mesh.triangle(side.triangle());
         let ends = triangle.ends(side.index()).map(|v| self.mesh.point(v));
-        self.tests.is_in_lens(ends, self.mesh.point(triangle.corners[side.index()]))
+        self.tests.is_encroached(ends, self.mesh.point(triangle.corners[side.index()]))
     }
 
     fn is_encroached(&self, piece: u32) -> bool {
-        self.selected_sides(piece).any(|side| self.is_in_lens(side))
+        self.selected_sides(piece).any(|side| self.is_encroached_from(side))
     }
 
     /// The sides of a piece on which triangles are to be refined.
@@ -259,7 +261,8 @@ impl Refinement<'_> {
                 let mut is_free = true;
                 for k in 0..self.mesh.rim.len() {
                     let side = self.mesh.rim[k];
-                    if side.piece != NONE && self.tests.is_in_lens(side.ends.map(|v| self.mesh.point(v)), &p)
+                    if side.piece != NONE
+                        && self.tests.is_encroached(side.ends.map(|v| self.mesh.point(v)), &p)
                     {
                         is_free = false;
                         if self.may_split(side.piece) {
@@ -339,6 +342,7 @@ impl Refinement<'_> {
         let n = self.mesh.triangles.len() as u32;
         let n_bad =
             (0..n).filter(|&t| self.mesh.triangle(t).is_selected() && self.measure(t).flaw.is_some()).count();
+        self.tests.check_stop()?;
         let mut told = Refined { is_cut_short, n_bad, n_unsplit: self.n_unsplit, ..Refined::default() };
         let mut segment_of = Vec::new();
         memory::lengthen(&mut segment_of, self.mesh.points.len() - self.n_given, NONE)?;

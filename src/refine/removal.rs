@@ -335,6 +335,7 @@ fn opposite(one: [VertexId; 3], other: [VertexId; 3]) -> Option<(usize, usize)> 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::delaunay::Keys;
     use crate::random::Rng;
     use crate::refine::Given;
 
@@ -369,6 +370,7 @@ mod tests {
             let mut by_id = vec![[0.0; 2]; n];
             ids.iter().zip(&points).for_each(|(&id, &p)| by_id[id] = p);
             let at = vec![NONE; n];
+            let keys = Keys::default();
             let given = Given {
                 lower: [-(size as f64); 2],
                 upper: [size as f64; 2],
@@ -379,6 +381,7 @@ mod tests {
                 labels: None,
                 sides: &[],
                 segments: &[],
+                keys: &keys,
             };
             let mesh = Mesh::new(given, by_id).expect("room");
             let polygon: Vec<_> = ids.iter().map(|&id| VertexId::at(id)).collect();

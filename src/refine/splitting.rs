@@ -1,11 +1,11 @@
 //! Where pieces of segments are split, and at which angles between segments that is at shells.
 
-use super::criteria::{distance, is_in_diametral_circle, power_of_two_below};
+use super::criteria::{distance, power_of_two_below};
 use super::parts::{NONE, Piece, Side};
 use super::refining::Refinement;
 use crate::error::Result;
 use crate::ids::VertexId;
-use crate::predicates::{dot, minus};
+use crate::predicates::{dot, is_in_diametral_circle, minus};
 
 /// Squared cosine of an angle between segments from which on they are split at shells: that of 60 degrees.
 const SHARP: f64 = 0.25;
@@ -50,8 +50,10 @@ impl Refinement<'_> {
             return Some(ends[end]);
         }
         let own = self.origins.of_segments[segment as usize];
-        let of_other =
-            self.selected_sides(piece).filter(|&side| self.is_in_lens(side)).map(|side| self.mesh.apex(side));
+        let of_other = self
+            .selected_sides(piece)
+            .filter(|&side| self.is_encroached_from(side))
+            .map(|side| self.mesh.apex(side));
         of_other.filter(|&v| self.on[v] != NONE && self.on[v] != own).find_map(|v| {
             let apex = self.common_end(own, self.on[v])?;
             let [d, e] = ends.map(|v| distance(self.mesh.point(apex), self.mesh.point(v)));

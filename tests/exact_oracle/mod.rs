@@ -6,6 +6,8 @@
 // Every test file uses a part of this.
 #![allow(dead_code)]
 
+pub mod reach;
+
 use num_bigint::{BigInt, Sign};
 use std::array::from_fn;
 use std::cmp::Ordering;

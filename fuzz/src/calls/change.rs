@@ -19,11 +19,16 @@ impl History<'_> {
         let mut after = self.m.positions.clone();
         after.push(Some(p));
         let wanted = self.status_after(&after, false);
-        let status = self.expect_one(&wanted, || c!(deldrift_insert_vertex(t, p.as_ptr(), &mut id)));
+        let key = self.draw_keys(1).map(|keys| keys[0]);
+        let status = self.expect_one(&wanted, || match key {
+            Some(key) => c!(deldrift_insert_vertex_with_key(t, p.as_ptr(), key, &mut id)),
+            None => c!(deldrift_insert_vertex(t, p.as_ptr(), &mut id)),
+        });
         self.check_conflicts(status, &after, false);
         if status == DELDRIFT_OK {
             assert_eq!(id as usize, self.m.positions.len(), "the id of an insertion");
             self.m.positions.push(Some(p));
+            self.m.n_known = self.m.positions.len();
             self.fresh = None;
         }
         self.check();
@@ -148,10 +153,39 @@ impl History<'_> {
         let places: Vec<Place> = (0..count).map(|_| self.place()).collect();
         let numbers = flattened(&places, self.m.d);
         let mut first = 77;
-        self.ok(|| c!(deldrift_stage_insertions(t, numbers.as_ptr(), count, &mut first)));
+        if self.m.coming.is_empty() {
+            self.m.n_known = self.m.positions.len();
+        }
+        if self.next_key.is_none() && !self.has_segments && self.s.below(2) == 0 {
+            return self.stage_at_free_ids(&places, &numbers);
+        }
+        let keys = self.draw_keys(count);
+        self.ok(|| match &keys {
+            Some(keys) => {
+                c!(deldrift_stage_insertions_with_keys(t, numbers.as_ptr(), keys.as_ptr(), count, &mut first))
+            }
+            None => c!(deldrift_stage_insertions(t, numbers.as_ptr(), count, &mut first)),
+        });
         assert_eq!(first as usize, self.m.positions.len(), "the id of staged insertions");
         self.m.coming.extend((first..).zip(places));
         self.m.positions.resize(self.m.positions.len() + count, None);
+        self.check();
+    }
+
+    /// Under ids of removed vertices, the lowest first, and those above.
+    fn stage_at_free_ids(&mut self, places: &[Place], numbers: &[f64]) {
+        let (t, count, n) = (self.t, places.len(), self.m.positions.len() as u32);
+        let free = (0..n).filter(|&v| self.m.at(v).is_none() && !self.m.is_coming(v));
+        let wanted: Vec<u32> = free.chain(n..).take(count).collect();
+        let mut ids = vec![77; count];
+        self.ok(|| {
+            c!(deldrift_stage_insertions_at_free_ids(t, numbers.as_ptr(), null(), count, ids.as_mut_ptr()))
+        });
+        assert_eq!(ids, wanted, "free ids");
+        let n_ids = wanted.last().map_or(0, |last| last + 1).max(n);
+        self.m.coming.extend(wanted.into_iter().zip(places.iter().copied()));
+        self.m.coming.sort_unstable_by_key(|&(v, _)| v);
+        self.m.positions.resize(n_ids as usize, None);
         self.check();
     }
 
@@ -180,7 +214,7 @@ impl History<'_> {
         let t = self.t;
         self.ok(|| c!(deldrift_discard_moves(t)));
         for &(id, _) in self.m.coming.iter().rev() {
-            if id as usize + 1 == self.m.positions.len() {
+            if id as usize >= self.m.n_known && id as usize + 1 == self.m.positions.len() {
                 self.m.positions.pop();
             }
         }
@@ -285,6 +319,7 @@ impl History<'_> {
         let old = std::mem::take(&mut self.m.positions);
         let kept = old.iter().zip(ids).filter(|(_, id)| **id != NONE);
         self.m.positions = kept.map(|(p, _)| *p).collect();
+        self.m.n_known = ids.iter().take(self.m.n_known).filter(|id| **id != NONE).count();
         self.m.staged = self.m.staged.iter().map(|(&v, &q)| (new(v), q)).collect();
         self.m.coming.iter_mut().for_each(|(v, _)| *v = new(*v));
         self.m.leaving = self.m.leaving.iter().map(|&v| new(v)).collect();
@@ -324,6 +359,8 @@ impl History<'_> {
             self.is_ok(chosen.choose(other));
             (self.options, self.chosen) = (options, chosen);
             self.carried = Carried::default();
+            // What is saved does not tell which ids of staged insertions had been given before.
+            self.m.n_known = 0;
         }
         let (kept, gone) = if way == 0 && self.s.below(2) == 0 { (t, other) } else { (other, t) };
         self.t = kept;

@@ -164,6 +164,16 @@ impl History<'_> {
         let mut count = 0;
         self.is_ok(c!(deldrift_copy_positions(t, numbers.as_mut_ptr(), n, &mut count)));
         assert_eq!(count, n);
+        let mut keys = vec![77; n];
+        self.is_ok(c!(deldrift_keys(t, keys.as_mut_ptr(), n, &mut count)));
+        let known: Vec<u32> = (0..n as u32).filter(|&v| m.at(v).is_some() || m.is_coming(v)).collect();
+        let key_of = |v: u32| keys[v as usize];
+        match self.next_key {
+            Some(next) => assert!(
+                known.windows(2).all(|w| key_of(w[0]) < key_of(w[1])) && keys.iter().all(|&key| key < next)
+            ),
+            None => assert!(known.iter().all(|&v| key_of(v) == u64::from(v)), "keys: {keys:?}"),
+        }
         let representatives = m.representatives();
         for v in 0..n as u32 + 1 {
             let wanted = m.at(v);

@@ -114,6 +114,8 @@ struct History<'a> {
     proves: bool,
     /// Whether there are segments.
     has_segments: bool,
+    /// The key of the next vertex, if vertices have keys. They ascend with ids, so that the model need not know them.
+    next_key: Option<u64>,
 }
 
 /// The numbers of places, for C.
@@ -216,6 +218,7 @@ impl<'a> History<'a> {
             within: 0,
             proves: flags & 0x3e == 0 && n < 60,
             has_segments: d == 2 && flags & 0x40 != 0,
+            next_key: (flags & 0xc0 == 0x80).then_some(7),
         };
         for _ in 0..n {
             let p = history.place();
@@ -346,10 +349,20 @@ impl<'a> History<'a> {
         self.expect(DELDRIFT_OK, call);
     }
 
+    /// Keys of vertices that come, if vertices have keys.
+    fn draw_keys(&mut self, count: usize) -> Option<Vec<u64>> {
+        let next = self.next_key.as_mut()?;
+        let keys = (0..count as u64).map(|k| *next + 3 * k).collect();
+        *next += 3 * count as u64;
+        Some(keys)
+    }
+
     fn create(&mut self) {
         let d = self.m.d;
         let places: Vec<Place> = self.m.positions.iter().flatten().copied().collect();
         let numbers = flattened(&places, d);
+        let given = self.draw_keys(places.len());
+        let keys = given.as_ref().map_or(null(), |keys| keys.as_ptr());
         let options = self.options;
         let rejects = options.coincidence == 1 && Model::has_coincidence(&self.m.positions);
         let mut t = null_mut();
@@ -357,14 +370,29 @@ impl<'a> History<'a> {
         let plan = self.s.byte();
         if plan < 30 {
             let fault = Fault { first: usize::from(self.s.byte()) % 64, goes_on: plan & 1 == 0 };
-            let (status, refused) = fault
-                .during(|| c!(deldrift_create(d as u32, numbers.as_ptr(), places.len(), &options, &mut t)));
+            let (status, refused) = fault.during(|| {
+                c!(deldrift_create_with_keys(
+                    d as u32,
+                    numbers.as_ptr(),
+                    keys,
+                    places.len(),
+                    &options,
+                    &mut t
+                ))
+            });
             let is_out = status == DELDRIFT_OUT_OF_MEMORY && refused && t.is_null();
             assert!(is_out || status == wanted, "{status:?}: {}", message());
             tally::FAULTS.add(u64::from(is_out));
         } else if plan < 40 {
             self.callback.left.set(Some(u32::from(self.s.byte() % 4)));
-            let status = c!(deldrift_create(d as u32, numbers.as_ptr(), places.len(), &options, &mut t));
+            let status = c!(deldrift_create_with_keys(
+                d as u32,
+                numbers.as_ptr(),
+                keys,
+                places.len(),
+                &options,
+                &mut t
+            ));
             let is_cancelled =
                 status == DELDRIFT_CANCELLED && self.callback.has_cancelled.take() && t.is_null();
             assert!(is_cancelled || status == wanted, "{status:?}: {}", message());
@@ -373,14 +401,30 @@ impl<'a> History<'a> {
         }
         if t.is_null() {
             self.expect(wanted, || {
-                c!(deldrift_create(d as u32, numbers.as_ptr(), places.len(), &options, &mut t))
+                c!(deldrift_create_with_keys(
+                    d as u32,
+                    numbers.as_ptr(),
+                    keys,
+                    places.len(),
+                    &options,
+                    &mut t
+                ))
             });
         }
         if rejects {
             assert!(t.is_null(), "created in spite of coincidence");
             self.options.coincidence = 0;
             let options = self.options;
-            self.ok(|| c!(deldrift_create(d as u32, numbers.as_ptr(), places.len(), &options, &mut t)));
+            self.ok(|| {
+                c!(deldrift_create_with_keys(
+                    d as u32,
+                    numbers.as_ptr(),
+                    keys,
+                    places.len(),
+                    &options,
+                    &mut t
+                ))
+            });
         }
         self.t = t;
         self.is_ok(self.chosen.choose(t));

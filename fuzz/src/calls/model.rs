@@ -26,6 +26,8 @@ pub struct Model {
     pub positions: Vec<Option<Place>>,
     pub staged: BTreeMap<u32, Place>,
     pub coming: Vec<(u32, Place)>,
+    /// How many ids those that are staged do not give back.
+    pub n_known: usize,
     pub leaving: BTreeSet<u32>,
     pub segments: Segments,
     /// Vertices that refinement has inserted, of those present.

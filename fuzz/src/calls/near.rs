@@ -1,5 +1,6 @@
 //! What is near a place and what has given corners, compared with all vertices and cells, in integers.
 
+use super::super::exact_oracle::reach::{ball_meets_box, is_box_beyond};
 use super::super::exact_oracle::{
     Tally, exact_distance_order, exact_order_to_square, exact_sign, is_inside_by_polynomial, nudged,
 };
@@ -38,7 +39,7 @@ fn is_within(p: &Place, q: &Place, squared: f64, d: usize) -> bool {
 
 impl History<'_> {
     pub(super) fn read_near(&mut self) {
-        match self.s.below(10) {
+        match self.s.below(11) {
             0 => self.nearest_vertices(),
             1 => self.ball(),
             2 => self.vertices_in_box(),
@@ -48,6 +49,7 @@ impl History<'_> {
             6 => self.hidden_vertices(),
             7 => self.weights(),
             8 => self.flat_cells(),
+            9 => self.reach(),
             _ => self.in_sphere(),
         }
     }
@@ -91,9 +93,9 @@ impl History<'_> {
         assert_eq!(found, wanted, "within {squared:e} of {centre:?}");
     }
 
-    /// Its corners are places, so that vertices are on its faces, or infinite.
-    fn vertices_in_box(&mut self) {
-        let (t, d) = (self.t, self.m.d);
+    /// A box whose corners are places, so that vertices are on its faces, or infinite.
+    fn a_box(&mut self) -> (Place, Place) {
+        let d = self.m.d;
         let (p, q) = (self.place(), self.place());
         let (mut low, mut high) = (p, q);
         for k in 0..d {
@@ -106,6 +108,12 @@ impl History<'_> {
                 _ => (low[k], high[k]) = (p[k].min(q[k]), p[k].max(q[k])),
             }
         }
+        (low, high)
+    }
+
+    fn vertices_in_box(&mut self) {
+        let (t, d) = (self.t, self.m.d);
+        let (low, high) = self.a_box();
         let found = self.copied(77, 1, |to, room, count| {
             c!(deldrift_vertices_in_box(t, low.as_ptr(), high.as_ptr(), to, room, count))
         });
@@ -115,6 +123,66 @@ impl History<'_> {
         };
         let wanted: Vec<u32> = self.m.present().filter(is_in).collect();
         assert_eq!(found, wanted, "from {low:?} to {high:?}");
+    }
+
+    /// Whether the closed ball of a cell meets a box that is not empty, and which of its facets on the hull a place of
+    /// the box is beyond.
+    fn those_of_box(&self, row: &Row, across: &Row, [low, high]: [&[f64]; 2]) -> (bool, Vec<u8>) {
+        let d = self.m.d;
+        let places: Vec<Place> = row[..=d].iter().map(|&v| self.m.at(v).expect("present")).collect();
+        let corners: Vec<&[f64]> = places.iter().map(|p| &p[..d]).collect();
+        let is_beyond = |corner: usize| {
+            let facet: Vec<&[f64]> = (0..=d).filter(|&k| k != corner).map(|k| corners[k]).collect();
+            across[corner] == NONE && is_box_beyond(&facet, corners[corner], low, high)
+        };
+        let facets = (0..=d).filter(|&corner| is_beyond(corner)).map(|corner| corner as u8).collect();
+        (ball_meets_box(&corners, low, high), facets)
+    }
+
+    /// What is in reach of a box.
+    fn reach(&mut self) {
+        const LIMIT: f64 = 1e57;
+        let (t, d) = (self.t, self.m.d);
+        let (low, high) = self.a_box();
+        let mut n_ids = 0;
+        self.ok(|| c!(deldrift_id_count(t, &mut n_ids)));
+        let mask: Vec<u8> = (0..n_ids).map(|_| u8::from(self.s.below(4) == 0)).collect();
+        let (l, h) = (low.as_ptr(), high.as_ptr());
+        let found = self.copied(77, 1, |to, room, count| {
+            c!(deldrift_cells_in_reach(t, l, h, 1, null(), 0, to, null_mut(), null_mut(), room, count))
+        });
+        let seen = self.copied(77, 1, |to, room, count| {
+            c!(deldrift_hull_facets_in_reach(t, l, h, 1, null(), 0, to, null_mut(), room, count))
+        });
+        let listed = self.copied(77, 1, |to, room, count| {
+            c!(deldrift_vertices_in_reach(t, l, h, 1, mask.as_ptr(), mask.len(), to, null_mut(), room, count))
+        });
+        let is_empty = (0..d).any(|k| low[k] > high[k] || low[k] > LIMIT || high[k] < -LIMIT);
+        let [low, high] = [low, high].map(|p| p.map(|x| x.clamp(-LIMIT, LIMIT)));
+        let (rows, across) = self.cells();
+        let (mut cells, mut facets, mut corners) = (Vec::new(), Vec::new(), Vec::new());
+        for (cell, (row, across)) in (0..).zip(rows.iter().zip(&across)).filter(|_| !is_empty) {
+            let (is_in, beyond) = self.those_of_box(row, across, [&low[..d], &high[..d]]);
+            // Constrained cells need a way to the box; those that are told have been found to have one.
+            if is_in && (found.contains(&cell) || self.m.segments.laid().next().is_none()) {
+                cells.push(cell);
+                corners.extend_from_slice(&row[..=d]);
+            }
+            for corner in beyond {
+                facets.push(cell);
+                corners.extend((0..=d).filter(|&k| k != usize::from(corner)).map(|k| row[k]));
+            }
+        }
+        assert_eq!(found, cells, "cells in reach of {low:?} to {high:?}");
+        assert_eq!(seen, facets, "facets in reach of {low:?} to {high:?}");
+        let representatives = self.m.representatives();
+        let is_listed = |v: &u32| {
+            mask[*v as usize] != 0
+                && !is_empty
+                && (rows.is_empty() || corners.contains(&representatives[*v as usize]))
+        };
+        let wanted: Vec<u32> = self.m.present().filter(is_listed).collect();
+        assert_eq!(listed, wanted, "vertices in reach of {low:?} to {high:?}");
     }
 
     /// Whether the circle or sphere of a cell has a place inside, as that of a vertex of the highest id.

@@ -9,7 +9,7 @@ use super::model::{NONE, Place, Row};
 use deldrift::capi::deldrift_status::*;
 use deldrift::capi::*;
 use std::collections::{BTreeMap, BTreeSet};
-use std::ffi::c_void;
+use std::ffi::{c_int, c_void};
 use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
 
@@ -20,11 +20,13 @@ const SLACK: f64 = 1e-6;
 type Pieces = BTreeMap<u32, ([u32; 2], u32)>;
 
 /// Cells are too large whose extent from left to right is more than a number.
-unsafe extern "C" fn is_wide(width: *mut c_void, corners: *const f64) -> bool {
+unsafe extern "C" fn is_wide(width: *mut c_void, corners: *const f64) -> c_int {
     // SAFETY: the number is the program's, and there are six of the corners.
     let (width, corners) = unsafe { (*width.cast::<f64>(), std::slice::from_raw_parts(corners, 6)) };
     let xs = [corners[0], corners[2], corners[4]];
-    xs.iter().copied().fold(f64::MIN, f64::max) - xs.iter().copied().fold(f64::MAX, f64::min) > width
+    let is_wide =
+        xs.iter().copied().fold(f64::MIN, f64::max) - xs.iter().copied().fold(f64::MAX, f64::min) > width;
+    c_int::from(is_wide)
 }
 
 /// A quality without a criterion.
@@ -348,7 +350,7 @@ impl History<'_> {
                 let corners = p.map(|p| [p[0], p[1]]);
                 // SAFETY: it is given what it asks for.
                 let is_large = unsafe { is_too_large(quality.user_data, corners.as_ptr().cast()) };
-                assert!(!is_large, "{row:?} is too large");
+                assert!(is_large == 0, "{row:?} is too large");
             }
         }
     }

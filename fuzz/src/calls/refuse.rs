@@ -152,6 +152,21 @@ impl History<'_> {
         self.expect(null_argument, || {
             c!(deldrift_vertices_in_box(t, null(), null(), null_mut(), 0, &mut out))
         });
+        self.expect(null_argument, || {
+            c!(deldrift_cells_in_reach(
+                t,
+                null(),
+                null(),
+                1,
+                null(),
+                0,
+                null_mut(),
+                null_mut(),
+                null_mut(),
+                0,
+                &mut out
+            ))
+        });
         self.expect(null_argument, || c!(deldrift_find_simplices(t, 2, null(), 1, &mut 0)));
         self.expect(null_argument, || c!(deldrift_hidden_vertices(t, null_mut(), null_mut(), 1, &mut out)));
         self.expect(odd, || c!(deldrift_barycentric(t, misaligned(&number), &id, 1, &mut 0.0)));
@@ -254,6 +269,25 @@ impl History<'_> {
         self.expect(wanted, || c!(deldrift_vertices_in_ball(t, low, square, null_mut(), 0, &mut count)));
         self.expect(wanted, || {
             c!(deldrift_vertices_in_box(t, low, nowhere.as_ptr(), null_mut(), 0, &mut count))
+        });
+        self.expect(wanted, || {
+            let (nowhere, nothing) = (nowhere.as_ptr(), null_mut());
+            c!(deldrift_vertices_in_reach(t, nowhere, low, 1, null(), 0, nothing, null_mut(), 0, &mut count))
+        });
+        self.expect(wanted, || {
+            let (nowhere, nothing) = (nowhere.as_ptr(), null_mut());
+            c!(deldrift_hull_facets_in_reach(
+                t,
+                low,
+                nowhere,
+                1,
+                null(),
+                0,
+                nothing,
+                null_mut(),
+                0,
+                &mut count
+            ))
         });
         self.expect(wanted, || c!(deldrift_mask_without_flat_cells(t, square, null_mut(), 0, &mut count)));
         self.expect(wanted, || c!(deldrift_find_simplices(t, 0, null(), 0, &mut found)));

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <set>
 #include <type_traits>
 #include <unordered_map>
 #include <utility>
@@ -16,6 +15,9 @@
 #include "plane.hpp"
 
 namespace deldrift::cgal {
+
+template <class Tr, class Crit>
+class Delaunay_mesher_2;
 
 // What becomes of constraints that cross: an exception, or a vertex at the place, rounded.
 struct No_constraint_intersection_tag {};
@@ -255,7 +257,11 @@ public:
     }
 
 private:
+    template <class Tr, class Crit>
+    friend class Delaunay_mesher_2;
     using Ends = std::array<Vertex_handle, 2>;
+    using Segment_at = std::map<Ends, std::uint32_t>;
+    using Ends_of = std::unordered_map<std::uint32_t, Ends>;
 
     static Ends ordered(Vertex_handle a, Vertex_handle b) noexcept { return a < b ? Ends{a, b} : Ends{b, a}; }
     static std::array<typename Mesh::Record *, 2> records_of(const Ends &ends) noexcept {
@@ -278,7 +284,8 @@ private:
             if (is_constrained(*e)) visit(*e);
         } while (++e != first);
     }
-    Vertex_handle same(Vertex_handle v) const { return Vertex_handle(this->mesh()->by_id()[v.id()]); }
+    Vertex_handle vertex_of(std::uint32_t id) const { return Vertex_handle(this->mesh()->by_id()[id]); }
+    Vertex_handle same(Vertex_handle v) const { return vertex_of(v.id()); }
     void keep(std::uint32_t segment, const Ends &ends) {
         ends_of_.emplace(segment, ends);
         segment_at_.emplace(ordered(ends[0], ends[1]), segment);
@@ -296,23 +303,65 @@ private:
         return vertices;
     }
 
-    // Until no vertex is on one of them, and none crosses another.
+    // The faces that are in the domain, to which those that take their place belong.
+    void refine_domain(const Quality &quality) {
+        Segment_at segment_at;
+        Ends_of ends_of;
+        bool is_refined = false;
+        this->mesh_to_change().refine(quality, [&](const Triangulation &refined) {
+            const Segments segments = refined.segments();
+            for (std::size_t k = 0; k < segments.size(); k++) {
+                const Ends ends{vertex_of(segments.ends[k][0]), vertex_of(segments.ends[k][1])};
+                ends_of.emplace(segments.ids[k], ends);
+                segment_at.emplace(ordered(ends[0], ends[1]), segments.ids[k]);
+            }
+            is_refined = true;
+        });
+        if (!is_refined) return;
+        segment_at_.swap(segment_at);
+        ends_of_.swap(ends_of);
+    }
+
+    // Split where vertices are on them, or where they cross others.
     void insert_edges(std::vector<Ends> edges) {
-        for (;;) {
-            clean(edges);
-            if (edges.empty()) return;
-            std::vector<std::array<typename Mesh::Record *, 2>> ends;
-            for (const Ends &e : edges) ends.push_back(records_of(e));
-            std::uint32_t first = 0;
-            try {
-                this->mesh_to_change().exchange_segments(ends, {}, first);
-                for (std::size_t i = 0; i < edges.size(); i++) keep(first + static_cast<std::uint32_t>(i), edges[i]);
-                return;
-            } catch (const Error &error) {
-                if (error.status() != DELDRIFT_CROSSING && error.status() != DELDRIFT_ON_SEGMENT) throw;
-                resolve(edges, first, error);
+        clean(edges);
+        if (edges.empty()) return;
+        std::vector<std::array<typename Mesh::Record *, 2>> ends;
+        for (const Ends &e : edges) ends.push_back(records_of(e));
+        std::uint32_t first = 0;
+        try {
+            this->mesh_to_change().exchange_segments(ends, {}, first);
+            for (std::size_t i = 0; i < edges.size(); i++) keep(first + static_cast<std::uint32_t>(i), edges[i]);
+            return;
+        } catch (const Error &error) {
+            if (error.status() != DELDRIFT_CROSSING && error.status() != DELDRIFT_ON_SEGMENT) throw;
+            // Conflicts are in ascending order of kind, in which crossings come first.
+            const bool has_crossings = this->mesh()->conflicts_of_segments().front().kind == DELDRIFT_CONFLICT_CROSSING;
+            if (has_crossings && !detail::Rounds_intersections<Itag>::value) {
+                throw Intersection_of_constraints_exception(error.status(), error.what());
             }
         }
+        this->mesh_to_change().insert_split_segments(ends, first);
+        keep_pieces(first);
+    }
+    // Of segments that were split, and of those of ids from `first` on. An edge has one segment, also where some overlap.
+    void keep_pieces(std::uint32_t first) {
+        const Segments segments = this->triangulation().segments();
+        std::vector<std::uint32_t> replaced, doubled;
+        for (const auto &[segment, ends] : ends_of_) {
+            if (!std::binary_search(segments.ids.begin(), segments.ids.end(), segment)) replaced.push_back(segment);
+        }
+        for (std::uint32_t segment : replaced) drop(segment);
+        const auto begin = std::lower_bound(segments.ids.begin(), segments.ids.end(), first);
+        for (auto k = static_cast<std::size_t>(begin - segments.ids.begin()); k < segments.size(); k++) {
+            const Ends ends{vertex_of(segments.ends[k][0]), vertex_of(segments.ends[k][1])};
+            if (segment_at_.count(ordered(ends[0], ends[1])) > 0) {
+                doubled.push_back(segments.ids[k]);
+            } else {
+                keep(segments.ids[k], ends);
+            }
+        }
+        if (!doubled.empty()) this->mesh_to_change().exchange_segments({}, doubled, first);
     }
     // Without those that are there already, or that have no length.
     void clean(std::vector<Ends> &edges) const {
@@ -327,80 +376,8 @@ private:
         for (std::uint32_t segment : segments) drop(segment);
     }
 
-    // Divides edges, whose segments would have had the ids from `first` on, at crossings, or at vertices on them.
-    void resolve(std::vector<Ends> &edges, std::uint32_t first, const Error &error) {
-        const std::vector<deldrift_conflict> conflicts = this->mesh()->conflicts_of_segments();
-        // In ascending order of kind: crossings come first.
-        if (conflicts.front().kind == DELDRIFT_CONFLICT_CROSSING) {
-            if constexpr (detail::Rounds_intersections<Itag>::value) {
-                divide_at_crossings(edges, first, conflicts);
-                return;
-            }
-            throw Intersection_of_constraints_exception(error.status(), error.what());
-        }
-        std::map<std::uint32_t, std::vector<Vertex_handle>> on;
-        for (const deldrift_conflict &c : conflicts) {
-            on[c.segment].push_back(Vertex_handle(this->mesh()->by_id()[c.other]));
-        }
-        for (auto &[segment, vertices] : on) {
-            Ends &e = edges[segment - first];
-            vertices.push_back(e[0]);
-            vertices.push_back(e[1]);
-            // Along a line places are ordered as their coordinates are.
-            std::sort(vertices.begin(), vertices.end(), [](Vertex_handle v, Vertex_handle w) {
-                return Mesh::numbers_of(v.point()) < Mesh::numbers_of(w.point());
-            });
-            e = ordered(vertices[0], vertices[1]);
-            for (std::size_t i = 1; i + 1 < vertices.size(); i++) edges.push_back(ordered(vertices[i], vertices[i + 1]));
-        }
-    }
-
-    // Each segment at one place at most; at others it is divided the next time.
-    void divide_at_crossings(std::vector<Ends> &edges, std::uint32_t first,
-                             const std::vector<deldrift_conflict> &conflicts) {
-        std::set<std::uint32_t> divided;
-        const auto ends_of = [&](std::uint32_t segment) { 
-            return segment < first ? ends_of_.at(segment) : edges[segment - first];
-        };
-        for (const deldrift_conflict &c : conflicts) {
-            const auto is_divided = [&](std::uint32_t segment) {
-                // By the insertion of a vertex on it, it may have been.
-                return divided.count(segment) > 0 || (segment < first && ends_of_.count(segment) == 0);
-            };
-            if (c.kind != DELDRIFT_CONFLICT_CROSSING || is_divided(c.segment) || is_divided(c.other)) continue;
-            const Vertex_handle v = insert(crossing_of(ends_of(c.segment), ends_of(c.other)));
-            for (std::uint32_t segment : {c.segment, c.other}) {
-                if (is_divided(segment)) continue;
-                const Ends e = ends_of(segment);
-                divided.insert(segment);
-                if (segment < first) {
-                    remove_segments({segment});
-                    edges.push_back(ordered(e[0], v));
-                } else {
-                    edges[segment - first] = ordered(e[0], v);
-                }
-                edges.push_back(ordered(v, e[1]));
-            }
-        }
-    }
-    // Where the lines through two pairs of places meet, rounded.
-    static Point crossing_of(const Ends &e, const Ends &f) {
-        const auto a = Mesh::numbers_of(e[0].point()), b = Mesh::numbers_of(e[1].point());
-        const auto c = Mesh::numbers_of(f[0].point()), d = Mesh::numbers_of(f[1].point());
-        const double along[] = {b[0] - a[0], b[1] - a[1]}, other[] = {d[0] - c[0], d[1] - c[1]};
-        const double share = (c[0] - a[0]) * other[1] - (c[1] - a[1]) * other[0];
-        const double whole = along[0] * other[1] - along[1] * other[0];
-        std::array<double, 2> place;
-        for (std::size_t k = 0; k < 2; k++) {
-            // Lines along an axis have a coordinate that is exact.
-            const bool is_sloped = other[k] < 0 || other[k] > 0;
-            place[k] = is_sloped ? a[k] + along[k] * share / whole : c[k];
-        }
-        return detail::Coordinates<2, K>::point(place);
-    }
-
-    std::map<Ends, std::uint32_t> segment_at_{};
-    std::unordered_map<std::uint32_t, Ends> ends_of_{};
+    Segment_at segment_at_{};
+    Ends_of ends_of_{};
 };
 
 // With any data structure: the constrained triangulation that is Delaunay where constraints allow it.

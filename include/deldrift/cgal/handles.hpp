@@ -148,6 +148,16 @@ public:
     }
     // Of constrained triangulations: a value that the program gives to the face, until the triangulation changes.
     typename Mesh::Face_info &info() const { return mesh_->face_info(cell_, hull_corner_); }
+    // In the plane: whether the face is in the domain of a mesh: see meshing.hpp. None is before a mesh is made; marks that
+    // the program sets last until the triangulation changes.
+    bool is_in_domain() const {
+        static_assert(D == 2);
+        return mesh_->is_marked(cell_, hull_corner_);
+    }
+    void set_in_domain(bool is_inside) const {
+        static_assert(D == 2);
+        mesh_->mark(cell_, hull_corner_, is_inside);
+    }
 
     bool is_infinite() const noexcept { return hull_corner_ < corners; }
     // The index in deldrift's arrays; of a ghost cell, that of the finite cell behind it.

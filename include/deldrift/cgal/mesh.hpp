@@ -17,6 +17,7 @@
 
 #include "../../deldrift.hpp"
 #include "kernel.hpp"
+#include "marks.hpp"
 
 namespace deldrift::cgal::detail {
 
@@ -58,6 +59,10 @@ public:
         unused_.reserve(2 * records_.size() + 16);
         staged_.reserve(other.staged_.size());
         for (const auto &[record, p] : other.staged_) staged_.emplace_back(by_id_[record->id], p);
+        if (other.has_marks()) {
+            marks_ = other.marks_;
+            has_marks_ = true;
+        }
     }
     Mesh &operator=(const Mesh &) = delete;
 
@@ -124,9 +129,20 @@ public:
             face_infos_.clear();
             face_infos_.resize(cells().count * (D + 2));
         });
-        const bool is_ghost = hull_corner <= D;
-        return infos[is_ghost ? cells().count + std::size_t{cell} * (D + 1) + hull_corner : cell];
+        return infos[index_of(cell, hull_corner)];
     }
+    // Whether it is in the domain of a mesh: until the next change, or as a refinement leaves it.
+    bool is_marked(std::uint32_t cell, std::uint32_t hull_corner) const {
+        return has_marks() && marks_[index_of(cell, hull_corner)] != 0;
+    }
+    void mark(std::uint32_t cell, std::uint32_t hull_corner, bool is_inside) const {
+        marks()[index_of(cell, hull_corner)] = is_inside ? 1 : 0;
+    }
+    // Of finite cells first, in their order, then of ghost cells.
+    std::vector<std::uint8_t> &marks() const {
+        return fresh(has_marks_, marks_, [&] { marks_.assign(cells().count * (D + 2), 0); });
+    }
+    bool has_marks() const noexcept { return has_marks_.load(std::memory_order_acquire); }
 
     // The vertex at a place; null where there is none.
     Record *nearest(const Point &p) const {
@@ -192,13 +208,29 @@ public:
     // the first new one has, or would have if there were no conflicts.
     void exchange_segments(const std::vector<std::array<Record *, 2>> &ends,
                            const std::vector<std::uint32_t> &removals, std::uint32_t &first) {
-        std::vector<std::array<std::uint32_t, 2>> ids;
-        for (const auto &[a, b] : ends) ids.push_back({a->id, b->id});
         commit_alone([&] {
-            require_ok(deldrift_stage_segments(t_.native(), ids.empty() ? nullptr : ids.front().data(), nullptr,
-                                               ids.size(), &first));
-            require_ok(deldrift_stage_segment_removals(t_.native(), removals.data(), removals.size()));
+            first = stage_segments(ends);
+            t_.stage_segment_removals(removals);
         });
+    }
+    // New segments, of which pieces come, as of those that they cross: with new vertices there, rounded. first: receives the
+    // id from which on all have theirs.
+    void insert_split_segments(const std::vector<std::array<Record *, 2>> &ends, std::uint32_t &first) {
+        deldrift_split_report split{};
+        const std::size_t n_before = by_id_.size();
+        try {
+            commit_alone([&] {
+                first = stage_segments(ends);
+                split = t_.stage_splits();
+                for (std::uint64_t k = 0; k < split.inserted; k++) add(Coordinates<D, K>::point({}), {});
+            });
+        } catch (...) {
+            while (by_id_.size() > n_before) drop_last();
+            throw;
+        }
+        for (std::size_t id = n_before; id < by_id_.size(); id++) {
+            by_id_[id]->point = Coordinates<D, K>::point(t_.position<D>(static_cast<std::uint32_t>(id)));
+        }
     }
     // A vertex on a segment, of which two come to be; and the id of the first.
     std::pair<Record *, std::uint32_t> split_segment(const Point &p, const std::array<Record *, 2> &ends,
@@ -218,6 +250,33 @@ public:
             throw;
         }
         return {record, first};
+    }
+    // Refines the cells that are marked, in a copy that takes the place of the triangulation when nothing can fail any more.
+    // keep: called before that with the copy, when by_id() has the new vertices already.
+    template <class Keep>
+    void refine(const Quality &quality, Keep keep) {
+        Triangulation refined = t_.clone();
+        refined.discard_moves();
+        const std::vector<std::uint8_t> &before = marks();
+        const auto report = refined.refine(quality, span<const std::uint8_t>(before.data(), cells().count));
+        if (report.inserted == 0) return;
+        std::vector<std::uint8_t> after = marks_after(t_, before, refined);
+        after.resize(refined.cell_count() * (D + 2));
+        stage_moves_of(refined);
+        const std::size_t n_before = by_id_.size();
+        try {
+            for (std::size_t id = n_before; id < refined.id_count(); id++) {
+                add(Coordinates<D, K>::point(refined.position<D>(static_cast<std::uint32_t>(id))), {});
+            }
+            keep(refined);
+        } catch (...) {
+            while (by_id_.size() > n_before) drop_last();
+            throw;
+        }
+        t_ = std::move(refined);
+        changed();
+        marks_.swap(after);
+        has_marks_ = true;
     }
     // Why the last change was refused.
     std::vector<deldrift_conflict> conflicts_of_segments() const {
@@ -240,8 +299,13 @@ private:
         is_fresh_ = false;
         has_segments_ = false;
         has_face_infos_ = false;
+        has_marks_ = false;
         has_stars_ = false;
         n_stars_asked_ = 0;
+    }
+    std::size_t index_of(std::uint32_t cell, std::uint32_t hull_corner) const {
+        const bool is_ghost = hull_corner <= D;
+        return is_ghost ? cells().count + std::size_t{cell} * (D + 1) + hull_corner : cell;
     }
     // The stars of all vertices, in one pass over the cells, once so many have been asked for since the last change
     // that the program seems to want them all; null before.
@@ -268,6 +332,11 @@ private:
         return list;
     }
 
+    std::uint32_t stage_segments(const std::vector<std::array<Record *, 2>> &ends) {
+        std::vector<Ends> ids;
+        for (const auto &[a, b] : ends) ids.push_back({a->id, b->id});
+        return t_.stage_segments(ids);
+    }
     // Commits what `stage` stages. Moves that wait are taken back before, and staged again.
     template <class Stage>
     void commit_alone(Stage stage) {
@@ -283,9 +352,10 @@ private:
         changed();
         stage_again();
     }
-    void stage_again() {
+    void stage_again() { stage_moves_of(t_); }
+    void stage_moves_of(Triangulation &t) const {
         for (const auto &[record, p] : staged_) {
-            require_ok(deldrift_move_vertex(t_.native(), record->id, numbers_of(p).data()));
+            require_ok(deldrift_move_vertex(t.native(), record->id, numbers_of(p).data()));
         }
     }
 
@@ -423,6 +493,8 @@ private:
     mutable std::vector<std::uint32_t> segments_{};
     mutable std::atomic<bool> has_face_infos_{false};
     mutable std::vector<Face_info> face_infos_{};
+    mutable std::atomic<bool> has_marks_{false};
+    mutable std::vector<std::uint8_t> marks_{};
     mutable std::atomic<bool> has_stars_{false};
     mutable std::atomic<std::size_t> n_stars_asked_{0};
     mutable Lists stars_{};

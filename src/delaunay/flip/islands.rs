@@ -139,7 +139,8 @@ impl<G: Dimension> Delaunay<G> {
                 flips.stuck.push(facet);
                 continue;
             }
-            let mut tests = Tests { filter: &self.filter, sites: Sites::new(&self.sites), certificates: 0 };
+            let mut tests =
+                Tests { filter: &self.filter, sites: Sites::new(&self.sites, &self.keys), certificates: 0 };
             let is_filled = match self.gather_island(facet, &mut tests, island)? {
                 Gathered::Nothing => continue,
                 Gathered::TooMuch => false,

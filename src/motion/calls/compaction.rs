@@ -2,8 +2,8 @@
 //!
 //! The id of a removed vertex is not given again, nor is its place in arrays by id, and free sites and cells stay
 //! where they are. So a triangulation grows with the number of insertions. A compaction gives the present vertices
-//! the ids from 0 on, in the order of those that they have: ties are broken by the order of ids, so the cells stay
-//! the same.
+//! the ids from 0 on, in the order of those that they have: ties are broken by keys, which they keep, or by the order of
+//! ids, so the cells stay the same.
 //!
 //! All that is to be kept is copied, with sites and cells in the order of a fresh build, and then takes the place of
 //! what there was: a compaction that fails has changed nothing. Scratch memory goes, and so do tolerances: the next
@@ -46,8 +46,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         let n = self.mesh.n_present + self.staged_edits().0;
         let mut site_of = Vec::new();
         memory::reserve_exact(&mut site_of, n)?;
-        let (mut kernel, slots) = self.mesh.kernel.compacted(&ids)?;
-        let hidden = self.mesh.hidden.renumbered(&ids, n)?;
+        let (mut kernel, slots) = self.mesh.kernel.compacted(&ids, n)?;
+        let hidden = self.mesh.hidden.renumbered(kernel.keys(), &ids, n)?;
         let segments = match &self.mesh.segments {
             Some(segments) => {
                 let mut sites = Vec::new();

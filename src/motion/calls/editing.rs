@@ -7,13 +7,13 @@
 
 use crate::delaunay::order::{Keyed, hilbert_order};
 use crate::delaunay::{Delaunay, Dimension, Insertion};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
+use crate::motion::calls::keys::Coming;
 use crate::motion::report::CommitReport;
-use crate::motion::state::checking::check_position;
 use crate::motion::state::goals::{Goals, Movers, Moves};
-use crate::motion::triangulation::{MAX_VERTICES, MovingTriangulation};
+use crate::motion::triangulation::MovingTriangulation;
 use crate::motion::ways::rebuilding::move_to;
 
 /// What has become of the staged insertions and removals.
@@ -56,24 +56,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::OutOfMemory`].
     pub fn stage_insertions(&mut self, positions: &[G::Point]) -> Result<VertexId> {
-        let (n, first) = (positions.len(), self.mesh.site_of.len());
-        if n > MAX_VERTICES - first {
-            return Err(Error::TooManyVertices { given: first.saturating_add(n), limit: MAX_VERTICES });
-        }
-        self.staging.list()?;
-        self.staging.make_room(n)?;
-        memory::reserve(&mut self.mesh.site_of, n)?;
-        self.edits.reserve_insertions(n)?;
-        for (index, position) in positions.iter().enumerate() {
-            check_position::<G>("positions", index, position)?;
-        }
-        for (id, position) in VertexId::range(first..first + n).zip(positions) {
-            let checked = check_position::<G>("positions", 0, position)?;
-            self.edits.insert(id, checked);
-        }
-        self.mesh.site_of.resize(first + n, SiteId::NONE);
-        self.staging.grow(self.mesh.site_of.len());
-        Ok(VertexId::at(first))
+        self.stage_coming(positions, Coming::Ids)
     }
 
     /// Stages the removal of vertices, all of them or, on an error, none. Moves staged for them are forgotten, and no
@@ -120,11 +103,13 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Forgets what waits. Ids that were given last are given back.
     pub(in crate::motion) fn discard_edits(&mut self) {
+        let n_known = self.edits.n_known();
         for id in self.edits.forget_insertions() {
-            if id.index() + 1 == self.mesh.site_of.len() {
+            if id.index() >= n_known && id.index() + 1 == self.mesh.site_of.len() {
                 self.mesh.site_of.pop();
             }
         }
+        self.mesh.kernel.keys_mut().truncate(self.mesh.site_of.len());
         self.staging.shrink(self.mesh.site_of.len());
         self.edits.clear();
     }

@@ -1,10 +1,11 @@
 //! One vertex at a time: relocations, insertions and removals that are visible at once.
 
-use crate::delaunay::{Dimension, Insertion, Shortcut};
+use crate::delaunay::{Dimension, Insertion, Keys, Shortcut};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::motion::algorithms::{Algorithm, Immediate};
+use crate::motion::calls::keys::Coming;
 use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::checking::{check_position, differ};
@@ -86,6 +87,18 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::TooManyCells`],
     /// [`Error::OutOfMemory`]; [`Error::Coincident`] if the options reject that.
     pub fn insert_vertex(&mut self, position: &G::Point) -> Result<VertexId> {
+        self.insert_coming(position, Coming::Ids)
+    }
+
+    /// Inserts a vertex, as [`insert_vertex`](Self::insert_vertex) does, with a key.
+    ///
+    /// # Errors
+    /// Those of [`insert_vertex`](Self::insert_vertex).
+    pub fn insert_vertex_with_key(&mut self, position: &G::Point, key: u64) -> Result<VertexId> {
+        self.insert_coming(position, Coming::Keys(&[key]))
+    }
+
+    fn insert_coming(&mut self, position: &G::Point, key: Coming<'_>) -> Result<VertexId> {
         let q = check_position::<G>("position", 0, position)?;
         if self.mesh.site_of.len() >= MAX_VERTICES {
             return Err(Error::TooManyVertices { given: self.mesh.site_of.len() + 1, limit: MAX_VERTICES });
@@ -93,7 +106,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         let id = VertexId::at(self.mesh.site_of.len());
         self.staging.list()?;
         self.staging.make_room(1)?;
-        memory::push(&mut self.mesh.site_of, SiteId::NONE)?;
+        memory::reserve(&mut self.mesh.site_of, 1)?;
+        let had_keys = self.has_keys();
+        self.give_keys(key, &[id], id.index() + 1)?;
+        self.mesh.site_of.push(SiteId::NONE);
         let before = self.mesh.evaluations();
         let mut report = CommitReport { inserted: 1, ..CommitReport::default() };
         let inserted = self.transact(|t| {
@@ -103,10 +119,16 @@ impl<G: Dimension> MovingTriangulation<G> {
         });
         if let Err(error) = inserted {
             self.mesh.site_of.pop();
+            if had_keys {
+                self.mesh.kernel.keys_mut().truncate(id.index());
+            } else {
+                *self.mesh.kernel.keys_mut() = Keys::default();
+            }
             return Err(error);
         }
         self.mesh.n_present += 1;
         self.staging.grow(self.mesh.site_of.len());
+        self.edits.know(self.mesh.site_of.len(), true);
         self.enter_evaluations(&mut report, before);
         self.count(report);
         Ok(id)
@@ -121,7 +143,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             t.regions.make_room_to_note()?;
             let inserted = t.mesh.kernel.insert_site_anywhere(s)?;
             if let Insertion::Coincident(at) = inserted {
-                // The new id is the highest of all, so it is the one to hide: nothing else changes.
+                // Without keys the new id is the highest of all, so it is the one to hide: nothing else changes.
                 t.mesh.hide(id, at)?;
             }
             t.regions.note_relocated(id)?;

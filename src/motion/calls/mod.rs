@@ -6,6 +6,7 @@ pub(in crate::motion) mod commit;
 pub(in crate::motion) mod compaction;
 pub(in crate::motion) mod editing;
 pub(in crate::motion) mod immediate;
+pub(in crate::motion) mod keys;
 pub(in crate::motion) mod moves;
 pub(in crate::motion) mod passings;
 pub(in crate::motion) mod refining;

@@ -72,6 +72,7 @@ impl MovingTriangulation<Plane> {
         let areas = none_where_zero(quality.areas)?;
         let tests = Tests::new(criteria(quality, &areas), read.extent());
         self.read_cells(&mut read, &tests, mask, quality.labels, false)?;
+        tests.check_stop()?;
         let mut report = QualityReport { bad_cells: read.bad.len(), ..Default::default() };
         if report.bad_cells == 0 || tests.are_none() {
             self.forget_weights();
@@ -130,7 +131,7 @@ impl MovingTriangulation<Plane> {
         ask: &mut dyn FnMut() -> Result<()>,
     ) -> Result<Refined> {
         let points = std::mem::take(&mut read.points);
-        let given = read.given(self.cells()?, mask, quality.labels);
+        let given = read.given(self.cells()?, mask, quality.labels, self.mesh.kernel.keys());
         let origins = self.origins(read)?;
         refine::refine(given, points, &read.bad, tests, origins, (options.keeps, options.limit), ask)
     }
@@ -172,6 +173,7 @@ impl MovingTriangulation<Plane> {
         let areas = none_where_zero(quality.areas)?;
         let tests = Tests::new(criteria(quality, &areas), read.extent());
         self.read_cells(&mut read, &tests, mask, quality.labels, true)?;
+        tests.check_stop()?;
         let cells = self.cells()?;
         let looking = Looking {
             asked: &all_asked,
@@ -184,7 +186,7 @@ impl MovingTriangulation<Plane> {
         let known = if has_numbers { looked.known(looking)? } else { Vec::new() };
         let candidates = self.candidates(&read, options.share, &known)?;
         let points = memory::copy_of(&read.points)?;
-        let given = read.given(cells, mask, quality.labels);
+        let given = read.given(cells, mask, quality.labels, self.mesh.kernel.keys());
         let room = Room { angle: options.margin, share: options.share, offset: options.joins };
         let coarsened = refine::coarsen(given, points, tests, room, &read.bad, &candidates)?;
         let stays = stays(&read, cells.corners, &candidates, &coarsened.able)?;
@@ -316,7 +318,8 @@ fn asked(quality: &Quality) -> Result<Vec<u64>> {
     if quality.sizes.is_some() || quality.is_too_large.is_some() {
         return Ok(asked);
     }
-    let numbers = [quality.least_angle, quality.greatest_area];
+    let is_conforming = f64::from(u8::from(quality.is_conforming));
+    let numbers = [quality.least_angle, quality.greatest_area, is_conforming];
     memory::collect(&mut asked, numbers.iter().chain(quality.areas).map(|x| x.to_bits()))?;
     Ok(asked)
 }
@@ -356,6 +359,7 @@ fn criteria<'a>(quality: &Quality<'a>, areas: &'a [f64]) -> Criteria<'a> {
         areas,
         sizes: quality.sizes.unwrap_or_default(),
         is_too_large: quality.is_too_large,
+        is_conforming: quality.is_conforming,
     }
 }
 

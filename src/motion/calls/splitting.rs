@@ -41,6 +41,7 @@ use crate::delaunay::Plane;
 use crate::error::{Conflict, Error, Result};
 use crate::ids::{SegmentId, VertexId};
 use crate::machine::memory;
+use crate::motion::calls::keys::Coming;
 use crate::motion::report::SplitReport;
 use crate::motion::state::made::Origin;
 use crate::motion::state::segments::Segment;
@@ -148,6 +149,9 @@ impl MovingTriangulation<Plane> {
     }
 
     /// Splits segments, and pieces, until there are no conflicts.
+    ///
+    /// What it calls beside the check is not inlined: exact numbers and sorts have kilobytes of memory on the stack, which is not
+    /// to be there beside that of the check.
     fn split_until_free(
         &mut self,
         before: &Before,
@@ -169,7 +173,7 @@ impl MovingTriangulation<Plane> {
                 let (conflict, others) = (before.conflicts[0], before.conflicts.len() - 1);
                 return Err(Error::Conflict { conflict, others });
             }
-            let first = self.stage_insertions(&places)?;
+            let first = self.stage_coming(&places, Coming::Made)?;
             let absent = vertices.iter_mut().filter(|(_, v)| *v == VertexId::NONE);
             VertexId::range(first.index()..first.index() + places.len())
                 .zip(absent)
@@ -211,6 +215,7 @@ impl MovingTriangulation<Plane> {
     }
 
     /// Where segments that cross are to be cut: at ends of the other one that they pass, or both where they cross.
+    #[inline(never)]
     fn crossed(&self, conflicts: &[Conflict]) -> Result<Vec<Crossed>> {
         let mut crossed = Vec::new();
         for conflict in conflicts {
@@ -232,7 +237,9 @@ impl MovingTriangulation<Plane> {
         Ok(crossed)
     }
 
-    /// The places at which segments are to be cut where they cross, sorted, with the lowest vertex that will be there; [`VertexId::NONE`] if none will.
+    /// The places at which segments are to be cut where they cross, sorted, with the lowest vertex that will be there;
+    /// [`VertexId::NONE`] if none will.
+    #[inline(never)]
     fn vertices_at_crossings(&self, crossed: &[Crossed]) -> Result<Vec<([f64; 2], VertexId)>> {
         let mut vertices = Vec::new();
         memory::collect(&mut vertices, crossed.iter().map(|crossed| (crossed.place, VertexId::NONE)))?;
@@ -249,6 +256,7 @@ impl MovingTriangulation<Plane> {
     }
 
     /// Where segments and pieces have to be cut, in their order, and along each of them.
+    #[inline(never)]
     fn cuts(
         &self,
         conflicts: &[Conflict],
@@ -276,6 +284,7 @@ impl MovingTriangulation<Plane> {
     }
 
     /// All pieces after these cuts of segments, whose ids are below `first`, and of pieces, whose ids are those from it on.
+    #[inline(never)]
     fn divided(&self, pieces: &[Piece], cuts: &[Cut], first: SegmentId) -> Result<Vec<Piece>> {
         let mut divided = Vec::new();
         let mut divide = |Piece { of, ends: [mut from, to] }: Piece, cuts: &[Cut]| {
@@ -303,6 +312,7 @@ impl MovingTriangulation<Plane> {
     }
 
     /// Stages what was staged before, and pieces in the place of their segments; returns of how many.
+    #[inline(never)]
     fn stage_pieces(&mut self, before: &Before, pieces: &[Piece]) -> Result<usize> {
         let segments = memory::made(&mut self.mesh.segments)?;
         segments.restore_staged(&before.staged, &before.leaving);
@@ -316,6 +326,7 @@ impl MovingTriangulation<Plane> {
     }
 
     /// Notes where pieces come from, for when they are made.
+    #[inline(never)]
     fn note_origins(&mut self, before: &Before, pieces: &[Piece]) -> Result<()> {
         let made = memory::made(&mut self.made)?;
         made.reserve_coming(pieces.len())?;
@@ -344,6 +355,7 @@ impl MovingTriangulation<Plane> {
         }
         self.edits.truncate_insertions(before.n_insertions);
         self.mesh.site_of.truncate(before.first_vertex.index());
+        self.mesh.kernel.keys_mut().truncate(before.first_vertex.index());
         self.staging.shrink(before.first_vertex.index());
     }
 }

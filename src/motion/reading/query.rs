@@ -225,7 +225,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
     }
 
-    /// The lowest id among the vertices at the place of this one.
+    /// Among the vertices at the place of this one, the one of the lowest [key](Self::key) and then of the lowest id.
     ///
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
@@ -281,7 +281,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut hidden = 0;
         for (v, s) in self.mesh.sites_of_ids().filter_map(|(v, s)| s.map(|s| (v, s))) {
             let site = self.mesh.kernel.site(s);
-            if !site.is_live() || site.id > v {
+            if !site.is_live() || self.mesh.kernel.keys().is_lower(v, site.id) {
                 let message = format_args!("vertex {v} is at a site of vertex {}", site.id);
                 return violation(memory::text(message));
             }

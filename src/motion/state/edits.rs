@@ -9,6 +9,9 @@ use crate::machine::memory;
 #[derive(Debug, Default)]
 pub(in crate::motion) struct Edits<G: Dimension> {
     insertions: Vec<(VertexId, G::Point)>,
+    /// How many ids had been given when the first of them was staged, or by calls that insert at once since: no insertion that
+    /// is forgotten gives one of these back.
+    n_known: usize,
     removals: Vec<VertexId>,
     /// By vertex id, where among the removals it is, [`u32::MAX`] for those that stay; so do ids beyond the end.
     place: Vec<u32>,
@@ -67,9 +70,17 @@ impl<G: Dimension> Edits<G> {
         memory::reserve(&mut self.insertions, n)
     }
 
-    /// Stages an insertion, for which there is room, of an id above those of the others.
+    /// Stages an insertion, for which there is room, of an id above those of the others; or they are
+    /// [sorted](Self::sort_insertions) afterwards.
     pub(in crate::motion) fn insert(&mut self, id: VertexId, position: G::Point) {
         self.insertions.push((id, position));
+    }
+
+    /// Puts the insertions in the order of their ids.
+    pub(in crate::motion) fn sort_insertions(&mut self) {
+        if !self.insertions.is_sorted_by_key(|&(id, _)| id) {
+            self.insertions.sort_unstable_by_key(|&(id, _)| id);
+        }
     }
 
     /// Whether the insertion of a vertex is staged.
@@ -103,6 +114,18 @@ impl<G: Dimension> Edits<G> {
     /// Takes back all but the first `n` insertions.
     pub(in crate::motion) fn truncate_insertions(&mut self, n: usize) {
         self.insertions.truncate(n);
+    }
+
+    /// Before insertions are staged, or after one has been made at once: so many ids have been given.
+    pub(in crate::motion) fn know(&mut self, n_ids: usize, are_made: bool) {
+        if are_made || self.insertions.is_empty() {
+            self.n_known = n_ids;
+        }
+    }
+
+    /// How many ids forgotten insertions do not give back.
+    pub(in crate::motion) fn n_known(&self) -> usize {
+        self.n_known
     }
 
     /// Forgets the insertions; returns their ids, descending.
@@ -140,12 +163,14 @@ impl<G: Dimension> Edits<G> {
             memory::lengthen(&mut place, n, STAYS)?;
             (0..).zip(&removals).for_each(|(k, v)| place[v.index()] = k);
         }
-        Ok(Edits { insertions, removals, place })
+        let n_known = ids.iter().take(self.n_known).filter(|id| **id != VertexId::NONE).count();
+        Ok(Edits { insertions, n_known, removals, place })
     }
 
     pub(in crate::motion) fn copied(&self) -> Result<Self> {
         Ok(Edits {
             insertions: memory::copy_of(&self.insertions)?,
+            n_known: self.n_known,
             removals: memory::copy_of(&self.removals)?,
             place: memory::copy_of(&self.place)?,
         })

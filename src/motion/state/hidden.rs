@@ -1,8 +1,9 @@
 //! Which vertices are hidden: trees of those at the same place.
 //!
-//! The vertices at a place form a tree whose root, the one of lowest id, represents them. A vertex on level `k` has two
-//! branches: one for the ids below it whose bit `k`, from the lowest bit on, is 0, and one for those where it is 1. On
-//! top of each branch is the lowest of its ids. So the tree is a function of the ids alone, which makes undoing simple:
+//! The vertices at a place form a tree whose root, the one of lowest key and then of lowest id, represents them. (Without
+//! keys of the program's, those are ids.) A vertex on level `k` has two branches: one for the ids below it whose bit `k`,
+//! from the lowest bit on, is 0, and one for those where it is 1. On top of each branch is the lowest of its vertices. So
+//! the tree is a function of ids and keys alone, which makes undoing simple:
 //! a vertex is taken out that was put in, and the other way round. It has no more levels than ids have bits, and of ids
 //! that follow each other the logarithm of their number.
 //!
@@ -11,7 +12,7 @@
 //!
 //! Cost: a vertex that comes or goes, wherever in the order of ids, takes a step on each level.
 
-use crate::delaunay::Merge;
+use crate::delaunay::{Keys, Merge};
 use crate::error::Result;
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
@@ -60,9 +61,9 @@ impl Hidden {
     }
 
     /// The lowest of those behind a representative, [`VertexId::NONE`] if there are none.
-    pub(in crate::motion) fn first_behind(&self, representative: VertexId) -> VertexId {
+    pub(in crate::motion) fn first_behind(&self, keys: &Keys, representative: VertexId) -> VertexId {
         let [left, right] = self.branches(representative);
-        left.min(right)
+        keys.lower(left, right)
     }
 
     /// What is on top of the branches of a vertex, [`VertexId::NONE`] for an empty one. From a representative on, each
@@ -111,23 +112,24 @@ impl Hidden {
     }
 
     /// Lets a vertex, for which there is room, join those of a representative; the lower of the two represents all.
-    pub(in crate::motion) fn join(&mut self, representative: VertexId, vertex: VertexId) {
+    pub(in crate::motion) fn join(&mut self, keys: &Keys, representative: VertexId, vertex: VertexId) {
         self.count += 1;
-        if vertex < representative {
+        if keys.is_lower(vertex, representative) {
             self.branches[vertex] = self.branches[representative];
         }
-        let (mut above, mut lower) = (representative.min(vertex), representative.max(vertex));
-        // Where one finds another of a higher id on top of its branch, it takes that one's place, and that one goes on.
+        let mut above = keys.lower(representative, vertex);
+        let mut lower = keys.higher(representative, vertex);
+        // Where one finds another of a higher key on top of its branch, it takes that one's place, and that one goes on.
         for level in 0.. {
             self.count_step();
             let branch = branch_of(lower, level);
             let place = &mut self.branches[above][branch];
-            let top = std::mem::replace(place, lower.min(*place));
+            let top = std::mem::replace(place, keys.lower(lower, *place));
             if top == VertexId::NONE {
                 self.branches[lower] = NO_BRANCHES;
                 return;
             }
-            if lower < top {
+            if keys.is_lower(lower, top) {
                 self.branches[lower] = self.branches[top];
                 (above, lower) = (lower, top);
             } else {
@@ -137,7 +139,7 @@ impl Hidden {
     }
 
     /// Takes a vertex away from those of its representative, be it that one itself.
-    pub(in crate::motion) fn part(&mut self, representative: VertexId, vertex: VertexId) {
+    pub(in crate::motion) fn part(&mut self, keys: &Keys, representative: VertexId, vertex: VertexId) {
         self.count -= 1;
         let (mut above, mut level, mut there) = (None, 0, representative);
         while there != vertex {
@@ -151,7 +153,7 @@ impl Hidden {
         let mut below = std::mem::replace(&mut self.branches[vertex], NO_BRANCHES);
         loop {
             self.count_step();
-            let top = below[0].min(below[1]);
+            let top = keys.lower(below[0], below[1]);
             if let Some((above, branch)) = above {
                 self.branches[above][branch] = top;
             }
@@ -180,6 +182,7 @@ impl Hidden {
 
     /// The trees of merged vertices, by their representatives' ids.
     pub(in crate::motion) fn of_merges(
+        keys: &Keys,
         merges: &[Merge],
         n_ids: usize,
         representative: impl Fn(SiteId) -> VertexId,
@@ -189,19 +192,19 @@ impl Hidden {
             hidden.reserve(n_ids)?;
         }
         for merge in merges {
-            hidden.join(representative(merge.site), merge.hidden);
+            hidden.join(keys, representative(merge.site), merge.hidden);
         }
         Ok(hidden)
     }
 
     /// The trees of the vertices at the same places, of each of which the representative is given; [`VertexId::NONE`]
     /// for ids that have none.
-    pub(in crate::motion) fn of_representatives(representatives: &[VertexId]) -> Result<Self> {
+    pub(in crate::motion) fn of_representatives(keys: &Keys, representatives: &[VertexId]) -> Result<Self> {
         let mut hidden = Hidden::default();
         let all = VertexId::range(0..representatives.len()).zip(representatives);
         for (v, &first) in all.filter(|&(v, &first)| first != VertexId::NONE && first != v) {
             hidden.reserve(representatives.len())?;
-            hidden.join(first, v);
+            hidden.join(keys, first, v);
         }
         Ok(hidden)
     }
@@ -216,34 +219,39 @@ impl Hidden {
         })
     }
 
-    /// A copy in which the vertices have other ids, in the same order, `n` in all: those listed by the old ones.
-    pub(in crate::motion) fn renumbered(&self, ids: &[VertexId], n: usize) -> Result<Self> {
+    /// A copy in which the vertices have other ids, in the same order, `n` in all: those listed by the old ones. The keys
+    /// are by the other ids.
+    pub(in crate::motion) fn renumbered(&self, keys: &Keys, ids: &[VertexId], n: usize) -> Result<Self> {
         let mut representatives = Vec::new();
         if self.count > 0 {
             memory::lengthen(&mut representatives, n, VertexId::NONE)?;
         }
-        // A vertex above another one has a lower id.
-        for (&id, branches) in
-            ids.iter().zip(&self.branches).filter(|(_, branches)| **branches != NO_BRANCHES)
-        {
-            if representatives[id] == VertexId::NONE {
-                representatives[id] = id;
-            }
+        // What is above each first: only representatives have nothing above.
+        let followed = || self.branches.iter().enumerate().filter(|(_, branches)| **branches != NO_BRANCHES);
+        for (v, branches) in followed() {
             for top in branches.iter().filter(|top| **top != VertexId::NONE) {
-                representatives[ids[*top]] = representatives[id];
+                representatives[ids[*top]] = ids[v];
             }
         }
-        Self::of_representatives(&representatives)
+        for (v, _) in followed() {
+            if representatives[ids[v]] != VertexId::NONE {
+                continue;
+            }
+            representatives[ids[v]] = ids[v];
+            self.for_all_behind(VertexId::at(v), |hidden| representatives[ids[hidden]] = ids[v]);
+        }
+        Self::of_representatives(keys, &representatives)
     }
 
-    /// The first representative with hidden vertices behind it, and the first of them.
-    pub(in crate::motion) fn first_pair(&self) -> Option<(VertexId, VertexId)> {
+    /// Two vertices at the same place, the one of the lower id first: without keys of the program's, the first
+    /// representative with hidden vertices behind it, and the first of them.
+    pub(in crate::motion) fn first_pair(&self, keys: &Keys) -> Option<(VertexId, VertexId)> {
         if self.count == 0 {
             return None;
         }
-        // Above each vertex that is no representative there is one of a lower id.
         let first = VertexId::at(self.branches.iter().position(|&branches| branches != NO_BRANCHES)?);
-        Some((first, self.first_behind(first)))
+        let other = self.first_behind(keys, first);
+        Some((first.min(other), first.max(other)))
     }
 
     pub(in crate::motion) fn memory_bytes(&self) -> usize {
@@ -281,10 +289,10 @@ mod tests {
                 let first = *there.first().expect("some are there");
                 let before = hidden.branches.clone();
                 if !there.contains(&v) {
-                    hidden.join(first, v);
+                    hidden.join(&Keys::default(), first, v);
                     there.insert(v);
                 } else if there.len() > 1 {
-                    hidden.part(first, v);
+                    hidden.part(&Keys::default(), first, v);
                     there.remove(&v);
                 } else {
                     continue;
@@ -293,11 +301,11 @@ mod tests {
                 let first = *there.first().expect("some are there");
                 assert_eq!(hidden.count(), there.len() - 1);
                 assert_eq!(
-                    hidden.first_behind(first),
+                    hidden.first_behind(&Keys::default(), first),
                     there.iter().nth(1).copied().unwrap_or(VertexId::NONE)
                 );
                 let pair = there.iter().nth(1).map(|&second| (first, second));
-                assert_eq!(hidden.first_pair(), pair);
+                assert_eq!(hidden.first_pair(&Keys::default()), pair);
                 if step % (1 + n_ids / 16) == 0 {
                     assert_eq!(all_at(&hidden, first), there);
                 }
@@ -305,10 +313,10 @@ mod tests {
             while let Some((v, before)) = events.pop() {
                 let first = *there.first().expect("some are there");
                 if there.contains(&v) {
-                    hidden.part(first, v);
+                    hidden.part(&Keys::default(), first, v);
                     there.remove(&v);
                 } else {
-                    hidden.join(first, v);
+                    hidden.join(&Keys::default(), first, v);
                     there.insert(v);
                 }
                 assert_eq!(hidden.branches, before);
@@ -332,12 +340,12 @@ mod tests {
             hidden.reserve(n * stride).expect("room");
             let mut first = ids[0];
             for &v in &ids[1..] {
-                hidden.join(first, v);
+                hidden.join(&Keys::default(), first, v);
                 first = first.min(v);
             }
             for &v in &ids[1..] {
-                let next = hidden.first_behind(first);
-                hidden.part(first, v);
+                let next = hidden.first_behind(&Keys::default(), first);
+                hidden.part(&Keys::default(), first, v);
                 first = if first == v { next } else { first };
             }
             assert_eq!((hidden.count(), first), (0, ids[0]));
@@ -356,12 +364,12 @@ mod tests {
         let mut hidden = Hidden::default();
         hidden.reserve(40).expect("room");
         let at = VertexId::at;
-        [7, 21, 30, 14, 9].iter().for_each(|&v| hidden.join(at(3), at(v)));
-        hidden.join(at(12), at(33));
+        [7, 21, 30, 14, 9].iter().for_each(|&v| hidden.join(&Keys::default(), at(3), at(v)));
+        hidden.join(&Keys::default(), at(12), at(33));
         let is_gone = |v: &usize| [0, 1, 8, 20, 32].contains(v);
         let mut ids = vec![VertexId::NONE; 40];
         (0..40).filter(|v| !is_gone(v)).enumerate().for_each(|(k, v)| ids[v] = at(k));
-        let other = hidden.renumbered(&ids, 35).expect("room");
+        let other = hidden.renumbered(&Keys::default(), &ids, 35).expect("room");
         assert_eq!(other.count(), hidden.count());
         for group in [&[3, 7, 9, 14, 21, 30][..], &[12, 33]] {
             assert_eq!(all_at(&other, ids[group[0]]), group.iter().map(|&v| ids[v]).collect());

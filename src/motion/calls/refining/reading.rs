@@ -1,6 +1,6 @@
 //! What refinement and coarsening read, in one pass over the vertices and one over the cells.
 
-use crate::delaunay::Plane;
+use crate::delaunay::{Keys, Plane};
 use crate::error::{Error, Result};
 use crate::ids::{CellId, SegmentId, VertexId};
 use crate::machine::memory;
@@ -63,6 +63,7 @@ impl Read {
         cells: CellsView<'a, Plane>,
         mask: &'a [u8],
         labels: Option<&'a [u32]>,
+        keys: &'a Keys,
     ) -> Given<'a> {
         Given {
             lower: self.lower,
@@ -74,6 +75,7 @@ impl Read {
             labels,
             sides: &self.sides,
             segments: &self.edges,
+            keys,
         }
     }
 
@@ -191,7 +193,7 @@ impl MovingTriangulation<Plane> {
             memory::lengthen(&mut around, at.len(), Around::default())?;
             memory::reserve_exact(&mut order, at.len())?;
         }
-        let given = read.given(cells, mask, labels);
+        let given = read.given(cells, mask, labels, self.mesh.kernel.keys());
         for (c, (row, neighbours)) in cells.corners.iter().zip(cells.neighbours).enumerate() {
             let cell = c as u32;
             for &v in row {
@@ -228,7 +230,7 @@ impl MovingTriangulation<Plane> {
             let points = row.map(|v| &read.points[v]);
             let label = given.label(cell);
             let is_encroached = |(i, &[j, k]): (usize, &[usize; 2])| {
-                edges[i] != NONE && tests.is_in_lens([points[j], points[k]], points[i])
+                edges[i] != NONE && tests.is_encroached([points[j], points[k]], points[i])
             };
             if tests.is_flawed(points, label, row)
                 || edges != [NONE; 3] && OTHERS.iter().enumerate().any(is_encroached)

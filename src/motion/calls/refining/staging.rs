@@ -5,6 +5,7 @@ use crate::delaunay::Plane;
 use crate::error::Result;
 use crate::ids::{SegmentId, VertexId};
 use crate::machine::memory;
+use crate::motion::calls::keys::Coming;
 use crate::motion::report::QualityReport;
 use crate::motion::state::made::Origin;
 use crate::motion::state::segments::Segment;
@@ -91,7 +92,7 @@ impl MovingTriangulation<Plane> {
         removed: &[VertexId],
         changes: &SegmentChanges,
     ) -> Result<(VertexId, SegmentId)> {
-        let first_vertex = self.stage_insertions(points)?;
+        let first_vertex = self.stage_coming(points, Coming::Made)?;
         self.stage_removals(removed)?;
         let first_segment = self.stage_segments(changes.coming.iter().map(|&(segment, _)| segment))?;
         let segments = memory::made(&mut self.mesh.segments)?;

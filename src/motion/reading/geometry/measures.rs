@@ -6,7 +6,7 @@ use crate::ids::{CellId, Slot};
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::motion::state::checking::check_not_negative;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::predicates::Measures;
+use crate::predicates::{Measures, Reach};
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// What `measure` gives for the corners of the cells in some slots; `later` tells which of them is at an index.
@@ -86,6 +86,20 @@ impl<G: Dimension> MovingTriangulation<G> {
         cells: &'t [CellId],
     ) -> Result<impl ExactSizeIterator<Item = (G::Point, f64)> + 't> {
         self.measures_of(cells, G::Point::circumsphere)
+    }
+
+    /// For each of the cells of these indices, in their order, a centre and a radius of a closed ball that certainly has
+    /// the closed ball of the cell in it. It is larger by some 10⁻¹² of the radius and last bits of the coordinates, by up
+    /// to 4·10⁻⁹ of the radius where the cell is nearly flat. Where numbers do not suffice the radius is infinite, and the
+    /// centre is a corner.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchCell`], [`Error::OutOfMemory`].
+    pub fn covering_balls_of<'t>(
+        &'t self,
+        cells: &'t [CellId],
+    ) -> Result<impl ExactSizeIterator<Item = (G::Point, f64)> + 't> {
+        self.measures_of(cells, G::Point::covering_ball)
     }
 
     /// Area or volume of each cell, in the order of [`cells`](Self::cells): positive, with a relative error of at most

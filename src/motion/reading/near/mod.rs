@@ -7,6 +7,7 @@
 //! | `boxes` | the vertices in a box |
 //! | `by_cells` | sites in order of distance where the cells are not Delaunay |
 //! | `conflicts` | the cells that a new vertex would remove |
+//! | `reach` | the cells and hull facets that a new vertex in a box could change, and their vertices |
 //!
 //! All is found by floods from a located cell, from neighbour to neighbour, at about the cost of what is found, and
 //! decided by exact signs. A flood that has looked at as many cells as would pay for a pass over all vertices is given
@@ -17,6 +18,9 @@ mod boxes;
 mod by_cells;
 mod conflicts;
 mod nearest;
+mod reach;
+
+pub use reach::{InReach, VerticesInReach};
 
 use crate::complex::INFINITE;
 use crate::delaunay::{Delaunay, Dimension, IndexSet};

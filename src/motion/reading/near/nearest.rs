@@ -8,7 +8,7 @@ use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
 use crate::complex::INFINITE;
-use crate::delaunay::{Dimension, IndexSet, Place};
+use crate::delaunay::{Dimension, IndexSet, Keys, Place};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
@@ -21,17 +21,21 @@ use crate::predicates::{compare_distance, squared_distance};
 const MANY_STARS: u32 = 8;
 
 /// A vertex that waits to be the next in order of distance from a place: the greatest is the nearest, of the nearest
-/// ones that of the lowest id.
+/// ones that of the lowest rank: by key, place and id.
 struct Candidate<'t, P> {
     q: &'t P,
     point: &'t P,
     vertex: VertexId,
     site: SiteId,
+    keys: &'t Keys,
 }
 
 impl<P: AsRef<[f64]>> Ord for Candidate<'_, P> {
     fn cmp(&self, other: &Self) -> Ordering {
-        compare_distance(self.q, other.point, self.point).then(other.vertex.cmp(&self.vertex))
+        compare_distance(self.q, other.point, self.point).then_with(|| {
+            let [place, own] = [other, self].map(|next| next.point.as_ref());
+            self.keys.compare_at((other.vertex, place), (self.vertex, own))
+        })
     }
 }
 
@@ -50,7 +54,7 @@ impl<P: AsRef<[f64]>> PartialEq for Candidate<'_, P> {
 impl<P: AsRef<[f64]>> Eq for Candidate<'_, P> {}
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// The vertex nearest to a point, the lowest id among the nearest; `None` if there are no vertices. Distances
+    /// The vertex nearest to a point, of the nearest that of the lowest key, then place, then id; `None` if there are no vertices. Distances
     /// are compared exactly.
     ///
     /// ```
@@ -71,11 +75,12 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Ok(self.nearest_of(&q, self.mesh.kernel.live_sites()));
         }
         let (nearest, _) = self.nearest_sites(&q, Slot::NONE)?;
-        Ok(nearest.as_slice().iter().map(|&s| self.mesh.kernel.site(s).id).min())
+        let lowest = nearest.as_slice().iter().copied().min_by(|&s, &t| self.compare_ranks(s, t));
+        Ok(lowest.map(|s| self.mesh.kernel.site(s).id))
     }
 
     /// The `k` vertices nearest to each of several places, told to `found` one after the other: `k` for each place, in
-    /// order of distance and, at the same distance, of id, hidden ones included; [`VertexId::NONE`] where there are no
+    /// order of distance and, at the same distance, of key, then place, then id, hidden ones included; [`VertexId::NONE`] where there are no
     /// more. Each place is looked for from the one before.
     ///
     /// ```
@@ -136,7 +141,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     fn candidate<'t>(&'t self, q: &'t G::Point, s: SiteId) -> Candidate<'t, G::Point> {
         let site = self.mesh.kernel.site(s);
-        Candidate { q, point: &site.point, vertex: site.id, site: s }
+        Candidate { q, point: &site.point, vertex: site.id, site: s, keys: self.mesh.kernel.keys() }
     }
 
     /// Has what can follow a vertex wait: of those hidden at its place the ones below it in their tree, as there may be
@@ -148,9 +153,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         seen: &mut IndexSet<SiteId>,
         waiting: &mut BinaryHeap<Candidate<'t, G::Point>>,
     ) -> Result<()> {
-        let &Candidate { q, point, vertex, site } = next;
+        let &Candidate { q, point, vertex, site, keys } = next;
         for top in self.mesh.hidden.tops_below(vertex).into_iter().filter(|&top| top != VertexId::NONE) {
-            memory::enter(waiting, Candidate { q, point, vertex: top, site })?;
+            memory::enter(waiting, Candidate { q, point, vertex: top, site, keys })?;
         }
         if vertex != self.mesh.kernel.site(site).id || self.mesh.kernel.is_constrained() {
             return Ok(());
@@ -272,12 +277,19 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut best = sites.next()?;
         for s in sites {
             let order = self.compare(q, s, best);
-            if order == Ordering::Less
-                || order == Ordering::Equal && self.mesh.kernel.site(s).id < self.mesh.kernel.site(best).id
-            {
+            if order.then_with(|| self.compare_ranks(s, best)) == Ordering::Less {
                 best = s;
             }
         }
         Some(self.mesh.kernel.site(best).id)
+    }
+
+    /// The order of what represents two sites, by key, place and id.
+    fn compare_ranks(&self, s: SiteId, t: SiteId) -> Ordering {
+        let [first, second] = [s, t].map(|s| {
+            let site = self.mesh.kernel.site(s);
+            (site.id, site.point.as_ref())
+        });
+        self.mesh.kernel.keys().compare_at(first, second)
     }
 }

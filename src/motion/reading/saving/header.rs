@@ -9,9 +9,13 @@ use crate::motion::state::segments::Segment;
 /// on its way.
 const MAGIC: [u8; 8] = *b"\x89DLD\r\n\x1a\n";
 
-/// The version of the format, without segments and with some.
+/// The version of the format, without segments and keys, with segments, and with keys.
 const VERSION: u32 = 1;
 const WITH_SEGMENTS: u32 = 2;
+const WITH_KEYS: u32 = 3;
+
+/// Bytes of a key.
+const KEY: usize = 8;
 
 /// Bytes that segments begin with: their five counts.
 const SEGMENT_COUNTS: usize = 40;
@@ -50,6 +54,8 @@ pub(super) struct Header {
     pub(super) moves: usize,
     pub(super) insertions: usize,
     pub(super) removals: usize,
+    /// Whether vertices have keys of the program's.
+    pub(super) has_keys: bool,
     /// Bytes about segments, 0 without any.
     pub(super) segment_bytes: usize,
     /// All but the number of hidden vertices.
@@ -65,6 +71,7 @@ impl Header {
         let bytes = SIZE as u128
             + 8 * d * sum(&places)
             + 4 * (sum(&numbers) + 2 * (d + 1) * self.cells as u128)
+            + if self.has_keys { KEY as u128 * self.ids as u128 } else { 0 }
             + self.segment_bytes as u128
             + CHECKSUM as u128;
         u64::try_from(bytes).ok()
@@ -74,7 +81,11 @@ impl Header {
     pub(super) fn bytes(&self) -> [u8; SIZE] {
         let mut bytes = [0; SIZE];
         bytes[..8].copy_from_slice(&MAGIC);
-        let version = if self.segment_bytes > 0 { WITH_SEGMENTS } else { VERSION };
+        let version = match (self.has_keys, self.segment_bytes > 0) {
+            (true, _) => WITH_KEYS,
+            (false, true) => WITH_SEGMENTS,
+            (false, false) => VERSION,
+        };
         bytes[8..12].copy_from_slice(&version.to_le_bytes());
         bytes[12..16].copy_from_slice(&self.dimension.to_le_bytes());
         let size = self.size().expect("what is in memory has a size");
@@ -100,8 +111,8 @@ impl Header {
         }
         let number = |at: usize| u64::from_le_bytes(data[at..at + 8].try_into().expect("eight bytes"));
         let version = word(data, 8);
-        if !matches!(version, VERSION | WITH_SEGMENTS) {
-            return Err(Damage::Version { given: version, latest: WITH_SEGMENTS });
+        if !matches!(version, VERSION | WITH_SEGMENTS | WITH_KEYS) {
+            return Err(Damage::Version { given: version, latest: WITH_KEYS });
         }
         if number(16) != given {
             return Err(Damage::Size { given: given as usize, wanted: number(16) });
@@ -118,15 +129,17 @@ impl Header {
             moves: count(40)?,
             insertions: count(48)?,
             removals: count(56)?,
+            has_keys: version == WITH_KEYS,
             segment_bytes: 0,
             statistics: CommitReport::default(),
         };
-        if version == WITH_SEGMENTS {
+        if version != VERSION {
             // All that is left is about segments; how much that has to be is told there.
             let left = header.size().and_then(|size| number(16).checked_sub(size)).ok_or(Damage::Counts)?;
             header.segment_bytes = usize::try_from(left).map_err(|_| Damage::Counts)?;
         }
-        let has_counts = version == VERSION || header.segment_bytes >= SEGMENT_COUNTS;
+        let may_lack_segments = version != WITH_SEGMENTS && header.segment_bytes == 0;
+        let has_counts = may_lack_segments || header.segment_bytes >= SEGMENT_COUNTS;
         if header.size() != Some(number(16)) || !has_counts {
             return Err(Damage::Counts);
         }

@@ -2,7 +2,7 @@
 
 use crate::complex::Corners;
 use crate::damage::{Damage, LoadError};
-use crate::delaunay::{Delaunay, Dimension, Rows};
+use crate::delaunay::{Delaunay, Dimension, Keys, Rows};
 use crate::error::{Error, Result};
 use crate::ids::{CellId, Id, SegmentId, Slot, VertexId};
 use crate::machine::memory;
@@ -46,6 +46,17 @@ impl<'d> Reader<'d> {
         memory::reserve_exact(&mut numbers, n)?;
         numbers.extend(self.entries(n).iter().map(|&bytes| I::new(u32::from_le_bytes(bytes))));
         Ok(numbers)
+    }
+
+    /// The keys, if there are some.
+    fn keys(&mut self, header: &Header) -> Result<Keys> {
+        if !header.has_keys {
+            return Ok(Keys::default());
+        }
+        let mut keys = Vec::new();
+        memory::reserve_exact(&mut keys, header.ids)?;
+        keys.extend(self.entries(header.ids).iter().map(|&bytes| u64::from_le_bytes(bytes)));
+        Keys::of_list(keys)
     }
 
     fn rows<I: Id, C: Corners<I>>(&mut self, n: usize) -> Result<Vec<C>> {
@@ -177,6 +188,7 @@ fn of_segment(error: Error) -> LoadError {
 fn check_vertices<G: Dimension>(
     positions: &[G::Point],
     representatives: &[VertexId],
+    keys: &Keys,
 ) -> Result<usize, Damage> {
     let mut n_present = 0;
     for (vertex, &first) in VertexId::range(0..positions.len()).zip(representatives) {
@@ -192,7 +204,9 @@ fn check_vertices<G: Dimension>(
             return Err(Damage::Position { vertex, axis, value: p[axis] });
         }
         if first != vertex {
-            if first > vertex || representatives[first] != first {
+            // One beyond the last represents none.
+            let is_lower = first.index() < representatives.len() && keys.is_lower(first, vertex);
+            if !is_lower || representatives[first] != first {
                 return Err(Damage::Representative { vertex, given: first });
             }
             if positions[first] != *p {
@@ -242,10 +256,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         let moved = reader.points::<G>(header.moves)?;
         let coming = reader.points::<G>(header.insertions)?;
         let representatives = reader.numbers::<VertexId>(header.ids)?;
-        let n_present = check_vertices::<G>(&positions, &representatives)?;
         let corners = reader.rows::<VertexId, G::Vertices>(header.cells)?;
         let neighbours = reader.rows::<CellId, G::Neighbours>(header.cells)?;
         let mut later = Reader(&reader.0[4 * (header.moves + header.insertions + header.removals)..]);
+        let keys = later.keys(header)?;
+        let n_present = check_vertices::<G>(&positions, &representatives, &keys)?;
         let (segments, made) = later.segments::<G>(header)?.unzip();
         let made = made.flatten();
         if let Some(&(vertex, _)) =
@@ -262,14 +277,14 @@ impl<G: Dimension> MovingTriangulation<G> {
             Some(monitor) => monitor,
             None => &mut unmonitored,
         };
-        let (kernel, mut site_of) = Delaunay::of_rows(&positions, is_site, rows, threads, monitor)?;
+        let (kernel, mut site_of) = Delaunay::of_rows(&positions, is_site, rows, keys, threads, monitor)?;
         drop(positions);
         for (v, &first) in VertexId::range(0..header.ids).zip(&representatives) {
             if first != VertexId::NONE && first != v {
                 site_of[v] = site_of[first];
             }
         }
-        let hidden = Hidden::of_representatives(&representatives)?;
+        let hidden = Hidden::of_representatives(kernel.keys(), &representatives)?;
         drop(representatives);
         let cells = Cells::of_rows(corners, neighbours, kernel.complex().n_slots())?;
         let mut t = MovingTriangulation::of_parts(kernel, site_of, hidden, n_present, options);
@@ -315,6 +330,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             let position = checked.map_err(|error| of_staged(error, &insertions))?;
             self.edits.insert(vertex, position);
             last = Some(vertex);
+        }
+        if let Some(vertex) = self.first_key_of_none() {
+            return Err(Damage::Key { vertex, given: self.mesh.kernel.keys().of(vertex) }.into());
         }
         self.stage_removals(&removals).map_err(|error| of_staged(error, &removals))?;
         self.move_vertices(&moves, moved).map_err(|error| of_staged(error, &moves))

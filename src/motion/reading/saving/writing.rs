@@ -39,6 +39,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             moves: self.staged_count(),
             insertions,
             removals,
+            has_keys: !self.mesh.kernel.keys().are_ids(),
             segment_bytes: self.segments_to_save().map_or(0, |segments| self.counts_of(segments).bytes()),
             statistics: self.statistics(),
         }
@@ -102,6 +103,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.staged_vertices().try_for_each(|v| chunks.numbers(&[v.get()]))?;
         insertions.iter().try_for_each(|(id, _)| chunks.numbers(&[id.get()]))?;
         chunks.numbers(VertexId::numbers_of(self.edits.removals()))?;
+        self.save_keys(chunks)?;
         let Some(segments) = self.segments_to_save() else { return Ok(()) };
         save_segments(segments, self.counts_of(segments), chunks)?;
         for (vertex, segment) in self.made_vertices() {
@@ -111,6 +113,17 @@ impl<G: Dimension> MovingTriangulation<G> {
             chunks.numbers(&[piece.get(), segment.get(), ends[0].get(), ends[1].get()])?;
         }
         Ok(())
+    }
+
+    /// Writes the keys, if the program has given some.
+    fn save_keys<E>(&self, chunks: &mut Chunks<impl FnMut(&[u8]) -> Result<(), E>>) -> Result<(), E> {
+        if self.mesh.kernel.keys().are_ids() {
+            return Ok(());
+        }
+        (0..self.id_count()).map(VertexId::at).try_for_each(|v| {
+            let key = self.key_of_id(v);
+            chunks.numbers(&[key as u32, (key >> 32) as u32])
+        })
     }
 
     /// How many segments there are to be saved.

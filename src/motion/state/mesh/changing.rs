@@ -115,12 +115,15 @@ impl<G: Dimension> Mesh<G> {
     /// Puts all back as it was when the change began. Needs no memory.
     pub(in crate::motion) fn undo(&mut self) {
         debug_assert!(!self.transaction.has_rebuilt(), "nothing fails after a new kernel is in place");
+        let keys = self.kernel.keys();
         while let Some(VertexBefore { vertex, site, event }) = self.transaction.pop_logged() {
             self.site_of[vertex] = site;
             match event {
                 Event::Alone => {}
-                Event::Joined { representative } => self.hidden.part(representative.min(vertex), vertex),
-                Event::Parted { representative } => self.hidden.join(representative, vertex),
+                Event::Joined { representative } => {
+                    self.hidden.part(keys, keys.lower(representative, vertex), vertex);
+                }
+                Event::Parted { representative } => self.hidden.join(keys, representative, vertex),
             }
         }
         let before = self.transaction.before();

@@ -1,4 +1,4 @@
-//! Vertices at the same place: the lowest id represents it, the others are [hidden](crate::motion::state::hidden) until
+//! Vertices at the same place: that of the lowest key and then of the lowest id represents it, the others are [hidden](crate::motion::state::hidden) until
 //! they move apart.
 
 use crate::delaunay::{Delaunay, Dimension, Place};
@@ -22,8 +22,9 @@ impl<G: Dimension> Mesh<G> {
         self.hidden.reserve(self.site_of.len())?;
         self.transaction.reserve_log()?;
         let representative = self.kernel.site(s).id;
-        self.note_visibility(vertex.max(representative), false)?;
-        if vertex < representative {
+        let is_shown = self.kernel.keys().is_lower(vertex, representative);
+        self.note_visibility(if is_shown { representative } else { vertex }, false)?;
+        if is_shown {
             self.kernel.rename_site(s, vertex)?;
         }
         // From here on nothing fails.
@@ -32,7 +33,7 @@ impl<G: Dimension> Mesh<G> {
             site: self.site_of[vertex],
             event: Event::Joined { representative },
         });
-        self.hidden.join(representative, vertex);
+        self.hidden.join(self.kernel.keys(), representative, vertex);
         self.site_of[vertex] = s;
         Ok(())
     }
@@ -43,7 +44,7 @@ impl<G: Dimension> Mesh<G> {
         self.kernel.log_site(s)?;
         self.transaction.reserve_log()?;
         let representative = self.kernel.site(s).id;
-        let next = self.hidden.first_behind(representative);
+        let next = self.hidden.first_behind(self.kernel.keys(), representative);
         if vertex == representative {
             self.note_visibility(next, true)?;
             self.kernel.rename_site(s, next)?;
@@ -53,13 +54,13 @@ impl<G: Dimension> Mesh<G> {
         // From here on nothing fails.
         let left = if vertex == representative { next } else { representative };
         self.transaction.log(VertexBefore { vertex, site: s, event: Event::Parted { representative: left } });
-        self.hidden.part(representative, vertex);
+        self.hidden.part(self.kernel.keys(), representative, vertex);
         Ok(())
     }
 
     /// Enforces [`CoincidencePolicy::Reject`] on the present state.
     pub(in crate::motion) fn reject_coincidence(&self, policy: CoincidencePolicy) -> Result<()> {
-        match self.hidden.first_pair() {
+        match self.hidden.first_pair(self.kernel.keys()) {
             Some((vertex, other)) if policy == CoincidencePolicy::Reject => {
                 Err(Error::Coincident { vertex, other })
             }

@@ -114,8 +114,8 @@ impl<G: Dimension> Mesh<G> {
         merges: &[Merge],
         policy: CoincidencePolicy,
     ) -> Result<Hidden> {
-        let hidden = Hidden::of_merges(merges, self.site_of.len(), |s| kernel.site(s).id)?;
-        match hidden.first_pair() {
+        let hidden = Hidden::of_merges(kernel.keys(), merges, self.site_of.len(), |s| kernel.site(s).id)?;
+        match hidden.first_pair(kernel.keys()) {
             Some((vertex, other)) if policy == CoincidencePolicy::Reject => {
                 Err(Error::Coincident { vertex, other })
             }

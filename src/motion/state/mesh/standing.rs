@@ -12,7 +12,7 @@ use crate::motion::state::mesh::Mesh;
 pub(in crate::motion) enum Standing {
     /// It is what is seen at its site: a corner of cells, while there are any.
     Shown(SiteId),
-    /// It shares its site with a vertex of lower id, which is seen.
+    /// It shares its site with a vertex of lower key, or of equal key and lower id, which is seen.
     Hidden(SiteId),
     /// It has been removed, is to be inserted by the next commit, or never was.
     Gone,
