@@ -86,7 +86,8 @@ impl<G: Dimension> PeriodicTriangulation<G> {
                     }
                 }
             }
-            let t = MovingTriangulation::<G>::new(&places, options_of(&options))?;
+            let keys = keys_of(&images)?;
+            let t = MovingTriangulation::<G>::with_keys(&places, &keys, options_of(&options))?;
             let are_all = margin.is_infinite();
             if t.cell_count() > 0 || are_all || n_vertices == 0 {
                 break t;
@@ -161,7 +162,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
                 memory::push(&mut places, self.lattice.translated(&home, shift))?;
             }
             memory::append(&mut self.images, &missing)?;
-            self.inside.stage_insertions(&places)?;
+            self.inside.stage_insertions_with_keys(&places, &keys_of(&missing)?)?;
             self.inside.commit_timestamp()?;
         }
     }
@@ -211,6 +212,13 @@ fn all(a: Range, b: Range, c: Range) -> impl Iterator<Item = (i32, i32, i32)> {
         let c = c.clone();
         b.clone().flat_map(move |y| c.clone().map(move |z| (x, y, z)))
     })
+}
+
+/// Images have the key of their vertex: ties between images of one are broken by position.
+fn keys_of(images: &[(VertexId, Shift)]) -> Result<Vec<u64>> {
+    let mut keys = Vec::new();
+    memory::collect(&mut keys, images.iter().map(|(v, _)| u64::from(v.get())))?;
+    Ok(keys)
 }
 
 /// The mean distance of vertices.

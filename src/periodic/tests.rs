@@ -41,7 +41,8 @@ fn by_copies<G: Dimension>(points: &[G::Point], basis: &[G::Point], n: i64) -> B
             }
         }
     }
-    let t = MovingTriangulation::<G>::new(&places, Options::default()).unwrap();
+    let keys: Vec<u64> = all.iter().map(|&(v, _)| v.into()).collect();
+    let t = MovingTriangulation::<G>::with_keys(&places, &keys, Options::default()).unwrap();
     let mut classes = BTreeSet::new();
     for row in t.cells().unwrap().corners {
         let corners: Vec<_> = row.as_ref().iter().map(|&v| all[v.index()]).collect();
@@ -114,14 +115,55 @@ fn check<G: Dimension>(seed: u64, basis: &[G::Point], n: usize) {
 fn cells_are_those_of_copies() {
     for seed in 0..40 {
         let n = [1, 2, 3, 5, 20, 60][seed as usize % 6];
-        check::<Plane>(seed, &[[1.0, 0.0], [0.0, 1.0]], n.max(3));
+        check::<Plane>(seed, &[[1.0, 0.0], [0.0, 1.0]], n);
         check::<Plane>(seed, &[[1.0, 0.0], [0.375, 1.0]], n);
         check::<Plane>(seed, &[[1.0, 0.25], [-0.125, 3.0]], n);
-        check::<Plane>(seed, &[[1.0, 0.0]], n.max(3));
+        check::<Plane>(seed, &[[1.0, 0.0]], n);
     }
     for seed in 0..8 {
         let n = [1, 2, 5, 20][seed as usize % 4];
-        check::<Space>(seed, &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], n.max(3));
+        check::<Space>(seed, &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], n);
         check::<Space>(seed, &[[1.0, 0.0, 0.0], [0.5, 1.0, 0.0], [0.25, -0.375, 1.5]], n);
+    }
+}
+
+/// Lattices, where all is tied: positions wrapped in another way, or another basis, change no class.
+#[test]
+fn ties_do_not_depend_on_wrapping_and_basis() {
+    for seed in 0..30 {
+        let rng = &mut Rng::new(seed);
+        let n = 1 + rng.below(3);
+        let step = 1.0 / n as f64;
+        let step = if n == 3 { 0.25 } else { step };
+        let mut points = Vec::new();
+        for x in 0..n {
+            for y in 0..n {
+                points.push([x as f64 * step, y as f64 * step]);
+            }
+        }
+        rng.shuffle(&mut points);
+        let basis = [[1.0, 0.0], [0.0, 1.0]];
+        let expected = by_copies::<Plane>(&points, &basis, 3);
+        let t = PeriodicTriangulation::<Plane>::new(&points, &basis, Options::default()).unwrap();
+        assert_eq!(classes(&t, &points, &basis), expected, "seed {seed}");
+        // Another basis of the lattice, and each vertex somewhere else: shifts in the first basis from the first places.
+        let other_basis = [[1.0, 5.0], [0.0, 1.0]];
+        let moved: Vec<[i64; 2]> = points.iter().map(|_| [0, 1].map(|_| rng.below(7) as i64 - 3)).collect();
+        let other: Vec<[f64; 2]> =
+            points.iter().zip(&moved).map(|(p, m)| [p[0] + m[0] as f64, p[1] + m[1] as f64]).collect();
+        let t = PeriodicTriangulation::<Plane>::new(&other, &other_basis, Options::default()).unwrap();
+        let at = |v: u32, s: [i64; 3]| place::<Plane>(&points, &basis, v, s).to_vec();
+        let mut found = BTreeSet::new();
+        for (c, row) in t.corners().iter().enumerate() {
+            let corners = (0..3)
+                .map(|i| {
+                    let [a, b, _] = t.shifts(c, i);
+                    let m = moved[row[i].index()];
+                    (row[i].get(), [a + m[0], 5 * a + b + m[1], 0])
+                })
+                .collect();
+            assert!(found.insert(class(corners, &at)));
+        }
+        assert_eq!(found, expected, "seed {seed}");
     }
 }
