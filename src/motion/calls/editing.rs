@@ -54,7 +54,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::OutOfMemory`].
+    /// [`Error::NotFinite`](crate::Error::NotFinite), [`Error::OutOfRange`](crate::Error::OutOfRange),
+    /// [`Error::TooManyVertices`](crate::Error::TooManyVertices), [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn stage_insertions(&mut self, positions: &[G::Point]) -> Result<VertexId> {
         self.stage_coming(positions, Coming::Ids)
     }
@@ -74,8 +75,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`]; [`Error::StagedVertex`] if the removal is staged already, or
-    /// the insertion; [`Error::OutOfMemory`].
+    /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex);
+    /// [`Error::StagedVertex`](crate::Error::StagedVertex) if the removal is staged already, or the insertion;
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn stage_removals(&mut self, vertices: &[VertexId]) -> Result<()> {
         self.staging.list()?;
         self.edits.reserve_removals(vertices.len(), self.mesh.site_of.len())?;
