@@ -29,7 +29,7 @@ pub(super) type Shift = [i32; 3];
 pub(super) const HOME: Shift = [0; 3];
 
 /// The places that vertices have before they are translated fill the unit cell, but for this share of it at either side.
-const ROOM: f64 = 1.0 / 16.0;
+const ROOM: f64 = 0.0;
 
 /// By how much bounds on rounded numbers are widened, relatively.
 const SLACK: f64 = 1e-9;
