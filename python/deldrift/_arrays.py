@@ -40,16 +40,21 @@ def contiguous(array: np.ndarray, dtype: np.dtype) -> np.ndarray:
     return np.require(array, dtype, ["C", "A"])
 
 
+def reject_masked(argument: str, values: Any) -> None:
+    """Raises an error for an array with a mask."""
+    if isinstance(values, np.ma.MaskedArray):
+        raise InvalidShape(
+            f"{argument} is a masked array, of which it is not known what its masked entries are", argument
+        )
+
+
 def floats(argument: str, values: Any) -> np.ndarray:
     """Values as contiguous doubles: the array itself where it is so, else a converted copy."""
     if type(values) is np.ndarray and values.dtype is F64:
         flags = values.flags
         if flags.c_contiguous and flags.aligned:
             return values
-    if isinstance(values, np.ma.MaskedArray):
-        raise InvalidShape(
-            f"{argument} is a masked array, of which it is not known what its masked entries are", argument
-        )
+    reject_masked(argument, values)
     if hasattr(values, "__dlpack__") and not hasattr(values, "__array__"):
         values = np.from_dlpack(values)
     array = np.asarray(values)
@@ -104,10 +109,7 @@ def places(argument: str, values: Any, ndim: int) -> tuple[np.ndarray, tuple[int
 
 def ids(argument: str, values: Any, missing: type = NoSuchVertex) -> np.ndarray:
     """Ids of vertices, or indices of simplices, as contiguous unsigned numbers of 32 bits."""
-    if isinstance(values, np.ma.MaskedArray):
-        raise InvalidShape(
-            f"{argument} is a masked array, of which it is not known what its masked entries are", argument
-        )
+    reject_masked(argument, values)
     array = np.asarray(values)
     if array.ndim != 1:
         raise InvalidShape(f"{argument} has the shape {array.shape}, and must be a list", argument)
@@ -139,10 +141,7 @@ def pairs(argument: str, values: Any) -> np.ndarray:
 
 def numbers(argument: str, values: Any, count: int, entries: str) -> np.ndarray:
     """Whole numbers of 32 bits with a sign, one for each of some entries; a single one stands for all."""
-    if isinstance(values, np.ma.MaskedArray):
-        raise InvalidShape(
-            f"{argument} is a masked array, of which it is not known what its masked entries are", argument
-        )
+    reject_masked(argument, values)
     array = np.asarray(values)
     if array.ndim > 1:
         raise InvalidShape(f"{argument} has the shape {array.shape}, and must be a list", argument)
@@ -167,10 +166,7 @@ def keys(argument: str, values: Any, count: int) -> Optional[np.ndarray]:
     """Keys of vertices, which are unsigned whole numbers of 64 bits; None stands for the ids."""
     if values is None:
         return None
-    if isinstance(values, np.ma.MaskedArray):
-        raise InvalidShape(
-            f"{argument} is a masked array, of which it is not known what its masked entries are", argument
-        )
+    reject_masked(argument, values)
     array = np.asarray(values)
     if array.ndim != 1:
         raise InvalidShape(f"{argument} has the shape {array.shape}, and must be a list", argument)

@@ -334,7 +334,7 @@ pub unsafe extern "C" fn deldrift_original_segments(
 /// For each vertex that the last deldrift_refine inserted, in the order of their ids, how linear values there follow from
 /// those at the vertices before: the sum of the values of three vertices by their weights. So
 ///
-///     value[id_count - inserted + k] = sum of weights[3 k + i] * value[vertices[3 k + i]] for i = 0, 1, 2
+///   value(id_count - inserted + k) = sum of weights(3 k + i) * value(vertices(3 k + i)) for i = 0, 1, 2
 ///
 /// carries values at vertices over. It has to have been called with has_weights, and neither a commit nor a compaction must
 /// have come since; otherwise there are none.

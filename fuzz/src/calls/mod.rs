@@ -367,32 +367,19 @@ impl<'a> History<'a> {
         let rejects = options.coincidence == 1 && Model::has_coincidence(&self.m.positions);
         let mut t = null_mut();
         let wanted = if rejects { DELDRIFT_COINCIDENT } else { DELDRIFT_OK };
+        let create = |options: &_, t: &mut _| {
+            c!(deldrift_create_with_keys(d as u32, numbers.as_ptr(), keys, places.len(), options, t))
+        };
         let plan = self.s.byte();
         if plan < 30 {
             let fault = Fault { first: usize::from(self.s.byte()) % 64, goes_on: plan & 1 == 0 };
-            let (status, refused) = fault.during(|| {
-                c!(deldrift_create_with_keys(
-                    d as u32,
-                    numbers.as_ptr(),
-                    keys,
-                    places.len(),
-                    &options,
-                    &mut t
-                ))
-            });
+            let (status, refused) = fault.during(|| create(&options, &mut t));
             let is_out = status == DELDRIFT_OUT_OF_MEMORY && refused && t.is_null();
             assert!(is_out || status == wanted, "{status:?}: {}", message());
             tally::FAULTS.add(u64::from(is_out));
         } else if plan < 40 {
             self.callback.left.set(Some(u32::from(self.s.byte() % 4)));
-            let status = c!(deldrift_create_with_keys(
-                d as u32,
-                numbers.as_ptr(),
-                keys,
-                places.len(),
-                &options,
-                &mut t
-            ));
+            let status = create(&options, &mut t);
             let is_cancelled =
                 status == DELDRIFT_CANCELLED && self.callback.has_cancelled.take() && t.is_null();
             assert!(is_cancelled || status == wanted, "{status:?}: {}", message());
@@ -400,31 +387,13 @@ impl<'a> History<'a> {
             tally::CANCELLED.add(u64::from(is_cancelled));
         }
         if t.is_null() {
-            self.expect(wanted, || {
-                c!(deldrift_create_with_keys(
-                    d as u32,
-                    numbers.as_ptr(),
-                    keys,
-                    places.len(),
-                    &options,
-                    &mut t
-                ))
-            });
+            self.expect(wanted, || create(&options, &mut t));
         }
         if rejects {
             assert!(t.is_null(), "created in spite of coincidence");
             self.options.coincidence = 0;
             let options = self.options;
-            self.ok(|| {
-                c!(deldrift_create_with_keys(
-                    d as u32,
-                    numbers.as_ptr(),
-                    keys,
-                    places.len(),
-                    &options,
-                    &mut t
-                ))
-            });
+            self.ok(|| create(&options, &mut t));
         }
         self.t = t;
         self.is_ok(self.chosen.choose(t));

@@ -75,10 +75,11 @@ impl MovingTriangulation<Plane> {
         tests.check_stop()?;
         let mut report = QualityReport { bad_cells: read.bad.len(), ..Default::default() };
         if report.bad_cells == 0 || tests.are_none() {
-            self.forget_weights();
             if let (Some(made), 0) = (&mut self.made, report.bad_cells) {
                 made.found.all_good.set(question)?;
             }
+            // Nothing fails from here on.
+            self.forget_weights();
             return Ok(report);
         }
         let mut pace = std::mem::take(self.mesh.kernel.pace_mut());

@@ -136,11 +136,12 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// let points = [[0.0, 0.0], [4.0, 0.0], [0.0, 3.0], [4.0, 3.0], [9.0, 1.0]];
     /// let t = MovingTriangulation::<Plane>::new(&points, Options::default())?;
     /// let (low, high) = ([f64::NEG_INFINITY; 2], [-0.6, f64::INFINITY]);
-    /// // The circle around the square, with its centre at (2, 1.5), ends at -0.5.
+    /// // The circle around the square, with its centre at (2, 1.5), ends at -0.5. All facets of the hull have places of the
+    /// // boxes beyond them.
     /// let reach = t.cells_in_reach(&[low], &[high], None)?;
-    /// assert_eq!((reach.cells.len(), reach.hull.len()), (0, 3));
+    /// assert_eq!((reach.cells.len(), reach.hull.len()), (0, 5));
     /// let reach = t.cells_in_reach(&[low], &[[-0.5, f64::INFINITY]], None)?;
-    /// assert_eq!((reach.cells.len(), reach.hull.len()), (2, 3));
+    /// assert_eq!((reach.cells.len(), reach.hull.len()), (2, 5));
     /// # Ok::<(), deldrift::Error>(())
     /// ```
     ///
