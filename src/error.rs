@@ -138,6 +138,11 @@ pub enum Error {
         /// Number of segments whose coming or going is staged.
         segments: usize,
     },
+    /// Vectors of a periodic box depend on each other, or nearly so, or are more than there are axes.
+    DependentVectors {
+        /// Number of vectors.
+        count: usize,
+    },
     /// A number that has no meaning for its argument.
     InvalidValue {
         /// Parameter at fault.
@@ -337,6 +342,11 @@ impl fmt::Display for Error {
             Error::Staged { moves, edits, segments } => write!(
                 f,
                 "{moves} moves, {edits} insertions and removals and {segments} changes of segments are staged, but nothing may be"
+            ),
+            Error::DependentVectors { count } => write!(
+                f,
+                "vectors[{}] is not independent of the others, or there are more vectors than axes: {count}",
+                count.saturating_sub(1)
             ),
             Error::InvalidValue { argument, index, value, wanted } => {
                 write!(f, "{argument}[{index}] is {value}, but must be {wanted}")

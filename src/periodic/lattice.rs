@@ -21,6 +21,10 @@
 
 use crate::delaunay::Shape;
 use crate::error::{Error, Result};
+use crate::predicates::MAX_MAGNITUDE;
+
+/// Multiples of one vector.
+pub(super) type Range = std::ops::RangeInclusive<i32>;
 
 /// Multiples of the vectors of a reduced basis.
 pub(super) type Shift = [i32; 3];
@@ -28,8 +32,8 @@ pub(super) type Shift = [i32; 3];
 /// No translation.
 pub(super) const HOME: Shift = [0; 3];
 
-/// The places that vertices have before they are translated fill the unit cell, but for this share of it at either side.
-const ROOM: f64 = 0.0;
+/// Vertices at home are in the unit cell, or outside of it by this share of it at most.
+pub(super) const ROOM: f64 = 0.25;
 
 /// By how much bounds on rounded numbers are widened, relatively.
 const SLACK: f64 = 1e-9;
@@ -39,6 +43,38 @@ const GRID_BITS: i32 = 52;
 
 /// Caller's vectors are read with so many bits.
 const LONG_BITS: i32 = 96;
+
+/// The least and the greatest multiples of each vector that vertices at home have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Occupied {
+    low: [f64; 3],
+    high: [f64; 3],
+}
+
+impl Occupied {
+    /// What no vertex occupies.
+    pub(super) const NOTHING: Self = Occupied { low: [0.0; 3], high: [0.0; 3] };
+
+    /// Now a place with these multiples, too.
+    #[inline(always)]
+    pub(super) fn enter(&mut self, multiples: &[f64; 3]) {
+        for j in 0..3 {
+            self.low[j] = self.low[j].min(multiples[j]);
+            self.high[j] = self.high[j].max(multiples[j]);
+        }
+    }
+
+    /// Now what others occupy, too.
+    pub(super) fn include(&mut self, others: &Self) {
+        self.enter(&others.low);
+        self.enter(&others.high);
+    }
+
+    /// Whether no vertex is farther outside of the unit cell than some share of it.
+    pub(super) fn is_within(&self, room: &[f64; 3]) -> bool {
+        (0..3).all(|j| -room[j] <= self.low[j] && self.high[j] <= 1.0 + room[j])
+    }
+}
 
 /// A lattice, by its reduced basis.
 #[derive(Debug)]
@@ -66,17 +102,20 @@ impl<G: Shape> Lattice<G> {
         for (index, vector) in basis.iter().enumerate() {
             for (axis, &value) in vector.as_ref().iter().enumerate() {
                 if !value.is_finite() {
-                    return Err(Error::NotFinite { argument: "basis", index, axis, value });
+                    return Err(Error::NotFinite { argument: "vectors", index, axis, value });
                 }
-                if value.abs() > GREATEST || value != 0.0 && value.abs() < LEAST {
-                    return Err(Error::OutOfRange { argument: "basis", index, axis, value, limit: GREATEST });
+                if value.abs() > GREATEST {
+                    return Err(Error::OutOfRange { argument: "vectors", index, axis, value, limit: GREATEST });
+                }
+                if value != 0.0 && value.abs() < LEAST {
+                    let wanted = "0, or at least 1e-50 in magnitude";
+                    return Err(Error::InvalidValue { argument: "vectors", index: index * G::D + axis, value, wanted });
                 }
             }
         }
         let reduced = (rank <= G::D).then(|| Reduced::new(basis)).flatten();
         let Some(reduced) = reduced else {
-            let (value, wanted) = (rank as f64, "independent vectors, no more than there are axes");
-            return Err(Error::InvalidValue { argument: "basis", index: 0, value, wanted });
+            return Err(Error::DependentVectors { count: rank });
         };
         let rows: [[f64; 3]; 3] = reduced.vectors();
         let dual = dual_of(&rows, rank);
@@ -112,14 +151,14 @@ impl<G: Shape> Lattice<G> {
         self.rank
     }
 
-    /// The vectors of the reduced basis.
-    pub(super) fn vectors(&self) -> &[G::Point] {
-        &self.vectors[..self.rank]
+    /// The lengths of the linear forms by which multiples of the vectors are found, or a bit more.
+    pub(super) fn thickness(&self) -> [f64; 3] {
+        self.thickness
     }
 
-    /// By axis, the unit of coordinates; 0 where they are as they are given.
-    pub(super) fn unit(&self) -> [f64; 3] {
-        self.unit
+    /// By axis, whether any vector goes along it.
+    pub(super) fn is_spanned(&self, axis: usize) -> bool {
+        self.unit[axis] != 0.0
     }
 
     /// Multiples of the caller's vectors.
@@ -142,6 +181,48 @@ impl<G: Shape> Lattice<G> {
         sum
     }
 
+    /// A position in units of the grid; 0 along axes that have none.
+    #[inline(always)]
+    fn units_of(&self, argument: &'static str, index: usize, position: &G::Point) -> Result<[i128; 3]> {
+        let mut units = [0i128; 3];
+        for axis in 0..G::D {
+            let value = position[axis];
+            if !value.is_finite() {
+                return Err(Error::NotFinite { argument, index, axis, value });
+            }
+            let unit = self.unit[axis];
+            let limit = if unit == 0.0 { MAX_MAGNITUDE } else { (unit * FAR).min(MAX_MAGNITUDE) };
+            if value.abs() > limit {
+                return Err(Error::OutOfRange { argument, index, axis, value, limit });
+            }
+            if unit != 0.0 {
+                units[axis] = (value / unit).round_ties_even() as i128;
+            }
+        }
+        Ok(units)
+    }
+
+    /// Checks that a position is one of a vertex.
+    pub(super) fn check(&self, argument: &'static str, index: usize, position: &G::Point) -> Result<()> {
+        self.units_of(argument, index, position).map(drop)
+    }
+
+    /// What multiples of the vectors are along an axis, in units of the grid.
+    fn units_along(&self, axis: usize, multiples: &[i64; 3]) -> i128 {
+        let unit = self.unit[axis];
+        let of = |j: usize| i128::from(multiples[j]) * (self.vectors[j][axis] / unit) as i128;
+        if unit == 0.0 { 0 } else { (0..self.rank).map(of).sum() }
+    }
+
+    /// The place of so many units along axes on the grid; along others that of the position.
+    fn place_of(&self, position: &G::Point, units: &[i128; 3]) -> G::Point {
+        let mut place = *position;
+        for axis in (0..G::D).filter(|&axis| self.unit[axis] != 0.0) {
+            place[axis] = units[axis] as f64 * self.unit[axis];
+        }
+        place
+    }
+
     /// A position on the grid, in the unit cell but for rounding, and by how much it was translated to come from there.
     pub(super) fn wrapped(
         &self,
@@ -149,45 +230,88 @@ impl<G: Shape> Lattice<G> {
         index: usize,
         position: &G::Point,
     ) -> Result<(G::Point, [i64; 3])> {
-        let mut units = [0i128; 3];
-        let mut place = *position;
-        for axis in 0..G::D {
-            let value = position[axis];
-            if !value.is_finite() {
-                return Err(Error::NotFinite { argument, index, axis, value });
-            }
-            if self.unit[axis] == 0.0 {
-                continue;
-            }
-            let limit = self.unit[axis] * FAR;
-            if value.abs() > limit {
-                return Err(Error::OutOfRange { argument, index, axis, value, limit });
-            }
-            units[axis] = (value / self.unit[axis]).round_ties_even() as i128;
-        }
+        let mut units = self.units_of(argument, index, position)?;
         let mut total = [0i64; 3];
+        let mut place = self.place_of(position, &units);
         // What is far away gets near in a few steps, as multiples of many digits are rounded.
         for _ in 0..8 {
-            for axis in 0..G::D {
-                if self.unit[axis] != 0.0 {
-                    place[axis] = units[axis] as f64 * self.unit[axis];
-                }
-            }
             let multiples = self.multiples(&place).map(|x| x.floor() as i64);
             if multiples == [0; 3] {
                 break;
             }
-            for j in 0..self.rank {
-                total[j] += multiples[j];
-                for axis in 0..G::D {
-                    if self.unit[axis] != 0.0 {
-                        let step = (self.vectors[j][axis] / self.unit[axis]) as i128;
-                        units[axis] -= i128::from(multiples[j]) * step;
-                    }
-                }
+            for axis in 0..G::D {
+                units[axis] -= self.units_along(axis, &multiples);
             }
+            total = [0, 1, 2].map(|j| total[j] + multiples[j]);
+            place = self.place_of(position, &units);
         }
         Ok((place, total))
+    }
+
+    /// A position on the grid, less the multiples of the vectors in `wrap`, which change to those that take it closest to
+    /// `near`.
+    #[inline(always)]
+    pub(super) fn wrapped_near(
+        &self,
+        argument: &'static str,
+        index: usize,
+        position: &G::Point,
+        near: &G::Point,
+        wrap: &mut [i64; 3],
+    ) -> Result<G::Point> {
+        let mut place = *position;
+        let mut is_short = *wrap == [0; 3];
+        for axis in 0..G::D {
+            let unit = self.unit[axis];
+            if unit != 0.0 {
+                let units = position[axis] / unit;
+                is_short &= units.abs() < SHORT;
+                place[axis] = units.round_ties_even() * unit;
+            } else {
+                is_short &= position[axis].abs() <= MAX_MAGNITUDE;
+            }
+        }
+        if !is_short {
+            place = self.place_of_long(argument, index, position, wrap)?;
+        }
+        let mut way = place;
+        (0..G::D).for_each(|axis| way[axis] -= near[axis]);
+        let multiples = self.multiples(&way);
+        if multiples.iter().all(|x| x.abs() <= 0.5) {
+            return Ok(place);
+        }
+        let (wrapped, total) = self.wrapped(argument, index, position)?;
+        way = wrapped;
+        (0..G::D).for_each(|axis| way[axis] -= near[axis]);
+        let multiples = self.multiples(&way).map(|x| x.round_ties_even() as i64);
+        *wrap = [0, 1, 2].map(|j| total[j] + multiples[j]);
+        self.place_of_long(argument, index, position, wrap)
+    }
+
+    /// A position on the grid less multiples of the vectors, whatever its magnitude.
+    #[cold]
+    fn place_of_long(
+        &self,
+        argument: &'static str,
+        index: usize,
+        position: &G::Point,
+        wrap: &[i64; 3],
+    ) -> Result<G::Point> {
+        let mut units = self.units_of(argument, index, position)?;
+        (0..G::D).for_each(|axis| units[axis] -= self.units_along(axis, wrap));
+        Ok(self.place_of(position, &units))
+    }
+
+    /// The position of which a place at home is the translation.
+    pub(super) fn unwrapped(&self, place: &G::Point, wrap: &[i64; 3]) -> G::Point {
+        if *wrap == [0; 3] {
+            return *place;
+        }
+        let mut units = [0i128; 3];
+        for axis in (0..G::D).filter(|&axis| self.unit[axis] != 0.0) {
+            units[axis] = (place[axis] / self.unit[axis]) as i128 + self.units_along(axis, wrap);
+        }
+        self.place_of(place, &units)
     }
 
     /// The multiples of the vectors that a place has, rounded.
@@ -195,9 +319,9 @@ impl<G: Shape> Lattice<G> {
         self.dual.map(|form| form.iter().zip(place.as_ref()).map(|(a, x)| a * x).sum())
     }
 
-    /// By vector, the range of multiples by which the unit cell, with room at its sides, can be translated to meet a ball;
-    /// none of it is more than can be needed.
-    pub(super) fn shifts_to(&self, centre: &G::Point, radius: f64) -> [std::ops::RangeInclusive<i32>; 3] {
+    /// By vector, the range of multiples by which what is occupied can be translated to meet a ball; none of it is more than
+    /// can be needed.
+    pub(super) fn shifts_to(&self, centre: &G::Point, radius: f64, occupied: &Occupied) -> [Range; 3] {
         let multiples = self.multiples(centre);
         [0, 1, 2].map(|j| {
             let greatest = f64::from(self.greatest[j]);
@@ -205,8 +329,8 @@ impl<G: Shape> Lattice<G> {
                 return 0..=0;
             }
             let reach = radius * self.thickness[j] + SLACK * (1.0 + multiples[j].abs());
-            let low = (multiples[j] - reach - 1.0 - ROOM).ceil().max(-greatest);
-            let high = (multiples[j] + reach + ROOM).floor().min(greatest);
+            let low = (multiples[j] - reach - occupied.high[j]).ceil().max(-greatest);
+            let high = (multiples[j] + reach - occupied.low[j]).floor().min(greatest);
             // Where numbers are too large to tell, all are in reach.
             if low.is_nan() || high.is_nan() {
                 -(greatest as i32)..=greatest as i32
@@ -217,7 +341,7 @@ impl<G: Shape> Lattice<G> {
     }
 
     /// All shifts that can be needed.
-    pub(super) fn all_shifts(&self) -> [std::ops::RangeInclusive<i32>; 3] {
+    pub(super) fn all_shifts(&self) -> [Range; 3] {
         self.greatest.map(|greatest| -greatest..=greatest)
     }
 
@@ -238,11 +362,14 @@ impl<G: Shape> Lattice<G> {
 }
 
 /// Bounds on the entries of a basis.
-const GREATEST: f64 = 1e60;
-const LEAST: f64 = 1e-60;
+const GREATEST: f64 = 1e50;
+const LEAST: f64 = 1e-50;
 
 /// Positions may be so many units of the grid away.
 const FAR: f64 = (1u64 << 62) as f64 * (1u64 << 32) as f64;
+
+/// Positions of fewer units of the grid are rounded to it without long numbers, and translated by a vector without rounding.
+const SHORT: f64 = (1u64 << 52) as f64;
 
 /// A basis of integers while it is reduced.
 struct Reduced {
