@@ -79,6 +79,21 @@ fn the_turned_plate_has_its_temperature_without_flat_cells() {
     }
 }
 
+/// Some steps are rejected, and leave no trace; the areas add up.
+#[test]
+fn rejected_steps_leave_all_as_it_was() {
+    let folder = fresh_folder("rejecting");
+    let said =
+        succeed(&mut command(build(&repository("examples/rejecting.c"), &folder, Linkage::Static, &[])));
+    let (as_before, rejected) =
+        (number_after("after ", &said), number_after(" of ", said.lines().last().expect("two lines")));
+    assert!(as_before == rejected && rejected > 3.0, "{said}");
+    assert!(
+        number_after("particles, ", &said) > 0.0 && number_after("area within ", &said) < 1e-12,
+        "{said}"
+    );
+}
+
 /// Its area is that of the box less rotor and pipe, as much heat leaves as comes, and the mesh keeps its quality and its
 /// number of vertices.
 #[test]

@@ -29,6 +29,7 @@ const MAIN: Header = Header {
         "handle",
         "triangulation",
         "motion",
+        "preparing",
         "immediate",
         "keys",
         "segments",

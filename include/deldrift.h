@@ -189,6 +189,11 @@ enum
     DELDRIFT_AMBIGUOUS_SEED = 34,
     /// A vertex would pass a segment; deldrift_passings tells all that would.
     DELDRIFT_PASSES_SEGMENT = 35,
+    /// A timestamp is prepared, and the call is not one that may be made before deldrift_publish_timestamp or
+    /// deldrift_withdraw_timestamp; the message has the timestamp and the number of rounds.
+    DELDRIFT_PREPARED = 36,
+    /// No timestamp is prepared that could be published.
+    DELDRIFT_NOT_PREPARED = 37,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -862,6 +867,64 @@ deldrift_status deldrift_commit_positions(deldrift_triangulation *t,
                                           const double *positions,
                                           size_t count,
                                           deldrift_commit_report *report);
+
+/// The first phase of a commit: brings the triangulation to the staged moves, insertions, removals and segments, as
+/// deldrift_commit_timestamp does, so that every call that reads sees the prepared state. It is not a timestamp yet:
+/// deldrift_timestamp gives the last one. deldrift_publish_timestamp makes it the next one, in constant time;
+/// deldrift_withdraw_timestamp takes it back. A solver that rejects a step withdraws it; processes that have to agree
+/// publish or withdraw together.
+///
+/// Rounds: while a timestamp is prepared, more may be staged and prepared, any number of times: another round of the same
+/// timestamp, which begins where the last one has ended. A round that fails is taken back alone: the rounds before stay in
+/// force, and what was staged for it stays staged.
+///
+/// report: receives what this round has done; may be NULL. Its timestamp is the one that is prepared. deldrift_statistics
+/// counts rounds as they are made. Ends all views.
+///
+/// While a timestamp is prepared, these calls give DELDRIFT_PREPARED and do nothing: deldrift_commit_timestamp,
+/// deldrift_commit_positions, deldrift_insert_vertex, deldrift_remove_vertex, deldrift_relocate_vertex, deldrift_compact,
+/// deldrift_refine, deldrift_coarsen, deldrift_take_changes, deldrift_clone, deldrift_save and deldrift_save_file. All
+/// others may be made, those that stage or check what is staged included. Changes are of published states: between two
+/// calls of deldrift_take_changes, rounds count as commits once they are published. deldrift_cells
+/// gives a cell that was there before the index that it had, as after commits.
+///
+/// Passings are looked at round by round, each on the way from where the round before has left the vertices.
+///
+/// Memory: what the rounds have changed is kept until the timestamp is published or withdrawn; of a round that builds the
+/// triangulation anew, all that was before. If deldrift_cells is called, so is what it brings up to date: where most cells
+/// have changed, a copy of the arrays.
+///
+/// Cost: that of deldrift_commit_timestamp, and in later rounds a copy of where vertices were that the last one has moved.
+///
+/// Errors: those of deldrift_commit_timestamp, except DELDRIFT_PREPARED. Not to be called at the same time as any other call
+/// on t.
+deldrift_status deldrift_prepare_timestamp(deldrift_triangulation *t,
+                                           deldrift_commit_report *report);
+
+/// The second phase of a commit: the state that deldrift_prepare_timestamp has prepared is the next timestamp. What has been
+/// staged since the last round stays so. Needs no memory. Ends all views.
+///
+/// Cost: constant, but where a commit would sort the cells for speed.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_PREPARED. Not to be called at the same time as
+/// any other call on t.
+deldrift_status deldrift_publish_timestamp(deldrift_triangulation *t);
+
+/// Takes back what deldrift_prepare_timestamp has prepared, all rounds: the triangulation is as it was at its last timestamp,
+/// with nothing staged. deldrift_save writes the bytes that it would have written then, after deldrift_discard_moves: positions,
+/// cells with their indices and the order of their corners, neighbours, hidden vertices, segments and statistics are those of
+/// that time, and deldrift_take_changes gives what it would have given. What has been staged is forgotten, for the rounds or
+/// since, and ids that were given for it are given again, those of segments included. Without a prepared timestamp nothing is
+/// done, and what is staged stays so.
+///
+/// What algorithms keep between commits may be computed again by the next one; cells that are new after that may have other
+/// indices than without the rounds. Needs no memory, and cannot be refused any. Ends all views.
+///
+/// Cost: in proportion to what the rounds have changed, and, if deldrift_cells has been called since, to what it has brought
+/// up to date.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT. Not to be called at the same time as any other call on t.
+deldrift_status deldrift_withdraw_timestamp(deldrift_triangulation *t);
 
 /// Moves one vertex at once: the triangulation is that of the new position when the call returns. The
 /// timestamp stays, and so do the moves staged for other vertices. Ends all views.

@@ -191,6 +191,15 @@ public:
         require_change(deldrift_commit_timestamp(native(), &report));
         return report;
     }
+    // The two phases of a commit: all that reads sees what is prepared, in one round or several, until it is published or
+    // withdrawn. deldrift::Trial withdraws what has not been published at the end of a block.
+    deldrift_commit_report prepare_timestamp() {
+        deldrift_commit_report report;
+        require_change(deldrift_prepare_timestamp(native(), &report));
+        return report;
+    }
+    void publish_timestamp() { require_ok(deldrift_publish_timestamp(native())); }
+    void withdraw_timestamp() { require_ok(deldrift_withdraw_timestamp(native())); }
 
     // positions: those of all ids, without moves staged before. A vertex whose insertion is staged is inserted at its
     // entry.
@@ -861,6 +870,47 @@ private:
     std::uint32_t dimension_ = 0;
     // For positions that have to be copied; kept, as they usually come once per timestamp.
     std::vector<double> room_{};
+};
+
+// A step that is tried: what its rounds have prepared is withdrawn at the end of the block, unless it has been published.
+// The triangulation has to outlive it, and not to be moved meanwhile.
+//     for (double step = 1;; step /= 2) {
+//         deldrift::Trial trial(t);
+//         t.move_vertices(positions_after(step));
+//         trial.prepare();
+//         if (is_good(t)) {
+//             trial.publish();
+//             break;
+//         }
+//     }
+class Trial {
+public:
+    explicit Trial(Triangulation &t) noexcept : t_(t) {}
+    Trial(const Trial &) = delete;
+    Trial &operator=(const Trial &) = delete;
+    ~Trial() {
+        if (is_prepared_) deldrift_withdraw_timestamp(t_.native());
+    }
+
+    // Prepares what is staged: a round, after those before. One that throws leaves these in force.
+    deldrift_commit_report prepare() {
+        const deldrift_commit_report report = t_.prepare_timestamp();
+        is_prepared_ = true;
+        return report;
+    }
+    // Then another step may be tried.
+    void publish() {
+        t_.publish_timestamp();
+        is_prepared_ = false;
+    }
+    void withdraw() {
+        t_.withdraw_timestamp();
+        is_prepared_ = false;
+    }
+
+private:
+    Triangulation &t_;
+    bool is_prepared_ = false;
 };
 
 }  // namespace deldrift

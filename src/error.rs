@@ -143,6 +143,15 @@ pub enum Error {
         /// Number of vectors.
         count: usize,
     },
+    /// A timestamp is prepared, and the call is not one of those that may be made before it is published or withdrawn.
+    Prepared {
+        /// The timestamp.
+        timestamp: u64,
+        /// In how many rounds it has been prepared.
+        rounds: usize,
+    },
+    /// No timestamp is prepared that could be published.
+    NotPrepared,
     /// A number that has no meaning for its argument.
     InvalidValue {
         /// Parameter at fault.
@@ -348,6 +357,17 @@ impl fmt::Display for Error {
                 "vectors[{}] is not independent of the others, or there are more vectors than axes: {count}",
                 count.saturating_sub(1)
             ),
+            Error::Prepared { timestamp, rounds: 1 } => {
+                write!(
+                    f,
+                    "timestamp {timestamp} is prepared, in 1 round: it has to be published or withdrawn first"
+                )
+            }
+            Error::Prepared { timestamp, rounds } => write!(
+                f,
+                "timestamp {timestamp} is prepared, in {rounds} rounds: it has to be published or withdrawn first"
+            ),
+            Error::NotPrepared => write!(f, "no timestamp is prepared"),
             Error::InvalidValue { argument, index, value, wanted } => {
                 write!(f, "{argument}[{index}] is {value}, but must be {wanted}")
             }

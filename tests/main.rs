@@ -25,6 +25,7 @@ mod passings;
 mod predicates;
 mod predicates_range;
 mod predicates_suites;
+mod preparing;
 mod reach;
 mod refining;
 mod repair;

@@ -236,6 +236,35 @@ std::vector<Call> changing_calls() {
              }
              c.meter.count(double(c.n));
          }},
+        {"deldrift_prepare_timestamp", "all nearby, and published", [](Context &c) {
+             must(deldrift_move_vertices(c.t, nullptr, c.all_nearby().data(), c.n));
+             c.meter.time([&] {
+                 must(deldrift_prepare_timestamp(c.t, nullptr));
+                 must(deldrift_publish_timestamp(c.t));
+             });
+             c.meter.count(double(c.n));
+         }},
+        {"deldrift_publish_timestamp", "nothing moved, as often as there are vertices", [](Context &c) {
+             for (std::size_t i = 0; i < c.n; ++i) {
+                 must(deldrift_prepare_timestamp(c.t, nullptr));
+                 c.meter.time([&] { must(deldrift_publish_timestamp(c.t)); });
+             }
+             c.meter.count(double(c.n));
+         }},
+        {"deldrift_withdraw_timestamp", "all nearby", [](Context &c) {
+             must(deldrift_move_vertices(c.t, nullptr, c.all_nearby().data(), c.n));
+             must(deldrift_prepare_timestamp(c.t, nullptr));
+             c.meter.time([&] { must(deldrift_withdraw_timestamp(c.t)); });
+             c.meter.count(double(c.n));
+         }},
+        {"deldrift_withdraw_timestamp", "one moved, as often as there are vertices", [](Context &c) {
+             for (std::uint32_t v = 0; v < c.n; ++v) {
+                 must(deldrift_move_vertex(c.t, v, c.nearby(v).data()));
+                 must(deldrift_prepare_timestamp(c.t, nullptr));
+                 c.meter.time([&] { must(deldrift_withdraw_timestamp(c.t)); });
+             }
+             c.meter.count(double(c.n));
+         }},
         {"deldrift_commit_timestamp", "nothing staged, as often as there are vertices", [](Context &c) {
              c.meter.time([&] {
                  for (std::size_t i = 0; i < c.n; ++i) must(deldrift_commit_timestamp(c.t, nullptr));

@@ -20,7 +20,7 @@ enum { COUNT = 13, REMOVED = 5, HIDDEN = 12, STAGED = 7, LEAVING = 6, COMING = C
 
 // The triangulations that calls are made on: with moves, insertions and removals staged; without; and that, with the cell
 // within the fence refined.
-typedef enum { WITH_EDITS, WITHOUT_EDITS, REFINED, N_BASES } base;
+typedef enum { WITH_EDITS, WITHOUT_EDITS, REFINED, PREPARED, N_BASES } base;
 
 // All that calls write to.
 typedef struct {
@@ -91,7 +91,9 @@ static void look(const deldrift_triangulation *at, state *s) {
     s->arrays = arrays_of(at);
     OK(deldrift_get_algorithm(at, &s->algorithm));
     OK(deldrift_statistics(at, &s->sums));
-    OK(deldrift_save(at, s->saved, BYTES, &s->size));
+    // What is prepared is not saved.
+    const deldrift_status status = deldrift_save(at, s->saved, BYTES, &s->size);
+    CHECK(status == DELDRIFT_OK || status == DELDRIFT_PREPARED);
 }
 
 static const char *text(const char *format, ...) {
@@ -307,6 +309,7 @@ static void use_base(base which) {
     if (t != NULL) deldrift_destroy(t);
     t = NULL;
     OK(deldrift_clone(bases[which], &t));
+    if (which == PREPARED) OK(deldrift_prepare_timestamp(t, NULL));
     OK(deldrift_id_count(t, &n_ids));
     OK(deldrift_cell_count(t, &n_cells));
     if (dimension == 2) mask_fence(t);
@@ -531,7 +534,11 @@ static void make_bases(void) {
         OK(deldrift_stage_segment_removals(bases[0], (uint32_t[]){LEAVING_SEGMENT}, 1));
         stage_segment(bases[0], 0, COMING_SEGMENT);
     }
-    for (int k = 0; k < N_BASES; k++) look(bases[k], &kept[k]);
+    OK(deldrift_clone(bases[0], &bases[PREPARED]));
+    for (base k = 0; k < N_BASES; k++) {
+        use_base(k);
+        look(t, &kept[k]);
+    }
     OK(deldrift_save(bases[0], saved, BYTES, &saved_size));
     OK(deldrift_save_file(bases[0], path_saved));
     OK(deldrift_cell_count(bases[0], &n_cells));

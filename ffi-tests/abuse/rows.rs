@@ -33,6 +33,9 @@ pub const ROWS: &[Row] = &[
     row("deldrift_stage_removals", &["t", "ids", "3"]),
     row("deldrift_discard_moves", &["t"]),
     row("deldrift_commit_timestamp", &["t", "&out.report"]),
+    row("deldrift_prepare_timestamp", &["t", "&out.report"]),
+    Row { function: "deldrift_publish_timestamp", arguments: &["t"], base: "PREPARED" },
+    Row { function: "deldrift_withdraw_timestamp", arguments: &["t"], base: "PREPARED" },
     Row {
         function: "deldrift_commit_positions",
         arguments: &["t", "moved", "n_ids", "&out.report"],

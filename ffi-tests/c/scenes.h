@@ -55,7 +55,7 @@ enum { N_SETTINGS = sizeof SETTINGS / sizeof *SETTINGS };
 typedef enum { CREATE, CREATE_WITH_KEYS, RELOCATE, INSERT, INSERT_WITH_KEY, REMOVE, MOVE, MOVE_SOME, MOVE_ALL,
     STAGE_INSERTIONS, STAGE_WITH_KEYS, STAGE_AT_FREE_IDS, STAGE_REMOVALS,
     STAGE_SEGMENTS, STAGE_SEGMENT_REMOVALS, COMMIT,
-    COMMIT_SOME, COMMIT_POSITIONS, CHECK_STAGED, CHECK_PASSINGS, STAGE_SPLITS, COMPACT, TAKE_CHANGES, CELLS,
+    COMMIT_SOME, COMMIT_POSITIONS, PREPARE, PREPARE_SOME, WITHDRAW, CHECK_STAGED, CHECK_PASSINGS, STAGE_SPLITS, COMPACT, TAKE_CHANGES, CELLS,
     COPY_CELLS, STAR, TOLERANCE, ANNULUS_WIDTHS,
     DELIMITER, LOCATE, LOCATE_POINTS, NEAREST, CIRCUMCENTRES, VOLUMES, MASK_BY_CIRCUMRADIUS,
     MASK_BOUNDARY, HULL_FACETS, EDGES, VERTEX_NEIGHBOURS, VERTEX_CELLS, MIRROR_INDICES, MIRROR_INDEX, ORDERED_STAR,
@@ -73,7 +73,8 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_stage_insertions_with_keys", "deldrift_stage_insertions_at_free_ids",
     "deldrift_stage_removals", "deldrift_stage_segments", "deldrift_stage_segment_removals",
     "deldrift_commit_timestamp", "deldrift_commit_timestamp, some",
-    "deldrift_commit_positions", "deldrift_check_staged", "deldrift_check_passings", "deldrift_stage_splits",
+    "deldrift_commit_positions", "deldrift_prepare_timestamp", "deldrift_prepare_timestamp, some",
+    "deldrift_withdraw_timestamp", "deldrift_check_staged", "deldrift_check_passings", "deldrift_stage_splits",
     "deldrift_compact", "deldrift_take_changes", "deldrift_cells", "deldrift_copy_cells",
     "deldrift_star", "deldrift_tolerance", "deldrift_research_annulus_widths", "deldrift_research_standard_delimiter",
     "deldrift_locate",
@@ -335,13 +336,14 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
             memcpy(s.places + end * d, s.points + end * d, d * sizeof *s.places);
         }
     }
-    const bool moves_all = call.kind == COMMIT || call.kind == CHECK_STAGED || call.kind == CHECK_PASSINGS ||
+    const bool moves_all = call.kind == COMMIT || call.kind == PREPARE || call.kind == CHECK_STAGED || call.kind == CHECK_PASSINGS ||
                            call.kind == STAGE_SPLITS;
     if (moves_all) OK(deldrift_move_vertices(s.t, NULL, s.places, s.n));
     for (uint32_t w = 2; w < s.n; w += 3) {
         bool present;
         OK(deldrift_is_present(s.t, w, &present));
-        if (present && call.kind == COMMIT_SOME) OK(deldrift_move_vertex(s.t, w, s.places + w * d));
+        const bool moves_some = call.kind == COMMIT_SOME || call.kind == PREPARE_SOME || call.kind == WITHDRAW;
+        if (present && moves_some) OK(deldrift_move_vertex(s.t, w, s.places + w * d));
     }
     if (call.kind < COMMIT && call.kind != MOVE_ALL) OK(deldrift_move_vertices(s.t, (uint32_t[]){3, 4}, s.places, 2));
     if (is_commit(call.kind) || call.kind == COMPACT) {
@@ -385,6 +387,23 @@ static uint64_t digest_of_cells(const deldrift_triangulation *t, const uint32_t 
         sum += digest_of_row(view.vertices + (size_t)indices[k] * view.corners_per_cell, view.corners_per_cell);
     }
     return sum;
+}
+
+// Prepares what is staged, and more in a second round, with a look at the cells after each; takes all back. What fails after
+// the first round is withdrawn with it.
+static deldrift_status prepare_and_withdraw(scene *s) {
+    deldrift_cells_view view;
+    const deldrift_status status = deldrift_prepare_timestamp(s->t, NULL);
+    if (status != DELDRIFT_OK) return status;
+    deldrift_status later = deldrift_cells(s->t, &view);
+    if (later == DELDRIFT_OK) later = deldrift_move_vertices(s->t, (uint32_t[]){3, 4}, s->points, 2);
+    if (later == DELDRIFT_OK) later = deldrift_prepare_timestamp(s->t, NULL);
+    if (later == DELDRIFT_OK) later = deldrift_cells(s->t, &view);
+    CHECK(later == DELDRIFT_OK || later == DELDRIFT_OUT_OF_MEMORY || s->setting->segments > 0);
+    const size_t before = n_requests;
+    OK(deldrift_withdraw_timestamp(s->t));
+    CHECK(n_requests == before);
+    return status;
 }
 
 // Makes the call while requests are counted, and of them `first` is refused; a number for what it gives, as far as that does
@@ -470,6 +489,12 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case COMMIT:
         case COMMIT_SOME: status = deldrift_commit_timestamp(s->t, &report); break;
         case COMMIT_POSITIONS: status = deldrift_commit_positions(s->t, s->places, s->n, &report); break;
+        case PREPARE:
+        case PREPARE_SOME:
+            status = deldrift_prepare_timestamp(s->t, &report);
+            if (status == DELDRIFT_OK) OK(deldrift_publish_timestamp(s->t));
+            break;
+        case WITHDRAW: status = prepare_and_withdraw(s); break;
         case COMPACT: status = deldrift_compact(s->t, ids_out, ROOM, &count); break;
         case TAKE_CHANGES: status = deldrift_take_changes(s->t, &changes); break;
         case CELLS: status = deldrift_cells(s->t, &cells); break;

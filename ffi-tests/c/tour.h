@@ -173,6 +173,32 @@ static void ask_what_was_made(const deldrift_triangulation *t) {
     }
 }
 
+// A timestamp is prepared in two rounds and taken back, and prepared again and published.
+static void prepare(const deldrift_triangulation *of, const places *p) {
+    deldrift_triangulation *t = NULL;
+    deldrift_commit_report report;
+    deldrift_cells_view view;
+    deldrift_changes changes;
+    uint32_t first = 0;
+    GO(deldrift_clone(of, &t));
+    GO(deldrift_discard_moves(t));
+    for (int k = 0; k < 2; k++) {
+        TRY(deldrift_stage_insertions(t, p->later, 2, &first));
+        TRY(deldrift_prepare_timestamp(t, &report));
+        note(&report, sizeof report);
+        TRY(deldrift_cells(t, &view));
+        note(&view.count, sizeof view.count);
+        TRY(deldrift_move_vertex(t, first, p->later));
+        TRY(deldrift_prepare_timestamp(t, &report));
+        note(&report, sizeof report);
+        TRY(deldrift_take_changes(t, &changes));
+        if (k == 0) GO(deldrift_withdraw_timestamp(t));
+    }
+    TRY(deldrift_publish_timestamp(t));
+    GO(deldrift_validate(t, 3));
+    DO(deldrift_destroy(t));
+}
+
 // Cells within segments are refined, by length, by angle and by what a callback says, and coarsened.
 static void improve(const deldrift_triangulation *of) {
     static double sizes[2 * TOUR_POINTS];
@@ -495,6 +521,7 @@ static void make_tour(const places *p, record *made) {
     note(&report, sizeof report);
     prescribe(t);
     improve(t);
+    prepare(t, p);
     keep(t, p, &options);
     DO(deldrift_destroy(t));
 

@@ -41,6 +41,7 @@ from ._errors import (
     OutOfMemory,
     OutOfRange,
     PassingError,
+    Prepared,
     RemovedVertex,
     StagedVertex,
     TooMany,
@@ -52,7 +53,7 @@ from ._mesh import Mesh
 from ._motion import Changes
 from ._refining import MadeVertices, RefinedWeights
 from ._segments import Chains, Segments, Splits
-from ._step import Step
+from ._step import Step, Trial
 
 __version__ = "0.1.0"
 
@@ -89,6 +90,7 @@ __all__ = [
     "OutOfMemory",
     "OutOfRange",
     "PassingError",
+    "Prepared",
     "QualityReport",
     "RefinedWeights",
     "RemovedVertex",
@@ -98,6 +100,7 @@ __all__ = [
     "StagedVertex",
     "Step",
     "TooMany",
+    "Trial",
     "WrongCount",
     "frombytes",
     "in_sphere",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import threading
 import weakref
-from typing import Any, Callable, Mapping, Optional, TypeVar
+from typing import TYPE_CHECKING, Any, Callable, Mapping, Optional, TypeVar
 
 import numpy as np
 
@@ -13,6 +13,9 @@ from . import _library
 from ._arrays import COUNTS_REFERENCES, Handle, Lease, Released, Version, address, choice, taken, whole
 from ._callbacks import Callbacks
 from ._errors import Busy, Closed, ConflictError, ConflictKind, InternalError, InvalidOption, PassingError, raise_for
+
+if TYPE_CHECKING:
+    from ._step import Trial
 
 Made = TypeVar("Made")
 
@@ -140,6 +143,8 @@ class Core:
         self._is_changing = False
         self._is_closed = False
         self._has_step = False
+        # The trial that is open: steps are rounds of it.
+        self._trial: Optional["Trial"] = None
         # Whether the library has moves staged that no step will commit.
         self._must_discard = False
         self._last_report: Optional[_library.Report] = None

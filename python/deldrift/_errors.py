@@ -79,6 +79,10 @@ class StagedVertex(Error, ValueError):
     """The vertex is inserted, or removed, only with the end of the step that is open."""
 
 
+class Prepared(Error, RuntimeError):
+    """A trial has made steps, and the call may not be made before it ends or withdraws them."""
+
+
 class NoSuchVertex(Error, IndexError):
     """No vertex ever had this id."""
 
@@ -218,6 +222,7 @@ KINDS = {
     28: StagedVertex,
     29: NoSuchSegment,
     34: AmbiguousSeed,
+    36: Prepared,
 }
 """Classes by deldrift_status. What is not here comes of a defect, as a pointer of this package that is NULL."""
 

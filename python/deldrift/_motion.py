@@ -13,7 +13,7 @@ from ._core import fixed, id_count
 from ._errors import InvalidOption, WrongCount
 from ._library import Report
 from ._segments import Segmented
-from ._step import Step
+from ._step import Step, Trial
 
 _move_vertices = _library.function("move_vertices")
 _commit_positions = _library.function("commit_positions")
@@ -87,7 +87,7 @@ class Motion(Segmented):
         >>> tri.points[4]
         array([3., 2.])
         """
-        if ids is not None:
+        if ids is not None or self._trial is not None:
             with self.step() as step:
                 step.move(points, ids)
             return cast(Report, self._last_report)
@@ -125,6 +125,39 @@ class Motion(Segmented):
         (2, 1, 1)
         """
         return Step(self)
+
+    def trial(self) -> Trial:
+        """Steps that are tried: at the end of a `with` block they are one timestamp, or, after an exception, have never
+        been.
+
+        In the block `move`, `step`, `add_segments` and `remove_segments` make what everything that reads sees, and the
+        timestamp stays. `Trial.withdraw` takes all of it back, so that another step can be tried. A step that fails in
+        the block is taken back alone.
+
+        Until the end of the block these raise `Prepared`, once a step has been made: `insert`, `remove`, `relocate`,
+        `compact`, `refine`, `coarsen`, `changes`, `copy`, `save` and pickling.
+
+        Returns
+        -------
+        Trial
+            What has `withdraw`.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3], [1, 1]])
+        >>> x = 4.0
+        >>> with tri.trial() as trial:
+        ...     while True:
+        ...         _ = tri.move([[x, 1]], ids=[4])
+        ...         if len(tri.simplices) == 4:
+        ...             break
+        ...         trial.withdraw()
+        ...         x = x / 2
+        >>> tri.points[4].tolist(), tri.timestamp
+        ([2.0, 1.0], 1)
+        """
+        return Trial(self)
 
     def add_segments(self, ends: Any, markers: Any = None) -> np.ndarray:
         """Adds segments between vertices, in 2D, and makes that the next timestamp.

@@ -21,6 +21,9 @@ _stage_insertions = _library.function("stage_insertions_with_keys")
 _stage_at_free_ids = _library.function("stage_insertions_at_free_ids")
 _stage_removals = _library.function("stage_removals")
 _commit_timestamp = _library.function("commit_timestamp")
+_prepare_timestamp = _library.function("prepare_timestamp")
+_publish_timestamp = _library.function("publish_timestamp")
+_withdraw_timestamp = _library.function("withdraw_timestamp")
 
 
 class Step:
@@ -53,10 +56,13 @@ class Step:
     def _commit(self, owner: "Motion") -> None:
         with owner._committing as t:
             report = Report()
-            status = _commit_timestamp(t, report)
+            trial = owner._trial
+            status = _commit_timestamp(t, report) if trial is None else _prepare_timestamp(t, report)
             owner._check(status)
             owner._must_discard = False
             owner._last_report = report
+            if trial is not None:
+                trial._is_prepared = True
 
     def _check_open(self) -> None:
         if not self._is_open:
@@ -248,6 +254,50 @@ class Step:
             passings: np.ndarray = error.passings
             return passings
         return np.empty(0, PASSING)
+
+
+class Trial:
+    """Steps that `Delaunay.trial` makes one timestamp of, or takes back."""
+
+    def __init__(self, owner: "Motion") -> None:
+        self._owner = owner
+        self._is_open = False
+        # Whether there is something to publish or withdraw.
+        self._is_prepared = False
+
+    def __enter__(self) -> "Trial":
+        owner = self._owner
+        with owner._taking:
+            if owner._trial is not None:
+                raise Busy("a trial of the triangulation is open, and has to end before another one")
+            owner._trial = self
+            self._is_open = True
+        return self
+
+    def __exit__(self, kind: Any, *_: Any) -> None:
+        owner = self._owner
+        try:
+            if kind is None:
+                if self._is_prepared:
+                    with owner._changing as t:
+                        owner._check(_publish_timestamp(t))
+                        self._is_prepared = False
+            else:
+                self.withdraw()
+        finally:
+            self._is_open = False
+            owner._trial = None
+
+    def withdraw(self) -> None:
+        """Takes back all steps of the trial: the triangulation is as it was when the block began, and other steps may be
+        tried in it."""
+        if not self._is_open:
+            raise Busy("the trial is not open: use it in `with tri.trial() as trial`")
+        owner = self._owner
+        if self._is_prepared:
+            with owner._changing as t:
+                owner._check(_withdraw_timestamp(t))
+                self._is_prepared = False
 
 
 def _discard(owner: Motion) -> None:

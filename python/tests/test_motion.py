@@ -188,3 +188,79 @@ def test_algorithm_may_be_changed(rng, ndim):
         check(tri)
     with pytest.raises(deldrift.InvalidOption, match="algorithm is 'fast', and must be one of 'auto'"):
         tri.algorithm = "fast"
+
+
+def test_a_trial_is_one_timestamp(rng, ndim):
+    points = rng.random((100, ndim))
+    tri = deldrift.Delaunay(points)
+    with tri.trial():
+        tri.move(rng.random((100, ndim)))
+        check(tri)
+        with tri.step() as step:
+            step.insert(rng.random((5, ndim)))
+            step.remove([3])
+        check(tri)
+        assert (tri.timestamp, tri.npoints) == (0, 105)
+    assert tri.timestamp == 1
+    check(tri)
+
+
+@pytest.mark.parametrize("algorithm", ALGORITHMS)
+def test_what_is_withdrawn_has_never_been(rng, ndim, algorithm):
+    tri = deldrift.Delaunay(rng.random((150, ndim)), algorithm=algorithm)
+    tri.changes()
+    before, points, neighbors = tri.tobytes(), tri.points.copy(), tri.neighbors.copy()
+    with tri.trial() as trial:
+        for amplitude in (1e-3, 0.3):
+            tri.move(points + amplitude * rng.standard_normal(points.shape))
+            check(tri)
+            with tri.step() as step:
+                step.insert(rng.random((3, ndim)))
+            trial.withdraw()
+            assert tri.tobytes() == before
+    assert tri.timestamp == 0
+    with pytest.raises(ZeroDivisionError):
+        with tri.trial():
+            tri.move(points + 1)
+            1 / 0
+    assert tri.tobytes() == before
+    np.testing.assert_array_equal(tri.neighbors, neighbors)
+    assert all(len(listed) == 0 for listed in tri.changes())
+
+
+def test_a_step_that_fails_in_a_trial_is_taken_back_alone(ndim):
+    points = np.vstack([np.zeros(ndim), np.eye(ndim), np.full(ndim, 0.1)])
+    tri = deldrift.Delaunay(points, coincidence="reject")
+    with tri.trial():
+        tri.move([np.full(ndim, 0.2)], ids=[ndim + 1])
+        with pytest.raises(deldrift.Coincident):
+            tri.move([points[0]], ids=[ndim + 1])
+        np.testing.assert_array_equal(tri.points[ndim + 1], np.full(ndim, 0.2))
+    assert tri.timestamp == 1
+    check(tri)
+
+
+def test_what_a_trial_could_not_take_back_is_refused(ndim):
+    tri = deldrift.Delaunay(np.vstack([np.zeros(ndim), np.eye(ndim)]))
+    with tri.trial() as trial:
+        tri.move(tri.points + 1)
+        calls = [
+            lambda: tri.insert(np.full(ndim, 0.1)),
+            lambda: tri.remove(0),
+            lambda: tri.relocate(0, np.full(ndim, 0.1)),
+            tri.compact,
+            tri.changes,
+            tri.copy,
+            tri.tobytes,
+        ]
+        for call in calls:
+            with pytest.raises(deldrift.Prepared, match="timestamp 1 is prepared, in 1 round"):
+                call()
+        with pytest.raises(deldrift.Busy, match="a trial of the triangulation is open"):
+            with tri.trial():
+                pass
+        trial.withdraw()
+        tri.insert(np.full(ndim, 0.1))
+    with pytest.raises(deldrift.Busy, match="the trial is not open"):
+        trial.withdraw()
+    assert tri.timestamp == 0

@@ -71,6 +71,7 @@ mod options;
 mod panics;
 mod pointers;
 mod predicates;
+mod preparing;
 mod query;
 mod reach;
 mod refining;

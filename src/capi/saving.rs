@@ -68,6 +68,7 @@ pub unsafe extern "C" fn deldrift_save(
     given!(t: Reading, buffer[capacity]: Buffer, count: Output);
     t.read(|t| {
         in_its_dimension!(t => {
+            t.reject_prepared()?;
             buffer.fill_by(count, t.saved_size(), |places| {
                 let mut rest = places;
                 t.save(|bytes| {
@@ -175,6 +176,7 @@ pub unsafe extern "C" fn deldrift_save_file(
 ) -> deldrift_status {
     given!(t: Reading, path: Text);
     t.read(|t| {
+        in_its_dimension!(t => t.reject_prepared())?;
         let mut file = NewFile::create(path.get()?)?;
         in_its_dimension!(t => t.save(|bytes| file.put(bytes)))?;
         Ok(file.finish()?)

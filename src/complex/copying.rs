@@ -6,9 +6,8 @@ use crate::error::Result;
 use crate::machine::memory;
 
 impl<C: Corners> Complex<C> {
-    /// A copy, without room for more cells. No record must be kept.
+    /// A copy, without room for more cells, and without the record if one is kept.
     pub(crate) fn copied(&self) -> Result<Self> {
-        debug_assert!(!self.is_recording());
         let cells = self.cells.copied()?;
         let mut marks = Vec::new();
         memory::reserve_exact(&mut marks, cells.capacity())?;

@@ -34,6 +34,7 @@ pub use corners::{Corners, Entry};
 pub(crate) use flips::{NewCell, outer_of_three, outer_of_two};
 pub(crate) use ranges::starts_of_ranges;
 pub use ranges::{CellRange, Obstacle};
+pub(crate) use record::KeptRecord;
 pub use record::Row;
 
 use crate::error::{Error, Result};

@@ -83,7 +83,38 @@ impl<C: Corners> Record<C> {
     }
 }
 
+/// A record that has been set aside.
+#[derive(Debug)]
+pub(crate) struct KeptRecord<C: Corners> {
+    rows: Vec<Row<C>>,
+    n_slots: usize,
+    n_ghosts: usize,
+}
+
+impl<C: Corners> KeptRecord<C> {
+    pub(crate) fn memory_bytes(&self) -> usize {
+        self.rows.capacity() * size_of::<Row<C>>()
+    }
+}
+
 impl<C: Corners> Complex<C> {
+    /// Ends the record, and sets it aside, so that another one can be begun.
+    pub(crate) fn set_record_aside(&mut self) -> KeptRecord<C> {
+        let record = &mut self.record;
+        record.is_on = false;
+        for row in &record.rows {
+            record.noted[row.slot.index() / 64] = 0;
+        }
+        let rows = std::mem::take(&mut record.rows);
+        KeptRecord { rows, n_slots: record.n_slots, n_ghosts: record.n_ghosts }
+    }
+
+    /// Takes up a record that was set aside, to be undone: since then all has been put back to what it was.
+    pub(crate) fn take_record_up(&mut self, kept: KeptRecord<C>) {
+        let KeptRecord { rows, n_slots, n_ghosts } = kept;
+        self.record = Record { is_on: true, rows, n_slots, n_ghosts, ..std::mem::take(&mut self.record) };
+    }
+
     /// Begins a record of all changes.
     pub(crate) fn begin_record(&mut self) -> Result<()> {
         debug_assert!(!self.record.is_on && self.record.rows.is_empty());

@@ -8,7 +8,8 @@
 //! asked for where the exact sign is zero, and are those of the places at which it was evaluated.
 //!
 //! Kernels that are built beside another one, or of parts of its sites, have the keys in common with it. They are
-//! changed between changes of the cells alone, when there is one kernel.
+//! changed between changes of the cells alone, when there is one kernel. One that is kept to be put back later has given its
+//! share [away](Keys::give_away).
 
 use std::cmp::Ordering;
 
@@ -187,6 +188,11 @@ impl Keys {
         if self.0.is_some() {
             self.list().truncate(n);
         }
+    }
+
+    /// Leaves these, of a kernel that is kept while another one is in use, to that one, which has them in common.
+    pub(crate) fn give_away(&mut self) {
+        self.0 = None;
     }
 
     fn list(&mut self) -> &mut Vec<u64> {

@@ -99,6 +99,7 @@ pub(crate) use segments::{Crossing, InTheWay, Replaced};
 pub(crate) use set::IndexSet;
 pub use shape::{Plane, Shape, Space};
 pub use site::Site;
+pub(crate) use undo::KeptChange;
 pub use validate::{Level, Violation};
 
 use crate::complex::{Complex, Corners, Facet};
@@ -183,7 +184,7 @@ impl<G: Dimension> Delaunay<G> {
     const LAST: usize = G::D;
 
     /// A triangulation of nothing, without even the placeholder for the ghost vertex.
-    fn empty() -> Self {
+    pub(crate) fn empty() -> Self {
         Self::empty_on(Threads::ONE)
     }
 

@@ -13,7 +13,7 @@
 
 use super::flat::Flat;
 use super::{Delaunay, Dimension, Site};
-use crate::complex::{Complex, Corners};
+use crate::complex::{Complex, Corners, KeptRecord};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
@@ -54,7 +54,51 @@ impl<G: Dimension> Log<G> {
     }
 }
 
+/// A change that has been made, set aside so that others can be made after it and all be undone.
+#[derive(Debug)]
+pub(crate) struct KeptChange<G: Dimension> {
+    lower: G::Point,
+    upper: G::Point,
+    sites: Vec<Logged<G>>,
+    cells: Option<Box<Complex<G::Corners>>>,
+    flat: Option<Box<Flat<G>>>,
+    record: KeptRecord<G::Corners>,
+}
+
+impl<G: Dimension> KeptChange<G> {
+    pub(crate) fn memory_bytes(&self) -> usize {
+        self.sites.capacity() * size_of::<Logged<G>>()
+            + self.record.memory_bytes()
+            + memory::bytes_of_made(&self.cells, Complex::memory_bytes)
+            + memory::bytes_of_made(&self.flat, Flat::memory_bytes)
+    }
+}
+
 impl<G: Dimension> Delaunay<G> {
+    /// Ends a change, and sets aside what undoes it.
+    pub(crate) fn set_change_aside(&mut self) -> KeptChange<G> {
+        self.n_replaced += self.complex.rows().len();
+        let log = &mut self.log;
+        log.is_on = false;
+        KeptChange {
+            lower: log.lower,
+            upper: log.upper,
+            sites: std::mem::take(&mut log.sites),
+            cells: log.cells.take(),
+            flat: log.flat.take(),
+            record: self.complex.set_record_aside(),
+        }
+    }
+
+    /// Takes up a change that was set aside, to be undone: those after it have been undone.
+    pub(crate) fn take_change_up(&mut self, kept: KeptChange<G>) {
+        let KeptChange { lower, upper, sites, cells, flat, record } = kept;
+        if cells.is_none() {
+            self.complex.take_record_up(record);
+        }
+        self.log = Log { is_on: true, lower, upper, sites, cells, flat };
+    }
+
     /// Begins a change that may be undone.
     pub(crate) fn begin(&mut self) -> Result<()> {
         debug_assert!(!self.log.is_on);

@@ -166,6 +166,22 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
     }
 
+    /// Whether a timestamp is prepared.
+    pub fn is_prepared(&self) -> bool {
+        self.mesh.rounds.is_some()
+    }
+
+    /// Refuses what may not be done while a timestamp is prepared.
+    #[inline(always)]
+    pub(crate) fn reject_prepared(&self) -> Result<()> {
+        if self.is_prepared() { Err(self.prepared()) } else { Ok(()) }
+    }
+
+    #[cold]
+    fn prepared(&self) -> Error {
+        Error::Prepared { timestamp: self.statistics.timestamp + 1, rounds: self.mesh.n_rounds() }
+    }
+
     /// Makes the sites and builds the cells for the first time. After an error the triangulation can only be dropped.
     ///
     /// # Errors

@@ -32,7 +32,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         }
         let images = &self.inside.images;
         let (n, n_coming) = (images.n_vertices(), self.staged.insertions().len());
-        let lattice = self.staged.lattice().unwrap_or(&self.lattice);
+        let lattice = self.coming.as_ref().unwrap_or(&self.lattice);
         let moves = vertices.iter().zip(positions).enumerate().map(|(index, (&vertex, position))| {
             images.check(index, vertex, n_coming)?;
             lattice.check("positions", index, position)?;
@@ -55,8 +55,10 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         }
         let mut going = Vec::new();
         memory::lengthen(&mut going, positions.len(), false)?;
-        self.staged.removals().iter().filter(|v| v.index() < going.len()).for_each(|&v| going[v] = true);
-        let lattice = self.staged.lattice().unwrap_or(&self.lattice);
+        for &vertex in self.staged.removals().iter().filter(|v| v.index() < positions.len()) {
+            going[vertex] = true;
+        }
+        let lattice = self.coming.as_ref().unwrap_or(&self.lattice);
         let moves = positions.iter().enumerate().map(|(index, position)| (VertexId::at(index), position));
         let moves = moves.filter(|&(v, _)| images.home(v) != VertexId::NONE && !going[v]);
         let moves = moves.map(|(vertex, position)| {
@@ -71,7 +73,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// # Errors
     /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::OutOfMemory`].
     pub fn stage_insertions(&mut self, positions: &[G::Point]) -> Result<VertexId> {
-        let lattice = self.staged.lattice().unwrap_or(&self.lattice);
+        let lattice = self.coming.as_ref().unwrap_or(&self.lattice);
         for (index, position) in positions.iter().enumerate() {
             lattice.check("positions", index, position)?;
         }
@@ -104,12 +106,13 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             return Err(Error::WrongCount { argument: "vector_count", given, wanted, coming: 0 });
         }
         let lattice = memory::boxed(Lattice::<G>::new(vectors)?)?;
-        self.staged.put_lattice(Some(lattice));
+        self.coming = Some(lattice);
         Ok(())
     }
 
     /// Forgets what is staged; returns how many moves there were.
     pub fn discard_moves(&mut self) -> usize {
+        self.coming = None;
         self.staged.clear()
     }
 
@@ -141,7 +144,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     fn commit(&mut self, goals: Goals<'_, G>) -> Result<CommitReport> {
-        let moved = if self.staged.are_moves() { self.moved(goals)? } else { None };
+        let moved = if self.staged.are_moves() && self.coming.is_none() { self.moved(goals)? } else { None };
         let mut report = match moved {
             Some(report) => report,
             None => self.rebuilt(goals)?,
@@ -229,7 +232,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
 
     /// Builds another triangulation, with all that is staged, which takes the place of the present one.
     fn rebuilt(&mut self, goals: Goals<'_, G>) -> Result<CommitReport> {
-        let lattice = self.staged.lattice().unwrap_or(&self.lattice);
+        let lattice = self.coming.as_ref().unwrap_or(&self.lattice);
         let (n_before, n_ids) = (self.inside.images.n_vertices(), self.id_count());
         let mut positions = Vec::new();
         memory::reserve_exact(&mut positions, n_ids)?;
@@ -268,7 +271,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         }
         self.inside = inside;
         self.wraps = wraps;
-        if let Some(lattice) = self.staged.take_lattice() {
+        if let Some(lattice) = self.coming.take() {
             self.lattice = lattice;
         }
         let mut report = CommitReport::default();

@@ -6,7 +6,7 @@ use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::{Algorithm, CommitReport};
 use crate::periodic::cells::{PeriodicCells, PeriodicView};
-use crate::periodic::lattice::{HOME, Shift};
+use crate::periodic::lattice::Shift;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
 impl<G: Dimension> PeriodicTriangulation<G> {

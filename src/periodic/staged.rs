@@ -4,9 +4,8 @@ use crate::delaunay::Dimension;
 use crate::error::{Error, Result, StagedEdit};
 use crate::ids::VertexId;
 use crate::machine::memory;
-use crate::periodic::lattice::Lattice;
 
-/// Moves, insertions and removals that are staged, and a lattice.
+/// Moves, insertions and removals that are staged.
 #[derive(Debug)]
 pub(super) struct Staged<G: Dimension> {
     /// Vertices, and where they go.
@@ -15,7 +14,6 @@ pub(super) struct Staged<G: Dimension> {
     marks: Vec<u8>,
     insertions: Vec<G::Point>,
     removals: Vec<VertexId>,
-    lattice: Option<Box<Lattice<G>>>,
 }
 
 const MOVES: u8 = 1;
@@ -24,7 +22,7 @@ const GOES: u8 = 2;
 impl<G: Dimension> Default for Staged<G> {
     fn default() -> Self {
         let (moves, marks, insertions, removals) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Staged { moves, marks, insertions, removals, lattice: None }
+        Staged { moves, marks, insertions, removals }
     }
 }
 
@@ -41,21 +39,9 @@ impl<G: Dimension> Staged<G> {
         &self.removals
     }
 
-    pub(super) fn lattice(&self) -> Option<&Lattice<G>> {
-        self.lattice.as_deref()
-    }
-
-    pub(super) fn take_lattice(&mut self) -> Option<Box<Lattice<G>>> {
-        self.lattice.take()
-    }
-
-    pub(super) fn put_lattice(&mut self, lattice: Option<Box<Lattice<G>>>) {
-        self.lattice = lattice;
-    }
-
     /// Whether nothing but moves is staged.
     pub(super) fn are_moves(&self) -> bool {
-        self.insertions.is_empty() && self.removals.is_empty() && self.lattice.is_none()
+        self.insertions.is_empty() && self.removals.is_empty()
     }
 
     pub(super) fn goes(&self, vertex: VertexId) -> bool {
@@ -68,7 +54,8 @@ impl<G: Dimension> Staged<G> {
 
     fn make_room(&mut self, n_vertices: usize) -> Result<()> {
         if self.marks.len() < n_vertices {
-            memory::lengthen(&mut self.marks, n_vertices - self.marks.len(), 0)?;
+            let more = n_vertices - self.marks.len();
+            memory::lengthen(&mut self.marks, more, 0)?;
         }
         Ok(())
     }
@@ -152,7 +139,6 @@ impl<G: Dimension> Staged<G> {
         self.insertions.clear();
         self.removals.clear();
         self.marks.clear();
-        self.lattice = None;
         n
     }
 

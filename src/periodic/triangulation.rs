@@ -36,6 +36,8 @@ pub struct PeriodicTriangulation<G: Dimension> {
     /// By vertex, the translation by which it went from where it was given to home: it is where it was given less that.
     pub(super) wraps: Vec<[i64; 3]>,
     pub(super) staged: Staged<G>,
+    /// The lattice that is staged.
+    pub(super) coming: Option<Box<Lattice<G>>>,
     /// Of all commits.
     pub(super) statistics: CommitReport,
     pub(super) cells: OnceLock<PeriodicCells<G>>,
@@ -82,7 +84,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let mut statistics = CommitReport::default();
         statistics.coincident = inside.coincident() as u64;
         let (staged, cells) = (Staged::default(), OnceLock::new());
-        Ok(PeriodicTriangulation { lattice, inside, wraps, staged, statistics, cells })
+        Ok(PeriodicTriangulation { lattice, inside, wraps, staged, coming: None, statistics, cells })
     }
 }
 

@@ -27,8 +27,14 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory), [`Error::Prepared`](crate::Error::Prepared).
     pub fn try_clone(&self, monitor: Option<Monitor>) -> Result<Self> {
+        self.reject_prepared()?;
+        self.duplicate(monitor)
+    }
+
+    /// A copy, of the prepared state if there is one, which is published in the copy.
+    fn duplicate(&self, monitor: Option<Monitor>) -> Result<Self> {
         let Options { algorithm, threads, coincidence, passing, .. } = self.options;
         let mut mesh = self.mesh.copied()?;
         mesh.kernel.pace_mut().set_monitor(monitor);
@@ -56,7 +62,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// A copy without segments: the cells are the Delaunay triangulation of the vertices, which have the ids that they have
     /// here.
     pub(in crate::motion) fn without_segments(&self) -> Result<Self> {
-        let mut copy = self.try_clone(None)?;
+        let mut copy = self.duplicate(None)?;
         if let Some(segments) = copy.mesh.segments.take() {
             copy.mesh.kernel.put_back_replaced(segments.replaced())?;
             copy.mesh.kernel.exchange_required(&mut Vec::new());

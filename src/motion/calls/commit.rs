@@ -33,9 +33,10 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// # Errors
     /// [`Error::Cancelled`], [`Error::Coincident`] if the options reject that, [`Error::TooManyCells`],
-    /// [`Error::OutOfMemory`]; [`Error::Conflict`] of segments, and [`Error::Passing`] if the options refuse that, which is
+    /// [`Error::OutOfMemory`]; [`Error::Prepared`]; [`Error::Conflict`] of segments, and [`Error::Passing`] if the options refuse that, which is
     /// looked at first.
     pub fn commit_timestamp(&mut self) -> Result<CommitReport> {
+        self.reject_prepared()?;
         self.heed_staged_passings()?;
         let mut staging = std::mem::take(&mut self.staging);
         let done = self.commit(&mut staging.moves(self.mesh.n_present));
@@ -48,19 +49,8 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Makes these moves, and the staged edits, the next timestamp.
     fn commit(&mut self, moves: &mut Moves<'_, G>) -> Result<CommitReport> {
-        let mut report = CommitReport::default();
         let before = self.mesh.evaluations();
-        let advanced = if self.rests_beside_segments(moves) {
-            self.mesh.begin(Aim::Rest)?;
-            self.mesh.reject_coincidence(self.options.coincidence)
-        } else {
-            self.mesh.begin(Aim::Commit)?;
-            self.edit_and_advance(moves, &mut report).and_then(|()| self.mesh.lay_segments())
-        };
-        if let Err(error) = advanced.and_then(|()| self.mesh.views.prepare(&self.mesh.kernel)) {
-            self.undo();
-            return Err(error);
-        }
+        let mut report = self.reach(moves)?;
         self.mesh.publish();
         self.enter_evaluations(&mut report, before);
         self.end_edits();
@@ -78,12 +68,31 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(report)
     }
 
+    /// Begins a change and brings all to where these moves, and the staged edits, have it; then nothing can fail. On an
+    /// error the change has been undone.
+    pub(in crate::motion) fn reach(&mut self, moves: &mut Moves<'_, G>) -> Result<CommitReport> {
+        let mut report = CommitReport::default();
+        let advanced = if self.rests_beside_segments(moves) {
+            self.mesh.begin(Aim::Rest)?;
+            self.mesh.reject_coincidence(self.options.coincidence)
+        } else {
+            self.mesh.begin(Aim::Commit)?;
+            self.edit_and_advance(moves, &mut report).and_then(|()| self.mesh.lay_segments())
+        };
+        if let Err(error) = advanced.and_then(|()| self.mesh.views.prepare(&self.mesh.kernel)) {
+            self.undo();
+            return Err(error);
+        }
+        Ok(report)
+    }
+
     /// Whether segments would be in the way of a commit of what is staged: the commit is made and taken back. What is
     /// staged stays so, and the [conflicts](Self::conflicts_of_segments) can be asked for. Without segments, in force or
     /// staged, nothing is looked at.
     ///
     /// # Errors
-    /// Those of [`commit_timestamp`](Self::commit_timestamp).
+    /// Those of [`commit_timestamp`](Self::commit_timestamp), but [`Error::Prepared`]: what has been prepared is where
+    /// the check begins.
     pub fn check_staged(&mut self) -> Result<()> {
         if self.mesh.segments.is_none() {
             return Ok(());
@@ -141,6 +150,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::DuplicateMove`] if moves are staged; otherwise those of both.
     pub fn commit_positions(&mut self, positions: &[G::Point]) -> Result<CommitReport> {
+        self.reject_prepared()?;
         if let Some(vertex) = self.staging.first_staged() {
             return Err(Error::DuplicateMove { argument: "positions", index: vertex.index(), vertex });
         }

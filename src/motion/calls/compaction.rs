@@ -40,8 +40,10 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory): for the time of the call there are two triangulations.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory): for the time of the call there are two triangulations;
+    /// [`Error::Prepared`](crate::Error::Prepared).
     pub fn compact(&mut self) -> Result<Vec<VertexId>> {
+        self.reject_prepared()?;
         let ids = self.dense_ids()?;
         let n = self.mesh.n_present + self.staged_edits().0;
         let mut site_of = Vec::new();

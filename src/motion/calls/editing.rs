@@ -6,7 +6,7 @@
 //! transaction.
 
 use crate::delaunay::order::{Keyed, hilbert_order};
-use crate::delaunay::{Delaunay, Dimension, Insertion};
+use crate::delaunay::{Delaunay, Dimension, Insertion, Keys};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
@@ -106,6 +106,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Forgets what waits. Ids that were given last are given back.
     pub(in crate::motion) fn discard_edits(&mut self) {
         let n_known = self.edits.n_known();
+        if self.edits.has_insertions() && !self.edits.had_keys() {
+            *self.mesh.kernel.keys_mut() = Keys::default();
+        }
         for id in self.edits.forget_insertions() {
             if id.index() >= n_known && id.index() + 1 == self.mesh.site_of.len() {
                 self.mesh.site_of.pop();

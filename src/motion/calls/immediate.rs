@@ -29,7 +29,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::NoSuchVertex`], [`Error::RemovedVertex`];
     /// [`Error::DuplicateMove`] if a move of the vertex is staged; [`Error::Coincident`] if the options reject that,
-    /// [`Error::Passing`] if they refuse that.
+    /// [`Error::Passing`] if they refuse that; [`Error::Prepared`].
     #[inline]
     pub fn relocate_vertex(&mut self, vertex: VertexId, position: &G::Point) -> Result<()> {
         if self.relocate_within_tolerance(vertex, position) {
@@ -41,6 +41,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// The long way of [`relocate_vertex`](Self::relocate_vertex), kept out of the short one's registers.
     #[inline(never)]
     fn relocate_checked(&mut self, vertex: VertexId, position: &G::Point) -> Result<()> {
+        self.reject_prepared()?;
         let s = self.present_site("vertex", 0, vertex)?;
         let q = check_position::<G>("position", 0, position)?;
         if self.staging.is_staged(vertex) {
@@ -85,7 +86,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// # Errors
     /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::TooManyCells`],
-    /// [`Error::OutOfMemory`]; [`Error::Coincident`] if the options reject that.
+    /// [`Error::OutOfMemory`]; [`Error::Coincident`] if the options reject that; [`Error::Prepared`].
     pub fn insert_vertex(&mut self, position: &G::Point) -> Result<VertexId> {
         self.insert_coming(position, Coming::Ids)
     }
@@ -99,6 +100,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     fn insert_coming(&mut self, position: &G::Point, key: Coming<'_>) -> Result<VertexId> {
+        self.reject_prepared()?;
         let q = check_position::<G>("position", 0, position)?;
         if self.mesh.site_of.len() >= MAX_VERTICES {
             return Err(Error::TooManyVertices { given: self.mesh.site_of.len() + 1, limit: MAX_VERTICES });
@@ -128,7 +130,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         self.mesh.n_present += 1;
         self.staging.grow(self.mesh.site_of.len());
-        self.edits.know(self.mesh.site_of.len(), true);
+        // Those of staged insertions are forgotten with them.
+        let has_keys = self.edits.had_keys() || matches!(key, Coming::Keys(_));
+        self.edits.know(self.mesh.site_of.len(), has_keys);
         self.enter_evaluations(&mut report, before);
         self.count(report);
         Ok(id)
@@ -166,8 +170,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`], [`Error::OutOfMemory`].
+    /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`], [`Error::OutOfMemory`], [`Error::Prepared`].
     pub fn remove_vertex(&mut self, vertex: VertexId) -> Result<()> {
+        self.reject_prepared()?;
         self.present_site("vertex", 0, vertex)?;
         self.staging.list()?;
         let before = self.mesh.evaluations();

@@ -87,7 +87,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// each. With keys the vertices have these.
     ///
     /// Where there have been segments, or vertices that the library has made, ids are not given again, as these are known
-    /// by them for longer than they are present.
+    /// by them for longer than they are present. Nor are those of vertices that have been removed for the timestamp that is
+    /// being prepared.
     ///
     /// Cost: a pass over all ids.
     ///
@@ -141,9 +142,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         let has_segments = self.mesh.segments.as_ref().is_some_and(|segments| segments.n_ids() > 0);
         let has_made = self.made.as_ref().is_some_and(|made| !made.vertices().is_empty());
         if from == Ids::Free && !has_segments && !has_made {
-            let free =
-                VertexId::range(0..n_ids).filter(|&v| self.mesh.is_absent(v) && !self.edits.is_coming(v));
-            ids.extend(free.take(n));
+            let is_free = |v| self.mesh.is_absent(v) && !self.edits.is_coming(v) && !self.mesh.is_withheld(v);
+            ids.extend(VertexId::range(0..n_ids).filter(|&v| is_free(v)).take(n));
         }
         let n_new = n - ids.len();
         if n_new > MAX_VERTICES - n_ids {
@@ -168,9 +168,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         for (index, position) in positions.iter().enumerate() {
             check_position::<G>("positions", index, position)?;
         }
+        let had_keys = self.has_keys();
         // What may fail comes before: a triangulation has keys or none.
         self.give_keys(keys, ids, n_ids)?;
-        self.edits.know(self.mesh.site_of.len(), false);
+        if !self.edits.has_insertions() {
+            self.edits.know(self.mesh.site_of.len(), had_keys);
+        }
         for (&id, position) in ids.iter().zip(positions) {
             let checked = check_position::<G>("positions", 0, position)?;
             self.edits.insert(id, checked);

@@ -9,6 +9,7 @@ pub(in crate::motion) mod immediate;
 pub(in crate::motion) mod keys;
 pub(in crate::motion) mod moves;
 pub(in crate::motion) mod passings;
+pub(in crate::motion) mod preparing;
 pub(in crate::motion) mod refining;
 pub(in crate::motion) mod segments;
 pub(in crate::motion) mod splitting;

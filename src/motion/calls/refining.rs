@@ -61,6 +61,7 @@ impl MovingTriangulation<Plane> {
         options: &RefineOptions,
         mask: &[u8],
     ) -> Result<QualityReport> {
+        self.reject_prepared()?;
         self.check_quality(quality, mask)?;
         let asked = asked(quality)?;
         let question = self.question(&asked, quality, mask);
@@ -156,6 +157,7 @@ impl MovingTriangulation<Plane> {
         options: &CoarsenOptions,
         mask: &[u8],
     ) -> Result<QualityReport> {
+        self.reject_prepared()?;
         self.check_quality(quality, mask)?;
         check_coarsening(options)?;
         let mut report = QualityReport::default();

@@ -101,6 +101,8 @@ pub(in crate::motion) struct Regions<G: Dimension> {
     kept: Option<Box<Kept<G>>>,
     /// Regions that are no longer valid: their memory serves the next ones of that kind.
     spare: Option<Box<Kept<G>>>,
+    /// Regions that are valid, but not to be used: no vertex may move alone while a timestamp is prepared.
+    withheld: Option<Box<Kept<G>>>,
     /// The kernel's record of changed cells, or its memory.
     changed: Vec<Slot>,
     /// Vertices that have been relocated during the change under way.
@@ -142,6 +144,18 @@ impl<G: Dimension> Regions<G> {
     pub(in crate::motion) fn invalidate(&mut self) {
         if let Some(kept) = self.kept.take() {
             self.spare = Some(kept);
+        }
+    }
+
+    /// Withholds what is kept, until it is [released](Self::release).
+    pub(in crate::motion) fn withhold(&mut self) {
+        self.withheld = self.kept.take();
+    }
+
+    /// What has been withheld is kept again.
+    pub(in crate::motion) fn release(&mut self) {
+        if let Some(kept) = self.withheld.take() {
+            self.kept = Some(kept);
         }
     }
 
@@ -261,6 +275,7 @@ impl<G: Dimension> Regions<G> {
         let bytes_of = |kept| memory::bytes_of_made(kept, |kept: &Kept<G>| kept.store().memory_bytes());
         bytes_of(&self.kept)
             + bytes_of(&self.spare)
+            + bytes_of(&self.withheld)
             + memory::bytes_of(&self.changed)
             + memory::bytes_of(&self.relocated)
     }

@@ -75,8 +75,10 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory); then nothing has been taken.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory), [`Error::Prepared`](crate::Error::Prepared); then nothing has
+    /// been taken.
     pub fn take_changes(&mut self) -> Result<Changes<'_, G::Vertices>> {
+        self.reject_prepared()?;
         let cells = self.mesh.views.cells_mut(&self.mesh.kernel)?;
         cells.take(memory::made(&mut self.taken)?, self.mesh.site_of.len())?;
         let mut taken = memory::take_made(&mut self.taken)?;

@@ -13,6 +13,7 @@
 
 mod comparing;
 mod gluing;
+mod journal;
 mod renumbering;
 
 use crate::complex::{Corners, Facet};
@@ -20,6 +21,7 @@ use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
+use crate::motion::state::cells::journal::Journal;
 use crate::motion::state::changes::{Taken, Tracker, renumber};
 use crate::motion::state::marks::{Bits, Marks};
 use crate::motion::state::matching::Matcher;
@@ -68,6 +70,8 @@ pub(in crate::motion) struct Cells<G: Dimension> {
     /// What has changed since the program last took the changes, if it ever did.
     since_taken: Option<Tracker<G::Vertices>>,
     scratch: Scratch<G::Vertices>,
+    /// What the arrays were before they were brought up to date, where that may be undone.
+    journal: Option<Box<Journal<G>>>,
 }
 
 /// A slot that holds another cell than before.
@@ -144,6 +148,7 @@ impl<G: Dimension> Default for Cells<G> {
             is_settled: Bits::default(),
             since_taken: None,
             scratch: Scratch::default(),
+            journal: None,
         }
     }
 }
@@ -241,6 +246,9 @@ impl<G: Dimension> Cells<G> {
         scratch.found.clear();
         scratch.moved.clear();
         scratch.turned.clear();
+        if self.journal.is_some() {
+            self.note_before(kernel, dirty)?;
+        }
         if self.corners.is_empty() {
             return self.fill(kernel);
         }
@@ -255,7 +263,13 @@ impl<G: Dimension> Cells<G> {
             None => self.compare_all(kernel, scratch)?,
         }
         self.reserve(kernel, scratch)?;
+        if let (Some(dirty), true) = (dirty, self.journal.is_some()) {
+            self.make_room_for_sides(dirty.as_slice().len() + scratch.lost.len())?;
+        }
         self.renumber(kernel, scratch);
+        if let (Some(dirty), true) = (dirty, self.journal.is_some()) {
+            self.note_sides(kernel, dirty, &scratch.moved);
+        }
         match dirty {
             Some(dirty) => self.glue_slots(kernel, dirty, &scratch.moved),
             None => self.glue_all(kernel),
@@ -283,7 +297,8 @@ impl<G: Dimension> Cells<G> {
         let (n_lost, n_found) = (scratch.lost.len(), scratch.found.len());
         memory::reserve(&mut scratch.moved, n_lost)?;
         if let Some(tracker) = &mut self.since_taken {
-            tracker.reserve(n_lost, scratch.turned.len(), n_lost + n_found, n)?;
+            let may_shorten = self.journal.is_none();
+            tracker.reserve(n_lost, scratch.turned.len(), n_lost + n_found, n, may_shorten)?;
         }
         Ok(())
     }
@@ -360,7 +375,13 @@ impl<G: Dimension> Cells<G> {
 
     /// The rows, in place of which there are copies now.
     pub(in crate::motion) fn hand_over(&mut self) -> Result<OwnedCells<G>> {
-        let (corners, neighbours) = (memory::copy_of(&self.corners)?, memory::copy_of(&self.neighbours)?);
+        let (mut corners, mut neighbours) =
+            (memory::copy_of(&self.corners)?, memory::copy_of(&self.neighbours)?);
+        if self.journal.is_some() {
+            // What the arrays were before may be longer.
+            memory::reserve_exact(&mut corners, self.corners.capacity() - self.corners.len())?;
+            memory::reserve_exact(&mut neighbours, self.neighbours.capacity() - self.neighbours.len())?;
+        }
         Ok(OwnedCells {
             corners: std::mem::replace(&mut self.corners, corners),
             neighbours: std::mem::replace(&mut self.neighbours, neighbours),
@@ -376,5 +397,6 @@ impl<G: Dimension> Cells<G> {
             + self.is_settled.memory_bytes()
             + self.scratch.memory_bytes()
             + self.since_taken.as_ref().map_or(0, Tracker::memory_bytes)
+            + memory::bytes_of_made(&self.journal, Journal::memory_bytes)
     }
 }

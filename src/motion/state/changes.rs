@@ -33,6 +33,16 @@ pub(in crate::motion) struct Tracker<C> {
     turned: Vec<Turned<C>>,
 }
 
+/// Lengths and counts of a tracker, to which it can go back.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::motion) struct Lengths {
+    n_cells: usize,
+    n_removed: usize,
+    n_turned: usize,
+    n_refreshed: u32,
+    n_renumbered: usize,
+}
+
 /// A cell of the base that has been turned over.
 #[derive(Clone, Copy, Debug)]
 struct Turned<C> {
@@ -61,15 +71,17 @@ impl<C: Corners<VertexId>> Tracker<C> {
         })
     }
 
-    /// Makes room for these numbers of removals, cells turned over, touched indices, and cells.
+    /// Makes room for these numbers of removals, cells turned over, touched indices, and cells. A long list of cells turned
+    /// over is shortened if it `may` be.
     pub(in crate::motion) fn reserve(
         &mut self,
         n_removed: usize,
         n_turned: usize,
         n_touched: usize,
         n_cells: usize,
+        may_shorten: bool,
     ) -> Result<()> {
-        if self.turned.len() > self.origin.len() {
+        if may_shorten && self.turned.len() > self.origin.len() {
             keep_first_turns(&mut self.turned);
         }
         memory::reserve(&mut self.turned, n_turned)?;
@@ -78,6 +90,36 @@ impl<C: Corners<VertexId>> Tracker<C> {
         self.touched.reserve(n_touched, n_cells.max(self.origin.len()))?;
         let more = n_cells.saturating_sub(self.origin.len());
         memory::reserve(&mut self.origin, more)
+    }
+
+    /// The lengths and counts of now.
+    pub(in crate::motion) fn lengths(&self) -> Lengths {
+        Lengths {
+            n_cells: self.origin.len(),
+            n_removed: self.removed.len(),
+            n_turned: self.turned.len(),
+            n_refreshed: self.n_refreshed,
+            n_renumbered: self.n_renumbered,
+        }
+    }
+
+    /// The index at the base of the cell of an index, if there is a cell.
+    pub(in crate::motion) fn origin(&self, index: CellId) -> CellId {
+        self.origin.get(index.index()).copied().unwrap_or(CellId::NONE)
+    }
+
+    /// Goes back to when the lengths were these; what has changed since of origins has to be put back.
+    pub(in crate::motion) fn go_back(&mut self, lengths: Lengths) {
+        // There is room, as there was once.
+        self.origin.resize(lengths.n_cells, CellId::NONE);
+        self.removed.truncate(lengths.n_removed);
+        self.turned.truncate(lengths.n_turned);
+        (self.n_refreshed, self.n_renumbered) = (lengths.n_refreshed, lengths.n_renumbered);
+    }
+
+    /// Puts an origin back. That the index is touched stays, which says nothing.
+    pub(in crate::motion) fn put_back(&mut self, index: CellId, origin: CellId) {
+        self.origin[index] = origin;
     }
 
     pub(in crate::motion) fn remove(&mut self, index: CellId, corners: C) {

@@ -12,6 +12,8 @@ pub(in crate::motion) struct Edits<G: Dimension> {
     /// How many ids had been given when the first of them was staged, or by calls that insert at once since: no insertion that
     /// is forgotten gives one of these back.
     n_known: usize,
+    /// Whether vertices had keys then.
+    had_keys: bool,
     removals: Vec<VertexId>,
     /// By vertex id, where among the removals it is, [`u32::MAX`] for those that stay; so do ids beyond the end.
     place: Vec<u32>,
@@ -116,11 +118,20 @@ impl<G: Dimension> Edits<G> {
         self.insertions.truncate(n);
     }
 
-    /// Before insertions are staged, or after one has been made at once: so many ids have been given.
-    pub(in crate::motion) fn know(&mut self, n_ids: usize, are_made: bool) {
-        if are_made || self.insertions.is_empty() {
-            self.n_known = n_ids;
-        }
+    /// Before the first insertion is staged, or after one has been made at once: so many ids have been given for good, and
+    /// keys or none.
+    pub(in crate::motion) fn know(&mut self, n_ids: usize, has_keys: bool) {
+        (self.n_known, self.had_keys) = (n_ids, has_keys);
+    }
+
+    /// Whether vertices have keys when all insertions are forgotten.
+    pub(in crate::motion) fn had_keys(&self) -> bool {
+        self.had_keys
+    }
+
+    /// Whether insertions wait.
+    pub(in crate::motion) fn has_insertions(&self) -> bool {
+        !self.insertions.is_empty()
     }
 
     /// How many ids forgotten insertions do not give back.
@@ -164,13 +175,14 @@ impl<G: Dimension> Edits<G> {
             (0..).zip(&removals).for_each(|(k, v)| place[v.index()] = k);
         }
         let n_known = ids.iter().take(self.n_known).filter(|id| **id != VertexId::NONE).count();
-        Ok(Edits { insertions, n_known, removals, place })
+        Ok(Edits { insertions, n_known, had_keys: self.had_keys, removals, place })
     }
 
     pub(in crate::motion) fn copied(&self) -> Result<Self> {
         Ok(Edits {
             insertions: memory::copy_of(&self.insertions)?,
             n_known: self.n_known,
+            had_keys: self.had_keys,
             removals: memory::copy_of(&self.removals)?,
             place: memory::copy_of(&self.place)?,
         })

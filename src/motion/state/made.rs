@@ -101,6 +101,17 @@ impl Made {
         self.coming.clear();
     }
 
+    /// How many pieces there are, staged ones not counted.
+    pub(in crate::motion) fn n_pieces(&self) -> usize {
+        self.pieces.len()
+    }
+
+    /// All but the first pieces have not been made.
+    pub(in crate::motion) fn truncate_pieces(&mut self, n: usize) {
+        self.pieces.truncate(n);
+        self.coming.clear();
+    }
+
     /// What was staged is made. Needs no memory.
     pub(in crate::motion) fn end_staging(&mut self) {
         self.pieces.append(&mut self.coming);

@@ -126,6 +126,13 @@ impl<I: Id> Marks<I> {
         self.list = list;
     }
 
+    /// Takes out all but those of the numbers that came first.
+    pub(in crate::motion) fn truncate(&mut self, n: usize) {
+        for k in self.list.drain(n.min(self.list.len())..) {
+            self.bits.remove(k);
+        }
+    }
+
     pub(in crate::motion) fn clear(&mut self) {
         for k in self.list.drain(..) {
             self.bits.clear_around(k);

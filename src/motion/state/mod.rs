@@ -19,6 +19,7 @@ pub(in crate::motion) mod origins;
 pub(in crate::motion) mod passings;
 pub(in crate::motion) mod places;
 pub(in crate::motion) mod repair;
+pub(in crate::motion) mod rounds;
 pub(in crate::motion) mod segments;
 pub(in crate::motion) mod staging;
 pub(in crate::motion) mod transaction;

@@ -28,7 +28,52 @@ pub(in crate::motion) struct Origins<G: Dimension> {
     known: Known,
 }
 
+/// Puts all vertices back where they were. Ids that have been given since have no site.
+fn put_all_back<G: Dimension>(positions: &[G::Point], kernel: &mut Delaunay<G>, site_of: &[SiteId]) {
+    for (&s, p) in std::iter::zip(site_of, positions).filter(|&(&s, _)| s != SiteId::NONE) {
+        kernel.set_point(s, *p);
+    }
+}
+
+/// The origins of a change that has been set aside.
+#[derive(Debug)]
+pub(in crate::motion) enum KeptOrigins<G: Dimension> {
+    Listed(Vec<(VertexId, G::Point)>),
+    All(Vec<G::Point>),
+}
+
+impl<G: Dimension> KeptOrigins<G> {
+    /// Puts all vertices that have moved back where they were. Each is at the site that it had then.
+    pub(in crate::motion) fn put_back(&self, kernel: &mut Delaunay<G>, site_of: &[SiteId]) {
+        match self {
+            KeptOrigins::All(positions) => put_all_back(positions, kernel, site_of),
+            KeptOrigins::Listed(listed) => {
+                listed.iter().for_each(|&(v, p)| kernel.set_point(site_of[v], p));
+            }
+        }
+    }
+
+    pub(in crate::motion) fn memory_bytes(&self) -> usize {
+        match self {
+            KeptOrigins::All(positions) => memory::bytes_of(positions),
+            KeptOrigins::Listed(listed) => memory::bytes_of(listed),
+        }
+    }
+}
+
 impl<G: Dimension> Origins<G> {
+    /// Sets the origins of a change aside: of few vertices they are copied, at the cost of these.
+    pub(in crate::motion) fn set_aside(&mut self) -> Result<KeptOrigins<G>> {
+        if self.known == Known::All {
+            self.begin();
+            return Ok(KeptOrigins::All(std::mem::take(&mut self.positions)));
+        }
+        let mut listed = Vec::new();
+        memory::collect(&mut listed, self.listed.iter().map(|&v| (v, self.positions[v])))?;
+        self.begin();
+        Ok(KeptOrigins::Listed(listed))
+    }
+
     /// A change begins: nothing has moved.
     pub(in crate::motion) fn begin(&mut self) {
         self.listed.clear();
@@ -98,9 +143,7 @@ impl<G: Dimension> Origins<G> {
     /// Puts all vertices that have moved back where they were. Each is at the site that it had then.
     pub(in crate::motion) fn put_back(&self, kernel: &mut Delaunay<G>, site_of: &[SiteId]) {
         match self.known {
-            Known::All => {
-                std::iter::zip(site_of, &self.positions).for_each(|(&s, p)| kernel.set_point(s, *p));
-            }
+            Known::All => put_all_back(&self.positions, kernel, site_of),
             Known::Listed => {
                 self.listed.iter().for_each(|&v| kernel.set_point(site_of[v], self.positions[v]));
             }

@@ -4,7 +4,7 @@ use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
-use crate::motion::state::origins::Origins;
+use crate::motion::state::origins::{KeptOrigins, Origins};
 
 /// The site at which a vertex was, and what it has done since.
 #[derive(Clone, Copy, Debug)]
@@ -43,6 +43,20 @@ pub(in crate::motion) struct Transaction<G: Dimension> {
     has_rebuilt: bool,
     /// Whether the cells are worth sorting when all is done.
     wants_order: bool,
+}
+
+/// What undoes a change that has been set aside, beside the kernel's part.
+#[derive(Debug)]
+pub(in crate::motion) struct KeptTransaction<G: Dimension> {
+    vertices: Vec<VertexBefore>,
+    origins: KeptOrigins<G>,
+    before: Counts,
+}
+
+impl<G: Dimension> KeptTransaction<G> {
+    pub(in crate::motion) fn memory_bytes(&self) -> usize {
+        self.vertices.capacity() * size_of::<VertexBefore>() + self.origins.memory_bytes()
+    }
 }
 
 impl<G: Dimension> Transaction<G> {
@@ -112,10 +126,30 @@ impl<G: Dimension> Transaction<G> {
         self.wants_order
     }
 
-    /// A new kernel is in place: nothing can be undone, and nothing can fail.
-    pub(in crate::motion) fn adopt(&mut self) {
+    /// A new kernel is in place: nothing can fail. Unless the old one is kept, nothing can be undone.
+    pub(in crate::motion) fn adopt(&mut self, is_old_kept: bool) {
         self.has_rebuilt = true;
-        self.vertices.clear();
+        if !is_old_kept {
+            self.vertices.clear();
+        }
+    }
+
+    /// The old kernel is back in place, as it was when the new one took it.
+    pub(in crate::motion) fn reject(&mut self) {
+        self.has_rebuilt = false;
+    }
+
+    /// Sets a change aside that has been made.
+    pub(in crate::motion) fn set_aside(&mut self) -> Result<KeptTransaction<G>> {
+        let origins = self.origins.set_aside()?;
+        Ok(KeptTransaction { vertices: std::mem::take(&mut self.vertices), origins, before: self.before })
+    }
+
+    /// Takes up a change that was set aside, to be undone. Its origins are to be put back after that.
+    pub(in crate::motion) fn take_up(&mut self, kept: KeptTransaction<G>) -> KeptOrigins<G> {
+        self.begin(kept.before);
+        self.vertices = kept.vertices;
+        kept.origins
     }
 
     pub(in crate::motion) fn memory_bytes(&self) -> usize {

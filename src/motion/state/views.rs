@@ -32,11 +32,51 @@ struct Behind<G: Dimension> {
     dirty: Marks<Slot>,
     /// Whether any slot may have changed.
     are_all: bool,
+    /// What there was before the rounds of a timestamp that is being prepared.
+    before: Option<Box<Before>>,
+}
+
+/// What there was before rounds that may be taken back.
+#[derive(Debug)]
+struct Before {
+    /// Whether there were arrays.
+    existed: bool,
+    /// Whether they were up to date.
+    were_current: bool,
+    were_all: bool,
+    /// How many slots were dirty: the first of those that are, or were when the arrays were first brought up to date.
+    n_dirty: usize,
+    /// The slots that were dirty then, if the arrays have been brought up to date since.
+    dirty: Option<Marks<Slot>>,
 }
 
 impl<G: Dimension> Default for Behind<G> {
     fn default() -> Self {
-        Behind { cells: None, dirty: Marks::default(), are_all: true }
+        Behind { cells: None, dirty: Marks::default(), are_all: true, before: None }
+    }
+}
+
+impl<G: Dimension> Behind<G> {
+    /// The arrays have been brought up to date: what was dirty before the rounds is kept, if there are rounds.
+    fn keep_first_dirty(&mut self) {
+        if let Some(before) = &mut self.before
+            && before.dirty.is_none()
+        {
+            let mut dirty = Marks::default();
+            if before.n_dirty > 0 {
+                std::mem::swap(&mut dirty, &mut self.dirty);
+                dirty.truncate(before.n_dirty);
+            }
+            before.dirty = Some(dirty);
+        }
+    }
+
+    /// All slots may have changed, and none is listed unless rounds may be taken back.
+    fn forget_list(&mut self) {
+        if self.before.as_ref().is_none_or(|before| before.dirty.is_some()) {
+            self.dirty.clear();
+        }
+        self.are_all = true;
     }
 }
 
@@ -71,6 +111,12 @@ impl<G: Dimension> Views<G> {
             Some(cells) => cells,
             None => memory::boxed(Cells::default())?,
         };
+        if behind.before.as_ref().is_some_and(|before| before.existed)
+            && let Err(error) = cells.keep_journal()
+        {
+            behind.cells = Some(cells);
+            return Err(error);
+        }
         let were_all = std::mem::replace(&mut behind.are_all, true);
         let dirty = if were_all { None } else { Some(&behind.dirty) };
         let done = cells.refresh(kernel, dirty);
@@ -79,6 +125,7 @@ impl<G: Dimension> Views<G> {
             behind.are_all = were_all;
             return Err(error);
         }
+        behind.keep_first_dirty();
         behind.dirty.clear();
         behind.are_all = false;
         Ok(self.current.get_or_init(|| cells))
@@ -135,8 +182,7 @@ impl<G: Dimension> Views<G> {
             return;
         }
         if are_most(behind.dirty.as_slice().len() + rows.len(), n_slots) {
-            behind.dirty.clear();
-            behind.are_all = true;
+            behind.forget_list();
             return;
         }
         for row in rows {
@@ -147,9 +193,57 @@ impl<G: Dimension> Views<G> {
     /// All cells may have changed.
     pub(in crate::motion) fn follow_all(&mut self) {
         self.fall_behind();
+        self.behind().forget_list();
+    }
+
+    /// Rounds that may be taken back begin.
+    pub(in crate::motion) fn open_rounds(&mut self) -> Result<()> {
+        let (existed, were_current) = (self.exist(), self.current.get().is_some());
         let behind = self.behind();
-        behind.dirty.clear();
-        behind.are_all = true;
+        let n_dirty = behind.dirty.as_slice().len();
+        let before = Before { existed, were_current, were_all: behind.are_all, n_dirty, dirty: None };
+        behind.before = Some(memory::boxed(before)?);
+        Ok(())
+    }
+
+    /// No round is taken back any more.
+    pub(in crate::motion) fn end_rounds(&mut self) {
+        if let Some(cells) = self.current.get_mut() {
+            cells.end_journal();
+        }
+        let behind = self.behind();
+        behind.before = None;
+        if behind.are_all {
+            behind.dirty.clear();
+        }
+        if let Some(cells) = &mut behind.cells {
+            cells.end_journal();
+        }
+    }
+
+    /// All rounds have been taken back: puts the arrays back to what they were. Needs no memory.
+    pub(in crate::motion) fn withdraw_rounds(&mut self) {
+        self.fall_behind();
+        let behind = self.behind();
+        let Some(before) = behind.before.take() else { return };
+        let Before { existed, were_current, were_all, n_dirty, dirty } = *before;
+        match dirty {
+            // Without entries nothing but its memory differs.
+            Some(_) if n_dirty == 0 => behind.dirty.clear(),
+            Some(dirty) => behind.dirty = dirty,
+            None => behind.dirty.truncate(n_dirty),
+        }
+        behind.are_all = were_all;
+        if !existed {
+            behind.cells = None;
+        }
+        let Some(mut cells) = behind.cells.take() else { return };
+        cells.undo_journal();
+        if were_current {
+            self.current = OnceLock::from(cells);
+        } else {
+            behind.cells = Some(cells);
+        }
     }
 
     /// The arrays are not up to date any more.

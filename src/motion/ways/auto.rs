@@ -192,6 +192,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 if self.mesh.kernel.is_disordered(REPLACED_TO_SORT_FIRST) {
                     // So that the next commit sorts the cells.
                     self.regions.invalidate();
+                    self.mesh.want_order_when_published();
                 }
                 return Ok(ended);
             }

@@ -100,6 +100,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let built = is_ready.and_then(|()| {
             let built = self.build(&mut next)?;
             self.mesh.lay_segments_in(&mut next, &built.0)?;
+            self.mesh.make_room_for_former()?;
             Ok(built)
         });
         match built {
@@ -137,13 +138,9 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Puts a new kernel, which is complete, in the place of the present one; unless its sites have the indices from
     /// before, [`find_sites`](crate::motion::state::mesh::Mesh::find_sites) must follow. Cannot fail.
-    pub(in crate::motion) fn adopt(&mut self, mut next: Delaunay<G>, hidden: Hidden, stride: f64) {
-        *next.pace_mut() = std::mem::take(self.mesh.kernel.pace_mut());
-        self.mesh.kernel = next;
-        self.mesh.hidden = hidden;
-        self.mesh.sorted_stride = stride;
+    pub(in crate::motion) fn adopt(&mut self, next: Delaunay<G>, hidden: Hidden, stride: f64) {
+        self.mesh.adopt(next, hidden, stride);
         self.regions.invalidate();
-        self.mesh.transaction.adopt();
     }
 }
 

@@ -331,6 +331,11 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.edits.insert(vertex, position);
             last = Some(vertex);
         }
+        let n_ids = self.mesh.site_of.len();
+        let n_last =
+            insertions.iter().rev().zip(1..=n_ids).take_while(|&(v, k)| v.index() == n_ids - k).count();
+        // Data do not tell whether keys came with the insertions.
+        self.edits.know(n_ids - n_last, self.has_keys());
         if let Some(vertex) = self.first_key_of_none() {
             return Err(Damage::Key { vertex, given: self.mesh.kernel.keys().of(vertex) }.into());
         }

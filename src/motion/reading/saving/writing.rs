@@ -56,8 +56,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Cost: a pass over what is saved.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`], before the first byte; and those of `put`, with which it ends.
+    /// [`Error::OutOfMemory`] and [`Error::Prepared`], before the first byte; and those of `put`, with which it ends.
     pub fn save<E: From<Error>>(&self, mut put: impl FnMut(&[u8]) -> Result<(), E>) -> Result<(), E> {
+        self.reject_prepared()?;
         let cells = self.cells()?;
         let insertions = self.edits.insertions();
         let mut checksum = crc32fast::Hasher::new();

@@ -91,7 +91,7 @@ impl<G: Dimension> Cells<G> {
         index_of.clear();
         memory::reserve(index_of, n_slots)?;
         if let Some(tracker) = &mut self.since_taken {
-            tracker.reserve(0, 0, n, n)?;
+            tracker.reserve(0, 0, n, n, self.journal.is_none())?;
         }
         // From here on nothing fails.
         if let Some(tracker) = &mut self.since_taken {

@@ -20,6 +20,7 @@ use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::motion::state::hidden::Hidden;
 use crate::motion::state::mesh::Mesh;
+use crate::motion::state::rounds::{Round, Settled};
 use crate::motion::state::segments::Aim;
 use crate::motion::state::transaction::{Counts, Event, VertexBefore};
 
@@ -29,11 +30,17 @@ const REPLACED_TO_SORT: f64 = 2.0;
 impl<G: Dimension> Mesh<G> {
     /// Begins a change.
     pub(in crate::motion) fn begin(&mut self, aim: Aim) -> Result<()> {
+        if self.rounds.is_some() {
+            self.make_room_for_round()?;
+        }
         self.kernel.begin()?;
-        self.transaction.begin(Counts {
-            present: self.n_present,
-            visibilities: self.views.visibilities_mut().shortened_len(self.site_of.len()),
-        });
+        let n_ids = self.site_of.len();
+        let visibilities = match &self.rounds {
+            // Rounds that may be taken back know how many there were.
+            Some(_) => self.views.visibilities().len(),
+            None => self.views.visibilities_mut().shortened_len(n_ids),
+        };
+        self.transaction.begin(Counts { present: self.n_present, visibilities });
         let Some(segments) = &mut self.segments else { return Ok(()) };
         // What segments refuse is undone after all of it has been made.
         let lifted = self.kernel.keep_flat().and_then(|()| segments.lift(&mut self.kernel, aim));
@@ -41,6 +48,37 @@ impl<G: Dimension> Mesh<G> {
             self.undo();
         }
         lifted
+    }
+
+    /// What undoes the last round is set aside, so that another change can be begun, and
+    /// [settled](Self::settle_round) without a failure.
+    fn make_room_for_round(&mut self) -> Result<()> {
+        self.set_round_aside()?;
+        let Some(rounds) = &mut self.rounds else { return Ok(()) };
+        rounds.last = Settled::default();
+        if let Some(segments) = &self.segments {
+            rounds.last.segments = Some(segments.before_settling()?);
+        }
+        Ok(())
+    }
+
+    /// What undoes the last round, if there is one, is set aside.
+    fn set_round_aside(&mut self) -> Result<()> {
+        let Some(rounds) = self.rounds.as_mut().filter(|rounds| rounds.has_last) else { return Ok(()) };
+        memory::reserve(&mut rounds.earlier, 1)?;
+        let has_former = rounds.last.former.is_some();
+        let transaction = self.transaction.set_aside()?;
+        // From here on nothing fails.
+        let kernel = (!has_former).then(|| self.kernel.set_change_aside());
+        let segments = self.segments.as_mut().map(|segments| segments.set_aside());
+        rounds.earlier.push(Round {
+            settled: std::mem::take(&mut rounds.last),
+            kernel,
+            transaction,
+            segments,
+        });
+        rounds.has_last = false;
+        Ok(())
     }
 
     /// What the change is made for.
@@ -87,16 +125,26 @@ impl<G: Dimension> Mesh<G> {
     /// Makes a change visible to programs that read the cells. Cannot fail.
     pub(in crate::motion) fn publish(&mut self) {
         self.n_changes += u64::from(self.has_changed());
-        if self.transaction.has_rebuilt() || self.kernel.has_given_up_cells() {
-            self.views.follow_all();
-        } else {
-            self.views.follow(&self.kernel);
-        }
+        self.show_change();
         self.kernel.end();
         self.transaction.end();
         if let Some(segments) = &mut self.segments {
             segments.keep();
         }
+        self.sort_if_wanted();
+    }
+
+    /// The arrays of cells follow a change.
+    pub(super) fn show_change(&mut self) {
+        if self.transaction.has_rebuilt() || self.kernel.has_given_up_cells() {
+            self.views.follow_all();
+        } else {
+            self.views.follow(&self.kernel);
+        }
+    }
+
+    /// Sorts the cells if the last change has found that they are worth it.
+    pub(super) fn sort_if_wanted(&mut self) {
         if self.transaction.wants_order() {
             // For speed alone: without the memory for it the cells stay as they are.
             let _ = self.sort_cells(REPLACED_TO_SORT);
@@ -104,7 +152,7 @@ impl<G: Dimension> Mesh<G> {
     }
 
     /// Whether a place, a cell or a segment may have changed.
-    fn has_changed(&self) -> bool {
+    pub(super) fn has_changed(&self) -> bool {
         self.transaction.has_rebuilt()
             || self.transaction.has_logged()
             || !self.transaction.origins().are_none()

@@ -5,6 +5,7 @@
 
 mod changing;
 mod coincidence;
+mod rounds;
 mod standing;
 
 use crate::delaunay::{Delaunay, Dimension, Merge};
@@ -16,6 +17,7 @@ use crate::motion::options::CoincidencePolicy;
 use crate::motion::report::Evaluations;
 use crate::motion::state::goals::Moves;
 use crate::motion::state::hidden::Hidden;
+use crate::motion::state::rounds::Rounds;
 use crate::motion::state::segments::Segments;
 use crate::motion::state::transaction::Transaction;
 use crate::motion::state::views::Views;
@@ -41,6 +43,8 @@ pub(in crate::motion) struct Mesh<G: Dimension> {
     pub(in crate::motion) views: Views<G>,
     /// Segments that have to be edges, once there was one.
     pub(in crate::motion) segments: Option<Box<Segments<G>>>,
+    /// Changes that can still all be taken back, while a timestamp is being prepared.
+    pub(in crate::motion) rounds: Option<Box<Rounds<G>>>,
     /// By what is decided between two ways to the same cells.
     pub(in crate::motion) constants: &'static Constants,
     /// Whether the program takes changes.
@@ -68,6 +72,7 @@ impl<G: Dimension> Mesh<G> {
             transaction: Transaction::default(),
             views: Views::default(),
             segments: None,
+            rounds: None,
             constants: TABLE.of::<G>(),
             takes_changes: false,
             n_changes: 0,
@@ -88,6 +93,7 @@ impl<G: Dimension> Mesh<G> {
                 Some(segments) => Some(memory::boxed(segments.copied()?)?),
                 None => None,
             },
+            rounds: None,
             constants: self.constants,
             takes_changes: self.takes_changes,
             n_changes: self.n_changes,
@@ -124,8 +130,11 @@ impl<G: Dimension> Mesh<G> {
     }
 
     /// Puts the cells in the order of the sites, and the arrays follow. Sorted cells stay as they are until `replaced`
-    /// times as many as there are have been replaced.
+    /// times as many as there are have been replaced, and where rounds may be taken back: those name slots.
     pub(in crate::motion) fn sort_cells(&mut self, replaced: f64) -> Result<()> {
+        if self.rounds.is_some() {
+            return Ok(());
+        }
         if let Some(index) = self.kernel.sort_cells(replaced)? {
             self.views.renumber_slots(&index);
             if let Some(segments) = &mut self.segments {
@@ -156,5 +165,6 @@ impl<G: Dimension> Mesh<G> {
             + self.transaction.memory_bytes()
             + self.views.memory_bytes()
             + self.segments.as_ref().map_or(0, |segments| segments.memory_bytes())
+            + memory::bytes_of_made(&self.rounds, Rounds::memory_bytes)
     }
 }
