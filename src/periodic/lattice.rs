@@ -64,12 +64,6 @@ impl Occupied {
         }
     }
 
-    /// Now what others occupy, too.
-    pub(super) fn include(&mut self, others: &Self) {
-        self.enter(&others.low);
-        self.enter(&others.high);
-    }
-
     /// Whether no vertex is farther outside of the unit cell than some share of it.
     pub(super) fn is_within(&self, room: &[f64; 3]) -> bool {
         (0..3).all(|j| -room[j] <= self.low[j] && self.high[j] <= 1.0 + room[j])
@@ -159,6 +153,30 @@ impl<G: Shape> Lattice<G> {
     /// By axis, whether any vector goes along it.
     pub(super) fn is_spanned(&self, axis: usize) -> bool {
         self.unit[axis] != 0.0
+    }
+
+    /// The caller's vectors, on the grid: exact, but for those that have more than 53 digits in its units.
+    pub(super) fn given(&self) -> impl ExactSizeIterator<Item = G::Point> + '_ {
+        (0..self.rank).map(|k| {
+            let mut given = G::Point::default();
+            let multiples = self.to_caller(k);
+            for axis in (0..G::D).filter(|&axis| self.unit[axis] != 0.0) {
+                given[axis] = self.units_along(axis, &multiples) as f64 * self.unit[axis];
+            }
+            given
+        })
+    }
+
+    /// Which multiples of the reduced vectors one of the caller's is: a column of cofactors, as the determinant is 1 or -1.
+    fn to_caller(&self, k: usize) -> [i64; 3] {
+        let m = &self.of_caller;
+        let cofactor = |i: usize, j: usize| {
+            let ([a, b], [c, d]) = ([(i + 1) % 3, (i + 2) % 3], [(j + 1) % 3, (j + 2) % 3]);
+            m[a][c] * m[b][d] - m[a][d] * m[b][c]
+        };
+        let determinant: i64 = (0..3).map(|j| m[0][j] * cofactor(0, j)).sum();
+        // The entries of the inverse are those of the transposed cofactors.
+        [0, 1, 2].map(|j| determinant * cofactor(j, k))
     }
 
     /// Multiples of the caller's vectors.

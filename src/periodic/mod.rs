@@ -26,6 +26,7 @@
 
 mod cells;
 mod commit;
+mod either;
 mod images;
 mod lattice;
 mod needed;
@@ -36,4 +37,5 @@ mod tests;
 mod triangulation;
 
 pub use cells::PeriodicView;
+pub use either::AnyPeriodic;
 pub use triangulation::PeriodicTriangulation;

@@ -30,6 +30,11 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         self.lattice.rank()
     }
 
+    /// The vectors by which the set repeats: those that were given, on the grid.
+    pub fn vectors(&self) -> impl ExactSizeIterator<Item = G::Point> + '_ {
+        self.lattice.given()
+    }
+
     /// The number of staged moves.
     pub fn staged_count(&self) -> usize {
         self.staged.moves().len()
