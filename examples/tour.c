@@ -218,6 +218,12 @@ static void ask_for_geometry(const deldrift_triangulation *t) {
            "the neighbour's neighbour is the triangle itself");
     check(deldrift_voronoi_facets(t, (double[]){0, 0}, (double[]){1, 1}, lengths, MOST, &count));
     expect(count == n_edges && lengths[0] >= 0, "each edge has a Voronoi edge, where the box does not cut it off");
+    check(deldrift_voronoi_cells(t, (double[]){0, 0}, (double[]){1, 1}, NULL, 0, areas, NULL, NULL, MOST, &count));
+    double whole = 0;
+    for (size_t v = 0; v < count; v++) whole += areas[v] > 0 ? areas[v] : 0;
+    expect(fabs(whole - 1) < 1e-9, "the Voronoi cells fill the box");
+    check(deldrift_voronoi_derivatives(t, (double[]){0, 0}, (double[]){1, 1}, NULL, 0, lengths, NULL, NULL, MOST, &count));
+    expect(count == n_edges, "each edge has a derivative");
 }
 
 // Whether two triangulations have the same cells under the same indices.

@@ -28,6 +28,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -626,6 +627,33 @@ public:
         require_ok(deldrift_voronoi_facets(native(), corner("low", low), corner("high", high), measures.data(), count,
                                            &count));
         return measures;
+    }
+    // Of all ids, within the box from low to high; with a mask, a byte for each id, of those where it is not 0 alone, NaN
+    // for the others.
+    VoronoiCells voronoi_cells(span<const double> low, span<const double> high,
+                               span<const std::uint8_t> mask = {}) const {
+        std::size_t count = id_count();
+        const double nan = std::numeric_limits<double>::quiet_NaN();
+        VoronoiCells cells{std::vector<double>(count, nan), std::vector<double>(count, nan),
+                           std::vector<double>(count * dimension_, nan)};
+        require_ok(deldrift_voronoi_cells(native(), corner("low", low), corner("high", high),
+                                          mask.empty() ? nullptr : mask.data(), mask.size(), cells.volumes.data(),
+                                          cells.areas.data(), cells.centroids.data(), count, &count));
+        return cells;
+    }
+    // Of all edges, in their order; with a mask, of those that have an end where it is not 0.
+    VoronoiDerivatives voronoi_derivatives(span<const double> low, span<const double> high,
+                                           span<const std::uint8_t> mask = {}) const {
+        std::size_t count = 0;
+        require_ok(deldrift_edges(native(), nullptr, 0, &count));
+        const double nan = std::numeric_limits<double>::quiet_NaN();
+        VoronoiDerivatives facets{std::vector<double>(count, nan), std::vector<double>(count * dimension_, nan),
+                                  std::vector<double>(count * 2 * dimension_, nan)};
+        require_ok(deldrift_voronoi_derivatives(native(), corner("low", low), corner("high", high),
+                                                mask.empty() ? nullptr : mask.data(), mask.size(),
+                                                facets.measures.data(), facets.centroids.data(),
+                                                facets.derivatives.data(), count, &count));
+        return facets;
     }
     // values: n_values numbers for each id. outside: those of positions outside the hull, NaN if there are none.
     std::vector<double> interpolate(deldrift_interpolation method, span<const double> values, std::size_t n_values,

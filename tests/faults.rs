@@ -249,6 +249,8 @@ enum Call {
     MirrorIndices,
     VoronoiVolumes,
     VoronoiFacets,
+    VoronoiCells,
+    VoronoiDerivatives,
     Interpolate(Interpolation),
     NearestVertices,
     VerticesInBall,
@@ -285,6 +287,7 @@ impl Call {
         calls.extend([Call::TakeChanges, Call::Tolerance]);
         calls.extend([Call::Circumspheres, Call::MaskBoundary, Call::Edges, Call::VertexNeighbours]);
         calls.extend([Call::VertexCells, Call::MirrorIndices, Call::VoronoiVolumes, Call::VoronoiFacets]);
+        calls.extend([Call::VoronoiCells, Call::VoronoiDerivatives]);
         calls.extend([Interpolation::Linear, Interpolation::NaturalNeighbour].map(Call::Interpolate));
         calls.extend([Call::CellsAround(false), Call::CellsAround(true)]);
         calls.extend([Call::NearestVertices, Call::VerticesInBall, Call::VerticesInBox]);
@@ -578,6 +581,15 @@ impl<G: Dimension> Scene<G> {
                 let clip = [&point::<G>(|_| 0.2), &point::<G>(|_| 0.7)];
                 let measures = given(t.voronoi_facets(Some(clip)))?;
                 Given::Numbers(vec![measures.len() as u64])
+            }
+            Call::VoronoiCells => {
+                let clip = [&point::<G>(|_| 0.2), &point::<G>(|_| 0.7)];
+                let cells = given(t.voronoi_cells(clip, None, &mut |_| true))?;
+                Given::Numbers(vec![cells.volumes.len() as u64])
+            }
+            Call::VoronoiDerivatives => {
+                let clip = [&point::<G>(|_| 0.2), &point::<G>(|_| 0.7)];
+                Given::Pairs(given(t.voronoi_derivatives(clip, None, &mut |_| true))?.edges)
             }
             Call::Interpolate(method) => {
                 let places = [point::<G>(|_| 0.5), point::<G>(|axis| 0.4 + 0.1 * axis as f64)];

@@ -82,6 +82,27 @@ void voronoi_facets(Context &c) {
     });
 }
 
+template <int percent>
+void voronoi_cells(Context &c) {
+    const auto [low, high] = c.box(percent / 100.0);
+    std::vector<double> volumes(c.n), areas(c.n), centroids(c.n * c.dimension);
+    std::size_t count;
+    c.meter.time([&, low = low.data(), high = high.data()] {
+        must(deldrift_voronoi_cells(c.t, low, high, nullptr, 0, volumes.data(), areas.data(), centroids.data(), c.n,
+                                    &count));
+    });
+    c.meter.count(double(c.n + c.cells()));
+}
+
+template <int percent>
+void voronoi_derivatives(Context &c) {
+    const auto [low, high] = c.box(percent / 100.0);
+    counted<double>(c, 2 * c.dimension,
+                    [&, low = low.data(), high = high.data()](double *to, std::size_t room, std::size_t *count) {
+                        return deldrift_voronoi_derivatives(c.t, low, high, nullptr, 0, nullptr, nullptr, to, room, count);
+                    });
+}
+
 /// A place with natural neighbours costs what a vertex there would change: counted for some, by inserting it in a copy.
 void count_natural_neighbours(Context &c, const Points &places) {
     const std::size_t count = places.size() / c.dimension, counted = std::min<std::size_t>(count, 16);
@@ -284,6 +305,10 @@ std::vector<Call> geometry_calls() {
          }},
         {"deldrift_voronoi_facets", "in a box around all", voronoi_facets<10>},
         {"deldrift_voronoi_facets", "in a box inside", voronoi_facets<-20>},
+        {"deldrift_voronoi_cells", "in a box around all", voronoi_cells<10>},
+        {"deldrift_voronoi_cells", "in a box inside", voronoi_cells<-20>},
+        {"deldrift_voronoi_derivatives", "in a box around all", voronoi_derivatives<10>},
+        {"deldrift_voronoi_derivatives", "in a box inside", voronoi_derivatives<-20>},
         {"deldrift_interpolate", "linear, anywhere, as many places as vertices", [](Context &c) {
              interpolate(c, DELDRIFT_INTERPOLATION_LINEAR, c.many(c.n, &Context::anywhere));
          }},

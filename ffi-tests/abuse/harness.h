@@ -36,7 +36,7 @@ typedef struct {
     deldrift_changes changes;
     deldrift_cells_view cells;
     deldrift_location location, locations[8];
-    double numbers[ROOM], more_numbers[ROOM], few_numbers[8];
+    double numbers[ROOM], more_numbers[ROOM], rows[ROOM], few_numbers[8];
     size_t offsets[8];
     uint32_t ids[ROOM], more_ids[ROOM], few_ids[ROOM / 8], fewer_ids[ROOM / 8];
     int32_t labels[ROOM];

@@ -82,7 +82,8 @@ pub enum Role {
 
 /// From its type and its name.
 pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
-    let is_commit = ["deldrift_commit", "deldrift_prepare"].iter().any(|start| function.name.starts_with(start))
+    let is_commit = function.name.starts_with("deldrift_commit")
+        || function.name == "deldrift_prepare_timestamp"
         || function.has("quality");
     match (parameter.c_type.as_str(), parameter.name.as_str()) {
         ("deldrift_triangulation *" | "const deldrift_triangulation *", "t") => Role::Handle,

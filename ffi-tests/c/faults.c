@@ -189,6 +189,14 @@ static deldrift_released_cells *released_cells(deldrift_triangulation *t) {
     return owner;
 }
 
+// A copy, whose staged moves are prepared.
+static deldrift_triangulation *prepared_copy(const deldrift_triangulation *t) {
+    deldrift_triangulation *copy;
+    OK(deldrift_clone(t, &copy));
+    OK(deldrift_prepare_timestamp(copy, NULL));
+    return copy;
+}
+
 // All functions whose documentation does not name DELDRIFT_OUT_OF_MEMORY.
 static void other_functions_ask_for_nothing(uint32_t dimension) {
     const call some = {COMMIT_SOME, DELDRIFT_AUTO, 0};
@@ -202,6 +210,7 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     deldrift_released_cells *const owner = released_cells(s.t);
     scene refined = make_scene(2, (call){COARSEN, DELDRIFT_AUTO, 0}, &SETTINGS[0]);
     size_t n_made, n_segments, n_weights;
+    deldrift_triangulation *const trial = prepared_copy(s.t);
     count_requests(0, ALL_LATER);
     deldrift_free_cells(owner);
     deldrift_options options;
@@ -245,7 +254,10 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     OK(deldrift_set_algorithm(s.t, DELDRIFT_TOLERANCE));
     OK(deldrift_discard_moves(s.t));
     deldrift_destroy(s.t);
+    OK(deldrift_publish_timestamp(trial));
+    OK(deldrift_withdraw_timestamp(trial));
     stop_counting();
+    deldrift_destroy(trial);
     CHECK(n_requests == 0 && n_written == 0);
     CHECK(n_made > 0 && n_segments > 3 && n_weights == n_made);
     end_scene(&refined);

@@ -24,6 +24,10 @@ static void buffers_are_as_large_as_they_say(uint32_t d) {
     CHECK_BUFFER(uint8_t, n, d + 1, deldrift_mirror_indices(t, buffer, capacity, &count));
     CHECK_BUFFER(double, (size_t)5, 1, deldrift_voronoi_volumes(t, low, high, buffer, capacity, &count));
     CHECK_BUFFER(double, n_edges, 1, deldrift_voronoi_facets(t, NULL, NULL, buffer, capacity, &count));
+    CHECK_BUFFER(double, (size_t)5, d,
+                 deldrift_voronoi_cells(t, low, high, NULL, 0, NULL, NULL, buffer, capacity, &count));
+    CHECK_BUFFER(double, n_edges, 2 * d,
+                 deldrift_voronoi_derivatives(t, low, high, NULL, 0, NULL, NULL, buffer, capacity, &count));
     const uint32_t inner[2] = {4, 4};
     CHECK_BUFFER(uint32_t, n, 1, deldrift_cells_around(t, inner, 2, buffer, capacity, &count));
     if (d == 2) CHECK_BUFFER(uint32_t, 4u, 1, deldrift_ordered_star(t, 4, buffer, capacity, &count));
@@ -343,12 +347,46 @@ static void voronoi_cells_can_be_cancelled(void) {
     r.stops = true;
     volumes[0] = 77;
     CHECK_STATUS(deldrift_voronoi_volumes(t, low, high, volumes, N, &count), DELDRIFT_CANCELLED);
+    CHECK_STATUS(deldrift_voronoi_cells(t, low, high, NULL, 0, volumes, NULL, NULL, N, &count), DELDRIFT_CANCELLED);
     CHECK_STATUS(deldrift_voronoi_facets(t, NULL, NULL, NULL, 0, &count), DELDRIFT_OK);
     CHECK(volumes[0] == 77);
     OK(deldrift_move_vertex(t, 0, low));
     deldrift_destroy(t);
     free(places);
     free(volumes);
+}
+
+// Of a square with a vertex in its middle, in a box; then of that vertex alone.
+static void voronoi_cells_have_centroids(void) {
+    static const double places[] = {0, 0, 2, 0, 0, 2, 2, 2, 1, 1}, low[] = {-1, -1}, high[] = {3, 3};
+    deldrift_triangulation *t = create(2, places, 5, NULL);
+    double volumes[5], areas[5], centroids[10], measures[8], middles[16], derivatives[32], sum = 0;
+    size_t count;
+    OK(deldrift_voronoi_cells(t, low, high, NULL, 0, volumes, areas, centroids, 5, &count));
+    CHECK(count == 5 && volumes[4] == 2 && fabs(areas[4] - 4 * sqrt(2)) < 1e-12);
+    CHECK(centroids[8] == 1 && centroids[9] == 1);
+    for (int v = 0; v < 5; v++) sum += volumes[v];
+    CHECK(fabs(sum - 16) < 1e-12);
+    OK(deldrift_voronoi_derivatives(t, low, high, NULL, 0, measures, middles, derivatives, 8, &count));
+    // The last edge is that from vertex 3, at (2, 2), to the middle: the facet is from (2, 1) to (1, 2).
+    CHECK(count == 8 && fabs(measures[7] - sqrt(2)) < 1e-12);
+    CHECK(fabs(middles[14] - 1.5) < 1e-12 && fabs(middles[15] - 1.5) < 1e-12);
+    for (int k = 0; k < 2; k++) CHECK(fabs(derivatives[28 + k] + 0.5) < 1e-12 && fabs(derivatives[30 + k] - 0.5) < 1e-12);
+    // What has no byte is left as it is.
+    static const uint8_t mask[] = {0, 0, 0, 0, 1};
+    for (int v = 0; v < 5; v++) volumes[v] = areas[v] = 77;
+    for (int e = 0; e < 8; e++) measures[e] = 77;
+    OK(deldrift_voronoi_cells(t, low, high, mask, 5, volumes, NULL, NULL, 5, &count));
+    CHECK(volumes[4] == 2 && volumes[0] == 77 && areas[4] == 77);
+    OK(deldrift_voronoi_derivatives(t, low, high, mask, 5, measures, NULL, NULL, 8, &count));
+    for (int e = 0, n = 0; e < 8; e++) {
+        n += measures[e] != 77;
+        CHECK(e < 7 || n == 4);
+    }
+    CHECK_STATUS(deldrift_voronoi_cells(t, low, high, mask, 4, volumes, NULL, NULL, 5, &count), DELDRIFT_WRONG_COUNT);
+    CHECK_MESSAGE("mask_count");
+    CHECK_STATUS(deldrift_voronoi_cells(t, NULL, NULL, NULL, 0, volumes, NULL, NULL, 5, &count), DELDRIFT_NULL_ARGUMENT);
+    deldrift_destroy(t);
 }
 
 static void voronoi_cells_fill_the_box(void) {
@@ -417,6 +455,7 @@ static void values_are_interpolated(void) {
 
 int main(void) {
     voronoi_cells_fill_the_box();
+    voronoi_cells_have_centroids();
     voronoi_cells_of_few_vertices();
     voronoi_cells_can_be_cancelled();
     values_are_interpolated();

@@ -393,6 +393,17 @@ static void ask_about(const deldrift_triangulation *t, const places *p) {
     note(numbers, count * sizeof *numbers);
     TRY(deldrift_voronoi_facets(t, p->low, p->high, numbers, TOUR_ROOM, &count));
     note(numbers, count * sizeof *numbers);
+    memset(bytes, 1, n_ids);
+    memset(numbers, 0, n_ids * sizeof *numbers);
+    for (int is_masked = 0; is_masked < 2; is_masked++) {
+        const uint8_t *mask = is_masked ? bytes : NULL;
+        const size_t mask_count = is_masked ? n_ids : 0;
+        if (is_masked && n_ids > 0) bytes[0] = 0;
+        TRY(deldrift_voronoi_cells(t, p->low, p->high, mask, mask_count, numbers, NULL, more, TOUR_ROOM / 3, &count));
+        note(numbers, n_ids * sizeof *numbers);
+        TRY(deldrift_voronoi_derivatives(t, p->low, p->high, mask, mask_count, numbers, NULL, NULL, TOUR_ROOM, &count));
+        note(numbers, n_ids * sizeof *numbers);
+    }
     for (uint32_t method = 0; method < 2; method++) {
         TRY(deldrift_interpolate(t, method, p->then, n_ids, 1, p->later, p->n, NULL, NULL, numbers));
         note(numbers, p->n * sizeof *numbers);

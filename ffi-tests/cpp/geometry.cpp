@@ -119,6 +119,13 @@ static void voronoi_cells_fill_a_box() {
     CHECK(volumes.size() == 5 && std::fabs(std::accumulate(volumes.begin(), volumes.end(), 0.0) - 40) < 1e-12);
     CHECK(std::isinf(t.voronoi_volumes()[0]) && t.voronoi_facets().size() == 8);
     CHECK(t.voronoi_facets({0.0, 0.0}, {1.0, 1.0})[0] >= 0);
+    const deldrift::VoronoiCells cells = t.voronoi_cells({-1.0, -2.0}, {7.0, 3.0});
+    for (std::size_t v = 0; v < 5; ++v) CHECK(std::fabs(cells.volumes[v] - volumes[v]) < 1e-12);
+    const deldrift::VoronoiDerivatives facets = t.voronoi_derivatives({-1.0, -2.0}, {7.0, 3.0});
+    CHECK(facets.measures.size() == 8 && facets.centroids.size() == 16 && facets.derivatives.size() == 32);
+    const std::vector<std::uint8_t> mask{0, 0, 0, 0, 1};
+    const deldrift::VoronoiCells one = t.voronoi_cells({-1.0, -2.0}, {7.0, 3.0}, mask);
+    CHECK(std::isnan(one.volumes[0]) && one.volumes[4] == cells.volumes[4] && one.areas[4] == cells.areas[4]);
     bool thrown = false;
     try {
         t.voronoi_volumes({0.0}, {1.0, 1.0});

@@ -72,6 +72,41 @@ static void motion() {
     CHECK(t.commit_positions(t.positions()).moved == 0);
 }
 
+// A step is published, withdrawn, or withdrawn by the end of the block.
+static void trials() {
+    Triangulation t(2, square);
+    const std::vector<unsigned char> saved = t.save();
+    {
+        deldrift::Trial trial(t);
+        t.move_vertex(4, {2.0, 3.0});
+        CHECK(trial.prepare().timestamp == 1 && t.timestamp() == 0);
+        CHECK((t.position(4) == std::vector<double>{2, 3}));
+        CHECK(t.stage_insertions({3.0, 1.0}) == 5);
+        CHECK(trial.prepare().inserted == 1 && t.vertex_count() == 6);
+        CHECK_THROWS(t.commit_timestamp(), DELDRIFT_PREPARED, "timestamp 1");
+    }
+    CHECK(t.save() == saved);
+    {
+        deldrift::Trial trial(t);
+        t.move_vertex(4, {2.0, 3.0});
+        trial.prepare();
+        trial.withdraw();
+        CHECK(t.save() == saved);
+        t.move_vertex(4, {3.0, 2.0});
+        trial.prepare();
+        trial.publish();
+    }
+    CHECK(t.timestamp() == 1 && (t.position(4) == std::vector<double>{3, 2}));
+    CHECK_THROWS(t.publish_timestamp(), DELDRIFT_NOT_PREPARED, "prepared");
+    t.withdraw_timestamp();
+    t.move_vertex(4, {1.0, 2.0});
+    CHECK(t.prepare_timestamp().moved == 1);
+    t.withdraw_timestamp();
+    CHECK(t.prepare_timestamp().moved == 0);
+    t.publish_timestamp();
+    CHECK(t.timestamp() == 2 && (t.position(4) == std::vector<double>{3, 2}));
+}
+
 // Four points on a circle, of which the order of keys says which two are joined; an id that is given again.
 static void keys() {
     const std::vector<double> corners{0, 0, 1, 0, 1, 1, 0, 1};
@@ -229,6 +264,7 @@ static void ownership_moves() {
 int main() {
     cells_are_spans();
     motion();
+    trials();
     keys();
     queries();
     tolerances();

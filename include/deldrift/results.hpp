@@ -41,6 +41,23 @@ struct Hidden {
     std::size_t size() const noexcept { return vertices.size(); }
 };
 
+// What there is of Voronoi cells in a box, by vertex id: see deldrift_voronoi_cells. NaN where a mask has 0.
+struct VoronoiCells {
+    std::vector<double> volumes;
+    std::vector<double> areas;
+    // Rows of coordinates.
+    std::vector<double> centroids;
+};
+
+// Voronoi facets in a box, in the order of the edges: see deldrift_voronoi_derivatives. NaN where a mask has 0.
+struct VoronoiDerivatives {
+    std::vector<double> measures;
+    // Rows of coordinates.
+    std::vector<double> centroids;
+    // Two rows of coordinates for each edge.
+    std::vector<double> derivatives;
+};
+
 // Cells that a vertex in a box could change, and balls that cover theirs; see deldrift_cells_in_reach.
 struct InReach {
     std::vector<std::uint32_t> cells{};

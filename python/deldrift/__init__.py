@@ -47,7 +47,7 @@ from ._errors import (
     TooMany,
     WrongCount,
 )
-from ._geometry import Boundary
+from ._geometry import Boundary, VoronoiCells, VoronoiDerivatives
 from ._library import QualityReport, Report, version
 from ._mesh import Mesh
 from ._motion import Changes
@@ -101,6 +101,8 @@ __all__ = [
     "Step",
     "TooMany",
     "Trial",
+    "VoronoiCells",
+    "VoronoiDerivatives",
     "WrongCount",
     "frombytes",
     "in_sphere",

@@ -43,6 +43,8 @@ _update_volumes = _library.function("update_volumes")
 _update_mask_by_circumradius = _library.function("update_mask_by_circumradius")
 _voronoi_volumes = _library.function("voronoi_volumes")
 _voronoi_facets = _library.function("voronoi_facets")
+_voronoi_cells = _library.function("voronoi_cells")
+_voronoi_derivatives = _library.function("voronoi_derivatives")
 _interpolate = _library.function("interpolate")
 
 
@@ -55,6 +57,29 @@ class Boundary(NamedTuple):
     """The simplex of the mask at each."""
     corners: np.ndarray
     """Which of its corners is opposite the facet."""
+
+
+class VoronoiCells(NamedTuple):
+    """What there is of Voronoi cells in a box, by vertex id."""
+
+    volumes: np.ndarray
+    """Areas or volumes: 0 for hidden vertices, NaN for removed ones."""
+    areas: np.ndarray
+    """Lengths or areas of the boundaries."""
+    centroids: np.ndarray
+    """Rows of coordinates; NaN where the volume is 0."""
+
+
+class VoronoiDerivatives(NamedTuple):
+    """Voronoi facets in a box, in the order of `edges`."""
+
+    measures: np.ndarray
+    """Lengths or areas."""
+    centroids: np.ndarray
+    """Rows of coordinates; NaN where the measure is 0."""
+    derivatives: np.ndarray
+    """For the edge of i and j the derivative of the volume of the cell of i by the position of j, and that of the cell
+    of j by the position of i: of shape (edges, 2, ndim)."""
 
 
 class Geometry(Scipy):
@@ -337,6 +362,76 @@ class Geometry(Scipy):
             count = ctypes.c_size_t()
             self._check(_voronoi_facets(t, address_if(low), address_if(high), address(measures), len(measures), count))
         return measures
+
+    def voronoi_cells(self, box: Any, mask: Any = None) -> VoronoiCells:
+        """Areas or volumes, boundaries and centroids of the Voronoi cells of all ids, within a box.
+
+        Parameters
+        ----------
+        box : (array_like, array_like)
+            Its corners of least and of greatest coordinates.
+        mask : array_like of bool, optional
+            Whether the cell of each id is asked for; all are by default. The others get NaN.
+
+        Returns
+        -------
+        VoronoiCells
+            Volumes, areas and centroids.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[1, 1], [3, 1], [1, 3], [3, 3]])
+        >>> tri.voronoi_cells(([0, 0], [4, 4])).areas
+        array([8., 8., 8., 8.])
+        """
+        low, high = box_corners(box, self.ndim)
+        chosen = None if mask is None else mask_of("mask", mask)
+        with self._reading as t:
+            n = id_count(t)
+            given = self._vertex_mask(chosen, n)
+            cells = VoronoiCells(np.full(n, np.nan), np.full(n, np.nan), np.full((n, self.ndim), np.nan))
+            count = ctypes.c_size_t()
+            rows = (address(array) for array in cells)
+            self._check(_voronoi_cells(t, address_if(low), address_if(high), *given, *rows, n, count))
+        return cells
+
+    def voronoi_derivatives(self, box: Any, mask: Any = None) -> VoronoiDerivatives:
+        """The Voronoi facets of all edges within a box, with derivatives of volumes by positions.
+
+        The derivative of the volume of a cell by the position of its own vertex is minus the sum of those of the other
+        cells by that position.
+
+        Parameters
+        ----------
+        box : (array_like, array_like)
+            Its corners of least and of greatest coordinates.
+        mask : array_like of bool, optional
+            Edges with an end in it are asked for; all are by default. The others get NaN.
+
+        Returns
+        -------
+        VoronoiDerivatives
+            Measures, centroids and derivatives, in the order of `edges`.
+        """
+        low, high = box_corners(box, self.ndim)
+        chosen = None if mask is None else mask_of("mask", mask)
+        with self._reading as t:
+            given = self._vertex_mask(chosen, id_count(t))
+            n, d = count_of(lambda t, count: _edges(t, None, 0, count), t), self.ndim
+            facets = VoronoiDerivatives(np.full(n, np.nan), np.full((n, d), np.nan), np.full((n, 2, d), np.nan))
+            count = ctypes.c_size_t()
+            rows = (address(array) for array in facets)
+            self._check(_voronoi_derivatives(t, address_if(low), address_if(high), *given, *rows, n, count))
+        return facets
+
+    def _vertex_mask(self, chosen: Any, n: int) -> tuple[Any, int]:
+        """The address and the length of a mask of vertices."""
+        if chosen is None:
+            return None, 0
+        if len(chosen) != n:
+            raise WrongCount(f"mask has {len(chosen)} entries, and there are {n} ids", "mask", None, len(chosen))
+        return address(chosen), n
 
     def interpolate(self, values: Any, xi: Any, method: str = "linear", fill_value: Any = np.nan) -> np.ndarray:
         """Values of the vertices, interpolated at other places.

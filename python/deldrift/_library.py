@@ -327,6 +327,8 @@ PROTOTYPES = {
     "update_mask_by_circumradius": (T, A, N, F64, A, N),
     "voronoi_volumes": (T, A, A, A, N, C),
     "voronoi_facets": (T, A, A, A, N, C),
+    "voronoi_cells": (T, A, A, A, N, A, A, A, N, C),
+    "voronoi_derivatives": (T, A, A, A, N, A, A, A, N, C),
     "interpolate": (T, U32, A, N, N, A, N, A, A, A),
     "clone": (T, POINTER(T)),
     "save": (T, A, N, C),

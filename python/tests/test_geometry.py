@@ -131,6 +131,30 @@ def test_facets_and_volumes_agree(tri):
     np.testing.assert_allclose(of_vertex[inside], volumes[inside], rtol=1e-6)
 
 
+def test_voronoi_derivatives_are_those_of_volumes(tri, rng):
+    low, high = np.full(tri.ndim, -0.5), np.full(tri.ndim, 1.25)
+    cells, facets, edges = tri.voronoi_cells((low, high)), tri.voronoi_derivatives((low, high)), tri.edges()
+    np.testing.assert_allclose(cells.volumes, tri.voronoi_volumes((low, high)), rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(facets.measures, tri.voronoi_facets((low, high)), rtol=1e-6, atol=1e-9)
+    total = (cells.volumes[:, None] * cells.centroids).sum(axis=0)
+    np.testing.assert_allclose(total, np.prod(high - low) * (low + high) / 2, rtol=1e-9)
+    step = 1e-7 * rng.standard_normal(tri.points.shape)
+    change = np.zeros(tri.npoints)
+    for (i, j), (of_i, of_j) in zip(edges, facets.derivatives, strict=True):
+        change[i] += of_i @ step[j] - of_j @ step[i]
+        change[j] += of_j @ step[i] - of_i @ step[j]
+    moved = type(tri)(tri.points + step)
+    back = type(tri)(tri.points - step)
+    found = (moved.voronoi_cells((low, high)).volumes - back.voronoi_cells((low, high)).volumes) / 2
+    np.testing.assert_allclose(found, change, atol=1e-3 * np.abs(change).max())
+    mask = np.arange(tri.npoints) % 3 == 0
+    some = tri.voronoi_cells((low, high), mask)
+    np.testing.assert_array_equal(some.volumes[mask], cells.volumes[mask])
+    assert np.isnan(some.volumes[~mask]).all()
+    of_some = tri.voronoi_derivatives((low, high), mask)
+    np.testing.assert_array_equal(np.isnan(of_some.measures), ~mask[edges].any(axis=1))
+
+
 @pytest.mark.parametrize("method", ["linear", "natural"])
 def test_interpolation_reproduces_linear_functions(tri, rng, method):
     slopes = rng.standard_normal((tri.ndim, 2))
@@ -287,6 +311,7 @@ def test_everything_of_no_points(ndim, tmp_path):
             tri.coplanar,
         ),
         *(tri.vertices_in_box(low, high), tri.vertices_in_ball(low, np.inf), tri.mask_without_flat(0), *tri.changes()),
+        *(*tri.voronoi_cells((low, high)), *tri.voronoi_derivatives((low, high))),
         *(tri.alpha_mask(1), tri.mirror_indices(), tri.voronoi_volumes((low, high)), tri.voronoi_facets((low, high))),
         *(
             tri.simplices_with(np.empty((0, 2), int)),

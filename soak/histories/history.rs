@@ -9,7 +9,7 @@ use crate::common::{CellSet, Rng, assert_same_cells, cell_set, fresh_cells, sort
 use deldrift::motion::{
     Algorithm, CommitReport, Commits, Level, MovingTriangulation, NO_CELL, Options, Saved,
 };
-use deldrift::{CellId, Dimension, VertexId};
+use deldrift::{CellId, Dimension, Error, VertexId};
 use std::collections::{BTreeSet, VecDeque};
 
 /// So many of the last operations are told after a mismatch.
@@ -23,6 +23,8 @@ pub struct History<G: Dimension> {
     now: Vec<Option<G::Point>>,
     /// By id, where vertices have keys, and what these are drawn from.
     keys: Option<(Vec<u64>, KeySource)>,
+    /// What is drawn from for timestamps that are prepared, and then published or withdrawn.
+    trials: Option<Rng>,
     spacing: f64,
     mirror: Mirror<G>,
     algorithm: Algorithm,
@@ -101,6 +103,7 @@ impl<G: Dimension> History<G> {
             spacing: spacing_of::<G>(&now),
             now: now.into_iter().map(Some).collect(),
             keys,
+            trials: Self::trials_of(seed),
             source,
             frame,
             mirror: Mirror::default(),
@@ -156,6 +159,7 @@ impl<G: Dimension> History<G> {
     /// A commit of the phase's moves, sometimes together with insertions and removals, or after calls that take effect
     /// at once.
     fn commit(&mut self, phase: &Phase<G>) -> CommitReport {
+        self.prepare_and_withdraw(phase);
         if self.has_edits && self.rng.one_in(4) {
             self.call_at_once(phase);
         }
@@ -192,7 +196,7 @@ impl<G: Dimension> History<G> {
             if self.rng.one_in(40) {
                 self.copy();
             }
-            staged.and_then(|()| self.t.commit_timestamp())
+            staged.and_then(|()| self.commit_or_publish())
         };
         let report = committed.unwrap_or_else(|error| panic!("{}", self.context(&error.to_string())));
         if report.moved != moved {
@@ -207,6 +211,59 @@ impl<G: Dimension> History<G> {
         tally.within_tolerance += report.within_tolerance;
         tally.hidden += report.coincident;
         report
+    }
+
+    /// Of half of the histories behind the recorded ones.
+    fn trials_of(seed: u64) -> Option<Rng> {
+        (seed >= RECORDED.len() as u64 && seed % 8 >= 3).then(|| Rng::new(!seed))
+    }
+
+    fn commit_or_publish(&mut self) -> Result<CommitReport, Error> {
+        if !self.trials.as_mut().is_some_and(|rng| rng.one_in(3)) {
+            return self.t.commit_timestamp();
+        }
+        self.note(|| "in two phases".to_string());
+        let report = self.t.prepare_timestamp()?;
+        self.t.publish_timestamp()?;
+        Ok(report)
+    }
+
+    /// Sometimes, a few rounds of moves, insertions and removals that are withdrawn.
+    fn prepare_and_withdraw(&mut self, phase: &Phase<G>) {
+        let Some(mut rng) = self.trials.take() else { return };
+        if rng.one_in(6) {
+            let n_rounds = 1 + rng.below(3);
+            self.note(|| format!("prepare {n_rounds} rounds and withdraw"));
+            let mut removed = BTreeSet::new();
+            for _ in 0..n_rounds {
+                let mut present = self.present();
+                present.retain(|v| !removed.contains(v));
+                let leaving = (present.len() > 8 && rng.one_in(2)).then(|| *rng.pick(&present));
+                let mut chosen = phase.choose(present, &mut rng);
+                chosen.retain(|&v| Some(v) != leaving);
+                let targets = phase.targets(&chosen, &self.now, &self.source, &mut rng);
+                let places: Vec<G::Point> = targets.iter().map(|q| self.frame.place(q)).collect();
+                let coming: Vec<G::Point> =
+                    (0..rng.below(4)).map(|_| self.source.draw_one(&mut rng)).collect();
+                let coming: Vec<G::Point> = coming.iter().map(|p| self.frame.place(p)).collect();
+                let keys = (rng.one_in(2) || self.keys.is_some()).then(|| vec![rng.next() % 9; coming.len()]);
+                let mut given = Vec::new();
+                let staged = self.t.stage_insertions_at_free_ids(&coming, keys.as_deref(), |v| given.push(v));
+                let staged = staged.and_then(|()| self.t.move_vertices(&chosen, &places));
+                let staged = staged.and_then(|()| self.t.stage_removals(leaving.as_slice()));
+                let made = staged.and_then(|()| self.t.prepare_timestamp());
+                made.unwrap_or_else(|error| panic!("{}", self.context(&error.to_string())));
+                assert!(given.iter().all(|v| !removed.contains(v)), "{}", self.context("an id given again"));
+                removed.extend(leaving);
+            }
+            if rng.one_in(3) {
+                let valid = self.t.validate(Level::Delaunay);
+                valid.unwrap_or_else(|wrong| panic!("{}", self.context(&wrong.to_string())));
+            }
+            self.t.withdraw_timestamp();
+            assert_eq!(self.t.id_count(), self.now.len(), "{}", self.context("ids after a withdrawal"));
+        }
+        self.trials = Some(rng);
     }
 
     /// The vertices return to where they were before the phase.

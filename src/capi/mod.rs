@@ -100,6 +100,7 @@ pub use near::*;
 pub use options::*;
 pub use periodic::*;
 pub use predicates::*;
+pub use preparing::*;
 pub use query::*;
 pub use reach::*;
 pub use refining::*;

@@ -20,7 +20,7 @@ use crate::in_its_dimension;
 /// counts rounds as they are made. Ends all views.
 ///
 /// While a timestamp is prepared, these calls give DELDRIFT_PREPARED and do nothing: deldrift_commit_timestamp,
-/// deldrift_commit_positions, deldrift_insert_vertex, deldrift_remove_vertex, deldrift_relocate_vertex, deldrift_compact,
+/// deldrift_commit_positions, deldrift_insert_vertex, deldrift_insert_vertex_with_key, deldrift_remove_vertex, deldrift_relocate_vertex, deldrift_compact,
 /// deldrift_refine, deldrift_coarsen, deldrift_take_changes, deldrift_clone, deldrift_save and deldrift_save_file. All
 /// others may be made, those that stage or check what is staged included. Changes are of published states: between two
 /// calls of deldrift_take_changes, rounds count as commits once they are published. deldrift_cells
@@ -34,7 +34,7 @@ use crate::in_its_dimension;
 ///
 /// Cost: that of deldrift_commit_timestamp, and in later rounds a copy of where vertices were that the last one has moved.
 ///
-/// Errors: those of deldrift_commit_timestamp, except DELDRIFT_PREPARED. Not to be called at the same time as any other call
+/// Errors: those of deldrift_commit_timestamp, DELDRIFT_OUT_OF_MEMORY among them, except DELDRIFT_PREPARED. Not to be called at the same time as any other call
 /// on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_prepare_timestamp(

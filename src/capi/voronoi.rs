@@ -1,9 +1,13 @@
 //! Voronoi cells and facets, clipped by a box.
 
+use std::mem::MaybeUninit;
+
 use super::handle::{Content, Reading, deldrift_triangulation};
-use super::pointers::{Buffer, Output, Point, given};
+use super::pointers::{Array, Buffer, Output, Point, fill_all, given};
+use super::query::dimension_of;
 use super::status::{Failure, deldrift_status};
 use crate::delaunay::Dimension;
+use crate::ids::VertexId;
 use crate::in_its_dimension;
 use crate::motion::MovingTriangulation;
 
@@ -108,6 +112,184 @@ pub unsafe extern "C" fn deldrift_voronoi_facets(
             measures.fill(count, t.edge_count(), || Ok(t.voronoi_facets_monitored(clip, monitor)?))
         })
     })
+}
+
+/// The Voronoi cells of all ids within a box, for programs that need them at every step: areas (2D) or volumes (3D),
+/// boundaries and centroids, in one pass over the cells, however many vertices have moved.
+///
+/// low, high: the corners of the box with the least and the greatest coordinates, 2 or 3 numbers each, read during the
+/// call only; vertices may be outside of it. mask, mask_count: a byte for each id, mask_count of them, which must be
+/// deldrift_id_count; only entries of vertices of which the byte is not 0 are computed and written, and the others are
+/// left as they are. NULL and 0 for all vertices. So a program that moves few vertices keeps its arrays by a mask of
+/// what has changed: the vertices that have moved, the corners of all cells around these (deldrift_cells_around), and
+/// the corners of the cells that deldrift_take_changes lists as created or removed.
+///
+/// volumes: a buffer with room for capacity numbers. areas: a buffer with room for as many; receives the length (2D) or area (3D) of the
+/// boundary of what there is of each cell in the box, with what it has of the faces of the box. centroids: a buffer with
+/// room for capacity rows of 2 or 3 coordinates. One that is NULL is not filled. count: receives the number of ids,
+/// which is also written when the buffers are too small. NULL for all three with capacity 0 asks for the count alone.
+///
+/// A removed vertex has NaN, a hidden one volume and area 0; a centroid is NaN where the volume is 0, and nothing else
+/// is. Vertices in one hyperplane, a single one included, have cells too, as in deldrift_voronoi_volumes. Segments are
+/// not looked at.
+///
+/// Rounded: let h be what deldrift_voronoi_volumes has for a box, S the area of a cell's surface (2D: the length of its
+/// boundary), V its volume, d its diameter, and Q the sum over its facets of the perimeter of each (2D: 2) times the
+/// distance of the two vertices. To first order in h, a volume is off by at most h times the greater of S and Q / 6 (2D:
+/// Q / 4), an area by h times the sum of the perimeters of the cell's faces (2D: 2 h for each), and a centroid, where
+/// that is less than d, by that error of the volume times d / V; it is in the box in any case. The volumes of all ids
+/// add up to that of the box but for rounding.
+///
+/// Takes memory for circumcentres, for sums, and, where cells are cut by the box, for the cells of each vertex while it
+/// runs. Cells that are cut take as long as in deldrift_voronoi_volumes. Calls the callbacks of the options.
+///
+/// Cost: n + m; for vertices in one hyperplane, that of deldrift_create. After a change the first call also does what
+/// the first deldrift_cells does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_INVALID_VALUE if high is not above low in every coordinate, DELDRIFT_WRONG_COUNT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_voronoi_cells(
+    t: *const deldrift_triangulation,
+    low: *const f64,
+    high: *const f64,
+    mask: *const u8,
+    mask_count: usize,
+    volumes: *mut f64,
+    areas: *mut f64,
+    centroids: *mut f64,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    given!(t: Reading, low: Point, high: Point, mask[mask_count]: Array, volumes[capacity]: Buffer,
+        areas[capacity]: Buffer, count: Output);
+    t.read_watched(|t, monitor| {
+        in_its_dimension!(t => {
+            let d = dimension_of(t);
+            given!(centroids[capacity.saturating_mul(d)]: Buffer);
+            let clip = [low.of("low", t)?, high.of("high", t)?];
+            t.check_clip(clip)?;
+            let mask = mask_for(t, mask, mask_count)?;
+            let needed = t.id_count();
+            let offers = [volumes.offer(), areas.offer(), centroids.offer()];
+            fill_all(count, needed, capacity, offers, || {
+                let volumes = volumes.places_if_any(needed)?;
+                let areas = areas.places_if_any(needed)?;
+                let centroids = centroids.places_if_any(needed * d)?;
+                let made = t.voronoi_cells(clip, mask, monitor)?;
+                let is_wanted = |id: usize| mask.is_none_or(|mask| mask[id] != 0);
+                write_wanted(volumes, 1, is_wanted, made.volumes.iter().map(std::slice::from_ref));
+                write_wanted(areas, 1, is_wanted, made.areas.iter().map(std::slice::from_ref));
+                write_wanted(centroids, d, is_wanted, made.centroids.iter().map(AsRef::as_ref));
+                Ok(())
+            })
+        })
+    })
+}
+
+/// The Voronoi facets of all edges within a box, in the order of deldrift_edges: lengths (2D) or areas (3D), centroids,
+/// and the derivatives of the areas or volumes on their sides by positions.
+///
+/// low, high, mask, mask_count: as deldrift_voronoi_cells has them; only entries of edges that have an end of which the
+/// byte is not 0 are computed and written.
+///
+/// measures: a buffer with room for capacity numbers. centroids: a buffer with room for capacity rows of 2 or 3
+/// coordinates. derivatives: a buffer with room for capacity rows of 4 or 6 numbers: for the edge of the vertices i and
+/// j the derivative of the area or volume of the cell of i by the position of j, and then that of the cell of j by the
+/// position of i. One that is NULL is not filled. count: receives the number of edges, which is also written when the
+/// buffers are too small. NULL for all three with capacity 0 asks for the count alone.
+///
+/// With the measure A and the centroid c of the facet, and the distance L of the vertices at x_i and x_j, the first
+/// derivative is A (x_j - c) / L, the second one A (x_i - c) / L. The derivative of the volume of a cell by the position
+/// of its own vertex is minus the sum, over the edges of that, of the derivatives of the other cells by that position,
+/// as all fill the box, which stays. Where cells come to touch or to part, derivatives are still continuous, as A is 0
+/// there.
+///
+/// A centroid is NaN where nothing of the facet is in the box or its measure is 0; measures and derivatives are 0 there.
+/// Derivatives are infinite where the quotient is beyond the range of numbers. There is one entry for each edge of the
+/// triangulation, as in deldrift_voronoi_facets, and none for vertices in one hyperplane.
+///
+/// Rounded: let h be what deldrift_voronoi_volumes has for a box, P the perimeter of a facet (2D: 2), d its diameter. A
+/// measure is off by at most h P, a centroid by h P d / A, and by d + h where A is less than 4 h P; a derivative by h P
+/// (d + |x - c|) / L, where x is the position by which it is.
+///
+/// Takes memory for circumcentres, edges and the cells of each vertex while it runs. What is cut by the box, and facets
+/// narrower than 1e-7 of it, take about a microsecond each. Calls the callbacks of the options.
+///
+/// Cost: n + m, and d log d for the d neighbours of each vertex. After a change the first call also does what the first
+/// deldrift_cells does.
+///
+/// Errors: those of deldrift_voronoi_cells: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_voronoi_derivatives(
+    t: *const deldrift_triangulation,
+    low: *const f64,
+    high: *const f64,
+    mask: *const u8,
+    mask_count: usize,
+    measures: *mut f64,
+    centroids: *mut f64,
+    derivatives: *mut f64,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    given!(t: Reading, low: Point, high: Point, mask[mask_count]: Array, measures[capacity]: Buffer,
+        count: Output);
+    t.read_watched(|t, monitor| {
+        in_its_dimension!(t => {
+            let d = dimension_of(t);
+            given!(centroids[capacity.saturating_mul(d)]: Buffer);
+            given!(derivatives[capacity.saturating_mul(2 * d)]: Buffer);
+            let clip = [low.of("low", t)?, high.of("high", t)?];
+            t.check_clip(clip)?;
+            let mask = mask_for(t, mask, mask_count)?;
+            let needed = t.edge_count();
+            let offers = [measures.offer(), centroids.offer(), derivatives.offer()];
+            fill_all(count, needed, capacity, offers, || {
+                let measures = measures.places_if_any(needed)?;
+                let centroids = centroids.places_if_any(needed * d)?;
+                let derivatives = derivatives.places_if_any(needed * 2 * d)?;
+                let made = t.voronoi_derivatives(clip, mask, monitor)?;
+                let has = |v: VertexId| mask.is_none_or(|mask| mask[v.index()] != 0);
+                let is_wanted = |edge: usize| made.edges[edge].into_iter().any(has);
+                write_wanted(measures, 1, is_wanted, made.areas.iter().map(std::slice::from_ref));
+                write_wanted(centroids, d, is_wanted, made.centroids.iter().map(AsRef::as_ref));
+                let both = made.derivatives.as_flattened().iter().map(AsRef::as_ref);
+                write_wanted(derivatives, d, |row| is_wanted(row / 2), both);
+                Ok(())
+            })
+        })
+    })
+}
+
+/// Writes rows of `d` numbers of those that are wanted.
+fn write_wanted<'a>(
+    places: &mut [MaybeUninit<f64>],
+    d: usize,
+    is_wanted: impl Fn(usize) -> bool,
+    rows: impl Iterator<Item = &'a [f64]>,
+) {
+    for (k, (places, row)) in places.chunks_exact_mut(d).zip(rows).enumerate() {
+        if is_wanted(k) {
+            places.iter_mut().zip(row).for_each(|(place, &x)| _ = place.write(x));
+        }
+    }
+}
+
+/// A mask of vertices, if there is one.
+fn mask_for<'a, G: Dimension>(
+    t: &MovingTriangulation<G>,
+    mask: Array<'a, u8>,
+    mask_count: usize,
+) -> Result<Option<&'a [u8]>, Failure> {
+    if mask.is_null() && mask_count == 0 {
+        return Ok(None);
+    }
+    t.check_vertex_mask(mask_count)?;
+    mask.get().map(Some)
 }
 
 /// The corners of a box that is a good one, in the dimension of `t`; none if both are NULL.

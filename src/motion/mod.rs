@@ -46,7 +46,9 @@ pub use options::{
 };
 pub use reading::domain::ChainEdge;
 pub use reading::exporting::Field;
-pub use reading::geometry::{BoundaryFacet, Interpolation, OrderedStar, Rows, VertexValues};
+pub use reading::geometry::{
+    BoundaryFacet, Interpolation, OrderedStar, Rows, VertexValues, VoronoiCells, VoronoiFacets,
+};
 pub use reading::near::{InReach, VerticesInReach};
 pub use reading::query::Location;
 pub(crate) use reading::query::cells_at;

@@ -154,6 +154,13 @@ pub fn exact_cell<const D: usize>(places: &[[f64; D]], of: usize, [low, high]: [
     cell
 }
 
+impl ExactFace {
+    /// Whether it is parallel to the last axis.
+    pub fn is_upright(&self) -> bool {
+        self.plane[2] == zero()
+    }
+}
+
 impl ExactCell {
     fn cut(&mut self, plane: Homogeneous, other: usize) {
         let side = |p: &Homogeneous| compare_zero(&value(&plane, p));
@@ -226,6 +233,57 @@ impl ExactCell {
         self.projected(face) * stretch
     }
 
+    /// The way from the first corner of the cell to a corner, rounded.
+    fn way(&self, p: &Homogeneous) -> [f64; 3] {
+        let from = &self.faces[0].corners[0];
+        std::array::from_fn(|k| {
+            rounded(&(&p[k] * &from[3] - &from[k] * &p[3]), &(&p[3] * &from[3]), self.unit)
+        })
+    }
+
+    /// The place of the first corner, rounded.
+    fn first(&self) -> [f64; 3] {
+        let from = &self.faces[0].corners[0];
+        std::array::from_fn(|k| rounded(&from[k], &from[3], self.unit))
+    }
+
+    /// Triangles that make up a face, as ways from the first corner of the cell.
+    fn triangles(&self, face: &ExactFace) -> Vec<[[f64; 3]; 3]> {
+        let ways: Vec<[f64; 3]> = face.corners.iter().map(|p| self.way(p)).collect();
+        ways[1..].windows(2).map(|pair| [ways[0], pair[0], pair[1]]).collect()
+    }
+
+    /// The centroid, and the greatest distance of two corners; none if there is no cell.
+    pub fn centroid_and_diameter(&self) -> Option<([f64; 3], f64)> {
+        self.faces.first()?;
+        let first = self.first();
+        let (mut volume, mut moment, mut ways) = (0.0, [0.0; 3], Vec::new());
+        for [p, q, r] in self.faces.iter().flat_map(|face| self.triangles(face)) {
+            let weight = dot(&p, &cross(&q, &r)).abs() + f64::MIN_POSITIVE;
+            volume += weight;
+            (0..3).for_each(|k| moment[k] += 0.25 * weight * (p[k] + q[k] + r[k]));
+            ways.extend([p, q, r]);
+        }
+        Some(([0, 1, 2].map(|k| first[k] + moment[k] / volume), diameter(&ways)))
+    }
+
+    /// The centroid of a face, and the greatest distance of two of its corners.
+    pub fn face_centroid_and_diameter(&self, face: &ExactFace) -> ([f64; 3], f64) {
+        let first = self.first();
+        let (triangles, mut area, mut moment) = (self.triangles(face), 0.0, [0.0; 3]);
+        let ways: Vec<[f64; 3]> = triangles.iter().flatten().copied().collect();
+        let diameter = diameter(&ways).max(f64::MIN_POSITIVE);
+        for [p, q, r] in triangles {
+            // Products of ways themselves may be below the least number.
+            let [u, v] = [&q, &r].map(|q| minus(q, &p).map(|x| x / diameter));
+            let normal = cross(&u, &v);
+            let weight = dot(&normal, &normal).sqrt() + f64::MIN_POSITIVE;
+            area += weight;
+            (0..3).for_each(|k| moment[k] += weight * ((p[k] + q[k] + r[k]) / 3.0));
+        }
+        ([0, 1, 2].map(|k| first[k] + moment[k] / area), diameter)
+    }
+
     /// The perimeter of a face.
     pub fn perimeter(&self, face: &ExactFace) -> f64 {
         let n = face.corners.len();
@@ -238,4 +296,21 @@ impl ExactCell {
         };
         (0..n).map(side).sum()
     }
+}
+
+fn minus(p: &[f64; 3], q: &[f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|k| p[k] - q[k])
+}
+
+fn dot(p: &[f64; 3], q: &[f64; 3]) -> f64 {
+    (0..3).map(|k| p[k] * q[k]).sum()
+}
+
+fn cross(p: &[f64; 3], q: &[f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|k| p[(k + 1) % 3] * q[(k + 2) % 3] - p[(k + 2) % 3] * q[(k + 1) % 3])
+}
+
+fn diameter(places: &[[f64; 3]]) -> f64 {
+    let length = |d: [f64; 3]| d[0].hypot(d[1]).hypot(d[2]);
+    places.iter().flat_map(|p| places.iter().map(|q| length(minus(p, q)))).fold(0.0, f64::max)
 }

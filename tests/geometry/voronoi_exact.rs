@@ -70,6 +70,79 @@ fn check<G: Exact>(places: &[G::Point], clip: [&G::Point; 2], share: f64) {
         }
     }
     assert!(n_found == facets.len());
+    check_cells::<G>(&t, places, clip, share);
+}
+
+/// Compares volumes, boundaries, centroids, facets and derivatives with those of exact cells.
+fn check_cells<G: Exact>(t: &MovingTriangulation<G>, places: &[G::Point], clip: [&G::Point; 2], share: f64) {
+    let context = |of: usize| format!("{of} of {places:?} in {clip:?}");
+    let cells = t.voronoi_cells(clip, None, &mut |_| true).expect("room");
+    let facets = t.voronoi_derivatives(clip, None, &mut |_| true).expect("room");
+    assert_eq!(facets.edges, t.edges().expect("room"));
+    let reach = (0..G::D).map(|axis| clip[1][axis].abs().max(clip[0][axis].abs())).fold(0.0, f64::max);
+    let (off, last_bits) = (share * most_off::<G>(clip), 1e-15 * reach);
+    let is_near = |found: f64, wanted: f64, most: f64, what: &str, of: usize| {
+        let most = most + 4.0 * f64::EPSILON * wanted.abs() + 1e-300;
+        let is_near = found == wanted || (found - wanted).abs() <= most;
+        assert!(is_near, "{what}: {found}, not {wanted}: {}", context(of));
+    };
+    for of in 0..places.len() {
+        if places[..of].contains(&places[of]) {
+            assert!((cells.volumes[of], cells.areas[of]) == (0.0, 0.0));
+            continue;
+        }
+        let cell = G::cell(places, of, clip);
+        // In the plane, but for what is above and below.
+        let is_side = |face: &&super::exact_cells::ExactFace| G::D == 3 || face.is_upright();
+        let surface: f64 = cell.faces.iter().map(|face| cell.area(face)).sum();
+        let perimeters: f64 = cell.faces.iter().map(|face| cell.perimeter(face)).sum();
+        let area: f64 = cell.faces.iter().filter(is_side).map(|face| cell.area(face)).sum();
+        let volume = cell.volume(G::D as i32);
+        is_near(cells.volumes[of], volume, off * surface, "volume", of);
+        is_near(cells.areas[of], area, off * perimeters, "area", of);
+        if let Some((centroid, diameter)) = cell.centroid_and_diameter()
+            && cells.volumes[of] > 0.0
+        {
+            let most = off * surface * diameter / volume + last_bits;
+            for (axis, &wanted) in centroid.iter().enumerate().take(G::D) {
+                is_near(cells.centroids[of][axis], wanted, most, "centroid", of);
+            }
+        }
+        for (k, edge) in facets.edges.iter().enumerate().filter(|(_, edge)| edge[0].index() == of) {
+            let other = edge[1].index();
+            let face = cell.faces.iter().find(|face| face.other == Some(other));
+            let Some(face) = face else {
+                let is_face = is_face::<G>(&places[of], &places[other], clip);
+                assert!(is_face || facets.areas[k] <= 1e-300, "{}", context(of));
+                continue;
+            };
+            let (area, perimeter) = (cell.area(face), cell.perimeter(face));
+            let (centroid, diameter) = cell.face_centroid_and_diameter(face);
+            is_near(facets.areas[k], area, off * perimeter, "facet", of);
+            let length = distance::<G>(&places[of], &places[other]);
+            for axis in 0..G::D {
+                if facets.areas[k] > 0.0 {
+                    // The centroid of a facet that is narrower than corners are off is near its corners.
+                    let is_narrow = area <= 4.0 * most_off::<G>(clip) * perimeter;
+                    let most = if is_narrow { diameter + off } else { off * perimeter * diameter / area };
+                    let most = most + last_bits;
+                    is_near(facets.centroids[k][axis], centroid[axis], most, "facet's centroid", of);
+                }
+                for (derivative, by) in facets.derivatives[k].iter().zip([other, of]) {
+                    let way = places[by][axis] - centroid[axis];
+                    let from_centroid =
+                        (0..G::D).map(|k| (places[by][k] - centroid[k]).powi(2)).sum::<f64>().sqrt();
+                    let most = (off * perimeter * (from_centroid + diameter) + area * last_bits) / length;
+                    is_near(derivative[axis], area * (way / length), most, "derivative", of);
+                }
+            }
+        }
+    }
+}
+
+fn distance<G: Dimension>(p: &G::Point, q: &G::Point) -> f64 {
+    let most = (0..G::D).map(|axis| (p[axis] - q[axis]).abs()).fold(0.0, f64::max);
+    most * (0..G::D).map(|axis| ((p[axis] - q[axis]) / most).powi(2)).sum::<f64>().sqrt()
 }
 
 /// Whether two places are mirror images at a face of a box.

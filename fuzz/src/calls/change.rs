@@ -213,11 +213,7 @@ impl History<'_> {
     pub(super) fn discard(&mut self) {
         let t = self.t;
         self.ok(|| c!(deldrift_discard_moves(t)));
-        for &(id, _) in self.m.coming.iter().rev() {
-            if id as usize >= self.m.n_known && id as usize + 1 == self.m.positions.len() {
-                self.m.positions.pop();
-            }
-        }
+        self.forget_coming_ids();
         self.m.forget_staged();
         self.check();
     }
@@ -226,12 +222,67 @@ impl History<'_> {
         let (t, after) = (self.t, self.m.committed());
         let wanted = self.status_after(&after, true);
         let mut report = deldrift_commit_report::default();
-        let status = self.expect_one(&wanted, || c!(deldrift_commit_timestamp(t, &mut report)));
+        let is_prepared = self.s.below(4) == 0;
+        let status = self.expect_one(&wanted, || {
+            if is_prepared {
+                c!(deldrift_prepare_timestamp(t, &mut report))
+            } else {
+                c!(deldrift_commit_timestamp(t, &mut report))
+            }
+        });
         self.check_conflicts(status, &after, true);
         if status == DELDRIFT_OK {
+            if is_prepared {
+                return self.publish_or_withdraw(after, &report);
+            }
             self.committed(after, &report);
         }
         self.check();
+    }
+
+    /// The staged timestamp is prepared. Perhaps there is another round, which is always withdrawn.
+    fn publish_or_withdraw(&mut self, after: Vec<Option<Place>>, report: &deldrift_commit_report) {
+        let t = self.t;
+        let (mut bytes, mut timestamp) = (0, 0);
+        assert_eq!(c!(deldrift_save(t, null_mut(), 0, &mut bytes)), DELDRIFT_PREPARED);
+        self.is_ok(c!(deldrift_timestamp(t, &mut timestamp)));
+        assert_eq!(timestamp, self.m.timestamp);
+        self.is_ok(c!(deldrift_validate(t, 3)));
+        let choice = self.s.below(4);
+        if choice < 2 {
+            self.is_ok(c!(deldrift_publish_timestamp(t)));
+            self.committed(after, report);
+            return self.check();
+        }
+        if choice == 3 {
+            // Where vertices stand when the round is made is for it alone to know.
+            let p = self.place();
+            let (mut id, mut first_of_two) = (77, 77);
+            self.is_ok(c!(deldrift_stage_insertions(t, p.as_ptr(), 1, &mut id)));
+            let leaving = after.iter().position(Option::is_some).filter(|_| !self.has_segments);
+            if let Some(v) = leaving {
+                self.is_ok(c!(deldrift_stage_removals(t, &(v as u32), 1)));
+            }
+            let status = c!(deldrift_prepare_timestamp(t, null_mut()));
+            if status == DELDRIFT_OK {
+                self.is_ok(c!(deldrift_validate(t, 3)));
+                self.is_ok(c!(deldrift_stage_insertions(t, p.as_ptr(), 1, &mut first_of_two)));
+                assert_eq!(first_of_two, id + 1);
+            }
+        }
+        self.is_ok(c!(deldrift_withdraw_timestamp(t)));
+        self.forget_coming_ids();
+        self.m.forget_staged();
+        self.check();
+    }
+
+    /// Ids of staged insertions are given back.
+    fn forget_coming_ids(&mut self) {
+        for &(id, _) in self.m.coming.iter().rev() {
+            if id as usize >= self.m.n_known && id as usize + 1 == self.m.positions.len() {
+                self.m.positions.pop();
+            }
+        }
     }
 
     /// The model after a commit, and what the report must say.

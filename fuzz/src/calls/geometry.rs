@@ -341,6 +341,19 @@ impl History<'_> {
             .copied(-7.0, 1, |to, room, count| c!(deldrift_voronoi_facets(t, low, high, to, room, count)));
         assert_eq!(facets.len(), self.wanted_edges().len());
         assert!(facets.iter().all(|&measure| measure >= 0.0), "{facets:?}");
+        if is_boxed {
+            let (none, nowhere) = (null(), null_mut());
+            let again = self.copied(-7.0, 1, |to, room, count| {
+                c!(deldrift_voronoi_cells(t, low, high, none, 0, to, nowhere, nowhere, room, count))
+            });
+            let most = 1e-6 * 7f64.powi(d as i32);
+            let is_near = |(a, b): (&f64, &f64)| a.is_nan() && b.is_nan() || (a - b).abs() < most;
+            assert!(again.iter().zip(&volumes).all(is_near), "{again:?}, not {volumes:?}");
+            let measures = self.copied(-7.0, 1, |to, room, count| {
+                c!(deldrift_voronoi_derivatives(t, low, high, none, 0, to, nowhere, nowhere, room, count))
+            });
+            assert!(measures.len() == facets.len() && measures.iter().all(|&measure| measure >= 0.0));
+        }
     }
 
     fn interpolate(&mut self) {

@@ -9,18 +9,28 @@ use crate::predicates::Meeting;
 pub(super) type Vector = [f64; 3];
 
 /// A point, in the plane at height 0.
+// What follows is written out, as closures over arrays are function calls in hot loops.
+#[inline(always)]
 pub(super) fn in_space<G: Dimension>(p: &G::Point) -> Vector {
-    std::array::from_fn(|axis| if axis < G::D { p[axis] } else { 0.0 })
+    [p[0], p[1], if G::D == 3 { p[2] } else { 0.0 }]
 }
 
+#[inline(always)]
 pub(super) fn minus(p: &Vector, q: &Vector) -> Vector {
-    std::array::from_fn(|axis| p[axis] - q[axis])
+    [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
 }
 
+#[inline(always)]
+pub(super) fn times(p: &Vector, x: f64) -> Vector {
+    [p[0] * x, p[1] * x, p[2] * x]
+}
+
+#[inline(always)]
 pub(super) fn dot(p: &Vector, q: &Vector) -> f64 {
     p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
 }
 
+#[inline(always)]
 pub(super) fn cross(p: &Vector, q: &Vector) -> Vector {
     [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
 }
@@ -81,6 +91,12 @@ impl Face {
     }
 }
 
+/// The power of two times which a positive number is from 1 to 2, if that is far enough from the bounds of numbers.
+fn unit_of(size: f64) -> f64 {
+    let exponent = (size.to_bits() >> 52) as i32 - 1023;
+    2f64.powi(-exponent.clamp(-1000, 1000))
+}
+
 /// A box, between two opposite corners.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Clip {
@@ -90,13 +106,21 @@ pub(super) struct Clip {
     pub(super) size: f64,
     /// The greatest magnitude of its coordinates.
     reach: f64,
+    /// A power of two times which its size is about 1: products of lengths in this unit are numbers.
+    pub(super) unit: f64,
 }
 
 impl Clip {
     pub(super) fn new<G: Dimension>(low: &G::Point, high: &G::Point) -> Self {
         let (low, high) = (in_space::<G>(low), in_space::<G>(high));
         let reach = greatest(&low).max(greatest(&high));
-        Clip { low, high, size: greatest(&minus(&high, &low)), reach }
+        let size = greatest(&minus(&high, &low));
+        Clip { low, high, size, reach, unit: unit_of(size) }
+    }
+
+    /// A product of some lengths in the box's unit, in that of its coordinates.
+    pub(super) fn measure_in(&self, dimension: usize, product: f64) -> f64 {
+        (0..dimension).fold(product, |product, _| product / self.unit)
     }
 
     /// The coordinate of a face along its axis.
@@ -112,6 +136,19 @@ impl Clip {
     /// The offset of a place from the corner of least coordinates, or that of the nearest place in the box.
     pub(super) fn offset_within(&self, p: &Vector) -> Vector {
         [0, 1, 2].map(|axis| (p[axis] - self.low[axis]).clamp(0.0, self.extent(axis)))
+    }
+
+    /// The measure of a facet, in the box's unit.
+    pub(super) fn facet_in_unit(&self, dimension: usize, measure: f64) -> f64 {
+        (1..dimension).fold(measure, |measure, _| measure * self.unit)
+    }
+
+    /// The way from an offset from the corner of least coordinates to a face, in the box's unit.
+    pub(super) fn way_to(&self, face: Face, offset: &Vector) -> Vector {
+        let to = if face.is_high { self.extent(face.axis) } else { 0.0 };
+        let mut way = [0.0; 3];
+        way[face.axis] = (to - offset[face.axis]) * self.unit;
+        way
     }
 
     /// The corner of least coordinates.

@@ -19,9 +19,10 @@ use std::cmp::Ordering;
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::VertexId;
-use crate::motion::reading::geometry::clipping::{Clip, Vector};
+use crate::motion::reading::geometry::clipping::{Clip, Face, Vector};
 use crate::motion::reading::geometry::incidence::Neighbours;
 use crate::motion::reading::geometry::progress::Progress;
+use crate::motion::reading::geometry::sums::Sums;
 use crate::motion::reading::geometry::voronoi::Voronoi;
 use crate::predicates::compare_distance;
 
@@ -82,37 +83,48 @@ impl BoxCorner {
         }
     }
 
-    /// The area or volume between it and a place in the box.
-    pub(super) fn product<G: Dimension>(&self, clip: &Clip, apex: &Vector) -> f64 {
-        let height = |axis: usize| {
-            if self.highs >> axis & 1 == 1 { clip.extent(axis) - apex[axis] } else { apex[axis] }
+    /// What is between it and a place in the box.
+    pub(super) fn sums<G: Dimension>(&self, clip: &Clip, apex: &Vector) -> Sums {
+        let mut way = [0.0; 3];
+        for (axis, way) in way.iter_mut().enumerate().take(G::D) {
+            let face = Face { axis, is_high: self.highs >> axis & 1 == 1 };
+            *way = clip.way_to(face, apex)[axis];
+        }
+        let area_but = |axis: usize| -> f64 {
+            (0..G::D).filter(|&other| other != axis).map(|other| way[other].abs()).product()
         };
-        (0..G::D).map(height).product()
+        let mut sums = Sums { wall: (0..G::D).map(area_but).sum(), ..Sums::default() };
+        sums.add(way[0].abs() * area_but(0), 0.5, [&way]);
+        sums
     }
 }
 
 impl<G: Dimension> Voronoi<'_, G> {
-    /// Computes the areas or volumes of the cells of some vertices, which do not fit in the box.
-    pub(super) fn cut_volumes(
+    /// Tells what there is of the cells of some vertices, which do not fit in the box: parts whose sums are to be added,
+    /// with offsets from the vertex, or from the place in the box that is nearest to it. Only the first ones are told
+    /// for all of these; later parts, for vertices that `is_wanted`.
+    pub(super) fn cut_cells(
         &mut self,
         clip: &Clip,
         mut neighbours: Neighbours<'_, G>,
         vertices: impl Iterator<Item = VertexId>,
-        volumes: &mut [f64],
+        is_wanted: impl Fn(VertexId) -> bool,
         progress: &mut Progress,
+        mut tell: impl FnMut(VertexId, &Sums),
     ) -> Result<()> {
         let mut list = Vec::new();
         for v in vertices {
             let apex = clip.offset_within(&self.place(v));
             neighbours.list(v, VertexId::new(0), &mut list, |w, cell| (w, cell))?;
-            let mut volume = 0.0;
+            let mut sums = Sums::default();
             for &(w, first) in &list {
                 if self.cut_around([v, w], first, clip)? {
-                    volume += self.facet.pyramids(clip, &apex);
+                    self.facet.add_pyramids(clip, &apex, &mut sums);
+                    sums.facets += clip.facet_in_unit(G::D, self.facet.measure());
                 }
                 progress.advance(self.ring.cells.len())?;
             }
-            volumes[v.index()] = volume;
+            tell(v, &sums);
         }
         for corner in BoxCorner::all::<G>(clip) {
             let near = self.t.nearest_vertex(&corner.point::<G>())?.expect("there are vertices");
@@ -121,10 +133,10 @@ impl<G: Dimension> Voronoi<'_, G> {
                 |v| self.place(v),
                 |v, others| neighbours.list(v, VertexId::new(0), others, |w, _| w),
             )?;
-            let apex = clip.offset_within(&self.place(owner));
-            volumes[owner.index()] += corner.product::<G>(clip, &apex);
+            if is_wanted(owner) {
+                tell(owner, &corner.sums::<G>(clip, &clip.offset_within(&self.place(owner))));
+            }
         }
-        volumes.iter_mut().for_each(|volume| *volume = if *volume < 0.0 { 0.0 } else { *volume });
         Ok(())
     }
 }

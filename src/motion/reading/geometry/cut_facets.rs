@@ -34,6 +34,7 @@ use crate::motion::reading::geometry::clipping::{
     Clip, Face, Vector, cross, dot, length_by, minus, normalised,
 };
 use crate::motion::reading::geometry::rings::Ring;
+use crate::motion::reading::geometry::sums::Sums;
 use crate::predicates::{Meeting, sign_of_cross};
 
 /// What a corner other than a circumcentre may be off by, in sizes of the box: 2⁻⁴⁴.
@@ -405,40 +406,67 @@ impl CutFacet {
         }
     }
 
-    /// What it adds to the area or volume of the cell of its edge's first end: the pyramid above it, and those above
-    /// its sides and corners on faces of the box, as `cut_cells.rs` has them. All have their apex at the same place in
-    /// the box.
-    pub(super) fn pyramids(&self, clip: &Clip, apex: &Vector) -> f64 {
+    /// Its length or area, and its centroid, from the box's corner of least coordinates; NaN if nothing is left.
+    pub(super) fn measure_and_centroid(&self) -> (f64, Vector) {
+        let measure = self.measure();
+        let [first, ref others @ ..] = self.places[..] else { return (0.0, [f64::NAN; 3]) };
+        if self.is_plane {
+            return (measure, [0, 1, 2].map(|axis| 0.5 * (first[axis] + others[0][axis])));
+        }
+        let normal = normalised(&minus(&self.to, &self.at));
+        let (mut sum, mut moment) = (0.0, [0.0; 3]);
+        for pair in others.windows(2) {
+            let [p, q] = [0, 1].map(|k| minus(&pair[k], &first));
+            // It is convex, so that what is below zero is rounding.
+            let weight = dot(&cross(&p, &q), &normal).max(0.0);
+            sum += weight;
+            moment = [0, 1, 2].map(|axis| moment[axis] + weight * (p[axis] + q[axis]));
+        }
+        let offset = if sum > 0.0 { moment.map(|x| x / (3.0 * sum)) } else { [0.0; 3] };
+        (measure, [0, 1, 2].map(|axis| first[axis] + offset[axis]))
+    }
+
+    /// Adds what it is of the cell of its edge's first end: the pyramid above it, and those above its sides and corners
+    /// on faces of the box, as `cut_cells.rs` has them. All have their apex at the same place in the box.
+    pub(super) fn add_pyramids(&self, clip: &Clip, apex: &Vector, sums: &mut Sums) {
         let n = self.places.len();
-        let from_apex = |k: usize| minus(&self.places[k % n], apex);
-        // How far the apex is from a face.
-        let height = |face: Face| {
-            if face.is_high { clip.extent(face.axis) - apex[face.axis] } else { apex[face.axis] }
-        };
-        let mut sum = 0.0;
+        let from_apex = |k: usize| minus(&self.places[k % n], apex).map(|x| x * clip.unit);
         for (k, corner) in self.corners.iter().enumerate() {
             let p = from_apex(k);
             if self.is_plane {
                 if let Side::On(face) = corner.sides[0] {
+                    let foot = clip.way_to(face, apex);
                     let along = 1 - face.axis;
-                    sum += 0.5 * height(face) * f64::from(self.normal[along]) * p[along];
+                    let length = f64::from(self.normal[along]) * p[along];
+                    sums.wall += length;
+                    sums.add(0.5 * foot[face.axis].abs() * length, 1.0 / 3.0, [&foot, &p]);
                 }
                 continue;
             }
             let q = from_apex(k + 1);
-            sum += dot(&from_apex(0), &cross(&p, &q)) / 6.0;
+            let first = from_apex(0);
+            sums.add(dot(&first, &cross(&p, &q)) / 6.0, 0.25, [&first, &p, &q]);
             if let Side::On(face) = corner.sides[1] {
+                let foot = clip.way_to(face, apex);
                 let doubled = f64::from(face.outward()) * cross(&q, &p)[face.axis];
-                sum += height(face) * doubled / 6.0;
+                sums.wall += 0.5 * doubled;
+                sums.add(foot[face.axis].abs() * doubled / 6.0, 0.25, [&foot, &p, &q]);
             }
             if let [Side::On(face), Side::On(next)] = corner.sides {
                 let along = 3 - face.axis - next.axis;
-                sum += height(face) * height(next) * f64::from(self.normal[along]) * p[along] / 3.0;
+                let [one, other] = [face, next].map(|face| clip.way_to(face, apex));
+                let heights = [one[face.axis].abs(), other[next.axis].abs()];
+                let length = f64::from(self.normal[along]) * p[along];
+                sums.wall += 0.5 * (heights[0] + heights[1]) * length;
+                // Two tetrahedra, with the foot on either face; one and a half times the foot on the edge is the sum of
+                // what both have on average.
+                let foot = [0, 1, 2].map(|axis| 1.5 * (one[axis] + other[axis]));
+                sums.add(heights[0] * heights[1] * length / 3.0, 0.25, [&foot, &p]);
             }
         }
         if self.is_plane && n == 2 {
-            sum += 0.5 * cross(&from_apex(0), &from_apex(1))[2];
+            let [p, q] = [0, 1].map(from_apex);
+            sums.add(0.5 * cross(&p, &q)[2], 1.0 / 3.0, [&p, &q]);
         }
-        sum
     }
 }

@@ -19,6 +19,7 @@ use crate::motion::reading::geometry::cut_facets::{Centres, CutFacet};
 use crate::motion::reading::geometry::incidence::Neighbours;
 use crate::motion::reading::geometry::progress::Progress;
 use crate::motion::reading::geometry::rings::Ring;
+use crate::motion::reading::geometry::sums::Sums;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::sign_of_cross;
 
@@ -53,12 +54,13 @@ fn spanning<G: Dimension>(mut places: Vec<G::Point>) -> Result<Vec<G::Point>> {
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Computes the areas or volumes of the Voronoi cells of vertices in one hyperplane, in a box.
-    pub(super) fn flat_volumes(
+    /// Tells what there is in a box of the Voronoi cells of vertices in one hyperplane: parts whose sums are to be
+    /// added, with offsets as in [`cut_cells`](super::voronoi::Voronoi::cut_cells).
+    pub(super) fn flat_cells(
         &self,
         clip: &Clip,
-        volumes: &mut [f64],
         progress: &mut Progress,
+        mut tell: impl FnMut(VertexId, &Sums),
     ) -> Result<()> {
         let (mut ids, mut places) = (Vec::new(), Vec::new());
         memory::collect(&mut ids, self.mesh.kernel.live_sites().map(|s| self.mesh.kernel.site(s).id))?;
@@ -69,22 +71,16 @@ impl<G: Dimension> MovingTriangulation<G> {
         memory::collect(&mut places, ids.iter().map(|&v| self.mesh.kernel.site(self.mesh.site_of[v]).point))?;
         let options = Options { threads: self.options.threads, ..Options::default() };
         let spanning = MovingTriangulation::<G>::new(&spanning::<G>(places)?, options)?;
-        spanning.volumes_of_first(ids.len(), clip, progress, |v, volume| {
-            volumes[ids[v.index()].index()] += volume
-        })?;
-        // Parts may be negative, and what is left of them by rounding.
-        volumes.iter_mut().for_each(|volume| *volume = if *volume < 0.0 { 0.0 } else { *volume });
-        Ok(())
+        spanning.cells_of_first(ids.len(), clip, progress, |v, sums| tell(ids[v.index()], sums))
     }
 
-    /// Tells parts of the areas or volumes of the Voronoi cells of the first vertices, which are in one hyperplane, as
-    /// if there were no others.
-    fn volumes_of_first(
+    /// Tells parts of the Voronoi cells of the first vertices, which are in one hyperplane, as if there were no others.
+    fn cells_of_first(
         &self,
         n: usize,
         clip: &Clip,
         progress: &mut Progress,
-        mut tell: impl FnMut(VertexId, f64),
+        mut tell: impl FnMut(VertexId, &Sums),
     ) -> Result<()> {
         let cells = self.cell_arrays()?;
         progress.expect(2 * cells.corners().len());
@@ -105,7 +101,10 @@ impl<G: Dimension> MovingTriangulation<G> {
                 facet.fill_flat([at, self.place_in_space(w)], &others[..n_others], G::D == 2)?;
                 facet.cut(clip, &centres)?;
                 facet.place(clip, &centres)?;
-                tell(v, facet.pyramids(clip, &apex));
+                let mut sums = Sums::default();
+                facet.add_pyramids(clip, &apex, &mut sums);
+                sums.facets = clip.facet_in_unit(G::D, facet.measure());
+                tell(v, &sums);
                 progress.advance(ring.cells.len())?;
             }
         }
@@ -120,7 +119,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                     Ok(())
                 },
             )?;
-            tell(owner, corner.product::<G>(clip, &clip.offset_within(&self.place_in_space(owner))));
+            tell(owner, &corner.sums::<G>(clip, &clip.offset_within(&self.place_in_space(owner))));
         }
         Ok(())
     }

@@ -12,6 +12,7 @@
 //! | `star` | stars in circulation order |
 //! | `rings` | what is around an edge, in order |
 //! | `voronoi`, `voronoi_cells`, `progress` | Voronoi cells and facets |
+//! | `dual`, `dual_facets`, `sums` | volumes, boundaries and centroids of Voronoi cells; their facets, with derivatives |
 //! | `clipping`, `cut_facets`, `cut_cells` | those that are cut by a box |
 //! | `flat_cells` | Voronoi cells of vertices in one hyperplane |
 //! | `interpolation`, `linear`, `natural` | values between vertices: linear, or of natural neighbours |
@@ -25,6 +26,8 @@ mod boundary;
 mod clipping;
 mod cut_cells;
 mod cut_facets;
+mod dual;
+mod dual_facets;
 mod flat_cells;
 mod flat_sides;
 mod incidence;
@@ -36,11 +39,14 @@ mod progress;
 mod rings;
 mod simplices;
 mod star;
+mod sums;
 mod voronoi;
 mod voronoi_cells;
 mod weights;
 
 pub use boundary::BoundaryFacet;
+pub use dual::VoronoiCells;
+pub use dual_facets::VoronoiFacets;
 pub use incidence::Rows;
 pub use interpolation::{Interpolation, VertexValues};
 pub use star::OrderedStar;

@@ -29,9 +29,9 @@ const LARGEST_RADIUS: f64 = 4.0;
 pub(super) struct Voronoi<'t, G: Dimension> {
     pub(super) t: &'t MovingTriangulation<G>,
     pub(super) cells: &'t Cells<G>,
-    centres: Vec<G::Point>,
+    pub(super) centres: Vec<G::Point>,
     /// The faces of the box that they are beyond; none without a box.
-    sides: Vec<u8>,
+    pub(super) sides: Vec<u8>,
     pub(super) ring: Ring,
     pub(super) facet: CutFacet,
 }

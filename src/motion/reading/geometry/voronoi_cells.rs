@@ -70,7 +70,13 @@ impl<G: Dimension> MovingTriangulation<G> {
                     .for_each(|s| volumes[self.mesh.kernel.site(s).id.index()] = f64::INFINITY);
             }
             None => self.whole_volumes(&mut volumes, progress)?,
-            Some(clip) if self.cell_count() == 0 => self.flat_volumes(&clip, &mut volumes, progress)?,
+            Some(clip) if self.cell_count() == 0 => {
+                self.flat_cells(&clip, progress, |v, sums| {
+                    volumes[v.index()] += clip.measure_in(G::D, sums.volume);
+                })?;
+                // Parts may be negative, and what is left of them by rounding.
+                volumes.iter_mut().for_each(|volume| *volume = if *volume < 0.0 { 0.0 } else { *volume });
+            }
             Some(clip) => self.volumes_in(&clip, &mut volumes, progress)?,
         }
         Ok(volumes)
@@ -115,7 +121,20 @@ impl<G: Dimension> MovingTriangulation<G> {
             progress.advance(voronoi.ring.cells.len())
         })?;
         let cut = VertexId::range(0..self.id_count()).filter(|v| is_cut[v.index()]);
-        voronoi.cut_volumes(clip, neighbours, cut, volumes, progress)
+        cut.clone().for_each(|v| volumes[v.index()] = 0.0);
+        voronoi.cut_cells(
+            clip,
+            neighbours,
+            cut,
+            |_| true,
+            progress,
+            |v, sums| {
+                volumes[v.index()] += clip.measure_in(G::D, sums.volume);
+            },
+        )?;
+        // Parts may be negative, and what is left of them by rounding.
+        volumes.iter_mut().for_each(|volume| *volume = if *volume < 0.0 { 0.0 } else { *volume });
+        Ok(())
     }
 
     /// Lengths or areas of the Voronoi facets between the ends of all edges, in the order of [`edges`](Self::edges),
@@ -196,7 +215,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 }
 
 /// A box that is one.
-fn checked<G: Dimension>([low, high]: [&G::Point; 2]) -> Result<Clip> {
+pub(super) fn checked<G: Dimension>([low, high]: [&G::Point; 2]) -> Result<Clip> {
     let (low, high) = (check_position::<G>("low", 0, low)?, check_position::<G>("high", 0, high)?);
     for axis in 0..G::D {
         if low[axis] >= high[axis] {
