@@ -8,7 +8,6 @@ use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::{CommitReport, MAX_VERTICES};
 use crate::periodic::lattice::{Lattice, Occupied};
-use crate::periodic::needed::Needed;
 use crate::periodic::triangulation::{Inside, PeriodicTriangulation};
 
 /// Where vertices go.
@@ -289,7 +288,7 @@ impl<G: Dimension> Inside<G> {
         let (before, n_images) = (self.occupied, self.images.len());
         self.occupied = occupied;
         let done = self.t.prepare_timestamp().and_then(|mut report| {
-            self.complete(lattice, Needed::of_all, |t| {
+            self.complete(lattice, Self::missing, |t| {
                 report.add(&t.prepare_timestamp()?);
                 Ok(())
             })?;
@@ -298,6 +297,8 @@ impl<G: Dimension> Inside<G> {
         match done {
             Ok(mut report) => {
                 self.t.publish_timestamp()?;
+                // Without the memory for it the next commit looks at what has changed now, too.
+                let _ = self.t.take_changes();
                 report.inserted = 0;
                 Ok(report)
             }

@@ -131,7 +131,9 @@ impl<G: Dimension> Inside<G> {
     /// be dropped.
     pub(super) fn build(&mut self, lattice: &Lattice<G>, places: &[G::Point]) -> Result<()> {
         self.t.build_first_with_keys(places, &keys_of(self.images.as_slice())?)?;
-        self.complete(lattice, Needed::of_all, |t| t.commit_timestamp().map(drop))
+        self.complete(lattice, Needed::of_all, |t| t.commit_timestamp().map(drop))?;
+        // From now on what changes is known.
+        self.t.take_changes().map(drop)
     }
 
     /// The number of vertices that others hide.

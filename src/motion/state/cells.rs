@@ -208,6 +208,13 @@ impl<G: Dimension> Cells<G> {
         taken.list(tracker, &self.corners, n_ids)
     }
 
+    /// The corners of cells that have come or gone since changes were taken; none if they never were.
+    pub(in crate::motion) fn rows_since_taken(
+        &self,
+    ) -> Option<impl Iterator<Item = (&G::Vertices, Option<CellId>)>> {
+        self.since_taken.as_ref().map(|tracker| tracker.rows_since_base(&self.corners))
+    }
+
     /// What has been listed has been taken.
     pub(in crate::motion) fn end_taking(&mut self) {
         self.since_taken.as_mut().expect("it has been listed").reset();
