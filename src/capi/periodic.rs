@@ -72,7 +72,11 @@ pub unsafe extern "C" fn deldrift_create_periodic(
         let callbacks = options.callbacks();
         let options = options.convert()?;
         if options.coincidence == CoincidencePolicy::Reject {
-            return Err(invalid("options.coincidence", 1, "DELDRIFT_COINCIDENCE_MERGE where the triangulation is periodic"));
+            return Err(invalid(
+                "options.coincidence",
+                1,
+                "DELDRIFT_COINCIDENCE_MERGE where the triangulation is periodic",
+            ));
         }
         // Looked at here as well, lest an absurd count becomes the length of a slice.
         if count > MAX_VERTICES {

@@ -8,17 +8,35 @@
 //! without a boundary in a space without holes covers it once. Each facet is between two cells whose balls have no other vertex of
 //! both in them, with ties broken alike in all periods: they are the Delaunay cells.
 //!
-//! Where they were so before, only cells that have changed can be otherwise: a cell that is there in one place and not in
-//! another has changed in one of them, and vertices that are not connected any more were in one that has gone.
+//! Where they were so before, only cells that have changed can be otherwise: of a cell that is there in one place and not in
+//! another some places have come or gone, and not all, and vertices that are not connected any more were in one that has gone.
 
 use crate::delaunay::{Dimension, IndexSet};
 use crate::error::Result;
 use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::{CellsView, cells_at};
+use crate::periodic::images::Image;
 use crate::periodic::lattice::{HOME, Lattice};
 use crate::periodic::needed::Needed;
 use crate::periodic::triangulation::Inside;
+
+/// The vertices of a cell in their order, each with its shift from the first.
+type Class = [u64; 4];
+
+/// A cell that has come, or one that has gone, by its place in a list.
+#[derive(Clone, Copy)]
+enum Change {
+    Come(CellId),
+    Gone(usize),
+}
+
+/// One of the places of a class that has changed.
+struct Found {
+    class: Class,
+    n_places: usize,
+    change: Change,
+}
 
 /// Finds cells among those at a vertex.
 struct Stars<'t, G: Dimension> {
@@ -77,35 +95,43 @@ impl<G: Dimension> Inside<G> {
     fn missing_at_changes(&self, lattice: &Lattice<G>) -> Result<Option<Needed>> {
         let cells = self.t.cells()?;
         let Some(rows) = self.t.rows_since_taken()? else { return Ok(None) };
-        let mut stars = Stars { inside: self, cells, slots: IndexSet::new() };
+        let (mut removed, mut found) = (Vec::new(), Vec::new());
         let mut joined = Joined::none(self.images.n_vertices())?;
-        let (mut needed, mut is_consistent) = (Needed::default(), true);
-        let mut removed = Vec::new();
         for (row, created) in rows {
             let corners = row.as_ref();
-            let Some(&home) = corners.iter().find(|v| v.index() < self.n_home) else { continue };
+            let n_home = corners.iter().filter(|v| v.index() < self.n_home).count();
+            if n_home == 0 {
+                continue;
+            }
             if created.is_some() {
                 let vertex = |v: VertexId| self.images.of(v).vertex;
                 corners[1..].iter().for_each(|&v| joined.join(vertex(corners[0]), vertex(v)));
             } else {
                 memory::push(&mut removed, *row)?;
             }
-            if corners.iter().all(|v| v.index() < self.n_home) {
+            if n_home < corners.len() {
+                let (class, n_places) = self.class_of(row);
+                let change = created.map_or_else(|| Change::Gone(removed.len() - 1), Change::Come);
+                memory::push(&mut found, Found { class, n_places, change })?;
+            }
+        }
+        found.sort_unstable_by_key(|one| one.class);
+        let (mut needed, mut is_consistent) = (Needed::default(), true);
+        let mut stars = Stars { inside: self, cells, slots: IndexSet::new() };
+        for of_class in found.chunk_by(|one, other| one.class == other.class) {
+            // Before, the class was there in all places or in none.
+            let n_come = of_class.iter().filter(|one| matches!(one.change, Change::Come(_))).count();
+            let n_more = n_come.abs_diff(of_class.len() - n_come);
+            if n_more == 0 || n_more == of_class[0].n_places {
                 continue;
             }
-            let here = match created {
-                Some(cell) => Some(cell),
-                None => stars.find(home, row)?,
-            };
-            for &v in corners.iter().filter(|v| v.index() >= self.n_home) {
-                let there = match self.translated_home(row, v) {
-                    Some(row) => stars.find(self.images.home(self.images.of(v).vertex), &row)?,
-                    None => None,
-                };
-                if here.is_some() != there.is_some() {
-                    is_consistent = false;
-                    let cell = here.or(there).expect("one of both");
-                    needed.enter_cell(self, lattice, cell)?;
+            is_consistent = false;
+            for one in of_class {
+                match one.change {
+                    Change::Come(cell) => needed.enter_cell(self, lattice, cell)?,
+                    Change::Gone(index) => {
+                        self.enter_others(&mut stars, lattice, &removed[index], &mut needed)?
+                    }
                 }
             }
         }
@@ -119,6 +145,41 @@ impl<G: Dimension> Inside<G> {
             each.all(|other| Some(other) == first)
         });
         Ok(are_joined.then_some(needed))
+    }
+
+    /// Enters what the balls of translations of a cell that has gone ask for, as far as they are there.
+    fn enter_others(
+        &self,
+        stars: &mut Stars<'_, G>,
+        lattice: &Lattice<G>,
+        row: &G::Vertices,
+        needed: &mut Needed,
+    ) -> Result<()> {
+        for &v in row.as_ref().iter().filter(|v| v.index() >= self.n_home) {
+            let Some(row) = self.translated_home(row, v) else { continue };
+            if let Some(cell) = stars.find(self.images.home(self.images.of(v).vertex), &row)? {
+                needed.enter_cell(self, lattice, cell)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// What all translations of a cell have in common, and in how many places it has a vertex at home.
+    fn class_of(&self, row: &G::Vertices) -> (Class, usize) {
+        let mut images = [Image { vertex: VertexId::NONE, shift: HOME }; 4];
+        let corners = row.as_ref();
+        images.iter_mut().zip(corners).for_each(|(image, &v)| *image = self.images.of(v));
+        let images = &mut images[..corners.len()];
+        images.sort_unstable();
+        let mut n_places = 0;
+        let mut class = [u64::MAX; 4];
+        for (i, image) in images.iter().enumerate() {
+            n_places += usize::from(images[..i].iter().all(|other| other.shift != image.shift));
+            // Less than 2^7 periods are between two corners.
+            let apart = [0, 1, 2].map(|j| u64::from((image.shift[j] - images[0].shift[j]) as u8));
+            class[i] = u64::from(image.vertex.get()) << 32 | apart[0] << 16 | apart[1] << 8 | apart[2];
+        }
+        (class, n_places)
     }
 
     /// The corners of a cell after the translation that takes one of them home, if all are there.

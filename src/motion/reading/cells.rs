@@ -91,6 +91,13 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(taken.changes())
     }
 
+    /// From now on changes are known, as if all there is had been taken.
+    pub(crate) fn begin_changes(&mut self) -> Result<()> {
+        self.mesh.views.cells_mut(&self.mesh.kernel)?.begin_taking()?;
+        self.mesh.takes_changes = true;
+        Ok(())
+    }
+
     /// The corners of cells that have been created since changes were taken, with their indices, and of those that have been
     /// removed, also while a timestamp is prepared; none if changes were never taken. A cell that has gone and come back may be
     /// among both.

@@ -215,6 +215,14 @@ impl<G: Dimension> Cells<G> {
         self.since_taken.as_ref().map(|tracker| tracker.rows_since_base(&self.corners))
     }
 
+    /// All there is counts as taken.
+    pub(in crate::motion) fn begin_taking(&mut self) -> Result<()> {
+        let mut tracker = Tracker::of_none(self.corners.len())?;
+        tracker.reset();
+        self.since_taken = Some(tracker);
+        Ok(())
+    }
+
     /// What has been listed has been taken.
     pub(in crate::motion) fn end_taking(&mut self) {
         self.since_taken.as_mut().expect("it has been listed").reset();
