@@ -261,11 +261,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         if let Some(lattice) = self.coming.take() {
             self.lattice = lattice;
         }
-        let mut report = CommitReport::default();
-        report.moved = moved;
-        report.rebuilds = 1;
-        report.inserted = self.staged.insertions().len() as u64;
-        report.removed = self.staged.removals().len() as u64;
+        let (inserted, removed) =
+            (self.staged.insertions().len() as u64, self.staged.removals().len() as u64);
+        let report = CommitReport { moved, rebuilds: 1, inserted, removed, ..CommitReport::default() };
         Ok(report)
     }
 }

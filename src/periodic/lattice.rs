@@ -19,6 +19,8 @@
 //! the nearest sums of the others (I. Semaev: *A 3-dimensional lattice reduction algorithm*. CaLC 2001,
 //! 10.1007/3-540-44670-2_13). What is found depends on the lattice, not on the basis; only how soon depends on that.
 
+#![expect(clippy::needless_range_loop, reason = "axes and vectors are indices of several arrays at a time")]
+
 use crate::delaunay::Shape;
 use crate::error::{Error, Result};
 use crate::predicates::MAX_MAGNITUDE;
@@ -58,10 +60,8 @@ impl Occupied {
     /// Now a place with these multiples, too.
     #[inline(always)]
     pub(super) fn enter(&mut self, multiples: &[f64; 3]) {
-        for j in 0..3 {
-            self.low[j] = self.low[j].min(multiples[j]);
-            self.high[j] = self.high[j].max(multiples[j]);
-        }
+        self.low.iter_mut().zip(multiples).for_each(|(low, &x)| *low = low.min(x));
+        self.high.iter_mut().zip(multiples).for_each(|(high, &x)| *high = high.max(x));
     }
 
     /// Whether no vertex is farther outside of the unit cell than some share of it.

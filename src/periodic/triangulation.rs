@@ -85,8 +85,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         }
         let mut inside = Inside::unbuilt(&lattice, &home, n, options)?;
         inside.build(&lattice)?;
-        let mut statistics = CommitReport::default();
-        statistics.coincident = inside.coincident() as u64;
+        let statistics = CommitReport { coincident: inside.coincident() as u64, ..CommitReport::default() };
         let (staged, cells) = (Staged::default(), OnceLock::new());
         Ok(PeriodicTriangulation { lattice, inside, wraps, staged, coming: None, statistics, cells })
     }
