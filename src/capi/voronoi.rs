@@ -2,7 +2,7 @@
 
 use std::mem::MaybeUninit;
 
-use super::handle::{Reading, deldrift_triangulation};
+use super::handle::{Content, Reading, deldrift_triangulation};
 use super::pointers::{Array, Buffer, Output, Point, fill_all, given};
 use super::query::dimension_of;
 use super::status::{Failure, deldrift_status};
@@ -53,7 +53,14 @@ pub unsafe extern "C" fn deldrift_voronoi_volumes(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, low: Point, high: Point, volumes[capacity]: Buffer, count: Output);
-    t.read_watched(|t, monitor| {
+    t.read_any_watched(|t, monitor| {
+        let t = match t {
+            Content::Open(t) => t,
+            Content::Periodic(_) if !(low.is_null() && high.is_null()) => return Err(Failure::Clipped),
+            Content::Periodic(t) => {
+                return volumes.fill(count, t.id_count(), || Ok(t.voronoi_volumes(monitor)?));
+            }
+        };
         in_its_dimension!(t => {
             let clip = clip_for(t, low, high)?;
             volumes.fill(count, t.id_count(), || Ok(t.voronoi_volumes_monitored(clip, monitor)?))
