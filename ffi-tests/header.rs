@@ -46,6 +46,7 @@ const MAIN: Header = Header {
         "incidence",
         "listed",
         "voronoi",
+        "periodic",
         "interpolation",
         "saving",
         "predicates",

@@ -138,6 +138,11 @@ pub enum Error {
         /// Number of segments whose coming or going is staged.
         segments: usize,
     },
+    /// Vectors of a periodic box depend on each other, or nearly so, or are more than there are axes.
+    DependentVectors {
+        /// Number of vectors.
+        count: usize,
+    },
     /// A timestamp is prepared, and the call is not one of those that may be made before it is published or withdrawn.
     Prepared {
         /// The timestamp.
@@ -346,6 +351,11 @@ impl fmt::Display for Error {
             Error::Staged { moves, edits, segments } => write!(
                 f,
                 "{moves} moves, {edits} insertions and removals and {segments} changes of segments are staged, but nothing may be"
+            ),
+            Error::DependentVectors { count } => write!(
+                f,
+                "vectors[{}] is not independent of the others, or there are more vectors than axes: {count}",
+                count.saturating_sub(1)
             ),
             Error::Prepared { timestamp, rounds: 1 } => {
                 write!(

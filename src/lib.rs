@@ -48,6 +48,7 @@ pub mod motion;
 #[cfg(test)]
 #[path = "../tests/common/passing_by_roots.rs"]
 mod passing_by_roots;
+pub mod periodic;
 mod predicates;
 #[cfg(test)]
 #[path = "../tests/common/random.rs"]

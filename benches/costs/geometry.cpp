@@ -47,6 +47,21 @@ Ids all_vertices(const Context &c) {
     return ids;
 }
 
+/// Makes a periodic triangulation of the vertices, in a box a little larger than that of all; its vectors.
+std::vector<double> make_periodic(Context &c) {
+    const auto [low, high] = c.box(0.05);
+    std::vector<double> box(c.dimension * c.dimension);
+    for (unsigned k = 0; k < c.dimension; ++k) box[k * (c.dimension + 1)] = std::max(high[k] - low[k], 1e-9);
+    deldrift_destroy(c.t);
+    c.t = nullptr;
+    const deldrift_options options = c.options();
+    c.meter.time([&] {
+        must(deldrift_create_periodic(c.dimension, c.points.data(), c.n, box.data(), c.dimension, &options, &c.t));
+    });
+    c.meter.count(double(c.n + c.cells()));
+    return box;
+}
+
 /// Within the box of all vertices, made so much larger on every side.
 template <int percent>
 void voronoi_volumes(Context &c) {
@@ -252,6 +267,37 @@ std::vector<Call> geometry_calls() {
          }},
         {"deldrift_voronoi_volumes", "in a box around all", voronoi_volumes<10>},
         {"deldrift_voronoi_volumes", "in a box inside", voronoi_volumes<-20>},
+        {"deldrift_create_periodic", "in a box around all", [](Context &c) {
+             make_periodic(c);
+         }},
+        {"deldrift_stage_vectors", "of a periodic one", [](Context &c) {
+             const std::vector<double> box = make_periodic(c);
+             c.meter.reset();
+             c.meter.time([&] { must(deldrift_stage_vectors(c.t, box.data(), c.dimension)); });
+             c.meter.count(1);
+         }},
+        {"deldrift_vectors", "of a periodic one", [](Context &c) {
+             std::vector<double> box = make_periodic(c);
+             std::size_t count;
+             c.meter.reset();
+             c.meter.time([&] { must(deldrift_vectors(c.t, box.data(), c.dimension, &count)); });
+             c.meter.count(1);
+         }},
+        {"deldrift_cell_shifts", "of a periodic one", [](Context &c) {
+             make_periodic(c);
+             std::vector<std::int64_t> shifts(c.cells() * 12 + 1);
+             std::size_t count;
+             c.meter.reset();
+             c.meter.time([&] { must(deldrift_cell_shifts(c.t, shifts.data(), nullptr, c.cells(), &count)); });
+             c.meter.count(double(c.n + count));
+         }},
+        {"deldrift_edge_shifts", "of a periodic one", [](Context &c) {
+             make_periodic(c);
+             c.meter.reset();
+             counted<std::int64_t>(c, c.dimension, [&](std::int64_t *to, std::size_t room, std::size_t *count) {
+                 return deldrift_edge_shifts(c.t, to, room, count);
+             });
+         }},
         {"deldrift_voronoi_facets", "without a box", [](Context &c) {
              counted<double>(c, 1, [&](double *to, std::size_t room, std::size_t *count) {
                  return deldrift_voronoi_facets(c.t, nullptr, nullptr, to, room, count);

@@ -30,7 +30,7 @@ const OF_PLANE: [&str; 19] = [
 ];
 
 /// Functions that list what there is not.
-const TELL_NOTHING: [&str; 2] = ["deldrift_segment_conflicts", "deldrift_passings"];
+const TELL_NOTHING: [&str; 3] = ["deldrift_segment_conflicts", "deldrift_passings", "deldrift_vectors"];
 
 /// The source of the program.
 pub fn program(functions: &[Declaration]) -> String {
@@ -167,6 +167,8 @@ impl Cases<'_> {
         // Lists have offsets, which may be left out, and entries, which may only be left out with their capacity.
         let is_list = self.function.has("offsets");
         let is_legal = match role {
+            // Of a triangulation that is not periodic there are none.
+            Role::Vectors => self.function.name == "deldrift_stage_vectors",
             Role::Handle => self.function.name == "deldrift_destroy",
             Role::Owner
             | Role::Hint
@@ -199,8 +201,9 @@ impl Cases<'_> {
             Role::Handle if self.function.name == "deldrift_destroy" => "(deldrift_triangulation *)odd",
             _ => "odd",
         };
-        // There is nothing to be written.
-        if role == Role::Buffer && TELL_NOTHING.contains(&self.function.name.as_str()) {
+        // There is nothing to be written, or read.
+        let is_of_nothing = role == Role::Vectors && self.function.name == "deldrift_stage_vectors";
+        if is_of_nothing || role == Role::Buffer && TELL_NOTHING.contains(&self.function.name.as_str()) {
             return self.legal("misaligned", at, "an odd address", wrong);
         }
         let message = format!("\"{} is 0x\"", parameter.name);
@@ -228,6 +231,18 @@ impl Cases<'_> {
                 // Of several counts that of the points comes after them.
                 let count = if self.function.has("n_values") { Some(at + 1) } else { count };
                 self.coordinates(at, name, valid, count.map_or("1", |count| self.row.arguments[count]));
+            }
+            Role::Vectors if valid != "NULL" => {
+                self.coordinates(at, name, valid, "dimension");
+                let wanted = "\"vectors[%u] is not independent\", dimension - 1";
+                self.refused(
+                    "value",
+                    at,
+                    "all in one direction",
+                    "one_direction",
+                    "DEPENDENT_VECTORS",
+                    wanted,
+                );
             }
             Role::PointsOfSimplex => self.coordinates(at, name, valid, "(dimension + 1)"),
             Role::PointsOfSphere => self.coordinates(at, name, valid, "(dimension + 2)"),
@@ -657,6 +672,16 @@ impl Cases<'_> {
             }
             Role::Count | Role::FixedCount | Role::CountOfEach | Role::Size => self.count(at, role, name),
             Role::Capacity => self.capacity(at),
+            Role::VectorCount => {
+                let is_creation = self.function.name.starts_with("deldrift_create");
+                let (status, wrong) = match is_creation {
+                    true => ("DEPENDENT_VECTORS", [("zero", "0"), ("value", "4"), ("huge", "SIZE_MAX")]),
+                    false => ("WRONG_COUNT", [("value", "1"), ("value", "4"), ("huge", "SIZE_MAX")]),
+                };
+                for (column, value) in wrong {
+                    self.refused(column, at, value, value, status, "\"vector\"");
+                }
+            }
             _ => unreachable!("{name} is a pointer"),
         }
     }

@@ -41,6 +41,7 @@ typedef struct {
     uint32_t ids[ROOM], more_ids[ROOM], few_ids[ROOM / 8], fewer_ids[ROOM / 8];
     int32_t labels[ROOM];
     uint64_t keys[ROOM];
+    int64_t shifts[ROOM], more_shifts[ROOM];
     deldrift_conflict conflicts[8];
     deldrift_quality quality;
     deldrift_quality_report quality_report;
@@ -57,7 +58,8 @@ static uint32_t inner_cell, inner_corner, fence[3];
 
 // Arguments, which are made again before each call.
 static double points[(COUNT + 2) * 3], moved[(COUNT + 2) * 3], values[(COUNT + 2) * 3], inside[(COUNT + 2) * 3];
-static double outside[ROOM], low[ROOM], high[ROOM];
+static double outside[ROOM], low[ROOM], high[ROOM], vectors[(COUNT + 2) * 3];
+static const double one_direction[9] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
 static uint32_t ids[3], ends[6], segments[2];
 static int32_t wholes[ROOM];
 static uint64_t keys[COUNT], greatest_keys[COUNT];
@@ -242,6 +244,10 @@ static void before(void) {
     for (size_t i = 0; i < sizeof points / sizeof *points; i++) moved[i] = points[i] + 0.01 * next_random(&seed);
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) values[i] = (double)i;
     for (size_t i = 0; i < sizeof inside / sizeof *inside; i++) inside[i] = 0.5;
+    // Its rows are the axes, each with a bit of the one before.
+    for (size_t i = 0; i < dimension * dimension; i++) {
+        vectors[i] = i % (dimension + 1) == 0 ? 1 : i % (dimension + 1) == dimension ? 0.25 : 0;
+    }
     for (size_t i = 0; i < 3; i++) {
         low[i] = -1;
         high[i] = 2;
@@ -462,6 +468,47 @@ static uint8_t *poison(void) {
     return NULL;
 }
 
+// Functions that serve a periodic triangulation; all others say that they do not.
+static bool serves_periodic(const char *name) {
+    static const char *const all[] = {
+        "destroy", "dimension", "set_algorithm", "get_algorithm", "move_vertex", "move_vertices", "stage_insertions",
+        "stage_removals", "discard_moves", "commit_timestamp", "commit_positions", "vertex_count", "id_count",
+        "cell_count", "staged_count", "memory_bytes", "timestamp", "statistics", "is_present", "position",
+        "copy_positions", "coincident_representative", "cells", "copy_cells", "edges", "voronoi_volumes",
+        "stage_vectors", "vectors", "cell_shifts", "edge_shifts"};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        if (strcmp(name + strlen("deldrift_"), all[k]) == 0) return true;
+    }
+    return false;
+}
+
+static void periodic_ones_are_refused_or_served(void) {
+    use_base(WITH_EDITS);
+    deldrift_triangulation *const open = t, *made = NULL;
+    deldrift_cells_view view, as_before;
+    before();
+    OK(deldrift_create_periodic(dimension, points, COUNT, vectors, dimension, NULL, &made));
+    OK(deldrift_cells(made, &view));
+    size_t n_refused = 0;
+    for (size_t k = 0; k < n_functions; k++) {
+        const function *f = &functions[k];
+        if (!f->takes_t || (f->of_plane && dimension == 3) || serves_periodic(f->name)) continue;
+        before();
+        t = made;
+        const deldrift_status status = call(k);
+        t = open;
+        check_refusal(f->name, "t", "periodic", status, DELDRIFT_PERIODIC, "t is periodic", f->has_count);
+        n_refused++;
+    }
+    CHECK(n_refused > 40);
+    before();
+    size_t count;
+    CHECK_STATUS(deldrift_voronoi_volumes(made, low, high, out.numbers, ROOM, &count), DELDRIFT_PERIODIC);
+    OK(deldrift_cells(made, &as_before));
+    CHECK(as_before.vertices == view.vertices && as_before.count == view.count);
+    deldrift_destroy(made);
+}
+
 static void poisoned_ones_can_be_destroyed(void) {
     use_base(WITH_EDITS);
     uint8_t *flag = poison();
@@ -585,7 +632,8 @@ static void try_all(void) {
             functions[k].cases();
         }
         calls_during_a_commit();
-        poisoned_ones_can_be_destroyed();
+        periodic_ones_are_refused_or_served();
+    poisoned_ones_can_be_destroyed();
         in_a_thread(from_a_thread);
         nothing_is_lost();
         deldrift_destroy(t);

@@ -11,6 +11,9 @@ pub enum Role {
     Points,
     PointsOfSimplex,
     PointsOfSphere,
+    /// Vectors of a box; how many they are.
+    Vectors,
+    VectorCount,
     /// A corner of a box: both are given, or none; and one that must be given, and may be anywhere.
     BoxCorner,
     OpenBoxCorner,
@@ -89,6 +92,8 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("const double *", "seeds") => Role::Points,
         ("const double *", "points") if function.name == "deldrift_in_sphere" => Role::PointsOfSphere,
         ("const double *", "points") => Role::PointsOfSimplex,
+        ("const double *", "vectors") => Role::Vectors,
+        ("size_t", "vector_count") => Role::VectorCount,
         ("const double *", "low" | "high") if function.name == "deldrift_vertices_in_box" => {
             Role::OpenBoxCorner
         }

@@ -122,6 +122,9 @@ static const char *fault(scene *s, const control *c, size_t k, later too, bool l
 
 static void faults_of(uint32_t dimension, call call, size_t which, double share, size_t turn) {
     const setting *setting = &SETTINGS[which];
+    // Of those that are in a line without end most images are there.
+    const bool is_periodic = call.kind == CREATE_PERIODIC || call.kind >= PERIODIC_POSITIONS;
+    if (is_periodic && (setting->n > 100 || setting->stages > 0)) return;
     // Segments are of the plane; a set without them has nothing to check.
     const bool is_of_segments = call.kind == CHECK_STAGED || call.kind == CHECK_PASSINGS || call.kind == STAGE_SPLITS;
     if (setting->segments > 0 ? dimension == 3 : is_of_segments) return;
@@ -217,6 +220,7 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     OK(deldrift_get_algorithm(s.t, &number));
     OK(deldrift_vertex_count(s.t, &count));
     OK(deldrift_keys(s.t, NULL, 0, &count));
+    OK(deldrift_vectors(s.t, NULL, 0, &count));
     OK(deldrift_cell_count(s.t, &count));
     OK(deldrift_staged_count(s.t, &count));
     OK(deldrift_memory_bytes(s.t, &count));

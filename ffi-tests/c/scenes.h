@@ -52,7 +52,7 @@ static const setting SETTINGS[] = {
 };
 enum { N_SETTINGS = sizeof SETTINGS / sizeof *SETTINGS };
 
-typedef enum { CREATE, CREATE_WITH_KEYS, RELOCATE, INSERT, INSERT_WITH_KEY, REMOVE, MOVE, MOVE_SOME, MOVE_ALL,
+typedef enum { CREATE, CREATE_WITH_KEYS, CREATE_PERIODIC, RELOCATE, INSERT, INSERT_WITH_KEY, REMOVE, MOVE, MOVE_SOME, MOVE_ALL,
     STAGE_INSERTIONS, STAGE_WITH_KEYS, STAGE_AT_FREE_IDS, STAGE_REMOVALS,
     STAGE_SEGMENTS, STAGE_SEGMENT_REMOVALS, COMMIT,
     COMMIT_SOME, COMMIT_POSITIONS, PREPARE, PREPARE_SOME, WITHDRAW, CHECK_STAGED, CHECK_PASSINGS, STAGE_SPLITS, COMPACT, TAKE_CHANGES, CELLS,
@@ -64,10 +64,11 @@ typedef enum { CREATE, CREATE_WITH_KEYS, RELOCATE, INSERT, INSERT_WITH_KEY, REMO
     NEAREST_VERTICES, VERTICES_IN_BALL, VERTICES_IN_BOX, CONFLICTS,
     CELLS_IN_REACH, HULL_FACETS_IN_REACH, VERTICES_IN_REACH, FIND_SIMPLICES, FIND_SIMPLICES_ALL,
     CELL_OF_EACH_VERTEX, BARYCENTRIC, MASK_WITHOUT_FLAT_CELLS, SEGMENTS_OF_CELLS, CELLS_OF_SEGMENTS, NESTING_LEVELS,
-    LABEL_CELLS, UPDATE_LABELS, BOUNDARY_CHAINS, REFINE, COARSEN, RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT, N_KINDS } kind;
+    LABEL_CELLS, UPDATE_LABELS, BOUNDARY_CHAINS, REFINE, COARSEN, RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT,
+    PERIODIC_POSITIONS, STAGE_VECTORS, CELL_SHIFTS, EDGE_SHIFTS, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
-    "deldrift_create", "deldrift_create_with_keys", "deldrift_relocate_vertex", "deldrift_insert_vertex",
+    "deldrift_create", "deldrift_create_with_keys", "deldrift_create_periodic", "deldrift_relocate_vertex", "deldrift_insert_vertex",
     "deldrift_insert_vertex_with_key", "deldrift_remove_vertex",
     "deldrift_move_vertex", "deldrift_move_vertices", "deldrift_move_vertices, all", "deldrift_stage_insertions",
     "deldrift_stage_insertions_with_keys", "deldrift_stage_insertions_at_free_ids",
@@ -93,6 +94,7 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_refine", "deldrift_coarsen",
     "deldrift_release_cells", "deldrift_clone", "deldrift_save", "deldrift_load", "deldrift_save_file",
     "deldrift_load_file", "deldrift_write_vtu", "deldrift_write_medit",
+    "deldrift_commit_positions, periodic", "deldrift_stage_vectors", "deldrift_cell_shifts", "deldrift_edge_shifts",
 };
 
 enum { MOST_PAIRS = 24 };
@@ -119,6 +121,8 @@ typedef struct {
     call call;
     const setting *setting;
     deldrift_triangulation *t;
+    // A periodic one, for the calls that only such serve.
+    deldrift_triangulation *periodic;
     // Where vertices are, and where those that are to move go; of all ids that there are.
     double *points, *places;
     size_t n;
@@ -134,6 +138,7 @@ typedef struct {
 enum { ROOM = 1 << 16 };
 static uint32_t ids_out[ROOM], more_out[ROOM];
 static double numbers_out[ROOM];
+static int64_t shifts_out[ROOM];
 static uint8_t bytes_out[8 * ROOM];
 
 // What is loaded.
@@ -280,6 +285,28 @@ static const uint64_t *keys_of(size_t count) {
     return keys;
 }
 
+// Vectors of a box, by dimension; and of another one.
+static const double BOX[2][9] = {{1, 0, 0.25, 1}, {1, 0, 0, 0.25, 1, 0, 0, -0.375, 1}};
+static const double OTHER_BOX[2][9] = {{1, 0, 5.25, 1.125}, {1, 0, 0, 0.25, 1, 0, 0, -0.375, 1.125}};
+
+// A number for the cells of a periodic triangulation, in any order.
+static uint64_t digest_of_periodic(const deldrift_triangulation *t, uint32_t dimension) {
+    static int64_t shifts[12 * 8192];
+    const size_t n = dimension + 1;
+    deldrift_cells_view view;
+    size_t count;
+    OK(deldrift_cells(t, &view));
+    OK(deldrift_cell_shifts(t, shifts, NULL, 8192, &count));
+    uint64_t sum = count;
+    for (size_t c = 0; c < count; c++) {
+        for (size_t i = 0; i < n; i++) {
+            const uint64_t shift = digest_of(shifts + (c * n + i) * dimension, dimension * sizeof *shifts);
+            sum += mixed(digest_of(view.vertices + c * n + i, sizeof *view.vertices), shift);
+        }
+    }
+    return sum;
+}
+
 // The same each time.
 static scene make_scene(uint32_t dimension, call call, const setting *setting) {
     scene s = {.dimension = dimension, .call = call, .setting = setting, .n = setting->n};
@@ -329,6 +356,7 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
     }
     memcpy(s.places, s.points, room * sizeof *s.places);
     nudge(s.places, s.n * d, 0.3 * spacing, &state);
+    if (call.kind >= PERIODIC_POSITIONS) OK(deldrift_create_periodic(d, s.points, s.n, BOX[d - 2], d, &options, &s.periodic));
     if (setting->flattens) flatten(s.places, s.n + 20, d);
     for (size_t k = 0; k < s.n_pairs && n_laid > 0; k++) {
         for (int i = 0; i < 2; i++) {
@@ -372,6 +400,7 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
 
 static void end_scene(scene *s) {
     deldrift_destroy(s->t);
+    deldrift_destroy(s->periodic);
     free(s->points);
     free(s->places);
     free(s->mirror.rows);
@@ -462,6 +491,13 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     switch (s->call.kind) {
         case CREATE: status = deldrift_create(d, s->points, s->n, &options, &made); break;
         case RELOCATE: status = deldrift_relocate_vertex(s->t, vertex, to); break;
+        case CREATE_PERIODIC:
+            status = deldrift_create_periodic(d, s->points, s->n, BOX[d - 2], d, &options, &made);
+            break;
+        case PERIODIC_POSITIONS: status = deldrift_commit_positions(s->periodic, s->places, s->n, &report); break;
+        case STAGE_VECTORS: status = deldrift_stage_vectors(s->periodic, OTHER_BOX[d - 2], d); break;
+        case CELL_SHIFTS: status = deldrift_cell_shifts(s->periodic, shifts_out, NULL, ROOM / 12, &count); break;
+        case EDGE_SHIFTS: status = deldrift_edge_shifts(s->periodic, shifts_out, ROOM / 3, &count); break;
         case CREATE_WITH_KEYS: status = deldrift_create_with_keys(d, s->points, keys_of(s->n), s->n, &options, &made); break;
         case INSERT_WITH_KEY: status = deldrift_insert_vertex_with_key(s->t, to, 3, &out); break;
         case INSERT: status = deldrift_insert_vertex(s->t, to, &out); break;
@@ -622,6 +658,17 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         return status;
     }
     switch (s->call.kind) {
+        case CREATE_PERIODIC:
+            *given = digest_of_periodic(made, d);
+            deldrift_destroy(made);
+            break;
+        case PERIODIC_POSITIONS: *given = digest_of_periodic(s->periodic, d); break;
+        case STAGE_VECTORS:
+            OK(deldrift_commit_timestamp(s->periodic, NULL));
+            *given = digest_of_periodic(s->periodic, d);
+            break;
+        case CELL_SHIFTS:
+        case EDGE_SHIFTS: *given = count; break;
         case CREATE:
         case CREATE_WITH_KEYS:
         case CLONE:

@@ -556,6 +556,27 @@ static void make_tour(const places *p, record *made) {
     note(keys_out, count * sizeof *keys_out);
     DO(deldrift_destroy(t));
 
+    // A periodic one, of which the box changes.
+    static const double box[2][9] = {{3, 0, 0.5, 3}, {3, 0, 0, 0.5, 3, 0, 0, 0.75, 3}};
+    static const double other_box[2][9] = {{3, 0, 6.5, 3.25}, {3, 0, 0, 0.5, 3.25, 0, 0, 0.75, 3}};
+    static int64_t shifts[48 * TOUR_POINTS], beside[48 * TOUR_POINTS];
+    static double box_out[9];
+    t = NULL;
+    GO(deldrift_create_periodic(d, p->at, 12, box[d - 2], d, &options, &t));
+    GO(deldrift_commit_positions(t, p->later, 12, &report));
+    note(&report, sizeof report);
+    GO(deldrift_stage_vectors(t, other_box[d - 2], d));
+    GO(deldrift_commit_timestamp(t, &report));
+    note(&report, sizeof report);
+    GO(deldrift_vectors(t, box_out, d, &count));
+    note(box_out, count * d * sizeof *box_out);
+    GO(deldrift_cell_shifts(t, shifts, beside, 4 * TOUR_POINTS, &count));
+    note(shifts, count * (d + 1) * d * sizeof *shifts);
+    note(beside, count * (d + 1) * d * sizeof *beside);
+    GO(deldrift_edge_shifts(t, NULL, 0, &count));
+    note(&count, sizeof count);
+    DO(deldrift_destroy(t));
+
     // Calls that are refused: what a number is like is told.
     uint32_t vertex = 0;
     t = NULL;

@@ -51,6 +51,7 @@ from ._geometry import Boundary, VoronoiCells, VoronoiDerivatives
 from ._library import QualityReport, Report, version
 from ._mesh import Mesh
 from ._motion import Changes
+from ._periodic import PeriodicDelaunay
 from ._refining import MadeVertices, RefinedWeights
 from ._segments import Chains, Segments, Splits
 from ._step import Step, Trial
@@ -90,6 +91,7 @@ __all__ = [
     "OutOfMemory",
     "OutOfRange",
     "PassingError",
+    "PeriodicDelaunay",
     "Prepared",
     "QualityReport",
     "RefinedWeights",

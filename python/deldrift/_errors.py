@@ -223,6 +223,7 @@ KINDS = {
     29: NoSuchSegment,
     34: AmbiguousSeed,
     36: Prepared,
+    39: InvalidValue,
 }
 """Classes by deldrift_status. What is not here comes of a defect, as a pointer of this package that is NULL."""
 

@@ -12,10 +12,60 @@ use super::status::{Failure, deldrift_status};
 use crate::either::AnyTriangulation;
 use crate::error::Error;
 use crate::machine::{environment, memory};
+use crate::periodic::AnyPeriodic;
+
+/// What is in a triangulation that C knows.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "it is in a box of its own, and what is open is read with no other step"
+)]
+pub(super) enum Content {
+    Open(AnyTriangulation),
+    Periodic(Box<AnyPeriodic>),
+}
+
+impl From<AnyTriangulation> for Content {
+    fn from(t: AnyTriangulation) -> Self {
+        Content::Open(t)
+    }
+}
+
+impl From<Box<AnyPeriodic>> for Content {
+    fn from(t: Box<AnyPeriodic>) -> Self {
+        Content::Periodic(t)
+    }
+}
+
+impl Content {
+    /// The number of coordinates of a point, 2 or 3.
+    pub(super) fn dimension(&self) -> u32 {
+        match self {
+            Content::Open(t) => t.dimension(),
+            Content::Periodic(t) => t.dimension(),
+        }
+    }
+
+    /// For a function that does not serve periodic triangulations.
+    #[inline(always)]
+    fn open(&self) -> Result<&AnyTriangulation, Failure> {
+        match self {
+            Content::Open(t) => Ok(t),
+            Content::Periodic(_) => Err(Failure::Periodic),
+        }
+    }
+
+    #[inline(always)]
+    fn open_mut(&mut self) -> Result<&mut AnyTriangulation, Failure> {
+        match self {
+            Content::Open(t) => Ok(t),
+            Content::Periodic(_) => Err(Failure::Periodic),
+        }
+    }
+}
 
 /// A triangulation: opaque, made by deldrift_create, unmade by deldrift_destroy.
 pub struct deldrift_triangulation {
-    content: UnsafeCell<AnyTriangulation>,
+    content: UnsafeCell<Content>,
     // What the triangulation calls, for those that are made from it.
     callbacks: Callbacks,
     // Written only by calls that change the triangulation, which exclude all others by contract. They are
@@ -28,7 +78,7 @@ pub struct deldrift_triangulation {
 
 impl deldrift_triangulation {
     #[inline(always)]
-    fn new(content: AnyTriangulation, callbacks: Callbacks) -> Self {
+    fn new(content: Content, callbacks: Callbacks) -> Self {
         Self {
             content: UnsafeCell::new(content),
             callbacks,
@@ -46,13 +96,13 @@ impl deldrift_triangulation {
     ) -> Result<Box<Self>, Error> {
         memory::boxed_by(
             #[inline(always)]
-            || Self::new(content(), callbacks),
+            || Self::new(Content::Open(content()), callbacks),
         )
     }
 
-    /// What is in it, as long as nobody else knows it.
-    pub(super) fn content_mut(&mut self) -> &mut AnyTriangulation {
-        self.content.get_mut()
+    /// What is in it, which is open, as long as nobody else knows it.
+    pub(super) fn content_mut(&mut self) -> Result<&mut AnyTriangulation, Failure> {
+        self.content.get_mut().open_mut()
     }
 
     fn check_idle(&self) -> Result<(), Failure> {
@@ -139,7 +189,7 @@ impl<'a> Reading<'a> {
 
     /// What is in it, and its callbacks, unless a call below this one on the stack is changing it.
     #[inline(always)]
-    fn ready(self) -> Result<(&'a AnyTriangulation, &'a deldrift_triangulation), Failure> {
+    fn ready(self) -> Result<(&'a Content, &'a deldrift_triangulation), Failure> {
         // SAFETY: promised to `new`.
         let handle = unsafe { handle_of(self.pointer) }?;
         handle.check_ready()?;
@@ -151,6 +201,12 @@ impl<'a> Reading<'a> {
     /// Runs the body of an entry that looks at a triangulation.
     #[inline(always)]
     pub(super) fn read(self, body: impl FnOnce(&AnyTriangulation) -> Result<(), Failure>) -> deldrift_status {
+        guard::enter(|| body(self.ready()?.0.open()?))
+    }
+
+    /// Runs the body of an entry that looks at a triangulation, periodic or not.
+    #[inline(always)]
+    pub(super) fn read_any(self, body: impl FnOnce(&Content) -> Result<(), Failure>) -> deldrift_status {
         guard::enter(|| body(self.ready()?.0))
     }
 
@@ -161,7 +217,7 @@ impl<'a> Reading<'a> {
     ) -> deldrift_status {
         guard::enter(|| {
             let (t, handle) = self.ready()?;
-            body(t, handle.callbacks)
+            body(t.open()?, handle.callbacks)
         })
     }
 
@@ -170,6 +226,14 @@ impl<'a> Reading<'a> {
     pub(super) fn read_watched(
         self,
         body: impl FnOnce(&AnyTriangulation, &mut dyn FnMut(f64) -> bool) -> Result<(), Failure>,
+    ) -> deldrift_status {
+        self.read_any_watched(|t, monitor| body(t.open()?, monitor))
+    }
+
+    /// That, of a triangulation that may be periodic.
+    pub(super) fn read_any_watched(
+        self,
+        body: impl FnOnce(&Content, &mut dyn FnMut(f64) -> bool) -> Result<(), Failure>,
     ) -> deldrift_status {
         guard::enter(|| {
             let (t, handle) = self.ready()?;
@@ -185,7 +249,17 @@ impl<'a> Reading<'a> {
         out: Output<'_, T>,
         body: impl FnOnce(&AnyTriangulation) -> Result<T, Failure>,
     ) -> deldrift_status {
-        self.read(|t| {
+        self.tell_any(out, |t| body(t.open()?))
+    }
+
+    /// That, of a triangulation that may be periodic.
+    #[inline(always)]
+    pub(super) fn tell_any<T>(
+        self,
+        out: Output<'_, T>,
+        body: impl FnOnce(&Content) -> Result<T, Failure>,
+    ) -> deldrift_status {
+        self.read_any(|t| {
             let out = out.place()?;
             out.write(body(t)?);
             Ok(())
@@ -219,6 +293,14 @@ impl<'a> Changing<'a> {
         self,
         body: impl FnOnce(&mut AnyTriangulation) -> Result<(), Failure>,
     ) -> deldrift_status {
+        self.change_any(|t| body(t.open_mut()?))
+    }
+
+    /// That, of a triangulation that may be periodic.
+    pub(super) fn change_any(
+        self,
+        body: impl FnOnce(&mut Content) -> Result<(), Failure>,
+    ) -> deldrift_status {
         guard::enter(|| {
             let handle = self.handle()?;
             let claim = handle.claim()?;
@@ -239,7 +321,7 @@ impl<'a> Changing<'a> {
                 let is_free = handle.check_ready().is_ok() && handle.check_unused().is_ok();
                 // SAFETY: it is free, which excludes calls below this one on the stack, and the promise to `new`
                 // excludes those of other threads.
-                is_free && body(unsafe { &mut *handle.content.get() })
+                is_free && unsafe { &mut *handle.content.get() }.open_mut().is_ok_and(body)
             })
         })
     }
@@ -263,12 +345,66 @@ impl<'a> Changing<'a> {
 /// Gives a triangulation to the caller.
 pub(super) fn hand_out(
     out: &mut MaybeUninit<*mut deldrift_triangulation>,
-    content: AnyTriangulation,
+    content: impl Into<Content>,
     callbacks: Callbacks,
 ) -> Result<(), Failure> {
-    out.write(Box::into_raw(memory::boxed(deldrift_triangulation::new(content, callbacks))?));
+    out.write(Box::into_raw(memory::boxed(deldrift_triangulation::new(content.into(), callbacks))?));
     Ok(())
 }
+
+/// What a reference to a box leads to, of either kind.
+pub(super) trait Within {
+    type To;
+
+    fn within(self) -> Self::To;
+}
+
+impl<'t> Within for &'t Box<AnyPeriodic> {
+    type To = &'t AnyPeriodic;
+
+    fn within(self) -> &'t AnyPeriodic {
+        self
+    }
+}
+
+impl<'t> Within for &'t mut Box<AnyPeriodic> {
+    type To = &'t mut AnyPeriodic;
+
+    fn within(self) -> &'t mut AnyPeriodic {
+        self
+    }
+}
+
+/// Evaluates an expression on a periodic triangulation, in its dimension.
+macro_rules! in_its_period {
+    ($periodic:expr, $t:ident => $body:expr) => {
+        match $crate::capi::handle::Within::within($periodic) {
+            $crate::periodic::AnyPeriodic::Plane($t) => $body,
+            $crate::periodic::AnyPeriodic::Space($t) => $body,
+        }
+    };
+}
+pub(super) use in_its_period;
+
+/// Evaluates an expression on what is in a triangulation that may be periodic, in its dimension: `in_any!(t => t.count())`.
+macro_rules! in_any {
+    ($t:ident => $body:expr) => {
+        match $t {
+            $crate::capi::handle::Content::Open($crate::AnyTriangulation::Plane($t)) => $body,
+            $crate::capi::handle::Content::Open($crate::AnyTriangulation::Space($t)) => $body,
+            $crate::capi::handle::Content::Periodic(t) => $crate::capi::handle::in_its_period!(t, $t => $body),
+        }
+    };
+}
+pub(super) use in_any;
+
+/// Evaluates an expression on a triangulation that may be periodic, and writes the result to an output.
+macro_rules! tell_any {
+    ($t:ident, $out:ident => $body:expr) => {
+        $t.tell_any($out, |$t| $crate::capi::handle::in_any!($t => Ok($body)))
+    };
+}
+pub(super) use tell_any;
 
 /// Evaluates an expression on a triangulation, in its dimension, and writes the result to an output: `tell!(t, out =>
 /// t.count())`.

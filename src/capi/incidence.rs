@@ -1,6 +1,6 @@
 //! What meets what: edges, neighbours and cells of vertices, mirror indices, ordered stars.
 
-use super::handle::{Reading, deldrift_triangulation, tell};
+use super::handle::{Content, Reading, deldrift_triangulation, tell};
 use super::interpolation::check_product;
 use super::pointers::{Array, Buffer, Output, fill_all, fit, given, write_all};
 use super::query::{DELDRIFT_NONE, check_facet, dimension_of};
@@ -33,7 +33,13 @@ pub unsafe extern "C" fn deldrift_edges(
 ) -> deldrift_status {
     let edges = edges.cast::<[VertexId; 2]>();
     given!(t: Reading, edges[capacity]: Buffer, count: Output);
-    t.read(|t| in_its_dimension!(t => edges.fill(count, t.edge_count(), || Ok(t.edges()?))))
+    t.read_any(|t| match t {
+        Content::Open(t) => in_its_dimension!(t => edges.fill(count, t.edge_count(), || Ok(t.edges()?))),
+        Content::Periodic(t) => {
+            let listed = t.edges()?;
+            edges.fill(count, listed.len(), || Ok(listed.into_iter().map(|(edge, _)| edge)))
+        }
+    })
 }
 
 /// The neighbours of all vertices: for each id the vertices with which it shares an edge, ascending, one list after

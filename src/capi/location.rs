@@ -1,6 +1,6 @@
 //! Where points lie, and which vertices are near.
 
-use super::handle::{Reading, deldrift_triangulation, tell};
+use super::handle::{Reading, deldrift_triangulation, tell, tell_any};
 use super::pointers::{Buffer, Input, Output, Point, Points, fill_all, given, write_all};
 use super::query::DELDRIFT_NONE;
 use super::status::{Failure, deldrift_status};
@@ -140,7 +140,7 @@ pub unsafe extern "C" fn deldrift_coincident_representative(
     representative: *mut u32,
 ) -> deldrift_status {
     given!(t: Reading, representative: Output);
-    tell!(t, representative => t.coincident_representative(VertexId::new(vertex))?.get())
+    tell_any!(t, representative => t.coincident_representative(VertexId::new(vertex))?.get())
 }
 
 /// The vertices that are hidden, ascending, each with the one that represents it.

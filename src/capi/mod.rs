@@ -69,6 +69,7 @@ mod near;
 mod options;
 #[cfg(test)]
 mod panics;
+mod periodic;
 mod pointers;
 mod predicates;
 mod preparing;
@@ -97,6 +98,7 @@ pub use location::*;
 pub use motion::*;
 pub use near::*;
 pub use options::*;
+pub use periodic::*;
 pub use predicates::*;
 pub use preparing::*;
 pub use query::*;

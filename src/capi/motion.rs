@@ -2,12 +2,11 @@
 
 use std::slice;
 
-use super::handle::{Changing, deldrift_triangulation};
+use super::handle::{Changing, deldrift_triangulation, in_any};
 use super::pointers::{Array, Output, Point, Points, given};
 use super::status::deldrift_status;
 use crate::error::Error;
 use crate::ids::VertexId;
-use crate::in_its_dimension;
 use crate::motion::CommitReport;
 
 /// What a commit did, or, from deldrift_statistics, what all of them did.
@@ -85,8 +84,8 @@ pub unsafe extern "C" fn deldrift_move_vertex(
     position: *const f64,
 ) -> deldrift_status {
     given!(t: Changing, position: Point);
-    t.change(|t| {
-        in_its_dimension!(t => {
+    t.change_any(|t| {
+        in_any!(t => {
             let position = position.of("position", t)?;
             t.move_vertices(&[VertexId::new(vertex)], slice::from_ref(position)).map_err(of_one)?;
         });
@@ -117,11 +116,11 @@ pub unsafe extern "C" fn deldrift_move_vertices(
     count: usize,
 ) -> deldrift_status {
     given!(t: Changing, vertices[count]: Array, positions[count]: Points);
-    t.change(|t| {
+    t.change_any(|t| {
         if count == 0 {
             return Ok(());
         }
-        in_its_dimension!(t => {
+        in_any!(t => {
             let positions = positions.of(t)?;
             if vertices.is_null() {
                 t.move_first(positions)?;
@@ -159,9 +158,9 @@ pub unsafe extern "C" fn deldrift_stage_insertions(
     first_vertex: *mut u32,
 ) -> deldrift_status {
     given!(t: Changing, positions[count]: Points, first_vertex: Output);
-    t.change(|t| {
+    t.change_any(|t| {
         let first_vertex = first_vertex.place()?;
-        first_vertex.write(in_its_dimension!(t => t.stage_insertions(positions.of(t)?))?.get());
+        first_vertex.write(in_any!(t => t.stage_insertions(positions.of(t)?))?.get());
         Ok(())
     })
 }
@@ -190,9 +189,9 @@ pub unsafe extern "C" fn deldrift_stage_removals(
     count: usize,
 ) -> deldrift_status {
     given!(t: Changing, vertices[count]: Array);
-    t.change(|t| {
+    t.change_any(|t| {
         let vertices = VertexId::of_numbers(vertices.get()?);
-        in_its_dimension!(t => t.stage_removals(vertices))?;
+        in_any!(t => t.stage_removals(vertices))?;
         Ok(())
     })
 }
@@ -205,8 +204,8 @@ pub unsafe extern "C" fn deldrift_stage_removals(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_discard_moves(t: *mut deldrift_triangulation) -> deldrift_status {
     given!(t: Changing);
-    t.change(|t| {
-        in_its_dimension!(t => t.discard_moves());
+    t.change_any(|t| {
+        in_any!(t => t.discard_moves());
         Ok(())
     })
 }
@@ -234,9 +233,9 @@ pub unsafe extern "C" fn deldrift_commit_timestamp(
     report: *mut deldrift_commit_report,
 ) -> deldrift_status {
     given!(t: Changing, report: Output);
-    t.change(|t| {
+    t.change_any(|t| {
         let report = report.if_any()?;
-        let done = in_its_dimension!(t => t.commit_timestamp())?;
+        let done = in_any!(t => t.commit_timestamp())?;
         if let Some(report) = report {
             report.write(done.into());
         }
@@ -268,9 +267,9 @@ pub unsafe extern "C" fn deldrift_commit_positions(
     report: *mut deldrift_commit_report,
 ) -> deldrift_status {
     given!(t: Changing, positions[count]: Points, report: Output);
-    t.change(|t| {
+    t.change_any(|t| {
         let report = report.if_any()?;
-        let done = in_its_dimension!(t => t.commit_positions(positions.of(t)?))?;
+        let done = in_any!(t => t.commit_positions(positions.of(t)?))?;
         if let Some(report) = report {
             report.write(done.into());
         }

@@ -61,7 +61,7 @@ impl<G: Dimension> Scene<G> {
         let mut out = MaybeUninit::uninit();
         // SAFETY: NULL stands for the defaults, which have no callbacks.
         let defaults = unsafe { GivenOptions::new("options", null()) }.read().expect("defaults are in order");
-        hand_out(&mut out, made.into(), defaults.callbacks()).expect("there is memory");
+        hand_out(&mut out, AnyTriangulation::from(made), defaults.callbacks()).expect("there is memory");
         // SAFETY: it has been written.
         let t = unsafe { out.assume_init() };
         let scene = Scene { t, left, places: points::<G>(n, 4) };

@@ -12,6 +12,7 @@ use std::{ptr, slice};
 use super::status::{Failure, Wrong};
 use crate::delaunay::Dimension;
 use crate::motion::MovingTriangulation;
+use crate::periodic::PeriodicTriangulation;
 
 /// Takes pointers that a C function has been given at their word, each under its own name: `given!(x: Input)` makes an
 /// [`Input`] of the pointer `x`, `given!(x[n]: Array)` an [`Array`] of `x` and the count `n`.
@@ -163,6 +164,19 @@ impl<'a> Text<'a> {
     }
 }
 
+/// What has points of some dimension.
+pub(super) trait OfPoints {
+    type Point;
+}
+
+impl<G: Dimension> OfPoints for MovingTriangulation<G> {
+    type Point = G::Point;
+}
+
+impl<G: Dimension> OfPoints for PeriodicTriangulation<G> {
+    type Point = G::Point;
+}
+
 /// A point that is read: as many numbers as the triangulation of the call has dimensions. It is told its name when it
 /// is used: calls that take one are short, and a name that is kept would be carried through all of them.
 #[derive(Clone, Copy)]
@@ -185,11 +199,7 @@ impl<'a> Point<'a> {
 
     /// The point, which must be there; `t` is the triangulation of the call.
     #[inline(always)]
-    pub(super) fn of<G: Dimension>(
-        self,
-        argument: &'static str,
-        _t: &MovingTriangulation<G>,
-    ) -> Result<&'a G::Point, Failure> {
+    pub(super) fn of<T: OfPoints>(self, argument: &'static str, _t: &T) -> Result<&'a T::Point, Failure> {
         // SAFETY: promised to `new`: so many numbers are a point.
         unsafe { Input::new(argument, self.pointer.cast()) }.get()
     }
@@ -210,7 +220,13 @@ impl<'a> Points<'a> {
 
     /// The points, which must be there unless their count is 0; `t` is the triangulation of the call.
     #[inline(always)]
-    pub(super) fn of<G: Dimension>(self, _t: &MovingTriangulation<G>) -> Result<&'a [G::Point], Failure> {
+    pub(super) fn of<T: OfPoints>(self, _t: &T) -> Result<&'a [T::Point], Failure> {
+        self.of_kind::<T>()
+    }
+
+    /// Those of what is still to be made.
+    #[inline(always)]
+    pub(super) fn of_kind<T: OfPoints>(self) -> Result<&'a [T::Point], Failure> {
         let Points(Array { argument, pointer, count, .. }) = self;
         // SAFETY: promised to `new`: so many numbers are as many points.
         unsafe { Array::new(argument, pointer.cast(), count) }.get()

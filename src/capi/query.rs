@@ -1,6 +1,6 @@
 //! Queries: cells, and what is where. None changes the triangulation.
 
-use super::handle::{Changing, Reading, deldrift_triangulation, tell};
+use super::handle::{Changing, Reading, deldrift_triangulation, in_any, tell, tell_any};
 use super::pointers::{Buffer, Output, Owned, fill_all, given, start_of, write_all};
 use super::status::{Failure, deldrift_status};
 use crate::delaunay::{Dimension, IndexSet, Plane, Space};
@@ -8,7 +8,7 @@ use crate::either::AnyTriangulation;
 use crate::ids::{CellId, VertexId};
 use crate::in_its_dimension;
 use crate::machine::memory;
-use crate::motion::{CellsView, Level, MovingTriangulation, NO_CELL, OwnedCells, cells_at};
+use crate::motion::{Level, MovingTriangulation, NO_CELL, OwnedCells, cells_at};
 
 /// No cell, no vertex: the neighbour of a cell across a facet of the convex hull, the nearest vertex of
 /// an empty triangulation.
@@ -55,7 +55,7 @@ pub unsafe extern "C" fn deldrift_cells(
     view: *mut deldrift_cells_view,
 ) -> deldrift_status {
     given!(t: Reading, view: Output);
-    tell!(t, view => view_of_cells(t)?)
+    tell_any!(t, view => view_of(t.cells()?.corners, t.cells()?.neighbours))
 }
 
 /// Arrays of cells that a program has taken over: opaque, made by deldrift_release_cells, unmade by
@@ -94,7 +94,7 @@ pub unsafe extern "C" fn deldrift_release_cells(
     given!(t: Changing, view: Output, owner: Output);
     t.change(|t| {
         let (view, owner) = (view.place()?, owner.place()?);
-        let shown = in_its_dimension!(t => view_of_cells(t)?);
+        let shown = in_its_dimension!(t => view_of(t.cells()?.corners, t.cells()?.neighbours));
         // Room for the owner first: what has been handed over is not put back.
         let mut room = memory::boxed(deldrift_released_cells { arrays: None })?;
         room.arrays = Some(match t {
@@ -136,8 +136,8 @@ pub unsafe extern "C" fn deldrift_copy_cells(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, count: Output);
-    t.read(|t| {
-        in_its_dimension!(t => {
+    t.read_any(|t| {
+        in_any!(t => {
             let (vertices, neighbours) = (vertices.cast(), neighbours.cast());
             given!(vertices[capacity]: Buffer, neighbours[capacity]: Buffer);
             let cells = t.cells()?;
@@ -226,15 +226,14 @@ pub unsafe extern "C" fn deldrift_validate(t: *const deldrift_triangulation, lev
     })
 }
 
-fn view_of_cells<G: Dimension>(t: &MovingTriangulation<G>) -> Result<deldrift_cells_view, Failure> {
-    let CellsView { corners, neighbours } = t.cells()?;
+fn view_of<V: Copy, N>(corners: &[V], neighbours: &[N]) -> deldrift_cells_view {
     // A row of ids is a row of their numbers.
-    Ok(deldrift_cells_view {
+    deldrift_cells_view {
         count: corners.len(),
-        corners_per_cell: G::D as u32 + 1,
+        corners_per_cell: (size_of::<V>() / size_of::<u32>()) as u32,
         vertices: start_of(corners).cast(),
         neighbours: start_of(neighbours).cast(),
-    })
+    }
 }
 
 /// There must be a facet opposite this corner of this cell.

@@ -1,13 +1,11 @@
 //! What a triangulation holds: counts, sums, and the positions of vertices.
 
-use super::handle::{Reading, deldrift_triangulation, tell};
+use super::handle::{Content, Reading, deldrift_triangulation, in_any, tell_any};
 use super::motion::deldrift_commit_report;
 use super::pointers::{Buffer, Output, given};
 use super::status::deldrift_status;
-use crate::delaunay::Dimension;
 use crate::ids::VertexId;
 use crate::in_its_dimension;
-use crate::motion::MovingTriangulation;
 
 /// How many vertices are present, hidden ones included and removed ones not, to *count.
 ///
@@ -20,7 +18,7 @@ pub unsafe extern "C" fn deldrift_vertex_count(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, count: Output);
-    tell!(t, count => t.vertex_count())
+    tell_any!(t, count => t.vertex_count())
 }
 
 /// How many ids have been given, or left by the latest deldrift_compact and given since, to *count: valid
@@ -35,7 +33,7 @@ pub unsafe extern "C" fn deldrift_id_count(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, count: Output);
-    tell!(t, count => t.id_count())
+    tell_any!(t, count => t.id_count())
 }
 
 /// How many cells there are, to *count.
@@ -49,7 +47,10 @@ pub unsafe extern "C" fn deldrift_cell_count(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, count: Output);
-    tell!(t, count => t.cell_count())
+    t.tell_any(count, |t| match t {
+        Content::Open(t) => Ok(in_its_dimension!(t => t.cell_count())),
+        Content::Periodic(t) => Ok(t.cell_count()?),
+    })
 }
 
 /// How many moves are staged for the next timestamp, to *count.
@@ -63,7 +64,7 @@ pub unsafe extern "C" fn deldrift_staged_count(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, count: Output);
-    tell!(t, count => t.staged_count())
+    tell_any!(t, count => t.staged_count())
 }
 
 /// How many bytes of memory the triangulation holds, to *bytes: what its views show and what it keeps as room
@@ -80,7 +81,7 @@ pub unsafe extern "C" fn deldrift_memory_bytes(
     bytes: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, bytes: Output);
-    tell!(t, bytes => size_of::<deldrift_triangulation>() + t.memory_bytes())
+    tell_any!(t, bytes => size_of::<deldrift_triangulation>() + t.memory_bytes())
 }
 
 /// The number of the current timestamp, to *timestamp: 0 at creation, one more at each commit.
@@ -94,7 +95,7 @@ pub unsafe extern "C" fn deldrift_timestamp(
     timestamp: *mut u64,
 ) -> deldrift_status {
     given!(t: Reading, timestamp: Output);
-    tell!(t, timestamp => t.timestamp())
+    tell_any!(t, timestamp => t.timestamp())
 }
 
 /// The sums of what all commits and immediate calls so far have done, to *report, whose timestamp and
@@ -109,7 +110,7 @@ pub unsafe extern "C" fn deldrift_statistics(
     report: *mut deldrift_commit_report,
 ) -> deldrift_status {
     given!(t: Reading, report: Output);
-    tell!(t, report => t.statistics().into())
+    tell_any!(t, report => t.statistics().into())
 }
 
 /// Whether a vertex of this id is present, to *present: false if it has been removed, or never was, or only its
@@ -125,7 +126,7 @@ pub unsafe extern "C" fn deldrift_is_present(
     present: *mut bool,
 ) -> deldrift_status {
     given!(t: Reading, present: Output);
-    tell!(t, present => t.is_present(VertexId::new(vertex)))
+    tell_any!(t, present => t.is_present(VertexId::new(vertex)))
 }
 
 /// The position of a vertex, 2 or 3 numbers, to position: that of the current timestamp, not a staged one.
@@ -141,8 +142,8 @@ pub unsafe extern "C" fn deldrift_position(
     position: *mut f64,
 ) -> deldrift_status {
     given!(t: Reading);
-    t.read(|t| {
-        in_its_dimension!(t => {
+    t.read_any(|t| {
+        in_any!(t => {
             let position = position.cast();
             given!(position: Output);
             let place = position.place()?;
@@ -170,21 +171,21 @@ pub unsafe extern "C" fn deldrift_copy_positions(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, count: Output);
-    t.read(|t| {
-        in_its_dimension!(t => {
+    t.read_any(|t| {
+        in_any!(t => {
             let positions = positions.cast();
             given!(positions[capacity]: Buffer);
             let n = t.id_count();
-            positions.fill(count, n, || Ok(VertexId::range(0..n).map(|vertex| position_or_nan(t, vertex))))
+            positions.fill(count, n, || Ok(VertexId::range(0..n).map(|vertex| or_nan(t.position_or_goal(vertex)))))
         })
     })
 }
 
 /// The position of a vertex, or where it will be inserted, NaN if it has been removed.
-fn position_or_nan<G: Dimension>(t: &MovingTriangulation<G>, vertex: VertexId) -> G::Point {
-    t.position_or_goal(vertex).unwrap_or_else(|| {
-        let mut nowhere = G::Point::default();
-        (0..G::D).for_each(|axis| nowhere[axis] = f64::NAN);
+fn or_nan<P: Default + AsMut<[f64]>>(position: Option<P>) -> P {
+    position.unwrap_or_else(|| {
+        let mut nowhere = P::default();
+        nowhere.as_mut().fill(f64::NAN);
         nowhere
     })
 }

@@ -98,6 +98,10 @@ pub enum deldrift_status {
     DELDRIFT_PREPARED = 36,
     /// No timestamp is prepared that could be published.
     DELDRIFT_NOT_PREPARED = 37,
+    /// The triangulation is periodic, and the function does not serve such.
+    DELDRIFT_PERIODIC = 38,
+    /// The vectors of a periodic box depend on each other, or nearly so, or are more than there are axes.
+    DELDRIFT_DEPENDENT_VECTORS = 39,
 }
 
 use deldrift_status::*;
@@ -107,7 +111,7 @@ pub type StatusCode = u32;
 
 impl deldrift_status {
     /// Every status, in the order of their values.
-    const ALL: [deldrift_status; 38] = [
+    const ALL: [deldrift_status; 40] = [
         DELDRIFT_OK,
         DELDRIFT_NULL_ARGUMENT,
         DELDRIFT_MISALIGNED_ARGUMENT,
@@ -146,6 +150,8 @@ impl deldrift_status {
         DELDRIFT_PASSES_SEGMENT,
         DELDRIFT_PREPARED,
         DELDRIFT_NOT_PREPARED,
+        DELDRIFT_PERIODIC,
+        DELDRIFT_DEPENDENT_VECTORS,
     ];
 
     fn text(self) -> &'static CStr {
@@ -188,6 +194,8 @@ impl deldrift_status {
             DELDRIFT_PASSES_SEGMENT => c"a vertex would pass a segment",
             DELDRIFT_PREPARED => c"a timestamp is prepared",
             DELDRIFT_NOT_PREPARED => c"no timestamp is prepared",
+            DELDRIFT_PERIODIC => c"the function does not serve periodic triangulations",
+            DELDRIFT_DEPENDENT_VECTORS => c"the vectors of a box depend on each other",
         }
     }
 }
@@ -235,6 +243,8 @@ pub(super) enum Failure {
     Pointer { argument: &'static str, wrong: Wrong },
     ValuesOfField { argument: &'static str, index: usize, wrong: Wrong },
     NotOfThePlane,
+    Periodic,
+    Clipped,
     Option { field: &'static str, value: u64, wanted: &'static str },
     Share { field: &'static str, value: f64 },
     Field { argument: &'static str, index: usize, part: &'static str, wanted: &'static str },
@@ -269,6 +279,7 @@ impl Failure {
         match self {
             Failure::Pointer { wrong, .. } | Failure::ValuesOfField { wrong, .. } => wrong.status(),
             Failure::NotOfThePlane => DELDRIFT_INVALID_DIMENSION,
+            Failure::Periodic | Failure::Clipped => DELDRIFT_PERIODIC,
             Failure::Option { .. } | Failure::Share { .. } => DELDRIFT_INVALID_OPTIONS,
             Failure::Field { .. } => DELDRIFT_INVALID_FIELD,
             Failure::Level { .. } => DELDRIFT_INVALID_LEVEL,
@@ -301,6 +312,7 @@ impl Failure {
                 Error::DuplicateMove { .. } => DELDRIFT_DUPLICATE_MOVE,
                 Error::WrongCount { .. } => DELDRIFT_WRONG_COUNT,
                 Error::InvalidValue { .. } => DELDRIFT_INVALID_VALUE,
+                Error::DependentVectors { .. } => DELDRIFT_DEPENDENT_VECTORS,
                 Error::InvalidName { .. } => DELDRIFT_INVALID_FIELD,
                 Error::Coincident { .. } => DELDRIFT_COINCIDENT,
                 Error::TooManyVertices { .. } => DELDRIFT_TOO_MANY_VERTICES,
@@ -320,6 +332,8 @@ impl fmt::Display for Failure {
                 write!(f, "values of {argument}[{index}] {wrong}")
             }
             Failure::NotOfThePlane => write!(f, "the dimension of t is 3, but must be 2"),
+            Failure::Periodic => write!(f, "t is periodic, and this function does not serve such"),
+            Failure::Clipped => write!(f, "low and high are given, but t is periodic"),
             Failure::Option { field, value, wanted } => write!(f, "{field} is {value}, but must be {wanted}"),
             Failure::Share { field, value } => {
                 write!(f, "{field} is {value:?}, but must be 0, or above 0 and at most 1")

@@ -1,7 +1,7 @@
 //! Creation, destruction, and what is chosen for the whole life of a triangulation.
 
 use super::guard;
-use super::handle::{Changing, Reading, deldrift_triangulation, tell};
+use super::handle::{Changing, Reading, deldrift_triangulation, in_any, tell_any};
 use super::options::{self, AlgorithmCode, GivenOptions, deldrift_options};
 use super::pointers::{Array, Output, Points, given};
 use super::status::{Failure, deldrift_status};
@@ -79,9 +79,9 @@ pub(super) fn create(
     match keys {
         Some(keys) => {
             let keys = keys.get()?;
-            in_its_dimension!(made.content_mut(), t => t.build_first_with_keys(positions.of(t)?, keys))?;
+            in_its_dimension!(made.content_mut()?, t => t.build_first_with_keys(positions.of(t)?, keys))?;
         }
-        None => in_its_dimension!(made.content_mut(), t => t.build_first(positions.of(t)?))?,
+        None => in_its_dimension!(made.content_mut()?, t => t.build_first(positions.of(t)?))?,
     }
     out.write(Box::into_raw(made));
     Ok(())
@@ -109,7 +109,7 @@ pub unsafe extern "C" fn deldrift_dimension(
     dimension: *mut u32,
 ) -> deldrift_status {
     given!(t: Reading, dimension: Output);
-    t.tell(dimension, |t| Ok(t.dimension()))
+    t.tell_any(dimension, |t| Ok(t.dimension()))
 }
 
 /// Changes the algorithm of later commits. Staged moves stay. Tolerances and delimiters that the new
@@ -125,9 +125,9 @@ pub unsafe extern "C" fn deldrift_set_algorithm(
     algorithm: AlgorithmCode,
 ) -> deldrift_status {
     given!(t: Changing);
-    t.change(|t| {
+    t.change_any(|t| {
         let algorithm = options::algorithm("algorithm", algorithm)?;
-        in_its_dimension!(t => t.set_algorithm(algorithm));
+        in_any!(t => t.set_algorithm(algorithm));
         Ok(())
     })
 }
@@ -144,5 +144,5 @@ pub unsafe extern "C" fn deldrift_get_algorithm(
     algorithm: *mut AlgorithmCode,
 ) -> deldrift_status {
     given!(t: Reading, algorithm: Output);
-    tell!(t, algorithm => t.algorithm().code())
+    tell_any!(t, algorithm => t.algorithm().code())
 }

@@ -61,6 +61,24 @@ pub(super) struct Evaluations {
     pub(super) link_sites: u64,
 }
 
+impl CommitReport {
+    /// Adds what another change has done to the counts of work.
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.moved += other.moved;
+        self.unchanged += other.unchanged;
+        self.placements += other.placements;
+        self.flips += other.flips;
+        self.rebuilds += other.rebuilds;
+        self.inserted += other.inserted;
+        self.removed += other.removed;
+        self.within_tolerance += other.within_tolerance;
+        self.within_safe_region += other.within_safe_region;
+        self.tolerances += other.tolerances;
+        self.certificates += other.certificates;
+        self.exact_calls += other.exact_calls;
+    }
+}
+
 impl Evaluations {
     /// What has been evaluated since.
     pub(super) fn since(self, before: Self) -> Self {

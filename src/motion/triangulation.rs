@@ -112,6 +112,17 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
     }
 
+    /// The options of this, for another triangulation, but for the monitor.
+    pub(crate) fn options_of_another(&self) -> Options {
+        let Options { algorithm, threads, coincidence, passing, .. } = self.options;
+        Options { algorithm, threads, coincidence, passing, monitor: None }
+    }
+
+    /// Gives its monitor to another triangulation, for that of the other one.
+    pub(crate) fn exchange_monitors(&mut self, other: &mut Self) {
+        std::mem::swap(self.mesh.kernel.pace_mut(), other.mesh.kernel.pace_mut());
+    }
+
     /// From now on decides by other constants, for measurements.
     pub fn set_constants(&mut self, table: &'static Table) {
         self.mesh.constants = table.of::<G>();
@@ -235,20 +246,8 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Adds what was done to the sums.
     pub(in crate::motion) fn count(&mut self, report: CommitReport) {
-        let sum = &mut self.statistics;
-        sum.moved += report.moved;
-        sum.unchanged += report.unchanged;
-        sum.placements += report.placements;
-        sum.flips += report.flips;
-        sum.rebuilds += report.rebuilds;
-        sum.inserted += report.inserted;
-        sum.removed += report.removed;
-        sum.within_tolerance += report.within_tolerance;
-        sum.within_safe_region += report.within_safe_region;
-        sum.tolerances += report.tolerances;
-        sum.certificates += report.certificates;
-        sum.exact_calls += report.exact_calls;
-        sum.coincident = self.mesh.hidden.count() as u64;
+        self.statistics.add(&report);
+        self.statistics.coincident = self.mesh.hidden.count() as u64;
         self.n_moved += report.moved + report.inserted;
         if self.n_moved > MOVES_PER_FIT * self.mesh.n_present as u64 {
             self.n_moved = 0;

@@ -1,0 +1,306 @@
+//! Periodic triangulations: their creation, and what only they have.
+
+use std::iter::repeat;
+use std::mem::MaybeUninit;
+
+use super::guard;
+use super::handle::{Changing, Content, Reading, deldrift_triangulation, hand_out, in_its_period};
+use super::options::{GivenOptions, deldrift_options, invalid};
+use super::pointers::{Buffer, Output, Points, fill_all, given};
+use super::status::{Failure, deldrift_status};
+use crate::delaunay::{Plane, Space};
+use crate::error::Error;
+use crate::in_its_dimension;
+use crate::machine::memory;
+use crate::motion::{CoincidencePolicy, MAX_VERTICES};
+use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
+
+/// Creates the Delaunay triangulation of points that repeat: each is in all places to which sums of multiples of the
+/// vectors take it.
+///
+/// dimension: 2 or 3. positions, count: as in deldrift_create; a position may be in any period. vectors: vector_count rows
+/// of dimension numbers, the vectors of the box: 1 to dimension of them. They need not be orthogonal nor short, so that a
+/// triclinic box, or one that is skewed by any number of its lengths, is legal. Directions that they do not span are open.
+/// options: as in deldrift_create, but for coincidence, which must be DELDRIFT_COINCIDENCE_MERGE: vertices that are at the same place
+/// in any period share it, and the one of the lowest id represents it.
+/// out: receives the triangulation, which the caller has to hand to deldrift_destroy.
+///
+/// The cells are those of all the places at once, of which one of each class of translations of each other is told. Any
+/// number of vertices is legal, one included: a cell may have a vertex in several periods, and be its own neighbour. The
+/// cells do not depend on the periods in which positions are given, on which vectors of the same lattice are given, or on what
+/// happened before. deldrift_cell_shifts tells in which period each corner is.
+///
+/// Positions and vectors are rounded to a grid, along axes along which a vector goes: its step is a power of two, so that
+/// all coordinates that are calculated with have at most 53 binary digits. In a box whose reduced vectors (the shortest of its
+/// lattice) have lengths up to L and are not flatter than a cube, the step is at most 2^-45 L, and mostly 2^-48 L; a
+/// position moves by half of that at most. deldrift_copy_positions and deldrift_vectors tell what is used: for these positions
+/// and vectors the cells are exact. Entries of vectors may be up to 1e50 in magnitude, and are 0 or at least 1e-50;
+/// positions may be some 1e13 L away.
+///
+/// Functions that serve a periodic triangulation are those of this section, deldrift_destroy, deldrift_dimension,
+/// deldrift_set_algorithm, deldrift_get_algorithm, deldrift_move_vertex, deldrift_move_vertices,
+/// deldrift_stage_insertions, deldrift_stage_removals, deldrift_discard_moves, deldrift_commit_timestamp,
+/// deldrift_commit_positions, deldrift_vertex_count, deldrift_id_count, deldrift_cell_count, deldrift_staged_count,
+/// deldrift_memory_bytes, deldrift_timestamp, deldrift_statistics, deldrift_is_present, deldrift_position,
+/// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges, and
+/// deldrift_voronoi_volumes without a box. All others return DELDRIFT_PERIODIC. Cells are numbered anew by each commit.
+///
+/// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves
+/// costs what it costs in an open triangulation of as many, and n + m; one with insertions, removals or other vectors, or
+/// where a vertex has drifted far out of the box since the last such commit, costs as much as creation.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_INVALID_OPTIONS, DELDRIFT_NULL_ARGUMENT,
+/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_INVALID_VALUE, DELDRIFT_DEPENDENT_VECTORS, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. May be called from any number of threads at once.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_create_periodic(
+    dimension: u32,
+    positions: *const f64,
+    count: usize,
+    vectors: *const f64,
+    vector_count: usize,
+    options: *const deldrift_options,
+    out: *mut *mut deldrift_triangulation,
+) -> deldrift_status {
+    given!(positions[count]: Points, vectors[vector_count]: Points, options: GivenOptions, out: Output);
+    guard::enter(|| {
+        let out = out.place()?;
+        if dimension != 2 && dimension != 3 {
+            return Err(Error::InvalidDimension { given: dimension }.into());
+        }
+        let options = options.read()?;
+        let callbacks = options.callbacks();
+        let options = options.convert()?;
+        if options.coincidence == CoincidencePolicy::Reject {
+            return Err(invalid(
+                "options.coincidence",
+                1,
+                "DELDRIFT_COINCIDENCE_MERGE where the triangulation is periodic",
+            ));
+        }
+        // Looked at here as well, lest an absurd count becomes the length of a slice.
+        if count > MAX_VERTICES {
+            return Err(Error::TooManyVertices { given: count, limit: MAX_VERTICES }.into());
+        }
+        if vector_count == 0 || vector_count > dimension as usize {
+            return Err(Error::DependentVectors { count: vector_count }.into());
+        }
+        let made = if dimension == 2 {
+            type Made = PeriodicTriangulation<Plane>;
+            let (positions, vectors) = (positions.of_kind::<Made>()?, vectors.of_kind::<Made>()?);
+            AnyPeriodic::Plane(Made::new(positions, vectors, options)?)
+        } else {
+            type Made = PeriodicTriangulation<Space>;
+            let (positions, vectors) = (positions.of_kind::<Made>()?, vectors.of_kind::<Made>()?);
+            AnyPeriodic::Space(Made::new(positions, vectors, options)?)
+        };
+        hand_out(out, memory::boxed(made)?, callbacks)
+    })
+}
+
+/// Stages other vectors for the box: strain, shear, or others of the same lattice. The next commit, with positions or
+/// moves or without, makes them those of the triangulation.
+///
+/// vectors, vector_count: as many as deldrift_create_periodic was given; none, vector_count being 0, for a triangulation
+/// that is not periodic. Vertices that do not move stay at their positions: a program that deforms its box with all that
+/// is in it gives the positions, too. Vectors that are staged already are forgotten. deldrift_discard_moves discards them.
+///
+/// Cost: constant; the commit costs as much as creation.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT,
+/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_DEPENDENT_VECTORS, DELDRIFT_OUT_OF_MEMORY.
+/// Not to be called at the same time as any other call on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_stage_vectors(
+    t: *mut deldrift_triangulation,
+    vectors: *const f64,
+    vector_count: usize,
+) -> deldrift_status {
+    given!(t: Changing, vectors[vector_count]: Points);
+    t.change_any(|t| {
+        let wanted = vector_count_of(t);
+        if vector_count != wanted {
+            let argument = "vector_count";
+            return Err(Error::WrongCount { argument, given: vector_count, wanted, coming: 0 }.into());
+        }
+        match t {
+            Content::Open(_) => Ok(()),
+            Content::Periodic(t) => in_its_period!(t, t => Ok(t.stage_vectors(vectors.of(t)?)?)),
+        }
+    })
+}
+
+/// The vectors by which the triangulation repeats: those that were given, on the grid of deldrift_create_periodic.
+///
+/// vectors: receives rows of 2 (2D) or 3 (3D) numbers: a buffer with room for capacity rows; NULL with capacity 0 asks for
+/// the count alone. count: receives their number, 0 for a triangulation that is not periodic; it is also written when the
+/// buffer is too small.
+///
+/// Cost: constant.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_vectors(
+    t: *const deldrift_triangulation,
+    vectors: *mut f64,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    given!(t: Reading, count: Output);
+    t.read_any(|t| {
+        let needed = vector_count_of(t);
+        match t {
+            Content::Open(_) => {
+                given!(vectors[capacity]: Buffer);
+                vectors.fill(count, needed, || Ok([]))
+            }
+            Content::Periodic(t) => in_its_period!(t, t => {
+                let vectors = vectors.cast();
+                given!(vectors[capacity]: Buffer);
+                vectors.fill(count, needed, || Ok(t.vectors()))
+            }),
+        }
+    })
+}
+
+/// In which period each corner of each cell is, and each neighbour.
+///
+/// shifts: receives a row of 2 (2D) or 3 (3D) whole numbers for each of the 3 or 4 corners of each cell, in the order of
+/// deldrift_cells: multiples of the vectors, 0 beyond the last of these. The corner is at its position and the sum of these
+/// multiples. The corner of the lowest id is at its position (if the vertex is there more than once, the first of these
+/// corners by x, y, z).
+/// neighbour_shifts: receives as many rows: those of the neighbour opposite the corner, by which it is to be translated from
+/// where its own shifts have it, to share the facet; 0 on the hull.
+/// Both are buffers with room for capacity cells; one that is NULL is not filled. count: receives the number of cells, which
+/// is also written when the buffers are too small. NULL for both with capacity 0 asks for the count alone.
+///
+/// All are 0 where the triangulation is not periodic.
+///
+/// Cost: n + m.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_cell_shifts(
+    t: *const deldrift_triangulation,
+    shifts: *mut i64,
+    neighbour_shifts: *mut i64,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    given!(t: Reading, count: Output);
+    t.read_any(|t| {
+        if t.dimension() == 2 {
+            let (shifts, neighbour_shifts) = (shifts.cast(), neighbour_shifts.cast());
+            given!(shifts[capacity]: Buffer, neighbour_shifts[capacity]: Buffer);
+            fill_cell_shifts::<2, 3>(t, shifts, neighbour_shifts, capacity, count)
+        } else {
+            let (shifts, neighbour_shifts) = (shifts.cast(), neighbour_shifts.cast());
+            given!(shifts[capacity]: Buffer, neighbour_shifts[capacity]: Buffer);
+            fill_cell_shifts::<3, 4>(t, shifts, neighbour_shifts, capacity, count)
+        }
+    })
+}
+
+/// In which period the second vertex of each edge is, in the order of deldrift_edges.
+///
+/// Of a periodic triangulation deldrift_edges tells one of each class of translations of each other, the lower id first. An
+/// edge may lead from a vertex to itself in another period, and two vertices may have several edges.
+/// shifts: receives a row of 2 (2D) or 3 (3D) whole numbers for each edge, multiples of the vectors, 0 beyond the last of
+/// these: from the position of the first vertex the edge leads to that of the second and the sum of these multiples. A
+/// buffer with room for capacity edges; NULL with capacity 0 asks for the count alone. count: receives the number of edges,
+/// which is also written when the buffer is too small.
+///
+/// All are 0 where the triangulation is not periodic.
+///
+/// Cost: m log m.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_edge_shifts(
+    t: *const deldrift_triangulation,
+    shifts: *mut i64,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    given!(t: Reading, count: Output);
+    t.read_any(|t| {
+        if t.dimension() == 2 {
+            let shifts = shifts.cast();
+            given!(shifts[capacity]: Buffer);
+            fill_edge_shifts::<2>(t, shifts, count)
+        } else {
+            let shifts = shifts.cast();
+            given!(shifts[capacity]: Buffer);
+            fill_edge_shifts::<3>(t, shifts, count)
+        }
+    })
+}
+
+/// By how many vectors a triangulation repeats.
+fn vector_count_of(t: &Content) -> usize {
+    match t {
+        Content::Open(_) => 0,
+        Content::Periodic(t) => in_its_period!(t, t => t.vector_count()),
+    }
+}
+
+fn fill_cell_shifts<const D: usize, const N: usize>(
+    t: &Content,
+    shifts: Buffer<'_, [[i64; D]; N]>,
+    neighbour_shifts: Buffer<'_, [[i64; D]; N]>,
+    capacity: usize,
+    count: Output<'_, usize>,
+) -> Result<(), Failure> {
+    let needed = match t {
+        Content::Open(t) => in_its_dimension!(t => t.cell_count()),
+        Content::Periodic(t) => t.cell_count()?,
+    };
+    fill_all(count, needed, capacity, [shifts.offer(), neighbour_shifts.offer()], || {
+        let (corners, beside) = (shifts.places_if_any(needed)?, neighbour_shifts.places_if_any(needed)?);
+        match t {
+            Content::Open(_) => {
+                write_rows(corners, repeat([0; 3]));
+                write_rows(beside, repeat([0; 3]));
+            }
+            Content::Periodic(t) => in_its_period!(t, t => {
+                write_rows(corners, t.cell_shifts()?);
+                write_rows(beside, t.neighbour_shifts()?);
+            }),
+        }
+        Ok(())
+    })
+}
+
+fn fill_edge_shifts<const D: usize>(
+    t: &Content,
+    shifts: Buffer<'_, [i64; D]>,
+    count: Output<'_, usize>,
+) -> Result<(), Failure> {
+    match t {
+        Content::Open(t) => {
+            let needed = in_its_dimension!(t => t.edge_count());
+            shifts.fill(count, needed, || Ok(repeat([0; D])))
+        }
+        Content::Periodic(t) => {
+            let edges = t.edges()?;
+            shifts.fill(count, edges.len(), || Ok(edges.into_iter().map(|(_, shift)| first_of(shift))))
+        }
+    }
+}
+
+/// The numbers of a shift along as many vectors as there can be.
+fn first_of<const D: usize>(shift: [i64; 3]) -> [i64; D] {
+    std::array::from_fn(|k| shift[k])
+}
+
+/// Writes the shifts of all corners, by cell.
+fn write_rows<const D: usize, const N: usize>(
+    places: &mut [MaybeUninit<[[i64; D]; N]>],
+    mut shifts: impl Iterator<Item = [i64; 3]>,
+) {
+    let mut next = || first_of(shifts.next().expect("there is one for each corner"));
+    places.iter_mut().for_each(|place| _ = place.write(std::array::from_fn(|_| next())));
+}

@@ -1,0 +1,225 @@
+//! The cells of a set that repeats, one of each class of translations of each other.
+
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
+
+use crate::complex::Corners;
+use crate::delaunay::Dimension;
+use crate::error::Result;
+use crate::ids::{CellId, VertexId};
+use crate::machine::memory;
+use crate::motion::{CellsView, NO_CELL};
+use crate::periodic::lattice::{HOME, Shift};
+use crate::periodic::triangulation::Inside;
+
+/// The cells, one of each class of translations of each other.
+#[derive(Clone, Copy, Debug)]
+pub struct PeriodicView<'t, G: Dimension> {
+    /// Vertex ids of each cell, positively oriented. A vertex may be there more than once, in several periods.
+    pub corners: &'t [G::Vertices],
+    /// The class of the neighbour opposite each corner, [`NO_CELL`] on the hull.
+    pub neighbours: &'t [G::Neighbours],
+}
+
+/// Cells, each with its least vertex at home: the one of the lowest id, and of several images of that the first in the order
+/// of coordinates.
+#[derive(Debug)]
+pub(super) struct PeriodicCells<G: Dimension> {
+    pub(super) corners: Vec<G::Vertices>,
+    /// By cell and corner, D + 1 for each cell, the shift of the vertex from home.
+    pub(super) shifts: Vec<Shift>,
+    pub(super) neighbours: Vec<G::Neighbours>,
+    /// By cell and corner, the shift of the neighbour from where its least vertex is at home.
+    pub(super) neighbour_shifts: Vec<Shift>,
+    /// Which corner is the least.
+    pub(super) least: Vec<u8>,
+}
+
+/// The corners of a cell inside, in order.
+type Row = [u32; 4];
+
+/// Rows have numbers that are as good as random in their low bits, once multiplied.
+#[derive(Default)]
+struct RowHasher(u64);
+
+impl Hasher for RowHasher {
+    fn finish(&self) -> u64 {
+        self.0 ^ self.0 >> 32
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        for &byte in bytes {
+            self.write_u32(byte.into());
+        }
+    }
+
+    fn write_u32(&mut self, number: u32) {
+        self.0 = (self.0.rotate_left(5) ^ u64::from(number)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    }
+}
+
+/// The cells inside that have vertices at home and others, by their corners.
+type Straddling = HashMap<[RowPart; 4], CellId, BuildHasherDefault<RowHasher>>;
+
+/// A number of a row, which is hashed as such.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct RowPart(u32);
+
+impl std::hash::Hash for RowPart {
+    fn hash<H: Hasher>(&self, hasher: &mut H) {
+        hasher.write_u32(self.0);
+    }
+}
+
+fn key_of(mut row: Row) -> [RowPart; 4] {
+    row.sort_unstable();
+    row.map(RowPart)
+}
+
+impl<G: Dimension> PeriodicCells<G> {
+    /// Reads all cells.
+    pub(super) fn of(inside: &Inside<G>) -> Result<Self> {
+        let (corners, shifts, least) = (Vec::new(), Vec::new(), Vec::new());
+        let (neighbours, neighbour_shifts) = (Vec::new(), Vec::new());
+        let mut read = PeriodicCells { corners, shifts, neighbours, neighbour_shifts, least };
+        let cells = inside.t.cells()?;
+        let (mut class_of, mut chosen) = (Vec::new(), Vec::new());
+        memory::lengthen(&mut class_of, cells.corners.len(), NO_CELL)?;
+        let mut straddling = Straddling::default();
+        for (cell, row) in cells.corners.iter().enumerate() {
+            let n_home = row.as_ref().iter().filter(|v| v.index() < inside.n_home).count();
+            if n_home == 0 {
+                continue;
+            }
+            let cell = CellId::at(cell);
+            if n_home <= G::D {
+                memory::reserve_map(&mut straddling, 1)?;
+                straddling.insert(key_of(row_of(row)), cell);
+            }
+            let least = inside.least(row)?;
+            if inside.images.is_home(row.as_ref()[least]) {
+                class_of[cell] = CellId::at(read.corners.len());
+                read.push(inside, row, least)?;
+                memory::push(&mut chosen, cell)?;
+            }
+        }
+        let finder = Finder { inside, cells, straddling };
+        memory::reserve_exact(&mut read.neighbours, chosen.len())?;
+        memory::reserve_exact(&mut read.neighbour_shifts, chosen.len() * (G::D + 1))?;
+        for &cell in &chosen {
+            let mut row = G::Neighbours::filled(NO_CELL);
+            for i in 0..=G::D {
+                let found = finder.across(cell, i)?;
+                row[i] = found.map_or(NO_CELL, |(cell, _)| class_of[cell]);
+                read.neighbour_shifts.push(found.map_or(HOME, |(_, shift)| shift));
+            }
+            read.neighbours.push(row);
+        }
+        Ok(read)
+    }
+
+    fn push(&mut self, inside: &Inside<G>, row: &G::Vertices, least: usize) -> Result<()> {
+        let mut corners = *row;
+        for i in 0..=G::D {
+            let image = inside.images.of(row.as_ref()[i]);
+            corners[i] = image.vertex;
+            memory::push(&mut self.shifts, image.shift)?;
+        }
+        memory::push(&mut self.least, least as u8)?;
+        memory::push(&mut self.corners, corners)
+    }
+
+    pub(super) fn memory_bytes(&self) -> usize {
+        memory::bytes_of(&self.corners)
+            + memory::bytes_of(&self.shifts)
+            + memory::bytes_of(&self.neighbours)
+            + memory::bytes_of(&self.neighbour_shifts)
+            + memory::bytes_of(&self.least)
+    }
+}
+
+fn row_of<V: AsRef<[VertexId]>>(row: &V) -> Row {
+    let mut made = [u32::MAX; 4];
+    made.iter_mut().zip(row.as_ref()).for_each(|(to, v)| *to = v.get());
+    made
+}
+
+fn minus(one: Shift, other: Shift) -> Shift {
+    [0, 1, 2].map(|j| one[j] - other[j])
+}
+
+/// Finds translations of cells inside.
+struct Finder<'t, G: Dimension> {
+    inside: &'t Inside<G>,
+    cells: CellsView<'t, G>,
+    straddling: Straddling,
+}
+
+impl<G: Dimension> Finder<'_, G> {
+    /// The cell that is the translation of one by less than nothing by a shift that takes one of its corners home; of two
+    /// such cells one has a vertex at home and another one that is not.
+    fn translated(&self, cell: CellId, shift: Shift) -> CellId {
+        if shift == HOME {
+            return cell;
+        }
+        let mut row = [u32::MAX; 4];
+        for (to, &v) in row.iter_mut().zip(self.cells.corners[cell].as_ref()) {
+            let image = self.inside.images.of(v);
+            *to = self.inside.images.find(image.vertex, minus(image.shift, shift)).get();
+        }
+        self.straddling.get(&key_of(row)).copied().unwrap_or(NO_CELL)
+    }
+
+    /// The cell beyond the facet of one that is opposite a corner, with its least vertex at home, and by which shift that is
+    /// to be translated to be there; none on the hull.
+    fn across(&self, cell: CellId, corner: usize) -> Result<Option<(CellId, Shift)>> {
+        let images = &self.inside.images;
+        let row = self.cells.corners[cell];
+        // What is beyond a facet is known if the facet has a vertex at home.
+        let others = (0..=G::D).filter(|&i| i != corner).map(|i| images.of(row.as_ref()[i]).shift);
+        let first = others.clone().find(|&shift| shift == HOME).or_else(|| others.clone().next());
+        let shift = first.unwrap_or(HOME);
+        let here = self.translated(cell, shift);
+        let beyond = self.cells.neighbours[here].as_ref()[self.corner_like(cell, corner, here, shift)];
+        if beyond == NO_CELL {
+            return Ok(None);
+        }
+        let least = self.inside.least(&self.cells.corners[beyond])?;
+        let home = images.of(self.cells.corners[beyond].as_ref()[least]).shift;
+        let chosen = self.translated(beyond, home);
+        Ok(Some((chosen, [0, 1, 2].map(|j| home[j] + shift[j]))))
+    }
+
+    /// Which corner of a translation a corner is.
+    fn corner_like(&self, cell: CellId, corner: usize, here: CellId, shift: Shift) -> usize {
+        if here == cell {
+            return corner;
+        }
+        let images = &self.inside.images;
+        let image = images.of(self.cells.corners[cell].as_ref()[corner]);
+        let wanted = images.find(image.vertex, minus(image.shift, shift));
+        let row = self.cells.corners[here];
+        row.as_ref().iter().position(|&v| v == wanted).expect("a translation has all corners")
+    }
+}
+
+impl<G: Dimension> Inside<G> {
+    /// Which corner of a cell is the least: by vertex, and of several images of one, by position.
+    pub(super) fn least(&self, row: &G::Vertices) -> Result<usize> {
+        let row = row.as_ref();
+        let mut least = 0;
+        for i in 1..row.len() {
+            let (u, w) = (self.images.of(row[i]).vertex, self.images.of(row[least]).vertex);
+            let is_less = if u == w {
+                let (p, q) = (self.t.position(row[i])?, self.t.position(row[least])?);
+                p.as_ref().partial_cmp(q.as_ref()).is_some_and(std::cmp::Ordering::is_lt)
+            } else {
+                u < w
+            };
+            if is_less {
+                least = i;
+            }
+        }
+        Ok(least)
+    }
+}

@@ -1,0 +1,337 @@
+//! Staging, and commits.
+
+use std::sync::OnceLock;
+
+use crate::delaunay::Dimension;
+use crate::error::{Error, Result};
+use crate::ids::VertexId;
+use crate::machine::memory;
+use crate::motion::{CommitReport, MAX_VERTICES};
+use crate::periodic::lattice::{Lattice, Occupied};
+use crate::periodic::triangulation::{Inside, PeriodicTriangulation};
+
+/// Where vertices go.
+#[derive(Clone, Copy)]
+enum Goals<'a, G: Dimension> {
+    /// To what is staged for them; others stay.
+    Staged,
+    /// To the entries of an array by id.
+    Of(&'a [G::Point]),
+}
+
+impl<G: Dimension> PeriodicTriangulation<G> {
+    /// Stages a move of `vertices[i]` to `positions[i]` for each `i`; all of them or, on an error, none.
+    ///
+    /// # Errors
+    /// Those of [`MovingTriangulation::move_vertices`](crate::motion::MovingTriangulation::move_vertices).
+    pub fn move_vertices(&mut self, vertices: &[VertexId], positions: &[G::Point]) -> Result<()> {
+        if vertices.len() != positions.len() {
+            let (given, wanted) = (positions.len(), vertices.len());
+            return Err(Error::WrongCount { argument: "count", given, wanted, coming: 0 });
+        }
+        let images = &self.inside.images;
+        let (n, n_coming) = (images.n_vertices(), self.staged.insertions().len());
+        let lattice = self.coming.as_ref().unwrap_or(&self.lattice);
+        let moves = vertices.iter().zip(positions).enumerate().map(|(index, (&vertex, position))| {
+            images.check(index, vertex, n_coming)?;
+            lattice.check("positions", index, position)?;
+            Ok((vertex, *position))
+        });
+        self.staged.move_vertices(n, moves)
+    }
+
+    /// Stages moves of the vertices with the first ids: vertex `i` goes to `positions[i]`. Entries of removed vertices are
+    /// not read, nor are those of vertices whose removal is staged.
+    ///
+    /// # Errors
+    /// Those of [`move_vertices`](Self::move_vertices), and [`Error::WrongCount`] if there are more than ids.
+    pub fn move_first(&mut self, positions: &[G::Point]) -> Result<()> {
+        let images = &self.inside.images;
+        let n = images.n_vertices();
+        if positions.len() > n {
+            let (given, coming) = (positions.len(), self.staged.insertions().len());
+            return Err(Error::WrongCount { argument: "count", given, wanted: n, coming });
+        }
+        let mut going = Vec::new();
+        memory::lengthen(&mut going, positions.len(), false)?;
+        for &vertex in self.staged.removals().iter().filter(|v| v.index() < positions.len()) {
+            going[vertex] = true;
+        }
+        let lattice = self.coming.as_ref().unwrap_or(&self.lattice);
+        let moves = positions.iter().enumerate().map(|(index, position)| (VertexId::at(index), position));
+        let moves = moves.filter(|&(v, _)| images.home(v) != VertexId::NONE && !going[v]);
+        let moves = moves.map(|(vertex, position)| {
+            lattice.check("positions", vertex.index(), position)?;
+            Ok((vertex, *position))
+        });
+        self.staged.move_vertices(n, moves)
+    }
+
+    /// Stages the insertion of vertices; returns the id of the first, which the others follow.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::OutOfMemory`].
+    pub fn stage_insertions(&mut self, positions: &[G::Point]) -> Result<VertexId> {
+        let lattice = self.coming.as_ref().unwrap_or(&self.lattice);
+        for (index, position) in positions.iter().enumerate() {
+            lattice.check("positions", index, position)?;
+        }
+        let n = self.id_count();
+        if n + positions.len() > MAX_VERTICES {
+            return Err(Error::TooManyVertices { given: n + positions.len(), limit: MAX_VERTICES });
+        }
+        self.staged.insert(positions)?;
+        Ok(VertexId::at(n))
+    }
+
+    /// Stages the removal of vertices; all of them or, on an error, none.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`], [`Error::StagedVertex`], [`Error::OutOfMemory`].
+    pub fn stage_removals(&mut self, vertices: &[VertexId]) -> Result<()> {
+        let images = &self.inside.images;
+        let (n, n_coming) = (images.n_vertices(), self.staged.insertions().len());
+        let each = vertices.iter().enumerate();
+        self.staged.remove(n, each.map(|(index, &v)| images.check(index, v, n_coming).map(|_| v)))
+    }
+
+    /// Stages another lattice, with as many vectors. Vertices stay where they were given, unless they move.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new) for vectors, and [`Error::WrongCount`] for another number of them.
+    pub fn stage_vectors(&mut self, vectors: &[G::Point]) -> Result<()> {
+        let (given, wanted) = (vectors.len(), self.lattice.rank());
+        if given != wanted {
+            return Err(Error::WrongCount { argument: "vector_count", given, wanted, coming: 0 });
+        }
+        let lattice = memory::boxed(Lattice::<G>::new(vectors)?)?;
+        self.coming = Some(lattice);
+        Ok(())
+    }
+
+    /// Forgets what is staged; returns how many moves there were.
+    pub fn discard_moves(&mut self) -> usize {
+        self.coming = None;
+        self.staged.clear()
+    }
+
+    /// Makes all that is staged the next timestamp; on an error nothing has happened.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a vertex that is too far away for new vectors, [`Error::OutOfMemory`],
+    /// [`Error::TooManyVertices`], [`Error::TooManyCells`], [`Error::Cancelled`].
+    pub fn commit_timestamp(&mut self) -> Result<CommitReport> {
+        self.commit(Goals::Staged)
+    }
+
+    /// Moves each vertex to the entry of its id, and makes that, and all that is staged but for moves, the next timestamp.
+    /// Entries of removed vertices are not read.
+    ///
+    /// # Errors
+    /// [`Error::DuplicateMove`] if a move is staged, [`Error::WrongCount`] unless there is an entry for each id,
+    /// [`Error::NotFinite`], [`Error::OutOfRange`], and those of [`commit_timestamp`](Self::commit_timestamp).
+    pub fn commit_positions(&mut self, positions: &[G::Point]) -> Result<CommitReport> {
+        if let Some(vertex) = self.staged.first_moving() {
+            return Err(Error::DuplicateMove { argument: "positions", index: vertex.index(), vertex });
+        }
+        let (given, wanted) = (positions.len(), self.id_count());
+        if given != wanted {
+            let coming = self.staged.insertions().len();
+            return Err(Error::WrongCount { argument: "count", given, wanted, coming });
+        }
+        self.commit(Goals::Of(positions))
+    }
+
+    fn commit(&mut self, goals: Goals<'_, G>) -> Result<CommitReport> {
+        let moved = if self.staged.are_moves() && self.coming.is_none() { self.moved(goals)? } else { None };
+        let mut report = match moved {
+            Some(report) => report,
+            None => self.rebuilt(goals)?,
+        };
+        self.staged.clear();
+        self.cells = OnceLock::new();
+        self.statistics.timestamp += 1;
+        report.timestamp = self.statistics.timestamp;
+        report.coincident = self.inside.coincident() as u64;
+        self.statistics.add(&report);
+        self.statistics.coincident = report.coincident;
+        Ok(report)
+    }
+
+    /// Moves vertices and images, and inserts those that are missing; none, without a change, if a vertex would be too far
+    /// from the unit cell.
+    fn moved(&mut self, goals: Goals<'_, G>) -> Result<Option<CommitReport>> {
+        match goals {
+            Goals::Staged => self.some_moved(),
+            Goals::Of(positions) => self.all_moved(positions),
+        }
+    }
+
+    /// Of those whose moves are staged.
+    fn some_moved(&mut self) -> Result<Option<CommitReport>> {
+        let Self { lattice, inside, wraps, staged, .. } = self;
+        let (mut new_wraps, mut ids, mut places) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut occupied, mut n_moved) = (inside.occupied, 0);
+        for &(vertex, position) in staged.moves() {
+            let near = inside.places[inside.images.home(vertex)];
+            let mut wrap = wraps[vertex];
+            let place = lattice.wrapped_near("positions", vertex.index(), &position, &near, &mut wrap)?;
+            occupied.enter(&lattice.multiples(&place));
+            n_moved += u64::from(place != near || wrap != wraps[vertex]);
+            memory::push(&mut new_wraps, wrap)?;
+            for inner in inside.images.all_of(vertex) {
+                memory::push(&mut ids, inner)?;
+                memory::push(&mut places, lattice.translated(&place, inside.images.of(inner).shift))?;
+            }
+        }
+        if !occupied.is_within(&inside.room) {
+            return Ok(None);
+        }
+        inside.t.move_vertices(&ids, &places)?;
+        let mut report = inside.commit_moves(lattice, occupied)?;
+        report.moved = n_moved;
+        for (&(vertex, _), wrap) in staged.moves().iter().zip(new_wraps) {
+            wraps[vertex] = wrap;
+        }
+        for (&inner, &place) in ids.iter().zip(&places).filter(|(inner, _)| inner.index() < inside.n_home) {
+            inside.places[inner] = place;
+        }
+        Ok(Some(report))
+    }
+
+    /// Of all, to these positions by id.
+    fn all_moved(&mut self, positions: &[G::Point]) -> Result<Option<CommitReport>> {
+        let Self { lattice, inside, wraps, .. } = self;
+        let mut goals = std::mem::take(&mut inside.goals);
+        let moved = inside.goals_of(lattice, positions, wraps, &mut goals);
+        let done = moved.and_then(|moved| {
+            let Some((occupied, n_moved, new_wraps)) = moved else { return Ok(None) };
+            inside.t.move_all(&goals)?;
+            let mut report = inside.commit_moves(lattice, occupied)?;
+            report.moved = n_moved;
+            std::mem::swap(&mut inside.places, &mut goals);
+            new_wraps.into_iter().for_each(|(vertex, wrap)| wraps[vertex] = wrap);
+            Ok(Some(report))
+        });
+        inside.goals = goals;
+        done
+    }
+
+    /// Builds another triangulation, with all that is staged, which takes the place of the present one.
+    fn rebuilt(&mut self, goals: Goals<'_, G>) -> Result<CommitReport> {
+        let lattice = self.coming.as_ref().unwrap_or(&self.lattice);
+        let (n_before, n_ids) = (self.inside.images.n_vertices(), self.id_count());
+        let mut positions = Vec::new();
+        memory::reserve_exact(&mut positions, n_ids)?;
+        for vertex in VertexId::range(0..n_before) {
+            positions.push(match goals {
+                Goals::Of(goals) => Some(goals[vertex]),
+                Goals::Staged => self.position(vertex).ok(),
+            });
+        }
+        for (index, position) in self.staged.insertions().iter().enumerate() {
+            positions.push(Some(match goals {
+                Goals::Of(goals) => goals[n_before + index],
+                Goals::Staged => *position,
+            }));
+        }
+        self.staged.moves().iter().for_each(|&(vertex, goal)| positions[vertex] = Some(goal));
+        let mut moved = 0;
+        let (mut home, mut wraps) = (Vec::new(), Vec::new());
+        memory::reserve_exact(&mut home, n_ids)?;
+        memory::reserve_exact(&mut wraps, n_ids)?;
+        for (index, position) in positions.iter().enumerate() {
+            let vertex = VertexId::at(index);
+            let is_there = index >= n_before || self.inside.images.home(vertex) != VertexId::NONE;
+            wraps.push([0; 3]);
+            let Some(position) = position.filter(|_| is_there && !self.staged.goes(vertex)) else { continue };
+            let (place, wrap) = lattice.wrapped("positions", index, &position)?;
+            moved += u64::from(index < n_before && self.position(vertex) != Ok(position));
+            wraps[index] = wrap;
+            home.push((vertex, place));
+        }
+        let mut inside = Inside::unbuilt(lattice, &home, n_ids, self.inside.t.options_of_another())?;
+        inside.t.exchange_monitors(&mut self.inside.t);
+        if let Err(error) = inside.build(lattice) {
+            inside.t.exchange_monitors(&mut self.inside.t);
+            return Err(error);
+        }
+        self.inside = inside;
+        self.wraps = wraps;
+        if let Some(lattice) = self.coming.take() {
+            self.lattice = lattice;
+        }
+        let (inserted, removed) =
+            (self.staged.insertions().len() as u64, self.staged.removals().len() as u64);
+        let report = CommitReport { moved, rebuilds: 1, inserted, removed, ..CommitReport::default() };
+        Ok(report)
+    }
+}
+
+/// What moves come to: what vertices at home occupy then, how many of them move, and which ones have come by another translation.
+type Coming = (Occupied, u64, Vec<(VertexId, [i64; 3])>);
+
+impl<G: Dimension> Inside<G> {
+    /// Where all go, images included, if the vertices go to these positions; none if one of them would be too far from the unit
+    /// cell.
+    fn goals_of(
+        &self,
+        lattice: &Lattice<G>,
+        positions: &[G::Point],
+        wraps: &[[i64; 3]],
+        goals: &mut Vec<G::Point>,
+    ) -> Result<Option<Coming>> {
+        goals.clear();
+        memory::reserve(goals, self.images.len())?;
+        let (mut occupied, mut n_moved, mut new_wraps) = (Occupied::NOTHING, 0, Vec::new());
+        let (at_home, images) = self.images.as_slice().split_at(self.n_home);
+        for (image, near) in at_home.iter().zip(&self.places) {
+            let before = wraps[image.vertex];
+            let mut wrap = before;
+            let (index, position) = (image.vertex.index(), &positions[image.vertex]);
+            let place = lattice.wrapped_near("positions", index, position, near, &mut wrap)?;
+            occupied.enter(&lattice.multiples(&place));
+            n_moved += u64::from(place != *near || wrap != before);
+            goals.push(place);
+            if wrap != before {
+                memory::push(&mut new_wraps, (image.vertex, wrap))?;
+            }
+        }
+        if !occupied.is_within(&self.room) {
+            return Ok(None);
+        }
+        for image in images {
+            goals.push(lattice.translated(&goals[self.images.home(image.vertex)], image.shift));
+        }
+        Ok(Some((occupied, n_moved, new_wraps)))
+    }
+
+    /// Makes the moves that are staged inside, and inserts images that are missing then: all of it or, on an error, nothing.
+    fn commit_moves(&mut self, lattice: &Lattice<G>, occupied: Occupied) -> Result<CommitReport> {
+        let (before, n_images) = (self.occupied, self.images.len());
+        self.occupied = occupied;
+        let done = self.t.prepare_timestamp().and_then(|mut report| {
+            self.complete(lattice, Self::missing, |t| {
+                report.add(&t.prepare_timestamp()?);
+                Ok(())
+            })?;
+            Ok(report)
+        });
+        match done {
+            Ok(mut report) => {
+                self.t.publish_timestamp()?;
+                // Without the memory for it the next commit looks at what has changed now, too.
+                let _ = self.t.take_changes();
+                report.inserted = 0;
+                Ok(report)
+            }
+            Err(error) => {
+                self.t.discard_moves();
+                self.t.withdraw_timestamp();
+                self.images.truncate(n_images);
+                self.occupied = before;
+                Err(error)
+            }
+        }
+    }
+}

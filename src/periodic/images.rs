@@ -1,0 +1,136 @@
+//! Which vertex, and which image of it, each vertex inside is.
+
+use crate::error::{Error, Result, StagedEdit};
+use crate::ids::VertexId;
+use crate::machine::memory;
+use crate::periodic::lattice::{HOME, Shift};
+
+/// A vertex, translated by a shift from home.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Image {
+    pub(super) vertex: VertexId,
+    pub(super) shift: Shift,
+}
+
+/// The images by the ids that they have inside, and those ids by image.
+#[derive(Debug, Default)]
+pub(super) struct Images {
+    images: Vec<Image>,
+    /// By id inside, the next image of the same vertex.
+    next: Vec<VertexId>,
+    /// By vertex, the id inside of the one at home, where the list of its images begins; none for a removed vertex.
+    home: Vec<VertexId>,
+}
+
+impl Images {
+    /// The number of ids that vertices have been given.
+    pub(super) fn n_vertices(&self) -> usize {
+        self.home.len()
+    }
+
+    /// The number of ids inside.
+    pub(super) fn len(&self) -> usize {
+        self.images.len()
+    }
+
+    /// All, by the ids inside.
+    pub(super) fn as_slice(&self) -> &[Image] {
+        &self.images
+    }
+
+    /// Which one this is inside.
+    #[inline(always)]
+    pub(super) fn of(&self, inside: VertexId) -> Image {
+        self.images[inside]
+    }
+
+    /// Whether a vertex inside is at home.
+    #[inline(always)]
+    pub(super) fn is_home(&self, inside: VertexId) -> bool {
+        self.images[inside].shift == HOME
+    }
+
+    /// A vertex at home, as it is known inside; none for a removed vertex.
+    pub(super) fn home(&self, vertex: VertexId) -> VertexId {
+        self.home[vertex]
+    }
+
+    /// An image as it is known inside; none if it is not there.
+    pub(super) fn find(&self, vertex: VertexId, shift: Shift) -> VertexId {
+        let mut inside = self.home[vertex];
+        while inside != VertexId::NONE && self.images[inside].shift != shift {
+            inside = self.next[inside];
+        }
+        inside
+    }
+
+    /// All images of a vertex, as they are known inside; the one at home first.
+    pub(super) fn all_of(&self, vertex: VertexId) -> impl Iterator<Item = VertexId> + '_ {
+        let first = Some(self.home[vertex]).filter(|&inside| inside != VertexId::NONE);
+        std::iter::successors(first, |&inside| Some(self.next[inside]).filter(|&next| next != VertexId::NONE))
+    }
+
+    /// The id inside of a vertex that must be there; `n_coming` more are staged.
+    pub(super) fn check(&self, index: usize, vertex: VertexId, n_coming: usize) -> Result<VertexId> {
+        let (argument, n, staged) = ("vertices", self.home.len(), StagedEdit::Insertion);
+        match self.home.get(vertex.index()) {
+            Some(&VertexId::NONE) => Err(Error::RemovedVertex { argument, index, vertex }),
+            Some(&inside) => Ok(inside),
+            None if vertex.index() < n + n_coming => {
+                Err(Error::StagedVertex { argument, index, vertex, staged })
+            }
+            None => Err(Error::NoSuchVertex { argument, index, vertex, ids: n + n_coming }),
+        }
+    }
+
+    /// The ids up to this one are those of removed vertices; there is room.
+    pub(super) fn skip_to(&mut self, vertex: VertexId) {
+        self.home.resize(vertex.index(), VertexId::NONE);
+    }
+
+    /// Makes room for more.
+    pub(super) fn reserve(&mut self, n_vertices: usize, n_inside: usize) -> Result<()> {
+        memory::reserve(&mut self.home, n_vertices)?;
+        memory::reserve(&mut self.images, n_inside)?;
+        memory::reserve(&mut self.next, n_inside)
+    }
+
+    /// Enters the next vertex, at home, or an image of one that is there, under the next id inside; there is room.
+    pub(super) fn push(&mut self, image: Image) {
+        let inside = VertexId::at(self.images.len());
+        let next = if image.shift == HOME {
+            debug_assert_eq!(image.vertex.index(), self.home.len());
+            self.home.push(inside);
+            VertexId::NONE
+        } else {
+            let home = self.home[image.vertex];
+            std::mem::replace(&mut self.next[home], inside)
+        };
+        self.images.push(image);
+        self.next.push(next);
+    }
+
+    /// Forgets all images but those with the lowest ids inside.
+    pub(super) fn truncate(&mut self, n_inside: usize) {
+        while self.images.len() > n_inside {
+            let inside = VertexId::at(self.images.len() - 1);
+            let image = self.images[inside];
+            let mut before = self.home[image.vertex];
+            if before == inside {
+                self.home.pop();
+            } else {
+                // Images are entered behind the first one, so the last to come is found soon.
+                while self.next[before] != inside {
+                    before = self.next[before];
+                }
+                self.next[before] = self.next[inside];
+            }
+            self.images.pop();
+            self.next.pop();
+        }
+    }
+
+    pub(super) fn memory_bytes(&self) -> usize {
+        memory::bytes_of(&self.images) + memory::bytes_of(&self.next) + memory::bytes_of(&self.home)
+    }
+}

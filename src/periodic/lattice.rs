@@ -1,0 +1,614 @@
+//! The translations that leave a periodic set as it is.
+//!
+//! A *lattice* has all sums of up to D independent vectors. Its vectors are rounded to a grid: along an axis along which any
+//! of them goes, coordinates are multiples of a power of two, so small that each is off by half of that at most, and so
+//! large that a vertex can be translated by any vector of the lattice that is asked for without rounding. Positions of
+//! vertices are rounded to that grid as well.
+//!
+//! # Which images can matter
+//!
+//! Let ρ be the *covering radius* of the lattice: no place of its span is farther than ρ from all of its vectors. In the
+//! triangulation of a periodic set, two vertices u and w of a cell are at most 2ρ apart, as seen in the span: let m be the
+//! middle between them, s a lattice vector that is within ρ of half of their distance in the span, and δ = u + s − m. The
+//! powers of m + δ = u + s and m − δ = w − s in regard to a sphere through u and w have the sum 2 (δ² − |u − m|²), and
+//! where the distance in the span exceeds 2ρ that is negative: one of two vertices of the set is inside any sphere
+//! through u and w. A bound of 2ρ is the root of the sum of the squares of the vectors of a basis (L. Babai: *On Lovász'
+//! lattice reduction and the nearest lattice point problem*. Combinatorica 6, 1986, 10.1007/BF02579403).
+//!
+//! The bound is good for a *reduced* basis, whose vectors are short: pairs are reduced as by Gauss, and the third vector by
+//! the nearest sums of the others (I. Semaev: *A 3-dimensional lattice reduction algorithm*. CaLC 2001,
+//! 10.1007/3-540-44670-2_13). What is found depends on the lattice, not on the basis; only how soon depends on that.
+
+#![expect(clippy::needless_range_loop, reason = "axes and vectors are indices of several arrays at a time")]
+
+use crate::delaunay::Shape;
+use crate::error::{Error, Result};
+use crate::predicates::MAX_MAGNITUDE;
+
+/// Multiples of one vector.
+pub(super) type Range = std::ops::RangeInclusive<i32>;
+
+/// Multiples of the vectors of a reduced basis.
+pub(super) type Shift = [i32; 3];
+
+/// No translation.
+pub(super) const HOME: Shift = [0; 3];
+
+/// Vertices at home are in the unit cell, or outside of it by this share of it at most.
+pub(super) const ROOM: f64 = 0.25;
+
+/// By how much bounds on rounded numbers are widened, relatively.
+const SLACK: f64 = 1e-9;
+
+/// Coordinates on the grid, and sums of them, have at most so many bits.
+const GRID_BITS: i32 = 52;
+
+/// Caller's vectors are read with so many bits.
+const LONG_BITS: i32 = 96;
+
+/// The least and the greatest multiples of each vector that vertices at home have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Occupied {
+    low: [f64; 3],
+    high: [f64; 3],
+}
+
+impl Occupied {
+    /// What no vertex occupies.
+    pub(super) const NOTHING: Self = Occupied { low: [0.0; 3], high: [0.0; 3] };
+
+    /// Now a place with these multiples, too.
+    #[inline(always)]
+    pub(super) fn enter(&mut self, multiples: &[f64; 3]) {
+        self.low.iter_mut().zip(multiples).for_each(|(low, &x)| *low = low.min(x));
+        self.high.iter_mut().zip(multiples).for_each(|(high, &x)| *high = high.max(x));
+    }
+
+    /// Whether no vertex is farther outside of the unit cell than some share of it.
+    pub(super) fn is_within(&self, room: &[f64; 3]) -> bool {
+        (0..3).all(|j| -room[j] <= self.low[j] && self.high[j] <= 1.0 + room[j])
+    }
+}
+
+/// A lattice, by its reduced basis.
+#[derive(Debug)]
+pub(super) struct Lattice<G: Shape> {
+    /// The number of vectors: of directions in which the set is periodic.
+    rank: usize,
+    /// Reduced, on the grid.
+    vectors: [G::Point; 3],
+    /// By vector, its multiples of the caller's vectors.
+    of_caller: [[i64; 3]; 3],
+    /// By axis, the unit of coordinates; 0 where they are as they are given.
+    unit: [f64; 3],
+    /// Linear forms, by which a place has its multiples of the vectors, rounded.
+    dual: [[f64; 3]; 3],
+    /// The lengths of the forms, or a bit more.
+    thickness: [f64; 3],
+    /// By vector, the greatest multiples of images that can be needed.
+    greatest: Shift,
+    /// A way of that length has no multiple of a vector above a half.
+    short_way: f64,
+}
+
+impl<G: Shape> Lattice<G> {
+    /// The lattice of these vectors.
+    pub(super) fn new(basis: &[G::Point]) -> Result<Self> {
+        let rank = basis.len();
+        for (index, vector) in basis.iter().enumerate() {
+            for (axis, &value) in vector.as_ref().iter().enumerate() {
+                if !value.is_finite() {
+                    return Err(Error::NotFinite { argument: "vectors", index, axis, value });
+                }
+                if value.abs() > GREATEST {
+                    return Err(Error::OutOfRange {
+                        argument: "vectors",
+                        index,
+                        axis,
+                        value,
+                        limit: GREATEST,
+                    });
+                }
+                if value != 0.0 && value.abs() < LEAST {
+                    let wanted = "0, or at least 1e-50 in magnitude";
+                    return Err(Error::InvalidValue {
+                        argument: "vectors",
+                        index: index * G::D + axis,
+                        value,
+                        wanted,
+                    });
+                }
+            }
+        }
+        let reduced = (rank <= G::D).then(|| Reduced::new(basis)).flatten();
+        let Some(reduced) = reduced else {
+            return Err(Error::DependentVectors { count: rank });
+        };
+        let rows: [[f64; 3]; 3] = reduced.vectors();
+        let dual = dual_of(&rows, rank);
+        let thickness = dual.map(|form| dot(&form, &form).sqrt() * (1.0 + SLACK));
+        let reach = rows.iter().map(|row| dot(row, row)).sum::<f64>().sqrt() * (1.0 + SLACK);
+        let mut lattice = Lattice::<G> {
+            rank,
+            vectors: [G::Point::default(); 3],
+            of_caller: reduced.of_caller,
+            unit: [0.0; 3],
+            dual,
+            thickness,
+            short_way: 0.5 * (1.0 - SLACK) / thickness.iter().fold(0.0, |most, &x| f64::max(most, x)),
+            greatest: [0, 1, 2]
+                .map(|j| if j < rank { (1.0 + 2.0 * ROOM + reach * thickness[j]).floor() as i32 } else { 0 }),
+        };
+        for axis in 0..G::D {
+            let span: f64 =
+                (0..rank).map(|j| (f64::from(lattice.greatest[j]) + 2.0) * rows[j][axis].abs()).sum();
+            if span > 0.0 {
+                lattice.unit[axis] = 2f64.powi(exponent_above(2.0 * span) - GRID_BITS);
+            }
+        }
+        for (j, row) in rows.iter().enumerate() {
+            for axis in 0..G::D {
+                lattice.vectors[j][axis] = on_grid(row[axis], lattice.unit[axis]);
+            }
+        }
+        Ok(lattice)
+    }
+
+    /// The number of directions in which the set is periodic.
+    pub(super) fn rank(&self) -> usize {
+        self.rank
+    }
+
+    /// The lengths of the linear forms by which multiples of the vectors are found, or a bit more.
+    pub(super) fn thickness(&self) -> [f64; 3] {
+        self.thickness
+    }
+
+    /// By axis, whether any vector goes along it.
+    pub(super) fn is_spanned(&self, axis: usize) -> bool {
+        self.unit[axis] != 0.0
+    }
+
+    /// The caller's vectors, on the grid: exact, but for those that have more than 53 digits in its units.
+    pub(super) fn given(&self) -> impl ExactSizeIterator<Item = G::Point> + '_ {
+        (0..self.rank).map(|k| {
+            let mut given = G::Point::default();
+            let multiples = self.to_caller(k);
+            for axis in (0..G::D).filter(|&axis| self.unit[axis] != 0.0) {
+                given[axis] = self.units_along(axis, &multiples) as f64 * self.unit[axis];
+            }
+            given
+        })
+    }
+
+    /// Which multiples of the reduced vectors one of the caller's is: a column of cofactors, as the determinant is 1 or -1.
+    fn to_caller(&self, k: usize) -> [i64; 3] {
+        let m = &self.of_caller;
+        let cofactor = |i: usize, j: usize| {
+            let ([a, b], [c, d]) = ([(i + 1) % 3, (i + 2) % 3], [(j + 1) % 3, (j + 2) % 3]);
+            m[a][c] * m[b][d] - m[a][d] * m[b][c]
+        };
+        let determinant: i64 = (0..3).map(|j| m[0][j] * cofactor(0, j)).sum();
+        // The entries of the inverse are those of the transposed cofactors.
+        [0, 1, 2].map(|j| determinant * cofactor(j, k))
+    }
+
+    /// Multiples of the caller's vectors.
+    pub(super) fn of_caller(&self, shift: [i64; 3]) -> [i64; 3] {
+        let mut sum = [0; 3];
+        for (n, row) in shift.into_iter().zip(&self.of_caller) {
+            sum = [0, 1, 2].map(|j| sum[j] + n * row[j]);
+        }
+        sum
+    }
+
+    /// A place after a translation: exact, where both are on the grid and near.
+    pub(super) fn translated(&self, place: &G::Point, shift: Shift) -> G::Point {
+        let mut sum = *place;
+        for (n, vector) in shift.into_iter().zip(&self.vectors) {
+            for axis in 0..G::D {
+                sum[axis] += f64::from(n) * vector[axis];
+            }
+        }
+        sum
+    }
+
+    /// A position in units of the grid; 0 along axes that have none.
+    #[inline(always)]
+    fn units_of(&self, argument: &'static str, index: usize, position: &G::Point) -> Result<[i128; 3]> {
+        let mut units = [0i128; 3];
+        for axis in 0..G::D {
+            let value = position[axis];
+            if !value.is_finite() {
+                return Err(Error::NotFinite { argument, index, axis, value });
+            }
+            let unit = self.unit[axis];
+            let limit = if unit == 0.0 { MAX_MAGNITUDE } else { (unit * FAR).min(MAX_MAGNITUDE) };
+            if value.abs() > limit {
+                return Err(Error::OutOfRange { argument, index, axis, value, limit });
+            }
+            if unit != 0.0 {
+                units[axis] = (value / unit).round_ties_even() as i128;
+            }
+        }
+        Ok(units)
+    }
+
+    /// Checks that a position is one of a vertex.
+    pub(super) fn check(&self, argument: &'static str, index: usize, position: &G::Point) -> Result<()> {
+        self.units_of(argument, index, position).map(drop)
+    }
+
+    /// What multiples of the vectors are along an axis, in units of the grid.
+    fn units_along(&self, axis: usize, multiples: &[i64; 3]) -> i128 {
+        let unit = self.unit[axis];
+        let of = |j: usize| i128::from(multiples[j]) * (self.vectors[j][axis] / unit) as i128;
+        if unit == 0.0 { 0 } else { (0..self.rank).map(of).sum() }
+    }
+
+    /// The place of so many units along axes on the grid; along others that of the position.
+    fn place_of(&self, position: &G::Point, units: &[i128; 3]) -> G::Point {
+        let mut place = *position;
+        for axis in (0..G::D).filter(|&axis| self.unit[axis] != 0.0) {
+            place[axis] = units[axis] as f64 * self.unit[axis];
+        }
+        place
+    }
+
+    /// A position on the grid, in the unit cell but for rounding, and by how much it was translated to come from there.
+    pub(super) fn wrapped(
+        &self,
+        argument: &'static str,
+        index: usize,
+        position: &G::Point,
+    ) -> Result<(G::Point, [i64; 3])> {
+        if let Some(place) = self.place_of_short(position, &[0; 3])
+            && self.multiples(&place).iter().all(|&x| (0.0..1.0).contains(&x))
+        {
+            return Ok((place, [0; 3]));
+        }
+        let mut units = self.units_of(argument, index, position)?;
+        let mut total = [0i64; 3];
+        let mut place = self.place_of(position, &units);
+        // What is far away gets near in a few steps, as multiples of many digits are rounded.
+        for _ in 0..8 {
+            let multiples = self.multiples(&place).map(|x| x.floor() as i64);
+            if multiples == [0; 3] {
+                break;
+            }
+            for axis in 0..G::D {
+                units[axis] -= self.units_along(axis, &multiples);
+            }
+            total = [0, 1, 2].map(|j| total[j] + multiples[j]);
+            place = self.place_of(position, &units);
+        }
+        Ok((place, total))
+    }
+
+    /// A position on the grid, less the multiples of the vectors in `wrap`, which change to those that take it closest to
+    /// `near`.
+    #[inline(always)]
+    pub(super) fn wrapped_near(
+        &self,
+        argument: &'static str,
+        index: usize,
+        position: &G::Point,
+        near: &G::Point,
+        wrap: &mut [i64; 3],
+    ) -> Result<G::Point> {
+        if let Some(place) = self.place_of_short(position, wrap) {
+            let mut square = 0.0;
+            (0..G::D).for_each(|axis| square += (place[axis] - near[axis]) * (place[axis] - near[axis]));
+            // No multiple of that way is above a half.
+            if square <= self.short_way * self.short_way {
+                return Ok(place);
+            }
+        }
+        self.wrapped_far(argument, index, position, near, wrap)
+    }
+
+    /// A position on the grid, less these multiples of the vectors, if all of that has few enough digits.
+    #[inline(always)]
+    fn place_of_short(&self, position: &G::Point, wrap: &[i64; 3]) -> Option<G::Point> {
+        let mut place = *position;
+        let mut is_short = true;
+        for axis in 0..G::D {
+            let unit = self.unit[axis];
+            if unit != 0.0 {
+                let units = position[axis] / unit;
+                is_short &= units.abs() < SHORT;
+                place[axis] = units.round_ties_even() * unit;
+            } else {
+                is_short &= position[axis].abs() <= MAX_MAGNITUDE;
+            }
+        }
+        if *wrap != [0; 3] {
+            for axis in 0..G::D {
+                let mut greatest = 0.0;
+                for j in 0..self.rank {
+                    let way = wrap[j] as f64 * self.vectors[j][axis];
+                    greatest += way.abs();
+                    place[axis] -= way;
+                }
+                is_short &= self.unit[axis] == 0.0 || greatest < SHORT * self.unit[axis];
+            }
+        }
+        is_short.then_some(place)
+    }
+
+    /// That of a position which is far away, or has come a long way.
+    #[cold]
+    #[inline(never)]
+    fn wrapped_far(
+        &self,
+        argument: &'static str,
+        index: usize,
+        position: &G::Point,
+        near: &G::Point,
+        wrap: &mut [i64; 3],
+    ) -> Result<G::Point> {
+        let (mut way, total) = self.wrapped(argument, index, position)?;
+        (0..G::D).for_each(|axis| way[axis] -= near[axis]);
+        let multiples = self.multiples(&way).map(|x| x.round_ties_even() as i64);
+        *wrap = [0, 1, 2].map(|j| total[j] + multiples[j]);
+        self.place_of_long(argument, index, position, wrap)
+    }
+
+    /// A position on the grid less multiples of the vectors, whatever its magnitude.
+    fn place_of_long(
+        &self,
+        argument: &'static str,
+        index: usize,
+        position: &G::Point,
+        wrap: &[i64; 3],
+    ) -> Result<G::Point> {
+        let mut units = self.units_of(argument, index, position)?;
+        (0..G::D).for_each(|axis| units[axis] -= self.units_along(axis, wrap));
+        Ok(self.place_of(position, &units))
+    }
+
+    /// The position of which a place at home is the translation.
+    pub(super) fn unwrapped(&self, place: &G::Point, wrap: &[i64; 3]) -> G::Point {
+        if *wrap == [0; 3] {
+            return *place;
+        }
+        let mut units = [0i128; 3];
+        for axis in (0..G::D).filter(|&axis| self.unit[axis] != 0.0) {
+            units[axis] = (place[axis] / self.unit[axis]) as i128 + self.units_along(axis, wrap);
+        }
+        self.place_of(place, &units)
+    }
+
+    /// The multiples of the vectors that a place has, rounded.
+    pub(super) fn multiples(&self, place: &G::Point) -> [f64; 3] {
+        let mut multiples = [0.0; 3];
+        for (j, form) in self.dual.iter().enumerate() {
+            for axis in 0..G::D {
+                multiples[j] += form[axis] * place[axis];
+            }
+        }
+        multiples
+    }
+
+    /// By vector, the range of multiples by which what is occupied can be translated to meet a ball; none of it is more than
+    /// can be needed.
+    pub(super) fn shifts_to(&self, centre: &G::Point, radius: f64, occupied: &Occupied) -> [Range; 3] {
+        let multiples = self.multiples(centre);
+        [0, 1, 2].map(|j| {
+            let greatest = f64::from(self.greatest[j]);
+            if j >= self.rank {
+                return 0..=0;
+            }
+            let reach = radius * self.thickness[j] + SLACK * (1.0 + multiples[j].abs());
+            let low = (multiples[j] - reach - occupied.high[j]).ceil().max(-greatest);
+            let high = (multiples[j] + reach - occupied.low[j]).floor().min(greatest);
+            // Where numbers are too large to tell, all are in reach.
+            if low.is_nan() || high.is_nan() {
+                -(greatest as i32)..=greatest as i32
+            } else {
+                low as i32..=high as i32
+            }
+        })
+    }
+
+    /// All shifts that can be needed.
+    pub(super) fn all_shifts(&self) -> [Range; 3] {
+        self.greatest.map(|greatest| -greatest..=greatest)
+    }
+
+    /// The length, area or volume of a cell of the lattice, rounded.
+    pub(super) fn measure(&self) -> f64 {
+        let rows = [0, 1, 2].map(|j| widened::<G>(&self.vectors[j]));
+        let mut orthogonal: [[f64; 3]; 3] = rows;
+        let mut product = 1.0;
+        for j in 0..self.rank {
+            for i in 0..j {
+                let along = dot(&rows[j], &orthogonal[i]) / dot(&orthogonal[i], &orthogonal[i]);
+                orthogonal[j] = [0, 1, 2].map(|axis| orthogonal[j][axis] - along * orthogonal[i][axis]);
+            }
+            product *= dot(&orthogonal[j], &orthogonal[j]).sqrt();
+        }
+        product
+    }
+}
+
+/// Bounds on the entries of a basis.
+const GREATEST: f64 = 1e50;
+const LEAST: f64 = 1e-50;
+
+/// Positions may be so many units of the grid away.
+const FAR: f64 = (1u64 << 62) as f64 * (1u64 << 32) as f64;
+
+/// Positions of fewer units of the grid are rounded to it without long numbers, and translated by a vector without rounding.
+const SHORT: f64 = (1u64 << 51) as f64;
+
+/// A basis of integers while it is reduced.
+struct Reduced {
+    rank: usize,
+    /// By vector and axis, in units of that axis.
+    rows: [[i128; 3]; 3],
+    /// By axis, the unit.
+    units: [f64; 3],
+    of_caller: [[i64; 3]; 3],
+}
+
+impl Reduced {
+    /// A reduced basis; none if the vectors depend on each other, or nearly so.
+    fn new<P: AsRef<[f64]>>(basis: &[P]) -> Option<Self> {
+        let mut reduced = Reduced {
+            rank: basis.len(),
+            rows: [[0; 3]; 3],
+            units: [1.0; 3],
+            of_caller: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+        };
+        let n_axes = basis.first().map_or(0, |vector| vector.as_ref().len());
+        for axis in 0..n_axes {
+            let greatest = basis.iter().map(|vector| vector.as_ref()[axis].abs()).fold(0.0, f64::max);
+            if greatest > 0.0 {
+                reduced.units[axis] = 2f64.powi(exponent_above(greatest) - LONG_BITS);
+            }
+        }
+        for (row, vector) in reduced.rows.iter_mut().zip(basis) {
+            for (axis, &x) in vector.as_ref().iter().enumerate() {
+                row[axis] = (x / reduced.units[axis]).round_ties_even() as i128;
+            }
+        }
+        for _ in 0..MAX_STEPS {
+            if !reduced.step()? {
+                return reduced.is_independent().then_some(reduced);
+            }
+        }
+        None
+    }
+
+    fn vectors(&self) -> [[f64; 3]; 3] {
+        self.rows.map(|row| [0, 1, 2].map(|axis| row[axis] as f64 * self.units[axis]))
+    }
+
+    /// Makes one vector shorter by multiples of others; whether that was possible. The vectors are in the order of their
+    /// lengths then. None if numbers are too large.
+    fn step(&mut self) -> Option<bool> {
+        let vectors = self.vectors();
+        let squares = vectors.map(|v| dot(&v, &v));
+        for j in 1..self.rank {
+            if squares[j] < squares[j - 1] {
+                self.rows.swap(j, j - 1);
+                self.of_caller.swap(j, j - 1);
+                return Some(true);
+            }
+        }
+        for j in 1..self.rank {
+            let mut best = (squares[j] * (1.0 - SLACK), [0i64; 2]);
+            for multiples in self.near(&vectors, j) {
+                let candidate = self.minus(j, multiples)?;
+                let v = [0, 1, 2].map(|axis| candidate[axis] as f64 * self.units[axis]);
+                let square = dot(&v, &v);
+                if square < best.0 {
+                    best = (square, multiples);
+                }
+            }
+            if best.1 != [0; 2] {
+                self.rows[j] = self.minus(j, best.1)?;
+                for (i, n) in best.1.into_iter().enumerate() {
+                    for axis in 0..3 {
+                        let product = n.checked_mul(self.of_caller[i][axis])?;
+                        self.of_caller[j][axis] = self.of_caller[j][axis].checked_sub(product)?;
+                    }
+                }
+                return Some(true);
+            }
+        }
+        Some(false)
+    }
+
+    /// Multiples of the vectors before one whose sums are near it.
+    fn near(&self, vectors: &[[f64; 3]; 3], j: usize) -> impl Iterator<Item = [i64; 2]> + use<> {
+        let dual = dual_of(vectors, j);
+        let middle = [0, 1].map(|i| if i < j { dot(&dual[i], &vectors[j]).round() as i64 } else { 0 });
+        let width = [0, 1].map(|i| i64::from(i < j));
+        (-width[0]..=width[0]).flat_map(move |a| {
+            (-width[1]..=width[1]).map(move |b| [middle[0].saturating_add(a), middle[1].saturating_add(b)])
+        })
+    }
+
+    /// A vector less multiples of those before it.
+    fn minus(&self, j: usize, multiples: [i64; 2]) -> Option<[i128; 3]> {
+        let mut row = self.rows[j];
+        for (i, n) in multiples.into_iter().enumerate().take(j) {
+            for axis in 0..3 {
+                let product = self.rows[i][axis].checked_mul(i128::from(n))?;
+                row[axis] = row[axis].checked_sub(product)?;
+            }
+        }
+        Some(row)
+    }
+
+    fn is_independent(&self) -> bool {
+        let vectors = self.vectors();
+        let dual = dual_of(&vectors, self.rank);
+        (0..self.rank).all(|j| {
+            let product = dot(&dual[j], &dual[j]).sqrt() * dot(&vectors[j], &vectors[j]).sqrt();
+            product < GREATEST_DEFECT
+        })
+    }
+}
+
+/// Steps of a reduction: each but a swap makes a vector shorter, mostly by half and more.
+const MAX_STEPS: usize = 2_000;
+
+/// The vectors of a reduced basis are that far from orthogonal at most; rounded, those that depend on each other are farther.
+const GREATEST_DEFECT: f64 = 4.0;
+
+/// Linear forms that are 1 on one vector and 0 on the others, and on what is orthogonal to all.
+fn dual_of(vectors: &[[f64; 3]; 3], rank: usize) -> [[f64; 3]; 3] {
+    let mut dual = [[0.0; 3]; 3];
+    for j in 0..rank {
+        // What a vector has orthogonal to the others.
+        let [one, other] =
+            match [(j + 1) % 3, (j + 2) % 3].map(|i| if i < rank { vectors[i] } else { [0.0; 3] }) {
+                [one, other] if one == [0.0; 3] => [other, one],
+                pair => pair,
+            };
+        let v = vectors[j];
+        let part = if other != [0.0; 3] {
+            let normal = cross(&one, &other);
+            scaled(&normal, dot(&v, &normal) / dot(&normal, &normal))
+        } else if one != [0.0; 3] {
+            let along = dot(&v, &one) / dot(&one, &one);
+            [0, 1, 2].map(|axis| v[axis] - along * one[axis])
+        } else {
+            v
+        };
+        dual[j] = scaled(&part, 1.0 / dot(&part, &part));
+    }
+    dual
+}
+
+fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        a[j] * b[k] - a[k] * b[j]
+    })
+}
+
+fn scaled(a: &[f64; 3], factor: f64) -> [f64; 3] {
+    a.map(|x| x * factor)
+}
+
+fn widened<G: Shape>(point: &G::Point) -> [f64; 3] {
+    [0, 1, 2].map(|axis| if axis < G::D { point[axis] } else { 0.0 })
+}
+
+/// The least exponent of a power of two that is not below a positive number.
+fn exponent_above(x: f64) -> i32 {
+    x.log2().ceil() as i32
+}
+
+/// The nearest multiple of a unit, a power of two.
+fn on_grid(x: f64, unit: f64) -> f64 {
+    if unit == 0.0 { x } else { (x / unit).round_ties_even() * unit }
+}

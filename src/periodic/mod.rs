@@ -1,0 +1,43 @@
+//! Triangulations of sets that repeat: each vertex is in all places to which a lattice takes it.
+//!
+//! Inside is a triangulation of the plane or of space that has each vertex once, *at home*, in a cell of the lattice or
+//! near it, and the *images* of vertices that have a common cell with one at home, or may have one. Each cell of the
+//! repeating set is there, with all of its neighbours, for each vertex of it that is at home.
+//!
+//! # Which images are needed
+//!
+//! Let H be a convex set that has all vertices at home. An image of u by −s is needed if the ball of a cell at u, or the
+//! half-space beyond a facet of the hull there, meets H translated by s. They are inserted until none is missing. Then all
+//! cells at vertices at home are those of the repeating set: suppose that C, a cell at u, has another vertex in its ball. Of the
+//! cells at u in the repeating set, take the one where a way from u into C begins. It has a vertex y in the ball of C, as at u
+//! the lifted planes of both agree, and along the way that of the set is lower. y is at home by a translation s, so H
+//! translated by s meets the ball of C, and u by −s is there, and −s takes y home. The edge from u to y is one of any
+//! triangulation that has both, and the ball of a cell at it touches u. So −s takes home what takes y to its image, which
+//! is there, and would be a corner. (A process that sends its vertices to others by this rule is the origin of this proof: here
+//! all processes are translations of one.)
+//!
+//! What is farther than the lattice allows for vertices of one cell is not inserted (lattice.rs).
+//!
+//! # A commit
+//!
+//! Vertices and their images move, then images that are missing are inserted, in rounds of the same timestamp; cells that have
+//! changed tell whether any is missing (following.rs). Where a vertex
+//! would be too far from the unit cell, or vertices come, go, or the lattice changes, another triangulation is built beside
+//! the present one, and takes its place when it is complete.
+
+mod cells;
+mod commit;
+mod either;
+mod following;
+mod images;
+mod lattice;
+mod needed;
+mod reading;
+mod staged;
+#[cfg(test)]
+mod tests;
+mod triangulation;
+
+pub use cells::PeriodicView;
+pub use either::AnyPeriodic;
+pub use triangulation::PeriodicTriangulation;

@@ -1,0 +1,132 @@
+//! Images that are needed and not there.
+
+use crate::delaunay::Dimension;
+use crate::error::Result;
+use crate::ids::{CellId, VertexId};
+use crate::machine::memory;
+use crate::motion::{MovingTriangulation, NO_CELL};
+use crate::periodic::images::Image;
+use crate::periodic::lattice::{Lattice, Range};
+use crate::periodic::triangulation::{Inside, all};
+
+/// What makes a rounded radius one that certainly is no less than the distance of a corner from a rounded centre.
+const RADIUS: f64 = 1.0 + 1e-8;
+
+/// Images that have to be inserted, each once.
+#[derive(Debug, Default)]
+pub(super) struct Needed {
+    pub(super) images: Vec<Image>,
+}
+
+impl Needed {
+    /// Those that are missing, by a look at all cells.
+    pub(super) fn of_all<G: Dimension>(inside: &Inside<G>, lattice: &Lattice<G>) -> Result<Self> {
+        let mut needed = Needed::default();
+        if inside.t.cell_count() == 0 {
+            // All vertices are in a line or plane: only images anywhere can change that.
+            for inner in VertexId::range(0..inside.n_home) {
+                needed.enter(inside, inside.images.of(inner).vertex, lattice.all_shifts())?;
+            }
+            return Ok(needed.each_once());
+        }
+        let cells = inside.t.cells()?;
+        for (cell, sphere) in CellId::range(0..cells.corners.len()).zip(inside.t.circumspheres()?) {
+            if cells.corners[cell].as_ref().iter().any(|v| v.index() < inside.n_home) {
+                needed.enter_by_ball(inside, lattice, cell, sphere)?;
+            }
+        }
+        Ok(needed.each_once())
+    }
+
+    /// Enters those that the ball of a cell asks for.
+    pub(super) fn enter_cell<G: Dimension>(
+        &mut self,
+        inside: &Inside<G>,
+        lattice: &Lattice<G>,
+        cell: CellId,
+    ) -> Result<()> {
+        for sphere in inside.t.circumspheres_of(&[cell])? {
+            self.enter_by_ball(inside, lattice, cell, sphere)?;
+        }
+        Ok(())
+    }
+
+    fn enter_by_ball<G: Dimension>(
+        &mut self,
+        inside: &Inside<G>,
+        lattice: &Lattice<G>,
+        cell: CellId,
+        (centre, square): (G::Point, f64),
+    ) -> Result<()> {
+        let cells = inside.t.cells()?;
+        let is_at_hull = cells.neighbours[cell].as_ref().contains(&NO_CELL);
+        let ranges = if is_at_hull {
+            lattice.all_shifts()
+        } else {
+            lattice.shifts_to(&centre, square.sqrt() * RADIUS, &inside.occupied)
+        };
+        if ranges.iter().all(|range| *range == (0..=0)) {
+            return Ok(());
+        }
+        for &v in cells.corners[cell].as_ref().iter().filter(|v| v.index() < inside.n_home) {
+            self.enter(inside, inside.images.of(v).vertex, ranges.clone())?;
+        }
+        Ok(())
+    }
+
+    /// Enters those images of a vertex that are not there, with shifts that are less than nothing by these.
+    fn enter<G: Dimension>(
+        &mut self,
+        inside: &Inside<G>,
+        vertex: VertexId,
+        [a, b, c]: [Range; 3],
+    ) -> Result<()> {
+        for (x, y, z) in all(a, b, c) {
+            let shift = [-x, -y, -z];
+            if inside.images.find(vertex, shift) == VertexId::NONE {
+                memory::push(&mut self.images, Image { vertex, shift })?;
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn each_once(mut self) -> Self {
+        self.images.sort_unstable();
+        self.images.dedup();
+        self
+    }
+}
+
+/// Images have the key of their vertex: ties between images of one are broken by position.
+pub(super) fn keys_of(images: &[Image]) -> Result<Vec<u64>> {
+    let mut keys = Vec::new();
+    memory::collect(&mut keys, images.iter().map(|image| u64::from(image.vertex.get())))?;
+    Ok(keys)
+}
+
+impl<G: Dimension> Inside<G> {
+    /// Inserts images that are missing, in rounds, until there are none.
+    pub(super) fn complete(
+        &mut self,
+        lattice: &Lattice<G>,
+        mut needed: impl FnMut(&Self, &Lattice<G>) -> Result<Needed>,
+        mut round: impl FnMut(&mut MovingTriangulation<G>) -> Result<()>,
+    ) -> Result<()> {
+        loop {
+            let Needed { images } = needed(self, lattice)?;
+            if images.is_empty() {
+                return Ok(());
+            }
+            let mut places = Vec::new();
+            memory::reserve(&mut places, images.len())?;
+            for image in &images {
+                let home = self.t.position(self.images.home(image.vertex))?;
+                places.push(lattice.translated(&home, image.shift));
+            }
+            self.images.reserve(0, images.len())?;
+            self.t.stage_insertions_with_keys(&places, &keys_of(&images)?)?;
+            round(&mut self.t)?;
+            images.iter().for_each(|&image| self.images.push(image));
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! What can be asked.
+
+use crate::delaunay::Dimension;
+use crate::error::{Error, Result};
+use crate::ids::VertexId;
+use crate::machine::memory;
+use crate::motion::{Algorithm, CommitReport};
+use crate::periodic::cells::{PeriodicCells, PeriodicView};
+use crate::periodic::lattice::Shift;
+use crate::periodic::triangulation::PeriodicTriangulation;
+
+impl<G: Dimension> PeriodicTriangulation<G> {
+    /// The number of vertices that are there.
+    pub fn vertex_count(&self) -> usize {
+        self.inside.n_home
+    }
+
+    /// The number of ids that have been given, those of staged insertions included.
+    pub fn id_count(&self) -> usize {
+        self.inside.images.n_vertices() + self.staged.insertions().len()
+    }
+
+    /// The number of vertices that are kept in order to know the cells: those that there are, and images of some.
+    pub fn image_count(&self) -> usize {
+        self.inside.images.len()
+    }
+
+    /// The number of directions in which the set is periodic.
+    pub fn vector_count(&self) -> usize {
+        self.lattice.rank()
+    }
+
+    /// The vectors by which the set repeats: those that were given, on the grid.
+    pub fn vectors(&self) -> impl ExactSizeIterator<Item = G::Point> + '_ {
+        self.lattice.given()
+    }
+
+    /// The number of staged moves.
+    pub fn staged_count(&self) -> usize {
+        self.staged.moves().len()
+    }
+
+    /// Whether a vertex is there.
+    pub fn is_present(&self, vertex: VertexId) -> bool {
+        vertex.index() < self.inside.images.n_vertices() && self.inside.images.home(vertex) != VertexId::NONE
+    }
+
+    /// Where a vertex is: its position as it was given, on the grid of the lattice.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`], [`Error::StagedVertex`].
+    pub fn position(&self, vertex: VertexId) -> Result<G::Point> {
+        let inside = self.inside.images.check(0, vertex, self.staged.insertions().len());
+        let inside = inside.map_err(|mut error| {
+            if let Error::NoSuchVertex { argument, .. }
+            | Error::RemovedVertex { argument, .. }
+            | Error::StagedVertex { argument, .. } = &mut error
+            {
+                *argument = "vertex";
+            }
+            error
+        })?;
+        Ok(self.lattice.unwrapped(&self.inside.t.position(inside)?, &self.wraps[vertex]))
+    }
+
+    /// Where a vertex is, or where it will be inserted; none for a removed one.
+    pub fn position_or_goal(&self, vertex: VertexId) -> Option<G::Point> {
+        let n = self.inside.images.n_vertices();
+        if vertex.index() >= n {
+            return self.staged.insertions().get(vertex.index() - n).copied();
+        }
+        self.position(vertex).ok()
+    }
+
+    /// The timestamp: 0 at creation, one more at each commit.
+    pub fn timestamp(&self) -> u64 {
+        self.statistics.timestamp
+    }
+
+    /// The sums of the reports of all commits.
+    pub fn statistics(&self) -> CommitReport {
+        self.statistics
+    }
+
+    /// The algorithm of commits.
+    pub fn algorithm(&self) -> Algorithm {
+        self.inside.t.algorithm()
+    }
+
+    /// Changes the algorithm of later commits.
+    pub fn set_algorithm(&mut self, algorithm: Algorithm) {
+        self.inside.t.set_algorithm(algorithm);
+    }
+
+    /// Number of cells that are not translations of each other.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn cell_count(&self) -> Result<usize> {
+        Ok(self.read_cells()?.corners.len())
+    }
+
+    /// The cells, one of each class of translations of each other; see [`cell_shifts`](Self::cell_shifts) for where they are.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn cells(&self) -> Result<PeriodicView<'_, G>> {
+        let cells = self.read_cells()?;
+        Ok(PeriodicView { corners: &cells.corners, neighbours: &cells.neighbours })
+    }
+
+    /// By cell and corner, by which multiples of the vectors the vertex is translated from its position. The corner of the
+    /// lowest id is where it was given, and if there are several images of that in the cell, the first of them by coordinates.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn cell_shifts(&self) -> Result<impl ExactSizeIterator<Item = [i64; 3]> + '_> {
+        let cells = self.read_cells()?;
+        let n = G::D + 1;
+        Ok((0..cells.shifts.len()).map(move |k| {
+            let (cell, corner) = (k / n, k % n);
+            let vertex = cells.corners[cell].as_ref()[corner];
+            self.given(self.least_of(cells, cell), vertex, cells.shifts[k])
+        }))
+    }
+
+    /// By cell and corner, by which multiples of the vectors the neighbour opposite the corner is to be translated from where
+    /// it is by its own shifts, to be beside the cell.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn neighbour_shifts(&self) -> Result<impl ExactSizeIterator<Item = [i64; 3]> + '_> {
+        let cells = self.read_cells()?;
+        let n = G::D + 1;
+        Ok((0..cells.neighbour_shifts.len()).map(move |k| {
+            let (cell, corner) = (k / n, k % n);
+            let across = cells.neighbours[cell].as_ref()[corner];
+            if across == crate::motion::NO_CELL {
+                return [0; 3];
+            }
+            let from = self.least_of(cells, cell);
+            self.given(from, self.least_of(cells, across.index()), cells.neighbour_shifts[k])
+        }))
+    }
+
+    /// The edges, one of each class of translations of each other: two vertices, and by which multiples of the vectors the
+    /// second is translated from its position where the first is at its own. The first has the lower id; the order is that of
+    /// ids.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn edges(&self) -> Result<Vec<([VertexId; 2], [i64; 3])>> {
+        let cells = self.read_cells()?;
+        let mut edges = Vec::new();
+        memory::reserve(&mut edges, cells.corners.len() * G::D)?;
+        for (cell, row) in cells.corners.iter().enumerate() {
+            let shifts = &cells.shifts[cell * (G::D + 1)..][..=G::D];
+            for i in 0..=G::D {
+                for j in 0..i {
+                    let shift = [0, 1, 2].map(|k| shifts[j][k] - shifts[i][k]);
+                    let turned = shift.map(|n| -n);
+                    let (u, w) = (row.as_ref()[i], row.as_ref()[j]);
+                    let edge = if (u, turned) < (w, shift) { ([u, w], shift) } else { ([w, u], turned) };
+                    memory::push(&mut edges, edge)?;
+                }
+            }
+        }
+        edges.sort_unstable();
+        edges.dedup();
+        let mut given = Vec::new();
+        let shown = edges.iter().map(|&([u, w], shift)| ([u, w], self.given(u, w, shift)));
+        memory::collect(&mut given, shown)?;
+        Ok(given)
+    }
+
+    /// By vertex id the area or volume of its Voronoi cell: infinite for cells without an end, NaN for removed vertices, 0 for
+    /// hidden ones. `monitor` is called now and then, and told the fraction done.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] if `monitor` returns `false`, [`Error::OutOfMemory`].
+    pub fn voronoi_volumes(&self, monitor: &mut dyn FnMut(f64) -> bool) -> Result<Vec<f64>> {
+        let inside = self.inside.t.voronoi_volumes_monitored(None, monitor)?;
+        let mut volumes = Vec::new();
+        memory::lengthen(&mut volumes, self.id_count(), f64::NAN)?;
+        for (image, volume) in self.inside.images.as_slice()[..self.inside.n_home].iter().zip(inside) {
+            volumes[image.vertex] = volume;
+        }
+        Ok(volumes)
+    }
+
+    /// The vertex of lowest id of those that share a place with this one, in any period.
+    ///
+    /// # Errors
+    /// Those of [`position`](Self::position).
+    pub fn coincident_representative(&self, vertex: VertexId) -> Result<VertexId> {
+        self.position(vertex)?;
+        let shown = self.inside.t.coincident_representative(self.inside.images.home(vertex))?;
+        Ok(self.inside.images.of(shown).vertex)
+    }
+
+    /// Bytes of memory, without what belongs to this itself.
+    pub fn memory_bytes(&self) -> usize {
+        self.inside.memory_bytes()
+            + memory::bytes_of(&self.wraps)
+            + self.staged.memory_bytes()
+            + self.cells.get().map_or(0, PeriodicCells::memory_bytes)
+    }
+
+    /// The cells, which the first that asks reads; several threads may do that at the same time.
+    fn read_cells(&self) -> Result<&PeriodicCells<G>> {
+        if let Some(cells) = self.cells.get() {
+            return Ok(cells);
+        }
+        let read = PeriodicCells::of(&self.inside)?;
+        Ok(self.cells.get_or_init(|| read))
+    }
+
+    fn least_of(&self, cells: &PeriodicCells<G>, cell: usize) -> VertexId {
+        cells.corners[cell].as_ref()[usize::from(cells.least[cell])]
+    }
+
+    /// By which multiples of the given vectors one vertex is translated from its position where another one is at its own, if
+    /// it is translated by this shift from home where the other one is at home.
+    fn given(&self, from: VertexId, to: VertexId, shift: Shift) -> [i64; 3] {
+        let (first, second) = (&self.wraps[from], &self.wraps[to]);
+        self.lattice.of_caller([0, 1, 2].map(|j| i64::from(shift[j]) - second[j] + first[j]))
+    }
+}

@@ -1,0 +1,183 @@
+//! The triangulation, and how one is built.
+
+use std::sync::OnceLock;
+
+use crate::delaunay::Dimension;
+use crate::error::{Error, Result};
+use crate::ids::VertexId;
+use crate::machine::memory;
+use crate::motion::{CoincidencePolicy, CommitReport, MAX_VERTICES, MovingTriangulation, Options};
+use crate::periodic::cells::PeriodicCells;
+use crate::periodic::images::{Image, Images};
+use crate::periodic::lattice::{HOME, Lattice, Occupied, ROOM};
+use crate::periodic::needed::{Needed, keys_of};
+use crate::periodic::staged::Staged;
+
+/// Images up to so many mean distances of vertices outside of what vertices at home occupy are there from the beginning.
+const MARGIN: f64 = 1.5;
+
+/// Vertices may drift so many mean distances out of the unit cell before they are taken back.
+const DRIFT: f64 = 1.0;
+
+/// A Delaunay triangulation of a set of vertices that repeats, and that move.
+///
+/// ```
+/// use deldrift::{Plane, motion::Options, periodic::PeriodicTriangulation};
+///
+/// // One vertex in a square: a lattice, of which each square has two cells.
+/// let t = PeriodicTriangulation::<Plane>::new(&[[0.25, 0.25]], &[[1.0, 0.0], [0.0, 1.0]], Options::default())?;
+/// assert_eq!(t.cell_count()?, 2);
+/// # Ok::<(), deldrift::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct PeriodicTriangulation<G: Dimension> {
+    pub(super) lattice: Box<Lattice<G>>,
+    pub(super) inside: Inside<G>,
+    /// By vertex, the translation by which it went from where it was given to home: it is where it was given less that.
+    pub(super) wraps: Vec<[i64; 3]>,
+    pub(super) staged: Staged<G>,
+    /// The lattice that is staged.
+    pub(super) coming: Option<Box<Lattice<G>>>,
+    /// Of all commits.
+    pub(super) statistics: CommitReport,
+    pub(super) cells: OnceLock<PeriodicCells<G>>,
+}
+
+/// Vertices at home and their images, triangulated.
+#[derive(Debug)]
+pub(super) struct Inside<G: Dimension> {
+    pub(super) t: MovingTriangulation<G>,
+    /// Those at home have the first ids inside, in the order of vertices.
+    pub(super) images: Images,
+    pub(super) n_home: usize,
+    /// By id inside, where each is; not of images that have come since this was written.
+    pub(super) places: Vec<G::Point>,
+    /// Room for where they go.
+    pub(super) goals: Vec<G::Point>,
+    pub(super) occupied: Occupied,
+    /// By vector, how far outside of the unit cell vertices at home may be, as a share of it.
+    pub(super) room: [f64; 3],
+}
+
+impl<G: Dimension> PeriodicTriangulation<G> {
+    /// Triangulates `positions` and all places to which sums of multiples of `vectors` take them.
+    ///
+    /// # Errors
+    /// Those of [`MovingTriangulation::new`]; [`Error::DependentVectors`] for vectors that depend on each other,
+    /// [`Error::InvalidValue`] for options that reject coincident vertices.
+    pub fn new(positions: &[G::Point], vectors: &[G::Point], options: Options) -> Result<Self> {
+        if options.coincidence == CoincidencePolicy::Reject {
+            let (value, wanted) = (1.0, "0, to merge");
+            return Err(Error::InvalidValue { argument: "options.coincidence", index: 0, value, wanted });
+        }
+        let lattice = memory::boxed(Lattice::<G>::new(vectors)?)?;
+        let n = positions.len();
+        if n > MAX_VERTICES {
+            return Err(Error::TooManyVertices { given: n, limit: MAX_VERTICES });
+        }
+        let (mut home, mut wraps) = (Vec::new(), Vec::new());
+        memory::reserve_exact(&mut home, n)?;
+        memory::reserve_exact(&mut wraps, n)?;
+        for (index, position) in positions.iter().enumerate() {
+            let (place, wrap) = lattice.wrapped("positions", index, position)?;
+            home.push((VertexId::at(index), place));
+            wraps.push(wrap);
+        }
+        let mut inside = Inside::unbuilt(&lattice, &home, n, options)?;
+        inside.build(&lattice)?;
+        let statistics = CommitReport { coincident: inside.coincident() as u64, ..CommitReport::default() };
+        let (staged, cells) = (Staged::default(), OnceLock::new());
+        Ok(PeriodicTriangulation { lattice, inside, wraps, staged, coming: None, statistics, cells })
+    }
+}
+
+impl<G: Dimension> Inside<G> {
+    /// Vertices, which are in the unit cell, and images near it, that are to be [built](Self::build); others of the ids up to
+    /// `n_ids` are of removed vertices.
+    pub(super) fn unbuilt(
+        lattice: &Lattice<G>,
+        home: &[(VertexId, G::Point)],
+        n_ids: usize,
+        options: Options,
+    ) -> Result<Self> {
+        let mut occupied = Occupied::NOTHING;
+        home.iter().for_each(|(_, place)| occupied.enter(&lattice.multiples(place)));
+        let spacing = spacing(lattice, home);
+        let room = lattice.thickness().map(|thickness| ROOM.min(DRIFT * spacing * thickness));
+        let mut images = Images::default();
+        images.reserve(n_ids, home.len())?;
+        let mut places = Vec::new();
+        memory::reserve(&mut places, home.len())?;
+        for &(vertex, place) in home {
+            images.skip_to(vertex);
+            images.push(Image { vertex, shift: HOME });
+            places.push(place);
+        }
+        images.skip_to(VertexId::at(n_ids));
+        for &(vertex, place) in home {
+            let [a, b, c] = lattice.shifts_to(&place, MARGIN * spacing, &occupied);
+            for (x, y, z) in all(a, b, c) {
+                // What is occupied, translated by this, meets the ball: what takes it home takes the vertex near home.
+                let shift = [-x, -y, -z];
+                if shift != HOME {
+                    images.reserve(0, 1)?;
+                    images.push(Image { vertex, shift });
+                    memory::push(&mut places, lattice.translated(&place, shift))?;
+                }
+            }
+        }
+        let t = MovingTriangulation::unbuilt(options);
+        Ok(Inside { t, images, n_home: home.len(), places, goals: Vec::new(), occupied, room })
+    }
+
+    /// Triangulates the vertices and images at these places, and inserts images that are missing. After an error it can only
+    /// be dropped.
+    pub(super) fn build(&mut self, lattice: &Lattice<G>) -> Result<()> {
+        self.t.build_first_with_keys(&self.places, &keys_of(self.images.as_slice())?)?;
+        self.complete(lattice, Needed::of_all, |t| t.commit_timestamp().map(drop))?;
+        // From now on what changes is known.
+        self.t.begin_changes()
+    }
+
+    /// The number of vertices that others hide.
+    pub(super) fn coincident(&self) -> usize {
+        let n_home = self.n_home;
+        if self.t.hidden_count() == 0 {
+            return 0;
+        }
+        self.t.hidden_vertices().filter(|(hidden, _)| hidden.index() < n_home).count()
+    }
+
+    pub(super) fn memory_bytes(&self) -> usize {
+        self.t.memory_bytes()
+            + self.images.memory_bytes()
+            + memory::bytes_of(&self.places)
+            + memory::bytes_of(&self.goals)
+    }
+}
+
+/// All shifts in these ranges.
+pub(super) fn all(
+    a: std::ops::RangeInclusive<i32>,
+    b: std::ops::RangeInclusive<i32>,
+    c: std::ops::RangeInclusive<i32>,
+) -> impl Iterator<Item = (i32, i32, i32)> {
+    a.flat_map(move |x| {
+        let c = c.clone();
+        b.clone().flat_map(move |y| c.clone().map(move |z| (x, y, z)))
+    })
+}
+
+/// The mean distance of vertices.
+fn spacing<G: Dimension>(lattice: &Lattice<G>, home: &[(VertexId, G::Point)]) -> f64 {
+    let mut measure = lattice.measure();
+    // Along axes that are open, the box of the vertices.
+    for axis in (0..G::D).filter(|&axis| !lattice.is_spanned(axis)) {
+        let coordinates = || home.iter().map(|(_, place)| place[axis]);
+        let extent = coordinates().fold(f64::MIN, f64::max) - coordinates().fold(f64::MAX, f64::min);
+        if extent > 0.0 {
+            measure *= extent;
+        }
+    }
+    (measure / home.len().max(1) as f64).powf(1.0 / G::D as f64)
+}
