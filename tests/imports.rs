@@ -13,10 +13,11 @@ use std::fs;
 use std::path::Path;
 
 /// The layers of src, from the top: each uses only those after it.
-const LAYERS: [&str; 13] = [
+const LAYERS: [&str; 14] = [
     "lib",
     "capi",
     "either",
+    "periodic",
     "motion",
     "refine",
     "delaunay",

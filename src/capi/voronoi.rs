@@ -122,7 +122,8 @@ pub unsafe extern "C" fn deldrift_voronoi_facets(
 /// call only; vertices may be outside of it. mask, mask_count: a byte for each id, mask_count of them, which must be
 /// deldrift_id_count; only entries of vertices of which the byte is not 0 are computed and written, and the others are
 /// left as they are. NULL and 0 for all vertices. deldrift_voronoi_changed makes a mask of the cells that have changed.
-/// The numbers of a vertex do not depend on the mask, nor on the number of threads, to the last bit.
+/// The numbers of a vertex do not depend on the mask, nor on the number of threads that compute them, to the last bit. They
+/// are sums in the order of the cells, which a build on several threads may have in another one.
 ///
 /// volumes: a buffer with room for capacity numbers. areas: a buffer with room for as many; receives the length (2D) or area (3D) of the
 /// boundary of what there is of each cell in the box, with what it has of the faces of the box. centroids: a buffer with

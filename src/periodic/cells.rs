@@ -9,8 +9,8 @@ use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::{CellsView, NO_CELL};
+use crate::periodic::inside::Inside;
 use crate::periodic::lattice::{HOME, Shift};
-use crate::periodic::triangulation::Inside;
 
 /// The cells, one of each class of translations of each other.
 #[derive(Clone, Copy, Debug)]

@@ -7,8 +7,9 @@ use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::{CommitReport, MAX_VERTICES};
+use crate::periodic::inside::Inside;
 use crate::periodic::lattice::{Lattice, Occupied};
-use crate::periodic::triangulation::{Inside, PeriodicTriangulation};
+use crate::periodic::triangulation::PeriodicTriangulation;
 
 /// Where vertices go.
 #[derive(Clone, Copy)]

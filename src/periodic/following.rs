@@ -17,9 +17,9 @@ use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::{CellsView, cells_at};
 use crate::periodic::images::Image;
+use crate::periodic::inside::Inside;
 use crate::periodic::lattice::{HOME, Lattice};
 use crate::periodic::needed::Needed;
-use crate::periodic::triangulation::Inside;
 
 /// The vertices of a cell in their order, each with its shift from the first.
 type Class = [u64; 4];

@@ -30,6 +30,7 @@ mod commit;
 mod either;
 mod following;
 mod images;
+mod inside;
 mod lattice;
 mod needed;
 mod reading;

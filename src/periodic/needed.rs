@@ -6,8 +6,8 @@ use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::{MovingTriangulation, NO_CELL};
 use crate::periodic::images::Image;
+use crate::periodic::inside::{Inside, all};
 use crate::periodic::lattice::{Lattice, Range};
-use crate::periodic::triangulation::{Inside, all};
 
 /// What makes a rounded radius one that certainly is no less than the distance of a corner from a rounded centre.
 const RADIUS: f64 = 1.0 + 1e-8;

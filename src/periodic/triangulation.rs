@@ -9,6 +9,7 @@ use crate::machine::memory;
 use crate::motion::{CoincidencePolicy, CommitReport, MAX_VERTICES, MovingTriangulation, Options};
 use crate::periodic::cells::PeriodicCells;
 use crate::periodic::images::{Image, Images};
+use crate::periodic::inside::{Inside, all};
 use crate::periodic::lattice::{HOME, Lattice, Occupied, ROOM};
 use crate::periodic::needed::{Needed, keys_of};
 use crate::periodic::staged::Staged;
@@ -41,22 +42,6 @@ pub struct PeriodicTriangulation<G: Dimension> {
     /// Of all commits.
     pub(super) statistics: CommitReport,
     pub(super) cells: OnceLock<PeriodicCells<G>>,
-}
-
-/// Vertices at home and their images, triangulated.
-#[derive(Debug)]
-pub(super) struct Inside<G: Dimension> {
-    pub(super) t: MovingTriangulation<G>,
-    /// Those at home have the first ids inside, in the order of vertices.
-    pub(super) images: Images,
-    pub(super) n_home: usize,
-    /// By id inside, where each is; not of images that have come since this was written.
-    pub(super) places: Vec<G::Point>,
-    /// Room for where they go.
-    pub(super) goals: Vec<G::Point>,
-    pub(super) occupied: Occupied,
-    /// By vector, how far outside of the unit cell vertices at home may be, as a share of it.
-    pub(super) room: [f64; 3],
 }
 
 impl<G: Dimension> PeriodicTriangulation<G> {
@@ -154,18 +139,6 @@ impl<G: Dimension> Inside<G> {
             + memory::bytes_of(&self.places)
             + memory::bytes_of(&self.goals)
     }
-}
-
-/// All shifts in these ranges.
-pub(super) fn all(
-    a: std::ops::RangeInclusive<i32>,
-    b: std::ops::RangeInclusive<i32>,
-    c: std::ops::RangeInclusive<i32>,
-) -> impl Iterator<Item = (i32, i32, i32)> {
-    a.flat_map(move |x| {
-        let c = c.clone();
-        b.clone().flat_map(move |y| c.clone().map(move |z| (x, y, z)))
-    })
 }
 
 /// The mean distance of vertices.

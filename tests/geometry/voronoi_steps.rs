@@ -3,7 +3,7 @@
 
 use crate::common::inputs::{KINDS, draw, draw_one};
 use crate::common::{Rng, point, seeds};
-use deldrift::motion::{MovingTriangulation, Options, VoronoiCells};
+use deldrift::motion::{MovingTriangulation, Options, Saved, VoronoiCells};
 use deldrift::{Dimension, Plane, Space, VertexId};
 
 /// The bits of numbers.
@@ -138,10 +138,14 @@ fn threads_agree<G: Dimension>(n: usize) {
     let points: Vec<G::Point> = (0..n).map(|_| point::<G>(|_| rng.unit())).collect();
     let (low, high) = (point::<G>(|_| 0.01), point::<G>(|_| 1.01));
     let mask: Vec<u8> = (0..n).map(|k| u8::from(k % 3 == 0)).collect();
+    // Several threads build cells in another order, which is the order of sums: so one thread builds them.
+    let built = MovingTriangulation::<G>::new(&points, Options::default()).expect("good points");
+    let bytes = built.saved().expect("room");
     let made: Vec<_> = [1, 2, 3, 7]
         .map(|threads| {
             let options = Options { threads, ..Options::default() };
-            let t = MovingTriangulation::<G>::new(&points, options).expect("good points");
+            let saved = Saved::of(&bytes).expect("its own bytes");
+            let t = MovingTriangulation::<G>::load(&saved, options).expect("its own bytes");
             let cells = all(&t, [&low, &high]);
             let facets = t.voronoi_derivatives([&low, &high], None, &mut |_| true).expect("room");
             let some = t.voronoi_cells([&low, &high], Some(&mask), &mut |_| true).expect("room");
@@ -167,6 +171,7 @@ fn threads_agree<G: Dimension>(n: usize) {
 
 #[test]
 fn several_threads_give_what_one_does() {
+    deldrift::internals::use_all_threads();
     threads_agree::<Plane>(9_000);
     threads_agree::<Space>(3_000);
 }

@@ -1,0 +1,34 @@
+//! What is triangulated: vertices at home, and images of them.
+
+use crate::delaunay::Dimension;
+use crate::motion::MovingTriangulation;
+use crate::periodic::images::Images;
+use crate::periodic::lattice::Occupied;
+
+/// Vertices at home and their images, triangulated.
+#[derive(Debug)]
+pub(super) struct Inside<G: Dimension> {
+    pub(super) t: MovingTriangulation<G>,
+    /// Those at home have the first ids inside, in the order of vertices.
+    pub(super) images: Images,
+    pub(super) n_home: usize,
+    /// By id inside, where each is; not of images that have come since this was written.
+    pub(super) places: Vec<G::Point>,
+    /// Room for where they go.
+    pub(super) goals: Vec<G::Point>,
+    pub(super) occupied: Occupied,
+    /// By vector, how far outside of the unit cell vertices at home may be, as a share of it.
+    pub(super) room: [f64; 3],
+}
+
+/// All shifts in these ranges.
+pub(super) fn all(
+    a: std::ops::RangeInclusive<i32>,
+    b: std::ops::RangeInclusive<i32>,
+    c: std::ops::RangeInclusive<i32>,
+) -> impl Iterator<Item = (i32, i32, i32)> {
+    a.flat_map(move |x| {
+        let c = c.clone();
+        b.clone().flat_map(move |y| c.clone().map(move |z| (x, y, z)))
+    })
+}
