@@ -260,6 +260,7 @@ const std::vector<std::string> &target_names() {
         "locate_path",    "locate",      "insert",          "drift_0.03",    "drift_0.1",
         "drift_0.3",      "staged_1",    "staged_10",       "staged_100",    "staged_1000",
         "staged_5%",      "staged_20%",  "tenth_grid",      "tenth_face_centred", "tenth_layers",
+        "published_few",  "published_all", "withdrawn_few", "withdrawn_all",
         "tenth_sphere",   "tenth_circle", "shear_grid",     "shear_face_centred", "shear_layers",
         "shear_sphere",   "shear_circle",   "leaping_0.001",  "leaping_0.001_creeping",
         "leaping_0.001_moving", "leaping_0.01", "leaping_0.01_creeping", "leaping_0.01_moving", "leaping_0.1",

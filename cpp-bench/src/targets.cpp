@@ -256,6 +256,7 @@ public:
             append(growth_targets(dimension, sizes_, seed_, progress_));
             append(location_targets(dimension, sizes_, seed_, progress_));
             append(staged_targets(dimension, sizes_, seed_, progress_));
+            append(phase_targets(dimension, sizes_, seed_, progress_));
         }
         return targets_;
     }

@@ -67,6 +67,10 @@ std::vector<Target> location_targets(unsigned dimension, const TargetSizes &size
 std::vector<Target> staged_targets(unsigned dimension, const TargetSizes &sizes, std::uint64_t seed,
                                    Progress &progress);
 
+/// Commits in two phases beside those in one, and steps that are withdrawn beside those that a clone is kept for. The
+/// cells are compared; throws Mismatch.
+std::vector<Target> phase_targets(unsigned dimension, const TargetSizes &sizes, std::uint64_t seed, Progress &progress);
+
 /// Steps beside commits alone.
 std::vector<Target> step_targets(unsigned dimension, const TargetSizes &sizes, std::uint64_t seed,
                                  std::vector<Checks> &checks, Progress &progress);

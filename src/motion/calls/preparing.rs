@@ -68,11 +68,12 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Takes back all rounds of the prepared state: all is as at the last timestamp, with nothing staged, cells with their
     /// indices and statistics included. Does nothing if no timestamp is prepared. Needs no memory.
     ///
-    /// Tolerances are forgotten, and what auto has learnt stays.
+    /// Tolerances are forgotten; what auto has learnt stays, but it checks all certificates for a while before it computes
+    /// tolerances again.
     pub fn withdraw_timestamp(&mut self) {
         self.regions.release();
         let Some(before) = self.mesh.withdraw_rounds() else { return };
-        self.note_tolerances_dropped();
+        self.auto.note_withdrawn(self.mesh.constants);
         self.regions.invalidate();
         self.statistics = before.statistics;
         self.staging.clear();

@@ -117,6 +117,17 @@ impl Auto {
         self.is_due |= self.scope == Scope::Watched;
     }
 
+    /// A timestamp has been withdrawn, and tolerances are lost with it: to compute them again costs several sweeps, and would
+    /// be in vain if the next timestamp is withdrawn too. So commits sweep for a while.
+    pub(in crate::motion) fn note_withdrawn(&mut self, constants: &Constants) {
+        if self.scope != Scope::All {
+            self.scope = Scope::All;
+            self.changes_at_stop = self.changes;
+            (self.excess, self.imbalance, self.is_due) = (0.0, 0.0, false);
+            self.wait = constants.min_wait_commits;
+        }
+    }
+
     /// Weighs what watching this number of bi-cells has cost, for `n` vertices, against the more expensive way, and
     /// what is watched against what is recomputed. Whether all tolerances are to be computed again.
     pub(in crate::motion) fn weigh_watching(
