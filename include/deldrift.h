@@ -55,7 +55,9 @@
  *
  * Besides the errors named with each function, every function that takes a triangulation may return
  * DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUSY (called from a callback of a call
- * on the same triangulation), DELDRIFT_POISONED and DELDRIFT_INTERNAL_ERROR.
+ * on the same triangulation), DELDRIFT_POISONED and DELDRIFT_INTERNAL_ERROR. Of a periodic triangulation (see
+ * deldrift_create_periodic) those that do not serve it return DELDRIFT_PERIODIC, and those that tell of cells may return
+ * DELDRIFT_OUT_OF_MEMORY.
  *
  * Costs. "Cost:" says how the time of a call grows: n stands for the number of ids, m for that of cells. m is below 2 n
  * in 2D; in 3D it is about 6.8 n for points spread evenly, and n² / 2 at most. docs/COSTS.md has what has been measured,
@@ -194,6 +196,10 @@ enum
     DELDRIFT_PREPARED = 36,
     /// No timestamp is prepared that could be published.
     DELDRIFT_NOT_PREPARED = 37,
+    /// The triangulation is periodic, and the function does not serve such.
+    DELDRIFT_PERIODIC = 38,
+    /// The vectors of a periodic box depend on each other, or nearly so, or are more than there are axes.
+    DELDRIFT_DEPENDENT_VECTORS = 39,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -2536,6 +2542,125 @@ deldrift_status deldrift_voronoi_derivatives(const deldrift_triangulation *t,
                                              double *derivatives,
                                              size_t capacity,
                                              size_t *count);
+
+/// Creates the Delaunay triangulation of points that repeat: each is in all places to which sums of multiples of the
+/// vectors take it.
+///
+/// dimension: 2 or 3. positions, count: as in deldrift_create; a position may be in any period. vectors: vector_count rows
+/// of dimension numbers, the vectors of the box: 1 to dimension of them. They need not be orthogonal nor short, so that a
+/// triclinic box, or one that is skewed by any number of its lengths, is legal. Directions that they do not span are open.
+/// options: as in deldrift_create, but for coincidence, which must be DELDRIFT_COINCIDENCE_MERGE: vertices that are at the same place
+/// in any period share it, and the one of the lowest id represents it.
+/// out: receives the triangulation, which the caller has to hand to deldrift_destroy.
+///
+/// The cells are those of all the places at once, of which one of each class of translations of each other is told. Any
+/// number of vertices is legal, one included: a cell may have a vertex in several periods, and be its own neighbour. The
+/// cells do not depend on the periods in which positions are given, on which vectors of the same lattice are given, or on what
+/// happened before. deldrift_cell_shifts tells in which period each corner is.
+///
+/// Positions and vectors are rounded to a grid, along axes along which a vector goes: its step is a power of two, so that
+/// all coordinates that are calculated with have at most 53 binary digits. In a box whose reduced vectors (the shortest of its
+/// lattice) have lengths up to L and are not flatter than a cube, the step is at most 2^-45 L, and mostly 2^-48 L; a
+/// position moves by half of that at most. deldrift_copy_positions and deldrift_vectors tell what is used: for these positions
+/// and vectors the cells are exact. Entries of vectors may be up to 1e50 in magnitude, and are 0 or at least 1e-50;
+/// positions may be some 1e13 L away.
+///
+/// Functions that serve a periodic triangulation are those of this section, deldrift_destroy, deldrift_dimension,
+/// deldrift_set_algorithm, deldrift_get_algorithm, deldrift_move_vertex, deldrift_move_vertices,
+/// deldrift_stage_insertions, deldrift_stage_removals, deldrift_discard_moves, deldrift_commit_timestamp,
+/// deldrift_commit_positions, deldrift_vertex_count, deldrift_id_count, deldrift_cell_count, deldrift_staged_count,
+/// deldrift_memory_bytes, deldrift_timestamp, deldrift_statistics, deldrift_is_present, deldrift_position,
+/// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges, and
+/// deldrift_voronoi_volumes without a box. All others return DELDRIFT_PERIODIC. Cells are numbered anew by each commit.
+///
+/// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves
+/// costs what it costs in an open triangulation of as many, and n + m; one with insertions, removals or other vectors, or
+/// where a vertex has drifted far out of the box since the last such commit, costs as much as creation.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_INVALID_OPTIONS, DELDRIFT_NULL_ARGUMENT,
+/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_INVALID_VALUE, DELDRIFT_DEPENDENT_VECTORS, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. May be called from any number of threads at once.
+deldrift_status deldrift_create_periodic(uint32_t dimension,
+                                         const double *positions,
+                                         size_t count,
+                                         const double *vectors,
+                                         size_t vector_count,
+                                         const deldrift_options *options,
+                                         deldrift_triangulation **out);
+
+/// Stages other vectors for the box: strain, shear, or others of the same lattice. The next commit, with positions or
+/// moves or without, makes them those of the triangulation.
+///
+/// vectors, vector_count: as many as deldrift_create_periodic was given; none, vector_count being 0, for a triangulation
+/// that is not periodic. Vertices that do not move stay at their positions: a program that deforms its box with all that
+/// is in it gives the positions, too. Vectors that are staged already are forgotten. deldrift_discard_moves discards them.
+///
+/// Cost: constant; the commit costs as much as creation.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT,
+/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_DEPENDENT_VECTORS, DELDRIFT_OUT_OF_MEMORY.
+/// Not to be called at the same time as any other call on t.
+deldrift_status deldrift_stage_vectors(deldrift_triangulation *t,
+                                       const double *vectors,
+                                       size_t vector_count);
+
+/// The vectors by which the triangulation repeats: those that were given, on the grid of deldrift_create_periodic.
+///
+/// vectors: receives rows of 2 (2D) or 3 (3D) numbers: a buffer with room for capacity rows; NULL with capacity 0 asks for
+/// the count alone. count: receives their number, 0 for a triangulation that is not periodic; it is also written when the
+/// buffer is too small.
+///
+/// Cost: constant.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
+deldrift_status deldrift_vectors(const deldrift_triangulation *t,
+                                 double *vectors,
+                                 size_t capacity,
+                                 size_t *count);
+
+/// In which period each corner of each cell is, and each neighbour.
+///
+/// shifts: receives a row of 2 (2D) or 3 (3D) whole numbers for each of the 3 or 4 corners of each cell, in the order of
+/// deldrift_cells: multiples of the vectors, 0 beyond the last of these. The corner is at its position and the sum of these
+/// multiples. The corner of the lowest id is at its position (if the vertex is there more than once, the first of these
+/// corners by x, y, z).
+/// neighbour_shifts: receives as many rows: those of the neighbour opposite the corner, by which it is to be translated from
+/// where its own shifts have it, to share the facet; 0 on the hull.
+/// Both are buffers with room for capacity cells; one that is NULL is not filled. count: receives the number of cells, which
+/// is also written when the buffers are too small. NULL for both with capacity 0 asks for the count alone.
+///
+/// All are 0 where the triangulation is not periodic.
+///
+/// Cost: n + m.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_cell_shifts(const deldrift_triangulation *t,
+                                     int64_t *shifts,
+                                     int64_t *neighbour_shifts,
+                                     size_t capacity,
+                                     size_t *count);
+
+/// In which period the second vertex of each edge is, in the order of deldrift_edges.
+///
+/// Of a periodic triangulation deldrift_edges tells one of each class of translations of each other, the lower id first. An
+/// edge may lead from a vertex to itself in another period, and two vertices may have several edges.
+/// shifts: receives a row of 2 (2D) or 3 (3D) whole numbers for each edge, multiples of the vectors, 0 beyond the last of
+/// these: from the position of the first vertex the edge leads to that of the second and the sum of these multiples. A
+/// buffer with room for capacity edges; NULL with capacity 0 asks for the count alone. count: receives the number of edges,
+/// which is also written when the buffer is too small.
+///
+/// All are 0 where the triangulation is not periodic.
+///
+/// Cost: m log m.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_edge_shifts(const deldrift_triangulation *t,
+                                     int64_t *shifts,
+                                     size_t capacity,
+                                     size_t *count);
 
 /// Interpolates values of the vertices at count positions.
 ///
