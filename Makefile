@@ -51,6 +51,8 @@ test: ## all tests, two steps at a time: Rust; C, C++, valgrind, sanitizers; ins
 	-@.ci/packages libqhull-dev
 	-@.ci/packages clang lld mold
 	-@.ci/packages python3-numpy python3-scipy python3-pytest
+	-@.ci/packages libopenmpi-dev openmpi-bin
+	-@.ci/packages python3-mpi4py
 	tests/run
 
 counts: ## what has changed in the counts of work since they were recorded, with AVX2 and without; RECORD=1 records them
@@ -166,16 +168,16 @@ sizes: library ## how large the library is, and of what: tests/results/sizes.csv
 	cmake/sizes
 	.ci/records write tests/results/environment_sizes.txt "make sizes"
 
-install: ## library, headers, compat, CMake and pkg-config files, to PREFIX (/usr/local), below DESTDIR
+install: ## library, headers, compat, mpi where there is one, CMake and pkg-config files, to PREFIX (/usr/local), below DESTDIR
 	@.ci/packages cmake g++
 	cmake -S . -B build/install -DCMAKE_INSTALL_PREFIX="$(PREFIX)"
 	cmake --build build/install
 	DESTDIR="$(DESTDIR)" cmake --install build/install
 
-deb: ## packages for Debian, libdeldrift-dev and libdeldrift-compat-dev, in build/packages
-	@.ci/packages cmake dpkg-dev g++
+deb: ## packages for Debian, libdeldrift-dev, libdeldrift-compat-dev and libdeldrift-mpi-dev, in build/packages
+	@.ci/packages cmake dpkg-dev g++ libopenmpi-dev
 	cmake -S . -B build/deb -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_INSTALL_DOCDIR=share/doc/libdeldrift-dev \
-	    -DDELDRIFT_COMPAT_DOCDIR=share/doc/libdeldrift-compat-dev
+	    -DDELDRIFT_COMPAT_DOCDIR=share/doc/libdeldrift-compat-dev -DDELDRIFT_MPI_DOCDIR=share/doc/libdeldrift-mpi-dev
 	cmake --build build/deb
 	cd build/deb && cpack -G DEB -B "$(CURDIR)/build/packages"
 	rm -rf build/packages/_CPack_Packages

@@ -45,4 +45,23 @@ if(DELDRIFT_COMPAT)
   set(CPACK_DEBIAN_DELDRIFT_COMPAT_PACKAGE_CONTROL_EXTRA
     "${PROJECT_BINARY_DIR}/debian/compat/shlibs" "${PROJECT_BINARY_DIR}/debian/compat/triggers")
 endif()
+if(DELDRIFT_MPI)
+  list(APPEND CPACK_COMPONENTS_ALL deldrift_mpi)
+  set(CPACK_DEBIAN_DELDRIFT_MPI_PACKAGE_NAME libdeldrift-mpi-dev)
+  set(CPACK_DEBIAN_DELDRIFT_MPI_FILE_NAME DEB-DEFAULT)
+  # Programs are compiled with the headers of MPI and of the other package.
+  set(CPACK_DEBIAN_DELDRIFT_MPI_PACKAGE_DEPENDS "libdeldrift-dev (= ${PROJECT_VERSION}), libopenmpi-dev")
+  string(JOIN "\n" CPACK_COMPONENT_DELDRIFT_MPI_DESCRIPTION
+    "One triangulation of vertices that are spread over the processes of an"
+    "MPI program.")
+  # Where the library of the other package is that this one is linked with: it is not installed while packages are made.
+  file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/debian/libraries")
+  file(CREATE_LINK "${stripped}/libdeldrift.so" "${PROJECT_BINARY_DIR}/debian/libraries/${DELDRIFT_SONAME}" SYMBOLIC)
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/debian/libraries")
+  file(WRITE "${PROJECT_BINARY_DIR}/debian/mpi/shlibs"
+    "libdeldrift_mpi ${DELDRIFT_INTERFACE} libdeldrift-mpi-dev (>= ${PROJECT_VERSION})\n")
+  file(WRITE "${PROJECT_BINARY_DIR}/debian/mpi/triggers" "activate-noawait ldconfig\n")
+  set(CPACK_DEBIAN_DELDRIFT_MPI_PACKAGE_CONTROL_EXTRA
+    "${PROJECT_BINARY_DIR}/debian/mpi/shlibs" "${PROJECT_BINARY_DIR}/debian/mpi/triggers")
+endif()
 include(CPack)

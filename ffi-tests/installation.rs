@@ -52,6 +52,37 @@ fn components_are_installed_alone() {
     assert!(!outcome.status.success());
 }
 
+/// Where there is an MPI: its files, and a program on two processes that finds them through CMake.
+#[test]
+#[ignore = "needs CMake, and an MPI to find something"]
+fn component_for_several_processes_is_found() {
+    if !is_there("mpicc") || !is_there("mpiexec") {
+        println!("SKIPPED component mpi: no MPI is installed");
+        return;
+    }
+    let folder = fresh_folder("mpi_component");
+    let prefix = install(&folder);
+    let found = succeed(command("find").arg(".").args(["!", "-type", "d"]).current_dir(&prefix));
+    let is_of_mpi = |file: &&str| file.contains("mpi") || file.contains("Mpi") || file.contains("MPI");
+    assert_eq!(found.lines().filter(is_of_mpi).count(), 9, "{found}");
+    let build = folder.join("consumer");
+    let mut configure = command("cmake");
+    configure.arg("-S").arg(repository("ffi-tests/consumers/mpi")).arg("-B").arg(&build);
+    succeed(configure.arg(format!("-DCMAKE_PREFIX_PATH={}", prefix.display())));
+    succeed(command("cmake").arg("--build").arg(&build));
+    for program in ["program", "static_program"] {
+        let mut run = command("mpiexec");
+        // More processes than processors, and root, are what Open MPI asks about; others do not know these names.
+        let names = ["OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "OMPI_MCA_rmaps_base_oversubscribe"];
+        run.envs(names.map(|name| (name, "1"))).args(["-n", "2"]).arg(build.join(program));
+        assert!(succeed(&mut run).contains("area of the convex hull: 0.99"));
+    }
+}
+
+fn is_there(program: &str) -> bool {
+    Command::new(program).arg("--version").output().is_ok()
+}
+
 /// What cargo needs to build the library, and CMake to call it.
 const SOURCES: [&str; 14] = [
     "CMakeLists.txt",

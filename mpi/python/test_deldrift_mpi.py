@@ -1,0 +1,84 @@
+"""Run by mpiexec on some processes: what they have together is what one process has of all points."""
+
+import ctypes
+import sys
+
+import numpy as np
+from mpi4py import MPI
+
+import deldrift_mpi
+from deldrift_mpi import Delaunay, DeldriftMpiError
+
+comm = MPI.COMM_WORLD
+
+
+def serial_cells(points, ids):
+    """Cells of one triangulation of all points, as a set of sorted rows of ids."""
+    library = deldrift_mpi._library
+    handle, count, dimension = ctypes.c_void_p(), ctypes.c_size_t(), points.shape[1]
+    points, ids = np.ascontiguousarray(points), np.ascontiguousarray(ids)
+    create = library.deldrift_create_with_keys
+    create.argtypes = [ctypes.c_uint32, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p, ctypes.c_void_p]
+    assert create(dimension, points.ctypes.data, ids.ctypes.data, len(ids), None, ctypes.byref(handle)) == 0
+    library.deldrift_copy_cells(handle, None, None, 0, ctypes.byref(count))
+    cells = np.empty((count.value, dimension + 1), np.uint32)
+    library.deldrift_copy_cells(handle, cells.ctypes.data, None, len(cells), ctypes.byref(count))
+    library.deldrift_destroy.argtypes = [ctypes.c_void_p]
+    library.deldrift_destroy(handle)
+    return sorted(tuple(sorted(row)) for row in ids[cells].tolist())
+
+
+def is_serial(tri):
+    points, ids = np.concatenate(comm.allgather(tri.points)), np.concatenate(comm.allgather(tri.ids))
+    rows = [tuple(sorted(row)) for part in comm.allgather(tri.cells().tolist()) for row in part]
+    return sorted(rows) == serial_cells(points, ids)
+
+
+def refusal(call, *arguments):
+    try:
+        call(*arguments)
+    except DeldriftMpiError as error:
+        return error
+    raise AssertionError("the call has not failed")
+
+
+def history(dimension):
+    rng = np.random.default_rng(comm.rank + 10 * dimension)
+    points = rng.integers(0, 6, (150, dimension)) if dimension == 2 else rng.random((150, dimension))
+    tri = Delaunay(comm, points)
+    assert is_serial(tri) and tri.timestamp == 0 and len(tri) == 150
+    for step in range(4):
+        tri.stage_insertions(rng.random((3, dimension)), 10**6 + 1000 * comm.rank + 3 * step + np.arange(3))
+        tri.stage_removals([step, step + 5])
+        report = tri.commit(tri.points + 0.01 * rng.random((len(tri), dimension)))
+        assert report.timestamp == step + 1 == tri.timestamp and is_serial(tri) and report.is_spanning == 1
+    marks = tri.ids * np.uint64(3)
+    moved = tri.migrate(tri.partition(), np.stack([marks, marks], axis=1))
+    assert (moved == np.stack([tri.ids * np.uint64(3)] * 2, axis=1)).all() and is_serial(tri)
+    sizes = comm.allgather(len(tri))
+    assert max(sizes) - min(sizes) <= max(sizes) // 3, sizes
+    values = np.where((tri.owners == comm.rank)[:, None], tri.local_points, -1.0)
+    exchanged, present = tri.exchange(values), tri.owners >= 0
+    assert (exchanged[present] == tri.local_points[present]).all()
+    facets = comm.allreduce(len(tri.hull_facets()))
+    assert facets >= dimension + 1
+    assert (tri.local_ids[tri.local_cells[tri.own_cells]] == tri.cells()).all()
+    before = tri.points
+    wrong = before.copy()
+    if comm.rank == comm.size - 1:
+        wrong[0] = np.nan
+    error = refusal(tri.commit, wrong)
+    assert error.process == comm.size - 1 and f"process {comm.size - 1}: positions" in str(error)
+    assert (tri.points == before).all() and is_serial(tri)
+    assert refusal(tri.commit, before[:, :1] if comm.rank == 0 else before).process == 0
+    tri.destroy()
+
+
+history(2)
+history(3)
+empty = Delaunay(comm, np.random.default_rng(1).random((40, 2)) if comm.rank == 0 else np.empty((0, 2)))
+assert is_serial(empty)
+assert refusal(Delaunay, comm, np.zeros(3)).process == 0
+empty.destroy()
+print(f"process {comm.rank} of {comm.size}: passed")
+sys.stdout.flush()

@@ -1,0 +1,211 @@
+// Handles: made, built, unmade.
+#include <stdlib.h>
+#include <string.h>
+
+#include "internal.h"
+
+enum { DEFAULT_BOXES = 16, DEFAULT_DROP_PERCENT = 5 };
+
+// What the program says of options, with defaults in place. False if it has no meaning.
+static bool read_options(dm_refusal *refusal, const deldrift_mpi_options *given, deldrift_mpi_options *options,
+                         deldrift_options *local) {
+    deldrift_mpi_options_init(options);
+    deldrift_options_init(local);
+    local->threads = 1;
+    if (given) {
+        if (given->struct_size != sizeof *options) {
+            dm_refuse(refusal, DELDRIFT_INVALID_OPTIONS, "struct_size of the options is %zu, not %zu", given->struct_size,
+                      sizeof *options);
+            return false;
+        }
+        *options = *given;
+        if (given->local) {
+            size_t size = given->local->struct_size;
+            if (size != sizeof *local) {
+                dm_refuse(refusal, DELDRIFT_INVALID_OPTIONS, "struct_size of the local options is %zu, not %zu", size,
+                          sizeof *local);
+                return false;
+            }
+            *local = *given->local;
+        }
+    }
+    options->local = NULL;
+    if (!options->boxes) options->boxes = DEFAULT_BOXES;
+    if (!options->drop_percent) options->drop_percent = DEFAULT_DROP_PERCENT;
+    if (options->boxes > DM_MAX_BOXES) {
+        dm_refuse(refusal, DELDRIFT_INVALID_OPTIONS, "boxes is %u, above %d", options->boxes, DM_MAX_BOXES);
+        options->boxes = DM_MAX_BOXES;
+        return false;
+    }
+    return true;
+}
+
+deldrift_mpi *dm_new(dm_refusal *refusal, MPI_Comm comm, uint32_t dimension, const deldrift_mpi_options *options,
+                     const deldrift_options *local) {
+    deldrift_mpi *m = dm_allocate(refusal, 1, sizeof *m);
+    if (!m) return NULL;
+    m->comm = comm;
+    MPI_Comm_rank(comm, &m->rank);
+    MPI_Comm_size(comm, &m->size);
+    m->dimension = dimension;
+    m->options = *options;
+    m->local = *local;
+    size_t size = (size_t)m->size, boxes = size * m->options.boxes;
+    m->boxes = dm_allocate(refusal, boxes, sizeof *m->boxes);
+    m->next_boxes = dm_allocate(refusal, boxes, sizeof *m->next_boxes);
+    m->peer_of = dm_allocate(refusal, size, sizeof *m->peer_of);
+    m->bases = dm_allocate(refusal, size, sizeof *m->bases);
+    m->chunk = dm_allocate(refusal, DM_CHUNK, sizeof(uint64_t) + 3 * sizeof(double));
+    if (refusal->status != DELDRIFT_OK) {
+        dm_free(m);
+        free(m);
+        return NULL;
+    }
+    for (size_t p = 0; p < size; p++) m->peer_of[p] = -1;
+    return m;
+}
+
+deldrift_status dm_build(deldrift_mpi *m, const double *points, const uint64_t *ids, size_t count) {
+    dm_refusal *refusal = &m->refusal;
+    memset(&m->report, 0, sizeof m->report);
+    m->next_count = count;
+    m->points = points;
+    dm_box own[DM_MAX_BOXES];
+    (void)(dm_reserve_own(m, count) &&
+                    dm_took(refusal, deldrift_create_with_keys(m->dimension, points,
+                                                               DM_HAS_FAULT(DM_FAULT_LOCAL_KEYS) ? NULL : ids, count,
+                                                               &m->local, &m->t)) &&
+                    dm_reserve_ids(m, count) && dm_reserve(refusal, &m->undo, &m->undo_room, count, sizeof *m->undo));
+    deldrift_status status = dm_decide(m->comm, refusal, NULL).status;
+    m->report.collectives++;
+    if (status != DELDRIFT_OK) return status;
+    for (size_t i = 0; i < count; i++) {
+        m->next_own[i] = (uint32_t)i;
+        dm_set_vertex(m, (uint32_t)i, m->rank, ids[i], points + i * m->dimension);
+    }
+    dm_make_boxes(m, own, m->next_box_of);
+    dm_share_boxes(m, own);
+    status = dm_rounds(m);
+    if (status != DELDRIFT_OK) return status;
+    dm_settle(m);
+    m->was_spanning = m->report.is_spanning;
+    return DELDRIFT_OK;
+}
+
+static int compare_ids(const void *first, const void *second) {
+    uint64_t a = *(const uint64_t *)first, b = *(const uint64_t *)second;
+    return a < b ? -1 : a > b;
+}
+
+static int process_of(uint64_t id, int size) {
+    return (int)((id * 0x9e3779b97f4a7c15u >> 32) * (uint64_t)size >> 32);
+}
+
+// Each id goes to a process that looks for another one like it.
+static void find_twins(MPI_Comm comm, int size, dm_refusal *refusal, const uint64_t *ids, size_t count) {
+    int *numbers = dm_allocate(refusal, 4 * (size_t)size, sizeof *numbers);
+    uint64_t *sorted = dm_allocate(refusal, count, sizeof *sorted), *arrived = NULL;
+    if (dm_decide(comm, refusal, NULL).status == DELDRIFT_OK) {
+        int *sends = numbers, *from = numbers + size, *receives = numbers + 2 * size, *to = numbers + 3 * size;
+        for (size_t i = 0; i < count; i++) sends[process_of(ids[i], size)]++;
+        for (int p = 1; p < size; p++) from[p] = from[p - 1] + sends[p - 1];
+        for (size_t i = 0; i < count; i++) sorted[from[process_of(ids[i], size)]++] = ids[i];
+        for (int p = size - 1; p >= 0; p--) from[p] -= sends[p];
+        MPI_Alltoall(sends, 1, MPI_INT, receives, 1, MPI_INT, comm);
+        for (int p = 1; p < size; p++) to[p] = to[p - 1] + receives[p - 1];
+        size_t total = (size_t)(to[size - 1] + receives[size - 1]);
+        arrived = dm_allocate(refusal, total, sizeof *arrived);
+        if (dm_decide(comm, refusal, NULL).status == DELDRIFT_OK) {
+            MPI_Alltoallv(sorted, sends, from, MPI_UINT64_T, arrived, receives, to, MPI_UINT64_T, comm);
+            qsort(arrived, total, sizeof *arrived, compare_ids);
+            for (size_t i = 1; i < total; i++)
+                if (arrived[i] == arrived[i - 1])
+                    dm_refuse(refusal, DELDRIFT_INVALID_VALUE, "the id %llu is given twice", (unsigned long long)arrived[i]);
+        }
+    }
+    free(numbers);
+    free(sorted);
+    free(arrived);
+}
+
+// The ids that are given, or the numbers from that of the first own vertex on.
+static uint64_t *make_ids(MPI_Comm comm, dm_refusal *refusal, const uint64_t *ids, size_t count) {
+    uint64_t mine = count, first = 0;
+    int rank;
+    MPI_Comm_rank(comm, &rank);
+    MPI_Exscan(&mine, &first, 1, MPI_UINT64_T, MPI_SUM, comm);
+    if (rank == 0) first = 0;
+    uint64_t *made = dm_allocate(refusal, count, sizeof *made);
+    for (size_t i = 0; made && i < count; i++) made[i] = ids ? ids[i] : first + i;
+    return made;
+}
+
+// What is wrong with the arguments, also beside those of other processes. The status is that of all.
+static deldrift_status check_arguments(MPI_Comm comm, dm_refusal *refusal, uint32_t dimension, const double *positions,
+                                       const uint64_t *ids, size_t count, const deldrift_mpi_options *options) {
+    if (dimension != 2 && dimension != 3)
+        dm_refuse(refusal, DELDRIFT_INVALID_DIMENSION, "the dimension is %u", dimension);
+    else if (count > UINT32_MAX - 1)
+        dm_refuse(refusal, DELDRIFT_TOO_MANY_VERTICES, "count is %zu", count);
+    else
+        dm_check_points(refusal, "positions", dimension, positions, count, NULL);
+    int64_t numbers[4] = {ids || !count, !ids && count, 0, 0};
+    if (!ids) numbers[0] = 0;
+    uint64_t first[2] = {dimension, options->boxes};
+    MPI_Bcast(first, 2, MPI_UINT64_T, 0, comm);
+    if (first[0] != dimension)
+        dm_refuse(refusal, DELDRIFT_INVALID_DIMENSION, "the dimension is %u, that of process 0 is %llu", dimension,
+                  (unsigned long long)first[0]);
+    if (first[1] != options->boxes)
+        dm_refuse(refusal, DELDRIFT_INVALID_OPTIONS, "boxes is %u, that of process 0 is %llu", options->boxes,
+                  (unsigned long long)first[1]);
+    dm_vote vote = dm_decide(comm, refusal, numbers);
+    if (vote.status == DELDRIFT_OK && vote.most[0] && vote.most[1]) {
+        if (!ids && count) dm_refuse(refusal, DELDRIFT_NULL_ARGUMENT, "ids is NULL, and that of another process is not");
+        vote = dm_decide(comm, refusal, NULL);
+    }
+    return vote.status;
+}
+
+deldrift_status deldrift_mpi_create(MPI_Comm comm, uint32_t dimension, const double *positions, const uint64_t *ids,
+                                    size_t count, const deldrift_mpi_options *options, deldrift_mpi **out) {
+    dm_refusal refusal = {DELDRIFT_OK, ""};
+    deldrift_mpi_options read;
+    deldrift_options local;
+    MPI_Comm copy;
+    MPI_Comm_dup(comm, &copy);
+    MPI_Comm_set_errhandler(copy, MPI_ERRORS_ARE_FATAL);
+    if (!out) dm_refuse(&refusal, DELDRIFT_NULL_ARGUMENT, "out is NULL");
+    read_options(&refusal, options, &read, &local);
+    deldrift_mpi *m = NULL;
+    uint64_t *own_ids = NULL;
+    deldrift_status status = check_arguments(copy, &refusal, dimension, positions, ids, count, &read);
+    if (status == DELDRIFT_OK) {
+        int size;
+        MPI_Comm_size(copy, &size);
+        own_ids = make_ids(copy, &refusal, ids, count);
+        if (own_ids) find_twins(copy, size, &refusal, own_ids, count);
+        m = dm_new(&refusal, copy, dimension, &read, &local);
+        status = dm_decide(copy, &refusal, NULL).status;
+    }
+    if (status == DELDRIFT_OK) status = dm_build(m, positions, own_ids, count);
+    free(own_ids);
+    if (status == DELDRIFT_OK) {
+        *out = m;
+        return status;
+    }
+    if (m) {
+        dm_free(m);
+        free(m);
+    }
+    MPI_Comm_free(&copy);
+    return status;
+}
+
+void deldrift_mpi_destroy(deldrift_mpi *m) {
+    if (!m) return;
+    MPI_Comm comm = m->comm;
+    dm_free(m);
+    free(m);
+    MPI_Comm_free(&comm);
+}

@@ -1,0 +1,263 @@
+// What the files of libdeldrift_mpi know of each other.
+#ifndef DELDRIFT_MPI_INTERNAL_H
+#define DELDRIFT_MPI_INTERNAL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "deldrift_mpi.h"
+
+enum {
+    DM_MESSAGE = 512, // room for an error message
+    DM_CHUNK = 1024,  // vertices in a message of a push round
+    DM_MAX_BOXES = 256,
+};
+
+// Own vertices that a peer has a copy of, or copies that came from it, by local id. Both processes have them in one order.
+typedef struct {
+    uint32_t *at;
+    uint8_t *is_leaving; // by place in the list: goes with the timestamp that is being prepared
+    size_t count;
+    size_t settled; // those of the timestamp in force; the others have come since
+    size_t pushed;  // those that have gone to the other process
+    size_t capacity;
+} dm_list;
+
+typedef struct {
+    int rank;
+    dm_list sent, received;
+    double *outgoing, *incoming; // positions in the order of the lists, with room for all of them
+    size_t outgoing_room, incoming_room;
+    MPI_Request requests[2]; // persistent: to send outgoing, to receive incoming
+    size_t requested[2];     // for how many vertices each was made
+} dm_peer;
+
+// Where vertices of a process are: closed boxes, each with the spacing of what is in it.
+typedef struct {
+    double low[3], high[3], spacing;
+} dm_box;
+
+// One own vertex of a set that spans what all own ones span.
+typedef struct {
+    double position[3];
+    uint64_t id;
+    uint32_t vertex; // local id
+    int32_t owner;
+} dm_basis_point;
+
+typedef struct {
+    dm_basis_point points[4];
+    int32_t count;
+    int32_t has_no_cells; // though the process owns vertices
+} dm_basis;
+
+// What an id stood for, to be put back.
+typedef struct {
+    uint32_t vertex;
+    int32_t owner;
+    uint64_t id;
+} dm_undo;
+
+// The first thing that this process refused in the collective call that runs.
+typedef struct {
+    deldrift_status status;
+    char message[DM_MESSAGE];
+} dm_refusal;
+
+struct deldrift_mpi {
+    MPI_Comm comm;
+    int rank, size;
+    uint32_t dimension;
+    deldrift_mpi_options options;
+    deldrift_options local;
+    deldrift_triangulation *t;
+    uint64_t timestamp;
+    bool is_prepared; // t has rounds that are neither published nor withdrawn
+    dm_refusal refusal;
+    deldrift_mpi_report report;
+
+    // By local id. `where` has the positions of the timestamp that is being prepared; between commits, of that in force.
+    size_t ids, ids_room;
+    uint64_t *id_of;
+    int32_t *owner_of;
+    uint8_t *is_own;
+    uint8_t *is_leaving;
+    double *where;
+    uint32_t *stamp;
+    uint32_t stamped;
+    // Vertices that have moved, with those of the halo; room for all ids.
+    uint32_t *moved;
+    size_t moved_count, moved_room;
+    uint64_t sent_since_drop;
+    bool has_dropped; // in the commit that runs
+    uint64_t was_spanning;
+
+    // Own vertices in the order of their list: local ids, and the box that each is in.
+    uint32_t *own;
+    uint16_t *box_of;
+    size_t own_count, own_room;
+    // Those of the timestamp that is being prepared, and where they are: `points` is that, or an array of the caller.
+    uint32_t *next_own;
+    uint16_t *next_box_of;
+    double *next_points;
+    size_t next_count, next_room;
+    const double *points;
+
+    // Staged by the program.
+    double *insertion_positions;
+    uint64_t *insertion_ids;
+    size_t insertion_count, insertion_room;
+    uint8_t *is_removal; // by place; all 0 without removals
+    size_t removal_count, removal_room;
+
+    // options.boxes for each process, empty ones with low above high.
+    dm_box *boxes, *next_boxes;
+    bool has_next_boxes; // else those in force are those of the timestamp that is being prepared
+    double extent; // sum of the longest sides of own boxes when vertices were put into them
+    double displacement; // longest coordinate of a displacement in the last commit, which says how much room boxes need
+
+    dm_peer *peers;
+    size_t peer_count, peer_room;
+    int32_t *peer_of; // by rank, -1 without a peer
+
+    dm_undo *undo;
+    size_t undo_count, undo_room;
+
+    // Scratch room.
+    double *low, *high; // boxes that are asked about
+    int *box_ranks; // of what process, or first process of a group
+    int *nodes;     // processes, or groups of them
+    size_t box_room;
+    size_t *offsets;
+    size_t offset_room;
+    uint32_t *found;
+    size_t found_room;
+    uint32_t *vertices;
+    size_t vertex_room;
+    double *coordinates;
+    size_t coordinate_room;
+    uint64_t *numbers;
+    size_t number_room;
+    char *outgoing, *incoming; // records of a push round
+    size_t outgoing_room, incoming_room, incoming_bytes;
+    struct dm_chunk *chunks;
+    size_t chunk_count, chunk_room;
+    MPI_Request *requests;
+    size_t request_room;
+    char *chunk; // a chunk that arrives
+    dm_basis *bases;
+    void *migrated; // data that came with vertices
+};
+
+typedef struct dm_chunk {
+    int source;
+    size_t order, offset, count;
+} dm_chunk;
+
+// memory.c: false, and a refusal, where there is no memory. Room for `needed` elements; what is there stays.
+bool dm_reserve(dm_refusal *refusal, void *array, size_t *room, size_t needed, size_t size);
+void *dm_allocate(dm_refusal *refusal, size_t count, size_t size);
+bool dm_reserve_list(dm_refusal *refusal, dm_list *list, size_t needed);
+bool dm_reserve_ids(deldrift_mpi *m, size_t ids);
+bool dm_reserve_own(deldrift_mpi *m, size_t count);
+void dm_free(deldrift_mpi *m);
+
+// agreement.c
+typedef struct {
+    deldrift_status status; // DELDRIFT_OK, or that of the lowest process that refused
+    int64_t most[4];        // the greatest of each process's numbers
+} dm_vote;
+void dm_refuse(dm_refusal *refusal, deldrift_status status, const char *format, ...) __attribute__((format(printf, 3, 4)));
+// Remembers the status of a call of deldrift, with its message. True if it is DELDRIFT_OK.
+bool dm_took(dm_refusal *refusal, deldrift_status status);
+// One reduction. Where a process has refused, all have its message afterwards.
+dm_vote dm_decide(MPI_Comm comm, const dm_refusal *refusal, const int64_t numbers[4]);
+// For calls of one process: the message of what it refused.
+deldrift_status dm_fail(const dm_refusal *refusal);
+deldrift_status dm_no_handle(void);
+bool dm_check_points(dm_refusal *refusal, const char *name, uint32_t dimension, const double *positions, size_t count,
+                     const uint8_t *is_skipped);
+
+// boxes.c
+// Puts `points` into boxes of their own, `boxes` of them at most; box_of receives that of each.
+void dm_make_boxes(deldrift_mpi *m, dm_box *boxes, uint16_t *box_of);
+// Fits boxes around the points that are in them already.
+void dm_fit_boxes(deldrift_mpi *m, dm_box *boxes, const uint16_t *box_of);
+bool dm_is_in_box(const deldrift_mpi *m, const dm_box *box, const double *point);
+bool dm_is_empty_box(const dm_box *box);
+const dm_box *dm_boxes_now(const deldrift_mpi *m);
+double dm_boxes_extent(const deldrift_mpi *m, const dm_box *boxes);
+// Widens own boxes for the displacements to come, and lets all processes know each other's.
+void dm_share_boxes(deldrift_mpi *m, dm_box *own);
+
+// peers.c
+dm_peer *dm_peer_of(deldrift_mpi *m, int rank);
+// Makes room for the exchange, before processes agree to make it.
+bool dm_make_peers_ready(deldrift_mpi *m);
+// Sends positions of own vertices that others have copies of, and receives those of the halo into `where`; marks what leaves.
+void dm_exchange_positions(deldrift_mpi *m);
+void dm_settle_peers(deldrift_mpi *m);
+void dm_restore_peers(deldrift_mpi *m);
+void dm_free_peers(deldrift_mpi *m);
+
+// reach.c
+// Adds to the peers' lists own vertices that these may need and do not have, and returns how many.
+size_t dm_find_sends(deldrift_mpi *m);
+// Marks those that peers have and do not need, by the wider boxes of the rule for dropping.
+bool dm_find_drops(deldrift_mpi *m);
+
+// span.c
+// Decides, where a process has no cells, whether the vertices of all processes span the dimension. If they do, the owners of
+// some that do add them to the lists of the processes without cells.
+bool dm_span(deldrift_mpi *m, bool has_no_cells);
+
+// push.c
+bool dm_pack_sends(deldrift_mpi *m);
+void dm_push(deldrift_mpi *m);
+bool dm_stage_received(deldrift_mpi *m);
+
+// phases.c: the two phases of a commit on the triangulation of the process.
+bool dm_prepare(deldrift_mpi *m);
+void dm_publish(deldrift_mpi *m);
+void dm_withdraw(deldrift_mpi *m);
+
+// rounds.c
+// Pushes until nobody sends, or a process refuses: all return the status of that.
+deldrift_status dm_rounds(deldrift_mpi *m);
+// Stages insertions, whose ids are in m->vertices then, which has room for them.
+bool dm_insert(deldrift_mpi *m, const double *positions, const uint64_t *ids, size_t count);
+void dm_set_vertex(deldrift_mpi *m, uint32_t vertex, int32_t owner, uint64_t id, const double *position);
+void dm_unset_vertex(deldrift_mpi *m, uint32_t vertex);
+// What the triangulation and the lists say becomes, or does not become, the timestamp in force.
+void dm_settle(deldrift_mpi *m);
+void dm_restore(deldrift_mpi *m);
+
+// create.c
+// The triangulation of own vertices, for the first time: `points`, with `ids`. Collective.
+deldrift_status dm_build(deldrift_mpi *m, const double *points, const uint64_t *ids, size_t count);
+deldrift_mpi *dm_new(dm_refusal *refusal, MPI_Comm comm, uint32_t dimension, const deldrift_mpi_options *options,
+                     const deldrift_options *local);
+
+// fault.c, in the build for tests alone: which of the faults that tests plant is in force, and how much memory there is.
+#ifdef DELDRIFT_MPI_TESTING
+enum {
+    DM_FAULT_NONE,
+    DM_FAULT_SMALL_REACH,
+    DM_FAULT_LOST_MESSAGE,
+    DM_FAULT_HALF_SPACE,
+    DM_FAULT_STALE_HALO,
+    DM_FAULT_NO_ROUND,
+    DM_FAULT_LOCAL_KEYS,
+};
+extern int deldrift_mpi_fault;
+extern long deldrift_mpi_allocations_left; // negative: no limit
+extern bool deldrift_mpi_is_preparing;     // while deldrift_prepare_timestamp runs
+#define DM_SET_PREPARING(is) (deldrift_mpi_is_preparing = (is))
+#define DM_HAS_FAULT(name) (deldrift_mpi_fault == (name))
+#else
+#define DM_HAS_FAULT(name) false
+#define DM_SET_PREPARING(is) ((void)0)
+#endif
+
+#endif
