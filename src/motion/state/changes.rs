@@ -169,6 +169,11 @@ impl<C: Corners<VertexId>> Tracker<C> {
         self.touched.insert(to);
     }
 
+    /// Whether the cells of now are those of the base, in the same rows.
+    pub(in crate::motion) fn is_clean(&self) -> bool {
+        self.touched.as_slice().is_empty() && self.removed.is_empty() && self.turned.is_empty()
+    }
+
     pub(in crate::motion) fn truncate(&mut self, n: usize) {
         self.origin.truncate(n);
     }
