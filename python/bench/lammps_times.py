@@ -23,9 +23,9 @@ import lammps_voronoi as example  # noqa: E402
 EVERY = {1: 5, 10: 5, 100: 3}
 """Steps from one output to the next, and how many such outputs are timed."""
 
-PARTS = "hand over", "move", "volumes"
+PARTS = "hand over", "move", "volumes", "edges"
 COLUMNS = ["LAMMPS", "freud", "first", *(f"{every} {part}" for every in EVERY for part in PARTS)]
-CHECKS = ["sum off by", "off LAMMPS", "off freud", "rebuilds"]
+CHECKS = ["sum off by", "off LAMMPS", "off freud", "other numbers of faces", "rebuilds"]
 
 
 class Timed:
@@ -46,14 +46,13 @@ class Timed:
 
 def first(frame):
     """What the first output of a run takes."""
-    cells = example.Cells(threads=1)
-    cells.move(frame)
-    return cells.volumes(frame)
+    return example.Cells(threads=1).move(frame).volumes(frame)
 
 
 def measure(box, n_atoms):
     """Medians of seconds, and what the volumes are off by at most, of all outputs."""
-    timed, sums, off_lammps, off_freud, rebuilds = Timed(), [], [], [], {every: 0 for every in EVERY}
+    timed, sums, off_lammps, off_freud = Timed(), [], [], []
+    rebuilds, other_faces = {every: 0 for every in EVERY}, 0
     lmp, cells = example.liquid(box, n_atoms), example.Cells(threads=1)
     lmp.command("run 1 post no")
     frame = example.Frame(lmp)
@@ -68,28 +67,32 @@ def measure(box, n_atoms):
             frame = take(f"{every} hand over", example.Frame, lmp)
             take(f"{every} move", cells.move, frame)
             ours = take(f"{every} volumes", cells.volumes, frame)
+            edges = take(f"{every} edges", cells.tri.edges)
             rebuilds[every] += cells.tri.report.rebuilds
             lmp.command(example.RENEW)
-            theirs = take("LAMMPS", example.lammps_volumes, lmp)
+            theirs, faces = take("LAMMPS", example.lammps_cells, lmp).T
             off_lammps.append(abs(theirs - ours).max())
             sums.append(abs(ours.sum() / frame.volume - 1))
             if frame.is_periodic:
+                other_faces += np.count_nonzero(np.bincount(edges[0].ravel(), minlength=len(faces)) != faces)
                 off_freud.append(abs(take("freud", example.freud_volumes, frame) - ours).max())
-    checks = max(sums), max(off_lammps), max(off_freud, default=None), "/".join(map(str, rebuilds.values()))
+    checks = max(sums), max(off_lammps), max(off_freud, default=None), other_faces, "/".join(map(str, rebuilds.values()))
     return len(ours), timed.medians(), checks
 
 
 def table(rows):
-    spans = [f"{every} step{'s' * (every > 1)}" for every in EVERY]
-    head = "| box | atoms | LAMMPS | freud | deldrift, first | " + " | ".join(f"after {span}" for span in spans)
-    lines = [f"{head} | sum | LAMMPS | freud |", "|---|--:|--:|--:|--:|" + "--:|" * (len(spans) + 3)]
-    for box, n, times, (total, off_lammps, off_freud, _) in rows:
-        micros = [None if each is None else 1e6 * each / n for each in times]
-        later = [sum(micros[k : k + 3]) for k in range(3, len(micros), 3)]
-        cells = [f"{each:.2f}" if each is not None else "" for each in micros[:3]]
-        cells += [f"{each:.2f}, **{micros[0] / each:.1f}×**" for each in later]
+    spans = " | ".join(f"after {every} step{'s' * (every > 1)}" for every in EVERY)
+    lines = [f"| box | atoms | LAMMPS | freud | deldrift, first | {spans} | edges | sum | LAMMPS | freud | faces |"]
+    lines.append("|---|--:|--:|--:|--:|" + "--:|" * (len(EVERY) + 5))
+    for box, n, times, (total, off_lammps, off_freud, other_faces, _) in rows:
+        micros = {name: 1e6 * each / n for name, each in zip(COLUMNS, times) if each is not None}
+        cells = [f"{micros[name]:.2f}" if name in micros else "" for name in COLUMNS[:3]]
+        for every in EVERY:
+            later = sum(micros[f"{every} {part}"] for part in PARTS[:3])
+            cells.append(f"{later:.2f}, **{micros['LAMMPS'] / later:.1f}×**")
+        cells.append(f"{statistics.median(micros[f'{every} edges'] for every in EVERY):.2f}")
         cells += [f"{each:.0e}" if each is not None else "" for each in (total, off_lammps, off_freud)]
-        lines.append(f"| {box} | {n:,} | " + " | ".join(cells) + " |")
+        lines.append(f"| {box} | {n:,} | " + " | ".join(cells) + f" | {other_faces if off_freud else ''} |")
     return lines
 
 
