@@ -74,7 +74,8 @@ def measure(box, n_atoms):
             off_lammps.append(abs(theirs - ours).max())
             sums.append(abs(ours.sum() / frame.volume - 1))
             if frame.is_periodic:
-                other_faces += np.count_nonzero(np.bincount(edges[0].ravel(), minlength=len(faces)) != faces)
+                neighbours = np.bincount(edges[0].ravel(), minlength=len(faces))
+                other_faces += np.count_nonzero(neighbours != faces)
                 off_freud.append(abs(take("freud", example.freud_volumes, frame) - ours).max())
     checks = max(sums), max(off_lammps), max(off_freud, default=None), other_faces, "/".join(map(str, rebuilds.values()))
     return len(ours), timed.medians(), checks
