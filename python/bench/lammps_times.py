@@ -77,7 +77,8 @@ def measure(box, n_atoms):
                 neighbours = np.bincount(edges[0].ravel(), minlength=len(faces))
                 other_faces += np.count_nonzero(neighbours != faces)
                 off_freud.append(abs(take("freud", example.freud_volumes, frame) - ours).max())
-    checks = max(sums), max(off_lammps), max(off_freud, default=None), other_faces, "/".join(map(str, rebuilds.values()))
+    of_intervals = "/".join(map(str, rebuilds.values()))
+    checks = max(sums), max(off_lammps), max(off_freud, default=None), other_faces, of_intervals
     return len(ours), timed.medians(), checks
 
 
