@@ -2548,8 +2548,8 @@ deldrift_status deldrift_voronoi_derivatives(const deldrift_triangulation *t,
 /// Marks the vertices whose Voronoi cell has changed, or may have: a mask for deldrift_voronoi_cells, so that a step costs
 /// what has changed.
 ///
-/// moved: moved_count ids of the vertices that have moved since the deldrift_take_changes before the last one, in any
-/// order, some maybe more than once; NULL if there are none. To be called after deldrift_take_changes, before the next
+/// vertices: vertex_count ids of those that have moved since the deldrift_take_changes before the last one, in any order,
+/// some maybe more than once; NULL if there are none. To be called after deldrift_take_changes, before the next
 /// change. mask: a buffer with room for capacity bytes; receives, for each id, 1 if the vertex has moved, shares a cell with one that has, or is
 /// in the star of the changes that were taken last, hidden, shown, a corner of a renumbered cell, or has been removed; 0 for all others.
 /// count: receives the number of ids, which is also written when the buffer is too small. NULL with capacity 0 asks for
@@ -2567,8 +2567,8 @@ deldrift_status deldrift_voronoi_derivatives(const deldrift_triangulation *t,
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX,
 /// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
-                                         const uint32_t *moved,
-                                         size_t moved_count,
+                                         const uint32_t *vertices,
+                                         size_t vertex_count,
                                          uint8_t *mask,
                                          size_t capacity,
                                          size_t *count);

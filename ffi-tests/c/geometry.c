@@ -417,7 +417,7 @@ static void voronoi_cells_that_have_changed(void) {
     CHECK(memcmp(kept, all, sizeof all) == 0);
     const uint32_t strange[] = {middle, N};
     CHECK_STATUS(deldrift_voronoi_changed(t, strange, 2, mask, N, &count), DELDRIFT_NO_SUCH_VERTEX);
-    CHECK_MESSAGE("moved");
+    CHECK_MESSAGE("vertices");
     deldrift_destroy(t);
 }
 

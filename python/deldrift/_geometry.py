@@ -395,7 +395,7 @@ class Geometry(Scipy):
         with self._reading as t:
             mask = np.empty(id_count(t), bool)
             status = _voronoi_changed(t, address(listed), len(listed), address(mask), len(mask), ctypes.c_size_t())
-            self._check(status, vertex="moved")
+            self._check(status, vertices="moved", vertex="moved")
         return mask
 
     def voronoi_cells(self, box: Any, mask: Any = None) -> VoronoiCells:

@@ -269,8 +269,8 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives(
 /// Marks the vertices whose Voronoi cell has changed, or may have: a mask for deldrift_voronoi_cells, so that a step costs
 /// what has changed.
 ///
-/// moved: moved_count ids of the vertices that have moved since the deldrift_take_changes before the last one, in any
-/// order, some maybe more than once; NULL if there are none. To be called after deldrift_take_changes, before the next
+/// vertices: vertex_count ids of those that have moved since the deldrift_take_changes before the last one, in any order,
+/// some maybe more than once; NULL if there are none. To be called after deldrift_take_changes, before the next
 /// change. mask: a buffer with room for capacity bytes; receives, for each id, 1 if the vertex has moved, shares a cell with one that has, or is
 /// in the star of the changes that were taken last, hidden, shown, a corner of a renumbered cell, or has been removed; 0 for all others.
 /// count: receives the number of ids, which is also written when the buffer is too small. NULL with capacity 0 asks for
@@ -290,16 +290,16 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_voronoi_changed(
     t: *const deldrift_triangulation,
-    moved: *const u32,
-    moved_count: usize,
+    vertices: *const u32,
+    vertex_count: usize,
     mask: *mut u8,
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    given!(t: Reading, moved[moved_count]: Array, mask[capacity]: Buffer, count: Output);
+    given!(t: Reading, vertices[vertex_count]: Array, mask[capacity]: Buffer, count: Output);
     t.read(|t| {
         in_its_dimension!(t => {
-            let moved = VertexId::of_numbers(moved.get()?);
+            let moved = VertexId::of_numbers(vertices.get()?);
             mask.fill(count, t.id_count(), || Ok(t.voronoi_changed(moved)?))
         })
     })

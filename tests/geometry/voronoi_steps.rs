@@ -73,10 +73,10 @@ fn follow<G: Dimension>(
             kept.centroids[v] = part.centroids[v];
         }
         let wanted = all(&t, clip);
-        for v in 0..mask.len() {
+        for (v, &is_marked) in mask.iter().enumerate() {
             let (found, wanted) = (numbers::<G>(&kept, v), numbers::<G>(&wanted, v));
-            assert_eq!(found, wanted, "{v}, seed {seed}, mask {}", mask[v]);
-            if mask[v] == 0 {
+            assert_eq!(found, wanted, "{v}, seed {seed}, mask {is_marked}");
+            if is_marked == 0 {
                 assert!(part.volumes[v].is_nan() && part.areas[v].is_nan());
             }
         }

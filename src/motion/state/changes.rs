@@ -103,6 +103,18 @@ impl<C: Corners<VertexId>> Tracker<C> {
         }
     }
 
+    /// The corners of cells that have been created since the base, with their indices, and of those that have been removed.
+    /// One that has gone and come back may be among both.
+    pub(in crate::motion) fn rows_since_base<'t>(
+        &'t self,
+        corners: &'t [C],
+    ) -> impl Iterator<Item = (&'t C, Option<CellId>)> + 't {
+        let is_created = |index: CellId| index.index() < corners.len() && self.origin[index] == CellId::NONE;
+        let created = self.touched.as_slice().iter().filter(move |&&index| is_created(index));
+        let removed = self.removed.iter().map(|(_, row)| (row, None));
+        created.map(|&index| (&corners[index], Some(index))).chain(removed)
+    }
+
     /// The index at the base of the cell of an index, if there is a cell.
     pub(in crate::motion) fn origin(&self, index: CellId) -> CellId {
         self.origin.get(index.index()).copied().unwrap_or(CellId::NONE)

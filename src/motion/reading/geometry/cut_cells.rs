@@ -122,7 +122,8 @@ impl<G: Dimension> Voronoi<'_, G> {
             for &(w, first) in &list {
                 self.ring.go_around(self.cells, [v, w], first)?;
                 let is_whole = is_inside && matches!(self.part(), Part::All);
-                if !(is_whole && self.add_whole([v, w], clip.unit, &mut sums)) && !self.is_outside() {
+                let is_added = is_whole && self.add_whole([v, w], clip.unit, &mut sums);
+                if !is_added && !self.is_outside() {
                     self.cut([v, w], clip)?;
                     self.facet.add_pyramids(clip, &apex, &mut sums);
                     sums.facets += clip.facet_in_unit(G::D, self.facet.measure());
@@ -168,9 +169,7 @@ impl<G: Dimension> Voronoi<'_, G> {
         let sign = if weight < 0.0 { -1.0 } else { 1.0 };
         sums.facets += 0.5 * weight.abs() / square.sqrt();
         sums.volume += weight.abs() / 12.0;
-        for axis in 0..3 {
-            sums.moment[axis] += sign * moment[axis] / 48.0;
-        }
+        sums.moment.iter_mut().zip(moment).for_each(|(sum, moment)| *sum += sign * moment / 48.0);
         true
     }
 

@@ -39,9 +39,6 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex),
     /// [`Error::StagedVertex`](crate::Error::StagedVertex), [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn voronoi_changed(&self, moved: &[VertexId]) -> Result<Vec<u8>> {
-        for (index, &vertex) in moved.iter().enumerate() {
-            self.present_site("moved", index, vertex)?;
-        }
         let around = self.cells_around(moved)?;
         let cells = self.cell_arrays()?;
         let taken = self.taken.as_ref().filter(|_| cells.are_changes_taken());
