@@ -1,4 +1,4 @@
-//! Triangulations of sets that repeat: each vertex is in all places to which a [lattice](lattice) takes it.
+//! Triangulations of sets that repeat: each vertex is in all places to which a lattice takes it.
 //!
 //! Inside is a triangulation of the plane or of space that has each vertex once, *at home*, in a cell of the lattice or
 //! near it, and the *images* of vertices that have a common cell with one at home, or may have one. Each cell of the
