@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "boxes.hpp"
 #include "domains.hpp"
 #include "environment.hpp"
 #include "meshes.hpp"
@@ -35,18 +36,20 @@ int perform(const bench::Options &options, const std::string &command) {
         case bench::Task::structured: bench::run_structured(options); environment += structured; break;
         case bench::Task::domains: bench::run_domains(options); environment += "_domains"; break;
         case bench::Task::meshes: bench::run_meshes(options); environment += "_meshes"; break;
+        case bench::Task::boxes: bench::run_boxes(options); environment += "_boxes"; break;
         case bench::Task::targets: bench::run_targets(options); environment += "_targets"; break;
         case bench::Task::run:
             bench::run_scenarios(options);
             if (options.with_structured) {
                 bench::run_domains(options);
                 bench::run_meshes(options);
+                bench::run_boxes(options);
             }
             break;
     }
     bench::write_environment(options.results + "/" + environment + ".txt", command);
     if (options.with_structured)
-        for (const std::string &part : {structured, std::string("_domains"), std::string("_meshes")})
+        for (const std::string &part : {structured, std::string("_domains"), std::string("_meshes"), std::string("_boxes")})
             bench::write_environment(options.results + "/environment" + part + ".txt", command);
     return 0;
 }

