@@ -94,6 +94,20 @@ fn rejected_steps_leave_all_as_it_was() {
     );
 }
 
+/// The cells fill the box, forces are mutual across its border, and another basis changes nothing.
+#[test]
+fn the_sheared_box_keeps_its_area_and_its_momentum() {
+    let folder = fresh_folder("periodic");
+    let program = build(&repository("examples/periodic.c"), &folder, Linkage::Static, &[]);
+    let picture = folder.join("picture.svg");
+    let said = succeed(command(program).arg(&picture));
+    assert!(number_after("area within ", &said) < 1e-12, "{said}");
+    assert!(number_after("momentum within ", &said) < 1e-12, "{said}");
+    assert!(said.contains("after 2 of 2 changes"), "{said}");
+    let drawn = std::fs::read_to_string(&picture).expect("the example has written it");
+    assert!(drawn.starts_with("<svg ") && drawn.ends_with("</svg>\n") && drawn.len() < 100_000);
+}
+
 /// Its area is that of the box less rotor and pipe, as much heat leaves as comes, and the mesh keeps its quality and its
 /// number of vertices.
 #[test]

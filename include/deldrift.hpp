@@ -79,6 +79,18 @@ public:
         require_ok(deldrift_create_with_keys(dimension, numbers.data(), keys.data(), count, &options, &t));
         t_.reset(t);
     }
+    // Of points that repeat: box has the vectors of the box, one after the other, one for each direction at most.
+    //     const std::vector<double> box{1, 0, 0.25, 1};
+    //     deldrift::Triangulation t(2, points, deldrift::Periodic{box});
+    Triangulation(std::uint32_t dimension, const Positions &positions, Periodic box,
+                  const deldrift_options &options = default_options())
+        : dimension_(dimension) {
+        deldrift_triangulation *t = nullptr;
+        const span<const double> numbers = gathered(positions);
+        require_ok(deldrift_create_periodic(dimension, numbers.data(), count_of("positions", numbers),
+                                            box.vectors.data(), count_of("vectors", box.vectors), &options, &t));
+        t_.reset(t);
+    }
     // Takes over what deldrift_create has made.
     explicit Triangulation(deldrift_triangulation *t) : t_(t) { require_ok(deldrift_dimension(t, &dimension_)); }
 
@@ -185,6 +197,10 @@ public:
         deldrift_split_report report;
         require_change(deldrift_stage_splits(native(), limit, &report));
         return report;
+    }
+    // Other vectors for the box of a periodic triangulation, as many as there are, from the next commit on.
+    void stage_vectors(span<const double> vectors) {
+        require_ok(deldrift_stage_vectors(native(), vectors.data(), count_of("vectors", vectors)));
     }
     void discard_moves() { require_ok(deldrift_discard_moves(native())); }
     deldrift_commit_report commit_timestamp() {
@@ -553,6 +569,31 @@ public:
         std::vector<std::uint32_t> edges(2 * count);
         require_ok(deldrift_edges(native(), edges.data(), count, &count));
         return edges;
+    }
+    // The vectors of the box, one after the other; none of a triangulation that is not periodic.
+    std::vector<double> vectors() const {
+        std::size_t count = 0;
+        require_ok(deldrift_vectors(native(), nullptr, 0, &count));
+        std::vector<double> vectors(dimension_ * count);
+        require_ok(deldrift_vectors(native(), vectors.data(), count, &count));
+        return vectors;
+    }
+    // Rows of multiples of the vectors, by which the corners of cells are translated from their positions, and by which the
+    // neighbours opposite them are from where their own shifts have them.
+    CellShifts cell_shifts() const {
+        std::size_t count = cell_count();
+        const std::size_t size = count * (dimension_ + 1) * dimension_;
+        CellShifts shifts{std::vector<std::int64_t>(size), std::vector<std::int64_t>(size)};
+        require_ok(deldrift_cell_shifts(native(), shifts.corners.data(), shifts.neighbours.data(), count, &count));
+        return shifts;
+    }
+    // By which multiples of the vectors the second vertex of each edge is translated where the first one is at its position.
+    std::vector<std::int64_t> edge_shifts() const {
+        std::size_t count = 0;
+        require_ok(deldrift_edge_shifts(native(), nullptr, 0, &count));
+        std::vector<std::int64_t> shifts(dimension_ * count);
+        require_ok(deldrift_edge_shifts(native(), shifts.data(), count, &count));
+        return shifts;
     }
     Lists vertex_neighbours() const { return lists(deldrift_vertex_neighbours); }
     Lists vertex_cells() const { return lists(deldrift_vertex_cells); }

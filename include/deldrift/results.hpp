@@ -58,6 +58,18 @@ struct VoronoiDerivatives {
     std::vector<double> derivatives;
 };
 
+// The vectors of a periodic box, one after the other; see deldrift_create_periodic.
+struct Periodic {
+    explicit Periodic(span<const double> of) : vectors(of) {}
+    span<const double> vectors;
+};
+
+// Rows of as many multiples of vectors as the dimension says, one for each corner of each cell; see deldrift_cell_shifts.
+struct CellShifts {
+    std::vector<std::int64_t> corners{};
+    std::vector<std::int64_t> neighbours{};
+};
+
 // Cells that a vertex in a box could change, and balls that cover theirs; see deldrift_cells_in_reach.
 struct InReach {
     std::vector<std::uint32_t> cells{};
