@@ -105,24 +105,24 @@ def test_a_tissue_relaxes_is_sheared_and_crawls(tmp_path):
     """The example of a tissue: forces are derivatives of the energy, a solid resists shear, and a fluid flows."""
     import tissue
 
-    runs = [tissue.run(p0, n=64, strains=10, steps=200) for p0 in (3.4, 3.95)]
+    runs = [tissue.run(p0, n=100, strains=10, steps=400) for p0 in (3.4, 3.95)]
     for cells, energies, ways in runs:
-        assert cells.tri.timestamp >= 500 and len(cells.tri.simplices) == 2 * 64
-        assert np.all(cells.tri.vectors == deldrift.PeriodicDelaunay([[0, 0]], [[8, 0], [0.8, 8]]).vectors)
+        assert cells.tri.timestamp >= 1000 and len(cells.tri.simplices) == 2 * 100
+        np.testing.assert_allclose(cells.tri.vectors, [[10, 0], [1, 10]], atol=1e-12)
         of_areas, of_sum, of_forces = cells.errors()
         assert of_areas < 1e-12 and of_sum < 1e-12 and of_forces < 1e-6
         # All is as in a triangulation from nothing, of points taken back into the box.
         back = ways[-1] - np.floor(ways[-1] @ np.linalg.inv(cells.tri.vectors)) @ cells.tri.vectors
         fresh = tissue.Shapes(deldrift.PeriodicDelaunay(back, cells.tri.vectors))
         np.testing.assert_allclose(fresh.perimeters, cells.shapes.perimeters, atol=1e-9)
-    (solid, stiff, near), (fluid, soft, far) = runs
+    (_, stiff, near), (_, soft, far) = runs
     assert stiff[-1] - stiff[0] > 10 * abs(soft[-1] - soft[0])
-    assert np.ptp(far, axis=0).mean() > 2 * np.ptp(near, axis=0).mean()
+    assert np.ptp(far, axis=0).mean() > 1.5 * np.ptp(near, axis=0).mean()
     start = tissue.Tissue(64, 3.4)
     energies = start.relax(50)
     assert np.all(np.diff(energies) <= 0) and energies[-1] < energies[0] / 2
     tissue.draw(tmp_path / "tissue.svg", runs)
-    assert (tmp_path / "tissue.svg").read_text().count("<polygon") == 2 * (64 + 1)
+    assert (tmp_path / "tissue.svg").read_text().count("<polygon") == 2 * (100 + 1)
 
 
 def test_a_foam_comes_to_rest_in_cells_of_kelvin(tmp_path):
