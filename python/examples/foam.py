@@ -53,7 +53,7 @@ class Foam:
 
     def __str__(self):
         volumes, facets = self.volumes / self.volumes.mean(), len(self.facets()[0]) / len(self.points)
-        return f"volumes within {volumes.std():.1e}, {facets:.2f} facets, quotient {self.quotients.mean():.5f}"
+        return f"spread of volumes {volumes.std():.1e}, {facets:.2f} facets, quotient {self.quotients.mean():.5f}"
 
 
 def dots(a, b):

@@ -143,7 +143,7 @@ if __name__ == "__main__":
     runs = [run(p0) for p0 in (3.4, 3.9)]
     for tissue, energies, ways in runs:
         far = np.linalg.norm(ways[-1] - ways[0], axis=1).mean()
-        print(f"p0 = {tissue.p0}: energy {energies[0]:.2f}, sheared {energies[-1]:.2f}; crawling leads {far:.1f} away;")
-        print("    areas within {:.0e}, their sum {:.0e}, forces {:.0e}".format(*tissue.errors()))
+        print(f"p0 = {tissue.p0}: energy {energies[0]:.2f}, sheared {energies[-1]:.2f}; crawling leads {far:.1f} away")
+        print(f"    {tissue.tri.timestamp} moves; areas within", "{:.0e}, sum {:.0e}, forces {:.0e}".format(*tissue.errors()))
     if len(sys.argv) > 1:
         draw(sys.argv[1], runs)
