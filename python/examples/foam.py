@@ -26,8 +26,8 @@ class Foam:
         sides = corners[:, 1:] - corners[:, :1]
         squares = (sides**2).sum(axis=2, keepdims=True)
         self.centres = corners[:, 0] + np.linalg.solve(sides, squares / 2)[..., 0]
-        # A cell is a sum, with signs, of right-angled tetrahedra: from the point to the middle of an edge, from there to
-        # the circumcentre of a triangle at this edge, and on to that of a tetrahedron at this triangle.
+        # A cell is a sum, with signs, of right-angled tetrahedra: from the point to the middle of an edge, from there
+        # to the circumcentre of a triangle at this edge, and on to that of a tetrahedron at this triangle.
         sums = np.zeros((5, len(tri.points)))
         for order in itertools.permutations(range(4)):
             point, second, third, _ = corners[:, order].swapaxes(0, 1)

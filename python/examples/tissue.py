@@ -48,8 +48,8 @@ class Tissue:
 
     def __init__(self, n, p0, seed=1):
         self.p0, self.rng = p0, np.random.default_rng(seed)
-        self.headings = self.rng.uniform(0, 2 * np.pi, n)
-        self.tri = deldrift.PeriodicDelaunay(self.rng.random((n, 2)) * np.sqrt(n), [np.sqrt(n)] * 2)
+        self.headings, points = self.rng.uniform(0, 2 * np.pi, n), self.rng.random((n, 2)) * np.sqrt(n)
+        self.tri = deldrift.PeriodicDelaunay(points, [np.sqrt(n)] * 2)
         self.shapes = Shapes(self.tri)
 
     @property
@@ -144,6 +144,6 @@ if __name__ == "__main__":
     for tissue, energies, ways in runs:
         far = np.linalg.norm(ways[-1] - ways[0], axis=1).mean()
         print(f"p0 = {tissue.p0}: energy {energies[0]:.2f}, sheared {energies[-1]:.2f}; crawling leads {far:.1f} away")
-        print(f"    {tissue.tri.timestamp} moves; areas within", "{:.0e}, sum {:.0e}, forces {:.0e}".format(*tissue.errors()))
+        print("{} moves, areas within {:.0e}, sum {:.0e}, forces {:.0e}".format(tissue.tri.timestamp, *tissue.errors()))
     if len(sys.argv) > 1:
         draw(sys.argv[1], runs)
