@@ -53,6 +53,16 @@ fn voronoi_volumes_add_up_and_give_densities() {
 }
 
 #[test]
+#[ignore = "needs Eigen and pkg-config"]
+fn a_gas_of_voronoi_cells_comes_to_rest() {
+    let said = run("gas", "examples/gas.cpp", &["196", "900"], true);
+    let number = |before: &str| number_after(before, &said);
+    assert!(number("sum of areas within ") < 1e-12 && number("energy fell by ") > 1.0, "{said}");
+    assert!(number("forces are differences of energy within ") < 1e-6, "{said}");
+    assert!(number("pressures within ") < 0.02, "{said}");
+}
+
+#[test]
 fn the_tour_sees_what_it_expects() {
     let folder = fresh_folder("tour");
     let said = succeed(&mut command(build(&repository("examples/tour.c"), &folder, Linkage::Static, &[])));

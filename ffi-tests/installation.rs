@@ -73,7 +73,8 @@ fn component_for_several_processes_is_found() {
     for program in ["program", "static_program"] {
         let mut run = command("mpiexec");
         // More processes than processors, and root, are what Open MPI asks about; others do not know these names.
-        let names = ["OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "OMPI_MCA_rmaps_base_oversubscribe"];
+        let names =
+            ["OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "OMPI_MCA_rmaps_base_oversubscribe"];
         run.envs(names.map(|name| (name, "1"))).args(["-n", "2"]).arg(build.join(program));
         assert!(succeed(&mut run).contains("area of the convex hull: 0.99"));
     }

@@ -2391,9 +2391,10 @@ deldrift_status deldrift_update_mask_by_circumradius(const deldrift_triangulatio
 ///
 /// Rounded: in a box, let h be 1e-8 times its greatest extent and 1e-15 times the greatest magnitude of its
 /// coordinates; without a box, 1e-8 times the greatest circumradius of the cells around the vertex and 1e-15 times the
-/// greatest magnitude of a coordinate of their circumcentres. A corner of a Voronoi cell is off by at most h, and so is
-/// a volume by at most h times the area of the cell's surface, an area by at most h times its perimeter, however near
-/// to each other vertices are. In place of 1e-8 it is some last bits, about 1e-15, unless cells are nearly flat (see
+/// greatest magnitude of a coordinate of their circumcentres. A corner of a Voronoi cell is off by at most h, and so,
+/// to first order in h, is a volume by at most h times the area of the cell's surface, or two thirds of that of the
+/// triangles that the vertex makes with its edges if that is more, as it may be for cells with dozens of facets; an area
+/// by at most h times its perimeter, however near to each other vertices are. In place of 1e-8 it is some last bits, about 1e-15, unless cells are nearly flat (see
 /// deldrift_circumcentres). Never negative. The volumes of all ids add up to that of the box but for rounding.
 ///
 /// Takes time in proportion to the number of cells, and of ids; in a box, for Voronoi cells at its boundary, to the
@@ -2457,9 +2458,8 @@ deldrift_status deldrift_voronoi_facets(const deldrift_triangulation *t,
 /// low, high: the corners of the box with the least and the greatest coordinates, 2 or 3 numbers each, read during the
 /// call only; vertices may be outside of it. mask, mask_count: a byte for each id, mask_count of them, which must be
 /// deldrift_id_count; only entries of vertices of which the byte is not 0 are computed and written, and the others are
-/// left as they are. NULL and 0 for all vertices. So a program that moves few vertices keeps its arrays by a mask of
-/// what has changed: the vertices that have moved, the corners of all cells around these (deldrift_cells_around), and
-/// the corners of the cells that deldrift_take_changes lists as created or removed.
+/// left as they are. NULL and 0 for all vertices. deldrift_voronoi_changed makes a mask of the cells that have changed.
+/// The numbers of a vertex do not depend on the mask, nor on the number of threads, to the last bit.
 ///
 /// volumes: a buffer with room for capacity numbers. areas: a buffer with room for as many; receives the length (2D) or area (3D) of the
 /// boundary of what there is of each cell in the box, with what it has of the faces of the box. centroids: a buffer with
@@ -2470,18 +2470,20 @@ deldrift_status deldrift_voronoi_facets(const deldrift_triangulation *t,
 /// is. Vertices in one hyperplane, a single one included, have cells too, as in deldrift_voronoi_volumes. Segments are
 /// not looked at.
 ///
-/// Rounded: let h be what deldrift_voronoi_volumes has for a box, S the area of a cell's surface (2D: the length of its
-/// boundary), V its volume, d its diameter, and Q the sum over its facets of the perimeter of each (2D: 2) times the
-/// distance of the two vertices. To first order in h, a volume is off by at most h times the greater of S and Q / 6 (2D:
-/// Q / 4), an area by h times the sum of the perimeters of the cell's faces (2D: 2 h for each), and a centroid, where
-/// that is less than d, by that error of the volume times d / V; it is in the box in any case. The volumes of all ids
-/// add up to that of the box but for rounding.
+/// Rounded: let h be what deldrift_voronoi_volumes has for a box, and S, T, V and d the area of a cell's surface, that of
+/// the triangles that the vertex makes with its edges, its volume and its diameter. To first order in h, a volume is off
+/// by at most h times the greater of S and 2/3 T, which is less unless a cell has dozens of facets (2D: h
+/// times the length of the boundary), an area by h times the sum of the perimeters of the cell's faces (2D: 2 h for
+/// each), and a centroid, where that is less than d, by that error of the volume times d / V; it is in the box in any
+/// case. The volumes of all ids add up to that of the box but for rounding.
 ///
 /// Takes memory for circumcentres, for sums, and, where cells are cut by the box, for the cells of each vertex while it
-/// runs. Cells that are cut take as long as in deldrift_voronoi_volumes. Calls the callbacks of the options.
+/// runs. Runs on several threads, as the options allow. Cells that are cut take several times as long as others. Calls
+/// the callbacks of the options.
 ///
-/// Cost: n + m; for vertices in one hyperplane, that of deldrift_create. After a change the first call also does what
-/// the first deldrift_cells does.
+/// Cost: n + m; with a mask, a byte for each id, a bit for each cell, and the cells around vertices of the mask; for
+/// vertices in one hyperplane, that of deldrift_create. After a change the first call also does what the first
+/// deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
 /// DELDRIFT_INVALID_VALUE if high is not above low in every coordinate, DELDRIFT_WRONG_COUNT,
@@ -2542,6 +2544,34 @@ deldrift_status deldrift_voronoi_derivatives(const deldrift_triangulation *t,
                                              double *derivatives,
                                              size_t capacity,
                                              size_t *count);
+
+/// Marks the vertices whose Voronoi cell has changed, or may have: a mask for deldrift_voronoi_cells, so that a step costs
+/// what has changed.
+///
+/// vertices: vertex_count ids of those that have moved since the deldrift_take_changes before the last one, in any order,
+/// some maybe more than once; NULL if there are none. To be called after deldrift_take_changes, before the next
+/// change. mask: a buffer with room for capacity bytes; receives, for each id, 1 if the vertex has moved, shares a cell with one that has, or is
+/// in the star of the changes that were taken last, hidden, shown, a corner of a renumbered cell, or has been removed; 0 for all others.
+/// count: receives the number of ids, which is also written when the buffer is too small. NULL with capacity 0 asks for
+/// the count alone.
+///
+/// A program keeps arrays of deldrift_voronoi_cells for a box. It moves vertices, commits, takes the changes, and calls
+/// this and then deldrift_voronoi_cells with the mask. If changes are taken after every commit, its arrays are those of a
+/// call without a mask, to the last bit; otherwise they are so within the errors documented, as cells that have come
+/// back meanwhile may list their corners in another order. All are marked where nothing is known of single cells: if changes have not been taken
+/// since the last change or since deldrift_compact, while all vertices are in one hyperplane, and where there are
+/// segments.
+///
+/// Cost: a byte for each id; the changes taken, and the cells around the moved vertices, of k cells k log k.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX,
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
+                                         const uint32_t *vertices,
+                                         size_t vertex_count,
+                                         uint8_t *mask,
+                                         size_t capacity,
+                                         size_t *count);
 
 /// Creates the Delaunay triangulation of points that repeat: each is in all places to which sums of multiples of the
 /// vectors take it.

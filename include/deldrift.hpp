@@ -669,6 +669,13 @@ public:
                                            &count));
         return measures;
     }
+    // For each id 1 if its Voronoi cell may have changed by the changes taken last, as these vertices have moved; else 0.
+    std::vector<std::uint8_t> voronoi_changed(span<const std::uint32_t> moved) const {
+        std::size_t count = id_count();
+        std::vector<std::uint8_t> mask(count);
+        require_ok(deldrift_voronoi_changed(native(), moved.data(), moved.size(), mask.data(), count, &count));
+        return mask;
+    }
     // Of all ids, within the box from low to high; with a mask, a byte for each id, of those where it is not 0 alone, NaN
     // for the others.
     VoronoiCells voronoi_cells(span<const double> low, span<const double> high,

@@ -251,6 +251,7 @@ enum Call {
     VoronoiFacets,
     VoronoiCells,
     VoronoiDerivatives,
+    VoronoiChanged,
     Interpolate(Interpolation),
     NearestVertices,
     VerticesInBall,
@@ -287,7 +288,7 @@ impl Call {
         calls.extend([Call::TakeChanges, Call::Tolerance]);
         calls.extend([Call::Circumspheres, Call::MaskBoundary, Call::Edges, Call::VertexNeighbours]);
         calls.extend([Call::VertexCells, Call::MirrorIndices, Call::VoronoiVolumes, Call::VoronoiFacets]);
-        calls.extend([Call::VoronoiCells, Call::VoronoiDerivatives]);
+        calls.extend([Call::VoronoiCells, Call::VoronoiDerivatives, Call::VoronoiChanged]);
         calls.extend([Interpolation::Linear, Interpolation::NaturalNeighbour].map(Call::Interpolate));
         calls.extend([Call::CellsAround(false), Call::CellsAround(true)]);
         calls.extend([Call::NearestVertices, Call::VerticesInBall, Call::VerticesInBox]);
@@ -590,6 +591,10 @@ impl<G: Dimension> Scene<G> {
             Call::VoronoiDerivatives => {
                 let clip = [&point::<G>(|_| 0.2), &point::<G>(|_| 0.7)];
                 Given::Pairs(given(t.voronoi_derivatives(clip, None, &mut |_| true))?.edges)
+            }
+            Call::VoronoiChanged => {
+                let mask = given(t.voronoi_changed(&present[12..14]))?;
+                Given::Numbers(vec![mask.len() as u64])
             }
             Call::Interpolate(method) => {
                 let places = [point::<G>(|_| 0.5), point::<G>(|axis| 0.4 + 0.1 * axis as f64)];

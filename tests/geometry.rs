@@ -6,6 +6,7 @@ mod listed;
 mod near;
 mod voronoi;
 mod voronoi_exact;
+mod voronoi_steps;
 
 use crate::common::exact::{Grid, orientation, representatives};
 use crate::common::inputs::{KINDS, Kind, QUANTUM, draw, draw_one, to_grid};

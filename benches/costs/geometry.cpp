@@ -307,6 +307,18 @@ std::vector<Call> geometry_calls() {
         {"deldrift_voronoi_facets", "in a box inside", voronoi_facets<-20>},
         {"deldrift_voronoi_cells", "in a box around all", voronoi_cells<10>},
         {"deldrift_voronoi_cells", "in a box inside", voronoi_cells<-20>},
+        {"deldrift_voronoi_changed", "one vertex, as often as there are vertices", [](Context &c) {
+             deldrift_changes changes;
+             must(deldrift_take_changes(c.t, &changes));
+             must(deldrift_take_changes(c.t, &changes));
+             const Ids ids(c.n, c.some_vertex(0));
+             std::vector<std::uint8_t> mask(c.n);
+             std::size_t count;
+             c.meter.time([&] {
+                 must(deldrift_voronoi_changed(c.t, ids.data(), ids.size(), mask.data(), mask.size(), &count));
+             });
+             c.meter.count(double(c.n + c.cells()));
+         }},
         {"deldrift_voronoi_derivatives", "in a box around all", voronoi_derivatives<10>},
         {"deldrift_voronoi_derivatives", "in a box inside", voronoi_derivatives<-20>},
         {"deldrift_interpolate", "linear, anywhere, as many places as vertices", [](Context &c) {

@@ -235,7 +235,14 @@ impl Cases<'_> {
             Role::Vectors if valid != "NULL" => {
                 self.coordinates(at, name, valid, "dimension");
                 let wanted = "\"vectors[%u] is not independent\", dimension - 1";
-                self.refused("value", at, "all in one direction", "one_direction", "DEPENDENT_VECTORS", wanted);
+                self.refused(
+                    "value",
+                    at,
+                    "all in one direction",
+                    "one_direction",
+                    "DEPENDENT_VECTORS",
+                    wanted,
+                );
             }
             Role::PointsOfSimplex => self.coordinates(at, name, valid, "(dimension + 1)"),
             Role::PointsOfSphere => self.coordinates(at, name, valid, "(dimension + 2)"),

@@ -43,7 +43,8 @@ impl Declaration {
     /// The statuses after "Errors:", and those that the first page names for all that take a triangulation.
     pub fn documented_statuses(&self) -> BTreeSet<String> {
         let errors = self.documentation.split_once("Errors:").map_or("", |(_, errors)| errors);
-        let common = ["NULL_ARGUMENT", "MISALIGNED_ARGUMENT", "BUSY", "POISONED", "INTERNAL_ERROR", "PERIODIC"];
+        let common =
+            ["NULL_ARGUMENT", "MISALIGNED_ARGUMENT", "BUSY", "POISONED", "INTERNAL_ERROR", "PERIODIC"];
         let common = common.iter().filter(|_| self.takes_t()).map(|name| format!("DELDRIFT_{name}"));
         let known = statuses();
         let named = errors.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').map(str::to_string);

@@ -168,6 +168,7 @@ pub const ROWS: &[Row] = &[
     row("deldrift_mirror_index", &["t", "0", "0", "&out.number"]),
     row("deldrift_ordered_star", &["t", "1", "out.ids", "ROOM", "&out.count"]),
     row("deldrift_cells_around", &["t", "ids", "3", "out.ids", "ROOM", "&out.count"]),
+    row("deldrift_voronoi_changed", &["t", "ids", "3", "out.bytes", "n_ids", "&out.count"]),
     row("deldrift_update_circumcentres", &["t", "ids", "3", "out.numbers", "out.more_numbers", "n_cells"]),
     row("deldrift_update_volumes", &["t", "ids", "3", "out.numbers", "n_cells"]),
     row("deldrift_update_mask_by_circumradius", &["t", "ids", "3", "1", "out.bytes", "n_cells"]),

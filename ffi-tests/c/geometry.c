@@ -29,6 +29,7 @@ static void buffers_are_as_large_as_they_say(uint32_t d) {
     CHECK_BUFFER(double, n_edges, 2 * d,
                  deldrift_voronoi_derivatives(t, low, high, NULL, 0, NULL, NULL, buffer, capacity, &count));
     const uint32_t inner[2] = {4, 4};
+    CHECK_BUFFER(uint8_t, 5u, 1, deldrift_voronoi_changed(t, inner, 2, buffer, capacity, &count));
     CHECK_BUFFER(uint32_t, n, 1, deldrift_cells_around(t, inner, 2, buffer, capacity, &count));
     if (d == 2) CHECK_BUFFER(uint32_t, 4u, 1, deldrift_ordered_star(t, 4, buffer, capacity, &count));
     deldrift_destroy(t);
@@ -389,6 +390,37 @@ static void voronoi_cells_have_centroids(void) {
     deldrift_destroy(t);
 }
 
+// A lattice, of which the vertex in the middle moves: its own cell changes and those of its neighbours.
+static void voronoi_cells_that_have_changed(void) {
+    enum { SIDE = 9, N = SIDE * SIDE };
+    static double places[2 * N], kept[N], all[N], low[] = {-1, -1}, high[] = {SIDE, SIDE};
+    static uint8_t mask[N];
+    for (int k = 0; k < N; k++) places[2 * k] = k % SIDE, places[2 * k + 1] = (int)(k / SIDE);
+    deldrift_triangulation *t = create(2, places, N, NULL);
+    deldrift_changes changes;
+    const uint32_t middle = N / 2;
+    size_t count, n_marked = 0;
+    OK(deldrift_voronoi_changed(t, NULL, 0, mask, N, &count));
+    for (int k = 0; k < N; k++) CHECK(mask[k] == 1);
+    OK(deldrift_take_changes(t, &changes));
+    OK(deldrift_voronoi_cells(t, low, high, NULL, 0, kept, NULL, NULL, N, &count));
+    const double goal[] = {4.125, 4.0625};
+    OK(deldrift_move_vertices(t, &middle, goal, 1));
+    OK(deldrift_commit_timestamp(t, NULL));
+    OK(deldrift_take_changes(t, &changes));
+    OK(deldrift_voronoi_changed(t, &middle, 1, mask, N, &count));
+    CHECK(count == N && mask[middle] == 1 && mask[0] == 0);
+    for (int k = 0; k < N; k++) n_marked += mask[k];
+    CHECK(n_marked >= 5 && n_marked <= 20);
+    OK(deldrift_voronoi_cells(t, low, high, mask, N, kept, NULL, NULL, N, &count));
+    OK(deldrift_voronoi_cells(t, low, high, NULL, 0, all, NULL, NULL, N, &count));
+    CHECK(memcmp(kept, all, sizeof all) == 0);
+    const uint32_t strange[] = {middle, N};
+    CHECK_STATUS(deldrift_voronoi_changed(t, strange, 2, mask, N, &count), DELDRIFT_NO_SUCH_VERTEX);
+    CHECK_MESSAGE("vertices");
+    deldrift_destroy(t);
+}
+
 static void voronoi_cells_fill_the_box(void) {
     deldrift_triangulation *t = create(2, SQUARE, SQUARE_COUNT, NULL);
     static const double low[] = {-1, -2}, high[] = {7, 3}, nowhere[] = {NAN, 0}, far[] = {1e58, 9};
@@ -456,6 +488,7 @@ static void values_are_interpolated(void) {
 int main(void) {
     voronoi_cells_fill_the_box();
     voronoi_cells_have_centroids();
+    voronoi_cells_that_have_changed();
     voronoi_cells_of_few_vertices();
     voronoi_cells_can_be_cancelled();
     values_are_interpolated();

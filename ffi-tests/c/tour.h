@@ -379,6 +379,9 @@ static void ask_about(const deldrift_triangulation *t, const places *p) {
     TRY(deldrift_cells_around(t, vertices, 2, ids, TOUR_ROOM, &count));
     if (tour_status != DELDRIFT_OK) count = 0;
     note(ids, count * sizeof *ids);
+    size_t n_marked;
+    TRY(deldrift_voronoi_changed(t, vertices, 2, bytes, TOUR_ROOM, &n_marked));
+    if (tour_status == DELDRIFT_OK) note(bytes, n_marked);
     GO(deldrift_update_circumcentres(t, ids, count, numbers, more, TOUR_ROOM / 3));
     note(numbers, TOUR_ROOM / 8 * sizeof *numbers);
     GO(deldrift_update_volumes(t, ids, count, numbers, TOUR_ROOM));

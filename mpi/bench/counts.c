@@ -1,8 +1,8 @@
-// Counts of what processes send and receive, beside the model of docs/SCALING.md: one row of a table, or with no arguments
-// its head.
+// Counts of what processes send and receive, beside the model of docs/SCALING.md: one row of a table, or with no
+// arguments its head.
 //     counts DIMENSION COUNT STEPS AMPLITUDE SPREAD [BOXES]
-// COUNT random points in the unit square or cube; in steps each coordinate of a vertex changes by up to AMPLITUDE spacings;
-// SPREAD is blocks (the middle of each axis parts processes: 1, 2, 4 or 8) or curve (deldrift_mpi_partition).
+// COUNT random points in the unit square or cube; in steps each coordinate of a vertex changes by up to AMPLITUDE
+// spacings; SPREAD is blocks (the middle of each axis parts processes: 1, 2, 4 or 8) or curve (deldrift_mpi_partition).
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -90,9 +90,10 @@ int main(int argc, char **argv) {
     MPI_Comm_size(MPI_COMM_WORLD, &size);
     if (argc < 6) {
         if (rank == 0)
-            printf("dimension,processes,vertices,spread,amplitude,model,first_rounds,first_received,steps,steps_0_rounds,"
-                   "steps_1_round,steps_2_rounds,steps_more_rounds,received_a_step,halo_last,messages_a_step,bytes_a_step,"
-                   "collectives_a_step,neighbours\n");
+            printf(
+                "dimension,processes,vertices,spread,amplitude,model,first_rounds,first_received,steps,steps_0_rounds,"
+                "steps_1_round,steps_2_rounds,steps_more_rounds,received_a_step,halo_last,messages_a_step,bytes_a_step,"
+                "collectives_a_step,neighbours\n");
         MPI_Finalize();
         return 0;
     }
@@ -142,9 +143,9 @@ int main(int argc, char **argv) {
     double n = steps ? (double)steps : 1;
     if (rank == 0)
         printf("%u,%d,%zu,%s,%g,%.0f,%llu,%.0f,%zu,%zu,%zu,%zu,%zu,%.1f,%.0f,%.1f,%.0f,%.1f,%.1f\n", d, size, count,
-               argv[5], amplitude, model_of(d, count), (unsigned long long)first_rounds, first.received, steps, rounds[0],
-               rounds[1], rounds[2], rounds[3], moving.received / n, last.halo, moving.messages / n, moving.bytes / n,
-               moving.collectives / n, last.neighbours);
+               argv[5], amplitude, model_of(d, count), (unsigned long long)first_rounds, first.received, steps,
+               rounds[0], rounds[1], rounds[2], rounds[3], moving.received / n, last.halo, moving.messages / n,
+               moving.bytes / n, moving.collectives / n, last.neighbours);
     // Times are for who looks: they are no counts, and differ from run to run.
     if (rank == 0) fprintf(stderr, "%.3f s from nothing, %.4f s a step\n", seconds_first, seconds / n);
     free(positions);

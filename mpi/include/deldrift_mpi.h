@@ -1,12 +1,12 @@
 /*
- * deldrift on several processes: one exact Delaunay triangulation of vertices that are spread over the processes of an MPI
- * communicator.
+ * deldrift on several processes: one exact Delaunay triangulation of vertices that are spread over the processes of an
+ * MPI communicator.
  *
- * Each process owns vertices, with global ids of 64 bits. It has a triangulation of its own vertices and of copies of those of
- * other processes that it needs, its halo; the library finds which these are. Every cell that has an own vertex for a corner is
- * exactly a cell of the triangulation that one process would have of all vertices, ties included: ids are the keys of
- * deldrift_create_with_keys. So the cells do not depend on how many processes there are, which owns what, or what has been
- * before. docs/MPI.md has the method, and why it is exact.
+ * Each process owns vertices, with global ids of 64 bits. It has a triangulation of its own vertices and of copies of
+ * those of other processes that it needs, its halo; the library finds which these are. Every cell that has an own
+ * vertex for a corner is exactly a cell of the triangulation that one process would have of all vertices, ties
+ * included: ids are the keys of deldrift_create_with_keys. So the cells do not depend on how many processes there are,
+ * which owns what, or what has been before. docs/MPI.md has the method, and why it is exact.
  *
  *     #include <deldrift_mpi.h>
  *     #include <stdio.h>
@@ -33,18 +33,20 @@
  * Compile and link: `mpicc program.c $(pkg-config --cflags --libs deldrift-mpi)`, or in CMake
  * `find_package(deldrift COMPONENTS mpi)` and `target_link_libraries(program deldrift::mpi)`.
  *
- * Own vertices have a place in a list: 0, 1, ... in the order in which they were given. A removal closes the gap, and vertices
- * that are inserted follow behind. Arrays of a program, positions and others, are in this order. deldrift_mpi_vertices tells the
- * id that each has in the triangulation of the process, deldrift_mpi_local, by which all functions of deldrift.h read it.
+ * Own vertices have a place in a list: 0, 1, ... in the order in which they were given. A removal closes the gap, and
+ * vertices that are inserted follow behind. Arrays of a program, positions and others, are in this order.
+ * deldrift_mpi_vertices tells the id that each has in the triangulation of the process, deldrift_mpi_local, by which
+ * all functions of deldrift.h read it.
  *
- * Collective calls, which are named so, have to be made by all processes of the communicator, in the same order. They return the
- * same status on all. All or nothing: if one process refuses, nothing has changed on any, what is staged stays so, and
- * deldrift_mpi_last_error tells everywhere which process it was, and why. Other calls concern the calling process alone. A call
- * without a handle (NULL) returns at once and is not collective.
+ * Collective calls, which are named so, have to be made by all processes of the communicator, in the same order. They
+ * return the same status on all. All or nothing: if one process refuses, nothing has changed on any, what is staged
+ * stays so, and deldrift_mpi_last_error tells everywhere which process it was, and why. Other calls concern the calling
+ * process alone. A call without a handle (NULL) returns at once and is not collective.
  *
- * Ownership, arrays, counts and the floating-point environment are as in deldrift.h. No call on a handle may be made while
- * another one runs, on any thread; MPI_THREAD_SINGLE is enough. Errors of MPI itself end the program, as is MPI's default,
- * whatever the communicator's error handler is: so a process that dies ends all, and none waits for ever, where MPI can tell.
+ * Ownership, arrays, counts and the floating-point environment are as in deldrift.h. No call on a handle may be made
+ * while another one runs, on any thread; MPI_THREAD_SINGLE is enough. Errors of MPI itself end the program, as is MPI's
+ * default, whatever the communicator's error handler is: so a process that dies ends all, and none waits for ever,
+ * where MPI can tell.
  */
 
 #ifndef DELDRIFT_MPI_H
@@ -67,15 +69,16 @@ typedef struct deldrift_mpi deldrift_mpi;
 typedef struct deldrift_mpi_options {
     /// sizeof(deldrift_mpi_options) as the program sees it.
     size_t struct_size;
-    /// Greatest number of boxes in which a process tells the others where its vertices are, from 1 to 256; 0, the default, is 16.
-    /// More boxes make a smaller halo where the places of own vertices are far from a box, and take longer to search.
+    /// Greatest number of boxes in which a process tells the others where its vertices are, from 1 to 256; 0, the
+    /// default, is 16. More boxes make a smaller halo where the places of own vertices are far from a box, and take
+    /// longer to search.
     uint32_t boxes;
-    /// A process looks which copies of its vertices others do not need any more, when so many in a hundred of those that there are
-    /// have been sent since it last did; 0, the default, is 5. UINT32_MAX has none dropped.
+    /// A process looks which copies of its vertices others do not need any more, when so many in a hundred of those
+    /// that there are have been sent since it last did; 0, the default, is 5. UINT32_MAX has none dropped.
     uint32_t drop_percent;
-    /// Options of the triangulation of the process. NULL, the default, stands for those of deldrift_options_init with one
-    /// thread, as each processor has a process of its own. Read during the call only. DELDRIFT_COINCIDENCE_REJECT refuses
-    /// vertices at the same place, also where these are of several processes.
+    /// Options of the triangulation of the process. NULL, the default, stands for those of deldrift_options_init with
+    /// one thread, as each processor has a process of its own. Read during the call only. DELDRIFT_COINCIDENCE_REJECT
+    /// refuses vertices at the same place, also where these are of several processes.
     const deldrift_options *local;
 } deldrift_mpi_options;
 
@@ -107,41 +110,61 @@ typedef struct deldrift_mpi_report {
     uint64_t reserved[5];
 } deldrift_mpi_report;
 
+/// Own cells that have come and gone since the program last took changes: lists that belong to the handle, valid until
+/// the next call of deldrift_mpi_take_changes or a migration. A cell is its set of global ids: one that was own before
+/// and is own now is in neither list, whatever has happened in between.
+typedef struct deldrift_mpi_changes {
+    /// Number of own cells that there were not.
+    size_t created_count;
+    /// created_count rows of 3 (2D) or 4 (3D) global ids, positively oriented.
+    const uint64_t *created;
+    /// Their indices in the triangulation of the process, as it is.
+    const uint32_t *created_cells;
+    /// Number of own cells that there are not any more.
+    size_t removed_count;
+    /// removed_count rows of 3 (2D) or 4 (3D) global ids, in any order.
+    const uint64_t *removed;
+    /// 1 if all own cells are listed as created, and none as removed: by the first call, and the first one after a
+    /// migration, or after memory was refused.
+    size_t is_anew;
+    /// Zero; later versions may tell more.
+    size_t reserved[3];
+} deldrift_mpi_changes;
+
 /// Creates the triangulation of the vertices of all processes, at timestamp 0. Collective.
 ///
-/// comm: a communicator, of which a copy is used; an intercommunicator is not legal. dimension: 2 or 3, the same on all.
-/// positions: count points, those that the process owns; NULL if count is 0. ids: a global id for each, any number, each
-/// once in all processes; NULL on all processes stands for 0, 1, ... through all processes in the order of their ranks. options: NULL for the
-/// defaults. Any set is legal: processes without vertices, all on one, fewer than span the dimension, coincident ones.
+/// comm: a communicator, of which a copy is used; an intercommunicator is not legal. dimension: 2 or 3, the same on
+/// all. positions: count points, those that the process owns; NULL if count is 0. ids: a global id for each, any
+/// number, each once in all processes; NULL on all processes stands for 0, 1, ... through all processes in the order of
+/// their ranks. options: NULL for the defaults. Any set is legal: processes without vertices, all on one, fewer than
+/// span the dimension, coincident ones.
 ///
 /// out: receives the handle, on success only.
 ///
-/// Cost: that of deldrift_create for the own vertices and the halo, a sort of the ids, and some messages: docs/SCALING.md.
+/// Cost: that of deldrift_create for the own vertices and the halo, a sort of the ids, and some messages:
+/// docs/SCALING.md.
 ///
-/// Errors: those of deldrift_create_with_keys; DELDRIFT_INVALID_VALUE for an id that is given twice; DELDRIFT_INVALID_DIMENSION
-/// also for another dimension than that of process 0, DELDRIFT_INVALID_OPTIONS also for another number of boxes.
-deldrift_status deldrift_mpi_create(MPI_Comm comm,
-                                    uint32_t dimension,
-                                    const double *positions,
-                                    const uint64_t *ids,
-                                    size_t count,
-                                    const deldrift_mpi_options *options,
-                                    deldrift_mpi **out);
+/// Errors: those of deldrift_create_with_keys; DELDRIFT_INVALID_VALUE for an id that is given twice;
+/// DELDRIFT_INVALID_DIMENSION also for another dimension than that of process 0, DELDRIFT_INVALID_OPTIONS also for
+/// another number of boxes.
+deldrift_status deldrift_mpi_create(MPI_Comm comm, uint32_t dimension, const double *positions, const uint64_t *ids,
+                                    size_t count, const deldrift_mpi_options *options, deldrift_mpi **out);
 
 /// Destroys a triangulation. Collective. NULL is legal and does nothing.
 void deldrift_mpi_destroy(deldrift_mpi *m);
 
-/// Stages the insertion of count vertices, to be owned by the calling process: all, or none if it fails. The next commit
-/// inserts them, behind the own vertices that there are, in the order in which they were staged.
+/// Stages the insertion of count vertices, to be owned by the calling process: all, or none if it fails. The next
+/// commit inserts them, behind the own vertices that there are, in the order in which they were staged.
 ///
-/// positions: count points. ids: a global id for each, which no vertex of any process may have. That no other process has
-/// it is a duty of the program, and not looked at.
+/// positions: count points. ids: a global id for each, which no vertex of any process may have. That no other process
+/// has it is a duty of the program, and not looked at.
 ///
 /// Cost: count, in the mean over many calls.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
 /// DELDRIFT_OUT_OF_MEMORY.
-deldrift_status deldrift_mpi_stage_insertions(deldrift_mpi *m, const double *positions, const uint64_t *ids, size_t count);
+deldrift_status deldrift_mpi_stage_insertions(deldrift_mpi *m, const double *positions, const uint64_t *ids,
+                                              size_t count);
 
 /// Stages the removal of count own vertices by the next commit: all, or none if it fails.
 ///
@@ -149,8 +172,8 @@ deldrift_status deldrift_mpi_stage_insertions(deldrift_mpi *m, const double *pos
 ///
 /// Cost: count; the first call after a commit also the own vertices.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_STAGED_VERTEX for one whose removal is staged already,
-/// DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_STAGED_VERTEX for one whose removal is staged
+/// already, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_mpi_stage_removals(deldrift_mpi *m, const uint32_t *places, size_t count);
 
 /// Forgets staged insertions and removals of the calling process.
@@ -160,16 +183,18 @@ deldrift_status deldrift_mpi_discard(deldrift_mpi *m);
 
 /// Makes new positions of the own vertices, and the staged insertions and removals, the next timestamp. Collective.
 ///
-/// positions: count points, one for each own vertex (those whose removal is staged too; their entries are not read); count must
-/// be deldrift_mpi_count. NULL with count 0 if no own vertex moves. report: receives what was done; may be NULL.
+/// positions: count points, one for each own vertex (those whose removal is staged too; their entries are not read);
+/// count must be deldrift_mpi_count. NULL with count 0 if no own vertex moves. report: receives what was done; may be
+/// NULL.
 ///
-/// Cost: that of deldrift_commit_timestamp for the own vertices and the halo, and of deldrift_vertices_in_reach for the boxes of
-/// the other processes; docs/SCALING.md has the messages. If no process has moved, inserted or removed anything: one reduction,
-/// and no other message.
+/// Cost: that of deldrift_commit_timestamp for the own vertices and the halo, and of deldrift_vertices_in_reach for the
+/// boxes of the other processes; docs/SCALING.md has the messages. If no process has moved, inserted or removed
+/// anything: one reduction, and no other message.
 ///
 /// Errors: those of deldrift_commit_timestamp, DELDRIFT_WRONG_COUNT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
 /// DELDRIFT_OUT_OF_MEMORY, on any process.
-deldrift_status deldrift_mpi_commit(deldrift_mpi *m, const double *positions, size_t count, deldrift_mpi_report *report);
+deldrift_status deldrift_mpi_commit(deldrift_mpi *m, const double *positions, size_t count,
+                                    deldrift_mpi_report *report);
 
 /// How many vertices the calling process owns, to *count.
 ///
@@ -178,103 +203,111 @@ deldrift_status deldrift_mpi_count(const deldrift_mpi *m, size_t *count);
 
 /// The own vertices in the order of their list: their global ids, and their ids in the triangulation of the process.
 ///
-/// ids, vertices: buffers with room for capacity entries; one that is NULL is not filled. count: receives their number, also
-/// when the buffers are too small. NULL for both with capacity 0 asks for the count alone. A vertex keeps its id in the
-/// triangulation of the process until deldrift_mpi_migrate.
+/// ids, vertices: buffers with room for capacity entries; one that is NULL is not filled. count: receives their number,
+/// also when the buffers are too small. NULL for both with capacity 0 asks for the count alone. A vertex keeps its id
+/// in the triangulation of the process until deldrift_mpi_migrate.
 ///
 /// Cost: the own vertices.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
-deldrift_status deldrift_mpi_vertices(const deldrift_mpi *m, uint64_t *ids, uint32_t *vertices, size_t capacity, size_t *count);
+deldrift_status deldrift_mpi_vertices(const deldrift_mpi *m, uint64_t *ids, uint32_t *vertices, size_t capacity,
+                                      size_t *count);
 
-/// The triangulation of the own vertices and the halo, to *t, for all functions that take a const triangulation. It belongs to m,
-/// and is another one after deldrift_mpi_migrate. Cells without an own vertex may not be cells of the whole. What functions
-/// tell of an own vertex and its cells, such as deldrift_star, deldrift_voronoi_volumes and deldrift_vertex_neighbours, is
-/// that of the whole; deldrift_keys gives global ids. Its timestamp counts rounds.
+/// The triangulation of the own vertices and the halo, to *t, for all functions that take a const triangulation. It
+/// belongs to m, and is another one after deldrift_mpi_migrate. Cells without an own vertex may not be cells of the
+/// whole. What functions tell of an own vertex and its cells, such as deldrift_star, deldrift_voronoi_volumes and
+/// deldrift_vertex_neighbours, is that of the whole; deldrift_keys gives global ids. Its timestamp counts rounds.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT.
 deldrift_status deldrift_mpi_local(const deldrift_mpi *m, const deldrift_triangulation **t);
 
-/// For each id of the triangulation of the process the rank of the process that owns the vertex, or -1 where there is none.
+/// For each id of the triangulation of the process the rank of the process that owns the vertex, or -1 where there is
+/// none.
 ///
-/// owners: a buffer with room for capacity entries. count: receives the number of ids, also when the buffer is too small. NULL
-/// with capacity 0 asks for the count alone.
+/// owners: a buffer with room for capacity entries. count: receives the number of ids, also when the buffer is too
+/// small. NULL with capacity 0 asks for the count alone.
 ///
 /// Cost: the ids.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
 deldrift_status deldrift_mpi_owners(const deldrift_mpi *m, int32_t *owners, size_t capacity, size_t *count);
 
-/// The cells that the calling process owns: of those with an own vertex the ones whose corner of least global id is own. So each
-/// cell of the whole is owned by one process.
+/// The cells that the calling process owns: of those with an own vertex the ones whose corner of least global id is
+/// own. So each cell of the whole is owned by one process.
 ///
-/// ids: a buffer with room for capacity rows of 3 (2D) or 4 (3D) global ids, positively oriented. cells: a buffer with room for
-/// capacity indices of cells in the triangulation of the process. One that is NULL is not filled. count: receives their number,
-/// also when the buffers are too small. NULL for both with capacity 0 asks for the count alone.
+/// ids: a buffer with room for capacity rows of 3 (2D) or 4 (3D) global ids, positively oriented. cells: a buffer with
+/// room for capacity indices of cells in the triangulation of the process. One that is NULL is not filled. count:
+/// receives their number, also when the buffers are too small. NULL for both with capacity 0 asks for the count alone.
 ///
 /// Cost: the cells of the triangulation of the process.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
-deldrift_status deldrift_mpi_cells(const deldrift_mpi *m, uint64_t *ids, uint32_t *cells, size_t capacity, size_t *count);
+deldrift_status deldrift_mpi_cells(const deldrift_mpi *m, uint64_t *ids, uint32_t *cells, size_t capacity,
+                                   size_t *count);
 
-/// The facets of the convex hull of the whole that the calling process owns, as deldrift_mpi_cells does: rows of 2 (2D) or 3
-/// (3D) global ids, seen from outside as deldrift_hull_facets has them, and in the triangulation of the process the cell
-/// of each and which of its corners is opposite.
+/// The facets of the convex hull of the whole that the calling process owns, as deldrift_mpi_cells does: rows of 2 (2D)
+/// or 3 (3D) global ids, seen from outside as deldrift_hull_facets has them, and in the triangulation of the process
+/// the cell of each and which of its corners is opposite.
 ///
 /// Cost: the cells of the triangulation of the process.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
-deldrift_status deldrift_mpi_hull_facets(const deldrift_mpi *m, uint64_t *ids, uint32_t *cells, uint8_t *corners, size_t capacity,
-                                         size_t *count);
+deldrift_status deldrift_mpi_hull_facets(const deldrift_mpi *m, uint64_t *ids, uint32_t *cells, uint8_t *corners,
+                                         size_t capacity, size_t *count);
+
+/// The own cells that have come and gone since this was last called, to *changes. It concerns the calling process
+/// alone. A program that never calls it pays nothing.
+///
+/// Cost: what has changed in the triangulation of the process, its halo included, and the stars of vertices that have
+/// an id which was another one's; of a list of all, the cells.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_OUT_OF_MEMORY; then the next list is of all own cells.
+deldrift_status deldrift_mpi_take_changes(deldrift_mpi *m, deldrift_mpi_changes *changes);
 
 /// Brings values of vertices from their owners to all copies. Collective, but messages go between neighbours only.
 ///
-/// values: bytes_per_vertex bytes for each id of the triangulation of the process: those of own vertices are read, those of the
-/// halo written, others left as they are. bytes_per_vertex is the same on all processes. count: how many ids, as
-/// deldrift_mpi_owners tells.
+/// values: bytes_per_vertex bytes for each id of the triangulation of the process: those of own vertices are read,
+/// those of the halo written, others left as they are. bytes_per_vertex is the same on all processes. count: how many
+/// ids, as deldrift_mpi_owners tells.
 ///
 /// Cost: the halo.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_mpi_exchange(deldrift_mpi *m, void *values, size_t bytes_per_vertex, size_t count);
 
-/// For each own vertex the process that should own it: parts of a space-filling curve (Hilbert's) through all vertices, of
-/// equal weight. Collective. Nothing changes: deldrift_mpi_migrate does it.
+/// For each own vertex the process that should own it: parts of a space-filling curve (Hilbert's) through all vertices,
+/// of equal weight. Collective. Nothing changes: deldrift_mpi_migrate does it.
 ///
-/// weights: count numbers above 0, or 0, one for each own vertex; NULL for 1 each. targets: receives count ranks. count must be
-/// deldrift_mpi_count.
+/// weights: count numbers above 0, or 0, one for each own vertex; NULL for 1 each. targets: receives count ranks. count
+/// must be deldrift_mpi_count.
 ///
-/// The parts are the same on any number of processes that have the same vertices and weights among them, but for the number
-/// of parts. Vertices of the same cell of the finest grid of the curve (2^20 a side in 3D, 2^31 in 2D) are in one part.
+/// The parts are the same on any number of processes that have the same vertices and weights among them, but for the
+/// number of parts. Vertices of the same cell of the finest grid of the curve (2^20 a side in 3D, 2^31 in 2D) are in
+/// one part.
 ///
 /// Cost: count log count, and some sixty reductions of a number for each process.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE for a weight that is negative, infinite or NaN,
-/// DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE for a weight that is negative, infinite
+/// or NaN, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_mpi_partition(deldrift_mpi *m, const double *weights, size_t count, int32_t *targets);
 
-/// Gives own vertices to other processes, with data that the program has for them. Collective. The timestamp and the cells stay;
-/// vertices have other ids in the triangulations of the processes, which are built again.
+/// Gives own vertices to other processes, with data that the program has for them. Collective. The timestamp and the
+/// cells stay; vertices have other ids in the triangulations of the processes, which are built again.
 ///
-/// targets: for each own vertex the rank of the process that is to own it; count must be deldrift_mpi_count. Then the list of own
-/// vertices has those that came from process 0, 1, ..., each in the order they had there, those that stay among them.
-/// values: bytes_per_vertex bytes for each own vertex; NULL if bytes_per_vertex, the same on all processes, is 0. received:
-/// receives those of the vertices owned afterwards, in the order of their list; may be NULL. It belongs to m, until the next
-/// migration. report: receives what was done; may be NULL.
+/// targets: for each own vertex the rank of the process that is to own it; count must be deldrift_mpi_count. Then the
+/// list of own vertices has those that came from process 0, 1, ..., each in the order they had there, those that stay
+/// among them. values: bytes_per_vertex bytes for each own vertex; NULL if bytes_per_vertex, the same on all processes,
+/// is 0. received: receives those of the vertices owned afterwards, in the order of their list; may be NULL. It belongs
+/// to m, until the next migration. report: receives what was done; may be NULL.
 ///
 /// What is staged has to be committed or discarded before: DELDRIFT_STAGED_VERTEX.
 ///
 /// Cost: that of deldrift_mpi_create.
 ///
-/// Errors: those of deldrift_mpi_create, DELDRIFT_WRONG_COUNT, DELDRIFT_STAGED_VERTEX, DELDRIFT_INVALID_VALUE for a rank that
-/// there is not, or another number of bytes than on process 0.
-deldrift_status deldrift_mpi_migrate(deldrift_mpi *m,
-                                     const int32_t *targets,
-                                     size_t count,
-                                     const void *values,
-                                     size_t bytes_per_vertex,
-                                     const void **received,
-                                     deldrift_mpi_report *report);
+/// Errors: those of deldrift_mpi_create, DELDRIFT_WRONG_COUNT, DELDRIFT_STAGED_VERTEX, DELDRIFT_INVALID_VALUE for a
+/// rank that there is not, or another number of bytes than on process 0.
+deldrift_status deldrift_mpi_migrate(deldrift_mpi *m, const int32_t *targets, size_t count, const void *values,
+                                     size_t bytes_per_vertex, const void **received, deldrift_mpi_report *report);
 
 /// The number of the current timestamp, to *timestamp.
 ///
@@ -290,8 +323,8 @@ deldrift_status deldrift_mpi_last_report(const deldrift_mpi *m, deldrift_mpi_rep
 /// process that refused, and is the same on all processes. It is as deldrift_last_error in all else.
 const char *deldrift_mpi_last_error(void);
 
-/// The rank of the process that refused in the last collective call on this thread that failed; -1 if none has. If several
-/// refused, the lowest of them.
+/// The rank of the process that refused in the last collective call on this thread that failed; -1 if none has. If
+/// several refused, the lowest of them.
 int deldrift_mpi_refusing_process(void);
 
 /// Sets struct_size and the default of every other option. NULL is legal and does nothing.

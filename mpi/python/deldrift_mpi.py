@@ -7,8 +7,8 @@
     tri.commit(points + velocity * step)            # collective, all or nothing
     rows = tri.cells()                              # own cells, as global ids
 
-Every cell with an own vertex is exactly one of the triangulation of all vertices; docs/MPI.md has more. The library is found
-where the linker finds it, or is what DELDRIFT_MPI_LIBRARY names. It has to be built with the MPI of mpi4py.
+Every cell with an own vertex is exactly one of the triangulation of all vertices; docs/MPI.md has more. The library
+is found where the linker finds it, or is what DELDRIFT_MPI_LIBRARY names. It has to be built with the MPI of mpi4py.
 """
 
 from __future__ import annotations
@@ -55,10 +55,24 @@ class Report(ctypes.Structure):
     _fields_ = [
         (name, c_uint64)
         for name in (
-            "timestamp", "rounds", "received", "sent", "dropped", "halo", "messages", "bytes", "collectives", "neighbours",
-            "is_spanning",
+            "timestamp", "rounds", "received", "sent", "dropped", "halo", "messages", "bytes", "collectives",
+            "neighbours", "is_spanning",
         )
     ] + [("_reserved", c_uint64 * 5)]
+
+
+class Changes(ctypes.Structure):
+    """deldrift_mpi_changes."""
+
+    _fields_ = [
+        ("created_count", c_size_t),
+        ("created", c_void_p),
+        ("created_cells", c_void_p),
+        ("removed_count", c_size_t),
+        ("removed", c_void_p),
+        ("is_anew", c_size_t),
+        ("_reserved", c_size_t * 3),
+    ]
 
 
 def _load() -> ctypes.CDLL:
@@ -76,6 +90,7 @@ def _load() -> ctypes.CDLL:
         "owners": [pointer, pointer, size, count],
         "cells": [pointer, pointer, pointer, size, count],
         "hull_facets": [pointer, pointer, pointer, pointer, size, count],
+        "take_changes": [pointer, POINTER(Changes)],
         "exchange": [pointer, pointer, size, size],
         "partition": [pointer, pointer, size, pointer],
         "migrate": [pointer, pointer, size, pointer, size, POINTER(c_void_p), POINTER(Report)],
@@ -123,7 +138,8 @@ class Delaunay:
     points : (n, 2) or (n, 3) array of float
         The vertices that this process owns; where there are none, an array of shape (0, 2) or (0, 3).
     ids : (n,) array of uint64, optional
-        A global id for each, each once in all processes. By default 0, 1, ... through the processes. All give ids, or none.
+        A global id for each, each once in all processes. By default 0, 1, ... through the processes. All give ids,
+        or none.
     boxes, drop_percent : int, optional
         As in deldrift_mpi_options.
     """
@@ -142,7 +158,8 @@ class Delaunay:
         handle = _Comm.from_address(MPI._addressof(comm))
         _check(
             _library.deldrift_mpi_create(
-                handle, self.dimension, _address(points), _address(ids), len(points), byref(options), byref(self._handle)
+                handle, self.dimension, _address(points), _address(ids), len(points), byref(options),
+                byref(self._handle),
             )
         )
 
@@ -229,7 +246,10 @@ class Delaunay:
 
     @property
     def local_cells(self) -> np.ndarray:
-        """The cells of the triangulation of this process, as rows of its ids. Those with an own vertex are cells of the whole."""
+        """The cells of the triangulation of this process, as rows of its ids.
+
+        Those with an own vertex are cells of the whole.
+        """
         count = c_size_t()
         _library.deldrift_copy_cells(self._local(), None, None, 0, byref(count))
         cells = np.empty((count.value, self.dimension + 1), np.uint32)
@@ -257,7 +277,7 @@ class Delaunay:
         return rows, cells
 
     def hull_facets(self) -> np.ndarray:
-        """The facets of the convex hull of all vertices that this process owns, as rows of global ids, seen from outside."""
+        """The facets of the convex hull of the whole that this process owns, as rows of global ids, seen from outside."""
         count = c_size_t()
         _check(_library.deldrift_mpi_hull_facets(self._handle, None, None, None, 0, byref(count)), False)
         rows = np.empty((count.value, self.dimension), np.uint64)
@@ -265,6 +285,22 @@ class Delaunay:
             _library.deldrift_mpi_hull_facets(self._handle, _address(rows), None, None, len(rows), byref(count)), False
         )
         return rows
+
+    def take_changes(self) -> tuple[np.ndarray, np.ndarray, bool]:
+        """The own cells that have come and gone since this was last called, as rows of global ids.
+
+        The third is True if all own cells are listed as created, and none as removed: at first, and after a migration.
+        """
+        changes = Changes()
+        _check(_library.deldrift_mpi_take_changes(self._handle, byref(changes)), False)
+
+        def rows(address: int | None, count: int) -> np.ndarray:
+            shape = (count, self.dimension + 1)
+            text = ctypes.string_at(address, 8 * count * shape[1]) if count else b""
+            return np.frombuffer(text, np.uint64).reshape(shape).copy()
+
+        created, removed = rows(changes.created, changes.created_count), rows(changes.removed, changes.removed_count)
+        return created, removed, bool(changes.is_anew)
 
     def stage_insertions(self, points: Any, ids: Any) -> None:
         """Stages vertices of new global ids, which the next commit inserts behind the own ones."""

@@ -18,7 +18,8 @@ def serial_cells(points, ids):
     handle, count, dimension = ctypes.c_void_p(), ctypes.c_size_t(), points.shape[1]
     points, ids = np.ascontiguousarray(points), np.ascontiguousarray(ids)
     create = library.deldrift_create_with_keys
-    create.argtypes = [ctypes.c_uint32, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p, ctypes.c_void_p]
+    pointer = ctypes.c_void_p
+    create.argtypes = [ctypes.c_uint32, pointer, pointer, ctypes.c_size_t, pointer, pointer]
     assert create(dimension, points.ctypes.data, ids.ctypes.data, len(ids), None, ctypes.byref(handle)) == 0
     library.deldrift_copy_cells(handle, None, None, 0, ctypes.byref(count))
     cells = np.empty((count.value, dimension + 1), np.uint32)
@@ -47,11 +48,17 @@ def history(dimension):
     points = rng.integers(0, 6, (150, dimension)) if dimension == 2 else rng.random((150, dimension))
     tri = Delaunay(comm, points)
     assert is_serial(tri) and tri.timestamp == 0 and len(tri) == 150
+    known = {tuple(sorted(row)) for row in tri.take_changes()[0].tolist()}
     for step in range(4):
         tri.stage_insertions(rng.random((3, dimension)), 10**6 + 1000 * comm.rank + 3 * step + np.arange(3))
         tri.stage_removals([step, step + 5])
         report = tri.commit(tri.points + 0.01 * rng.random((len(tri), dimension)))
         assert report.timestamp == step + 1 == tri.timestamp and is_serial(tri) and report.is_spanning == 1
+        created, removed, is_anew = tri.take_changes()
+        assert not is_anew
+        known -= {tuple(sorted(row)) for row in removed.tolist()}
+        known |= {tuple(sorted(row)) for row in created.tolist()}
+        assert known == {tuple(sorted(row)) for row in tri.cells().tolist()}
     marks = tri.ids * np.uint64(3)
     moved = tri.migrate(tri.partition(), np.stack([marks, marks], axis=1))
     assert (moved == np.stack([tri.ids * np.uint64(3)] * 2, axis=1)).all() and is_serial(tri)

@@ -8,8 +8,8 @@
 // The boxes are made anew, rather than fitted, where they have grown so much.
 static const double MOST_GROWTH = 1.1;
 
-
-deldrift_status deldrift_mpi_stage_insertions(deldrift_mpi *m, const double *positions, const uint64_t *ids, size_t count) {
+deldrift_status deldrift_mpi_stage_insertions(deldrift_mpi *m, const double *positions, const uint64_t *ids,
+                                              size_t count) {
     if (!m) return dm_no_handle();
     dm_refusal refusal = {DELDRIFT_OK, ""};
     if (count && !ids) dm_refuse(&refusal, DELDRIFT_NULL_ARGUMENT, "ids is NULL, and count is %zu", count);
@@ -216,14 +216,16 @@ static deldrift_status advance(deldrift_mpi *m, const double *positions, bool ha
     return DELDRIFT_OK;
 }
 
-deldrift_status deldrift_mpi_commit(deldrift_mpi *m, const double *positions, size_t count, deldrift_mpi_report *report) {
+deldrift_status deldrift_mpi_commit(deldrift_mpi *m, const double *positions, size_t count,
+                                    deldrift_mpi_report *report) {
     if (!m) return dm_no_handle();
     memset(&m->refusal, 0, sizeof m->refusal);
     memset(&m->report, 0, sizeof m->report);
     m->report.is_spanning = m->was_spanning;
     bool is_legal = true;
     if ((positions || count) && count != m->own_count) {
-        dm_refuse(&m->refusal, DELDRIFT_WRONG_COUNT, "count is %zu, and there are %zu own vertices", count, m->own_count);
+        dm_refuse(&m->refusal, DELDRIFT_WRONG_COUNT, "count is %zu, and there are %zu own vertices", count,
+                  m->own_count);
         is_legal = false;
     } else {
         is_legal = dm_check_points(&m->refusal, "positions", m->dimension, positions, count,
@@ -239,6 +241,7 @@ deldrift_status deldrift_mpi_commit(deldrift_mpi *m, const double *positions, si
     deldrift_status status = vote.status;
     if (status == DELDRIFT_OK && vote.most[0]) status = advance(m, positions, vote.most[1]);
     if (status != DELDRIFT_OK) return status;
+    dm_count_copies(m);
     m->was_spanning = m->report.is_spanning;
     m->report.timestamp = ++m->timestamp;
     if (report) *report = m->report;

@@ -14,8 +14,8 @@ static bool read_options(dm_refusal *refusal, const deldrift_mpi_options *given,
     local->threads = 1;
     if (given) {
         if (given->struct_size != sizeof *options) {
-            dm_refuse(refusal, DELDRIFT_INVALID_OPTIONS, "struct_size of the options is %zu, not %zu", given->struct_size,
-                      sizeof *options);
+            dm_refuse(refusal, DELDRIFT_INVALID_OPTIONS, "struct_size of the options is %zu, not %zu",
+                      given->struct_size, sizeof *options);
             return false;
         }
         *options = *given;
@@ -72,10 +72,10 @@ deldrift_status dm_build(deldrift_mpi *m, const double *points, const uint64_t *
     m->points = points;
     dm_box own[DM_MAX_BOXES];
     (void)(dm_reserve_own(m, count) &&
-                    dm_took(refusal, deldrift_create_with_keys(m->dimension, points,
-                                                               DM_HAS_FAULT(DM_FAULT_LOCAL_KEYS) ? NULL : ids, count,
-                                                               &m->local, &m->t)) &&
-                    dm_reserve_ids(m, count) && dm_reserve(refusal, &m->undo, &m->undo_room, count, sizeof *m->undo));
+           dm_took(refusal,
+                   deldrift_create_with_keys(m->dimension, points, DM_HAS_FAULT(DM_FAULT_LOCAL_KEYS) ? NULL : ids,
+                                             count, &m->local, &m->t)) &&
+           dm_reserve_ids(m, count) && dm_reserve(refusal, &m->undo, &m->undo_room, count, sizeof *m->undo));
     deldrift_status status = dm_decide(m->comm, refusal, NULL).status;
     m->report.collectives++;
     if (status != DELDRIFT_OK) return status;
@@ -120,7 +120,8 @@ static void find_twins(MPI_Comm comm, int size, dm_refusal *refusal, const uint6
             qsort(arrived, total, sizeof *arrived, compare_ids);
             for (size_t i = 1; i < total; i++)
                 if (arrived[i] == arrived[i - 1])
-                    dm_refuse(refusal, DELDRIFT_INVALID_VALUE, "the id %llu is given twice", (unsigned long long)arrived[i]);
+                    dm_refuse(refusal, DELDRIFT_INVALID_VALUE, "the id %llu is given twice",
+                              (unsigned long long)arrived[i]);
         }
     }
     free(numbers);
@@ -161,7 +162,8 @@ static deldrift_status check_arguments(MPI_Comm comm, dm_refusal *refusal, uint3
                   (unsigned long long)first[1]);
     dm_vote vote = dm_decide(comm, refusal, numbers);
     if (vote.status == DELDRIFT_OK && vote.most[0] && vote.most[1]) {
-        if (!ids && count) dm_refuse(refusal, DELDRIFT_NULL_ARGUMENT, "ids is NULL, and that of another process is not");
+        if (!ids && count)
+            dm_refuse(refusal, DELDRIFT_NULL_ARGUMENT, "ids is NULL, and that of another process is not");
         vote = dm_decide(comm, refusal, NULL);
     }
     return vote.status;

@@ -10,12 +10,15 @@ enum { TAG_VALUES = 4 };
 static void copy(char *values, char *buffer, const dm_list *list, size_t bytes, bool is_outgoing) {
     for (size_t k = 0; k < list->count; k++) {
         char *value = values + (size_t)list->at[k] * bytes, *place = buffer + k * bytes;
-        if (is_outgoing) memcpy(place, value, bytes);
-        else memcpy(value, place, bytes);
+        if (is_outgoing)
+            memcpy(place, value, bytes);
+        else
+            memcpy(value, place, bytes);
     }
 }
 
-static void transfer(deldrift_mpi *m, char *values, size_t bytes, char *outgoing, char *incoming, MPI_Request *requests) {
+static void transfer(deldrift_mpi *m, char *values, size_t bytes, char *outgoing, char *incoming,
+                     MPI_Request *requests) {
     int count = 0;
     char *next = incoming;
     for (size_t p = 0; p < m->peer_count; p++) {
@@ -49,11 +52,13 @@ deldrift_status deldrift_mpi_exchange(deldrift_mpi *m, void *values, size_t byte
         largest = out > largest ? out : largest;
         largest = in > largest ? in : largest;
     }
-    if (count != m->ids) dm_refuse(&refusal, DELDRIFT_WRONG_COUNT, "count is %zu, and there are %zu ids", count, m->ids);
-    else if (!values && count && bytes_per_vertex) dm_refuse(&refusal, DELDRIFT_NULL_ARGUMENT, "values is NULL");
+    if (count != m->ids)
+        dm_refuse(&refusal, DELDRIFT_WRONG_COUNT, "count is %zu, and there are %zu ids", count, m->ids);
+    else if (!values && count && bytes_per_vertex)
+        dm_refuse(&refusal, DELDRIFT_NULL_ARGUMENT, "values is NULL");
     if (largest && bytes_per_vertex > INT_MAX / largest)
-        dm_refuse(&refusal, DELDRIFT_SIZE_OVERFLOW, "bytes_per_vertex is %zu, and %zu vertices go between two processes",
-                  bytes_per_vertex, largest);
+        dm_refuse(&refusal, DELDRIFT_SIZE_OVERFLOW,
+                  "bytes_per_vertex is %zu, and %zu vertices go between two processes", bytes_per_vertex, largest);
     size_t bytes = bytes_per_vertex ? bytes_per_vertex : 1;
     char *outgoing = dm_allocate(&refusal, sent, bytes), *incoming = dm_allocate(&refusal, received, bytes);
     MPI_Request *requests = dm_allocate(&refusal, 2 * m->peer_count, sizeof *requests);

@@ -14,7 +14,8 @@ enum {
     DM_MAX_BOXES = 256,
 };
 
-// Own vertices that a peer has a copy of, or copies that came from it, by local id. Both processes have them in one order.
+// Own vertices that a peer has a copy of, or copies that came from it, by local id. Both processes have them in one
+// order.
 typedef struct {
     uint32_t *at;
     uint8_t *is_leaving; // by place in the list: goes with the timestamp that is being prepared
@@ -57,6 +58,7 @@ typedef struct {
     uint32_t vertex;
     int32_t owner;
     uint64_t id;
+    size_t order; // among those since changes were last taken
 } dm_undo;
 
 // The first thing that this process refused in the collective call that runs.
@@ -77,7 +79,8 @@ struct deldrift_mpi {
     dm_refusal refusal;
     deldrift_mpi_report report;
 
-    // By local id. `where` has the positions of the timestamp that is being prepared; between commits, of that in force.
+    // By local id. `where` has the positions of the timestamp that is being prepared; between commits, of that in
+    // force.
     size_t ids, ids_room;
     uint64_t *id_of;
     int32_t *owner_of;
@@ -114,7 +117,7 @@ struct deldrift_mpi {
     // options.boxes for each process, empty ones with low above high.
     dm_box *boxes, *next_boxes;
     bool has_next_boxes; // else those in force are those of the timestamp that is being prepared
-    double extent; // sum of the longest sides of own boxes when vertices were put into them
+    double extent;       // sum of the longest sides of own boxes when vertices were put into them
     double displacement; // longest coordinate of a displacement in the last commit, which says how much room boxes need
 
     dm_peer *peers;
@@ -124,10 +127,19 @@ struct deldrift_mpi {
     dm_undo *undo;
     size_t undo_count, undo_room;
 
+    // Changes: whether they have been taken, what ids stood for then, and the lists that were given last.
+    bool has_taken;
+    dm_undo *rebound;
+    size_t rebound_count, rebound_room;
+    deldrift_mpi_changes changes;
+    uint64_t *created, *removed;
+    uint32_t *created_cells;
+    size_t created_room, removed_room, created_cell_room;
+
     // Scratch room.
     double *low, *high; // boxes that are asked about
-    int *box_ranks; // of what process, or first process of a group
-    int *nodes;     // processes, or groups of them
+    int *box_ranks;     // of what process, or first process of a group
+    int *nodes;         // processes, or groups of them
     size_t box_room;
     size_t *offsets;
     size_t offset_room;
@@ -168,7 +180,8 @@ typedef struct {
     deldrift_status status; // DELDRIFT_OK, or that of the lowest process that refused
     int64_t most[4];        // the greatest of each process's numbers
 } dm_vote;
-void dm_refuse(dm_refusal *refusal, deldrift_status status, const char *format, ...) __attribute__((format(printf, 3, 4)));
+void dm_refuse(dm_refusal *refusal, deldrift_status status, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 // Remembers the status of a call of deldrift, with its message. True if it is DELDRIFT_OK.
 bool dm_took(dm_refusal *refusal, deldrift_status status);
 // One reduction. Where a process has refused, all have its message afterwards.
@@ -195,7 +208,8 @@ void dm_share_boxes(deldrift_mpi *m, dm_box *own);
 dm_peer *dm_peer_of(deldrift_mpi *m, int rank);
 // Makes room for the exchange, before processes agree to make it.
 bool dm_make_peers_ready(deldrift_mpi *m);
-// Sends positions of own vertices that others have copies of, and receives those of the halo into `where`; marks what leaves.
+// Sends positions of own vertices that others have copies of, and receives those of the halo into `where`; marks what
+// leaves.
 void dm_exchange_positions(deldrift_mpi *m);
 void dm_settle_peers(deldrift_mpi *m);
 void dm_restore_peers(deldrift_mpi *m);
@@ -208,8 +222,8 @@ size_t dm_find_sends(deldrift_mpi *m);
 bool dm_find_drops(deldrift_mpi *m);
 
 // span.c
-// Decides, where a process has no cells, whether the vertices of all processes span the dimension. If they do, the owners of
-// some that do add them to the lists of the processes without cells.
+// Decides, where a process has no cells, whether the vertices of all processes span the dimension. If they do, the
+// owners of some that do add them to the lists of the processes without cells.
 bool dm_span(deldrift_mpi *m, bool has_no_cells);
 
 // push.c
@@ -231,7 +245,12 @@ void dm_set_vertex(deldrift_mpi *m, uint32_t vertex, int32_t owner, uint64_t id,
 void dm_unset_vertex(deldrift_mpi *m, uint32_t vertex);
 // What the triangulation and the lists say becomes, or does not become, the timestamp in force.
 void dm_settle(deldrift_mpi *m);
+void dm_count_copies(deldrift_mpi *m); // to the report
 void dm_restore(deldrift_mpi *m);
+
+// changes.c
+// What the ids that have been given or taken away in a commit stood for.
+void dm_note_rebound(deldrift_mpi *m);
 
 // create.c
 // The triangulation of own vertices, for the first time: `points`, with `ids`. Collective.
@@ -239,7 +258,8 @@ deldrift_status dm_build(deldrift_mpi *m, const double *points, const uint64_t *
 deldrift_mpi *dm_new(dm_refusal *refusal, MPI_Comm comm, uint32_t dimension, const deldrift_mpi_options *options,
                      const deldrift_options *local);
 
-// fault.c, in the build for tests alone: which of the faults that tests plant is in force, and how much memory there is.
+// fault.c, in the build for tests alone: which of the faults that tests plant is in force, and how much memory there
+// is.
 #ifdef DELDRIFT_MPI_TESTING
 enum {
     DM_FAULT_NONE,
@@ -254,9 +274,9 @@ extern int deldrift_mpi_fault;
 extern long deldrift_mpi_allocations_left; // negative: no limit
 extern bool deldrift_mpi_is_preparing;     // while deldrift_prepare_timestamp runs
 #define DM_SET_PREPARING(is) (deldrift_mpi_is_preparing = (is))
-#define DM_HAS_FAULT(name) (deldrift_mpi_fault == (name))
+#define DM_HAS_FAULT(name)   (deldrift_mpi_fault == (name))
 #else
-#define DM_HAS_FAULT(name) false
+#define DM_HAS_FAULT(name)   false
 #define DM_SET_PREPARING(is) ((void)0)
 #endif
 

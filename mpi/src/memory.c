@@ -92,13 +92,13 @@ bool dm_reserve_own(deldrift_mpi *m, size_t count) {
 void dm_free(deldrift_mpi *m) {
     dm_free_peers(m);
     deldrift_destroy(m->t);
-    void *arrays[] = {m->id_of,  m->owner_of,    m->is_own,      m->is_leaving,  m->where,
-                      m->stamp,  m->own,         m->box_of,      m->next_own,    m->next_box_of,
-                      m->next_points,            m->insertion_positions,         m->insertion_ids,
-                      m->is_removal,             m->boxes,       m->next_boxes,  m->peer_of,
-                      m->undo,   m->low,         m->high,        m->box_ranks,   m->offsets,
-                      m->found,  m->vertices,    m->coordinates, m->numbers,     m->outgoing,
-                      m->incoming,               m->chunks,      m->requests,    m->chunk,
-                      m->bases,  m->migrated,    m->moved,      m->nodes};
+    void *arrays[] = {
+        m->id_of,         m->owner_of,   m->is_own,       m->is_leaving,  m->where,       m->stamp,
+        m->own,           m->box_of,     m->next_own,     m->next_box_of, m->next_points, m->insertion_positions,
+        m->insertion_ids, m->is_removal, m->boxes,        m->next_boxes,  m->peer_of,     m->undo,
+        m->low,           m->high,       m->box_ranks,    m->offsets,     m->found,       m->vertices,
+        m->coordinates,   m->numbers,    m->outgoing,     m->incoming,    m->chunks,      m->requests,
+        m->chunk,         m->bases,      m->migrated,     m->moved,       m->nodes,       m->rebound,
+        m->created,       m->removed,    m->created_cells};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) free(arrays[i]);
 }

@@ -24,8 +24,8 @@ static void free_freight(freight *f) {
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) free(arrays[i]);
 }
 
-static void check_targets(deldrift_mpi *m, dm_refusal *refusal, const int32_t *targets, size_t count, const void *values,
-                          size_t bytes) {
+static void check_targets(deldrift_mpi *m, dm_refusal *refusal, const int32_t *targets, size_t count,
+                          const void *values, size_t bytes) {
     if (m->insertion_count || m->removal_count)
         dm_refuse(refusal, DELDRIFT_STAGED_VERTEX, "%zu insertions and %zu removals are staged", m->insertion_count,
                   m->removal_count);
@@ -37,8 +37,8 @@ static void check_targets(deldrift_mpi *m, dm_refusal *refusal, const int32_t *t
         dm_refuse(refusal, DELDRIFT_NULL_ARGUMENT, "values is NULL, and bytes_per_vertex is %zu", bytes);
     for (size_t i = 0; refusal->status == DELDRIFT_OK && i < count; i++)
         if (targets[i] < 0 || targets[i] >= m->size)
-            dm_refuse(refusal, DELDRIFT_INVALID_VALUE, "entry %zu of targets is %d, and there are %d processes", i, targets[i],
-                      m->size);
+            dm_refuse(refusal, DELDRIFT_INVALID_VALUE, "entry %zu of targets is %d, and there are %d processes", i,
+                      targets[i], m->size);
     if (bytes > INT_MAX / 2) dm_refuse(refusal, DELDRIFT_SIZE_OVERFLOW, "bytes_per_vertex is %zu", bytes);
     uint64_t first = bytes;
     MPI_Bcast(&first, 1, MPI_UINT64_T, 0, m->comm);
@@ -70,8 +70,8 @@ static void transfer(deldrift_mpi *m, freight *f) {
     size_t from = 0, to = 0;
     for (int p = 0; p < m->size; p++) {
         if (f->comes[p])
-            MPI_Irecv(f->incoming + from * f->record, (int)(f->comes[p] * f->record), MPI_BYTE, p, TAG_MIGRATION, m->comm,
-                      &f->requests[requests++]);
+            MPI_Irecv(f->incoming + from * f->record, (int)(f->comes[p] * f->record), MPI_BYTE, p, TAG_MIGRATION,
+                      m->comm, &f->requests[requests++]);
         from += f->comes[p];
     }
     for (int p = 0; p < m->size; p++) {

@@ -10,9 +10,9 @@ static int bits_of(uint32_t dimension) {
     return dimension == 2 ? 31 : 20;
 }
 
-// The place on the curve of a cell of the grid. J. Skilling: Programming the Hilbert curve, AIP Conference Proceedings 707,
-// 2004, 10.1063/1.1751381: from the coarsest level on, the coordinates below are mirrored or exchanged as the curve turns; the
-// Gray code of what that gives is the place.
+// The place on the curve of a cell of the grid. J. Skilling: Programming the Hilbert curve, AIP Conference Proceedings
+// 707, 2004, 10.1063/1.1751381: from the coarsest level on, the coordinates below are mirrored or exchanged as the
+// curve turns; the Gray code of what that gives is the place.
 static uint64_t curve_place(uint32_t dimension, uint32_t x[3]) {
     uint32_t top = (uint32_t)1 << (bits_of(dimension) - 1);
     for (uint32_t level = top; level > 1; level >>= 1) {
@@ -74,14 +74,17 @@ static double weight_below(const item *sorted, size_t count, uint64_t place) {
     size_t low = 0, high = count;
     while (low < high) {
         size_t middle = low + (high - low) / 2;
-        if (sorted[middle].place < place) low = middle + 1;
-        else high = middle;
+        if (sorted[middle].place < place)
+            low = middle + 1;
+        else
+            high = middle;
     }
     return low ? sorted[low - 1].weight : 0;
 }
 
 // Halves the interval of each boundary until it is one place: before it is less than the weight wanted.
-static void find_boundaries(deldrift_mpi *m, const item *sorted, uint64_t *low, uint64_t *high, double *mine, double *all) {
+static void find_boundaries(deldrift_mpi *m, const item *sorted, uint64_t *low, uint64_t *high, double *mine,
+                            double *all) {
     size_t count = m->own_count;
     int boundaries = m->size - 1, steps = (int)m->dimension * bits_of(m->dimension);
     double own = count ? sorted[count - 1].weight : 0, total = 0;
@@ -95,8 +98,10 @@ static void find_boundaries(deldrift_mpi *m, const item *sorted, uint64_t *low, 
         MPI_Allreduce(mine, all, boundaries, MPI_DOUBLE, MPI_SUM, m->comm);
         for (int b = 0; b < boundaries; b++) {
             uint64_t middle = low[b] + (high[b] - low[b]) / 2;
-            if (all[b] < total * (b + 1) / m->size) low[b] = middle;
-            else high[b] = middle;
+            if (all[b] < total * (b + 1) / m->size)
+                low[b] = middle;
+            else
+                high[b] = middle;
         }
     }
 }
@@ -134,8 +139,10 @@ deldrift_status deldrift_mpi_partition(deldrift_mpi *m, const double *weights, s
             int low = 0, high = m->size - 1;
             while (low < high) {
                 int middle = (low + high) / 2;
-                if (bounds[size + (size_t)middle] <= items[i].place) low = middle + 1;
-                else high = middle;
+                if (bounds[size + (size_t)middle] <= items[i].place)
+                    low = middle + 1;
+                else
+                    high = middle;
             }
             targets[i] = low;
         }

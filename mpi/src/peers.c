@@ -1,4 +1,5 @@
 // Lists of what other processes have of this one, and this one of them, and the exchange of positions by these lists.
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,6 +22,11 @@ dm_peer *dm_peer_of(deldrift_mpi *m, int rank) {
 // Requests know the address and the size of a buffer: they are made again where either has changed.
 static bool make_ready(deldrift_mpi *m, dm_peer *peer) {
     uint32_t d = m->dimension;
+    size_t longest = peer->sent.count > peer->received.count ? peer->sent.count : peer->received.count;
+    if (longest > INT_MAX / d) {
+        dm_refuse(&m->refusal, DELDRIFT_SIZE_OVERFLOW, "%zu vertices go between two processes in one message", longest);
+        return false;
+    }
     const double *before[2] = {peer->outgoing, peer->incoming};
     if (!dm_reserve(&m->refusal, &peer->outgoing, &peer->outgoing_room, peer->sent.count, d * sizeof(double)) ||
         !dm_reserve(&m->refusal, &peer->incoming, &peer->incoming_room, peer->received.count, d * sizeof(double)))
@@ -33,8 +39,10 @@ static bool make_ready(deldrift_mpi *m, dm_peer *peer) {
         peer->requested[k] = counts[k];
         if (!counts[k]) continue;
         int numbers = (int)(counts[k] * d);
-        if (k == 0) MPI_Send_init(now[k], numbers, MPI_DOUBLE, peer->rank, TAG_POSITIONS, m->comm, &peer->requests[k]);
-        else MPI_Recv_init(now[k], numbers, MPI_DOUBLE, peer->rank, TAG_POSITIONS, m->comm, &peer->requests[k]);
+        if (k == 0)
+            MPI_Send_init(now[k], numbers, MPI_DOUBLE, peer->rank, TAG_POSITIONS, m->comm, &peer->requests[k]);
+        else
+            MPI_Recv_init(now[k], numbers, MPI_DOUBLE, peer->rank, TAG_POSITIONS, m->comm, &peer->requests[k]);
     }
     return true;
 }
@@ -117,7 +125,7 @@ void dm_free_peers(deldrift_mpi *m) {
         dm_peer *peer = &m->peers[p];
         for (int k = 0; k < 2; k++)
             if (peer->requests[k] != MPI_REQUEST_NULL) MPI_Request_free(&peer->requests[k]);
-        void *arrays[] = {peer->sent.at,       peer->sent.is_leaving, peer->received.at, peer->received.is_leaving,
+        void *arrays[] = {peer->sent.at,  peer->sent.is_leaving, peer->received.at, peer->received.is_leaving,
                           peer->outgoing, peer->incoming};
         for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) free(arrays[i]);
     }

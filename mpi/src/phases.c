@@ -16,7 +16,9 @@ void dm_publish(deldrift_mpi *m) {
 
 void dm_withdraw(deldrift_mpi *m) {
     // Without a prepared timestamp withdrawing leaves what is staged.
-    if (m->is_prepared) deldrift_withdraw_timestamp(m->t);
-    else deldrift_discard_moves(m->t);
+    if (m->is_prepared)
+        deldrift_withdraw_timestamp(m->t);
+    else
+        deldrift_discard_moves(m->t);
     m->is_prepared = false;
 }

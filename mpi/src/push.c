@@ -1,5 +1,6 @@
-// A round of the push: own vertices that have come to the lists of peers go there. Nobody knows beforehand from whom something
-// comes: that all has arrived is told by a barrier that each process enters when what it has sent has been received.
+// A round of the push: own vertices that have come to the lists of peers go there. Nobody knows beforehand from whom
+// something comes: that all has arrived is told by a barrier that each process enters when what it has sent has been
+// received.
 #include <stdlib.h>
 #include <string.h>
 
@@ -47,7 +48,8 @@ static int start_sends(deldrift_mpi *m) {
             if (DM_HAS_FAULT(DM_FAULT_LOST_MESSAGE) && k == sent->pushed && m->peers[p].rank == 0) continue;
             m->report.messages++;
             m->report.bytes += count * bytes;
-            MPI_Issend(record, (int)(count * bytes), MPI_BYTE, m->peers[p].rank, TAG_PUSH, m->comm, &m->requests[requests++]);
+            MPI_Issend(record, (int)(count * bytes), MPI_BYTE, m->peers[p].rank, TAG_PUSH, m->comm,
+                       &m->requests[requests++]);
         }
         sent->pushed = sent->count;
     }
@@ -117,7 +119,8 @@ bool dm_stage_received(deldrift_mpi *m) {
     next = 0;
     for (size_t c = 0; c < m->chunk_count; c++) {
         dm_peer *peer = dm_peer_of(m, m->chunks[c].source);
-        if (!peer || !dm_reserve_list(&m->refusal, &peer->received, peer->received.count + m->chunks[c].count)) return false;
+        if (!peer || !dm_reserve_list(&m->refusal, &peer->received, peer->received.count + m->chunks[c].count))
+            return false;
         dm_list *received = &peer->received;
         for (size_t k = 0; k < m->chunks[c].count; k++, next++) {
             received->is_leaving[received->count] = 0;

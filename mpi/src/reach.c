@@ -1,12 +1,12 @@
-// Which own vertices another process may need: those of a cell, or of a facet of the hull, that a vertex in a box of that
-// process could change.
+// Which own vertices another process may need: those of a cell, or of a facet of the hull, that a vertex in a box of
+// that process could change.
 #include <math.h>
 #include <string.h>
 
 #include "internal.h"
 
-// A copy is dropped only where it would not be sent if the boxes were wider by this share of the spacing of vertices, so that it
-// is not soon sent again.
+// A copy is dropped only where it would not be sent if the boxes were wider by this share of the spacing of vertices,
+// so that it is not soon sent again.
 static const double DROP_MARGIN = 0.1;
 
 // Processes are asked about in groups of this number, and groups of groups, as most are far.
@@ -49,7 +49,8 @@ static void unite(const deldrift_mpi *m, dm_box *all, const dm_box *box) {
     all->spacing = fmax(all->spacing, box->spacing);
 }
 
-// The box around those of some processes, without this one, and without those that have no copies if these are not wanted.
+// The box around those of some processes, without this one, and without those that have no copies if these are not
+// wanted.
 static dm_box box_of_group(const deldrift_mpi *m, int first, int width, bool of_peers) {
     dm_box all = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
     for (int process = first; process < m->size && process < first + width; process++) {
@@ -80,8 +81,8 @@ static deldrift_status reach_without_hull(deldrift_mpi *m, size_t boxes, size_t 
         if (!dm_reserve(&m->refusal, &m->vertices, &m->vertex_room, view.count, sizeof(uint32_t)) ||
             !dm_reserve(&m->refusal, &m->found, &m->found_room, *count + view.count * (d + 1), sizeof(uint32_t)))
             return DELDRIFT_OUT_OF_MEMORY;
-        status = deldrift_cells_in_reach(m->t, m->low + b * d, m->high + b * d, 1, m->is_own, m->ids, m->vertices, NULL, NULL,
-                                         m->vertex_room, &cells);
+        status = deldrift_cells_in_reach(m->t, m->low + b * d, m->high + b * d, 1, m->is_own, m->ids, m->vertices, NULL,
+                                         NULL, m->vertex_room, &cells);
         for (size_t c = 0; c < cells * (d + 1); c++) {
             uint32_t v = view.vertices[m->vertices[c / (d + 1)] * (d + 1) + c % (d + 1)];
             if (m->is_own[v]) m->found[(*count)++] = v;
@@ -100,8 +101,8 @@ static bool search(deldrift_mpi *m, size_t boxes) {
 #endif
     if (!m->found && !dm_reserve(&m->refusal, &m->found, &m->found_room, 1024, sizeof *m->found)) return false;
     for (;;) {
-        deldrift_status status = deldrift_vertices_in_reach(m->t, m->low, m->high, boxes, m->is_own, m->ids, m->found, m->offsets,
-                                                            m->found_room, &count);
+        deldrift_status status = deldrift_vertices_in_reach(m->t, m->low, m->high, boxes, m->is_own, m->ids, m->found,
+                                                            m->offsets, m->found_room, &count);
         if (status != DELDRIFT_BUFFER_TOO_SMALL) return dm_took(&m->refusal, status);
         if (!dm_reserve(&m->refusal, &m->found, &m->found_room, count, sizeof *m->found)) return false;
     }
@@ -117,8 +118,8 @@ static size_t expand(deldrift_mpi *m, size_t groups, int width) {
     return count;
 }
 
-// The processes of which something may be in reach, in nodes: all but those of groups that are certainly far. What meets the box
-// of this process is not asked about, as the answer would be long.
+// The processes of which something may be in reach, in nodes: all but those of groups that are certainly far. What
+// meets the box of this process is not asked about, as the answer would be long.
 static bool find_near(deldrift_mpi *m, bool of_peers, double margin, size_t *count) {
     int width = 1;
     if (!reserve_boxes(m, (size_t)m->size * m->options.boxes)) return false;
@@ -135,8 +136,10 @@ static bool find_near(deldrift_mpi *m, bool of_peers, double margin, size_t *cou
         for (size_t n = 0; n < *count; n++) {
             dm_box box = box_of_group(m, m->nodes[n], width, of_peers);
             if (dm_is_empty_box(&box)) continue;
-            if (meet(m, &own, &box)) m->nodes[kept++] = m->nodes[n];
-            else put_box(m, asked++, &box, margin, m->nodes[n]);
+            if (meet(m, &own, &box))
+                m->nodes[kept++] = m->nodes[n];
+            else
+                put_box(m, asked++, &box, margin, m->nodes[n]);
         }
         if (asked && !search(m, asked)) return false;
         for (size_t b = 0; b < asked; b++)
@@ -147,8 +150,8 @@ static bool find_near(deldrift_mpi *m, bool of_peers, double margin, size_t *cou
     }
 }
 
-// Lists of own vertices in reach of other processes' boxes, widened by `margin` spacings; the lists of one process's follow each
-// other.
+// Lists of own vertices in reach of other processes' boxes, widened by `margin` spacings; the lists of one process's
+// follow each other.
 static bool search_processes(deldrift_mpi *m, bool of_peers, double margin, size_t *boxes) {
     size_t near = 0;
     *boxes = 0;

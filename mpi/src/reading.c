@@ -61,7 +61,8 @@ static bool is_owned(const deldrift_mpi *m, const uint32_t *corners, uint32_t co
     return m->is_own[least];
 }
 
-deldrift_status deldrift_mpi_cells(const deldrift_mpi *m, uint64_t *ids, uint32_t *cells, size_t capacity, size_t *count) {
+deldrift_status deldrift_mpi_cells(const deldrift_mpi *m, uint64_t *ids, uint32_t *cells, size_t capacity,
+                                   size_t *count) {
     dm_refusal refusal = {DELDRIFT_OK, ""};
     if (!is_given(&refusal, m, "m") || !is_given(&refusal, count, "count")) return dm_fail(&refusal);
     deldrift_cells_view view;

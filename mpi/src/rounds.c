@@ -14,7 +14,7 @@ bool dm_insert(deldrift_mpi *m, const double *positions, const uint64_t *ids, si
 }
 
 static void note(deldrift_mpi *m, uint32_t vertex) {
-    m->undo[m->undo_count++] = (dm_undo){vertex, m->owner_of[vertex], m->id_of[vertex]};
+    m->undo[m->undo_count++] = (dm_undo){vertex, m->owner_of[vertex], m->id_of[vertex], 0};
 }
 
 void dm_set_vertex(deldrift_mpi *m, uint32_t vertex, int32_t owner, uint64_t id, const double *position) {
@@ -71,10 +71,12 @@ deldrift_status dm_rounds(deldrift_mpi *m) {
     }
 }
 
-static size_t halo_of(const deldrift_mpi *m) {
-    size_t halo = 0;
-    for (size_t p = 0; p < m->peer_count; p++) halo += m->peers[p].received.count;
-    return halo;
+void dm_count_copies(deldrift_mpi *m) {
+    m->report.halo = m->report.neighbours = 0;
+    for (size_t p = 0; p < m->peer_count; p++) {
+        m->report.halo += m->peers[p].received.count;
+        m->report.neighbours += m->peers[p].sent.count || m->peers[p].received.count;
+    }
 }
 
 void dm_settle(deldrift_mpi *m) {
@@ -82,6 +84,7 @@ void dm_settle(deldrift_mpi *m) {
     m->sent_since_drop = (m->has_dropped ? 0 : m->sent_since_drop) + m->report.sent;
     m->has_dropped = false;
     for (size_t k = 0; k < m->undo_count; k++) m->is_leaving[m->undo[k].vertex] = 0;
+    dm_note_rebound(m);
     m->undo_count = 0;
     dm_settle_peers(m);
     memcpy(m->own, m->next_own, m->next_count * sizeof *m->own);
@@ -93,10 +96,7 @@ void dm_settle(deldrift_mpi *m) {
         m->next_boxes = boxes;
         m->has_next_boxes = false;
     }
-    m->report.halo = halo_of(m);
-    m->report.neighbours = 0;
-    for (size_t p = 0; p < m->peer_count; p++)
-        m->report.neighbours += m->peers[p].sent.count || m->peers[p].received.count;
+    dm_count_copies(m);
 }
 
 void dm_restore(deldrift_mpi *m) {

@@ -9,10 +9,10 @@
 static const double SQUARE[8] = {0, 0, 1, 0, 0, 1, 1, 1.25};
 
 // Process `who` gives something wrong, the others what is right. All have the same status, and know who it was.
-#define REFUSED(call, status, who)                               \
-    do {                                                         \
-        CHECK((call) == (status));                               \
-        CHECK(deldrift_mpi_refusing_process() == (who));         \
+#define REFUSED(call, status, who)                       \
+    do {                                                 \
+        CHECK((call) == (status));                       \
+        CHECK(deldrift_mpi_refusing_process() == (who)); \
     } while (0)
 
 static void wrong_creation(void) {
@@ -30,7 +30,9 @@ static void wrong_creation(void) {
     deldrift_mpi_options_init(&options);
 
     REFUSED(deldrift_mpi_create(comm, is_wrong ? 4 : 2, points, NULL, 4, NULL, &m), DELDRIFT_INVALID_DIMENSION, who);
-    if (size > 1) REFUSED(deldrift_mpi_create(comm, is_wrong ? 3 : 2, points, NULL, 2, NULL, &m), DELDRIFT_INVALID_DIMENSION, who);
+    if (size > 1)
+        REFUSED(deldrift_mpi_create(comm, is_wrong ? 3 : 2, points, NULL, 2, NULL, &m), DELDRIFT_INVALID_DIMENSION,
+                who);
     REFUSED(deldrift_mpi_create(comm, 2, is_wrong ? NULL : points, NULL, 4, NULL, &m), DELDRIFT_NULL_ARGUMENT, who);
     REFUSED(deldrift_mpi_create(comm, 2, points, NULL, 4, NULL, is_wrong ? NULL : &m), DELDRIFT_NULL_ARGUMENT, who);
     memcpy(moved, points, sizeof moved);
@@ -57,7 +59,8 @@ static void wrong_creation(void) {
     if (is_wrong) ids[3] = size > 1 ? 1 : ids[0];
     CHECK(deldrift_mpi_create(comm, 2, points, ids, 4, NULL, &m) == DELDRIFT_INVALID_VALUE);
     if (is_wrong) ids[3] = 10 * (uint64_t)rank + 3;
-    if (size > 1) REFUSED(deldrift_mpi_create(comm, 2, points, is_wrong ? NULL : ids, 4, NULL, &m), DELDRIFT_NULL_ARGUMENT, who);
+    if (size > 1)
+        REFUSED(deldrift_mpi_create(comm, 2, points, is_wrong ? NULL : ids, 4, NULL, &m), DELDRIFT_NULL_ARGUMENT, who);
     CHECK(m == NULL);
     CHECK(deldrift_mpi_create(comm, 2, points, ids, 4, NULL, &m) == DELDRIFT_OK);
     is_serial(m, 2, "after wrong calls of deldrift_mpi_create");
@@ -81,7 +84,9 @@ static void wrong_commits(deldrift_mpi *m, double *points) {
     REFUSED(deldrift_mpi_migrate(m, targets, is_wrong ? 5 : 4, NULL, 0, NULL, NULL), DELDRIFT_WRONG_COUNT, who);
     REFUSED(deldrift_mpi_migrate(m, is_wrong ? NULL : targets, 4, NULL, 0, NULL, NULL), DELDRIFT_NULL_ARGUMENT, who);
     REFUSED(deldrift_mpi_migrate(m, targets, 4, is_wrong ? NULL : points, 16, NULL, NULL), DELDRIFT_NULL_ARGUMENT, who);
-    if (who > 0) REFUSED(deldrift_mpi_migrate(m, targets, 4, points, is_wrong ? 8 : 16, NULL, NULL), DELDRIFT_INVALID_VALUE, who);
+    if (who > 0)
+        REFUSED(deldrift_mpi_migrate(m, targets, 4, points, is_wrong ? 8 : 16, NULL, NULL), DELDRIFT_INVALID_VALUE,
+                who);
     double weights[4] = {1, 1, is_wrong ? -1 : 1, 1};
     REFUSED(deldrift_mpi_partition(m, weights, 4, targets), DELDRIFT_INVALID_VALUE, who);
     REFUSED(deldrift_mpi_partition(m, NULL, 4, is_wrong ? NULL : targets), DELDRIFT_NULL_ARGUMENT, who);
@@ -123,8 +128,17 @@ static void wrong_calls_of_one_process(deldrift_mpi *m) {
     CHECK(deldrift_mpi_owners(m, &owner, 1, &count) == DELDRIFT_BUFFER_TOO_SMALL && count >= 4);
     uint32_t cell;
     CHECK(deldrift_mpi_cells(m, NULL, &cell, 0, &count) == (count ? DELDRIFT_BUFFER_TOO_SMALL : DELDRIFT_OK));
-    CHECK(deldrift_mpi_hull_facets(m, NULL, &cell, NULL, 0, &count) == (count ? DELDRIFT_BUFFER_TOO_SMALL : DELDRIFT_OK));
+    CHECK(deldrift_mpi_hull_facets(m, NULL, &cell, NULL, 0, &count) ==
+          (count ? DELDRIFT_BUFFER_TOO_SMALL : DELDRIFT_OK));
     const deldrift_triangulation *t;
+    CHECK(deldrift_mpi_take_changes(m, NULL) == DELDRIFT_NULL_ARGUMENT);
+    deldrift_mpi_changes changes;
+    CHECK(deldrift_mpi_take_changes(NULL, &changes) == DELDRIFT_NULL_ARGUMENT);
+    OK(deldrift_mpi_cells(m, NULL, NULL, 0, &count));
+    OK(deldrift_mpi_take_changes(m, &changes));
+    CHECK(changes.is_anew && changes.created_count == count && !changes.removed_count);
+    OK(deldrift_mpi_take_changes(m, &changes));
+    CHECK(!changes.is_anew && !changes.created_count && !changes.removed_count);
     CHECK(deldrift_mpi_count(m, NULL) == DELDRIFT_NULL_ARGUMENT);
     CHECK(deldrift_mpi_local(m, NULL) == DELDRIFT_NULL_ARGUMENT);
     CHECK(deldrift_mpi_timestamp(m, NULL) == DELDRIFT_NULL_ARGUMENT);
@@ -152,12 +166,18 @@ static void wrong_calls_of_one_process(deldrift_mpi *m) {
 static void rest(deldrift_mpi *m, const double *points) {
     deldrift_mpi_report report;
     uint64_t before = 0;
-    OK(deldrift_mpi_commit(m, points, 4, NULL));
+    double other[8];
+    memcpy(other, points, sizeof other);
+    other[0] += 0.125;
+    OK(deldrift_mpi_commit(m, other, 4, NULL));
+    OK(deldrift_mpi_commit(m, points, 4, &report));
+    uint64_t halo = report.halo;
+    CHECK(size == 1 ? halo == 0 : halo > 0);
     OK(deldrift_mpi_timestamp(m, &before));
     for (int step = 0; step < 20; step++) {
         OK(deldrift_mpi_commit(m, step % 2 ? points : NULL, step % 2 ? 4 : 0, &report));
         CHECK(report.messages == 0 && report.bytes == 0 && report.collectives == 1 && report.rounds == 0);
-        CHECK(report.is_spanning == 1 && report.timestamp == ++before);
+        CHECK(report.halo == halo && report.is_spanning == 1 && report.timestamp == ++before);
     }
     is_serial(m, 2, "at rest");
 }

@@ -1,5 +1,5 @@
-// Faults that are planted in the library, in its build for tests: each has to be found by the comparison with one process. Memory
-// that one process is refused: nothing changes on any.
+// Faults that are planted in the library, in its build for tests: each has to be found by the comparison with one
+// process. Memory that one process is refused: nothing changes on any.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,9 +8,9 @@
 #include "harness.h"
 #include "internal.h"
 
-static const char *const names[] = {"none",         "a reach too small", "a lost message",
-                                    "no half-spaces", "stale copies",    "no round",
-                                    "keys of each process's own"};
+static const char *const names[] = {
+    "none",     "a reach too small",         "a lost message", "no half-spaces", "stale copies",
+    "no round", "keys of each process's own"};
 enum { FAULTS = sizeof names / sizeof *names };
 
 // How many of the commits are not those of one process.
@@ -48,7 +48,8 @@ static void plant(void) {
     }
 }
 
-// The system's allocator, which is asked while a timestamp is prepared: request `first_refused` and all later ones are refused.
+// The system's allocator, which is asked while a timestamp is prepared: request `first_refused` and all later ones are
+// refused.
 static long requests, first_refused = -1;
 
 void *__libc_malloc(size_t bytes);
@@ -114,7 +115,8 @@ static void refuse_memory_of_triangulation(uint32_t d, int who, size_t *refused)
     free_points(&p);
 }
 
-// One process is refused memory at its first, second, third, ... request in a commit with edits, until it gets all it asks for.
+// One process is refused memory at its first, second, third, ... request in a commit with edits, until it gets all it
+// asks for.
 static void refuse_memory(uint32_t d, int who, size_t *refused) {
     point_set p = make_points(d, RANDOM, SLABS, 240, 3 + d);
     uint64_t state = 17 + (uint64_t)rank;
@@ -143,7 +145,8 @@ static void refuse_memory(uint32_t d, int who, size_t *refused) {
             CHECK(after == before + 1);
             break;
         }
-        CHECK(status == DELDRIFT_OUT_OF_MEMORY && deldrift_mpi_refusing_process() == who && after == before && count == count_after);
+        CHECK(status == DELDRIFT_OUT_OF_MEMORY && deldrift_mpi_refusing_process() == who && after == before &&
+              count == count_after);
         ++*refused;
         OK(deldrift_mpi_discard(m));
     }
@@ -151,7 +154,8 @@ static void refuse_memory(uint32_t d, int who, size_t *refused) {
     free_points(&p);
 }
 
-// Two vertices of different processes would meet, which the options reject: one process or two see it, when they know of both.
+// Two vertices of different processes would meet, which the options reject: one process or two see it, when they know
+// of both.
 static void refuse_coincidence(uint32_t d) {
     point_set p = make_points(d, RANDOM, SLABS, 300, 5 + d);
     deldrift_options local;

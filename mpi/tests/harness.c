@@ -26,11 +26,13 @@ double random_number(uint64_t *state) {
     return (double)(random_bits(state) >> 11) * 0x1p-53;
 }
 
-const char *const kind_names[KINDS] = {"random", "lattice", "sheared", "clusters", "sphere", "line", "plane", "duplicates"};
+const char *const kind_names[KINDS] = {"random", "lattice", "sheared", "clusters",
+                                       "sphere", "line",    "plane",   "duplicates"};
 const char *const spread_names[SPREADS] = {"slabs",        "scattered",    "blocks", "first and last empty",
                                            "one owns all", "few elsewhere"};
 
-// A point of integer coordinates on a circle or sphere around 0 that has hundreds of them: cospherical without rounding.
+// A point of integer coordinates on a circle or sphere around 0 that has hundreds of them: cospherical without
+// rounding.
 static void place_on_sphere(uint32_t d, uint64_t *state, double *x) {
     static const int64_t SQUARES[2] = {5928325, 5909};
     int64_t left = SQUARES[d - 2], root = (int64_t)sqrt((double)left);
@@ -60,9 +62,7 @@ static void place(uint32_t d, point_kind kind, size_t i, size_t count, uint64_t 
         case CLUSTERS:
             for (uint32_t k = 0; k < d; k++) x[k] = (double)(i % 5 * (k + 3) % 5) + x[k] * x[k] * x[k] * 0.01;
             break;
-        case SPHERE:
-            place_on_sphere(d, state, x);
-            break;
+        case SPHERE: place_on_sphere(d, state, x); break;
         case LINE:
             for (uint32_t k = 0; k < d; k++) x[k] = (double)(k + 1) * (double)i;
             break;
@@ -110,8 +110,14 @@ void collect_own(point_set *p) {
 }
 
 point_set make_points(uint32_t d, point_kind kind, point_spread spread, size_t count, uint64_t seed) {
-    point_set p = {d, count, 0, calloc(count * d + 1, sizeof(double)), calloc(count + 1, sizeof(uint64_t)),
-                calloc(count + 1, sizeof(int)), calloc(count * d + 1, sizeof(double)), calloc(count + 1, sizeof(uint64_t))};
+    point_set p = {d,
+                   count,
+                   0,
+                   calloc(count * d + 1, sizeof(double)),
+                   calloc(count + 1, sizeof(uint64_t)),
+                   calloc(count + 1, sizeof(int)),
+                   calloc(count * d + 1, sizeof(double)),
+                   calloc(count + 1, sizeof(uint64_t))};
     uint64_t state = seed;
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     for (size_t i = 0; i < count; i++) {
@@ -137,6 +143,11 @@ void free_points(point_set *p) {
     free(p->owners);
     free(p->own);
     free(p->own_ids);
+}
+
+static int compare_numbers(const void *first, const void *second) {
+    uint64_t a = *(const uint64_t *)first, b = *(const uint64_t *)second;
+    return a < b ? -1 : a > b;
 }
 
 static uint32_t row_length;
@@ -166,6 +177,12 @@ static void normalise(uint64_t *row, uint32_t length) {
 
 static void sort_rows(uint64_t *rows, size_t count, uint32_t length) {
     for (size_t i = 0; i < count; i++) normalise(rows + i * length, length);
+    row_length = length;
+    qsort(rows, count, length * sizeof *rows, compare_rows);
+}
+
+void sort_sets(uint64_t *rows, size_t count, uint32_t length) {
+    for (size_t i = 0; i < count; i++) qsort(rows + i * length, length, sizeof *rows, compare_numbers);
     row_length = length;
     qsort(rows, count, length * sizeof *rows, compare_rows);
 }
@@ -217,11 +234,6 @@ static table serial_facets(const deldrift_triangulation *t, const uint64_t *ids,
     for (size_t i = 0; i < count * d; i++) rows.rows[i] = ids[facets[i]];
     free(facets);
     return rows;
-}
-
-static int compare_numbers(const void *first, const void *second) {
-    uint64_t a = *(const uint64_t *)first, b = *(const uint64_t *)second;
-    return a < b ? -1 : a > b;
 }
 
 // The rows with an own id.
@@ -285,7 +297,8 @@ bool is_serial(const deldrift_mpi *m, uint32_t d, const char *label) {
     sort_rows(local.rows, local.count, d + 1);
     table local_own = select_own(local, d + 1, own_ids, own), serial_own = select_own(cells, d + 1, own_ids, own);
 
-    int results[3] = {is_same(cells, whole, d + 1), is_same(facets, whole_facets, d), is_same(local_own, serial_own, d + 1)};
+    int results[3] = {is_same(cells, whole, d + 1), is_same(facets, whole_facets, d),
+                      is_same(local_own, serial_own, d + 1)};
     int all_results[3];
     MPI_Allreduce(results, all_results, 3, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
     bool holds = all_results[0] && all_results[1] && all_results[2];

@@ -9,7 +9,7 @@
 #include "deldrift_mpi.h"
 
 #define CHECK(condition) check(condition, #condition, __FILE__, __LINE__)
-#define OK(call) CHECK((call) == DELDRIFT_OK)
+#define OK(call)         CHECK((call) == DELDRIFT_OK)
 
 extern int rank, size;
 
@@ -30,10 +30,10 @@ extern const char *const spread_names[SPREADS];
 typedef struct {
     uint32_t dimension;
     size_t count, own_count;
-    double *positions;  // of all
-    uint64_t *ids;      // of all
-    int *owners;        // of all
-    double *own;        // positions of own ones
+    double *positions; // of all
+    uint64_t *ids;     // of all
+    int *owners;       // of all
+    double *own;       // positions of own ones
     uint64_t *own_ids;
 } point_set;
 
@@ -42,9 +42,12 @@ void free_points(point_set *p);
 // Own positions and ids again, from those of all.
 void collect_own(point_set *p);
 
-// Whether the union of own cells is exactly the triangulation of all vertices, each cell owned once; whether this process has
-// exactly the cells with an own vertex; whether hull facets are those of the whole. What all own is gathered: no argument but m.
-// Collective; the answer is the same on all.
+// Sorts rows, and the ids in each.
+void sort_sets(uint64_t *rows, size_t count, uint32_t length);
+
+// Whether the union of own cells is exactly the triangulation of all vertices, each cell owned once; whether this
+// process has exactly the cells with an own vertex; whether hull facets are those of the whole. What all own is
+// gathered: no argument but m. Collective; the answer is the same on all.
 bool is_serial(const deldrift_mpi *m, uint32_t dimension, const char *label);
 
 #endif

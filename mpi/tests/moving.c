@@ -16,6 +16,10 @@ typedef struct {
     uint64_t state;  // differs between processes
     uint64_t common; // is the same on all
     uint64_t next_id;
+    uint64_t *cells; // own ones, when changes were last taken
+    size_t cell_count;
+    bool has_migrated; // since then
+    long changes;
     long commits, refusals, migrations, extra_rounds, edits;
 } history;
 
@@ -55,7 +59,8 @@ static void stage_edits(history *h) {
     size_t insertions = random_bits(&h->state) % 20, removals = 0;
     for (size_t k = 0; k < insertions; k++) {
         for (uint32_t j = 0; j < d; j++) places[k * d + j] = 8 * random_number(&h->state);
-        ids[k] = (h->next_id++ * (uint64_t)size + (uint64_t)rank) * 2; // even; those of the first points are odd multiples
+        ids[k] =
+            (h->next_id++ * (uint64_t)size + (uint64_t)rank) * 2; // even; those of the first points are odd multiples
     }
     OK(deldrift_mpi_stage_insertions(h->m, places, ids, insertions));
     uint32_t *removed = malloc((h->count + 1) * sizeof *removed);
@@ -107,6 +112,7 @@ static void migrate(history *h) {
     read_own(h);
     carried = h->positions;
     CHECK(!h->count || !memcmp(carried, received, h->count * d * sizeof(double)));
+    h->has_migrated = true;
     h->migrations++;
 }
 
@@ -135,6 +141,75 @@ static void check_exchange(history *h) {
     free(owners);
     free(keys);
     free(values);
+}
+
+// The own cells, in order, as rows without orientation.
+static uint64_t *own_cells(const history *h, size_t *count) {
+    OK(deldrift_mpi_cells(h->m, NULL, NULL, 0, count));
+    uint64_t *rows = malloc(*count * (h->dimension + 1) * sizeof *rows + 1);
+    OK(deldrift_mpi_cells(h->m, rows, NULL, *count, count));
+    sort_sets(rows, *count, h->dimension + 1);
+    return rows;
+}
+
+// Own cells before, without those that are said to be removed, and with those that are said to be created, are those
+// now.
+static void check_changes(history *h) {
+    uint32_t length = h->dimension + 1;
+    size_t count = 0, kept = 0, found = 0;
+    deldrift_mpi_changes changes;
+    OK(deldrift_mpi_take_changes(h->m, &changes));
+    CHECK(changes.is_anew == (size_t)!h->cells || h->has_migrated);
+    CHECK(!changes.is_anew || !changes.removed_count);
+    uint64_t *now = own_cells(h, &count);
+    uint64_t *removed = malloc(changes.removed_count * length * sizeof *removed + 1);
+    if (changes.removed_count) memcpy(removed, changes.removed, changes.removed_count * length * sizeof *removed);
+    sort_sets(removed, changes.removed_count, length);
+    size_t before = changes.is_anew ? 0 : h->cell_count;
+    uint64_t *rows = malloc((before + changes.created_count) * length * sizeof *rows + 1);
+    for (size_t c = 0; c < before; c++) {
+        const uint64_t *row = h->cells + c * length;
+        if (found < changes.removed_count && !memcmp(row, removed + found * length, length * sizeof *row))
+            found++;
+        else
+            memcpy(rows + kept++ * length, row, length * sizeof *row);
+    }
+    CHECK(found == changes.removed_count);
+    if (changes.created_count)
+        memcpy(rows + kept * length, changes.created, changes.created_count * length * sizeof *rows);
+    kept += changes.created_count;
+    sort_sets(rows, kept, length);
+    CHECK(kept == count && !memcmp(rows, now, count * length * sizeof *rows));
+    h->has_migrated = false;
+    h->changes += (long)(changes.created_count + changes.removed_count);
+    free(removed);
+    free(rows);
+    free(h->cells);
+    h->cells = now;
+    h->cell_count = count;
+}
+
+// Voronoi cells of own vertices fill the box, taken over all processes.
+static void check_volumes(const history *h) {
+    uint32_t d = h->dimension;
+    const deldrift_triangulation *t;
+    size_t ids = 0, own = 0;
+    deldrift_mpi_report report;
+    OK(deldrift_mpi_last_report(h->m, &report));
+    if (!report.is_spanning) return;
+    OK(deldrift_mpi_local(h->m, &t));
+    OK(deldrift_id_count(t, &ids));
+    OK(deldrift_mpi_count(h->m, &own));
+    double low[3] = {-2, -2, -2}, high[3] = {9, 9, 9}, sum = 0, whole = 0;
+    double *volumes = calloc(ids + 1, sizeof *volumes);
+    uint32_t *vertices = calloc(own + 1, sizeof *vertices);
+    OK(deldrift_mpi_vertices(h->m, NULL, vertices, own, &own));
+    if (own) OK(deldrift_voronoi_volumes(t, low, high, volumes, ids, &ids));
+    for (size_t i = 0; i < own; i++) sum += volumes[vertices[i]];
+    MPI_Allreduce(&sum, &whole, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    CHECK(fabs(whole / pow(11, d) - 1) < 1e-9);
+    free(volumes);
+    free(vertices);
 }
 
 static void run(long number, int steps, history *totals) {
@@ -174,16 +249,21 @@ static void run(long number, int steps, history *totals) {
         }
         if (choice / 1024 % 5 == 0) refuse_once(&h);
         OK(deldrift_mpi_commit(h.m, h.positions, h.count, &report));
-        snprintf(label, sizeof label, "history %ld, step %d: %uD %s, %s, P = %d", number, step, h.dimension, kind_names[kind],
-                 spread_names[spread], size);
+        snprintf(label, sizeof label, "history %ld, step %d: %uD %s, %s, P = %d", number, step, h.dimension,
+                 kind_names[kind], spread_names[spread], size);
         is_serial(h.m, h.dimension, label);
         check_exchange(&h);
+        // Not after each commit, so that ids stand for several vertices in turn.
+        if (random_bits(&h.common) % 2) check_changes(&h);
+        if (!(choice / 8192 % 4)) check_volumes(&h);
         read_own(&h);
         h.commits++;
         h.extra_rounds += report.rounds > 1;
     }
     deldrift_mpi_destroy(h.m);
     free(h.positions);
+    free(h.cells);
+    totals->changes += h.changes;
     totals->commits += h.commits;
     totals->refusals += h.refusals;
     totals->migrations += h.migrations;
@@ -201,9 +281,11 @@ int main(int argc, char **argv) {
     memset(&totals, 0, sizeof totals);
     for (long number = first; number < first + count; number++) run(number, steps, &totals);
     if (rank == 0)
-        printf("moving, P = %d: %ld histories, %ld commits, %ld with edits, %ld refusals, %ld migrations, %ld failures; %ld "
-               "commits took more than one round\n",
-               size, count, totals.commits, totals.edits, totals.refusals, totals.migrations, failures, totals.extra_rounds);
+        printf("moving, P = %d: %ld histories, %ld commits, %ld with edits, %ld refusals, %ld migrations, %ld changes "
+               "of cells here, %ld "
+               "failures; %ld commits took more than one round\n",
+               size, count, totals.commits, totals.edits, totals.refusals, totals.migrations, totals.changes, failures,
+               totals.extra_rounds);
     MPI_Finalize();
     return failures ? 1 : 0;
 }

@@ -3,7 +3,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-// Each process has a strip of a square and turns it around the middle; vertices go to other processes when parts become unequal.
+// Each process has a strip of a square and turns it around the middle; vertices go to other processes when parts become
+// unequal.
 enum { COUNT = 1000, STEPS = 20 };
 
 int main(int argc, char **argv) {

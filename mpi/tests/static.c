@@ -15,7 +15,8 @@ int main(int argc, char **argv) {
             for (int s = 0; s < SPREADS; s++) {
                 char label[160];
                 snprintf(label, sizeof label, "%uD %s, %s, P = %d", d, kind_names[k], spread_names[s], size);
-                point_set p = make_points(d, (point_kind)k, (point_spread)s, k == SPHERE && d == 3 ? count / 3 : count, 7u + (unsigned)s);
+                point_set p = make_points(d, (point_kind)k, (point_spread)s, k == SPHERE && d == 3 ? count / 3 : count,
+                                          7u + (unsigned)s);
                 deldrift_mpi *m = NULL;
                 OK(deldrift_mpi_create(MPI_COMM_WORLD, d, p.own, p.own_ids, p.own_count, NULL, &m));
                 if (m) {
@@ -39,7 +40,8 @@ int main(int argc, char **argv) {
         free_points(&p);
         runs++;
     }
-    if (rank == 0) printf("static, P = %d: %ld runs, %ld failures, at most %ld rounds\n", size, runs, failures, most_rounds);
+    if (rank == 0)
+        printf("static, P = %d: %ld runs, %ld failures, at most %ld rounds\n", size, runs, failures, most_rounds);
     MPI_Finalize();
     return failures ? 1 : 0;
 }

@@ -332,6 +332,7 @@ PROTOTYPES = {
     "edge_shifts": (T, A, N, C),
     "voronoi_volumes": (T, A, A, A, N, C),
     "voronoi_facets": (T, A, A, A, N, C),
+    "voronoi_changed": (T, A, N, A, N, C),
     "voronoi_cells": (T, A, A, A, N, A, A, A, N, C),
     "voronoi_derivatives": (T, A, A, A, N, A, A, A, N, C),
     "interpolate": (T, U32, A, N, N, A, N, A, A, A),

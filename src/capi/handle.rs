@@ -15,9 +15,13 @@ use crate::machine::{environment, memory};
 use crate::periodic::AnyPeriodic;
 
 /// What is in a triangulation that C knows.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "it is in a box of its own, and what is open is read with no other step"
+)]
 pub(super) enum Content {
     Open(AnyTriangulation),
-    Periodic(AnyPeriodic),
+    Periodic(Box<AnyPeriodic>),
 }
 
 impl From<AnyTriangulation> for Content {
@@ -26,8 +30,8 @@ impl From<AnyTriangulation> for Content {
     }
 }
 
-impl From<AnyPeriodic> for Content {
-    fn from(t: AnyPeriodic) -> Self {
+impl From<Box<AnyPeriodic>> for Content {
+    fn from(t: Box<AnyPeriodic>) -> Self {
         Content::Periodic(t)
     }
 }
@@ -348,14 +352,47 @@ pub(super) fn hand_out(
     Ok(())
 }
 
+/// What a reference to a box leads to, of either kind.
+pub(super) trait Within {
+    type To;
+
+    fn within(self) -> Self::To;
+}
+
+impl<'t> Within for &'t Box<AnyPeriodic> {
+    type To = &'t AnyPeriodic;
+
+    fn within(self) -> &'t AnyPeriodic {
+        self
+    }
+}
+
+impl<'t> Within for &'t mut Box<AnyPeriodic> {
+    type To = &'t mut AnyPeriodic;
+
+    fn within(self) -> &'t mut AnyPeriodic {
+        self
+    }
+}
+
+/// Evaluates an expression on a periodic triangulation, in its dimension.
+macro_rules! in_its_period {
+    ($periodic:expr, $t:ident => $body:expr) => {
+        match $crate::capi::handle::Within::within($periodic) {
+            $crate::periodic::AnyPeriodic::Plane($t) => $body,
+            $crate::periodic::AnyPeriodic::Space($t) => $body,
+        }
+    };
+}
+pub(super) use in_its_period;
+
 /// Evaluates an expression on what is in a triangulation that may be periodic, in its dimension: `in_any!(t => t.count())`.
 macro_rules! in_any {
     ($t:ident => $body:expr) => {
         match $t {
             $crate::capi::handle::Content::Open($crate::AnyTriangulation::Plane($t)) => $body,
             $crate::capi::handle::Content::Open($crate::AnyTriangulation::Space($t)) => $body,
-            $crate::capi::handle::Content::Periodic($crate::periodic::AnyPeriodic::Plane($t)) => $body,
-            $crate::capi::handle::Content::Periodic($crate::periodic::AnyPeriodic::Space($t)) => $body,
+            $crate::capi::handle::Content::Periodic(t) => $crate::capi::handle::in_its_period!(t, $t => $body),
         }
     };
 }

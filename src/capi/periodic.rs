@@ -4,13 +4,14 @@ use std::iter::repeat;
 use std::mem::MaybeUninit;
 
 use super::guard;
-use super::handle::{Changing, Content, Reading, deldrift_triangulation, hand_out};
+use super::handle::{Changing, Content, Reading, deldrift_triangulation, hand_out, in_its_period};
 use super::options::{GivenOptions, deldrift_options, invalid};
 use super::pointers::{Buffer, Output, Points, fill_all, given};
 use super::status::{Failure, deldrift_status};
 use crate::delaunay::{Plane, Space};
 use crate::error::Error;
 use crate::in_its_dimension;
+use crate::machine::memory;
 use crate::motion::{CoincidencePolicy, MAX_VERTICES};
 use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 
@@ -72,7 +73,11 @@ pub unsafe extern "C" fn deldrift_create_periodic(
         let callbacks = options.callbacks();
         let options = options.convert()?;
         if options.coincidence == CoincidencePolicy::Reject {
-            return Err(invalid("options.coincidence", 1, "DELDRIFT_COINCIDENCE_MERGE where the triangulation is periodic"));
+            return Err(invalid(
+                "options.coincidence",
+                1,
+                "DELDRIFT_COINCIDENCE_MERGE where the triangulation is periodic",
+            ));
         }
         // Looked at here as well, lest an absurd count becomes the length of a slice.
         if count > MAX_VERTICES {
@@ -90,7 +95,7 @@ pub unsafe extern "C" fn deldrift_create_periodic(
             let (positions, vectors) = (positions.of_kind::<Made>()?, vectors.of_kind::<Made>()?);
             AnyPeriodic::Space(Made::new(positions, vectors, options)?)
         };
-        hand_out(out, made, callbacks)
+        hand_out(out, memory::boxed(made)?, callbacks)
     })
 }
 
@@ -121,8 +126,7 @@ pub unsafe extern "C" fn deldrift_stage_vectors(
         }
         match t {
             Content::Open(_) => Ok(()),
-            Content::Periodic(AnyPeriodic::Plane(t)) => Ok(t.stage_vectors(vectors.of(t)?)?),
-            Content::Periodic(AnyPeriodic::Space(t)) => Ok(t.stage_vectors(vectors.of(t)?)?),
+            Content::Periodic(t) => in_its_period!(t, t => Ok(t.stage_vectors(vectors.of(t)?)?)),
         }
     })
 }
@@ -151,16 +155,11 @@ pub unsafe extern "C" fn deldrift_vectors(
                 given!(vectors[capacity]: Buffer);
                 vectors.fill(count, needed, || Ok([]))
             }
-            Content::Periodic(AnyPeriodic::Plane(t)) => {
+            Content::Periodic(t) => in_its_period!(t, t => {
                 let vectors = vectors.cast();
                 given!(vectors[capacity]: Buffer);
                 vectors.fill(count, needed, || Ok(t.vectors()))
-            }
-            Content::Periodic(AnyPeriodic::Space(t)) => {
-                let vectors = vectors.cast();
-                given!(vectors[capacity]: Buffer);
-                vectors.fill(count, needed, || Ok(t.vectors()))
-            }
+            }),
         }
     })
 }
@@ -244,8 +243,7 @@ pub unsafe extern "C" fn deldrift_edge_shifts(
 fn vector_count_of(t: &Content) -> usize {
     match t {
         Content::Open(_) => 0,
-        Content::Periodic(AnyPeriodic::Plane(t)) => t.vector_count(),
-        Content::Periodic(AnyPeriodic::Space(t)) => t.vector_count(),
+        Content::Periodic(t) => in_its_period!(t, t => t.vector_count()),
     }
 }
 
@@ -267,14 +265,10 @@ fn fill_cell_shifts<const D: usize, const N: usize>(
                 write_rows(corners, repeat([0; 3]));
                 write_rows(beside, repeat([0; 3]));
             }
-            Content::Periodic(AnyPeriodic::Plane(t)) => {
+            Content::Periodic(t) => in_its_period!(t, t => {
                 write_rows(corners, t.cell_shifts()?);
                 write_rows(beside, t.neighbour_shifts()?);
-            }
-            Content::Periodic(AnyPeriodic::Space(t)) => {
-                write_rows(corners, t.cell_shifts()?);
-                write_rows(beside, t.neighbour_shifts()?);
-            }
+            }),
         }
         Ok(())
     })

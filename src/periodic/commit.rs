@@ -8,7 +8,6 @@ use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::{CommitReport, MAX_VERTICES};
 use crate::periodic::lattice::{Lattice, Occupied};
-use crate::periodic::needed::Needed;
 use crate::periodic::triangulation::{Inside, PeriodicTriangulation};
 
 /// Where vertices go.
@@ -174,7 +173,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let (mut new_wraps, mut ids, mut places) = (Vec::new(), Vec::new(), Vec::new());
         let (mut occupied, mut n_moved) = (inside.occupied, 0);
         for &(vertex, position) in staged.moves() {
-            let near = inside.t.position(inside.images.home(vertex))?;
+            let near = inside.places[inside.images.home(vertex)];
             let mut wrap = wraps[vertex];
             let place = lattice.wrapped_near("positions", vertex.index(), &position, &near, &mut wrap)?;
             occupied.enter(&lattice.multiples(&place));
@@ -194,40 +193,28 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         for (&(vertex, _), wrap) in staged.moves().iter().zip(new_wraps) {
             wraps[vertex] = wrap;
         }
+        for (&inner, &place) in ids.iter().zip(&places).filter(|(inner, _)| inner.index() < inside.n_home) {
+            inside.places[inner] = place;
+        }
         Ok(Some(report))
     }
 
     /// Of all, to these positions by id.
     fn all_moved(&mut self, positions: &[G::Point]) -> Result<Option<CommitReport>> {
         let Self { lattice, inside, wraps, .. } = self;
-        let (mut new_wraps, mut places) = (Vec::new(), Vec::new());
-        memory::reserve_exact(&mut places, inside.images.len())?;
-        memory::reserve_exact(&mut new_wraps, inside.n_home)?;
-        let (mut occupied, mut n_moved) = (Occupied::NOTHING, 0);
-        let (at_home, images) = inside.images.as_slice().split_at(inside.n_home);
-        for (inner, image) in at_home.iter().enumerate() {
-            let near = inside.t.position(VertexId::at(inner))?;
-            let mut wrap = wraps[image.vertex];
-            let (index, position) = (image.vertex.index(), &positions[image.vertex]);
-            let place = lattice.wrapped_near("positions", index, position, &near, &mut wrap)?;
-            occupied.enter(&lattice.multiples(&place));
-            n_moved += u64::from(place != near || wrap != wraps[image.vertex]);
-            places.push(place);
-            new_wraps.push(wrap);
-        }
-        if !occupied.is_within(&inside.room) {
-            return Ok(None);
-        }
-        for image in images {
-            places.push(lattice.translated(&places[inside.images.home(image.vertex)], image.shift));
-        }
-        inside.t.move_all(&places)?;
-        let mut report = inside.commit_moves(lattice, occupied)?;
-        report.moved = n_moved;
-        for (image, wrap) in inside.images.as_slice().iter().zip(new_wraps) {
-            wraps[image.vertex] = wrap;
-        }
-        Ok(Some(report))
+        let mut goals = std::mem::take(&mut inside.goals);
+        let moved = inside.goals_of(lattice, positions, wraps, &mut goals);
+        let done = moved.and_then(|moved| {
+            let Some((occupied, n_moved, new_wraps)) = moved else { return Ok(None) };
+            inside.t.move_all(&goals)?;
+            let mut report = inside.commit_moves(lattice, occupied)?;
+            report.moved = n_moved;
+            std::mem::swap(&mut inside.places, &mut goals);
+            new_wraps.into_iter().for_each(|(vertex, wrap)| wraps[vertex] = wrap);
+            Ok(Some(report))
+        });
+        inside.goals = goals;
+        done
     }
 
     /// Builds another triangulation, with all that is staged, which takes the place of the present one.
@@ -263,9 +250,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             wraps[index] = wrap;
             home.push((vertex, place));
         }
-        let (mut inside, places) = Inside::unbuilt(lattice, &home, n_ids, self.inside.t.options_of_another())?;
+        let mut inside = Inside::unbuilt(lattice, &home, n_ids, self.inside.t.options_of_another())?;
         inside.t.exchange_monitors(&mut self.inside.t);
-        if let Err(error) = inside.build(lattice, &places) {
+        if let Err(error) = inside.build(lattice) {
             inside.t.exchange_monitors(&mut self.inside.t);
             return Err(error);
         }
@@ -274,22 +261,57 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         if let Some(lattice) = self.coming.take() {
             self.lattice = lattice;
         }
-        let mut report = CommitReport::default();
-        report.moved = moved;
-        report.rebuilds = 1;
-        report.inserted = self.staged.insertions().len() as u64;
-        report.removed = self.staged.removals().len() as u64;
+        let (inserted, removed) =
+            (self.staged.insertions().len() as u64, self.staged.removals().len() as u64);
+        let report = CommitReport { moved, rebuilds: 1, inserted, removed, ..CommitReport::default() };
         Ok(report)
     }
 }
 
+/// What moves come to: what vertices at home occupy then, how many of them move, and which ones have come by another translation.
+type Coming = (Occupied, u64, Vec<(VertexId, [i64; 3])>);
+
 impl<G: Dimension> Inside<G> {
+    /// Where all go, images included, if the vertices go to these positions; none if one of them would be too far from the unit
+    /// cell.
+    fn goals_of(
+        &self,
+        lattice: &Lattice<G>,
+        positions: &[G::Point],
+        wraps: &[[i64; 3]],
+        goals: &mut Vec<G::Point>,
+    ) -> Result<Option<Coming>> {
+        goals.clear();
+        memory::reserve(goals, self.images.len())?;
+        let (mut occupied, mut n_moved, mut new_wraps) = (Occupied::NOTHING, 0, Vec::new());
+        let (at_home, images) = self.images.as_slice().split_at(self.n_home);
+        for (image, near) in at_home.iter().zip(&self.places) {
+            let before = wraps[image.vertex];
+            let mut wrap = before;
+            let (index, position) = (image.vertex.index(), &positions[image.vertex]);
+            let place = lattice.wrapped_near("positions", index, position, near, &mut wrap)?;
+            occupied.enter(&lattice.multiples(&place));
+            n_moved += u64::from(place != *near || wrap != before);
+            goals.push(place);
+            if wrap != before {
+                memory::push(&mut new_wraps, (image.vertex, wrap))?;
+            }
+        }
+        if !occupied.is_within(&self.room) {
+            return Ok(None);
+        }
+        for image in images {
+            goals.push(lattice.translated(&goals[self.images.home(image.vertex)], image.shift));
+        }
+        Ok(Some((occupied, n_moved, new_wraps)))
+    }
+
     /// Makes the moves that are staged inside, and inserts images that are missing then: all of it or, on an error, nothing.
     fn commit_moves(&mut self, lattice: &Lattice<G>, occupied: Occupied) -> Result<CommitReport> {
         let (before, n_images) = (self.occupied, self.images.len());
         self.occupied = occupied;
         let done = self.t.prepare_timestamp().and_then(|mut report| {
-            self.complete(lattice, Needed::of_all, |t| {
+            self.complete(lattice, Self::missing, |t| {
                 report.add(&t.prepare_timestamp()?);
                 Ok(())
             })?;
@@ -298,6 +320,8 @@ impl<G: Dimension> Inside<G> {
         match done {
             Ok(mut report) => {
                 self.t.publish_timestamp()?;
+                // Without the memory for it the next commit looks at what has changed now, too.
+                let _ = self.t.take_changes();
                 report.inserted = 0;
                 Ok(report)
             }

@@ -1,9 +1,9 @@
 //! Which vertex, and which image of it, each vertex inside is.
 
-use crate::periodic::lattice::{HOME, Shift};
 use crate::error::{Error, Result, StagedEdit};
 use crate::ids::VertexId;
 use crate::machine::memory;
+use crate::periodic::lattice::{HOME, Shift};
 
 /// A vertex, translated by a shift from home.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -19,6 +19,8 @@
 //! the nearest sums of the others (I. Semaev: *A 3-dimensional lattice reduction algorithm*. CaLC 2001,
 //! 10.1007/3-540-44670-2_13). What is found depends on the lattice, not on the basis; only how soon depends on that.
 
+#![expect(clippy::needless_range_loop, reason = "axes and vectors are indices of several arrays at a time")]
+
 use crate::delaunay::Shape;
 use crate::error::{Error, Result};
 use crate::predicates::MAX_MAGNITUDE;
@@ -58,10 +60,8 @@ impl Occupied {
     /// Now a place with these multiples, too.
     #[inline(always)]
     pub(super) fn enter(&mut self, multiples: &[f64; 3]) {
-        for j in 0..3 {
-            self.low[j] = self.low[j].min(multiples[j]);
-            self.high[j] = self.high[j].max(multiples[j]);
-        }
+        self.low.iter_mut().zip(multiples).for_each(|(low, &x)| *low = low.min(x));
+        self.high.iter_mut().zip(multiples).for_each(|(high, &x)| *high = high.max(x));
     }
 
     /// Whether no vertex is farther outside of the unit cell than some share of it.
@@ -87,6 +87,8 @@ pub(super) struct Lattice<G: Shape> {
     thickness: [f64; 3],
     /// By vector, the greatest multiples of images that can be needed.
     greatest: Shift,
+    /// A way of that length has no multiple of a vector above a half.
+    short_way: f64,
 }
 
 impl<G: Shape> Lattice<G> {
@@ -99,11 +101,22 @@ impl<G: Shape> Lattice<G> {
                     return Err(Error::NotFinite { argument: "vectors", index, axis, value });
                 }
                 if value.abs() > GREATEST {
-                    return Err(Error::OutOfRange { argument: "vectors", index, axis, value, limit: GREATEST });
+                    return Err(Error::OutOfRange {
+                        argument: "vectors",
+                        index,
+                        axis,
+                        value,
+                        limit: GREATEST,
+                    });
                 }
                 if value != 0.0 && value.abs() < LEAST {
                     let wanted = "0, or at least 1e-50 in magnitude";
-                    return Err(Error::InvalidValue { argument: "vectors", index: index * G::D + axis, value, wanted });
+                    return Err(Error::InvalidValue {
+                        argument: "vectors",
+                        index: index * G::D + axis,
+                        value,
+                        wanted,
+                    });
                 }
             }
         }
@@ -122,6 +135,7 @@ impl<G: Shape> Lattice<G> {
             unit: [0.0; 3],
             dual,
             thickness,
+            short_way: 0.5 * (1.0 - SLACK) / thickness.iter().fold(0.0, |most, &x| f64::max(most, x)),
             greatest: [0, 1, 2]
                 .map(|j| if j < rank { (1.0 + 2.0 * ROOM + reach * thickness[j]).floor() as i32 } else { 0 }),
         };
@@ -248,6 +262,11 @@ impl<G: Shape> Lattice<G> {
         index: usize,
         position: &G::Point,
     ) -> Result<(G::Point, [i64; 3])> {
+        if let Some(place) = self.place_of_short(position, &[0; 3])
+            && self.multiples(&place).iter().all(|&x| (0.0..1.0).contains(&x))
+        {
+            return Ok((place, [0; 3]));
+        }
         let mut units = self.units_of(argument, index, position)?;
         let mut total = [0i64; 3];
         let mut place = self.place_of(position, &units);
@@ -277,8 +296,22 @@ impl<G: Shape> Lattice<G> {
         near: &G::Point,
         wrap: &mut [i64; 3],
     ) -> Result<G::Point> {
+        if let Some(place) = self.place_of_short(position, wrap) {
+            let mut square = 0.0;
+            (0..G::D).for_each(|axis| square += (place[axis] - near[axis]) * (place[axis] - near[axis]));
+            // No multiple of that way is above a half.
+            if square <= self.short_way * self.short_way {
+                return Ok(place);
+            }
+        }
+        self.wrapped_far(argument, index, position, near, wrap)
+    }
+
+    /// A position on the grid, less these multiples of the vectors, if all of that has few enough digits.
+    #[inline(always)]
+    fn place_of_short(&self, position: &G::Point, wrap: &[i64; 3]) -> Option<G::Point> {
         let mut place = *position;
-        let mut is_short = *wrap == [0; 3];
+        let mut is_short = true;
         for axis in 0..G::D {
             let unit = self.unit[axis];
             if unit != 0.0 {
@@ -289,17 +322,32 @@ impl<G: Shape> Lattice<G> {
                 is_short &= position[axis].abs() <= MAX_MAGNITUDE;
             }
         }
-        if !is_short {
-            place = self.place_of_long(argument, index, position, wrap)?;
+        if *wrap != [0; 3] {
+            for axis in 0..G::D {
+                let mut greatest = 0.0;
+                for j in 0..self.rank {
+                    let way = wrap[j] as f64 * self.vectors[j][axis];
+                    greatest += way.abs();
+                    place[axis] -= way;
+                }
+                is_short &= self.unit[axis] == 0.0 || greatest < SHORT * self.unit[axis];
+            }
         }
-        let mut way = place;
-        (0..G::D).for_each(|axis| way[axis] -= near[axis]);
-        let multiples = self.multiples(&way);
-        if multiples.iter().all(|x| x.abs() <= 0.5) {
-            return Ok(place);
-        }
-        let (wrapped, total) = self.wrapped(argument, index, position)?;
-        way = wrapped;
+        is_short.then_some(place)
+    }
+
+    /// That of a position which is far away, or has come a long way.
+    #[cold]
+    #[inline(never)]
+    fn wrapped_far(
+        &self,
+        argument: &'static str,
+        index: usize,
+        position: &G::Point,
+        near: &G::Point,
+        wrap: &mut [i64; 3],
+    ) -> Result<G::Point> {
+        let (mut way, total) = self.wrapped(argument, index, position)?;
         (0..G::D).for_each(|axis| way[axis] -= near[axis]);
         let multiples = self.multiples(&way).map(|x| x.round_ties_even() as i64);
         *wrap = [0, 1, 2].map(|j| total[j] + multiples[j]);
@@ -307,7 +355,6 @@ impl<G: Shape> Lattice<G> {
     }
 
     /// A position on the grid less multiples of the vectors, whatever its magnitude.
-    #[cold]
     fn place_of_long(
         &self,
         argument: &'static str,
@@ -334,7 +381,13 @@ impl<G: Shape> Lattice<G> {
 
     /// The multiples of the vectors that a place has, rounded.
     pub(super) fn multiples(&self, place: &G::Point) -> [f64; 3] {
-        self.dual.map(|form| form.iter().zip(place.as_ref()).map(|(a, x)| a * x).sum())
+        let mut multiples = [0.0; 3];
+        for (j, form) in self.dual.iter().enumerate() {
+            for axis in 0..G::D {
+                multiples[j] += form[axis] * place[axis];
+            }
+        }
+        multiples
     }
 
     /// By vector, the range of multiples by which what is occupied can be translated to meet a ball; none of it is more than
@@ -387,7 +440,7 @@ const LEAST: f64 = 1e-50;
 const FAR: f64 = (1u64 << 62) as f64 * (1u64 << 32) as f64;
 
 /// Positions of fewer units of the grid are rounded to it without long numbers, and translated by a vector without rounding.
-const SHORT: f64 = (1u64 << 52) as f64;
+const SHORT: f64 = (1u64 << 51) as f64;
 
 /// A basis of integers while it is reduced.
 struct Reduced {

@@ -1,4 +1,4 @@
-//! Triangulations of sets that repeat: each vertex is in all places to which a [lattice](lattice) takes it.
+//! Triangulations of sets that repeat: each vertex is in all places to which a lattice takes it.
 //!
 //! Inside is a triangulation of the plane or of space that has each vertex once, *at home*, in a cell of the lattice or
 //! near it, and the *images* of vertices that have a common cell with one at home, or may have one. Each cell of the
@@ -20,13 +20,15 @@
 //!
 //! # A commit
 //!
-//! Vertices and their images move, then images that are missing are inserted, in rounds of the same timestamp. Where a vertex
+//! Vertices and their images move, then images that are missing are inserted, in rounds of the same timestamp; cells that have
+//! changed tell whether any is missing (following.rs). Where a vertex
 //! would be too far from the unit cell, or vertices come, go, or the lattice changes, another triangulation is built beside
 //! the present one, and takes its place when it is complete.
 
 mod cells;
 mod commit;
 mod either;
+mod following;
 mod images;
 mod lattice;
 mod needed;

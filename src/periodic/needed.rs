@@ -2,7 +2,7 @@
 
 use crate::delaunay::Dimension;
 use crate::error::Result;
-use crate::ids::VertexId;
+use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::{MovingTriangulation, NO_CELL};
 use crate::periodic::images::Image;
@@ -27,29 +27,51 @@ impl Needed {
             for inner in VertexId::range(0..inside.n_home) {
                 needed.enter(inside, inside.images.of(inner).vertex, lattice.all_shifts())?;
             }
-            return needed.each_once();
+            return Ok(needed.each_once());
         }
         let cells = inside.t.cells()?;
-        for (c, (centre, square)) in inside.t.circumspheres()?.enumerate() {
-            let row = cells.corners[c];
-            let row = row.as_ref();
-            if row.iter().all(|v| v.index() >= inside.n_home) {
-                continue;
-            }
-            let is_at_hull = cells.neighbours[c].as_ref().contains(&NO_CELL);
-            let ranges = if is_at_hull {
-                lattice.all_shifts()
-            } else {
-                lattice.shifts_to(&centre, square.sqrt() * RADIUS, &inside.occupied)
-            };
-            if ranges.iter().all(|range| *range == (0..=0)) {
-                continue;
-            }
-            for &v in row.iter().filter(|v| v.index() < inside.n_home) {
-                needed.enter(inside, inside.images.of(v).vertex, ranges.clone())?;
+        for (cell, sphere) in CellId::range(0..cells.corners.len()).zip(inside.t.circumspheres()?) {
+            if cells.corners[cell].as_ref().iter().any(|v| v.index() < inside.n_home) {
+                needed.enter_by_ball(inside, lattice, cell, sphere)?;
             }
         }
-        needed.each_once()
+        Ok(needed.each_once())
+    }
+
+    /// Enters those that the ball of a cell asks for.
+    pub(super) fn enter_cell<G: Dimension>(
+        &mut self,
+        inside: &Inside<G>,
+        lattice: &Lattice<G>,
+        cell: CellId,
+    ) -> Result<()> {
+        for sphere in inside.t.circumspheres_of(&[cell])? {
+            self.enter_by_ball(inside, lattice, cell, sphere)?;
+        }
+        Ok(())
+    }
+
+    fn enter_by_ball<G: Dimension>(
+        &mut self,
+        inside: &Inside<G>,
+        lattice: &Lattice<G>,
+        cell: CellId,
+        (centre, square): (G::Point, f64),
+    ) -> Result<()> {
+        let cells = inside.t.cells()?;
+        let is_at_hull = cells.neighbours[cell].as_ref().contains(&NO_CELL);
+        let ranges = if is_at_hull {
+            lattice.all_shifts()
+        } else {
+            lattice.shifts_to(&centre, square.sqrt() * RADIUS, &inside.occupied)
+        };
+        if ranges.iter().all(|range| *range == (0..=0)) {
+            return Ok(());
+        }
+        for &v in cells.corners[cell].as_ref().iter().filter(|v| v.index() < inside.n_home) {
+            self.enter(inside, inside.images.of(v).vertex, ranges.clone())?;
+        }
+        Ok(())
     }
 
     /// Enters those images of a vertex that are not there, with shifts that are less than nothing by these.
@@ -68,10 +90,10 @@ impl Needed {
         Ok(())
     }
 
-    fn each_once(mut self) -> Result<Self> {
+    pub(super) fn each_once(mut self) -> Self {
         self.images.sort_unstable();
         self.images.dedup();
-        Ok(self)
+        self
     }
 }
 

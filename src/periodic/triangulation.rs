@@ -50,6 +50,10 @@ pub(super) struct Inside<G: Dimension> {
     /// Those at home have the first ids inside, in the order of vertices.
     pub(super) images: Images,
     pub(super) n_home: usize,
+    /// By id inside, where each is; not of images that have come since this was written.
+    pub(super) places: Vec<G::Point>,
+    /// Room for where they go.
+    pub(super) goals: Vec<G::Point>,
     pub(super) occupied: Occupied,
     /// By vector, how far outside of the unit cell vertices at home may be, as a share of it.
     pub(super) room: [f64; 3],
@@ -79,10 +83,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             home.push((VertexId::at(index), place));
             wraps.push(wrap);
         }
-        let (mut inside, places) = Inside::unbuilt(&lattice, &home, n, options)?;
-        inside.build(&lattice, &places)?;
-        let mut statistics = CommitReport::default();
-        statistics.coincident = inside.coincident() as u64;
+        let mut inside = Inside::unbuilt(&lattice, &home, n, options)?;
+        inside.build(&lattice)?;
+        let statistics = CommitReport { coincident: inside.coincident() as u64, ..CommitReport::default() };
         let (staged, cells) = (Staged::default(), OnceLock::new());
         Ok(PeriodicTriangulation { lattice, inside, wraps, staged, coming: None, statistics, cells })
     }
@@ -90,13 +93,13 @@ impl<G: Dimension> PeriodicTriangulation<G> {
 
 impl<G: Dimension> Inside<G> {
     /// Vertices, which are in the unit cell, and images near it, that are to be [built](Self::build); others of the ids up to
-    /// `n_ids` are of removed vertices. With them come their places.
+    /// `n_ids` are of removed vertices.
     pub(super) fn unbuilt(
         lattice: &Lattice<G>,
         home: &[(VertexId, G::Point)],
         n_ids: usize,
         options: Options,
-    ) -> Result<(Self, Vec<G::Point>)> {
+    ) -> Result<Self> {
         let mut occupied = Occupied::NOTHING;
         home.iter().for_each(|(_, place)| occupied.enter(&lattice.multiples(place)));
         let spacing = spacing(lattice, home);
@@ -124,14 +127,16 @@ impl<G: Dimension> Inside<G> {
             }
         }
         let t = MovingTriangulation::unbuilt(options);
-        Ok((Inside { t, images, n_home: home.len(), occupied, room }, places))
+        Ok(Inside { t, images, n_home: home.len(), places, goals: Vec::new(), occupied, room })
     }
 
     /// Triangulates the vertices and images at these places, and inserts images that are missing. After an error it can only
     /// be dropped.
-    pub(super) fn build(&mut self, lattice: &Lattice<G>, places: &[G::Point]) -> Result<()> {
-        self.t.build_first_with_keys(places, &keys_of(self.images.as_slice())?)?;
-        self.complete(lattice, Needed::of_all, |t| t.commit_timestamp().map(drop))
+    pub(super) fn build(&mut self, lattice: &Lattice<G>) -> Result<()> {
+        self.t.build_first_with_keys(&self.places, &keys_of(self.images.as_slice())?)?;
+        self.complete(lattice, Needed::of_all, |t| t.commit_timestamp().map(drop))?;
+        // From now on what changes is known.
+        self.t.begin_changes()
     }
 
     /// The number of vertices that others hide.
@@ -144,7 +149,10 @@ impl<G: Dimension> Inside<G> {
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
-        self.t.memory_bytes() + self.images.memory_bytes()
+        self.t.memory_bytes()
+            + self.images.memory_bytes()
+            + memory::bytes_of(&self.places)
+            + memory::bytes_of(&self.goals)
     }
 }
 

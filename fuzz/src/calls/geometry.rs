@@ -204,6 +204,12 @@ impl History<'_> {
         let cells = (0..).zip(&rows).filter(|(_, row)| is_around(row));
         let wanted: Vec<u32> = cells.map(|(cell, _)| cell).collect();
         assert_eq!(found, wanted, "cells around {vertices:?}");
+        // Whatever has been taken, what vertices that move have in common with others is marked.
+        let mask =
+            self.copied(77, 1, |to, room, count| c!(deldrift_voronoi_changed(t, start, n, to, room, count)));
+        assert_eq!(mask.len(), self.m.positions.len());
+        let beside = rows.iter().filter(|row| is_around(row)).flatten();
+        assert!(beside.chain(&vertices).all(|&v| mask.get(v as usize).is_none_or(|&x| x == 1)));
     }
 
     /// Entries of listed cells become those of a pass over all, and others stay.

@@ -2,7 +2,7 @@
 
 use crate::delaunay::Dimension;
 use crate::error::Result;
-use crate::ids::VertexId;
+use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::state::cells::{Cells, OwnedCells};
 use crate::motion::state::changes::{Changes, Taken};
@@ -89,6 +89,22 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.mesh.takes_changes = true;
         self.mesh.views.cells_mut(&self.mesh.kernel).expect("they are up to date").end_taking();
         Ok(taken.changes())
+    }
+
+    /// From now on changes are known, as if all there is had been taken.
+    pub(crate) fn begin_changes(&mut self) -> Result<()> {
+        self.mesh.views.cells_mut(&self.mesh.kernel)?.begin_taking()?;
+        self.mesh.takes_changes = true;
+        Ok(())
+    }
+
+    /// The corners of cells that have been created since changes were taken, with their indices, and of those that have been
+    /// removed, also while a timestamp is prepared; none if changes were never taken. A cell that has gone and come back may be
+    /// among both.
+    pub(crate) fn rows_since_taken(
+        &self,
+    ) -> Result<Option<impl Iterator<Item = (&G::Vertices, Option<CellId>)>>> {
+        Ok(self.cell_arrays()?.rows_since_taken())
     }
 
     /// Lists the vertices that have been hidden or shown; at the first call all that are hidden.

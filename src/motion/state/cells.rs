@@ -177,6 +177,12 @@ impl<G: Dimension> Cells<G> {
         self.slots.get(index.index()).copied()
     }
 
+    /// The sites of a cell, in the order of its row.
+    #[inline(always)]
+    pub(in crate::motion) fn sites(&self, kernel: &Delaunay<G>, index: CellId) -> G::Corners {
+        self.orderings[index].in_row(kernel.complex().cell(self.slots[index]).corners)
+    }
+
     /// The slot of each cell.
     #[inline(always)]
     pub(in crate::motion) fn slots(&self) -> &[Slot] {
@@ -206,6 +212,26 @@ impl<G: Dimension> Cells<G> {
             none => none.insert(Tracker::of_none(self.corners.len())?),
         };
         taken.list(tracker, &self.corners, n_ids)
+    }
+
+    /// The corners of cells that have come or gone since changes were taken; none if they never were.
+    pub(in crate::motion) fn rows_since_taken(
+        &self,
+    ) -> Option<impl Iterator<Item = (&G::Vertices, Option<CellId>)>> {
+        self.since_taken.as_ref().map(|tracker| tracker.rows_since_base(&self.corners))
+    }
+
+    /// All there is counts as taken.
+    pub(in crate::motion) fn begin_taking(&mut self) -> Result<()> {
+        let mut tracker = Tracker::of_none(self.corners.len())?;
+        tracker.reset();
+        self.since_taken = Some(tracker);
+        Ok(())
+    }
+
+    /// Whether all changes of arrays that are up to date have been taken.
+    pub(in crate::motion) fn are_changes_taken(&self) -> bool {
+        self.since_taken.as_ref().is_some_and(Tracker::is_clean)
     }
 
     /// What has been listed has been taken.

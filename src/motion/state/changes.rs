@@ -103,6 +103,18 @@ impl<C: Corners<VertexId>> Tracker<C> {
         }
     }
 
+    /// The corners of cells that have been created since the base, with their indices, and of those that have been removed.
+    /// One that has gone and come back may be among both.
+    pub(in crate::motion) fn rows_since_base<'t>(
+        &'t self,
+        corners: &'t [C],
+    ) -> impl Iterator<Item = (&'t C, Option<CellId>)> + 't {
+        let is_created = |index: CellId| index.index() < corners.len() && self.origin[index] == CellId::NONE;
+        let created = self.touched.as_slice().iter().filter(move |&&index| is_created(index));
+        let removed = self.removed.iter().map(|(_, row)| (row, None));
+        created.map(|&index| (&corners[index], Some(index))).chain(removed)
+    }
+
     /// The index at the base of the cell of an index, if there is a cell.
     pub(in crate::motion) fn origin(&self, index: CellId) -> CellId {
         self.origin.get(index.index()).copied().unwrap_or(CellId::NONE)
@@ -167,6 +179,11 @@ impl<C: Corners<VertexId>> Tracker<C> {
         self.origin[to] = self.origin[from];
         self.n_renumbered += 1;
         self.touched.insert(to);
+    }
+
+    /// Whether the cells of now are those of the base, in the same rows.
+    pub(in crate::motion) fn is_clean(&self) -> bool {
+        self.touched.as_slice().is_empty() && self.removed.is_empty() && self.turned.is_empty()
     }
 
     pub(in crate::motion) fn truncate(&mut self, n: usize) {

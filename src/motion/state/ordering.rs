@@ -29,6 +29,16 @@ impl Ordering {
         usize::from(self.0 >> (2 * corner) & 3)
     }
 
+    /// The corners of a slot in the order of the row.
+    #[inline(always)]
+    pub(in crate::motion) fn in_row<T: Entry, C: Corners<T>>(self, slot: C) -> C {
+        let mut row = slot;
+        if self != Self::SAME {
+            (0..C::N).for_each(|i| row[self.place(i)] = slot[i]);
+        }
+        row
+    }
+
     /// Whether the orientation of the row is opposite to that of the slot.
     pub(in crate::motion) fn is_odd(self) -> bool {
         let is_inversion = |&(i, j): &(usize, usize)| self.place(i) > self.place(j);

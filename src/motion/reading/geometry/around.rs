@@ -45,6 +45,15 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
     }
 
+    /// The vertices of which a mask has an entry that is not 0, but for hidden and removed ones.
+    pub(super) fn shown_in(&self, mask: &[u8]) -> Result<Vec<VertexId>> {
+        let mut shown = Vec::new();
+        let is_shown = |v: &VertexId| matches!(self.mesh.standing(*v), Standing::Shown(_));
+        let masked = VertexId::range(0..mask.len()).filter(|v| mask[v.index()] != 0);
+        memory::collect(&mut shown, masked.filter(is_shown))?;
+        Ok(shown)
+    }
+
     /// Those of the stars.
     fn list_around(&self, cells: &Cells<G>, vertices: &[VertexId]) -> Result<Vec<CellId>> {
         let index_of = cells.index_of();

@@ -133,6 +133,11 @@ impl Clip {
         self.high[axis] - self.low[axis]
     }
 
+    /// Whether a place is in the box.
+    pub(super) fn has(&self, p: &Vector) -> bool {
+        (0..3).all(|axis| self.low[axis] <= p[axis] && p[axis] <= self.high[axis])
+    }
+
     /// The offset of a place from the corner of least coordinates, or that of the nearest place in the box.
     pub(super) fn offset_within(&self, p: &Vector) -> Vector {
         [0, 1, 2].map(|axis| (p[axis] - self.low[axis]).clamp(0.0, self.extent(axis)))

@@ -16,14 +16,16 @@
 
 use std::cmp::Ordering;
 
-use crate::delaunay::Dimension;
+use crate::delaunay::{Dimension, IndexSet};
 use crate::error::Result;
-use crate::ids::VertexId;
-use crate::motion::reading::geometry::clipping::{Clip, Face, Vector};
+use crate::ids::{CellId, Slot, VertexId};
+use crate::machine::memory;
+use crate::motion::reading::geometry::clipping::{Clip, Face, Vector, cross, dot, in_space, minus, times};
 use crate::motion::reading::geometry::incidence::Neighbours;
 use crate::motion::reading::geometry::progress::Progress;
-use crate::motion::reading::geometry::sums::Sums;
-use crate::motion::reading::geometry::voronoi::Voronoi;
+use crate::motion::reading::geometry::sums::{LEAST_SQUARE, Sums};
+use crate::motion::reading::geometry::voronoi::{Part, Voronoi};
+use crate::motion::reading::query::cells_at;
 use crate::predicates::compare_distance;
 
 /// A corner of a box, and which of the faces at it are high, a bit for each axis.
@@ -100,25 +102,29 @@ impl BoxCorner {
 }
 
 impl<G: Dimension> Voronoi<'_, G> {
-    /// Tells what there is of the cells of some vertices, which do not fit in the box: parts whose sums are to be added,
-    /// with offsets from the vertex, or from the place in the box that is nearest to it. Only the first ones are told
-    /// for all of these; later parts, for vertices that `is_wanted`.
+    /// Tells what there is of the cells of some vertices, which do not fit in the box, with offsets from the vertex, or
+    /// from the place in the box that is nearest to it.
     pub(super) fn cut_cells(
         &mut self,
         clip: &Clip,
         mut neighbours: Neighbours<'_, G>,
         vertices: impl Iterator<Item = VertexId>,
-        is_wanted: impl Fn(VertexId) -> bool,
         progress: &mut Progress,
         mut tell: impl FnMut(VertexId, &Sums),
     ) -> Result<()> {
         let mut list = Vec::new();
         for v in vertices {
-            let apex = clip.offset_within(&self.place(v));
+            let place = self.place(v);
+            let apex = clip.offset_within(&place);
+            let is_inside = clip.has(&place);
             neighbours.list(v, VertexId::new(0), &mut list, |w, cell| (w, cell))?;
             let mut sums = Sums::default();
             for &(w, first) in &list {
-                if self.cut_around([v, w], first, clip)? {
+                self.ring.go_around(self.cells, [v, w], first)?;
+                let is_whole = is_inside && matches!(self.part(), Part::All);
+                let is_added = is_whole && self.add_whole([v, w], clip.unit, &mut sums);
+                if !is_added && !self.is_outside() {
+                    self.cut([v, w], clip)?;
                     self.facet.add_pyramids(clip, &apex, &mut sums);
                     sums.facets += clip.facet_in_unit(G::D, self.facet.measure());
                 }
@@ -126,17 +132,85 @@ impl<G: Dimension> Voronoi<'_, G> {
             }
             tell(v, &sums);
         }
+        Ok(())
+    }
+
+    /// Adds the pyramid between a vertex and the facet of the ring, which is in the box as a whole, unless the edge is
+    /// too short for products; whether it has.
+    fn add_whole(&self, [v, w]: [VertexId; 2], unit: f64, sums: &mut Sums) -> bool {
+        let apex = self.place(v);
+        let along = times(&minus(&self.place(w), &apex), unit);
+        let square = dot(&along, &along);
+        if square < LEAST_SQUARE {
+            return false;
+        }
+        let from_apex =
+            |cell: CellId| times(&minus(&in_space::<G>(&self.centres.of(cell).place), &apex), unit);
+        let first = from_apex(self.ring.cells[0]);
+        let mut before = from_apex(self.ring.cells[1]);
+        if G::D == 2 {
+            let step = minus(&before, &first);
+            let weight = (step[0] * along[1] - step[1] * along[0]).abs();
+            sums.facets += weight / square.sqrt();
+            sums.add(0.25 * weight, 1.0 / 3.0, [&first, &before]);
+            return true;
+        }
+        let (mut weight, mut moment) = (0.0, [0.0; 3]);
+        for &cell in &self.ring.cells[2..] {
+            let next = from_apex(cell);
+            let part = dot(&along, &cross(&minus(&before, &first), &minus(&next, &first)));
+            weight += part;
+            for axis in 0..3 {
+                moment[axis] += part * (first[axis] + before[axis] + next[axis]);
+            }
+            before = next;
+        }
+        // The ring may go either way around; a facet that is but rounding has no sign.
+        let sign = if weight < 0.0 { -1.0 } else { 1.0 };
+        sums.facets += 0.5 * weight.abs() / square.sqrt();
+        sums.volume += weight.abs() / 12.0;
+        sums.moment.iter_mut().zip(moment).for_each(|(sum, moment)| *sum += sign * moment / 48.0);
+        true
+    }
+
+    /// Tells what is between the corners of the box and the vertices in whose cells they are, of those that are wanted.
+    pub(super) fn corner_parts(
+        &self,
+        clip: &Clip,
+        is_wanted: impl Fn(VertexId) -> bool,
+        mut tell: impl FnMut(VertexId, &Sums),
+    ) -> Result<()> {
+        let mut star = IndexSet::new();
         for corner in BoxCorner::all::<G>(clip) {
             let near = self.t.nearest_vertex(&corner.point::<G>())?.expect("there are vertices");
             let owner = corner.owner(
                 near,
                 |v| self.place(v),
-                |v, others| neighbours.list(v, VertexId::new(0), others, |w, _| w),
+                |v, others| self.list_neighbours(v, &mut star, others),
             )?;
             if is_wanted(owner) {
                 tell(owner, &corner.sums::<G>(clip, &clip.offset_within(&self.place(owner))));
             }
         }
+        Ok(())
+    }
+
+    /// Lists the vertices that share a cell with one, ascending.
+    fn list_neighbours(
+        &self,
+        v: VertexId,
+        star: &mut IndexSet<Slot>,
+        others: &mut Vec<VertexId>,
+    ) -> Result<()> {
+        star.clear();
+        others.clear();
+        self.t.mesh.kernel.list_star(self.t.mesh.site_of[v], star, |_| {})?;
+        for cell in cells_at(star, self.cells.index_of()) {
+            let row = self.cells.corners()[cell];
+            memory::collect(others, row.as_ref().iter().copied().filter(|&w| w != v))?;
+        }
+        others.sort_unstable();
+        others.dedup();
         Ok(())
     }
 }

@@ -30,6 +30,7 @@
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
+use crate::motion::reading::geometry::centres::Centres;
 use crate::motion::reading::geometry::clipping::{
     Clip, Face, Vector, cross, dot, length_by, minus, normalised,
 };
@@ -74,14 +75,6 @@ impl Corner {
     fn is_far(&self) -> bool {
         self.direction != [0; 3]
     }
-}
-
-/// What is known of the circumcentres of cells.
-pub(super) struct Centres<'c, P> {
-    /// Their places; infinite where these are not accurate for the box.
-    pub(super) places: &'c [P],
-    /// The faces that each is beyond.
-    pub(super) sides: &'c [u8],
 }
 
 /// A facet, or what is left of it.
@@ -245,7 +238,7 @@ impl CutFacet {
     /// Whether a corner is beyond a face.
     fn is_beyond<P>(&self, corner: &Corner, face: Face, clip: &Clip, centres: &Centres<P>) -> bool {
         if corner.cell != CellId::NONE {
-            return centres.sides[corner.cell.index()] & face.bit() != 0;
+            return centres.of(corner.cell).sides & face.bit() != 0;
         }
         // One on the opposite face is as far from this one as it can be.
         if corner.sides.iter().any(|side| matches!(side, Side::On(on) if on.axis == face.axis)) {
@@ -291,7 +284,7 @@ impl CutFacet {
     /// The faces that some corner may be beyond, by their bits: no corner that is new is beyond others.
     fn faces_to_cut<P>(&self, centres: &Centres<P>) -> u8 {
         let faces = |corner: &Corner| {
-            if corner.is_far() { u8::MAX } else { centres.sides[corner.cell.index()] }
+            if corner.is_far() { u8::MAX } else { centres.of(corner.cell).sides }
         };
         self.corners.iter().fold(0, |all, corner| all | faces(corner))
     }
@@ -368,7 +361,7 @@ impl CutFacet {
     fn place_of<P: AsRef<[f64]>>(&self, corner: &Corner, clip: &Clip, centres: &Centres<P>) -> Vector {
         let within = |axis: usize, offset: f64| offset.clamp(0.0, clip.extent(axis));
         if corner.cell != CellId::NONE {
-            let centre = centres.places[corner.cell.index()].as_ref();
+            let centre = centres.of(corner.cell).place.as_ref();
             if centre[0].is_finite() {
                 let offset = |axis: usize| centre.get(axis).map_or(0.0, |x| x - clip.low()[axis]);
                 return [0, 1, 2].map(|axis| within(axis, offset(axis)));

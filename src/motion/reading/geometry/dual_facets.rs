@@ -2,8 +2,9 @@
 //!
 //! # Idea
 //!
-//! The [pieces](super::dual) of a facet add up to its measure A and to the moment of its points as seen from the middle
-//! of its edge. Which edge it is, the list of the edges of the vertex of lower id tells.
+//! A facet is the polygon of the centres of the cells around its edge; triangles from its first corner give its measure A
+//! and the moment of its points as seen from the middle of the edge. Each edge is done by itself, so that several threads
+//! share them.
 //!
 //! Let x and y be the ends, L their distance and c the centroid of the facet. A point z of the facet is as far from x as
 //! from y: |z − x|² = |z − y|². If y moves by dy, and z by dz, (y − x) · dz = (y − z) · dy; so the facet moves by
@@ -16,19 +17,21 @@
 //!
 //! With h as in [`dual`](super::dual), P the perimeter and d the diameter of a facet, A is off by h P, as its corners
 //! are off by h; the centroid by h P d / A; a derivative, which is linear in the measure and the moment, by
-//! h P (|y − c| + d) / L. Where A ≤ 2 h P the quotient of moment and measure could be anywhere; such facets are put
-//! together from their corners, as those are that the box cuts, and the centroid is a mean of corners with weights that
-//! are not negative: off by d + h at most.
+//! h P (|y − c| + d) / L. Where A ≤ 2 h P the quotient of moment and measure could be anywhere; such facets are cut by
+//! the box as those are that it does cut, and the centroid is a mean of corners with weights that are not negative: off
+//! by d + h at most.
 
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
-use crate::machine::memory;
-use crate::motion::reading::geometry::clipping::{Clip, Vector, minus, times};
-use crate::motion::reading::geometry::dual::{Piece, Wanted, length};
-use crate::motion::reading::geometry::incidence::Neighbours;
+use crate::machine::{memory, threads};
+use crate::motion::reading::geometry::centres::{Centres, SHARED_AT_LEAST};
+use crate::motion::reading::geometry::clipping::{
+    Clip, Vector, cross, dot, in_space, length_by, minus, times,
+};
 use crate::motion::reading::geometry::progress::Progress;
-use crate::motion::reading::geometry::voronoi::Voronoi;
+use crate::motion::reading::geometry::sums::LEAST_SQUARE;
+use crate::motion::reading::geometry::voronoi::{Part, Voronoi};
 use crate::motion::reading::geometry::voronoi_cells::checked;
 use crate::motion::triangulation::MovingTriangulation;
 
@@ -46,133 +49,133 @@ pub struct VoronoiFacets<P> {
     pub derivatives: Vec<[P; 2]>,
 }
 
-/// An edge, and sums over the pieces of its facet.
-#[derive(Clone, Copy, Debug)]
-struct Edge {
-    lower: VertexId,
-    /// A cell of which it is an edge.
-    first: CellId,
-    is_cut: bool,
-    weight: f64,
-    /// The sum of the lengths of its sides.
-    perimeter: f64,
-    /// From the middle of the edge.
-    moment: Vector,
+/// The Voronoi facet of an edge in a box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VoronoiFacet<P> {
+    /// Length or area.
+    pub area: f64,
+    /// Centroid; NaN where nothing of the facet is in the box.
+    pub centroid: P,
+    /// The derivative of the area or volume of the cell of the edge's first vertex by the position of the second one,
+    /// and of that of the second one by the position of the first.
+    pub derivatives: [P; 2],
 }
 
-/// Edges by their lower vertex.
-struct Edges {
-    offsets: Vec<u32>,
-    /// The upper vertex of each.
-    upper: Vec<VertexId>,
-    edges: Vec<Edge>,
-}
-
-impl Edges {
-    fn of<G: Dimension>(t: &MovingTriangulation<G>) -> Result<Self> {
-        let n_ids = t.id_count();
-        let mut neighbours = Neighbours::new(t.cell_arrays()?, n_ids)?;
-        let (mut offsets, mut upper, mut edges) = (Vec::new(), Vec::new(), Vec::new());
-        memory::reserve_exact(&mut offsets, n_ids + 1)?;
-        memory::reserve_exact(&mut upper, t.edge_count())?;
-        memory::reserve_exact(&mut edges, t.edge_count())?;
-        let mut list = Vec::new();
-        offsets.push(0);
-        for lower in VertexId::range(0..n_ids) {
-            neighbours.prefetch(lower.index() + 2);
-            neighbours.list(lower, lower, &mut list, |w, cell| (w, cell))?;
-            for &(w, first) in &list {
-                upper.push(w);
-                edges.push(Edge {
-                    lower,
-                    first,
-                    is_cut: false,
-                    weight: 0.0,
-                    perimeter: 0.0,
-                    moment: [0.0; 3],
-                });
-            }
-            offsets.push(upper.len() as u32);
-        }
-        Ok(Edges { offsets, upper, edges })
-    }
-
-    /// The edge between two vertices of a cell.
-    #[inline(always)]
-    fn between(&mut self, a: VertexId, b: VertexId) -> &mut Edge {
-        let (lower, upper) = if a < b { (a, b) } else { (b, a) };
-        let [from, to] = [0, 1].map(|k| self.offsets[lower.index() + k] as usize);
-        let at = self.upper[from..to].iter().position(|&w| w == upper);
-        &mut self.edges[from + at.expect("all edges are listed")]
-    }
-}
-
-impl Edge {
-    /// Whether the facet may be narrower than corners are off: then the quotient of its moment and its measure may be
-    /// anywhere, and corners have to be put together.
-    #[inline(always)]
-    fn is_narrow<G: Dimension>(&self, clip: &Clip, [x, y]: &[Vector; 2]) -> bool {
-        let along = times(&minus(y, x), clip.unit);
-        G::D == 3 && self.weight <= 2.0 * NARROW * self.perimeter * length(&along)
-    }
-
-    #[inline(always)]
-    fn add<G: Dimension>(&mut self, piece: &Piece) {
-        self.weight += piece.weight;
-        self.perimeter += piece.step;
-        let weight = piece.weight / G::D as f64;
-        for axis in 0..G::D {
-            self.moment[axis] += weight * (piece.to_centres[axis] + piece.along[axis]);
-        }
-    }
-}
-
-/// What the area of a facet is to its perimeter, in sizes of the box, where it is narrow: twice what corners are off,
-/// and room for what the unit is less than the size.
-const NARROW: f64 = 4e-8;
+/// A facet that is computed: the edge, the vertex of lower id first, its number among those of that vertex, and a cell
+/// of it.
+type Wanted = ([VertexId; 2], u32, CellId);
 
 /// A facet: measure, centroid, derivatives.
 type Facet = (f64, Vector, [Vector; 2]);
 
+/// Sums over triangles of a facet, with lengths in the unit of a box.
+struct Polygon {
+    /// The measure times the length of the edge, and times two in space.
+    weight: f64,
+    /// The sum of the lengths of its sides.
+    perimeter: f64,
+    /// The sum of the offsets of its points from the middle of the edge, times as much.
+    moment: Vector,
+}
+
+/// What the area of a facet is to its perimeter, in sizes of the box, where it is narrow: twice what corners are off,
+/// and room for what the unit is less than the size. Then the quotient of its moment and its measure may be anywhere.
+const NARROW: f64 = 4e-8;
+
+/// How many facets are computed between two looks at whether to go on.
+const FACETS_AT_A_TIME: usize = 1 << 15;
+
 impl<G: Dimension> Voronoi<'_, G> {
-    /// The facet of an edge that is in the box as a whole, from its sums.
-    fn whole(&self, clip: &Clip, edge: &Edge, [x, y]: [Vector; 2]) -> Facet {
-        let along = times(&minus(&y, &x), clip.unit);
-        let length = length(&along);
-        let factor = if G::D == 2 { 1.0 } else { 0.5 };
-        let measure = (factor * edge.weight / length).max(0.0);
-        let unit = |measure: f64| clip.measure_in(G::D - 1, measure);
-        let centroid = if edge.weight > 0.0 {
-            [0, 1, 2].map(|axis| {
-                let way = (edge.moment[axis] / edge.weight + 0.5 * along[axis]) / clip.unit;
-                (x[axis] + way).clamp(clip.low()[axis], clip.high()[axis])
-            })
-        } else {
-            [f64::NAN; 3]
+    /// The facet of the ring.
+    fn whole_polygon(&self, x: &Vector, along: &Vector, unit: f64) -> Polygon {
+        let half = times(along, 0.5);
+        let from_middle = |cell: CellId| {
+            minus(&times(&minus(&in_space::<G>(&self.centres.of(cell).place), x), unit), &half)
         };
-        let derivative = |sign: f64| {
-            [0, 1, 2].map(|axis| {
-                let from_middle = factor * (edge.moment[axis] / length) / length;
-                unit(sign * 0.5 * measure * (along[axis] / length) - from_middle)
-            })
+        let way = |p: &Vector, q: &Vector| {
+            let way = minus(q, p);
+            dot(&way, &way).sqrt()
         };
-        (unit(measure), centroid, [derivative(1.0), derivative(-1.0)])
+        let first = from_middle(self.ring.cells[0]);
+        let mut before = from_middle(self.ring.cells[1]);
+        if G::D == 2 {
+            let step = minus(&before, &first);
+            let weight = (step[0] * along[1] - step[1] * along[0]).abs();
+            let moment = times(&[first[0] + before[0], first[1] + before[1], 0.0], 0.5 * weight);
+            return Polygon { weight, perimeter: 2.0, moment };
+        }
+        let mut polygon = Polygon { weight: 0.0, perimeter: way(&first, &before), moment: [0.0; 3] };
+        for &cell in &self.ring.cells[2..] {
+            let next = from_middle(cell);
+            let part = dot(along, &cross(&minus(&before, &first), &minus(&next, &first)));
+            polygon.weight += part;
+            polygon.perimeter += way(&before, &next);
+            for axis in 0..3 {
+                polygon.moment[axis] += part * (first[axis] + before[axis] + next[axis]);
+            }
+            before = next;
+        }
+        polygon.perimeter += way(&before, &first);
+        // The ring may go either way around.
+        let sign = if polygon.weight < 0.0 { -1.0 } else { 1.0 };
+        polygon.weight *= sign;
+        polygon.moment = times(&polygon.moment, sign / 3.0);
+        polygon
     }
 
-    /// The facet of an edge that may be cut by the box.
-    fn cut_one(&mut self, clip: &Clip, edge: [VertexId; 2], first: CellId) -> Result<Facet> {
-        if !self.cut_around(edge, first, clip)? {
+    /// The facet of the ring, if it is in the box as a whole and not so narrow that it has to be put together from its
+    /// corners.
+    fn whole(&self, clip: &Clip, [x, y]: &[Vector; 2]) -> Option<Facet> {
+        let along = times(&minus(y, x), clip.unit);
+        let square = dot(&along, &along);
+        if square < LEAST_SQUARE {
+            return None;
+        }
+        let length = square.sqrt();
+        let polygon = self.whole_polygon(x, &along, clip.unit);
+        if G::D == 3 && polygon.weight <= 2.0 * NARROW * polygon.perimeter * length {
+            return None;
+        }
+        let factor = if G::D == 2 { 1.0 } else { 0.5 };
+        let measure = factor * polygon.weight / length;
+        let unit = |measure: f64| clip.measure_in(G::D - 1, measure);
+        let mut centroid = [f64::NAN; 3];
+        let mut derivatives = [[0.0; 3]; 2];
+        for axis in 0..3 {
+            if polygon.weight > 0.0 {
+                let way = (polygon.moment[axis] / polygon.weight + 0.5 * along[axis]) / clip.unit;
+                centroid[axis] = (x[axis] + way).clamp(clip.low()[axis], clip.high()[axis]);
+            }
+            let from_middle = factor * (polygon.moment[axis] / length) / length;
+            let half = 0.5 * measure * (along[axis] / length);
+            derivatives[0][axis] = unit(half - from_middle);
+            derivatives[1][axis] = unit(-half - from_middle);
+        }
+        Some((unit(measure), centroid, derivatives))
+    }
+
+    /// The facet of an edge, of which `first` is a cell.
+    fn facet_of(&mut self, clip: &Clip, edge: [VertexId; 2], first: CellId) -> Result<Facet> {
+        let ends = edge.map(|v| self.place(v));
+        self.ring.go_around(self.cells, edge, first)?;
+        if let Part::All = self.part()
+            && let Some(facet) = self.whole(clip, &ends)
+        {
+            return Ok(facet);
+        }
+        if self.is_outside() {
             return Ok((0.0, [f64::NAN; 3], [[0.0; 3]; 2]));
         }
-        let [x, y] = edge.map(|v| self.place(v));
+        self.cut(edge, clip)?;
         let (measure, offset) = self.facet.measure_and_centroid();
         let centroid = [0, 1, 2].map(|axis| (clip.low()[axis] + offset[axis]).min(clip.high()[axis]));
-        let length = length(&minus(&y, &x));
+        let way = minus(&ends[1], &ends[0]);
+        let length = length_by(dot(&way, &way), &way);
         let derivative = |of: &Vector| {
             let by = |axis: usize| measure * ((of[axis] - centroid[axis]) / length);
             if measure > 0.0 { [0, 1, 2].map(by) } else { [0.0; 3] }
         };
-        Ok((measure, centroid, [derivative(&y), derivative(&x)]))
+        Ok((measure, centroid, [derivative(&ends[1]), derivative(&ends[0])]))
     }
 }
 
@@ -208,61 +211,116 @@ impl<G: Dimension> MovingTriangulation<G> {
         mask: Option<&[u8]>,
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<VoronoiFacets<G::Point>> {
+        let nowhere = of_space::<G>(&[f64::NAN; 3]);
+        let (mut areas, mut centroids, mut derivatives) = (Vec::new(), Vec::new(), Vec::new());
+        memory::lengthen(&mut areas, self.edge_count(), f64::NAN)?;
+        memory::lengthen(&mut centroids, self.edge_count(), nowhere)?;
+        memory::lengthen(&mut derivatives, self.edge_count(), [nowhere; 2])?;
+        self.for_voronoi_facets(clip, mask, monitor, &mut |edge, facet| {
+            areas[edge] = facet.area;
+            centroids[edge] = facet.centroid;
+            derivatives[edge] = facet.derivatives;
+        })?;
+        Ok(VoronoiFacets { edges: self.edges()?, areas, centroids, derivatives })
+    }
+
+    /// Tells the [`voronoi_derivatives`](Self::voronoi_derivatives) of all edges, or of those that have an end of which
+    /// `mask` has an entry that is not 0, in any order: the number of the edge in the order of
+    /// [`edges`](Self::edges), and the facet. All are computed before.
+    ///
+    /// # Errors
+    /// Those of [`voronoi_derivatives`](Self::voronoi_derivatives); then nothing has been told.
+    pub fn for_voronoi_facets(
+        &self,
+        clip: [&G::Point; 2],
+        mask: Option<&[u8]>,
+        monitor: &mut dyn FnMut(f64) -> bool,
+        tell: &mut dyn FnMut(usize, VoronoiFacet<G::Point>),
+    ) -> Result<()> {
         mask.map_or(Ok(()), |mask| self.check_vertex_mask(mask.len()))?;
         if self.mesh.kernel.is_constrained() {
-            return self.without_segments()?.voronoi_derivatives(clip, mask, monitor);
+            return self.facets_at_own_edges(clip, mask, monitor, tell);
         }
-        let (clip, wanted) = (checked::<G>(clip)?, Wanted::new(mask));
-        let progress = &mut Progress::new(monitor, 2 * self.cell_count());
-        let mut edges = std::cell::RefCell::new(Edges::of(self)?);
-        let mut voronoi = Voronoi::new(self, Some(&clip))?;
-        let id = |s| self.mesh.kernel.site(s).id;
-        voronoi.for_pieces(
-            clip.unit,
-            wanted,
-            progress,
-            #[inline(always)]
-            |[a, b], piece| {
-                edges.borrow_mut().between(id(a), id(b)).add::<G>(piece);
-            },
-            |_, sites| {
-                let mut edges = edges.borrow_mut();
-                for (k, &a) in sites.iter().enumerate() {
-                    for &b in &sites[..k] {
-                        edges.between(id(a), id(b)).is_cut = true;
-                    }
+        let clip = checked::<G>(clip)?;
+        let progress = &mut Progress::new(monitor, 2 * self.edge_count());
+        let (wanted, offsets) = self.wanted_edges(mask, progress)?;
+        let chosen = mask.map(|mask| self.cells_around(&self.shown_in(mask)?)).transpose()?;
+        let cells = self.cell_arrays()?;
+        let centres = Centres::new(self, cells, Some(&clip), chosen.as_deref())?;
+        let mut facets = Vec::new();
+        memory::reserve_exact(&mut facets, wanted.len())?;
+        for some in wanted.chunks(FACETS_AT_A_TIME) {
+            let n_threads = self.mesh.kernel.threads().for_work(some.len(), SHARED_AT_LEAST, 64);
+            let parts = threads::for_ranges(some.len(), n_threads, |range| {
+                let mut voronoi = Voronoi::new(self, cells, &centres);
+                let mut facets: Vec<Facet> = Vec::new();
+                memory::reserve_exact(&mut facets, range.len())?;
+                for &(edge, _, first) in &some[range] {
+                    facets.push(voronoi.facet_of(&clip, edge, first)?);
                 }
-            },
-        )?;
-        let Edges { upper, edges, .. } = edges.get_mut();
-        let mut found = VoronoiFacets {
-            edges: Vec::new(),
-            areas: Vec::new(),
-            centroids: Vec::new(),
-            derivatives: Vec::new(),
-        };
-        memory::reserve_exact(&mut found.edges, edges.len())?;
-        memory::reserve_exact(&mut found.areas, edges.len())?;
-        memory::reserve_exact(&mut found.centroids, edges.len())?;
-        memory::reserve_exact(&mut found.derivatives, edges.len())?;
-        for (edge, &upper) in edges.iter().zip(&*upper) {
-            let ends = [edge.lower, upper];
-            let places = ends.map(|v| voronoi.place(v));
-            let (area, centroid, derivatives) = if !ends.iter().any(|&v| wanted.has(v)) {
-                (f64::NAN, [f64::NAN; 3], [[f64::NAN; 3]; 2])
-            } else if edge.is_cut || edge.is_narrow::<G>(&clip, &places) {
-                let facet = voronoi.cut_one(&clip, ends, edge.first)?;
-                progress.advance(voronoi.ring.cells.len())?;
-                facet
-            } else {
-                voronoi.whole(&clip, edge, places)
-            };
-            found.edges.push(ends);
-            found.areas.push(area);
-            found.centroids.push(of_space::<G>(&centroid));
-            found.derivatives.push(derivatives.each_ref().map(of_space::<G>));
+                Ok(facets)
+            })?;
+            for part in parts {
+                memory::append(&mut facets, &part?)?;
+            }
+            progress.advance(some.len())?;
         }
-        Ok(found)
+        for ((area, centroid, derivatives), ([v, _], k, _)) in facets.into_iter().zip(wanted) {
+            let derivatives = derivatives.each_ref().map(of_space::<G>);
+            tell(
+                (offsets[v.index()] + k) as usize,
+                VoronoiFacet { area, centroid: of_space::<G>(&centroid), derivatives },
+            );
+        }
+        Ok(())
+    }
+
+    /// Tells the facets of the own edges of a constrained triangulation: there is none where the Voronoi cells of the
+    /// ends do not meet.
+    fn facets_at_own_edges(
+        &self,
+        clip: [&G::Point; 2],
+        mask: Option<&[u8]>,
+        monitor: &mut dyn FnMut(f64) -> bool,
+        tell: &mut dyn FnMut(usize, VoronoiFacet<G::Point>),
+    ) -> Result<()> {
+        let nothing = |x| {
+            let row = of_space::<G>(&[x; 3]);
+            VoronoiFacet { area: x, centroid: of_space::<G>(&[f64::NAN; 3]), derivatives: [row; 2] }
+        };
+        let plain = self.without_segments()?;
+        let (there, own) = (plain.edges()?, self.edges()?);
+        let mut facets = Vec::new();
+        memory::lengthen(&mut facets, there.len(), nothing(f64::NAN))?;
+        plain.for_voronoi_facets(clip, mask, monitor, &mut |edge, facet| facets[edge] = facet)?;
+        for (k, edge) in own.iter().enumerate() {
+            if mask.is_none_or(|mask| edge.iter().any(|v| mask[v.index()] != 0)) {
+                tell(k, there.binary_search(edge).map_or(nothing(0.0), |at| facets[at]));
+            }
+        }
+        Ok(())
+    }
+
+    /// The edges that have an end in a mask, if there is one, in the order of storage of the vertices; and how many edges
+    /// have a vertex of lower id as their first one, by id.
+    fn wanted_edges(&self, mask: Option<&[u8]>, progress: &mut Progress) -> Result<(Vec<Wanted>, Vec<u32>)> {
+        let (mut wanted, mut offsets) = (Vec::new(), Vec::new());
+        memory::reserve_exact(&mut wanted, if mask.is_none() { self.edge_count() } else { 0 })?;
+        memory::lengthen(&mut offsets, self.id_count() + 1, 0)?;
+        let vertices = self.mesh.kernel.live_sites().map(|s| self.mesh.kernel.site(s).id);
+        self.for_edges(vertices, |edge, first| {
+            progress.advance(1)?;
+            let n = &mut offsets[edge[0].index() + 1];
+            *n += 1;
+            if mask.is_some_and(|mask| edge.iter().all(|v| mask[v.index()] == 0)) {
+                return Ok(());
+            }
+            memory::push(&mut wanted, (edge, *n - 1, first))
+        })?;
+        for k in 1..offsets.len() {
+            offsets[k] += offsets[k - 1];
+        }
+        Ok((wanted, offsets))
     }
 }
 

@@ -13,9 +13,10 @@ use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::options::Options;
+use crate::motion::reading::geometry::centres::Centres;
 use crate::motion::reading::geometry::clipping::{Clip, Vector, greatest, in_space};
 use crate::motion::reading::geometry::cut_cells::BoxCorner;
-use crate::motion::reading::geometry::cut_facets::{Centres, CutFacet};
+use crate::motion::reading::geometry::cut_facets::CutFacet;
 use crate::motion::reading::geometry::incidence::Neighbours;
 use crate::motion::reading::geometry::progress::Progress;
 use crate::motion::reading::geometry::rings::Ring;
@@ -86,7 +87,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         progress.expect(2 * cells.corners().len());
         let mut neighbours = Neighbours::new(cells, self.id_count())?;
         let (mut ring, mut facet, mut list) = (Ring::default(), CutFacet::default(), Vec::new());
-        let centres = Centres::<G::Point> { places: &[], sides: &[] };
+        let centres = Centres::<G::Point>::NONE;
         for v in VertexId::range(0..n) {
             let at = self.place_in_space(v);
             let apex = clip.offset_within(&at);

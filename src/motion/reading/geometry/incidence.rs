@@ -52,7 +52,16 @@ pub(super) struct Neighbours<'t, G: Dimension> {
 
 impl<'t, G: Dimension> Neighbours<'t, G> {
     pub(super) fn new(cells: &'t Cells<G>, n_ids: usize) -> Result<Self> {
-        let stars = stars(cells, n_ids)?;
+        Self::of(cells, n_ids, CellId::range(0..cells.corners().len()))
+    }
+
+    /// Of vertices of which all cells are among these, which are ascending.
+    pub(super) fn of(
+        cells: &'t Cells<G>,
+        n_ids: usize,
+        chosen: impl ExactSizeIterator<Item = CellId> + Clone,
+    ) -> Result<Self> {
+        let stars = stars_of(cells, n_ids, chosen)?;
         let mut seen_in = Vec::new();
         memory::reserve_exact(&mut seen_in, n_ids)?;
         seen_in.resize(n_ids, 0);
@@ -114,22 +123,34 @@ impl<'t, G: Dimension> Neighbours<'t, G> {
 
 /// The cells of each vertex, ascending.
 pub(super) fn stars<G: Dimension>(cells: &Cells<G>, n_ids: usize) -> Result<Rows<CellId>> {
+    stars_of(cells, n_ids, CellId::range(0..cells.corners().len()))
+}
+
+/// Of each vertex those of these cells, which are ascending.
+fn stars_of<G: Dimension>(
+    cells: &Cells<G>,
+    n_ids: usize,
+    chosen: impl ExactSizeIterator<Item = CellId> + Clone,
+) -> Result<Rows<CellId>> {
     let corners = cells.corners();
     let (mut offsets, mut entries) = (Vec::new(), Vec::new());
+    let n_entries = chosen.len() * G::Corners::N;
     memory::reserve_exact(&mut offsets, n_ids + 2)?;
-    memory::reserve_exact(&mut entries, corners.len() * G::Corners::N)?;
+    memory::reserve_exact(&mut entries, n_entries)?;
     // The number of cells of each vertex two entries on, then where its list begins one entry on: when this has moved
     // to the end of the list, it is where the next one begins.
     offsets.resize(n_ids + 2, 0);
-    entries.resize(corners.len() * G::Corners::N, CellId::NONE);
-    for &vertex in corners.iter().flat_map(|row| row.as_ref()) {
-        offsets[vertex.index() + 2] += 1;
+    entries.resize(n_entries, CellId::NONE);
+    for cell in chosen.clone() {
+        for &vertex in corners[cell].as_ref() {
+            offsets[vertex.index() + 2] += 1;
+        }
     }
     for k in 2..offsets.len() {
         offsets[k] += offsets[k - 1];
     }
-    for (cell, row) in CellId::range(0..corners.len()).zip(corners) {
-        for &vertex in row.as_ref() {
+    for cell in chosen {
+        for &vertex in corners[cell].as_ref() {
             let place = &mut offsets[vertex.index() + 1];
             entries[*place as usize] = cell;
             *place += 1;

@@ -12,6 +12,8 @@
 //! | `star` | stars in circulation order |
 //! | `rings` | what is around an edge, in order |
 //! | `voronoi`, `voronoi_cells`, `progress` | Voronoi cells and facets |
+//! | `voronoi_changes` | which Voronoi cells have changed |
+//! | `centres` | circumcentres for these, of all cells or of chosen ones |
 //! | `dual`, `dual_facets`, `sums` | volumes, boundaries and centroids of Voronoi cells; their facets, with derivatives |
 //! | `clipping`, `cut_facets`, `cut_cells` | those that are cut by a box |
 //! | `flat_cells` | Voronoi cells of vertices in one hyperplane |
@@ -23,6 +25,7 @@
 
 mod around;
 mod boundary;
+mod centres;
 mod clipping;
 mod cut_cells;
 mod cut_facets;
@@ -42,6 +45,7 @@ mod star;
 mod sums;
 mod voronoi;
 mod voronoi_cells;
+mod voronoi_changes;
 mod weights;
 
 pub use boundary::BoundaryFacet;

@@ -2,6 +2,9 @@
 
 use crate::motion::reading::geometry::clipping::Vector;
 
+/// Edges of which the square of the length, in the unit of a box, is less than that are too short for products with it.
+pub(super) const LEAST_SQUARE: f64 = 1e-140;
+
 /// Sums over parts of a cell, with lengths in the unit of a box.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Sums {

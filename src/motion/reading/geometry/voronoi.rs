@@ -12,26 +12,20 @@
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
-use crate::machine::memory;
+use crate::motion::reading::geometry::centres::Centres;
 use crate::motion::reading::geometry::clipping::{
     Clip, Vector, cross, dot, greatest, in_space, length_by, minus,
 };
-use crate::motion::reading::geometry::cut_facets::{Centres, CutFacet};
+use crate::motion::reading::geometry::cut_facets::CutFacet;
 use crate::motion::reading::geometry::rings::Ring;
 use crate::motion::state::cells::Cells;
 use crate::motion::triangulation::MovingTriangulation;
-
-/// A circumcentre is used where its radius is at most so many times the size of the box; one in the box, of a cell of
-/// which a vertex is there, too, has less than half of that.
-const LARGEST_RADIUS: f64 = 4.0;
 
 /// Computes Voronoi facets.
 pub(super) struct Voronoi<'t, G: Dimension> {
     pub(super) t: &'t MovingTriangulation<G>,
     pub(super) cells: &'t Cells<G>,
-    pub(super) centres: Vec<G::Point>,
-    /// The faces of the box that they are beyond; none without a box.
-    pub(super) sides: Vec<u8>,
+    pub(super) centres: &'t Centres<'t, G::Point>,
     pub(super) ring: Ring,
     pub(super) facet: CutFacet,
 }
@@ -44,25 +38,13 @@ pub(super) enum Part {
 }
 
 impl<'t, G: Dimension> Voronoi<'t, G> {
-    pub(super) fn new(t: &'t MovingTriangulation<G>, clip: Option<&Clip>) -> Result<Self> {
-        let cells = t.cell_arrays()?;
-        let n_cells = cells.corners().len();
-        let (mut centres, mut sides) = (Vec::new(), Vec::new());
-        memory::reserve_exact(&mut centres, n_cells)?;
-        match clip {
-            None => centres.extend(t.circumspheres()?.map(|(centre, _)| centre)),
-            Some(clip) => {
-                memory::reserve_exact(&mut sides, n_cells)?;
-                let most = LARGEST_RADIUS * clip.size;
-                let mut slots = cells.slots().iter();
-                centres.extend(t.circumspheres()?.map(|(centre, squared)| {
-                    let places = t.mesh.kernel.places(*slots.next().expect("a slot for each cell"));
-                    sides.push(clip.sides::<G>(&centre, squared, &places[..=G::D]));
-                    if squared <= most * most { centre } else { infinite::<G>() }
-                }));
-            }
-        }
-        Ok(Voronoi { t, cells, centres, sides, ring: Ring::default(), facet: CutFacet::default() })
+    /// With the centres of all cells that are around edges that are looked at.
+    pub(super) fn new(
+        t: &'t MovingTriangulation<G>,
+        cells: &'t Cells<G>,
+        centres: &'t Centres<'t, G::Point>,
+    ) -> Self {
+        Voronoi { t, cells, centres, ring: Ring::default(), facet: CutFacet::default() }
     }
 
     pub(super) fn place(&self, v: VertexId) -> Vector {
@@ -72,13 +54,13 @@ impl<'t, G: Dimension> Voronoi<'t, G> {
     /// How much of the facet of the ring is in the box, if there is a box.
     #[inline(always)]
     pub(super) fn part(&self) -> Part {
-        let is_inside = |cell: &CellId| self.sides[cell.index()] == 0 && self.centres[*cell][0].is_finite();
+        let is_inside = |cell: &CellId| self.centres.of(*cell).fits();
         if self.ring.is_closed && self.ring.cells.iter().all(is_inside) { Part::All } else { Part::Cut }
     }
 
     /// Whether the facet of the ring is beyond a face of the box.
-    fn is_outside(&self) -> bool {
-        let sides = self.ring.cells.iter().fold(u8::MAX, |sides, cell| sides & self.sides[cell.index()]);
+    pub(super) fn is_outside(&self) -> bool {
+        let sides = self.ring.cells.iter().fold(u8::MAX, |sides, cell| sides & self.centres.of(*cell).sides);
         self.ring.is_closed && sides != 0
     }
 
@@ -86,7 +68,7 @@ impl<'t, G: Dimension> Voronoi<'t, G> {
     /// the square of the distance between the two centres.
     #[inline(always)]
     fn rounded_measure(&self, along: &Vector) -> f64 {
-        let centre = |cell: CellId| in_space::<G>(&self.centres[cell]);
+        let centre = |cell: CellId| in_space::<G>(&self.centres.of(cell).place);
         let (first, others) = self.ring.cells.split_first().expect("a cell at the edge");
         let first = centre(*first);
         let mut before = minus(&centre(others[0]), &first);
@@ -123,7 +105,7 @@ impl<'t, G: Dimension> Voronoi<'t, G> {
         let length = length_by(dot(along, along), along);
         let unit = along.map(|x| x / greatest(along));
         let unit = unit.map(|x| x / dot(&unit, &unit).sqrt());
-        let centre = |cell: CellId| in_space::<G>(&self.centres[cell]);
+        let centre = |cell: CellId| in_space::<G>(&self.centres.of(cell).place);
         let (first, others) = self.ring.cells.split_first().expect("a cell at the edge");
         let first = centre(*first);
         let most = others.iter().fold(greatest(&first), |most, &cell| most.max(greatest(&centre(cell))));
@@ -154,20 +136,8 @@ impl<'t, G: Dimension> Voronoi<'t, G> {
         let edge = [self.place(v), self.place(w)];
         let (t, ring) = (self.t, &self.ring);
         self.facet.fill(edge, ring, |z| t.place_in_space(z), G::D == 2, has_left)?;
-        let centres = Centres { places: &self.centres, sides: &self.sides };
-        self.facet.cut(clip, &centres)?;
-        self.facet.place(clip, &centres)
-    }
-
-    /// Goes around an edge of which `first` is a cell, and makes `facet` the part of its facet that is in the box;
-    /// whether there is any.
-    pub(super) fn cut_around(&mut self, edge: [VertexId; 2], first: CellId, clip: &Clip) -> Result<bool> {
-        self.ring.go_around(self.cells, edge, first)?;
-        if self.is_outside() {
-            return Ok(false);
-        }
-        self.cut(edge, clip)?;
-        Ok(true)
+        self.facet.cut(clip, self.centres)?;
+        self.facet.place(clip, self.centres)
     }
 
     /// Length or area of the facet of an edge of which `first` is a cell.
@@ -192,12 +162,6 @@ impl<'t, G: Dimension> Voronoi<'t, G> {
 const LEAST_SQUARE: f64 = 1e-140;
 const MOST_SQUARE: f64 = 1e140;
 const MOST: f64 = 1e280;
-
-fn infinite<G: Dimension>() -> G::Point {
-    let mut p = G::Point::default();
-    p[0] = f64::INFINITY;
-    p
-}
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// The place of a vertex, in the plane at height 0.

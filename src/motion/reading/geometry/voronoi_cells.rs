@@ -7,9 +7,11 @@ use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
+use crate::motion::reading::geometry::centres::Centres;
 use crate::motion::reading::geometry::clipping::Clip;
 use crate::motion::reading::geometry::incidence::Neighbours;
 use crate::motion::reading::geometry::progress::Progress;
+use crate::motion::reading::geometry::sums::Sums;
 use crate::motion::reading::geometry::voronoi::{Part, Voronoi, pyramid};
 use crate::motion::state::checking::check_position;
 use crate::motion::triangulation::MovingTriangulation;
@@ -21,9 +23,10 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// Rounded: let h be 10⁻⁸ times the greatest extent of the box and 10⁻¹⁵ times the greatest magnitude of its
     /// coordinates; without a box, 10⁻⁸ times the greatest circumradius around the vertex and 10⁻¹⁵ times the greatest
-    /// magnitude of coordinates of the circumcentres. A corner of a cell is off by at most h, and so the area or volume
-    /// by h times the length or area of the surface of the cell; by a few last bits in place of 10⁻⁸, unless there are
-    /// cells that are nearly flat. In the box, no corner is left out and none is too many.
+    /// magnitude of coordinates of the circumcentres. A corner of a cell is off by at most h, and so, to first order, an
+    /// area by h times the length of the boundary, and a volume by h times the area of the surface or two thirds of that
+    /// of the triangles that the vertex makes with the edges of its cell, whichever is more; by a few last bits in place
+    /// of 10⁻⁸, unless there are cells that are nearly flat. In the box, no corner is left out and none is too many.
     ///
     /// ```
     /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
@@ -89,7 +92,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     fn whole_volumes(&self, volumes: &mut [f64], progress: &mut Progress) -> Result<()> {
-        let mut voronoi = Voronoi::new(self, None)?;
+        let cells = self.cell_arrays()?;
+        let centres = Centres::new(self, cells, None, None)?;
+        let mut voronoi = Voronoi::new(self, cells, &centres);
         // In the order of storage, as their sums have none.
         let vertices = self.mesh.kernel.live_sites().map(|s| self.mesh.kernel.site(s).id);
         self.for_edges(vertices, |edge, first| {
@@ -103,7 +108,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     fn volumes_in(&self, clip: &Clip, volumes: &mut [f64], progress: &mut Progress) -> Result<()> {
-        let mut voronoi = Voronoi::new(self, Some(clip))?;
+        let cells = self.cell_arrays()?;
+        let centres = Centres::new(self, cells, Some(clip), None)?;
+        let mut voronoi = Voronoi::new(self, cells, &centres);
         let mut is_cut = Vec::new();
         memory::lengthen(&mut is_cut, self.id_count(), false)?;
         let vertices = self.mesh.kernel.live_sites().map(|s| self.mesh.kernel.site(s).id);
@@ -122,16 +129,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         })?;
         let cut = VertexId::range(0..self.id_count()).filter(|v| is_cut[v.index()]);
         cut.clone().for_each(|v| volumes[v.index()] = 0.0);
-        voronoi.cut_cells(
-            clip,
-            neighbours,
-            cut,
-            |_| true,
-            progress,
-            |v, sums| {
-                volumes[v.index()] += clip.measure_in(G::D, sums.volume);
-            },
-        )?;
+        let mut add = |v: VertexId, sums: &Sums| volumes[v.index()] += clip.measure_in(G::D, sums.volume);
+        voronoi.cut_cells(clip, neighbours, cut, progress, &mut add)?;
+        voronoi.corner_parts(clip, |_| true, add)?;
         // Parts may be negative, and what is left of them by rounding.
         volumes.iter_mut().for_each(|volume| *volume = if *volume < 0.0 { 0.0 } else { *volume });
         Ok(())
@@ -182,7 +182,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut measures = Vec::new();
         memory::reserve_exact(&mut measures, self.edge_count())?;
         let progress = &mut Progress::new(monitor, self.expected_work(false));
-        let mut voronoi = Voronoi::new(self, clip.as_ref())?;
+        let cells = self.cell_arrays()?;
+        let centres = Centres::new(self, cells, clip.as_ref(), None)?;
+        let mut voronoi = Voronoi::new(self, cells, &centres);
         self.for_edges(VertexId::range(0..self.id_count()), |edge, first| {
             measures.push(voronoi.measure(edge, first, clip.as_ref())?);
             progress.advance(voronoi.ring.cells.len())
@@ -197,7 +199,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Visits all edges with a cell of each, in the order of their lower ids in `vertices`.
     #[inline(always)]
-    fn for_edges(
+    pub(super) fn for_edges(
         &self,
         vertices: impl Iterator<Item = VertexId>,
         mut visit: impl FnMut([VertexId; 2], CellId) -> Result<()>,

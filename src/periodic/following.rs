@@ -1,0 +1,200 @@
+//! Whether a change has left cells at home that are those of the repeating set, by a look at what has changed alone.
+//!
+//! The cells at home are *consistent* if each cell with a vertex at home that has an image, too, is there in as many places as it
+//! has different shifts: translated so that any of its vertices is at home. Where a set repeats along all axes and no two of
+//! its vertices share a place, cells at home that are consistent, and *connected* by common vertices, are those of the
+//! repeating set. With all translations they are cells without a boundary, as the star of each vertex at home is whole, and
+//! they do not overlap around a vertex. So they cover space, each connected part of them equally often, and one that is
+//! without a boundary in a space without holes covers it once. Each facet is between two cells whose balls have no other vertex of
+//! both in them, with ties broken alike in all periods: they are the Delaunay cells.
+//!
+//! Where they were so before, only cells that have changed can be otherwise: of a cell that is there in one place and not in
+//! another some places have come or gone, and not all, and vertices that are not connected any more were in one that has gone.
+
+use crate::delaunay::{Dimension, IndexSet};
+use crate::error::Result;
+use crate::ids::{CellId, Slot, VertexId};
+use crate::machine::memory;
+use crate::motion::{CellsView, cells_at};
+use crate::periodic::images::Image;
+use crate::periodic::lattice::{HOME, Lattice};
+use crate::periodic::needed::Needed;
+use crate::periodic::triangulation::Inside;
+
+/// The vertices of a cell in their order, each with its shift from the first.
+type Class = [u64; 4];
+
+/// A cell that has come, or one that has gone, by its place in a list.
+#[derive(Clone, Copy)]
+enum Change {
+    Come(CellId),
+    Gone(usize),
+}
+
+/// One of the places of a class that has changed.
+struct Found {
+    class: Class,
+    n_places: usize,
+    change: Change,
+}
+
+/// Finds cells among those at a vertex.
+struct Stars<'t, G: Dimension> {
+    inside: &'t Inside<G>,
+    cells: CellsView<'t, G>,
+    slots: IndexSet<Slot>,
+}
+
+impl<G: Dimension> Stars<'_, G> {
+    /// The cell at a vertex that has these corners, in any order.
+    fn find(&mut self, vertex: VertexId, row: &G::Vertices) -> Result<Option<CellId>> {
+        self.slots.clear();
+        let (index_of, _) = self.inside.t.list_star(vertex, &mut self.slots)?;
+        let corners = self.cells.corners;
+        let has_all = |cell: &CellId| row.as_ref().iter().all(|v| corners[*cell].as_ref().contains(v));
+        Ok(cells_at(&self.slots, index_of).find(has_all))
+    }
+}
+
+/// Vertices in sets that are joined.
+struct Joined(Vec<VertexId>);
+
+impl Joined {
+    fn none(n: usize) -> Result<Self> {
+        let mut parents = Vec::new();
+        memory::reserve_exact(&mut parents, n)?;
+        parents.extend(VertexId::range(0..n));
+        Ok(Joined(parents))
+    }
+
+    fn first(&mut self, mut v: VertexId) -> VertexId {
+        while self.0[v] != v {
+            self.0[v] = self.0[self.0[v]];
+            v = self.0[v];
+        }
+        v
+    }
+
+    fn join(&mut self, u: VertexId, w: VertexId) {
+        let (u, w) = (self.first(u), self.first(w));
+        self.0[u.max(w)] = u.min(w);
+    }
+}
+
+impl<G: Dimension> Inside<G> {
+    /// The images that are missing after moves and insertions of images, where before all was as in the repeating set.
+    pub(super) fn missing(&self, lattice: &Lattice<G>) -> Result<Needed> {
+        let is_plain = lattice.rank() == G::D && self.t.cell_count() > 0 && self.t.hidden_count() == 0;
+        if is_plain && let Some(needed) = self.missing_at_changes(lattice)? {
+            return Ok(needed);
+        }
+        Needed::of_all(self, lattice)
+    }
+
+    /// Those that are missing by the balls of cells which are not consistent; none if that does not tell.
+    fn missing_at_changes(&self, lattice: &Lattice<G>) -> Result<Option<Needed>> {
+        let cells = self.t.cells()?;
+        let Some(rows) = self.t.rows_since_taken()? else { return Ok(None) };
+        let (mut removed, mut found) = (Vec::new(), Vec::new());
+        let mut joined = Joined::none(self.images.n_vertices())?;
+        for (row, created) in rows {
+            let corners = row.as_ref();
+            let n_home = corners.iter().filter(|v| v.index() < self.n_home).count();
+            if n_home == 0 {
+                continue;
+            }
+            if created.is_some() {
+                let vertex = |v: VertexId| self.images.of(v).vertex;
+                corners[1..].iter().for_each(|&v| joined.join(vertex(corners[0]), vertex(v)));
+            } else {
+                memory::push(&mut removed, *row)?;
+            }
+            if n_home < corners.len() {
+                let (class, n_places) = self.class_of(row);
+                let change = created.map_or_else(|| Change::Gone(removed.len() - 1), Change::Come);
+                memory::push(&mut found, Found { class, n_places, change })?;
+            }
+        }
+        found.sort_unstable_by_key(|one| one.class);
+        let (mut needed, mut is_consistent) = (Needed::default(), true);
+        let mut stars = Stars { inside: self, cells, slots: IndexSet::new() };
+        for of_class in found.chunk_by(|one, other| one.class == other.class) {
+            // Before, the class was there in all places or in none.
+            let n_come = of_class.iter().filter(|one| matches!(one.change, Change::Come(_))).count();
+            let n_more = n_come.abs_diff(of_class.len() - n_come);
+            if n_more == 0 || n_more == of_class[0].n_places {
+                continue;
+            }
+            is_consistent = false;
+            for one in of_class {
+                match one.change {
+                    Change::Come(cell) => needed.enter_cell(self, lattice, cell)?,
+                    Change::Gone(index) => {
+                        self.enter_others(&mut stars, lattice, &removed[index], &mut needed)?
+                    }
+                }
+            }
+        }
+        if !is_consistent {
+            let needed = needed.each_once();
+            return Ok(Some(needed).filter(|needed| !needed.images.is_empty()));
+        }
+        let are_joined = removed.iter().all(|row| {
+            let mut each = row.as_ref().iter().map(|&v| joined.first(self.images.of(v).vertex));
+            let first = each.next();
+            each.all(|other| Some(other) == first)
+        });
+        Ok(are_joined.then_some(needed))
+    }
+
+    /// Enters what the balls of translations of a cell that has gone ask for, as far as they are there.
+    fn enter_others(
+        &self,
+        stars: &mut Stars<'_, G>,
+        lattice: &Lattice<G>,
+        row: &G::Vertices,
+        needed: &mut Needed,
+    ) -> Result<()> {
+        for &v in row.as_ref().iter().filter(|v| v.index() >= self.n_home) {
+            let Some(row) = self.translated_home(row, v) else { continue };
+            if let Some(cell) = stars.find(self.images.home(self.images.of(v).vertex), &row)? {
+                needed.enter_cell(self, lattice, cell)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// What all translations of a cell have in common, and in how many places it has a vertex at home.
+    fn class_of(&self, row: &G::Vertices) -> (Class, usize) {
+        let mut images = [Image { vertex: VertexId::NONE, shift: HOME }; 4];
+        let corners = row.as_ref();
+        images.iter_mut().zip(corners).for_each(|(image, &v)| *image = self.images.of(v));
+        let images = &mut images[..corners.len()];
+        images.sort_unstable();
+        let mut n_places = 0;
+        let mut class = [u64::MAX; 4];
+        for (i, image) in images.iter().enumerate() {
+            n_places += usize::from(images[..i].iter().all(|other| other.shift != image.shift));
+            // Less than 2^7 periods are between two corners.
+            let apart = [0, 1, 2].map(|j| u64::from((image.shift[j] - images[0].shift[j]) as u8));
+            class[i] = u64::from(image.vertex.get()) << 32 | apart[0] << 16 | apart[1] << 8 | apart[2];
+        }
+        (class, n_places)
+    }
+
+    /// The corners of a cell after the translation that takes one of them home, if all are there.
+    fn translated_home(&self, row: &G::Vertices, corner: VertexId) -> Option<G::Vertices> {
+        let shift = self.images.of(corner).shift;
+        debug_assert!(shift != HOME);
+        let mut translated = *row;
+        for (i, &v) in row.as_ref().iter().enumerate() {
+            let image = self.images.of(v);
+            let there = self.images.find(image.vertex, [0, 1, 2].map(|j| image.shift[j] - shift[j]));
+            if there == VertexId::NONE {
+                return None;
+            }
+            translated[i] = there;
+        }
+        Some(translated)
+    }
+}
