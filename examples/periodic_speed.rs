@@ -20,7 +20,8 @@ impl Random {
     }
 }
 
-const STEPS: usize = 9;
+/// So many that the system, which counts time in ticks of some milliseconds, tells enough of them.
+const STEPS: usize = 20;
 
 /// Of this thread on a processor, which other programs do not add to, where the system tells that.
 fn seconds() -> f64 {
@@ -34,11 +35,6 @@ fn milliseconds(work: impl FnOnce() -> Result<()>) -> Result<f64> {
     let start = seconds();
     work()?;
     Ok(1e3 * (seconds() - start))
-}
-
-fn median(times: &mut [f64]) -> f64 {
-    times.sort_by(f64::total_cmp);
-    times[times.len() / 2]
 }
 
 fn compare<G: Dimension>(name: &str, n: usize, vectors: &[G::Point]) -> Result<()> {
@@ -65,15 +61,14 @@ fn compare<G: Dimension>(name: &str, n: usize, vectors: &[G::Point]) -> Result<(
     println!("  build: {of_open:.1} ms in the open, {of_periodic:.1} periodic: {:.2}", of_periodic / of_open);
     let spacing = (n as f64).powf(-1.0 / G::D as f64);
     for share in [1e-4, 1e-3, 1e-2, 1e-1] {
-        let (mut open_times, mut periodic_times) = ([0.0; STEPS], [0.0; STEPS]);
-        for (open_time, periodic_time) in open_times.iter_mut().zip(&mut periodic_times) {
+        let (mut of_open, mut of_periodic) = (0.0, 0.0);
+        for _ in 0..STEPS {
             for p in &mut points {
                 (0..G::D).for_each(|axis| p[axis] += share * spacing * (2.0 * random.next() - 1.0));
             }
-            *open_time = milliseconds(|| open.commit_positions(&points).map(drop))?;
-            *periodic_time = milliseconds(|| periodic.commit_positions(&points).map(drop))?;
+            of_open += milliseconds(|| open.commit_positions(&points).map(drop))? / STEPS as f64;
+            of_periodic += milliseconds(|| periodic.commit_positions(&points).map(drop))? / STEPS as f64;
         }
-        let (of_open, of_periodic) = (median(&mut open_times), median(&mut periodic_times));
         println!(
             "  moves by {share} spacings: {of_open:.2} ms in the open, {of_periodic:.2} periodic: {:.2}",
             of_periodic / of_open
