@@ -143,8 +143,9 @@ picture: ## docs/moving.svg and docs/lloyd.svg, from runs of the library
 	cargo run --release --example lloyd_picture > docs/lloyd.svg.new
 	mv docs/lloyd.svg.new docs/lloyd.svg
 
+examples: WITH_PACKAGE = DELDRIFT_LIBRARY="$(CARGO_TARGET_DIR)/release/libdeldrift.so" PYTHONPATH=python /usr/bin/python3
 examples: library ## all examples, and their pictures in docs; particle finite elements also beside CGAL
-	@.ci/packages $(EXAMPLE_NEEDS) libcgal-dev
+	@.ci/packages $(EXAMPLE_NEEDS) libcgal-dev python3-numpy
 	cmake -S examples -B build/examples -DDELDRIFT_LIBRARY="$(CARGO_TARGET_DIR)/release/libdeldrift.so"
 	cmake --build build/examples
 	build/examples/solver docs/solver.svg
@@ -160,6 +161,8 @@ examples: library ## all examples, and their pictures in docs; particle finite e
 	build/examples/gas 400 4000 docs/gas.svg
 	build/examples/particle_fem 3.6 0.05 docs/particle_fem.svg
 	build/examples/particle_fem_cgal
+	$(WITH_PACKAGE) python/examples/tissue.py docs/tissue.svg
+	$(WITH_PACKAGE) python/examples/foam.py docs/foam.svg
 
 cgal-examples: library ## CGAL's examples with deldrift in its place, beside CGAL (ARGS=--write: docs/CGAL_EXAMPLES.md)
 	@.ci/packages g++ libcgal-dev libeigen3-dev

@@ -91,6 +91,10 @@ class PeriodicDelaunay(Core):
         check(status, {"positions": "points"}, callbacks)
         self._start(Handle(pointer.value or 0, callbacks), ndim, threads, "merge", "ignore", callbacks)
 
+    def __reduce__(self) -> Any:
+        # Copies of the attributes would share what the library holds, and destroy it twice.
+        raise TypeError("a PeriodicDelaunay can be neither copied nor pickled: make one of its points and vectors")
+
     @property
     def nvertices(self) -> int:
         """The number of vertices that are there."""

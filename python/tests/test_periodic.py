@@ -1,6 +1,8 @@
 """Periodic triangulations, beside scipy's of copies."""
 
+import copy
 import itertools
+import pickle
 
 import deldrift
 import numpy as np
@@ -113,3 +115,12 @@ def test_what_is_wrong_is_told_and_changes_nothing():
     with pytest.raises(deldrift.NoSuchVertex, match=r"ids\[0\] is 7"):
         tri.move([[0.1, 0.1]], ids=[7])
     assert tri.timestamp == 0 and tri.move([[0.2, 0.1], [0.6, 0.7]]).timestamp == 1
+
+
+@pytest.mark.parametrize("make", [copy.copy, copy.deepcopy, pickle.dumps])
+def test_a_copy_is_refused_and_harms_nothing(make, rng):
+    tri = deldrift.PeriodicDelaunay(rng.random((20, 2)), [1, 1])
+    with pytest.raises(TypeError, match="neither copied nor pickled"):
+        make(tri)
+    assert tri.move(rng.random((20, 2))).timestamp == 1
+    assert tri.voronoi_volumes().sum() == pytest.approx(1, rel=1e-12)

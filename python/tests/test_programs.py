@@ -137,6 +137,52 @@ def test_lammps_has_the_same_volumes(box):
     run.close()
 
 
+def test_a_tissue_relaxes_is_sheared_and_crawls(tmp_path):
+    """The example of a tissue: forces are derivatives of the energy, a solid resists shear, and a fluid flows."""
+    import tissue
+
+    runs = [tissue.run(p0, n=100, strains=10, steps=400) for p0 in (3.4, 3.95)]
+    for cells, energies, ways in runs:
+        assert cells.tri.timestamp >= 1000 and len(cells.tri.simplices) == 2 * 100
+        np.testing.assert_allclose(cells.tri.vectors, [[10, 0], [1, 10]], atol=1e-12)
+        of_areas, of_sum, of_forces = cells.errors()
+        assert of_areas < 1e-12 and of_sum < 1e-12 and of_forces < 1e-6
+        # All is as in a triangulation from nothing, of points taken back into the box.
+        back = ways[-1] - np.floor(ways[-1] @ np.linalg.inv(cells.tri.vectors)) @ cells.tri.vectors
+        fresh = tissue.Shapes(deldrift.PeriodicDelaunay(back, cells.tri.vectors))
+        np.testing.assert_allclose(fresh.perimeters, cells.shapes.perimeters, atol=1e-9)
+    (_, stiff, near), (_, soft, far) = runs
+    assert stiff[-1] - stiff[0] > 10 * abs(soft[-1] - soft[0])
+    assert np.ptp(far, axis=0).mean() > 1.5 * np.ptp(near, axis=0).mean()
+    start = tissue.Tissue(64, 3.4)
+    energies = start.relax(50)
+    assert np.all(np.diff(energies) <= 0) and energies[-1] < energies[0] / 2
+    tissue.draw(tmp_path / "tissue.svg", runs)
+    assert (tmp_path / "tissue.svg").read_text().count("<polygon") == 2 * (100 + 1)
+
+
+def test_a_foam_comes_to_rest_in_cells_of_kelvin(tmp_path):
+    """The example of a foam: volumes are those of the library, and a disturbed lattice is found again."""
+    import foam
+
+    points = foam.body_centred(3)
+    first, last = foam.relax(points, 60)
+    for cells, at in ((first, points), (last, last.points)):
+        tri = deldrift.PeriodicDelaunay(at, last.vectors)
+        np.testing.assert_allclose(cells.volumes, tri.voronoi_volumes(), rtol=1e-12)
+        assert cells.volumes.sum() == pytest.approx(54, rel=1e-12)
+        rows, polygons = cells.facets()
+        assert len(rows) == 2 * len(tri.edges()[0])
+        assert sum(map(len, polygons)) == 12 * len(tri.simplices)
+    assert last.volumes == pytest.approx(1, rel=1e-4) and last.quotients == pytest.approx(foam.KELVIN, rel=1e-4)
+    assert np.all(np.bincount(last.facets()[0][:, 0]) == 14) and first.quotients.mean() < 0.72
+    before, after = foam.relax(foam.random_points(60), 60)
+    assert before.quotients.mean() < 0.6 and 0.7 < after.quotients.mean() < foam.KELVIN
+    assert after.volumes.std() < before.volumes.std() / 5
+    foam.draw(tmp_path / "foam.svg", [before, after, last])
+    assert (tmp_path / "foam.svg").read_text().count("<polygon") > 100
+
+
 def test_an_optimiser_moves_all_points(rng):
     """As radiance meshes are trained: Adam on positions, tetrahedra of each step; here for equal volumes."""
     spatial = pytest.importorskip("scipy.spatial", reason="scipy is not installed")
