@@ -2459,7 +2459,8 @@ deldrift_status deldrift_voronoi_facets(const deldrift_triangulation *t,
 /// call only; vertices may be outside of it. mask, mask_count: a byte for each id, mask_count of them, which must be
 /// deldrift_id_count; only entries of vertices of which the byte is not 0 are computed and written, and the others are
 /// left as they are. NULL and 0 for all vertices. deldrift_voronoi_changed makes a mask of the cells that have changed.
-/// The numbers of a vertex do not depend on the mask, nor on the number of threads, to the last bit.
+/// The numbers of a vertex do not depend on the mask, nor on the number of threads that compute them, to the last bit. They
+/// are sums in the order of the cells, which a build on several threads may have in another one.
 ///
 /// volumes: a buffer with room for capacity numbers. areas: a buffer with room for as many; receives the length (2D) or area (3D) of the
 /// boundary of what there is of each cell in the box, with what it has of the faces of the box. centroids: a buffer with
@@ -2593,7 +2594,8 @@ deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
 /// lattice) have lengths up to L and are not flatter than a cube, the step is at most 2^-45 L, and mostly 2^-48 L; a
 /// position moves by half of that at most. deldrift_copy_positions and deldrift_vectors tell what is used: for these positions
 /// and vectors the cells are exact. Entries of vectors may be up to 1e50 in magnitude, and are 0 or at least 1e-50;
-/// positions may be some 1e13 L away.
+/// positions may be some 1e13 L away. Where vectors go along more axes than there are vectors, as one that is along no axis
+/// does, the step is 2^10 times that, and positions may be some 500 L away across the vectors, else they are out of range.
 ///
 /// Functions that serve a periodic triangulation are those of this section, deldrift_destroy, deldrift_dimension,
 /// deldrift_set_algorithm, deldrift_get_algorithm, deldrift_move_vertex, deldrift_move_vertices,
@@ -2626,7 +2628,7 @@ deldrift_status deldrift_create_periodic(uint32_t dimension,
 /// that is not periodic. Vertices that do not move stay at their positions: a program that deforms its box with all that
 /// is in it gives the positions, too. Vectors that are staged already are forgotten. deldrift_discard_moves discards them.
 ///
-/// Cost: constant; the commit costs as much as creation.
+/// Cost: constant; the commit costs as much as creation, unless the vectors are those that are in force already.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT,
 /// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_DEPENDENT_VECTORS, DELDRIFT_OUT_OF_MEMORY.

@@ -106,7 +106,8 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             return Err(Error::WrongCount { argument: "vector_count", given, wanted, coming: 0 });
         }
         let lattice = memory::boxed(Lattice::<G>::new(vectors)?)?;
-        self.coming = Some(lattice);
+        // Programs hand over their vectors at every step, changed or not.
+        self.coming = (!lattice.is_equal(&self.lattice)).then_some(lattice);
         Ok(())
     }
 

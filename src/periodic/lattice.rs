@@ -43,6 +43,15 @@ const SLACK: f64 = 1e-9;
 /// Coordinates on the grid, and sums of them, have at most so many bits.
 const GRID_BITS: i32 = 52;
 
+/// Where vectors go along more axes than there are vectors, vertices are anywhere along these: there is one grid for all axes,
+/// so that a small component does not ask for a fine one, and it is that much coarser, in bits, so that vertices may be so many
+/// times as far away.
+const BITS_OF_OPEN: i32 = 10;
+
+/// Positions at home are so many units of the grid away at most: no translation that is asked for needs more bits than
+/// there are.
+const MOST_UNITS: i128 = 1 << 52;
+
 /// Caller's vectors are read with so many bits.
 const LONG_BITS: i32 = 96;
 
@@ -139,12 +148,18 @@ impl<G: Shape> Lattice<G> {
             greatest: [0, 1, 2]
                 .map(|j| if j < rank { (1.0 + 2.0 * ROOM + reach * thickness[j]).floor() as i32 } else { 0 }),
         };
-        for axis in 0..G::D {
-            let span: f64 =
-                (0..rank).map(|j| (f64::from(lattice.greatest[j]) + 2.0) * rows[j][axis].abs()).sum();
-            if span > 0.0 {
-                lattice.unit[axis] = 2f64.powi(exponent_above(2.0 * span) - GRID_BITS);
-            }
+        let span = |axis: usize| -> f64 {
+            (0..rank).map(|j| (f64::from(lattice.greatest[j]) + 2.0) * rows[j][axis].abs()).sum()
+        };
+        let spans = [0, 1, 2].map(|axis| if axis < G::D { span(axis) } else { 0.0 });
+        let greatest = spans.iter().fold(0.0, |most, &x| f64::max(most, x));
+        let has_open = spans.iter().filter(|&&x| x > 0.0).count() > rank;
+        for axis in (0..G::D).filter(|&axis| spans[axis] > 0.0) {
+            lattice.unit[axis] = if has_open {
+                2f64.powi(exponent_above(2.0 * greatest) - GRID_BITS + BITS_OF_OPEN)
+            } else {
+                2f64.powi(exponent_above(2.0 * spans[axis]) - GRID_BITS)
+            };
         }
         for (j, row) in rows.iter().enumerate() {
             for axis in 0..G::D {
@@ -152,6 +167,12 @@ impl<G: Shape> Lattice<G> {
             }
         }
         Ok(lattice)
+    }
+
+    /// Whether these are the same vectors, given as the same.
+    pub(super) fn is_equal(&self, other: &Self) -> bool {
+        (self.rank, self.of_caller, self.unit) == (other.rank, other.of_caller, other.unit)
+            && self.vectors.iter().zip(&other.vectors).all(|(v, w)| v.as_ref() == w.as_ref())
     }
 
     /// The number of directions in which the set is periodic.
@@ -282,6 +303,7 @@ impl<G: Shape> Lattice<G> {
             total = [0, 1, 2].map(|j| total[j] + multiples[j]);
             place = self.place_of(position, &units);
         }
+        self.reject_far(argument, index, position, &units)?;
         Ok((place, total))
     }
 
@@ -364,7 +386,26 @@ impl<G: Shape> Lattice<G> {
     ) -> Result<G::Point> {
         let mut units = self.units_of(argument, index, position)?;
         (0..G::D).for_each(|axis| units[axis] -= self.units_along(axis, wrap));
+        self.reject_far(argument, index, position, &units)?;
         Ok(self.place_of(position, &units))
+    }
+
+    /// An error if a position at home is so far away, in a direction that the vectors do not span, that translations of it are
+    /// rounded.
+    fn reject_far(
+        &self,
+        argument: &'static str,
+        index: usize,
+        position: &G::Point,
+        units: &[i128; 3],
+    ) -> Result<()> {
+        match (0..G::D).find(|&axis| units[axis].abs() > MOST_UNITS) {
+            Some(axis) => {
+                let limit = MOST_UNITS as f64 * self.unit[axis];
+                Err(Error::OutOfRange { argument, index, axis, value: position[axis], limit })
+            }
+            None => Ok(()),
+        }
     }
 
     /// The position of which a place at home is the translation.

@@ -188,6 +188,44 @@ fn cells_are_those_of_copies() {
     }
 }
 
+/// One vector that is along no axis, or nearly along one: vertices are several of its lengths apart across it. The cells are those
+/// of copies of the positions and vectors that are used.
+fn check_oblique<G: Dimension>(seed: u64) {
+    let rng = &mut Rng::new(seed);
+    let mut number = |most: f64| most * (rng.below(1 << 40) as f64 / (1u64 << 39) as f64 - 1.0);
+    let mut vector = G::Point::default();
+    (0..G::D).for_each(|axis| vector[axis] = number(if seed.is_multiple_of(4) { 1e-9 } else { 0.4 }));
+    vector[0] += 0.7;
+    let points: Vec<G::Point> = (0..1 + seed % 6)
+        .map(|_| {
+            let mut p = G::Point::default();
+            (0..G::D).for_each(|axis| p[axis] = number(4.0));
+            p
+        })
+        .collect();
+    let t = PeriodicTriangulation::<G>::new(&points, &[vector], Options::default()).unwrap();
+    let used: Vec<G::Point> = (0..points.len()).map(|v| t.position(VertexId::at(v)).unwrap()).collect();
+    let basis: Vec<G::Point> = t.vectors().collect();
+    assert_eq!(
+        classes(&t, &used, &basis),
+        by_copies::<G>(&used, &basis, 40),
+        "seed {seed}: {used:?}, {basis:?}"
+    );
+    assert!(used.iter().zip(&points).all(|(p, q)| (0..G::D).all(|axis| (p[axis] - q[axis]).abs() < 1e-10)));
+}
+
+#[test]
+fn vectors_along_no_axis_leave_nothing_rounded() {
+    (0..60).for_each(check_oblique::<Plane>);
+    (0..24).for_each(check_oblique::<Space>);
+    let far =
+        PeriodicTriangulation::<Plane>::new(&[[0.0, 0.0], [1e5, -1e5]], &[[1.0, 1.0]], Options::default());
+    assert!(
+        matches!(far, Err(Error::OutOfRange { argument: "positions", index: 1, axis: 0, .. })),
+        "{far:?}"
+    );
+}
+
 /// Lattices, where all is tied: positions wrapped in another way, or another basis, change no class.
 #[test]
 fn ties_do_not_depend_on_wrapping_and_basis() {
