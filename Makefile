@@ -1,7 +1,7 @@
 # deldrift: `make help` lists what there is. Needed are Rust, make and a C compiler; on Debian the rest is
 # installed where it is missing, as root or through sudo.
 
-# quick (bench within three minutes on two cores, report within ten) or full (report within half an hour)
+# quick (bench within ten minutes on two cores, report within ten) or full (report within half an hour)
 PRESET ?= quick
 PREFIX ?= /usr/local
 # Further arguments of cpp-bench/run, as in: make bench ARGS="--series positions.npy",
@@ -14,7 +14,7 @@ SECONDS ?= 60
 HOURS ?= 1
 
 # Debian packages that the benchmark is built with.
-BENCHMARK_NEEDS := cmake g++ libcgal-dev libcli11-dev libfmt-dev doctest-dev
+BENCHMARK_NEEDS := cmake g++ libcgal-dev libcli11-dev libfmt-dev doctest-dev voro++-dev
 
 # ... and the examples.
 EXAMPLE_NEEDS := cmake g++ libeigen3-dev

@@ -128,7 +128,7 @@ private:
 
     void add_efforts() {
         add("--preset", "NAME", preset_,
-            "how much to do. quick: within three minutes, with --report ten; full: 1,000 timestamps,\n"
+            "how much to do. quick: within ten minutes, with --report too; full: 1,000 timestamps,\n"
             "with --report within half an hour; smoke: just enough to see that everything runs")
             ->check(CLI::IsMember(presets));
         add_number("--repeat", n_repeats_, 1, "time everything so many times and take medians");
