@@ -560,10 +560,15 @@ static void make_tour(const places *p, record *made) {
     static const double box[2][9] = {{3, 0, 0.5, 3}, {3, 0, 0, 0.5, 3, 0, 0, 0.75, 3}};
     static const double other_box[2][9] = {{3, 0, 6.5, 3.25}, {3, 0, 0, 0.5, 3.25, 0, 0, 0.75, 3}};
     static int64_t shifts[48 * TOUR_POINTS], beside[48 * TOUR_POINTS];
-    static double box_out[9];
+    static double box_out[9], in_box[36], in_other_box[36];
+    // Those of the tour may be far away, for a box.
+    for (uint32_t i = 0; i < 36; i++) {
+        in_box[i] = (i * 37 + 11) % 97 / 32.0;
+        in_other_box[i] = (i * 41 + 5) % 89 / 32.0;
+    }
     t = NULL;
-    GO(deldrift_create_periodic(d, p->at, 12, box[d - 2], d, &options, &t));
-    GO(deldrift_commit_positions(t, p->later, 12, &report));
+    GO(deldrift_create_periodic(d, in_box, 12, box[d - 2], d, &options, &t));
+    GO(deldrift_commit_positions(t, in_other_box, 12, &report));
     note(&report, sizeof report);
     GO(deldrift_stage_vectors(t, other_box[d - 2], d));
     GO(deldrift_commit_timestamp(t, &report));

@@ -7,6 +7,7 @@ pub mod files;
 mod geometry;
 pub mod model;
 mod near;
+mod periodic;
 pub mod places;
 mod read;
 mod refining;
@@ -277,6 +278,7 @@ impl<'a> History<'a> {
             22 => self.clone_or_load(),
             23..=26 => self.read(),
             27 | 28 => self.read_geometry(),
+            29 if choice & 0x20 != 0 => self.repeat(),
             29 => self.write_files(),
             30 => self.refuse(),
             _ => self.read_near(),
