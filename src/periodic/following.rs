@@ -21,8 +21,8 @@ use crate::periodic::inside::Inside;
 use crate::periodic::lattice::{HOME, Lattice};
 use crate::periodic::needed::Needed;
 
-/// The vertices of a cell in their order, each with its shift from the first.
-type Class = [u64; 4];
+/// The vertices of a cell in their order, each with its shift from the first; the last is none in the plane.
+type Class = [Image; 4];
 
 /// A cell that has come, or one that has gone, by its place in a list.
 #[derive(Clone, Copy)]
@@ -166,19 +166,15 @@ impl<G: Dimension> Inside<G> {
 
     /// What all translations of a cell have in common, and in how many places it has a vertex at home.
     fn class_of(&self, row: &G::Vertices) -> (Class, usize) {
-        let mut images = [Image { vertex: VertexId::NONE, shift: HOME }; 4];
+        let mut class = [Image { vertex: VertexId::NONE, shift: HOME }; 4];
         let corners = row.as_ref();
-        images.iter_mut().zip(corners).for_each(|(image, &v)| *image = self.images.of(v));
-        let images = &mut images[..corners.len()];
+        class.iter_mut().zip(corners).for_each(|(image, &v)| *image = self.images.of(v));
+        let images = &mut class[..corners.len()];
         images.sort_unstable();
-        let mut n_places = 0;
-        let mut class = [u64::MAX; 4];
-        for (i, image) in images.iter().enumerate() {
-            n_places += usize::from(images[..i].iter().all(|other| other.shift != image.shift));
-            // Less than 2^7 periods are between two corners.
-            let apart = [0, 1, 2].map(|j| u64::from((image.shift[j] - images[0].shift[j]) as u8));
-            class[i] = u64::from(image.vertex.get()) << 32 | apart[0] << 16 | apart[1] << 8 | apart[2];
-        }
+        let is_first = |i: usize| images[..i].iter().all(|other| other.shift != images[i].shift);
+        let n_places = (0..images.len()).filter(|&i| is_first(i)).count();
+        let first = images[0].shift;
+        images.iter_mut().for_each(|image| image.shift = [0, 1, 2].map(|j| image.shift[j] - first[j]));
         (class, n_places)
     }
 
