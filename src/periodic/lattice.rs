@@ -7,13 +7,12 @@
 //!
 //! # Which images can matter
 //!
-//! Let ρ be the *covering radius* of the lattice: no place of its span is farther than ρ from all of its vectors. In the
-//! triangulation of a periodic set, two vertices u and w of a cell are at most 2ρ apart, as seen in the span: let m be the
-//! middle between them, s a lattice vector that is within ρ of half of their distance in the span, and δ = u + s − m. The
-//! powers of m + δ = u + s and m − δ = w − s in regard to a sphere through u and w have the sum 2 (δ² − |u − m|²), and
-//! where the distance in the span exceeds 2ρ that is negative: one of two vertices of the set is inside any sphere
-//! through u and w. A bound of 2ρ is the root of the sum of the squares of the vectors of a basis (L. Babai: *On Lovász'
-//! lattice reduction and the nearest lattice point problem*. Combinatorica 6, 1986, 10.1007/BF02579403).
+//! Let c be the centre of the empty ball of a cell, u one of its corners, and v a vector of the lattice. u + v and u − v are
+//! vertices of the set, so neither is inside of the ball, and |(u − c) · v| ≤ v² / 2. That holds for another corner w as well:
+//! |(u − w) · v| ≤ v², whatever the radius is, and with ties. Let u − w have the multiples x of the vectors of a basis, and what is
+//! orthogonal to them. Its products with these vectors are y = G x, with their matrix of products G, and |yⱼ| ≤ Gⱼⱼ. So
+//! |xᵢ| ≤ Σ |G⁻¹ᵢⱼ| Gⱼⱼ, which is 1 for each of orthogonal vectors, however different their lengths are. Every edge is one of a
+//! cell, those of the hull too.
 //!
 //! The bound is good for a *reduced* basis, whose vectors are short: pairs are reduced as by Gauss, and the third vector by
 //! the nearest sums of the others (I. Semaev: *A 3-dimensional lattice reduction algorithm*. CaLC 2001,
@@ -136,7 +135,10 @@ impl<G: Shape> Lattice<G> {
         let rows: [[f64; 3]; 3] = reduced.vectors();
         let dual = dual_of(&rows, rank);
         let thickness = dual.map(|form| dot(&form, &form).sqrt() * (1.0 + SLACK));
-        let reach = rows.iter().map(|row| dot(row, row)).sum::<f64>().sqrt() * (1.0 + SLACK);
+        // The entries of G⁻¹ are products of the linear forms.
+        let most = |i: usize| -> f64 {
+            (0..rank).map(|j| dot(&dual[i], &dual[j]).abs() * dot(&rows[j], &rows[j])).sum()
+        };
         let mut lattice = Lattice::<G> {
             rank,
             vectors: [G::Point::default(); 3],
@@ -145,8 +147,9 @@ impl<G: Shape> Lattice<G> {
             dual,
             thickness,
             short_way: 0.5 * (1.0 - SLACK) / thickness.iter().fold(0.0, |most, &x| f64::max(most, x)),
-            greatest: [0, 1, 2]
-                .map(|j| if j < rank { (1.0 + 2.0 * ROOM + reach * thickness[j]).floor() as i32 } else { 0 }),
+            greatest: [0, 1, 2].map(|j| {
+                if j < rank { (1.0 + 2.0 * ROOM + most(j) * (1.0 + SLACK)).floor() as i32 } else { 0 }
+            }),
         };
         let span = |axis: usize| -> f64 {
             (0..rank).map(|j| (f64::from(lattice.greatest[j]) + 2.0) * rows[j][axis].abs()).sum()

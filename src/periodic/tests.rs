@@ -226,6 +226,29 @@ fn vectors_along_no_axis_leave_nothing_rounded() {
     );
 }
 
+/// How thin a box is does not matter: no cell reaches farther than to the next periods.
+#[test]
+fn thin_boxes_have_few_images() {
+    for seed in 0..12 {
+        let rng = &mut Rng::new(seed);
+        let n = 1 + seed as usize % 3;
+        let basis = [[1.0, 0.0], [0.375, 16.0]];
+        let points = random_points::<Plane>(rng, n, &basis);
+        let t = PeriodicTriangulation::<Plane>::new(&points, &basis, Options::default()).unwrap();
+        assert_eq!(classes(&t, &points, &basis), by_copies::<Plane>(&points, &basis, 24), "seed {seed}");
+        let basis = [[1.0, 0.0, 0.0], [0.25, 1.0, 0.0], [0.0, 0.5, 5.0]];
+        let points = random_points::<Space>(rng, n, &basis);
+        let t = PeriodicTriangulation::<Space>::new(&points, &basis, Options::default()).unwrap();
+        assert_eq!(classes(&t, &points, &basis), by_copies::<Space>(&points, &basis, 8), "seed {seed}");
+    }
+    for length in [1e3, 1e9, 1e15] {
+        let basis = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, length]];
+        let t = PeriodicTriangulation::<Space>::new(&[[0.5; 3]], &basis, Options::default()).unwrap();
+        assert_eq!(t.cell_count(), Ok(6));
+        assert!(t.image_count() <= 125, "{} images", t.image_count());
+    }
+}
+
 /// Lattices, where all is tied: positions wrapped in another way, or another basis, change no class.
 #[test]
 fn ties_do_not_depend_on_wrapping_and_basis() {
