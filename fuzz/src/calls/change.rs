@@ -255,9 +255,9 @@ impl History<'_> {
             return self.check();
         }
         if choice == 3 {
-            // Where vertices stand when the round is made is for it alone to know.
+            // Another round, which the model does not know, as it is withdrawn with the first.
             let p = self.place();
-            let (mut id, mut first_of_two) = (77, 77);
+            let (mut id, mut next) = (77, 77);
             self.is_ok(c!(deldrift_stage_insertions(t, p.as_ptr(), 1, &mut id)));
             let leaving = after.iter().position(Option::is_some).filter(|_| !self.has_segments);
             if let Some(v) = leaving {
@@ -266,8 +266,8 @@ impl History<'_> {
             let status = c!(deldrift_prepare_timestamp(t, null_mut()));
             if status == DELDRIFT_OK {
                 self.is_ok(c!(deldrift_validate(t, 3)));
-                self.is_ok(c!(deldrift_stage_insertions(t, p.as_ptr(), 1, &mut first_of_two)));
-                assert_eq!(first_of_two, id + 1);
+                self.is_ok(c!(deldrift_stage_insertions(t, p.as_ptr(), 1, &mut next)));
+                assert_eq!(next, id + 1, "ids of staged insertions");
             }
         }
         self.is_ok(c!(deldrift_withdraw_timestamp(t)));
