@@ -33,6 +33,10 @@ pub(super) struct PeriodicCells<G: Dimension> {
     pub(super) neighbour_shifts: Vec<Shift>,
     /// Which corner is the least.
     pub(super) least: Vec<u8>,
+    /// By cell, the one inside that has its least vertex at home.
+    pub(super) chosen: Vec<CellId>,
+    /// By cell inside, which one it is a translation of, if it has a vertex at home; [`NO_CELL`] for others.
+    pub(super) class_of: Vec<CellId>,
 }
 
 /// The corners of a cell inside, in order.
@@ -81,10 +85,13 @@ impl<G: Dimension> PeriodicCells<G> {
     pub(super) fn of(inside: &Inside<G>) -> Result<Self> {
         let (corners, shifts, least) = (Vec::new(), Vec::new(), Vec::new());
         let (neighbours, neighbour_shifts) = (Vec::new(), Vec::new());
-        let mut read = PeriodicCells { corners, shifts, neighbours, neighbour_shifts, least };
+        let (chosen, class_of) = (Vec::new(), Vec::new());
+        let mut read =
+            PeriodicCells { corners, shifts, neighbours, neighbour_shifts, least, chosen, class_of };
         let cells = inside.t.cells()?;
-        let (mut class_of, mut chosen) = (Vec::new(), Vec::new());
-        memory::lengthen(&mut class_of, cells.corners.len(), NO_CELL)?;
+        memory::lengthen(&mut read.class_of, cells.corners.len(), NO_CELL)?;
+        // Those that are translations of others that have been chosen, or will be, and by which shift.
+        let mut others = Vec::new();
         let mut straddling = Straddling::default();
         for (cell, row) in cells.corners.iter().enumerate() {
             let n_home = row.as_ref().iter().filter(|v| v.index() < inside.n_home).count();
@@ -97,20 +104,26 @@ impl<G: Dimension> PeriodicCells<G> {
                 straddling.insert(key_of(row_of(row)), cell);
             }
             let least = inside.least(row)?;
-            if inside.images.is_home(row.as_ref()[least]) {
-                class_of[cell] = CellId::at(read.corners.len());
+            let image = inside.images.of(row.as_ref()[least]);
+            if image.shift == HOME {
+                read.class_of[cell] = CellId::at(read.corners.len());
                 read.push(inside, row, least)?;
-                memory::push(&mut chosen, cell)?;
+                memory::push(&mut read.chosen, cell)?;
+            } else {
+                memory::push(&mut others, (cell, image.shift))?;
             }
         }
         let finder = Finder { inside, cells, straddling };
-        memory::reserve_exact(&mut read.neighbours, chosen.len())?;
-        memory::reserve_exact(&mut read.neighbour_shifts, chosen.len() * (G::D + 1))?;
-        for &cell in &chosen {
+        for (cell, shift) in others {
+            read.class_of[cell] = read.class_of[finder.translated(cell, shift)];
+        }
+        memory::reserve_exact(&mut read.neighbours, read.chosen.len())?;
+        memory::reserve_exact(&mut read.neighbour_shifts, read.chosen.len() * (G::D + 1))?;
+        for &cell in &read.chosen {
             let mut row = G::Neighbours::filled(NO_CELL);
             for i in 0..=G::D {
                 let found = finder.across(cell, i)?;
-                row[i] = found.map_or(NO_CELL, |(cell, _)| class_of[cell]);
+                row[i] = found.map_or(NO_CELL, |(cell, _)| read.class_of[cell]);
                 read.neighbour_shifts.push(found.map_or(HOME, |(_, shift)| shift));
             }
             read.neighbours.push(row);
@@ -135,6 +148,8 @@ impl<G: Dimension> PeriodicCells<G> {
             + memory::bytes_of(&self.neighbours)
             + memory::bytes_of(&self.neighbour_shifts)
             + memory::bytes_of(&self.least)
+            + memory::bytes_of(&self.chosen)
+            + memory::bytes_of(&self.class_of)
     }
 }
 

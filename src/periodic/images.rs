@@ -44,12 +44,6 @@ impl Images {
         self.images[inside]
     }
 
-    /// Whether a vertex inside is at home.
-    #[inline(always)]
-    pub(super) fn is_home(&self, inside: VertexId) -> bool {
-        self.images[inside].shift == HOME
-    }
-
     /// A vertex at home, as it is known inside; none for a removed vertex.
     pub(super) fn home(&self, vertex: VertexId) -> VertexId {
         self.home[vertex]

@@ -207,7 +207,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     /// The cells, which the first that asks reads; several threads may do that at the same time.
-    fn read_cells(&self) -> Result<&PeriodicCells<G>> {
+    pub(super) fn read_cells(&self) -> Result<&PeriodicCells<G>> {
         if let Some(cells) = self.cells.get() {
             return Ok(cells);
         }
