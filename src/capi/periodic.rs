@@ -46,9 +46,10 @@ use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 /// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges, and
 /// deldrift_voronoi_volumes without a box. All others return DELDRIFT_PERIODIC. Cells are numbered anew by each commit.
 ///
-/// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves
-/// costs what it costs in an open triangulation of as many, and n + m; one with insertions, removals or other vectors, or
-/// where a vertex has drifted far out of the box since the last such commit, costs as much as creation.
+/// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves,
+/// or of other vectors that are near those in force, costs what it costs in an open triangulation of as many, and n + m; one
+/// with insertions or removals, or where a vertex has drifted far out of the box since the last such commit, costs as much as
+/// creation.
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_INVALID_OPTIONS, DELDRIFT_NULL_ARGUMENT,
 /// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
@@ -107,7 +108,9 @@ pub unsafe extern "C" fn deldrift_create_periodic(
 /// that is not periodic. Vertices that do not move stay at their positions: a program that deforms its box with all that
 /// is in it gives the positions, too. Vectors that are staged already are forgotten. deldrift_discard_moves discards them.
 ///
-/// Cost: constant; the commit costs as much as creation, unless the vectors are those that are in force already.
+/// Cost: constant. The commit costs as much as one of moves of all vertices, as long as the vectors lead to a lattice that is
+/// near the one in force, whichever vectors of it are given: a box that is strained or sheared in small steps costs a creation
+/// once for each strain of about 1.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT,
 /// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_DEPENDENT_VECTORS, DELDRIFT_OUT_OF_MEMORY.

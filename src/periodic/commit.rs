@@ -7,6 +7,7 @@ use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::{CommitReport, MAX_VERTICES};
+use crate::periodic::images::Image;
 use crate::periodic::inside::Inside;
 use crate::periodic::lattice::{Lattice, Occupied};
 use crate::periodic::triangulation::PeriodicTriangulation;
@@ -145,7 +146,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     fn commit(&mut self, goals: Goals<'_, G>) -> Result<CommitReport> {
-        let moved = if self.staged.are_moves() && self.coming.is_none() { self.moved(goals)? } else { None };
+        let moved = if self.staged.are_moves() { self.moved(goals)? } else { None };
         let mut report = match moved {
             Some(report) => report,
             None => self.rebuilt(goals)?,
@@ -161,11 +162,20 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     /// Moves vertices and images, and inserts those that are missing; none, without a change, if a vertex would be too far
-    /// from the unit cell.
+    /// from the unit cell, or the lattice too different.
     fn moved(&mut self, goals: Goals<'_, G>) -> Result<Option<CommitReport>> {
-        match goals {
-            Goals::Staged => self.some_moved(),
-            Goals::Of(positions) => self.all_moved(positions),
+        match (goals, &self.coming) {
+            (Goals::Staged, None) => self.some_moved(),
+            (Goals::Of(positions), None) => self.all_moved(positions),
+            (Goals::Of(positions), Some(_)) => self.all_moved_in_other(positions),
+            (Goals::Staged, Some(_)) => {
+                let n = self.inside.images.n_vertices();
+                let mut positions = Vec::new();
+                let places = VertexId::range(0..n).map(|v| self.position(v).unwrap_or_default());
+                memory::collect(&mut positions, places)?;
+                self.staged.moves().iter().for_each(|&(vertex, goal)| positions[vertex] = goal);
+                self.all_moved_in_other(&positions)
+            }
         }
     }
 
@@ -186,7 +196,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
                 memory::push(&mut places, lattice.translated(&place, inside.images.of(inner).shift))?;
             }
         }
-        if !occupied.is_within(&inside.room) {
+        if !inside.is_near(lattice, &occupied) {
             return Ok(None);
         }
         inside.t.move_vertices(&ids, &places)?;
@@ -204,19 +214,49 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// Of all, to these positions by id.
     fn all_moved(&mut self, positions: &[G::Point]) -> Result<Option<CommitReport>> {
         let Self { lattice, inside, wraps, .. } = self;
-        let mut goals = std::mem::take(&mut inside.goals);
-        let moved = inside.goals_of(lattice, positions, wraps, &mut goals);
-        let done = moved.and_then(|moved| {
-            let Some((occupied, n_moved, new_wraps)) = moved else { return Ok(None) };
-            inside.t.move_all(&goals)?;
-            let mut report = inside.commit_moves(lattice, occupied)?;
-            report.moved = n_moved;
-            std::mem::swap(&mut inside.places, &mut goals);
-            new_wraps.into_iter().for_each(|(vertex, wrap)| wraps[vertex] = wrap);
-            Ok(Some(report))
-        });
-        inside.goals = goals;
-        done
+        let Some((report, new_wraps)) = inside.move_all(lattice, positions, |vertex| wraps[vertex])? else {
+            return Ok(None);
+        };
+        new_wraps.into_iter().for_each(|(vertex, wrap)| wraps[vertex] = wrap);
+        Ok(Some(report))
+    }
+
+    /// Of all, to these positions by id, in the lattice that is staged. Vertices go to the place that is nearest, images with
+    /// them: each is translated by what is nearest to what it was translated by.
+    fn all_moved_in_other(&mut self, positions: &[G::Point]) -> Result<Option<CommitReport>> {
+        let Some(other) = &self.coming else { return Ok(None) };
+        let Some(relation) = self.lattice.relation_to(other) else { return Ok(None) };
+        let mut n_moved = 0;
+        for inner in VertexId::range(0..self.inside.n_home) {
+            let vertex = self.inside.images.of(inner).vertex;
+            n_moved += u64::from(self.position(vertex) != Ok(positions[vertex]));
+        }
+        let Self { inside, wraps, .. } = self;
+        let mut images = Vec::new();
+        memory::reserve_exact(&mut images, inside.images.len())?;
+        for image in inside.images.as_slice() {
+            let Some(shift) = relation.of(image.shift.map(i64::from)).filter(|s| other.has_room_for(s))
+            else {
+                return Ok(None);
+            };
+            images.push(Image { vertex: image.vertex, shift: shift.map(|n| n as i32) });
+        }
+        inside.images.exchange(&mut images);
+        let moved =
+            inside.move_all(other, positions, |vertex| relation.of(wraps[vertex]).unwrap_or(wraps[vertex]));
+        let Ok(Some((mut report, new_wraps))) = moved else {
+            inside.images.exchange(&mut images);
+            return moved.map(|_| None);
+        };
+        if !relation.is_identity() {
+            wraps.iter_mut().for_each(|wrap| *wrap = relation.of(*wrap).unwrap_or(*wrap));
+        }
+        new_wraps.into_iter().for_each(|(vertex, wrap)| wraps[vertex] = wrap);
+        if let Some(other) = self.coming.take() {
+            self.lattice = other;
+        }
+        report.moved = n_moved;
+        Ok(Some(report))
     }
 
     /// Builds another triangulation, with all that is staged, which takes the place of the present one.
@@ -271,16 +311,42 @@ impl<G: Dimension> PeriodicTriangulation<G> {
 }
 
 /// What moves come to: what vertices at home occupy then, how many of them move, and which ones have come by another translation.
-type Coming = (Occupied, u64, Vec<(VertexId, [i64; 3])>);
+type Coming = (Occupied, u64, Wraps);
+
+/// Vertices, and by which translations they come home.
+type Wraps = Vec<(VertexId, [i64; 3])>;
 
 impl<G: Dimension> Inside<G> {
+    /// Moves all to these positions by id, and inserts images that are missing, all of it or, on an error, nothing; tells which
+    /// vertices come home by other translations than they did. None, without a change, if one would be too far from the unit
+    /// cell.
+    fn move_all(
+        &mut self,
+        lattice: &Lattice<G>,
+        positions: &[G::Point],
+        wrap_of: impl Fn(VertexId) -> [i64; 3],
+    ) -> Result<Option<(CommitReport, Wraps)>> {
+        let mut goals = std::mem::take(&mut self.goals);
+        let moved = self.goals_of(lattice, positions, wrap_of, &mut goals);
+        let done = moved.and_then(|moved| {
+            let Some((occupied, n_moved, new_wraps)) = moved else { return Ok(None) };
+            self.t.move_all(&goals)?;
+            let mut report = self.commit_moves(lattice, occupied)?;
+            report.moved = n_moved;
+            std::mem::swap(&mut self.places, &mut goals);
+            Ok(Some((report, new_wraps)))
+        });
+        self.goals = goals;
+        done
+    }
+
     /// Where all go, images included, if the vertices go to these positions; none if one of them would be too far from the unit
     /// cell.
     fn goals_of(
         &self,
         lattice: &Lattice<G>,
         positions: &[G::Point],
-        wraps: &[[i64; 3]],
+        wrap_of: impl Fn(VertexId) -> [i64; 3],
         goals: &mut Vec<G::Point>,
     ) -> Result<Option<Coming>> {
         goals.clear();
@@ -288,7 +354,7 @@ impl<G: Dimension> Inside<G> {
         let (mut occupied, mut n_moved, mut new_wraps) = (Occupied::NOTHING, 0, Vec::new());
         let (at_home, images) = self.images.as_slice().split_at(self.n_home);
         for (image, near) in at_home.iter().zip(&self.places) {
-            let before = wraps[image.vertex];
+            let before = wrap_of(image.vertex);
             let mut wrap = before;
             let (index, position) = (image.vertex.index(), &positions[image.vertex]);
             let place = lattice.wrapped_near("positions", index, position, near, &mut wrap)?;
@@ -299,7 +365,7 @@ impl<G: Dimension> Inside<G> {
                 memory::push(&mut new_wraps, (image.vertex, wrap))?;
             }
         }
-        if !occupied.is_within(&self.room) {
+        if !self.is_near(lattice, &occupied) {
             return Ok(None);
         }
         for image in images {

@@ -104,6 +104,11 @@ impl Images {
         self.next.push(next);
     }
 
+    /// Has all images with the shifts that another list of them has, which becomes what this has had.
+    pub(super) fn exchange(&mut self, images: &mut Vec<Image>) {
+        std::mem::swap(&mut self.images, images);
+    }
+
     /// Forgets all images but those with the lowest ids inside.
     pub(super) fn truncate(&mut self, n_inside: usize) {
         while self.images.len() > n_inside {

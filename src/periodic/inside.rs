@@ -17,8 +17,8 @@ pub(super) struct Inside<G: Dimension> {
     /// Room for where they go.
     pub(super) goals: Vec<G::Point>,
     pub(super) occupied: Occupied,
-    /// By vector, how far outside of the unit cell vertices at home may be, as a share of it.
-    pub(super) room: [f64; 3],
+    /// The mean distance of vertices when this was built.
+    pub(super) spacing: f64,
 }
 
 /// All shifts in these ranges.

@@ -193,6 +193,30 @@ impl<G: Shape> Lattice<G> {
         self.unit[axis] != 0.0
     }
 
+    /// How shifts by multiples of these vectors are to be told by those of another lattice, which takes the place of this one:
+    /// none if its vectors are too different for each of these to be near one sum of them.
+    pub(super) fn relation_to(&self, other: &Self) -> Option<Relation> {
+        let mut rows = [[0i64; 3]; 3];
+        for j in 0..self.rank {
+            let multiples = other.multiples(&self.vectors[j]);
+            if multiples.iter().any(|x| x.abs() > GREATEST_RELATION) {
+                return None;
+            }
+            rows[j] = multiples.map(|x| x.round_ties_even() as i64);
+        }
+        // Along what is open nothing is translated.
+        (self.rank..3).for_each(|j| rows[j][j] = 1);
+        Some(Relation { rows }).filter(|relation| relation.determinant().abs() == 1)
+    }
+
+    /// Whether images with these multiples of the vectors are where they are without rounding.
+    pub(super) fn has_room_for(&self, shift: &[i64; 3]) -> bool {
+        shift
+            .iter()
+            .zip(&self.greatest)
+            .all(|(n, &greatest)| n.unsigned_abs() <= greatest.unsigned_abs().into())
+    }
+
     /// The caller's vectors, on the grid: exact, but for those that have more than 53 digits in its units.
     pub(super) fn given(&self) -> impl ExactSizeIterator<Item = G::Point> + '_ {
         (0..self.rank).map(|k| {
@@ -475,6 +499,40 @@ impl<G: Shape> Lattice<G> {
         product
     }
 }
+
+/// By vector of one lattice, the multiples of the vectors of another one that are nearest to it: each shift of one is told as one
+/// of the other.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Relation {
+    rows: [[i64; 3]; 3],
+}
+
+impl Relation {
+    /// Whether vectors correspond to each other in their order.
+    pub(super) fn is_identity(&self) -> bool {
+        self.rows == [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    }
+
+    /// What a shift of the first lattice is in the second one; none of numbers that are too large.
+    pub(super) fn of(&self, shift: [i64; 3]) -> Option<[i64; 3]> {
+        let mut sum = [0i64; 3];
+        for (n, row) in shift.into_iter().zip(&self.rows) {
+            for j in 0..3 {
+                sum[j] = sum[j].checked_add(n.checked_mul(row[j])?)?;
+            }
+        }
+        Some(sum)
+    }
+
+    fn determinant(&self) -> i64 {
+        let [a, b, c] = self.rows;
+        a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
+            + a[2] * (b[0] * c[1] - b[1] * c[0])
+    }
+}
+
+/// Vectors of a reduced basis are at most so many times those of another that takes its place.
+const GREATEST_RELATION: f64 = 8.0;
 
 /// Bounds on the entries of a basis.
 const GREATEST: f64 = 1e50;

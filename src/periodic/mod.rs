@@ -21,9 +21,10 @@
 //! # A commit
 //!
 //! Vertices and their images move, then images that are missing are inserted, in rounds of the same timestamp; cells that have
-//! changed tell whether any is missing (following.rs). Where a vertex
-//! would be too far from the unit cell, or vertices come, go, or the lattice changes, another triangulation is built beside
-//! the present one, and takes its place when it is complete.
+//! changed tell whether any is missing (following.rs). If the lattice changes, too, shifts by its vectors become shifts by
+//! those of the next one that are nearest: cells that were translations of each other stay so. Where a vertex
+//! would be too far from the unit cell, vertices come or go, or the lattices are too different, another triangulation is
+//! built beside the present one, and takes its place when it is complete.
 
 mod cells;
 mod commit;

@@ -4,7 +4,7 @@ use super::*;
 use crate::delaunay::{Dimension, Plane, Space};
 use crate::error::Error;
 use crate::ids::VertexId;
-use crate::motion::{MovingTriangulation, NO_CELL, Options};
+use crate::motion::{Algorithm, MovingTriangulation, NO_CELL, Options};
 use crate::random::Rng;
 use std::collections::BTreeSet;
 
@@ -385,6 +385,57 @@ fn histories_end_as_what_is_made_anew() {
         history::<Space>(seed, &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], n);
         history::<Space>(seed, &[[1.0, 0.0, 0.0], [0.5, 1.0, 0.0], [0.25, -0.375, 0.75]], n);
         history::<Space>(seed, &[[1.0, 0.0, 0.0], [0.5, 1.0, 0.0]], n);
+    }
+}
+
+/// A box that is strained and sheared, through boxes whose shortest vectors are others, with what is in it: as what is made
+/// anew, and built anew seldom.
+fn strained<G: Dimension>(seed: u64, n: usize, rank: usize) {
+    let rng = &mut Rng::new(seed);
+    let grid = (1u64 << 20) as f64;
+    let mut basis = vec![G::Point::default(); rank];
+    (0..rank).for_each(|j| basis[j][j] = 1.0);
+    let mut points = random_points::<G>(rng, n, &basis);
+    let options = Options { algorithm: Algorithm::PlacementFlips, ..Options::default() };
+    let mut t = PeriodicTriangulation::<G>::new(&points, &basis, options).unwrap();
+    let (shear, steps) = (rng.below(G::D), 60);
+    let mut rebuilds = 0;
+    for step in 0..steps {
+        // Some 1.5 in all, and noise that has the vectors now in one order of lengths and now in another.
+        let strain = |rng: &mut Rng| (rng.below(1 << 13) as f64 - (1 << 12) as f64) / grid;
+        let before = basis.clone();
+        for (j, b) in basis.iter_mut().enumerate() {
+            b[j] += strain(rng);
+            let to = (shear + 1) % G::D;
+            if j == shear && rank > 1 && to < rank {
+                b[to] += 0.025;
+            }
+        }
+        // What is in the box goes with it, rounded, or stays.
+        let goes = !rng.one_in(4);
+        for p in &mut points {
+            let share: Vec<f64> = (0..rank).map(|j| p[j]).collect();
+            for (x, (b, old)) in share.iter().zip(basis.iter().zip(&before)).filter(|_| goes) {
+                (0..G::D).for_each(|axis| p[axis] += ((b[axis] - old[axis]) * x * grid).round() / grid);
+            }
+        }
+        t.stage_vectors(&basis).unwrap();
+        let report = if goes { t.commit_positions(&points).unwrap() } else { t.commit_timestamp().unwrap() };
+        rebuilds += report.rebuilds;
+        let fresh = PeriodicTriangulation::<G>::new(&points, &basis, Options::default()).unwrap();
+        let expected = classes(&fresh, &points, &basis);
+        assert!(classes(&t, &points, &basis) == expected, "seed {seed}, step {step}");
+    }
+    assert!(rebuilds <= 6, "{rebuilds} builds in {steps} steps");
+}
+
+#[test]
+fn a_box_that_is_strained_is_seldom_built_anew() {
+    for seed in 0..4 {
+        strained::<Plane>(seed, [60, 300][seed as usize % 2], 2);
+        strained::<Space>(seed, [40, 90][seed as usize % 2], 3);
+        strained::<Plane>(seed, 60, 1);
+        strained::<Space>(seed, 40, 2);
     }
 }
 

@@ -88,7 +88,6 @@ impl<G: Dimension> Inside<G> {
         let mut occupied = Occupied::NOTHING;
         home.iter().for_each(|(_, place)| occupied.enter(&lattice.multiples(place)));
         let spacing = spacing(lattice, home);
-        let room = lattice.thickness().map(|thickness| ROOM.min(DRIFT * spacing * thickness));
         let mut images = Images::default();
         images.reserve(n_ids, home.len())?;
         let mut places = Vec::new();
@@ -112,7 +111,7 @@ impl<G: Dimension> Inside<G> {
             }
         }
         let t = MovingTriangulation::unbuilt(options);
-        Ok(Inside { t, images, n_home: home.len(), places, goals: Vec::new(), occupied, room })
+        Ok(Inside { t, images, n_home: home.len(), places, goals: Vec::new(), occupied, spacing })
     }
 
     /// Triangulates the vertices and images at these places, and inserts images that are missing. After an error it can only
@@ -122,6 +121,11 @@ impl<G: Dimension> Inside<G> {
         self.complete(lattice, Needed::of_all, |t| t.commit_timestamp().map(drop))?;
         // From now on what changes is known.
         self.t.begin_changes()
+    }
+
+    /// Whether no vertex at home is too far from the unit cell of a lattice.
+    pub(super) fn is_near(&self, lattice: &Lattice<G>, occupied: &Occupied) -> bool {
+        occupied.is_within(&lattice.thickness().map(|thickness| ROOM.min(DRIFT * self.spacing * thickness)))
     }
 
     /// The number of vertices that others hide.
