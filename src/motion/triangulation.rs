@@ -118,6 +118,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         Options { algorithm, threads, coincidence, passing, monitor: None }
     }
 
+    /// How many threads its calls may use.
+    pub(crate) fn threads(&self) -> Threads {
+        self.mesh.kernel.threads()
+    }
+
     /// Gives its monitor to another triangulation, for that of the other one.
     pub(crate) fn exchange_monitors(&mut self, other: &mut Self) {
         std::mem::swap(self.mesh.kernel.pace_mut(), other.mesh.kernel.pace_mut());

@@ -120,11 +120,19 @@ impl<G: Dimension> PeriodicCells<G> {
         memory::reserve_exact(&mut read.neighbours, read.chosen.len())?;
         memory::reserve_exact(&mut read.neighbour_shifts, read.chosen.len() * (G::D + 1))?;
         for &cell in &read.chosen {
+            let is_at_home = inside.is_at_home(&cells.corners[cell]);
             let mut row = G::Neighbours::filled(NO_CELL);
             for i in 0..=G::D {
-                let found = finder.across(cell, i)?;
-                row[i] = found.map_or(NO_CELL, |(cell, _)| read.class_of[cell]);
-                read.neighbour_shifts.push(found.map_or(HOME, |(_, shift)| shift));
+                let beside = cells.neighbours[cell].as_ref()[i];
+                let class = if is_at_home && beside != NO_CELL { read.class_of[beside] } else { NO_CELL };
+                let (class, shift) = if class != NO_CELL && read.chosen[class] == beside {
+                    (class, HOME)
+                } else {
+                    let found = finder.across(cell, i)?;
+                    found.map_or((NO_CELL, HOME), |(cell, shift)| (read.class_of[cell], shift))
+                };
+                row[i] = class;
+                read.neighbour_shifts.push(shift);
             }
             read.neighbours.push(row);
         }
@@ -219,9 +227,19 @@ impl<G: Dimension> Finder<'_, G> {
 }
 
 impl<G: Dimension> Inside<G> {
+    /// Whether all corners of a cell are at home.
+    fn is_at_home(&self, row: &G::Vertices) -> bool {
+        row.as_ref().iter().all(|v| v.index() < self.n_home)
+    }
+
     /// Which corner of a cell is the least: by vertex, and of several images of one, by position.
     pub(super) fn least(&self, row: &G::Vertices) -> Result<usize> {
-        let row = row.as_ref();
+        let (is_at_home, row) = (self.is_at_home(row), row.as_ref());
+        if is_at_home {
+            // Vertices at home are in the order of vertices.
+            let least = (1..row.len()).fold(0, |least, i| if row[i] < row[least] { i } else { least });
+            return Ok(least);
+        }
         let mut least = 0;
         for i in 1..row.len() {
             let (u, w) = (self.images.of(row[i]).vertex, self.images.of(row[least]).vertex);

@@ -1,9 +1,11 @@
 //! Images that are needed and not there.
 
+use std::ops::Range as Indices;
+
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
-use crate::machine::memory;
+use crate::machine::{memory, threads};
 use crate::motion::{MovingTriangulation, NO_CELL};
 use crate::periodic::images::Image;
 use crate::periodic::inside::{Inside, all};
@@ -11,6 +13,9 @@ use crate::periodic::lattice::{Lattice, Range};
 
 /// What makes a rounded radius one that certainly is no less than the distance of a corner from a rounded centre.
 const RADIUS: f64 = 1.0 + 1e-8;
+
+/// A thread more pays for so many cells.
+const CELLS_AT_LEAST: usize = 16_384;
 
 /// Images that have to be inserted, each once.
 #[derive(Debug, Default)]
@@ -29,10 +34,41 @@ impl Needed {
             }
             return Ok(needed.each_once());
         }
-        let cells = inside.t.cells()?;
-        for (cell, sphere) in CellId::range(0..cells.corners.len()).zip(inside.t.circumspheres()?) {
-            if cells.corners[cell].as_ref().iter().any(|v| v.index() < inside.n_home) {
+        let n = inside.t.cells()?.corners.len();
+        let n_threads = inside.t.threads().for_work(n, CELLS_AT_LEAST, CELLS_AT_LEAST / 64);
+        let parts = threads::for_ranges(n, n_threads, |range| Self::of_range(inside, lattice, range))?;
+        for part in parts {
+            memory::append(&mut needed.images, &part?.images)?;
+        }
+        Ok(needed.each_once())
+    }
+
+    /// Those that the cells of a range of indices ask for.
+    fn of_range<G: Dimension>(
+        inside: &Inside<G>,
+        lattice: &Lattice<G>,
+        range: Indices<usize>,
+    ) -> Result<Self> {
+        let mut needed = Needed::default();
+        let corners = inside.t.cells()?.corners;
+        for (cell, sphere) in CellId::range(range.clone()).zip(inside.t.circumspheres_in(range)?) {
+            if corners[cell].as_ref().iter().any(|v| v.index() < inside.n_home) {
                 needed.enter_by_ball(inside, lattice, cell, sphere)?;
+            }
+        }
+        Ok(needed)
+    }
+
+    /// Those that are missing by a look at the cells that have come since changes were taken, where before none was missing but what
+    /// has been inserted since then.
+    pub(super) fn of_new<G: Dimension>(inside: &Inside<G>, lattice: &Lattice<G>) -> Result<Self> {
+        let Some(rows) = inside.t.rows_since_taken()? else { return Self::of_all(inside, lattice) };
+        let mut needed = Needed::default();
+        for (row, created) in rows {
+            if let Some(cell) = created
+                && row.as_ref().iter().any(|v| v.index() < inside.n_home)
+            {
+                needed.enter_cell(inside, lattice, cell)?;
             }
         }
         Ok(needed.each_once())

@@ -550,11 +550,15 @@ fn times() {
         let start = Instant::now();
         let mut t = PeriodicTriangulation::<G>::new(&points, basis, Options::default()).unwrap();
         let build = start.elapsed().as_secs_f64();
+        let start = Instant::now();
+        t.cell_count().unwrap();
+        let cells = start.elapsed().as_secs_f64();
         println!(
-            "{}D, {n}: build {:.1} ms, open {:.1} ms, {} images, {} cells, open {}",
+            "{}D, {n}: build {:.1} ms, open {:.1} ms, cells {:.1} ms, {} images, {} cells, open {}",
             G::D,
             1e3 * build,
             1e3 * open_build,
+            1e3 * cells,
             t.image_count(),
             t.cell_count().unwrap(),
             open.cell_count()

@@ -118,8 +118,17 @@ impl<G: Dimension> Inside<G> {
     /// be dropped.
     pub(super) fn build(&mut self, lattice: &Lattice<G>) -> Result<()> {
         self.t.build_first_with_keys(&self.places, &keys_of(self.images.as_slice())?)?;
-        self.complete(lattice, Needed::of_all, |t| t.commit_timestamp().map(drop))?;
         // From now on what changes is known.
+        self.t.begin_changes()?;
+        let mut is_first = true;
+        let needed = |inside: &Self, lattice: &Lattice<G>| {
+            if std::mem::take(&mut is_first) {
+                Needed::of_all(inside, lattice)
+            } else {
+                Needed::of_new(inside, lattice)
+            }
+        };
+        self.complete(lattice, needed, |t| t.commit_timestamp().map(drop))?;
         self.t.begin_changes()
     }
 

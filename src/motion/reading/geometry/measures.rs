@@ -1,5 +1,7 @@
 //! Numbers of each cell: circumsphere, volume, and whether its circumradius is within a bound.
 
+use std::ops::Range;
+
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, Slot};
@@ -70,6 +72,15 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::OutOfMemory`].
     pub fn circumspheres(&self) -> Result<impl ExactSizeIterator<Item = (G::Point, f64)> + '_> {
         self.measures_of_all(G::Point::circumsphere)
+    }
+
+    /// Those of the cells of a range of indices that there are.
+    pub(crate) fn circumspheres_in(
+        &self,
+        cells: Range<usize>,
+    ) -> Result<impl ExactSizeIterator<Item = (G::Point, f64)> + '_> {
+        let slots = &self.cell_arrays()?.slots()[cells];
+        Ok(self.measures(slots.iter().copied(), |k| slots.get(k).copied(), G::Point::circumsphere))
     }
 
     /// Circumcentre and squared circumradius of the cells of these indices, in their order, with the errors that
