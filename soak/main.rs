@@ -1,7 +1,7 @@
 //! Random histories of moving points for as long as one likes: `make soak HOURS=1`.
 //!
 //! ```text
-//! cargo bench --bench soak -- [--hours H | --histories N | --seed K] [--from K] [--workers N] [--csv FILE]
+//! cargo bench --bench soak -- [--hours H | --histories N | --seed K] [--from K] [--step K] [--workers N] [--csv FILE]
 //! ```
 //!
 //! Histories of seeds 0, 1, 2, ... (or from another one on), in the plane and in space by turns, are run on two threads
@@ -18,6 +18,9 @@
 //! After every commit of up to 100 points, and one in eight of more, all certificates are evaluated exactly
 //! (`Level::Delaunay`), and all neighbours are looked at. The checksum is of all cells after every commit: it depends
 //! on the seeds alone, not on the time, the threads, the build or the processor.
+//!
+//! One history in five behind those that are recorded is of a box that repeats, whose cells are compared with those of what
+//! is made anew, in other periods and by other vectors, and of copies: `--from 44 --step 5` runs these alone.
 //!
 //! A process that dies has printed the seeds that were running up to a minute before; `--from` goes on from there.
 
@@ -40,6 +43,8 @@ struct Arguments {
     /// How long; for ever if not said.
     time: Option<Duration>,
     from: u64,
+    /// From one seed to the next.
+    step: u64,
     /// How many histories; as many as there is time for if not said.
     histories: Option<u64>,
     one: Option<u64>,
@@ -50,7 +55,7 @@ struct Arguments {
 impl Arguments {
     fn read() -> Self {
         let mut arguments =
-            Arguments { time: None, from: 0, histories: None, one: None, workers: 2, csv: None };
+            Arguments { time: None, from: 0, step: 1, histories: None, one: None, workers: 2, csv: None };
         let mut words = std::env::args().skip(1);
         while let Some(word) = words.next() {
             let mut number = || words.next().and_then(|word| word.parse::<f64>().ok()).expect("a number");
@@ -61,6 +66,7 @@ impl Arguments {
                 "--histories" => arguments.histories = Some(number() as u64),
                 "--from" => arguments.from = number() as u64,
                 "--seed" => arguments.one = Some(number() as u64),
+                "--step" => arguments.step = (number() as u64).max(1),
                 "--workers" => arguments.workers = number() as usize,
                 "--csv" => arguments.csv = Some(words.next().expect("the name of a file")),
                 _ => panic!("unknown argument {word}"),
@@ -86,13 +92,13 @@ struct Shared {
 fn work(arguments: &Arguments, shared: &Shared) {
     let is_wanted = |seed: u64| {
         arguments.time.is_none_or(|time| shared.start.elapsed() < time)
-            && arguments.histories.is_none_or(|n| seed - arguments.from < n)
+            && arguments.histories.is_none_or(|n| (seed - arguments.from) / arguments.step < n)
             && shared.summary.lock().expect("no panic").wrong.len() < ENOUGH
     };
     // Every seed that is taken is run to its end, so they are consecutive.
     while is_wanted(shared.next.load(SeqCst)) {
-        let seed = shared.next.fetch_add(1, SeqCst);
-        if arguments.histories.is_some_and(|n| seed - arguments.from >= n) {
+        let seed = shared.next.fetch_add(arguments.step, SeqCst);
+        if arguments.histories.is_some_and(|n| (seed - arguments.from) / arguments.step >= n) {
             break;
         }
         shared.summary.lock().expect("no panic").begin(seed);
@@ -129,7 +135,7 @@ fn main() {
     let shared = Shared {
         start: Instant::now(),
         next: AtomicU64::new(arguments.from),
-        summary: Mutex::new(Summary::new(arguments.from, arguments.workers)),
+        summary: Mutex::new(Summary::new(arguments.from, arguments.step, arguments.workers)),
         ended: Condvar::new(),
     };
     std::thread::scope(|scope| {

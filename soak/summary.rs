@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 /// Sums, by dimension.
 pub struct Summary {
     from: u64,
+    step: u64,
     workers: usize,
     /// Workers that have not ended.
     pub working: usize,
@@ -20,9 +21,10 @@ pub struct Summary {
 }
 
 impl Summary {
-    pub fn new(from: u64, workers: usize) -> Self {
+    pub fn new(from: u64, step: u64, workers: usize) -> Self {
         Summary {
             from,
+            step,
             workers,
             working: workers,
             tallies: [Tally::default(); 2],
@@ -100,14 +102,15 @@ impl Summary {
         text += &format!(
             "seeds {} to {}, {} workers, {:.1} s, {} MB; the slowest was seed {} with {:.1} s\n",
             self.from,
-            self.from + self.done().saturating_sub(1),
+            self.from + self.step * self.done().saturating_sub(1),
             self.workers,
             elapsed.as_secs_f64(),
             resident_megabytes(),
             self.slowest.1,
             self.slowest.0.as_secs_f64()
         );
-        text += &format!("again: make soak ARGS=\"--from {} --histories {}\"\n", self.from, self.done());
+        let (from, step, done) = (self.from, self.step, self.done());
+        text += &format!("again: make soak ARGS=\"--from {from} --step {step} --histories {done}\"\n");
         if self.wrong.is_empty() {
             text += "no mismatch\n";
         }

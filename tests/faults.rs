@@ -8,6 +8,8 @@
 #![allow(unsafe_code)] // An allocator that fails, and processes to fail in, have no other way to be.
 
 mod common;
+#[path = "faults_in_boxes/mod.rs"]
+mod faults_in_boxes;
 
 use common::carried::{Carried, List};
 use common::history::Snapshot;
@@ -227,6 +229,9 @@ enum Call {
     StageRemovals,
     /// Of all vertices, or of some.
     Commit(Algorithm, bool),
+    /// The first phase of a commit, and what takes it back.
+    Prepare,
+    Withdraw,
     Clone,
     Save,
     Load,
@@ -282,7 +287,7 @@ impl Call {
         for algorithm in Algorithm::ALL {
             calls.extend([Call::Commit(algorithm, true), Call::Commit(algorithm, false)]);
         }
-        calls.extend([Call::StageInsertions, Call::StageRemovals]);
+        calls.extend([Call::Prepare, Call::Withdraw, Call::StageInsertions, Call::StageRemovals]);
         calls.extend([Call::MoveVertices, Call::MoveAll, Call::Cells, Call::Star, Call::Locate]);
         calls.extend([Call::Nearest, Call::Validate, Call::AnnulusWidths, Call::StandardDelimiter]);
         calls.extend([Call::TakeChanges, Call::Tolerance]);
@@ -312,6 +317,11 @@ impl Call {
             Call::FindSimplices(_) => "FindSimplices".to_string(),
             other => format!("{other:?}"),
         }
+    }
+
+    /// Whether it makes what is staged happen.
+    fn brings_edits(self) -> bool {
+        matches!(self, Call::Commit(..) | Call::Prepare | Call::Withdraw)
     }
 
     fn algorithm(self) -> Algorithm {
@@ -424,13 +434,16 @@ impl<G: Dimension> Scene<G> {
             Call::StageInsertions | Call::StageRemovals => t.move_all(&points).expect("moves"),
             _ => t.move_vertices(&ids([3, 4]), &[places[3], places[4]]).expect("moves"),
         }
-        if matches!(call, Call::Commit(..)) {
+        if call.brings_edits() {
             let coming: Vec<G::Point> = (0..setting.stages).map(|k| points[k * 3]).collect();
             let coming: Vec<G::Point> = (0..).zip(coming).map(|(k, p)| beside::<G>(&p, k)).collect();
             t.stage_insertions(&coming).expect("insertions");
             // Fewer than come, so that these are not all at sites that are left.
             let leaving: Vec<VertexId> = (0..setting.stages / 2).map(|k| VertexId::at(10 + 3 * k)).collect();
             t.stage_removals(&leaving).expect("removals");
+        }
+        if call == Call::Withdraw {
+            t.prepare_timestamp().expect("a prepared timestamp");
         }
         let options = Some(options());
         let (mask, values) = (vec![1; t.cell_count()], (0..t.id_count()).map(|v| v as f64).collect());
@@ -503,6 +516,14 @@ impl<G: Dimension> Scene<G> {
             Call::Commit(..) => {
                 let CommitReport { timestamp, moved, coincident, .. } = given(t.commit_timestamp())?;
                 Given::Report(timestamp, moved, coincident)
+            }
+            Call::Prepare => {
+                let CommitReport { moved, coincident, .. } = given(t.prepare_timestamp())?;
+                Given::Report(0, moved, coincident)
+            }
+            Call::Withdraw => {
+                t.withdraw_timestamp();
+                given(Ok(Given::Nothing))?
             }
             Call::Cells => {
                 given(t.cells().map(drop))?;
@@ -664,6 +685,9 @@ impl<G: Dimension> Scene<G> {
     /// All that there is to be seen, now and after what is staged.
     fn finish(&mut self) -> (Snapshot<G::Point>, Option<Snapshot<G::Point>>) {
         let now = Snapshot::of(&self.t);
+        if self.call == Call::Prepare {
+            self.t.publish_timestamp().expect("a prepared timestamp");
+        }
         self.follow();
         let is_staged = self.t.staged_count() > 0 || self.t.staged_edits() != (0, 0);
         let later = is_staged.then(|| {
@@ -779,31 +803,36 @@ impl Faults<'_> {
             };
             attempt(self.page, false);
             // A process that ended after the call had come back was not ended by the fault.
-            let outcome = self.page.outcome;
-            if outcome == Outcome::Untouched {
+            if self.page.outcome == Outcome::Untouched {
                 break;
             }
-            let tally = self.tallies.entry(call.name()).or_default();
-            tally.faults += 1;
-            match outcome {
-                Outcome::Untouched => {}
-                Outcome::Absorbed => tally.absorbed += 1,
-                Outcome::Clean => tally.clean += 1,
-                Outcome::Changed => {
-                    tally.changed += 1;
-                    let text: String = self.page.text().chars().take(600).collect();
-                    self.changed.push(format!("{name}, request {k}, goes on: {goes_on}: {text}"));
+            self.enter(&call.name(), &name, (k, goes_on), |page| attempt(page, true));
+        }
+    }
+
+    /// Enters what came of a fault, a request that failed and maybe all behind it; `again` has it again, and traces it.
+    fn enter(&mut self, function: &str, context: &str, fault: (usize, bool), again: impl FnOnce(&mut Page)) {
+        let tally = self.tallies.entry(function.to_string()).or_default();
+        let (k, goes_on) = fault;
+        tally.faults += 1;
+        match self.page.outcome {
+            Outcome::Untouched => {}
+            Outcome::Absorbed => tally.absorbed += 1,
+            Outcome::Clean => tally.clean += 1,
+            Outcome::Changed => {
+                tally.changed += 1;
+                let text: String = self.page.text().chars().take(600).collect();
+                self.changed.push(format!("{context}, request {k}, goes on: {goes_on}: {text}"));
+            }
+            Outcome::Aborted => {
+                tally.aborted += 1;
+                let frames = self.page.frames;
+                if !self.aborts.contains_key(&frames) {
+                    again(self.page);
+                    let place = format!("{} ({context}, {k})", place(&self.page.text()));
+                    self.aborts.insert(frames, (place, 0));
                 }
-                Outcome::Aborted => {
-                    tally.aborted += 1;
-                    let frames = self.page.frames;
-                    if !self.aborts.contains_key(&frames) {
-                        attempt(self.page, true);
-                        let place = format!("{} ({name}, {k})", place(&self.page.text()));
-                        self.aborts.insert(frames, (place, 0));
-                    }
-                    self.aborts.get_mut(&frames).expect("it is there").1 += 1;
-                }
+                self.aborts.get_mut(&frames).expect("it is there").1 += 1;
             }
         }
     }
@@ -848,13 +877,14 @@ fn calls_without_memory_leave_all_as_it_was() {
     for call in Call::all() {
         for setting in &SETTINGS {
             let is_whole = matches!(call, Call::MoveAll | Call::StageInsertions | Call::StageRemovals);
-            if setting.edits && is_whole || setting.stages > 0 && !matches!(call, Call::Commit(..)) {
+            if setting.edits && is_whole || setting.stages > 0 && !call.brings_edits() {
                 continue;
             }
             faults.of_call::<Plane>(call, setting);
             faults.of_call::<Space>(call, setting);
         }
     }
+    faults_in_boxes::all(&mut faults);
     let Faults { tallies, aborts, changed, .. } = faults;
     println!("{:<34}{:>8}{:>10}{:>8}{:>9}{:>8}", "", "faults", "absorbed", "clean", "changed", "aborts");
     let mut sum = Tally::default();

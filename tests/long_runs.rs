@@ -1,7 +1,7 @@
 //! Runs of thousands of commits: whatever is kept from commit to commit stays as it is after the first ones. And the
 //! first histories of `make soak`.
 
-use crate::common::{Rng, assert_same_cells, cell_set, fresh_cells};
+use crate::common::{Rng, assert_same_cells, cell_set, fresh_cells, seeds};
 use crate::histories;
 use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options};
 use deldrift::{Dimension, Plane, Shape, Space};
@@ -113,4 +113,16 @@ fn the_first_histories_of_the_soak_in_the_plane() {
 #[test]
 fn the_first_histories_of_the_soak_in_space() {
     soak::<Space>();
+}
+
+/// In boxes that repeat: those of the first seeds that have one.
+#[test]
+fn histories_in_boxes() {
+    let mut sum = histories::Tally::default();
+    for k in seeds(30) {
+        sum.add(&histories::run(44 + 5 * k, false).tally);
+    }
+    // They do what they are for.
+    let rare = sum.rebuilds.min(sum.insertions).min(sum.removals).min(sum.validations);
+    assert!(rare > 0 && sum.moves > sum.commits && sum.rebuilds < sum.commits, "{sum:?}");
 }

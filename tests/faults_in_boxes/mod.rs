@@ -1,0 +1,206 @@
+//! Calls on boxes that repeat, without memory.
+
+use super::common::{ids, point};
+use super::{Faults, Outcome, Page, REQUESTS, TRACES, arm, cloud, disarm, forked, nudge};
+use crate::common::Rng;
+use deldrift::motion::Options;
+use deldrift::periodic::PeriodicTriangulation;
+use deldrift::{Dimension, Error, Plane, Result, Space, VertexId};
+use std::collections::BTreeSet;
+use std::sync::atomic::Ordering::Relaxed;
+
+/// A call on a box.
+#[derive(Clone, Copy, Debug)]
+enum Call {
+    New,
+    MoveVertices,
+    StageInsertions,
+    StageRemovals,
+    StageVectors,
+    CommitMoves,
+    CommitPositions,
+    CommitEdits,
+    CommitVectors,
+    Cells,
+    Edges,
+    VoronoiVolumes,
+}
+
+const CALLS: [Call; 12] = [
+    Call::New,
+    Call::MoveVertices,
+    Call::StageInsertions,
+    Call::StageRemovals,
+    Call::StageVectors,
+    Call::CommitMoves,
+    Call::CommitPositions,
+    Call::CommitEdits,
+    Call::CommitVectors,
+    Call::Cells,
+    Call::Edges,
+    Call::VoronoiVolumes,
+];
+
+/// A box before a call.
+struct Scene<G: Dimension> {
+    t: PeriodicTriangulation<G>,
+    goals: Vec<G::Point>,
+    vectors: Vec<G::Point>,
+}
+
+/// All that there is to be seen: positions and vectors in bits, numbers, and cells as sets of vertices with shifts.
+#[derive(Debug, PartialEq)]
+struct State {
+    positions: Vec<Option<Vec<u64>>>,
+    vectors: Vec<Vec<u64>>,
+    numbers: [u64; 4],
+    cells: BTreeSet<Vec<(VertexId, [i64; 3])>>,
+}
+
+fn bits<P: AsRef<[f64]>>(p: &P) -> Vec<u64> {
+    p.as_ref().iter().map(|x| x.to_bits()).collect()
+}
+
+impl<G: Dimension> Scene<G> {
+    fn new(call: Call, is_read: bool) -> Self {
+        let rng = &mut Rng::new(5);
+        let mut points = cloud::<G>(50, rng);
+        (points[20], points[30]) = (points[10], points[11]);
+        let mut vectors: Vec<G::Point> =
+            (0..G::D).map(|j| point::<G>(|k| f64::from(u8::from(j == k)) + 0.125 * k as f64)).collect();
+        let options = Options { threads: 1, ..Options::default() };
+        let mut t = PeriodicTriangulation::new(&points, &vectors, options).expect("a build");
+        nudge::<G>(&mut points, 0.02, rng);
+        t.commit_positions(&points).expect("a commit");
+        if is_read {
+            t.cells().expect("room");
+        }
+        let mut goals = points;
+        nudge::<G>(&mut goals, 0.3, rng);
+        vectors[0][0] += 0.01;
+        match call {
+            Call::CommitMoves => t.move_vertices(&ids([3, 4, 5]), &goals[3..6]).expect("moves"),
+            Call::CommitEdits => {
+                t.stage_insertions(&goals[..5]).expect("insertions");
+                t.stage_removals(&ids([7, 10, 12])).expect("removals");
+            }
+            Call::CommitVectors => t.stage_vectors(&vectors).expect("vectors"),
+            _ => {}
+        }
+        Scene { t, goals, vectors }
+    }
+
+    /// Makes the call, and disarms as soon as it is back; what it gives, as far as that is a number.
+    fn call(&mut self, call: Call) -> Result<u64> {
+        let Scene { t, goals, vectors } = self;
+        fn given<T>(result: Result<T>) -> Result<T> {
+            disarm();
+            result
+        }
+        Ok(match call {
+            Call::New => {
+                let options = Options { threads: 1, ..Options::default() };
+                given(PeriodicTriangulation::<G>::new(goals, vectors, options))?.cell_count()? as u64
+            }
+            Call::MoveVertices => given(t.move_vertices(&ids([3, 4, 5]), &goals[3..6])).map(|()| 0)?,
+            Call::StageInsertions => given(t.stage_insertions(&goals[..5]))?.get().into(),
+            Call::StageRemovals => given(t.stage_removals(&ids([7, 10, 12]))).map(|()| 0)?,
+            Call::StageVectors => given(t.stage_vectors(vectors)).map(|()| 0)?,
+            Call::CommitPositions => given(t.commit_positions(goals))?.moved,
+            Call::CommitMoves | Call::CommitEdits | Call::CommitVectors => {
+                let report = given(t.commit_timestamp())?;
+                report.moved + 100 * report.inserted + 10_000 * report.removed
+            }
+            Call::Cells => given(t.cell_count())? as u64,
+            Call::Edges => given(t.edges())?.len() as u64,
+            Call::VoronoiVolumes => given(t.voronoi_volumes(&mut |_| true))?.len() as u64,
+        })
+    }
+
+    fn state(&self) -> State {
+        let t = &self.t;
+        let positions =
+            VertexId::range(0..t.id_count()).map(|v| t.position(v).ok().map(|p| bits(&p))).collect();
+        let shifts: Vec<_> = t.cell_shifts().expect("room").collect();
+        let mut cells = BTreeSet::new();
+        for (row, shifts) in t.cells().expect("room").corners.iter().zip(shifts.chunks_exact(G::D + 1)) {
+            let mut corners: Vec<_> = row.as_ref().iter().copied().zip(shifts.iter().copied()).collect();
+            corners.sort_unstable();
+            cells.insert(corners);
+        }
+        let counts = [t.id_count(), t.vertex_count(), t.staged_count()].map(|n| n as u64);
+        State {
+            positions,
+            vectors: t.vectors().map(|v| bits(&v)).collect(),
+            numbers: [t.timestamp(), counts[0], counts[1], counts[2]],
+            cells,
+        }
+    }
+
+    /// What is to be seen after what is staged as well.
+    fn finish(&mut self) -> [State; 2] {
+        let now = self.state();
+        self.t.commit_timestamp().expect("a commit");
+        [now, self.state()]
+    }
+}
+
+fn faults_of<G: Dimension>(faults: &mut Faults<'_>, call: Call, is_read: bool) {
+    let name = format!("{}D box, {call:?}, read: {is_read}", G::D);
+    let mut reference = Scene::<G>::new(call, is_read);
+    let Ok(given) = reference.call(call) else { panic!("{name}: it fails") };
+    let finished = reference.finish();
+    let state = Scene::<G>::new(call, is_read).state();
+    let mut before = Scene::<G>::new(call, is_read);
+    forked(faults.page, |page| {
+        arm(usize::MAX, false);
+        let _ = before.call(call);
+        disarm();
+        page.requests = REQUESTS.load(Relaxed);
+        page.outcome = Outcome::Untouched;
+    });
+    let stride = faults.page.requests.div_ceil(faults.most).max(1);
+    for (round, k) in (0..).step_by(stride).enumerate().take(4 * faults.most) {
+        let goes_on = round % 3 == 2;
+        let mut attempt = |page: &mut Page, traces: bool| {
+            forked(page, |page| {
+                TRACES.store(traces, Relaxed);
+                arm(k, goes_on);
+                let done = before.call(call);
+                disarm();
+                let has_failed = page.has_failed;
+                let second = match &done {
+                    Ok(given) => *given,
+                    Err(error) => {
+                        let is_memory = matches!(error, Error::OutOfMemory { .. });
+                        assert!(is_memory && has_failed, "another error: {error}");
+                        assert!(before.state() == state, "another state");
+                        before.call(call).expect("no fault")
+                    }
+                };
+                assert_eq!(second, given, "another result");
+                assert!(before.finish() == finished, "another end");
+                page.outcome = match done {
+                    Err(_) => Outcome::Clean,
+                    Ok(_) if has_failed => Outcome::Absorbed,
+                    Ok(_) => Outcome::Untouched,
+                };
+            });
+        };
+        attempt(faults.page, false);
+        if faults.page.outcome == Outcome::Untouched {
+            break;
+        }
+        faults.enter(&format!("{call:?} in a box"), &name, (k, goes_on), |page| attempt(page, true));
+    }
+}
+
+/// Faults in all calls.
+pub fn all(faults: &mut Faults<'_>) {
+    for call in CALLS {
+        for is_read in [false, true] {
+            faults_of::<Plane>(faults, call, is_read);
+            faults_of::<Space>(faults, call, is_read);
+        }
+    }
+}
