@@ -1289,7 +1289,11 @@ deldrift_status deldrift_stage_splits(deldrift_triangulation *t,
 /// call it as often or as rarely as it likes. Ends the lists of the call before; a view of the cells stays valid unless
 /// it is older than the last change. deldrift_cells takes constant time after it.
 ///
-/// Cost: what has changed; of the first call n + m.
+/// Where the triangulation is periodic, a cell is its vertices with their shifts from each other (deldrift_cell_shifts): one is
+/// new if the program takes a vertex of it to another period, or gives other vectors of the lattice. From the first call on
+/// cells that stay keep their indices; a commit that builds anew may list their corners in another order.
+///
+/// Cost: what has changed; of the first call n + m. Where the triangulation is periodic, always n + m.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_OUT_OF_MEMORY; then nothing has been taken.
 /// Not to be called at the same time as any other call on t.
@@ -2602,12 +2606,14 @@ deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
 /// deldrift_stage_insertions, deldrift_stage_removals, deldrift_discard_moves, deldrift_commit_timestamp,
 /// deldrift_commit_positions, deldrift_vertex_count, deldrift_id_count, deldrift_cell_count, deldrift_staged_count,
 /// deldrift_memory_bytes, deldrift_timestamp, deldrift_statistics, deldrift_is_present, deldrift_position,
-/// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges, and
-/// deldrift_voronoi_volumes without a box. All others return DELDRIFT_PERIODIC. Cells are numbered anew by each commit.
+/// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges,
+/// deldrift_take_changes, and deldrift_voronoi_volumes without a box. All others return DELDRIFT_PERIODIC. Cells are
+/// numbered anew by each commit, unless changes are taken.
 ///
-/// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves
-/// costs what it costs in an open triangulation of as many, and n + m; one with insertions, removals or other vectors, or
-/// where a vertex has drifted far out of the box since the last such commit, costs as much as creation.
+/// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves,
+/// or of other vectors that are near those in force, costs what it costs in an open triangulation of as many, and n + m; one
+/// with insertions or removals, or where a vertex has drifted far out of the box since the last such commit, costs as much as
+/// creation.
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_INVALID_OPTIONS, DELDRIFT_NULL_ARGUMENT,
 /// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
@@ -2628,7 +2634,9 @@ deldrift_status deldrift_create_periodic(uint32_t dimension,
 /// that is not periodic. Vertices that do not move stay at their positions: a program that deforms its box with all that
 /// is in it gives the positions, too. Vectors that are staged already are forgotten. deldrift_discard_moves discards them.
 ///
-/// Cost: constant; the commit costs as much as creation, unless the vectors are those that are in force already.
+/// Cost: constant. The commit costs as much as one of moves of all vertices, as long as the vectors lead to a lattice that is
+/// near the one in force, whichever vectors of it are given: a box that is strained or sheared in small steps costs a creation
+/// once for each strain of about 1.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT,
 /// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_DEPENDENT_VECTORS, DELDRIFT_OUT_OF_MEMORY.

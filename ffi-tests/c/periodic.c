@@ -195,6 +195,38 @@ static void moves_and_boxes(uint32_t dimension, size_t n, size_t vector_count, u
     deldrift_destroy(t);
 }
 
+// A cell that stays keeps its index; what is in the plane comes and goes by twos.
+static void changes_are_told(void) {
+    static const double square[] = {1, 0, 0, 1};
+    deldrift_triangulation *t = NULL;
+    deldrift_changes changes;
+    size_t count;
+    uint32_t first;
+    OK(deldrift_create_periodic(2, (double[]){0.25, 0.25, 0.75, 0.5, 0.5, 0.875}, 3, square, 2, NULL, &t));
+    OK(deldrift_take_changes(t, &changes));
+    CHECK(changes.created_count == 6 && changes.removed_count == 0 && changes.star_count == 3);
+    OK(deldrift_move_vertex(t, 0, (double[]){0.25, 0.28125}));
+    OK(deldrift_commit_timestamp(t, NULL));
+    OK(deldrift_take_changes(t, &changes));
+    CHECK(changes.created_count == 0 && changes.removed_count == 0 && changes.renumbered_count == 0);
+    // The vertex is at the same place, in another period: its cells have other shifts.
+    OK(deldrift_move_vertex(t, 0, (double[]){1.25, 0.28125}));
+    OK(deldrift_commit_timestamp(t, NULL));
+    OK(deldrift_take_changes(t, &changes));
+    CHECK(changes.created_count == changes.removed_count && changes.created_count > 0);
+    OK(deldrift_stage_insertions(t, (double[]){0.25, 0.28125}, 1, &first));
+    OK(deldrift_commit_timestamp(t, NULL));
+    OK(deldrift_take_changes(t, &changes));
+    CHECK(changes.created_count == 0 && changes.hidden_count == 1 && changes.hidden[0] == first);
+    OK(deldrift_move_vertex(t, first, (double[]){0.5, 0.375}));
+    OK(deldrift_commit_timestamp(t, NULL));
+    OK(deldrift_take_changes(t, &changes));
+    CHECK(changes.created_count == changes.removed_count + 2 && changes.shown_count == 1);
+    OK(deldrift_cell_count(t, &count));
+    CHECK(count == 8 && changes.stars[changes.star_count - 1] == first);
+    deldrift_destroy(t);
+}
+
 static void vertices_come_and_go(void) {
     static const double square[] = {1, 0, 0, 1};
     double position[2];
@@ -260,6 +292,7 @@ int main(void) {
         for (size_t n = 1; n <= MOST; n = 3 * n + 1) moves_and_boxes(3, n, rank, seed++);
     }
     vertices_come_and_go();
+    changes_are_told();
     what_is_wrong_is_told();
     return 0;
 }

@@ -359,7 +359,7 @@ class Motion(Segmented):
         with self._taking as t:
             view = _library.ChangesView()
             self._check(_take_changes(t, view))
-            return _changes(view, self.ndim + 1)
+            return changes_of(view, self.ndim + 1)
 
     @property
     def report(self) -> Optional[Report]:
@@ -400,7 +400,8 @@ class Motion(Segmented):
             self._check(_set_algorithm(t, number))
 
 
-def _changes(view: _library.ChangesView, corners: int) -> Changes:
+def changes_of(view: _library.ChangesView, corners: int) -> Changes:
+    """Copies of the lists of changes."""
     if not (view.created_count or view.removed_count or view.renumbered_count or view.hidden_count or view.shown_count):
         return NO_CHANGES[corners]
 

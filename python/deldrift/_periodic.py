@@ -13,6 +13,7 @@ from ._core import Core, check, count_of, fixed, id_count, make_options
 from ._delaunay import _callbacks
 from ._errors import WrongCount
 from ._library import Report
+from ._motion import Changes, changes_of
 
 _create_periodic = _library.function("create_periodic")
 _stage_vectors = _library.function("stage_vectors")
@@ -24,6 +25,7 @@ _copy_cells = _library.function("copy_cells")
 _copy_positions = _library.function("copy_positions")
 _commit_positions = _library.function("commit_positions")
 _commit_timestamp = _library.function("commit_timestamp")
+_take_changes = _library.function("take_changes")
 _discard_moves = _library.function("discard_moves")
 _move_vertices = _library.function("move_vertices")
 _stage_insertions = _library.function("stage_insertions")
@@ -298,6 +300,33 @@ class PeriodicDelaunay(Core):
         return self._change(
             lambda t, report: int(_stage_removals(t, address(going), len(going)) or _commit_timestamp(t, report))
         )
+
+    def changes(self) -> Changes:
+        """What has changed since this was last called; the first call lists all simplices as created.
+
+        A simplex is its vertices with their shifts from each other. From the first call on those that stay keep their rows
+        in `simplices`, unless they are listed as renumbered.
+
+        Returns
+        -------
+        Changes
+            Named arrays.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.PeriodicDelaunay([[0.1, 0.1], [0.6, 0.7], [0.4, 0.9]], vectors=[1, 1])
+        >>> len(tri.changes().created)
+        6
+        >>> _ = tri.remove([2])
+        >>> changes = tri.changes()
+        >>> len(changes.removed) - len(changes.created)
+        2
+        """
+        with self._taking as t:
+            view = _library.ChangesView()
+            self._check(_take_changes(t, view))
+            return changes_of(view, self.ndim + 1)
 
     def _change(self, change: Callable[[int, Report], int]) -> Report:
         """A change, which has no effect if it fails."""

@@ -50,6 +50,30 @@ def of_copies(points, vectors):
     return classes(simplices % len(points), shifts[simplices], vectors)
 
 
+@pytest.mark.parametrize("name", ["square", "triclinic"])
+def test_what_is_kept_by_the_changes_is_what_there_is(name):
+    vectors, rng = BOXES[name], np.random.default_rng(3)
+    points = rng.random((30, len(vectors))) @ vectors
+    tri = deldrift.PeriodicDelaunay(points, vectors)
+    kept = {}
+    for step in range(6):
+        changes = tri.changes()
+        for cell, row in zip(changes.removed.tolist(), changes.removed_simplices.tolist()):
+            assert sorted(row) == sorted(kept.pop(cell))
+        moved = [kept.pop(cell) for cell in changes.renumbered_from.tolist()]
+        kept.update(zip(changes.renumbered_to.tolist(), moved))
+        for cell in changes.created.tolist():
+            assert cell not in kept
+            kept[cell] = tri.simplices[cell].tolist()
+        assert len(kept) == tri.nsimplex
+        assert all(sorted(kept[cell]) == sorted(row) for cell, row in enumerate(tri.simplices.tolist()))
+        assert step == 0 or 0 < len(changes.created) < tri.nsimplex
+        points += rng.normal(scale=0.01, size=points.shape)
+        if step == 3:
+            tri.remove([4])
+        tri.move(points)
+
+
 @pytest.mark.parametrize("name", BOXES)
 def test_cells_are_those_of_copies_when_points_move(name):
     vectors, rng, n = BOXES[name], np.random.default_rng(7), 25

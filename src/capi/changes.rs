@@ -1,10 +1,9 @@
 //! The change list: what a program has to know that keeps something for each cell.
 
-use super::handle::{Changing, deldrift_triangulation};
+use super::handle::{Changing, deldrift_triangulation, in_any};
 use super::pointers::{Output, given, start_of};
 use super::status::deldrift_status;
 use crate::ids::{CellId, VertexId};
-use crate::in_its_dimension;
 use crate::motion::Changes;
 
 /// What has changed since the program last took the changes: lists that belong to the triangulation, valid
@@ -82,7 +81,11 @@ impl<C> From<Changes<'_, C>> for deldrift_changes {
 /// call it as often or as rarely as it likes. Ends the lists of the call before; a view of the cells stays valid unless
 /// it is older than the last change. deldrift_cells takes constant time after it.
 ///
-/// Cost: what has changed; of the first call n + m.
+/// Where the triangulation is periodic, a cell is its vertices with their shifts from each other (deldrift_cell_shifts): one is
+/// new if the program takes a vertex of it to another period, or gives other vectors of the lattice. From the first call on
+/// cells that stay keep their indices; a commit that builds anew may list their corners in another order.
+///
+/// Cost: what has changed; of the first call n + m. Where the triangulation is periodic, always n + m.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_OUT_OF_MEMORY; then nothing has been taken.
 /// Not to be called at the same time as any other call on t.
@@ -92,9 +95,9 @@ pub unsafe extern "C" fn deldrift_take_changes(
     changes: *mut deldrift_changes,
 ) -> deldrift_status {
     given!(t: Changing, changes: Output);
-    t.change(|t| {
+    t.change_any(|t| {
         let changes = changes.place()?;
-        changes.write(in_its_dimension!(t => t.take_changes()?.into()));
+        changes.write(in_any!(t => t.take_changes()?.into()));
         Ok(())
     })
 }

@@ -37,6 +37,8 @@ pub(super) struct PeriodicCells<G: Dimension> {
     pub(super) chosen: Vec<CellId>,
     /// By cell inside, which one it is a translation of, if it has a vertex at home; [`NO_CELL`] for others.
     pub(super) class_of: Vec<CellId>,
+    /// By cell, the index that it had when changes were last taken; none where they never were.
+    pub(super) origins: Vec<CellId>,
 }
 
 /// The corners of a cell inside, in order.
@@ -44,7 +46,7 @@ type Row = [u32; 4];
 
 /// Rows have numbers that are as good as random in their low bits, once multiplied.
 #[derive(Default)]
-struct RowHasher(u64);
+pub(super) struct RowHasher(u64);
 
 impl Hasher for RowHasher {
     fn finish(&self) -> u64 {
@@ -52,13 +54,23 @@ impl Hasher for RowHasher {
     }
 
     fn write(&mut self, bytes: &[u8]) {
-        for &byte in bytes {
-            self.write_u32(byte.into());
+        for some in bytes.chunks(8) {
+            let mut number = [0; 8];
+            number[..some.len()].copy_from_slice(some);
+            self.write_u64(u64::from_le_bytes(number));
         }
     }
 
     fn write_u32(&mut self, number: u32) {
-        self.0 = (self.0.rotate_left(5) ^ u64::from(number)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        self.write_u64(number.into());
+    }
+
+    fn write_usize(&mut self, number: usize) {
+        self.write_u64(number as u64);
+    }
+
+    fn write_u64(&mut self, number: u64) {
+        self.0 = (self.0.rotate_left(5) ^ number).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     }
 }
 
@@ -81,13 +93,22 @@ fn key_of(mut row: Row) -> [RowPart; 4] {
 }
 
 impl<G: Dimension> PeriodicCells<G> {
+    pub(super) fn none() -> Self {
+        PeriodicCells {
+            corners: Vec::new(),
+            shifts: Vec::new(),
+            neighbours: Vec::new(),
+            neighbour_shifts: Vec::new(),
+            least: Vec::new(),
+            chosen: Vec::new(),
+            class_of: Vec::new(),
+            origins: Vec::new(),
+        }
+    }
+
     /// Reads all cells.
     pub(super) fn of(inside: &Inside<G>) -> Result<Self> {
-        let (corners, shifts, least) = (Vec::new(), Vec::new(), Vec::new());
-        let (neighbours, neighbour_shifts) = (Vec::new(), Vec::new());
-        let (chosen, class_of) = (Vec::new(), Vec::new());
-        let mut read =
-            PeriodicCells { corners, shifts, neighbours, neighbour_shifts, least, chosen, class_of };
+        let mut read = Self::none();
         let cells = inside.t.cells()?;
         memory::lengthen(&mut read.class_of, cells.corners.len(), NO_CELL)?;
         // Those that are translations of others that have been chosen, or will be, and by which shift.
@@ -158,6 +179,7 @@ impl<G: Dimension> PeriodicCells<G> {
             + memory::bytes_of(&self.least)
             + memory::bytes_of(&self.chosen)
             + memory::bytes_of(&self.class_of)
+            + memory::bytes_of(&self.origins)
     }
 }
 

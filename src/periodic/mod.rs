@@ -27,6 +27,7 @@
 //! built beside the present one, and takes its place when it is complete.
 
 mod cells;
+mod changes;
 mod commit;
 mod either;
 mod following;

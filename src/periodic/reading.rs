@@ -204,6 +204,10 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             + memory::bytes_of(&self.wraps)
             + self.staged.memory_bytes()
             + self.cells.get().map_or(0, PeriodicCells::memory_bytes)
+            + self
+                .taking
+                .as_ref()
+                .map_or(0, |taking| taking.base.memory_bytes() + taking.lists.memory_bytes())
     }
 
     /// The cells, which the first that asks reads; several threads may do that at the same time.
@@ -211,17 +215,17 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         if let Some(cells) = self.cells.get() {
             return Ok(cells);
         }
-        let read = PeriodicCells::of(&self.inside)?;
+        let read = self.in_order(PeriodicCells::of(&self.inside)?)?;
         Ok(self.cells.get_or_init(|| read))
     }
 
-    fn least_of(&self, cells: &PeriodicCells<G>, cell: usize) -> VertexId {
+    pub(super) fn least_of(&self, cells: &PeriodicCells<G>, cell: usize) -> VertexId {
         cells.corners[cell].as_ref()[usize::from(cells.least[cell])]
     }
 
     /// By which multiples of the given vectors one vertex is translated from its position where another one is at its own, if
     /// it is translated by this shift from home where the other one is at home.
-    fn given(&self, from: VertexId, to: VertexId, shift: Shift) -> [i64; 3] {
+    pub(super) fn given(&self, from: VertexId, to: VertexId, shift: Shift) -> [i64; 3] {
         let (first, second) = (&self.wraps[from], &self.wraps[to]);
         self.lattice.of_caller([0, 1, 2].map(|j| i64::from(shift[j]) - second[j] + first[j]))
     }

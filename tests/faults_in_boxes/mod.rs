@@ -24,9 +24,10 @@ enum Call {
     Cells,
     Edges,
     VoronoiVolumes,
+    TakeChanges,
 }
 
-const CALLS: [Call; 12] = [
+const CALLS: [Call; 13] = [
     Call::New,
     Call::MoveVertices,
     Call::StageInsertions,
@@ -39,6 +40,7 @@ const CALLS: [Call; 12] = [
     Call::Cells,
     Call::Edges,
     Call::VoronoiVolumes,
+    Call::TakeChanges,
 ];
 
 /// A box before a call.
@@ -73,7 +75,8 @@ impl<G: Dimension> Scene<G> {
         nudge::<G>(&mut points, 0.02, rng);
         t.commit_positions(&points).expect("a commit");
         if is_read {
-            t.cells().expect("room");
+            // A later read is in the order of what was taken.
+            t.take_changes().expect("room");
         }
         let mut goals = points;
         nudge::<G>(&mut goals, 0.3, rng);
@@ -110,6 +113,10 @@ impl<G: Dimension> Scene<G> {
             Call::CommitMoves | Call::CommitEdits | Call::CommitVectors => {
                 let report = given(t.commit_timestamp())?;
                 report.moved + 100 * report.inserted + 10_000 * report.removed
+            }
+            Call::TakeChanges => {
+                let changes = given(t.take_changes())?;
+                (changes.created.len() + 10_000 * changes.removed.len()) as u64
             }
             Call::Cells => given(t.cell_count())? as u64,
             Call::Edges => given(t.edges())?.len() as u64,

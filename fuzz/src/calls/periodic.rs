@@ -22,7 +22,11 @@ impl History<'_> {
         let n = 1 + self.s.below(9);
         let first = self.boxed(n, rank);
         let Some(t) = created(&first, d, n) else { return };
+        let mut known = BTreeSet::new();
         for _ in 0..1 + self.s.below(3) {
+            if self.s.below(2) == 0 {
+                self.take_boxed(t, &mut known);
+            }
             let next = self.boxed(n, rank);
             if self.s.below(2) == 0 {
                 let staged = c!(deldrift_stage_vectors(t, next.vectors.as_ptr(), rank));
@@ -39,8 +43,34 @@ impl History<'_> {
         assert_eq!(count, rank);
         let anew = created(&Boxed { vectors, positions }, d, n).expect("it has been a box");
         assert_eq!(self.classes(t, d), self.classes(anew, d), "{rank} vectors, {n} vertices");
+        self.take_boxed(t, &mut known);
+        self.take_boxed(anew, &mut BTreeSet::new());
         c!(deldrift_destroy(anew));
         c!(deldrift_destroy(t));
+    }
+
+    /// Follows the indices of cells by the changes.
+    fn take_boxed(&self, t: *mut deldrift_triangulation, known: &mut BTreeSet<u32>) {
+        let mut changes = std::mem::MaybeUninit::uninit();
+        self.is_ok(c!(deldrift_take_changes(t, changes.as_mut_ptr())));
+        // SAFETY: it was written, as the call had no error.
+        let changes: deldrift_changes = unsafe { changes.assume_init() };
+        let list = |start: *const u32, n: usize| slice(start, n).to_vec();
+        for cell in list(changes.removed, changes.removed_count) {
+            assert!(known.remove(&cell), "it was there");
+        }
+        for cell in list(changes.renumbered_from, changes.renumbered_count) {
+            assert!(known.remove(&cell), "it was there");
+        }
+        for cell in list(changes.renumbered_to, changes.renumbered_count) {
+            assert!(known.insert(cell), "its index was free");
+        }
+        for cell in list(changes.created, changes.created_count) {
+            assert!(known.insert(cell), "its index was free");
+        }
+        let mut count = 0;
+        self.is_ok(c!(deldrift_cell_count(t, &mut count)));
+        assert!(known.iter().copied().eq(0..count as u32), "all are known");
     }
 
     /// Whole numbers of eighths, so that much ties.
