@@ -3,7 +3,9 @@
 //! The cells at home are *consistent* if each cell with a vertex at home that has an image, too, is there in as many places as it
 //! has different shifts: translated so that any of its vertices is at home. Where a set repeats along all axes and no two of
 //! its vertices share a place, cells at home that are consistent, and *connected* by common vertices, are those of the
-//! repeating set. With all translations they are cells without a boundary, as the star of each vertex at home is whole, and
+//! repeating set. Connected means: with all their translations, as places, not as classes of these, or else the cells could
+//! be those of a lattice of longer vectors, and their translations others, which cover space once more. With all
+//! translations they are cells without a boundary, as the star of each vertex at home is whole, and
 //! they do not overlap around a vertex. So they cover space, each connected part of them equally often, and one that is
 //! without a boundary in a space without holes covers it once. Each facet is between two cells whose balls have no other vertex of
 //! both in them, with ties broken alike in all periods: they are the Delaunay cells.
@@ -18,7 +20,7 @@ use crate::machine::memory;
 use crate::motion::{CellsView, cells_at};
 use crate::periodic::images::Image;
 use crate::periodic::inside::Inside;
-use crate::periodic::lattice::{HOME, Lattice};
+use crate::periodic::lattice::{HOME, Lattice, Shift};
 use crate::periodic::needed::Needed;
 
 /// The vertices of a cell in their order, each with its shift from the first; the last is none in the plane.
@@ -56,28 +58,48 @@ impl<G: Dimension> Stars<'_, G> {
     }
 }
 
-/// Vertices in sets that are joined.
-struct Joined(Vec<VertexId>);
+/// Vertices in sets that are joined, each in all periods: where one of a set is in a period, the first of the set is in that
+/// and `offset` more, and both are joined there.
+struct Joined {
+    parents: Vec<VertexId>,
+    /// From each to its parent.
+    offsets: Vec<Shift>,
+}
+
+fn sum(one: Shift, other: Shift) -> Shift {
+    [0, 1, 2].map(|j| one[j].wrapping_add(other[j]))
+}
 
 impl Joined {
     fn none(n: usize) -> Result<Self> {
-        let mut parents = Vec::new();
-        memory::reserve_exact(&mut parents, n)?;
-        parents.extend(VertexId::range(0..n));
-        Ok(Joined(parents))
+        let (mut parents, mut offsets) = (Vec::new(), Vec::new());
+        memory::collect(&mut parents, VertexId::range(0..n))?;
+        memory::lengthen(&mut offsets, n, HOME)?;
+        Ok(Joined { parents, offsets })
     }
 
-    fn first(&mut self, mut v: VertexId) -> VertexId {
-        while self.0[v] != v {
-            self.0[v] = self.0[self.0[v]];
-            v = self.0[v];
+    /// What an image is joined to: one of the first of its set.
+    fn first(&mut self, Image { vertex: mut v, mut shift }: Image) -> Image {
+        while self.parents[v] != v {
+            let parent = self.parents[v];
+            // The first of a set is no way from itself.
+            self.offsets[v] = sum(self.offsets[v], self.offsets[parent]);
+            self.parents[v] = self.parents[parent];
+            shift = sum(shift, self.offsets[v]);
+            v = self.parents[v];
         }
-        v
+        Image { vertex: v, shift }
     }
 
-    fn join(&mut self, u: VertexId, w: VertexId) {
-        let (u, w) = (self.first(u), self.first(w));
-        self.0[u.max(w)] = u.min(w);
+    /// Joins two images, and all of their translations. If their vertices are in one set already, but where these are in
+    /// other periods, that is not noted.
+    fn join(&mut self, one: Image, other: Image) {
+        let (one, other) = (self.first(one), self.first(other));
+        let (from, to) = if one.vertex < other.vertex { (other, one) } else { (one, other) };
+        if from.vertex != to.vertex {
+            self.parents[from.vertex] = to.vertex;
+            self.offsets[from.vertex] = [0, 1, 2].map(|j| to.shift[j].wrapping_sub(from.shift[j]));
+        }
     }
 }
 
@@ -104,8 +126,8 @@ impl<G: Dimension> Inside<G> {
                 continue;
             }
             if created.is_some() {
-                let vertex = |v: VertexId| self.images.of(v).vertex;
-                corners[1..].iter().for_each(|&v| joined.join(vertex(corners[0]), vertex(v)));
+                let first = self.images.of(corners[0]);
+                corners[1..].iter().for_each(|&v| joined.join(first, self.images.of(v)));
             } else {
                 memory::push(&mut removed, *row)?;
             }
@@ -140,7 +162,7 @@ impl<G: Dimension> Inside<G> {
             return Ok(Some(needed).filter(|needed| !needed.images.is_empty()));
         }
         let are_joined = removed.iter().all(|row| {
-            let mut each = row.as_ref().iter().map(|&v| joined.first(self.images.of(v).vertex));
+            let mut each = row.as_ref().iter().map(|&v| joined.first(self.images.of(v)));
             let first = each.next();
             each.all(|other| Some(other) == first)
         });
