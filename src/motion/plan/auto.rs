@@ -29,6 +29,10 @@ const MAX_REBUILDS: u32 = 15;
 /// commits follows as for [`MAX_REBUILDS`].
 const SHARE_TOO_MANY: f64 = 0.5;
 
+/// What is kept for commits of all vertices follows relocations of one in so many, which costs a small part of what to compute
+/// it again does.
+const FOLLOWED_SHARE: usize = 50;
+
 /// Which certificates a commit checks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::motion) enum Scope {
@@ -70,6 +74,8 @@ pub(in crate::motion) struct Auto {
     exact_of_rebuild: Option<u64>,
     /// Whether the latest commit relocated few vertices, one after the other.
     is_of_few: bool,
+    /// Vertices that commits of few have relocated since the last commit of all.
+    n_followed: usize,
     /// Relocations in this round, those within tolerance, and those that changed no cell.
     relocated: u64,
     within: u64,
@@ -236,6 +242,16 @@ impl Auto {
     /// Notes whether the commit relocates few vertices, one after the other.
     pub(in crate::motion) fn note_few(&mut self, is_of_few: bool) {
         self.is_of_few = is_of_few;
+        if !is_of_few {
+            self.n_followed = 0;
+        }
+    }
+
+    /// Whether what is kept for commits of all `n` vertices is to follow the relocation of `n_moved` of them: few in all since
+    /// the last such commit, which the next one would otherwise have to compute again.
+    pub(in crate::motion) fn may_follow(&mut self, n_moved: usize, n: usize) -> bool {
+        self.n_followed = self.n_followed.saturating_add(n_moved);
+        self.n_followed <= n / FOLLOWED_SHARE
     }
 
     /// Whether the commit has done so; not any more after that.

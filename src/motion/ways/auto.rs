@@ -2,7 +2,7 @@
 //!
 //! | commit | algorithm |
 //! |---|---|
-//! | of few of the vertices | tolerance if up to date, else placement by flips, rebuilding where that costs more |
+//! | of few of the vertices | tolerance if up to date, else placement by flips, rebuilding where that costs more; what is kept for commits of all follows where these are few between two such |
 //! | of all vertices, while few leave their tolerance | watching |
 //! | of all vertices, while few bi-cells use theirs up, in space | slack |
 //! | otherwise | repair, which rebuilds where too much fails |
@@ -71,10 +71,12 @@ impl<G: Dimension> MovingTriangulation<G> {
             return self.rebuild(moves, report);
         }
         if is_of_few {
-            return if self.regions.kept_for() == Some(RegionKind::Tolerance) {
-                self.commit_by_tolerance(moves, report)
-            } else {
-                self.commit_by_placement_or_rebuilding(moves, report)
+            return match self.regions.kept_for() {
+                Some(RegionKind::Tolerance) => self.commit_by_tolerance(moves, report),
+                Some(_) if self.auto.may_follow(moves.count(), self.mesh.n_present) => {
+                    self.place_or_rebuild_with_regions(moves, report)
+                }
+                _ => self.commit_by_placement_or_rebuilding(moves, report),
             };
         }
         let is_rebuild_due = self.auto.take_rebuild();

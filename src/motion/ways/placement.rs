@@ -62,7 +62,34 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<()> {
         let (queue, goals) = self.queue_for_placement(moves)?;
-        self.place_within_budget(&queue, goals, 0, report)?;
+        self.place_within_budget(&queue, goals, 0, report, Self::relocate_by_flips)?;
+        self.queue = queue;
+        Ok(())
+    }
+
+    /// Relocates a vertex; regions are not told.
+    pub(in crate::motion) fn relocate_by_flips(
+        &mut self,
+        vertex: VertexId,
+        q: &G::Point,
+        report: &mut CommitReport,
+    ) -> Result<Placed> {
+        self.mesh.relocate(vertex, q, Shortcut::Flips, report)
+    }
+
+    /// Relocates the vertices one after the other, with flips, and rebuilds where what is left would take longer; the regions
+    /// that are kept follow.
+    pub(in crate::motion) fn place_or_rebuild_with_regions(
+        &mut self,
+        moves: &mut Moves<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        let goals = moves.checked()?;
+        let mut queue = self.queue_of(moves)?;
+        self.mesh.order_for_placement(&mut queue, goals);
+        self.with_regions(report, |t, report| {
+            t.place_within_budget(&queue, goals, 0, report, Self::relocate_noted)
+        })?;
         self.queue = queue;
         Ok(())
     }
@@ -75,6 +102,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         goals: Goals<'_, G>,
         exact: u64,
         report: &mut CommitReport,
+        mut relocate: impl FnMut(&mut Self, VertexId, &G::Point, &mut CommitReport) -> Result<Placed>,
     ) -> Result<()> {
         let (left, slowdown) = (queue.len(), self.mesh.slowdown(1.0));
         let mut budget = Budget::new(
@@ -87,7 +115,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             slowdown,
         );
         self.place_all(queue, goals, report, |t, v, goal, report| {
-            let placed = t.mesh.relocate(v, goal, Shortcut::Flips, report)?;
+            let placed = relocate(t, v, goal, report)?;
             Ok(if budget.is_exceeded(t.mesh.evaluations(), report) { Placed::NeedBuild } else { placed })
         })
     }

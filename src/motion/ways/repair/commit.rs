@@ -101,7 +101,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             return self.rebuild_moving(&repair.places.queue, goals, report);
         }
         self.mesh.transaction.want_order();
-        self.place_within_budget(&repair.places.queue, goals, repair.exact, report)
+        self.place_within_budget(&repair.places.queue, goals, repair.exact, report, Self::relocate_by_flips)
     }
 
     /// Mends a triangulation all vertices of which have been moved, as [`commit_by_repair`](Self::commit_by_repair)
