@@ -99,6 +99,47 @@ static size_t classes_of_copies(const set *s, uint64_t *digests) {
     return each_once(digests, n_found);
 }
 
+// Cells are made of the pyramids of their vertices over facets, which are in the middle between the ends of edges.
+static void check_voronoi(const set *s, const deldrift_triangulation *t, const uint32_t *edges, const int64_t *shifts, size_t n_edges) {
+    static double measures[ROOM], centroids[ROOM * 3], derivatives[ROOM * 6], facets[ROOM];
+    const size_t d = s->dimension;
+    double volumes[MOST], areas[MOST], places[MOST * 3], by_facets[2][MOST] = {{0}}, only[MOST] = {0};
+    uint8_t mask[MOST] = {1};
+    size_t count;
+    OK(deldrift_voronoi_cells(t, NULL, NULL, NULL, 0, volumes, areas, places, MOST, &count));
+    CHECK(count == s->n);
+    OK(deldrift_voronoi_derivatives(t, NULL, NULL, NULL, 0, measures, centroids, derivatives, ROOM, &count));
+    CHECK(count == n_edges);
+    OK(deldrift_voronoi_facets(t, NULL, NULL, facets, ROOM, &count));
+    CHECK(count == n_edges && memcmp(facets, measures, count * sizeof *facets) == 0);
+    OK(deldrift_voronoi_cells(t, NULL, NULL, mask, s->n, only, NULL, NULL, MOST, &count));
+    CHECK(only[0] == volumes[0] && (s->n == 1 || only[1] == 0));
+    for (size_t k = 0; k < n_edges; k++) {
+        const uint32_t *ends = edges + 2 * k;
+        double second[3], square = 0, along = 0, moved = 0;
+        translated(s, ends[1], shifts + k * d, second);
+        for (size_t axis = 0; axis < d; axis++) {
+            const double first = s->points[ends[0] * d + axis], way = second[axis] - first;
+            square += way * way;
+            along += (centroids[k * d + axis] - (first + second[axis]) / 2) * way;
+            moved += (derivatives[2 * k * d + axis] - derivatives[(2 * k + 1) * d + axis]) * way;
+        }
+        for (int i = 0; i < 2; i++) {
+            by_facets[0][ends[i]] += measures[k];
+            by_facets[1][ends[i]] += measures[k] * sqrt(square) / 2 / (double)d;
+        }
+        if (measures[k] > 1e-6 && isfinite(measures[k])) {
+            // If both ends move along the edge, the facet does.
+            CHECK(fabs(along) < 1e-9 && fabs(moved - measures[k] * sqrt(square)) < 1e-9);
+        }
+    }
+    for (size_t v = 0; v < s->n; v++) {
+        CHECK(isfinite(volumes[v]) == isfinite(areas[v]) && isfinite(volumes[v]) == !isnan(places[v * d]));
+        if (!isfinite(volumes[v])) continue;
+        CHECK(fabs(by_facets[0][v] - areas[v]) < 1e-9 * areas[v] && fabs(by_facets[1][v] - volumes[v]) < 1e-9 * volumes[v]);
+    }
+}
+
 // The cells of a triangulation are those classes, and each is told once.
 static void check(const set *s, const deldrift_triangulation *t) {
     static uint64_t expected[ROOM], found[ROOM];
@@ -159,6 +200,7 @@ static void check(const set *s, const deldrift_triangulation *t) {
         for (size_t v = 0; v < count; v++) sum += volumes[v];
         CHECK(fabs(sum - box) < 1e-12 * box);
     }
+    check_voronoi(s, t, edges, shifts, n_edges);
 }
 
 // Places on a grid, so that they are used as they are.
@@ -243,6 +285,11 @@ static void what_is_wrong_is_told(void) {
     CHECK_MESSAGE("options.coincidence is 1");
     OK(deldrift_create_periodic(3, one, 1, one, 1, NULL, &t));
     CHECK_STATUS(deldrift_validate(t, 3), DELDRIFT_PERIODIC);
+    size_t count;
+    CHECK_STATUS(deldrift_voronoi_cells(t, one, one, NULL, 0, NULL, NULL, NULL, 0, &count), DELDRIFT_PERIODIC);
+    CHECK_MESSAGE("low and high are given, but t is periodic");
+    CHECK_STATUS(deldrift_voronoi_cells(t, NULL, NULL, (uint8_t[]){1, 1}, 2, NULL, NULL, NULL, 0, &count), DELDRIFT_WRONG_COUNT);
+    CHECK_MESSAGE("mask_count is 2, but must be 1");
     CHECK_STATUS(deldrift_stage_vectors(t, one, 0), DELDRIFT_WRONG_COUNT);
     CHECK_MESSAGE("vector_count is 0, but must be 1");
     CHECK_STATUS(deldrift_stage_vectors(t, (double[]){0, 0, 0}, 1), DELDRIFT_DEPENDENT_VECTORS);

@@ -424,7 +424,7 @@ class Geometry(Scipy):
         chosen = None if mask is None else mask_of("mask", mask)
         with self._reading as t:
             n = id_count(t)
-            given = self._vertex_mask(chosen, n)
+            given = vertex_mask(chosen, n)
             cells = VoronoiCells(np.full(n, np.nan), np.full(n, np.nan), np.full((n, self.ndim), np.nan))
             count = ctypes.c_size_t()
             rows = (address(array) for array in cells)
@@ -452,21 +452,13 @@ class Geometry(Scipy):
         low, high = box_corners(box, self.ndim)
         chosen = None if mask is None else mask_of("mask", mask)
         with self._reading as t:
-            given = self._vertex_mask(chosen, id_count(t))
+            given = vertex_mask(chosen, id_count(t))
             n, d = count_of(lambda t, count: _edges(t, None, 0, count), t), self.ndim
             facets = VoronoiDerivatives(np.full(n, np.nan), np.full((n, d), np.nan), np.full((n, 2, d), np.nan))
             count = ctypes.c_size_t()
             rows = (address(array) for array in facets)
             self._check(_voronoi_derivatives(t, address_if(low), address_if(high), *given, *rows, n, count))
         return facets
-
-    def _vertex_mask(self, chosen: Any, n: int) -> tuple[Any, int]:
-        """The address and the length of a mask of vertices."""
-        if chosen is None:
-            return None, 0
-        if len(chosen) != n:
-            raise WrongCount(f"mask has {len(chosen)} entries, and there are {n} ids", "mask", None, len(chosen))
-        return address(chosen), n
 
     def interpolate(self, values: Any, xi: Any, method: str = "linear", fill_value: Any = np.nan) -> np.ndarray:
         """Values of the vertices, interpolated at other places.
@@ -530,3 +522,12 @@ def _fill(argument: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
         raise InvalidShape(
             f"{argument} has the shape {np.shape(value)}, and must be a number or {shape}", argument
         ) from None
+
+
+def vertex_mask(chosen: Any, n: int) -> tuple[Any, int]:
+    """The address and the length of a mask of vertices."""
+    if chosen is None:
+        return None, 0
+    if len(chosen) != n:
+        raise WrongCount(f"mask has {len(chosen)} entries, and there are {n} ids", "mask", None, len(chosen))
+    return address(chosen), n

@@ -47,7 +47,8 @@ pub use options::{
 pub use reading::domain::ChainEdge;
 pub use reading::exporting::Field;
 pub use reading::geometry::{
-    BoundaryFacet, Interpolation, OrderedStar, Rows, VertexValues, VoronoiCells, VoronoiFacets,
+    BoundaryFacet, Interpolation, OrderedStar, Rows, VertexValues, VoronoiCell, VoronoiCells, VoronoiFacet,
+    VoronoiFacets,
 };
 pub use reading::near::{InReach, VerticesInReach};
 pub use reading::query::Location;

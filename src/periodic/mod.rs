@@ -27,6 +27,7 @@
 
 mod cells;
 mod commit;
+mod edges;
 mod either;
 mod following;
 mod images;
@@ -38,6 +39,7 @@ mod staged;
 #[cfg(test)]
 mod tests;
 mod triangulation;
+mod voronoi;
 
 pub use cells::PeriodicView;
 pub use either::AnyPeriodic;

@@ -8,6 +8,7 @@ use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::{CoincidencePolicy, CommitReport, MAX_VERTICES, MovingTriangulation, Options};
 use crate::periodic::cells::PeriodicCells;
+use crate::periodic::edges::PeriodicEdges;
 use crate::periodic::images::{Image, Images};
 use crate::periodic::inside::{Inside, all};
 use crate::periodic::lattice::{HOME, Lattice, Occupied, ROOM};
@@ -42,6 +43,7 @@ pub struct PeriodicTriangulation<G: Dimension> {
     /// Of all commits.
     pub(super) statistics: CommitReport,
     pub(super) cells: OnceLock<PeriodicCells<G>>,
+    pub(super) edges: OnceLock<PeriodicEdges>,
 }
 
 impl<G: Dimension> PeriodicTriangulation<G> {
@@ -71,8 +73,16 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let mut inside = Inside::unbuilt(&lattice, &home, n, options)?;
         inside.build(&lattice)?;
         let statistics = CommitReport { coincident: inside.coincident() as u64, ..CommitReport::default() };
-        let (staged, cells) = (Staged::default(), OnceLock::new());
-        Ok(PeriodicTriangulation { lattice, inside, wraps, staged, coming: None, statistics, cells })
+        Ok(PeriodicTriangulation {
+            lattice,
+            inside,
+            wraps,
+            staged: Staged::default(),
+            coming: None,
+            statistics,
+            cells: OnceLock::new(),
+            edges: OnceLock::new(),
+        })
     }
 }
 

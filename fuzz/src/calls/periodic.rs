@@ -39,6 +39,7 @@ impl History<'_> {
         assert_eq!(count, rank);
         let anew = created(&Boxed { vectors, positions }, d, n).expect("it has been a box");
         assert_eq!(self.classes(t, d), self.classes(anew, d), "{rank} vectors, {n} vertices");
+        self.voronoi(t, d, rank);
         c!(deldrift_destroy(anew));
         c!(deldrift_destroy(t));
     }
@@ -53,6 +54,35 @@ impl History<'_> {
         }
         let positions = (0..n * d).map(|_| number(24)).collect();
         Boxed { vectors, positions }
+    }
+
+    /// Voronoi cells fill the box, where it is open nowhere, and have the facets of edges on both of their sides.
+    fn voronoi(&self, t: *const deldrift_triangulation, d: usize, rank: usize) {
+        let (none, nowhere, mut n, mut n_edges) = (null(), null_mut(), 0, 0);
+        self.is_ok(c!(deldrift_voronoi_cells(t, none, none, null(), 0, nowhere, nowhere, nowhere, 0, &mut n)));
+        self.is_ok(c!(deldrift_edges(t, null_mut(), 0, &mut n_edges)));
+        let [mut volumes, mut areas, mut centroids] = [vec![0.0; n], vec![0.0; n], vec![0.0; n * d]];
+        let [to_volumes, to_areas, to_centroids] =
+            [&mut volumes, &mut areas, &mut centroids].map(|to| to.as_mut_ptr());
+        self.is_ok(c!(deldrift_voronoi_cells(
+            t, none, none, null(), 0, to_volumes, to_areas, to_centroids, n, &mut n
+        )));
+        let [mut measures, mut derivatives] = [vec![0.0; n_edges + 1], vec![0.0; (n_edges + 1) * 2 * d]];
+        let [to_measures, to_derivatives] = [&mut measures, &mut derivatives].map(|to| to.as_mut_ptr());
+        self.is_ok(c!(deldrift_voronoi_derivatives(
+            t, none, none, null(), 0, to_measures, nowhere, to_derivatives, n_edges + 1, &mut n_edges
+        )));
+        let same = measures.clone();
+        self.is_ok(c!(deldrift_voronoi_facets(t, none, none, to_measures, n_edges + 1, &mut n_edges)));
+        assert_eq!(same, measures);
+        if rank == d {
+            let (facets, all): (f64, f64) = (measures.iter().sum(), areas.iter().sum());
+            assert!((2.0 * facets - all).abs() <= 1e-9 * all, "{facets} {all}");
+            assert!(volumes.iter().all(|volume| (0.0..f64::INFINITY).contains(volume)));
+            assert!(derivatives.iter().all(|x| x.is_finite()));
+        } else {
+            assert!(areas.iter().zip(&volumes).all(|(x, y)| *x >= 0.0 && *y >= 0.0));
+        }
     }
 
     /// The classes of cells: corners with their shifts beside those of the first.
