@@ -475,7 +475,8 @@ static bool serves_periodic(const char *name) {
         "stage_removals", "discard_moves", "commit_timestamp", "commit_positions", "vertex_count", "id_count",
         "cell_count", "staged_count", "memory_bytes", "timestamp", "statistics", "is_present", "position",
         "copy_positions", "coincident_representative", "cells", "copy_cells", "edges", "voronoi_volumes",
-        "voronoi_facets", "voronoi_cells", "voronoi_derivatives", "stage_vectors", "vectors", "cell_shifts", "edge_shifts"};
+        "voronoi_facets", "voronoi_cells", "voronoi_derivatives", "circumcentres", "volumes", "mask_by_circumradius",
+        "mask_boundary", "hull_facets", "update_circumcentres", "update_volumes", "update_mask_by_circumradius", "stage_vectors", "vectors", "cell_shifts", "edge_shifts"};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         if (strcmp(name + strlen("deldrift_"), all[k]) == 0) return true;
     }

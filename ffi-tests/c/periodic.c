@@ -140,6 +140,49 @@ static void check_voronoi(const set *s, const deldrift_triangulation *t, const u
     }
 }
 
+// Balls have all corners of the cell on them, volumes are those of the corners, and the facets of the hull are those with nothing
+// beyond.
+static void check_cells(const set *s, const deldrift_triangulation *t, const int64_t *shifts) {
+    static double centres[ROOM * 3], squares[ROOM], volumes[ROOM], again[ROOM];
+    static uint32_t cells[ROOM], facets[ROOM * 3];
+    static uint8_t mask[ROOM], corners[ROOM], all[ROOM];
+    const size_t d = s->dimension, n = d + 1;
+    const deldrift_cells_view view = cells_of(t);
+    size_t count, n_hull = 0;
+    OK(deldrift_circumcentres(t, centres, squares, ROOM, &count));
+    CHECK(count == view.count);
+    OK(deldrift_volumes(t, volumes, ROOM, &count));
+    double sum = 0, greatest = 0;
+    for (size_t c = 0; c < count; c++) {
+        sum += volumes[c];
+        if (squares[c] > greatest) greatest = squares[c];
+        for (size_t i = 0; i < n; i++) {
+            double at[3], square = 0;
+            translated(s, view.vertices[c * n + i], shifts + (c * n + i) * d, at);
+            for (size_t axis = 0; axis < d; axis++) square += (at[axis] - centres[c * d + axis]) * (at[axis] - centres[c * d + axis]);
+            CHECK(fabs(square - squares[c]) < 1e-8 * squares[c]);
+            n_hull += view.neighbours[c * n + i] == DELDRIFT_NONE;
+        }
+    }
+    if (s->vector_count == d) CHECK(fabs(sum - s->vectors[0] * s->vectors[d + 1] * (d == 3 ? s->vectors[8] : 1)) < 1e-9);
+    memset(all, 1, count);
+    OK(deldrift_mask_by_circumradius(t, greatest * 1.0001, mask, ROOM, &count));
+    CHECK(memcmp(mask, all, count) == 0);
+    OK(deldrift_mask_boundary(t, mask, view.count, facets, cells, corners, ROOM, &count));
+    CHECK(count == n_hull);
+    OK(deldrift_hull_facets(t, facets, cells, corners, ROOM, &count));
+    CHECK(count == n_hull && (n_hull == 0 || s->vector_count < d));
+    if (view.count == 0) return;
+    memcpy(again, volumes, view.count * sizeof *again);
+    const uint32_t last = (uint32_t)view.count - 1;
+    again[last] = mask[last] = 0;
+    OK(deldrift_update_volumes(t, &last, 1, again, ROOM));
+    OK(deldrift_update_circumcentres(t, &last, 1, centres, NULL, ROOM));
+    OK(deldrift_update_mask_by_circumradius(t, &last, 1, greatest * 1.0001, mask, ROOM));
+    CHECK(again[last] == volumes[last] && mask[last] == 1);
+    CHECK_STATUS(deldrift_update_volumes(t, (uint32_t[]){last + 1}, 1, again, ROOM), DELDRIFT_NO_SUCH_FACET);
+}
+
 // The cells of a triangulation are those classes, and each is told once.
 static void check(const set *s, const deldrift_triangulation *t) {
     static uint64_t expected[ROOM], found[ROOM];
@@ -188,6 +231,7 @@ static void check(const set *s, const deldrift_triangulation *t) {
             CHECK(n_shared == d);
         }
     }
+    check_cells(s, t, shifts);
     OK(deldrift_edges(t, edges, ROOM, &n_edges));
     OK(deldrift_edge_shifts(t, shifts, ROOM, &count));
     CHECK(count == n_edges);

@@ -47,6 +47,9 @@ int main() {
     for (const double measure : facets.measures) around += 2 * measure;
     for (const double area : cells.areas) areas += area;
     CHECK(std::fabs(around - areas) < 1e-12);
+    double all = 0;
+    for (const double volume : t.volumes()) all += volume;
+    CHECK(std::fabs(all - 1.5) < 1e-12 && t.hull_facets().cells.empty() && t.circumcentres().squared_radii.size() == 8);
     CHECK_THROWS(t.voronoi_cells(std::vector<double>{0, 0}, std::vector<double>{1, 1}), DELDRIFT_PERIODIC, "low and high");
     CHECK_THROWS(t.clone(), DELDRIFT_PERIODIC, "t is periodic");
     CHECK_THROWS(t.stage_vectors(std::vector<double>{1, 0}), DELDRIFT_WRONG_COUNT, "vector_count is 1");

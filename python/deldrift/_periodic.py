@@ -9,11 +9,12 @@ import numpy as np
 
 from . import _library
 from ._arrays import F64, I32, Handle, address, ids as listed_ids, mask as mask_of, points as point_rows
-from ._core import Core, check, count_of, fixed, id_count, make_options
+from ._core import check, count_of, fixed, id_count, make_options
 from ._delaunay import _callbacks
 from ._errors import WrongCount
 from ._geometry import VoronoiCells, VoronoiDerivatives, vertex_mask
 from ._library import Report
+from ._measured import Measured
 
 _create_periodic = _library.function("create_periodic")
 _stage_vectors = _library.function("stage_vectors")
@@ -40,7 +41,7 @@ _voronoi_derivatives = _library.function("voronoi_derivatives")
 I64 = np.dtype(np.int64)
 
 
-class PeriodicDelaunay(Core):
+class PeriodicDelaunay(Measured):
     """The Delaunay triangulation of points that repeat, and that may move.
 
     Each point is in all places to which sums of multiples of the vectors of the box take it. Of the simplices, one of each

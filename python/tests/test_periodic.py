@@ -142,6 +142,35 @@ def test_facets_close_cells_and_derivatives_are_those_of_differences(rng):
         tri.voronoi_cells(mask[1:])
 
 
+@pytest.mark.parametrize("name", BOXES)
+def test_simplices_have_the_sizes_and_balls_of_their_corners(name, rng):
+    vectors = BOXES[name]
+    points = (3 * rng.random((15, len(vectors))) - 1) @ vectors
+    tri = deldrift.PeriodicDelaunay(points, vectors)
+    ways = tri.corners[:, 1:] - tri.corners[:, :1]
+    volumes, (centres, squared) = tri.volumes(), tri.circumcentres()
+    factor = 2 if tri.ndim == 2 else 6
+    assert np.abs(volumes - np.linalg.det(ways) / factor).max() < 1e-12
+    assert volumes.sum() == pytest.approx(abs(np.linalg.det(vectors)), rel=1e-12)
+    expected = np.linalg.solve(2 * ways, (ways**2).sum(axis=2)[..., None])[..., 0]
+    assert np.abs(centres - tri.corners[:, 0] - expected).max() < 1e-9
+    assert np.abs(squared - (expected**2).sum(axis=1)).max() < 1e-9 * squared.max()
+    limit = float(np.median(squared))
+    mask = tri.alpha_mask(limit)
+    assert (mask == (squared <= limit)).all() and 0 < mask.sum() < len(mask)
+    found = tri.boundary(mask)
+    around = [(c, k) for c in np.flatnonzero(mask) for k in range(tri.ndim + 1) if not mask[tri.neighbors[c, k]]]
+    assert list(zip(found.simplices.tolist(), found.corners.tolist())) == around
+    assert len(tri.boundary().simplices) == 0
+    kept = [volumes.copy(), centres.copy(), squared.copy(), mask.copy()]
+    for array in kept:
+        array[3] = 0
+    tri.update_volumes([3], kept[0])
+    tri.update_circumcentres([3], kept[1], kept[2])
+    tri.update_alpha_mask([3], limit, kept[3])
+    assert all((now == before).all() for now, before in zip(kept, [volumes, centres, squared, mask]))
+
+
 def test_one_point_and_a_slab():
     tri = deldrift.PeriodicDelaunay([[0.5, 0.5]], [1, 1])
     assert tri.nsimplex == 2 and tri.voronoi_volumes() == [1]
@@ -150,6 +179,7 @@ def test_one_point_and_a_slab():
     assert np.isinf(slab.voronoi_volumes()).all()
     cells, facets = slab.voronoi_cells(), slab.voronoi_derivatives()
     assert np.isinf(cells.areas).all() and np.isnan(cells.centroids).all()
+    assert len(slab.boundary().simplices) == (slab.neighbors == -1).sum()
     ends = np.isinf(facets.measures)
     assert ends.any() and np.isnan(facets.derivatives[ends]).all() and np.isfinite(facets.derivatives[~ends]).all()
 

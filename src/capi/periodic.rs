@@ -43,8 +43,11 @@ use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 /// deldrift_stage_insertions, deldrift_stage_removals, deldrift_discard_moves, deldrift_commit_timestamp,
 /// deldrift_commit_positions, deldrift_vertex_count, deldrift_id_count, deldrift_cell_count, deldrift_staged_count,
 /// deldrift_memory_bytes, deldrift_timestamp, deldrift_statistics, deldrift_is_present, deldrift_position,
-/// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges, and,
-/// without a box, deldrift_voronoi_volumes, deldrift_voronoi_facets, deldrift_voronoi_cells and deldrift_voronoi_derivatives. All others return DELDRIFT_PERIODIC. Cells are numbered anew by each commit.
+/// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges,
+/// deldrift_circumcentres, deldrift_volumes, deldrift_mask_by_circumradius with the functions that update what these give,
+/// deldrift_mask_boundary, deldrift_hull_facets, and without a box deldrift_voronoi_volumes, deldrift_voronoi_facets,
+/// deldrift_voronoi_cells and deldrift_voronoi_derivatives. All others return DELDRIFT_PERIODIC. Cells are numbered anew by each
+/// commit.
 ///
 /// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves
 /// costs what it costs in an open triangulation of as many, and n + m; one with insertions, removals or other vectors, or

@@ -30,6 +30,7 @@ mod commit;
 mod edges;
 mod either;
 mod following;
+mod geometry;
 mod images;
 mod inside;
 mod lattice;

@@ -115,7 +115,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     /// What is seen from a vertex at home, seen from its position.
-    fn from_position(&self, inside: VertexId, way: &G::Point) -> G::Point {
+    pub(super) fn from_position(&self, inside: VertexId, way: &G::Point) -> G::Point {
         let vertex = self.inside.images.of(inside).vertex;
         let mut place = self.lattice.unwrapped(&self.inside.places[inside], &self.wraps[vertex]);
         (0..G::D).for_each(|axis| place[axis] += way[axis]);

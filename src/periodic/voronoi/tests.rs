@@ -172,8 +172,10 @@ fn check_facets<G: Dimension>(
     let mut expected = copies.facets();
     for (([v, w], shift), facet) in t.edges().unwrap().zip(facets(t)) {
         let (v, w) = (v.index(), w.index());
-        let shift = [0, 1, 2].map(|j| if j < t.vector_count() { shift[j] + far(w)[j] - far(v)[j] } else { 0 });
-        let (whole, boxed) = expected.remove(&(v, w, shift)).unwrap_or_else(|| panic!("{context}: {v} {w} {shift:?}"));
+        let shift =
+            [0, 1, 2].map(|j| if j < t.vector_count() { shift[j] + far(w)[j] - far(v)[j] } else { 0 });
+        let (whole, boxed) =
+            expected.remove(&(v, w, shift)).unwrap_or_else(|| panic!("{context}: {v} {w} {shift:?}"));
         expected.remove(&(w, v, shift.map(|k| -k))).expect("seen from the other end");
         assert!(is_close(facet.area, whole, whole.max(1.0)), "{context}: {facet:?} {whole}");
         if facet.area.is_infinite() {
@@ -289,7 +291,8 @@ fn derivatives_are_those_of_differences() {
 fn masks_change_no_bit() {
     let rng = &mut Rng::new(3);
     let basis = [[1.0, 0.0, 0.0], [0.5, 1.0, 0.0], [0.25, -0.375, 1.25]];
-    let mut t = Periodic::<Space>::new(&points_of::<Space>(rng, 400, &basis), &basis, Options::default()).unwrap();
+    let mut t =
+        Periodic::<Space>::new(&points_of::<Space>(rng, 400, &basis), &basis, Options::default()).unwrap();
     t.stage_removals(&[VertexId::new(5)]).unwrap();
     t.commit_timestamp().unwrap();
     let (all, at_edges) = (cells(&t), facets(&t));
@@ -327,7 +330,10 @@ fn slabs_of_any_width_have_numbers() {
         let t = Periodic::<Plane>::new(&points, &[[1.0, 0.0]], Options::default()).unwrap();
         let cells = cells(&t);
         for cell in &cells[..4] {
-            assert!(cell.volume.is_infinite() && cell.area.is_infinite() && cell.centroid[0].is_nan(), "{width}");
+            assert!(
+                cell.volume.is_infinite() && cell.area.is_infinite() && cell.centroid[0].is_nan(),
+                "{width}"
+            );
         }
         let copies = Copies::<Plane>::new(&points, &[[1.0, 0.0]], 3);
         let expected = copies.t.voronoi_volumes(None).unwrap()[3 * 5 + 4];

@@ -88,9 +88,8 @@ const FACETS_AT_A_TIME: usize = 1 << 15;
 impl<G: Dimension> Voronoi<'_, G> {
     /// The facet of the ring of an edge, of which `half` is a half and `along` any vector along it.
     pub(super) fn whole_polygon(&self, x: &Vector, half: &Vector, along: &Vector, unit: f64) -> Polygon {
-        let from_middle = |cell: CellId| {
-            minus(&times(&minus(&in_space::<G>(&self.centres.of(cell).place), x), unit), half)
-        };
+        let from_middle =
+            |cell: CellId| minus(&times(&minus(&in_space::<G>(&self.centres.of(cell).place), x), unit), half);
         let way = |p: &Vector, q: &Vector| {
             let way = minus(q, p);
             dot(&way, &way).sqrt()

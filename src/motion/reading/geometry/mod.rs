@@ -52,8 +52,10 @@ mod whole_cells;
 mod whole_facets;
 
 pub use boundary::BoundaryFacet;
+pub(crate) use boundary::list_boundary;
 pub use dual::{VoronoiCell, VoronoiCells};
 pub use dual_facets::{VoronoiFacet, VoronoiFacets};
 pub use incidence::Rows;
 pub use interpolation::{Interpolation, VertexValues};
+pub(crate) use measures::tell_all;
 pub use star::OrderedStar;
