@@ -218,7 +218,7 @@ pub unsafe extern "C" fn deldrift_cell_shifts(
 ///
 /// All are 0 where the triangulation is not periodic.
 ///
-/// Cost: m log m.
+/// Cost: n + m, and d log d for the d neighbours of each vertex.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY.

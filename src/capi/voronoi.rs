@@ -170,7 +170,7 @@ pub unsafe extern "C" fn deldrift_voronoi_facets(
 /// deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
-/// DELDRIFT_PERIODIC for a box where the triangulation is periodic, DELDRIFT_INVALID_VALUE if high is not above low in every coordinate, DELDRIFT_WRONG_COUNT,
+/// DELDRIFT_INVALID_VALUE if high is not above low in every coordinate, DELDRIFT_WRONG_COUNT,
 /// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_voronoi_cells(
