@@ -1757,6 +1757,9 @@ deldrift_status deldrift_vertices_in_reach(const deldrift_triangulation *t,
 /// 4e-9 of itself, however flat the cell; unless it is nearly flat, by a few last bits. What is too large for a
 /// number is infinite; nothing is NaN. One pass over the cells; nearly flat ones take a microsecond each.
 ///
+/// In a periodic triangulation a centre is where the cell's corner of the lowest id is at its own position, as
+/// deldrift_cell_shifts has it, and its rounding may be twice that of its coordinates and of the position's.
+///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
@@ -1842,7 +1845,8 @@ deldrift_status deldrift_mask_without_flat_cells(const deldrift_triangulation *t
 /// facets, which is also written when the buffers are too small. NULL for all three with capacity 0 asks for the
 /// count alone.
 ///
-/// Facets are in ascending order of cell and then of corner. Exact. Two passes over the cells.
+/// Facets are in ascending order of cell and then of corner. Exact. Two passes over the cells. In a periodic triangulation each
+/// is where deldrift_cell_shifts has its cell.
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
@@ -1866,7 +1870,8 @@ deldrift_status deldrift_mask_boundary(const deldrift_triangulation *t,
 /// filled. count: receives the number of facets, which is also written when the buffers are too small. NULL for all
 /// three with capacity 0 asks for the count alone.
 ///
-/// Exact. One pass over the cells; constant time for the count alone.
+/// Exact. One pass over the cells; constant time for the count alone. A periodic triangulation has none unless its box is open
+/// somewhere; to count them takes a pass over the cells.
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
@@ -2397,6 +2402,9 @@ deldrift_status deldrift_update_mask_by_circumradius(const deldrift_triangulatio
 /// by at most h times its perimeter, however near to each other vertices are. In place of 1e-8 it is some last bits, about 1e-15, unless cells are nearly flat (see
 /// deldrift_circumcentres). Never negative. The volumes of all ids add up to that of the box but for rounding.
 ///
+/// In a periodic triangulation low and high must be NULL. Cells without an end, as there are in a box that is open somewhere,
+/// are infinite; the volumes are those of deldrift_voronoi_cells, to the last bit.
+///
 /// Takes time in proportion to the number of cells, and of ids; in a box, for Voronoi cells at its boundary, to the
 /// number of corners of their facets as well, a microsecond (2D) or some (3D) for each such cell of ordinary sets.
 /// Where a circumcentre nearly is in a face of the box, microseconds for each, as that is decided exactly. Takes memory
@@ -2435,6 +2443,10 @@ deldrift_status deldrift_voronoi_volumes(const deldrift_triangulation *t,
 /// an area by at most h times the perimeter of the facet, however near to each other vertices are. Never negative. The
 /// facets of a vertex whose Voronoi cell is in the box, times the lengths of its edges and divided by 4 (2D) or 6 (3D),
 /// add up to its area or volume but for rounding.
+///
+/// In a periodic triangulation low and high must be NULL. Of several edges between two vertices each has the facet of its own,
+/// and one that leads from a vertex to itself has the facet that two periods of its cell share. The measures are those of
+/// deldrift_voronoi_derivatives, to the last bit.
 ///
 /// Takes time in proportion to the number of cells, and memory for circumcentres and for the cells of each vertex while
 /// it runs. What is cut by the box, and is nearly in a face of it, takes as long as in deldrift_voronoi_volumes. Calls
@@ -2477,6 +2489,12 @@ deldrift_status deldrift_voronoi_facets(const deldrift_triangulation *t,
 /// times the length of the boundary), an area by h times the sum of the perimeters of the cell's faces (2D: 2 h for
 /// each), and a centroid, where that is less than d, by that error of the volume times d / V; it is in the box in any
 /// case. The volumes of all ids add up to that of the box but for rounding.
+///
+/// In a periodic triangulation low and high must be NULL: nothing is cut. A cell without an end, as there are in a box that is
+/// open somewhere, has volume and area infinite, and its centroid is NaN. The h is the one that deldrift_voronoi_volumes has
+/// without a box. A centroid is where the vertex is at its own position, in whatever period that is, and off by the rounding of
+/// its coordinates besides. The numbers do not depend on the periods in which positions are given nor on copies that the library
+/// keeps, but for rounding; with the same cells in the same order they are the same to the last bit.
 ///
 /// Takes memory for circumcentres, for sums, and, where cells are cut by the box, for the cells of each vertex while it
 /// runs. Runs on several threads, as the options allow. Cells that are cut take several times as long as others. Calls
@@ -2525,6 +2543,14 @@ deldrift_status deldrift_voronoi_cells(const deldrift_triangulation *t,
 /// Rounded: let h be what deldrift_voronoi_volumes has for a box, P the perimeter of a facet (2D: 2), d its diameter. A
 /// measure is off by at most h P, a centroid by h P d / A, and by d + h where A is less than 4 h P; a derivative by h P
 /// (d + |x - c|) / L, where x is the position by which it is.
+///
+/// In a periodic triangulation low and high must be NULL; the h is the one that deldrift_voronoi_volumes has without a box, of
+/// the cells around the edge. A facet without an end has an infinite measure, and NaN for the rest. A centroid is where the first
+/// vertex of the edge is at its own position, and off by the rounding of its coordinates besides; the second vertex is where
+/// deldrift_edge_shifts has it. The derivatives of an edge are those by the position of one of its ends alone. As all periods of a
+/// vertex move, the derivative of the volume of the cell of i by the position of j is the sum over the edges between i and
+/// j, and that by its own position is minus the sum of the derivatives of the other cells by that position, over its edges to
+/// other vertices: an edge from a vertex to itself contributes nothing, as its facet moves along with all of the cell.
 ///
 /// Takes memory for circumcentres, edges and the cells of each vertex while it runs. What is cut by the box, and facets
 /// narrower than 1e-7 of it, take about a microsecond each. Calls the callbacks of the options.
@@ -2602,8 +2628,11 @@ deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
 /// deldrift_stage_insertions, deldrift_stage_removals, deldrift_discard_moves, deldrift_commit_timestamp,
 /// deldrift_commit_positions, deldrift_vertex_count, deldrift_id_count, deldrift_cell_count, deldrift_staged_count,
 /// deldrift_memory_bytes, deldrift_timestamp, deldrift_statistics, deldrift_is_present, deldrift_position,
-/// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges, and
-/// deldrift_voronoi_volumes without a box. All others return DELDRIFT_PERIODIC. Cells are numbered anew by each commit.
+/// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges,
+/// deldrift_circumcentres, deldrift_volumes, deldrift_mask_by_circumradius with the functions that update what these give,
+/// deldrift_mask_boundary, deldrift_hull_facets, and without a box deldrift_voronoi_volumes, deldrift_voronoi_facets,
+/// deldrift_voronoi_cells and deldrift_voronoi_derivatives. All others return DELDRIFT_PERIODIC. Cells are numbered anew by each
+/// commit.
 ///
 /// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves
 /// costs what it costs in an open triangulation of as many, and n + m; one with insertions, removals or other vectors, or
@@ -2685,7 +2714,7 @@ deldrift_status deldrift_cell_shifts(const deldrift_triangulation *t,
 ///
 /// All are 0 where the triangulation is not periodic.
 ///
-/// Cost: m log m.
+/// Cost: n + m, and d log d for the d neighbours of each vertex.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY.
