@@ -33,7 +33,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
                 if self.wraps[self.inside.images.of(least).vertex] != [0; 3] {
                     let home = self.inside.places[least];
                     (0..G::D).for_each(|axis| centre[axis] -= home[axis]);
-                    centre = self.from_position(least, &centre);
+                    centre = self.at_position(least, &centre);
                 }
                 tell(cell, (centre, squared));
             });

@@ -63,7 +63,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let size = self.lattice.measure().powf(1.0 / self.lattice.rank() as f64);
         self.inside.t.for_whole_voronoi_cells(wanted, size, monitor, &mut |inside, mut cell| {
             let vertex = images[inside].vertex;
-            cell.centroid = self.from_position(inside, &cell.centroid);
+            cell.centroid = self.at_position(inside, &cell.centroid);
             tell(vertex, cell);
         })?;
         let nowhere = filled::<G>(f64::NAN);
@@ -109,13 +109,13 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         }
         let edges = if mask.is_some() { &chosen } else { all };
         self.inside.t.for_whole_voronoi_facets(edges, monitor, &mut |k, mut facet| {
-            facet.centroid = self.from_position(edges[k].0[0], &facet.centroid);
+            facet.centroid = self.at_position(edges[k].0[0], &facet.centroid);
             tell(if mask.is_some() { numbers[k] } else { k }, facet);
         })
     }
 
     /// What is seen from a vertex at home, seen from its position.
-    pub(super) fn from_position(&self, inside: VertexId, way: &G::Point) -> G::Point {
+    pub(super) fn at_position(&self, inside: VertexId, way: &G::Point) -> G::Point {
         let vertex = self.inside.images.of(inside).vertex;
         let mut place = self.lattice.unwrapped(&self.inside.places[inside], &self.wraps[vertex]);
         (0..G::D).for_each(|axis| place[axis] += way[axis]);

@@ -39,7 +39,7 @@ impl History<'_> {
         assert_eq!(count, rank);
         let anew = created(&Boxed { vectors, positions }, d, n).expect("it has been a box");
         assert_eq!(self.classes(t, d), self.classes(anew, d), "{rank} vectors, {n} vertices");
-        self.voronoi(t, d, rank);
+        self.voronoi_of_periods(t, d, rank);
         c!(deldrift_destroy(anew));
         c!(deldrift_destroy(t));
     }
@@ -57,7 +57,7 @@ impl History<'_> {
     }
 
     /// Voronoi cells fill the box, where it is open nowhere, and have the facets of edges on both of their sides.
-    fn voronoi(&self, t: *const deldrift_triangulation, d: usize, rank: usize) {
+    fn voronoi_of_periods(&self, t: *const deldrift_triangulation, d: usize, rank: usize) {
         let (none, nowhere, mut n, mut n_edges) = (null(), null_mut(), 0, 0);
         self.is_ok(c!(deldrift_voronoi_cells(
             t,
