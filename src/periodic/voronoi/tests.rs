@@ -10,6 +10,9 @@ use std::collections::BTreeMap;
 
 type Periodic<G> = PeriodicTriangulation<G>;
 
+/// By vertex, another one and the shift of that: measures of whole facets, and what of them is in a box.
+type FacetsByEdge<P> = BTreeMap<(usize, usize, [i64; 3]), (f64, VoronoiFacet<P>)>;
+
 fn cells<G: Dimension>(t: &Periodic<G>) -> Vec<VoronoiCell<G::Point>> {
     let mut told = vec![None; t.id_count()];
     t.for_voronoi_cells(None, &mut |_| true, &mut |v, cell| {
@@ -86,7 +89,7 @@ impl<G: Dimension> Copies<G> {
     }
 
     /// By vertex and shift of the other one, facets at vertices of the middle copy: of the whole, and in a large box.
-    fn facets(&self) -> BTreeMap<(usize, usize, [i64; 3]), (f64, VoronoiFacet<G::Point>)> {
+    fn facets(&self) -> FacetsByEdge<G::Point> {
         let whole = self.t.voronoi_facets(None).unwrap();
         let (low, high) = far_corners::<G>();
         let edges = self.t.edges().unwrap();
