@@ -676,9 +676,9 @@ public:
         require_ok(deldrift_voronoi_changed(native(), moved.data(), moved.size(), mask.data(), count, &count));
         return mask;
     }
-    // Of all ids, within the box from low to high; with a mask, a byte for each id, of those where it is not 0 alone, NaN
-    // for the others.
-    VoronoiCells voronoi_cells(span<const double> low, span<const double> high,
+    // Of all ids, within the box from low to high, both empty where the triangulation is periodic; with a mask, a byte for each
+    // id, of those where it is not 0 alone, NaN for the others.
+    VoronoiCells voronoi_cells(span<const double> low = {}, span<const double> high = {},
                                span<const std::uint8_t> mask = {}) const {
         std::size_t count = id_count();
         const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -690,7 +690,7 @@ public:
         return cells;
     }
     // Of all edges, in their order; with a mask, of those that have an end where it is not 0.
-    VoronoiDerivatives voronoi_derivatives(span<const double> low, span<const double> high,
+    VoronoiDerivatives voronoi_derivatives(span<const double> low = {}, span<const double> high = {},
                                            span<const std::uint8_t> mask = {}) const {
         std::size_t count = 0;
         require_ok(deldrift_edges(native(), nullptr, 0, &count));

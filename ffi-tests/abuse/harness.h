@@ -475,6 +475,8 @@ static bool serves_periodic(const char *name) {
         "stage_removals", "discard_moves", "commit_timestamp", "commit_positions", "vertex_count", "id_count",
         "cell_count", "staged_count", "memory_bytes", "timestamp", "statistics", "is_present", "position",
         "copy_positions", "coincident_representative", "cells", "copy_cells", "edges", "voronoi_volumes",
+        "voronoi_facets", "voronoi_cells", "voronoi_derivatives", "circumcentres", "volumes", "mask_by_circumradius",
+        "mask_boundary", "hull_facets", "update_circumcentres", "update_volumes", "update_mask_by_circumradius",
         "stage_vectors", "vectors", "cell_shifts", "edge_shifts", "take_changes"};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         if (strcmp(name + strlen("deldrift_"), all[k]) == 0) return true;
@@ -504,6 +506,9 @@ static void periodic_ones_are_refused_or_served(void) {
     before();
     size_t count;
     CHECK_STATUS(deldrift_voronoi_volumes(made, low, high, out.numbers, ROOM, &count), DELDRIFT_PERIODIC);
+    CHECK_STATUS(deldrift_voronoi_facets(made, low, NULL, out.numbers, ROOM, &count), DELDRIFT_PERIODIC);
+    CHECK_STATUS(deldrift_voronoi_cells(made, NULL, high, NULL, 0, NULL, NULL, NULL, 0, &count), DELDRIFT_PERIODIC);
+    CHECK_STATUS(deldrift_voronoi_derivatives(made, low, high, NULL, 0, NULL, NULL, NULL, 0, &count), DELDRIFT_PERIODIC);
     OK(deldrift_cells(made, &as_before));
     CHECK(as_before.vertices == view.vertices && as_before.count == view.count);
     deldrift_destroy(made);

@@ -99,6 +99,90 @@ static size_t classes_of_copies(const set *s, uint64_t *digests) {
     return each_once(digests, n_found);
 }
 
+// Cells are made of the pyramids of their vertices over facets, which are in the middle between the ends of edges.
+static void check_voronoi(const set *s, const deldrift_triangulation *t, const uint32_t *edges, const int64_t *shifts, size_t n_edges) {
+    static double measures[ROOM], centroids[ROOM * 3], derivatives[ROOM * 6], facets[ROOM];
+    const size_t d = s->dimension;
+    double volumes[MOST], areas[MOST], places[MOST * 3], by_facets[2][MOST] = {{0}}, only[MOST] = {0};
+    uint8_t mask[MOST] = {1};
+    size_t count;
+    OK(deldrift_voronoi_cells(t, NULL, NULL, NULL, 0, volumes, areas, places, MOST, &count));
+    CHECK(count == s->n);
+    OK(deldrift_voronoi_derivatives(t, NULL, NULL, NULL, 0, measures, centroids, derivatives, ROOM, &count));
+    CHECK(count == n_edges);
+    OK(deldrift_voronoi_facets(t, NULL, NULL, facets, ROOM, &count));
+    CHECK(count == n_edges && memcmp(facets, measures, count * sizeof *facets) == 0);
+    OK(deldrift_voronoi_cells(t, NULL, NULL, mask, s->n, only, NULL, NULL, MOST, &count));
+    CHECK(only[0] == volumes[0] && (s->n == 1 || only[1] == 0));
+    for (size_t k = 0; k < n_edges; k++) {
+        const uint32_t *ends = edges + 2 * k;
+        double second[3], square = 0, along = 0, moved = 0;
+        translated(s, ends[1], shifts + k * d, second);
+        for (size_t axis = 0; axis < d; axis++) {
+            const double first = s->points[ends[0] * d + axis], way = second[axis] - first;
+            square += way * way;
+            along += (centroids[k * d + axis] - (first + second[axis]) / 2) * way;
+            moved += (derivatives[2 * k * d + axis] - derivatives[(2 * k + 1) * d + axis]) * way;
+        }
+        for (int i = 0; i < 2; i++) {
+            by_facets[0][ends[i]] += measures[k];
+            by_facets[1][ends[i]] += measures[k] * sqrt(square) / 2 / (double)d;
+        }
+        if (measures[k] > 1e-6 && isfinite(measures[k])) {
+            // If both ends move along the edge, the facet does.
+            CHECK(fabs(along) < 1e-9 && fabs(moved - measures[k] * sqrt(square)) < 1e-9);
+        }
+    }
+    for (size_t v = 0; v < s->n; v++) {
+        CHECK(isfinite(volumes[v]) == isfinite(areas[v]) && isfinite(volumes[v]) == !isnan(places[v * d]));
+        if (!isfinite(volumes[v])) continue;
+        CHECK(fabs(by_facets[0][v] - areas[v]) < 1e-9 * areas[v] && fabs(by_facets[1][v] - volumes[v]) < 1e-9 * volumes[v]);
+    }
+}
+
+// Balls have all corners of the cell on them, volumes are those of the corners, and the facets of the hull are those with nothing
+// beyond.
+static void check_cells(const set *s, const deldrift_triangulation *t, const int64_t *shifts) {
+    static double centres[ROOM * 3], squares[ROOM], volumes[ROOM], again[ROOM];
+    static uint32_t cells[ROOM], facets[ROOM * 3];
+    static uint8_t mask[ROOM], corners[ROOM], all[ROOM];
+    const size_t d = s->dimension, n = d + 1;
+    const deldrift_cells_view view = cells_of(t);
+    size_t count, n_hull = 0;
+    OK(deldrift_circumcentres(t, centres, squares, ROOM, &count));
+    CHECK(count == view.count);
+    OK(deldrift_volumes(t, volumes, ROOM, &count));
+    double sum = 0, greatest = 0;
+    for (size_t c = 0; c < count; c++) {
+        sum += volumes[c];
+        if (squares[c] > greatest) greatest = squares[c];
+        for (size_t i = 0; i < n; i++) {
+            double at[3], square = 0;
+            translated(s, view.vertices[c * n + i], shifts + (c * n + i) * d, at);
+            for (size_t axis = 0; axis < d; axis++) square += (at[axis] - centres[c * d + axis]) * (at[axis] - centres[c * d + axis]);
+            CHECK(fabs(square - squares[c]) < 1e-8 * squares[c]);
+            n_hull += view.neighbours[c * n + i] == DELDRIFT_NONE;
+        }
+    }
+    if (s->vector_count == d) CHECK(fabs(sum - s->vectors[0] * s->vectors[d + 1] * (d == 3 ? s->vectors[8] : 1)) < 1e-9);
+    memset(all, 1, count);
+    OK(deldrift_mask_by_circumradius(t, greatest * 1.0001, mask, ROOM, &count));
+    CHECK(memcmp(mask, all, count) == 0);
+    OK(deldrift_mask_boundary(t, mask, view.count, facets, cells, corners, ROOM, &count));
+    CHECK(count == n_hull);
+    OK(deldrift_hull_facets(t, facets, cells, corners, ROOM, &count));
+    CHECK(count == n_hull && (n_hull == 0 || s->vector_count < d));
+    if (view.count == 0) return;
+    memcpy(again, volumes, view.count * sizeof *again);
+    const uint32_t last = (uint32_t)view.count - 1;
+    again[last] = mask[last] = 0;
+    OK(deldrift_update_volumes(t, &last, 1, again, ROOM));
+    OK(deldrift_update_circumcentres(t, &last, 1, centres, NULL, ROOM));
+    OK(deldrift_update_mask_by_circumradius(t, &last, 1, greatest * 1.0001, mask, ROOM));
+    CHECK(again[last] == volumes[last] && mask[last] == 1);
+    CHECK_STATUS(deldrift_update_volumes(t, (uint32_t[]){last + 1}, 1, again, ROOM), DELDRIFT_NO_SUCH_FACET);
+}
+
 // The cells of a triangulation are those classes, and each is told once.
 static void check(const set *s, const deldrift_triangulation *t) {
     static uint64_t expected[ROOM], found[ROOM];
@@ -147,6 +231,7 @@ static void check(const set *s, const deldrift_triangulation *t) {
             CHECK(n_shared == d);
         }
     }
+    check_cells(s, t, shifts);
     OK(deldrift_edges(t, edges, ROOM, &n_edges));
     OK(deldrift_edge_shifts(t, shifts, ROOM, &count));
     CHECK(count == n_edges);
@@ -159,6 +244,7 @@ static void check(const set *s, const deldrift_triangulation *t) {
         for (size_t v = 0; v < count; v++) sum += volumes[v];
         CHECK(fabs(sum - box) < 1e-12 * box);
     }
+    check_voronoi(s, t, edges, shifts, n_edges);
 }
 
 // Places on a grid, so that they are used as they are.
@@ -275,6 +361,11 @@ static void what_is_wrong_is_told(void) {
     CHECK_MESSAGE("options.coincidence is 1");
     OK(deldrift_create_periodic(3, one, 1, one, 1, NULL, &t));
     CHECK_STATUS(deldrift_validate(t, 3), DELDRIFT_PERIODIC);
+    size_t count;
+    CHECK_STATUS(deldrift_voronoi_cells(t, one, one, NULL, 0, NULL, NULL, NULL, 0, &count), DELDRIFT_PERIODIC);
+    CHECK_MESSAGE("low and high are given, but t is periodic");
+    CHECK_STATUS(deldrift_voronoi_cells(t, NULL, NULL, (uint8_t[]){1, 1}, 2, NULL, NULL, NULL, 0, &count), DELDRIFT_WRONG_COUNT);
+    CHECK_MESSAGE("mask_count is 2, but must be 1");
     CHECK_STATUS(deldrift_stage_vectors(t, one, 0), DELDRIFT_WRONG_COUNT);
     CHECK_MESSAGE("vector_count is 0, but must be 1");
     CHECK_STATUS(deldrift_stage_vectors(t, (double[]){0, 0, 0}, 1), DELDRIFT_DEPENDENT_VECTORS);

@@ -37,6 +37,20 @@ int main() {
     double sum = 0;
     for (const double volume : t.voronoi_volumes()) sum += volume;
     CHECK(std::fabs(sum - 1.5) < 1e-12);
+    const deldrift::VoronoiCells cells = t.voronoi_cells();
+    CHECK(cells.volumes == t.voronoi_volumes() && cells.areas.size() == 4 && cells.centroids.size() == 8);
+    // The last vertex is two lengths away from the box, and so is the centroid of its cell.
+    CHECK(std::fabs(cells.centroids[6] - 2.5) < 1 && std::fabs(cells.centroids[7] + 0.25) < 1);
+    const deldrift::VoronoiDerivatives facets = t.voronoi_derivatives({}, {}, std::vector<std::uint8_t>{1, 1, 1, 1});
+    CHECK(facets.measures == t.voronoi_facets() && facets.derivatives.size() == 48);
+    double around = 0, areas = 0;
+    for (const double measure : facets.measures) around += 2 * measure;
+    for (const double area : cells.areas) areas += area;
+    CHECK(std::fabs(around - areas) < 1e-12);
+    double all = 0;
+    for (const double volume : t.volumes()) all += volume;
+    CHECK(std::fabs(all - 1.5) < 1e-12 && t.hull_facets().cells.empty() && t.circumcentres().squared_radii.size() == 8);
+    CHECK_THROWS(t.voronoi_cells(std::vector<double>{0, 0}, std::vector<double>{1, 1}), DELDRIFT_PERIODIC, "low and high");
     CHECK_THROWS(t.clone(), DELDRIFT_PERIODIC, "t is periodic");
     CHECK_THROWS(t.stage_vectors(std::vector<double>{1, 0}), DELDRIFT_WRONG_COUNT, "vector_count is 1");
     CHECK_THROWS(Triangulation(2, points, deldrift::Periodic(std::vector<double>{1, 1, 2, 2})),

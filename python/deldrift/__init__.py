@@ -47,7 +47,8 @@ from ._errors import (
     TooMany,
     WrongCount,
 )
-from ._geometry import Boundary, VoronoiCells, VoronoiDerivatives
+from ._geometry import VoronoiCells, VoronoiDerivatives
+from ._measured import Boundary
 from ._library import QualityReport, Report, version
 from ._mesh import Mesh
 from ._motion import Changes

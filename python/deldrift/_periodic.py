@@ -8,11 +8,13 @@ from typing import Any, Callable, Optional
 import numpy as np
 
 from . import _library
-from ._arrays import F64, I32, Handle, address, ids as listed_ids, points as point_rows
-from ._core import Core, check, count_of, fixed, id_count, make_options
+from ._arrays import F64, I32, Handle, address, ids as listed_ids, mask as mask_of, points as point_rows
+from ._core import check, count_of, fixed, id_count, make_options
 from ._delaunay import _callbacks
 from ._errors import WrongCount
+from ._geometry import VoronoiCells, VoronoiDerivatives, vertex_mask
 from ._library import Report
+from ._measured import Measured
 from ._motion import Changes, changes_of
 
 _create_periodic = _library.function("create_periodic")
@@ -34,11 +36,14 @@ _vertex_count = _library.function("vertex_count")
 _memory_bytes = _library.function("memory_bytes")
 _timestamp = _library.function("timestamp")
 _voronoi_volumes = _library.function("voronoi_volumes")
+_voronoi_facets = _library.function("voronoi_facets")
+_voronoi_cells = _library.function("voronoi_cells")
+_voronoi_derivatives = _library.function("voronoi_derivatives")
 
 I64 = np.dtype(np.int64)
 
 
-class PeriodicDelaunay(Core):
+class PeriodicDelaunay(Measured):
     """The Delaunay triangulation of points that repeat, and that may move.
 
     Each point is in all places to which sums of multiples of the vectors of the box take it. Of the simplices, one of each
@@ -223,6 +228,76 @@ class PeriodicDelaunay(Core):
             volumes = np.empty(id_count(t), F64)
             self._check(_voronoi_volumes(t, None, None, address(volumes), len(volumes), ctypes.c_size_t()))
         return volumes
+
+    def voronoi_cells(self, mask: Any = None) -> VoronoiCells:
+        """Areas or volumes, boundaries and centroids of the Voronoi cells of all ids.
+
+        Parameters
+        ----------
+        mask : array_like of bool, optional
+            Whether the cell of each id is asked for; all are by default. The others get NaN.
+
+        Returns
+        -------
+        VoronoiCells
+            Volumes, areas and centroids, these where the vertex is at its point. A cell without an end has volume and area
+            infinite, and no centroid, which is NaN.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.PeriodicDelaunay([[2.5, 0.25]], vectors=[1, 1])
+        >>> cells = tri.voronoi_cells()
+        >>> cells.volumes, cells.areas, cells.centroids
+        (array([1.]), array([4.]), array([[2.5 , 0.25]]))
+        """
+        chosen = None if mask is None else mask_of("mask", mask)
+        with self._reading as t:
+            n = id_count(t)
+            given = vertex_mask(chosen, n)
+            cells = VoronoiCells(np.full(n, np.nan), np.full(n, np.nan), np.full((n, self.ndim), np.nan))
+            rows = (address(array) for array in cells)
+            self._check(_voronoi_cells(t, None, None, *given, *rows, n, ctypes.c_size_t()))
+        return cells
+
+    def voronoi_facets(self) -> np.ndarray:
+        """The lengths or areas of the Voronoi facets of all edges, in the order of `edges`.
+
+        Returns
+        -------
+        ndarray of float
+            A number for each edge, infinite for a facet without an end.
+        """
+        with self._reading as t:
+            measures = np.empty(count_of(lambda t, count: _edges(t, None, 0, count), t), F64)
+            self._check(_voronoi_facets(t, None, None, address(measures), len(measures), ctypes.c_size_t()))
+        return measures
+
+    def voronoi_derivatives(self, mask: Any = None) -> VoronoiDerivatives:
+        """The Voronoi facets of all edges, with derivatives of volumes by positions.
+
+        The derivative of the volume of a cell by the position of another vertex is the sum over the edges between both. That by
+        the position of its own vertex is minus the sum of the derivatives of the other cells by that position: an edge from a
+        vertex to itself contributes nothing.
+
+        Parameters
+        ----------
+        mask : array_like of bool, optional
+            Edges with an end in it are asked for; all are by default. The others get NaN.
+
+        Returns
+        -------
+        VoronoiDerivatives
+            Measures, centroids and derivatives, in the order of `edges`; centroids are where the first vertex is at its point.
+        """
+        chosen = None if mask is None else mask_of("mask", mask)
+        with self._reading as t:
+            given = vertex_mask(chosen, id_count(t))
+            n, d = count_of(lambda t, count: _edges(t, None, 0, count), t), self.ndim
+            facets = VoronoiDerivatives(np.full(n, np.nan), np.full((n, d), np.nan), np.full((n, 2, d), np.nan))
+            rows = (address(array) for array in facets)
+            self._check(_voronoi_derivatives(t, None, None, *given, *rows, n, ctypes.c_size_t()))
+        return facets
 
     def move(self, points: Any = None, ids: Any = None, *, vectors: Any = None) -> Report:
         """Moves vertices, changes the box, or both, and makes that the next timestamp.

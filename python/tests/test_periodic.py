@@ -108,12 +108,104 @@ def test_neighbours_share_facets_across_the_box(rng):
     assert len(edges) == tri.nvertices + tri.nsimplex == 90 and shifts.shape == (90, 2)
 
 
+@pytest.mark.parametrize("name", BOXES)
+def test_voronoi_cells_are_those_of_copies(name):
+    vectors, rng, n = BOXES[name], np.random.default_rng(11), 12
+    basis = reduced(vectors)
+    points = rng.random((n, len(vectors))) @ basis
+    tri = deldrift.PeriodicDelaunay(points, vectors)
+    counts = list(itertools.product(range(-2, 3), repeat=len(basis)))
+    copies = deldrift.Delaunay(np.concatenate([points + np.array(c) @ basis for c in counts]))
+    reach = np.abs(basis).sum(axis=0) * 4
+    middle = slice(n * (len(counts) // 2), n * (len(counts) // 2 + 1))
+    cells, expected = tri.voronoi_cells(), copies.voronoi_cells((-reach, reach))
+    for found, wanted in zip(cells, expected):
+        assert np.abs(found - wanted[middle]).max() < 1e-11
+    assert (cells.volumes == tri.voronoi_volumes()).all()
+    far = deldrift.PeriodicDelaunay(points + [9, -4, 2][: len(basis)] @ vectors, vectors)
+    assert np.abs(far.voronoi_cells().centroids - far.points - cells.centroids + points).max() < 1e-11
+
+
+def test_facets_close_cells_and_derivatives_are_those_of_differences(rng):
+    vectors, n = BOXES["triclinic"], 5
+    points = rng.random((n, 3)) @ vectors
+    tri = deldrift.PeriodicDelaunay(points, vectors)
+    (edges, shifts), facets, cells = tri.edges(), tri.voronoi_derivatives(), tri.voronoi_cells()
+    assert (facets.measures == tri.voronoi_facets()).all()
+    ways = points[edges[:, 1]] + shifts @ vectors - points[edges[:, 0]]
+    lengths = np.linalg.norm(ways, axis=1)
+    areas, volumes = np.zeros(n), np.zeros(n)
+    for end in edges.T:
+        np.add.at(areas, end, facets.measures)
+        np.add.at(volumes, end, facets.measures * lengths / 6)
+    assert np.abs(areas - cells.areas).max() < 1e-11 and np.abs(volumes - cells.volumes).max() < 1e-12
+    # Between the two ends of an edge, as far from one as from the other.
+    some = facets.measures > 1e-9
+    middles = facets.centroids - points[edges[:, 0]] - ways / 2
+    assert np.abs((middles * ways).sum(axis=1)[some]).max() < 1e-11
+    by = np.zeros((n, n, 3))
+    for (i, j), (of_i, of_j) in zip(edges.tolist(), facets.derivatives):
+        if i != j:
+            by[i, j] += of_i
+            by[j, j] -= of_i
+            by[j, i] += of_j
+            by[i, i] -= of_j
+    step = 1e-5
+    for j, axis in itertools.product(range(n), range(3)):
+        moved = []
+        for sign in (-1, 1):
+            there = points.copy()
+            there[j, axis] += sign * step
+            moved.append(deldrift.PeriodicDelaunay(there, vectors).voronoi_volumes())
+        assert np.abs((moved[1] - moved[0]) / (2 * step) - by[:, j, axis]).max() < 1e-4
+    mask = np.arange(n) == 2
+    masked = tri.voronoi_derivatives(mask)
+    assert (np.isfinite(masked.measures) == (edges == 2).any(axis=1)).all()
+    assert (np.isnan(tri.voronoi_cells(mask).volumes) == ~mask).all()
+    with pytest.raises(deldrift.WrongCount, match="mask has 4 entries"):
+        tri.voronoi_cells(mask[1:])
+
+
+@pytest.mark.parametrize("name", BOXES)
+def test_simplices_have_the_sizes_and_balls_of_their_corners(name, rng):
+    vectors = BOXES[name]
+    points = (3 * rng.random((15, len(vectors))) - 1) @ vectors
+    tri = deldrift.PeriodicDelaunay(points, vectors)
+    ways = tri.corners[:, 1:] - tri.corners[:, :1]
+    volumes, (centres, squared) = tri.volumes(), tri.circumcentres()
+    factor = 2 if tri.ndim == 2 else 6
+    assert np.abs(volumes - np.linalg.det(ways) / factor).max() < 1e-12
+    assert volumes.sum() == pytest.approx(abs(np.linalg.det(vectors)), rel=1e-12)
+    expected = np.linalg.solve(2 * ways, (ways**2).sum(axis=2)[..., None])[..., 0]
+    assert np.abs(centres - tri.corners[:, 0] - expected).max() < 1e-9
+    assert np.abs(squared - (expected**2).sum(axis=1)).max() < 1e-9 * squared.max()
+    limit = float(np.sort(squared)[len(squared) // 2 - 1 :][:2].mean())
+    mask = tri.alpha_mask(limit)
+    assert (mask == (squared <= limit)).all() and 0 < mask.sum() < len(mask)
+    found = tri.boundary(mask)
+    around = [(c, k) for c in np.flatnonzero(mask) for k in range(tri.ndim + 1) if not mask[tri.neighbors[c, k]]]
+    assert list(zip(found.simplices.tolist(), found.corners.tolist())) == around
+    assert len(tri.boundary().simplices) == 0
+    kept = [volumes.copy(), centres.copy(), squared.copy(), mask.copy()]
+    for array in kept:
+        array[3] = 0
+    tri.update_volumes([3], kept[0])
+    tri.update_circumcentres([3], kept[1], kept[2])
+    tri.update_alpha_mask([3], limit, kept[3])
+    assert all((now == before).all() for now, before in zip(kept, [volumes, centres, squared, mask]))
+
+
 def test_one_point_and_a_slab():
     tri = deldrift.PeriodicDelaunay([[0.5, 0.5]], [1, 1])
     assert tri.nsimplex == 2 and tri.voronoi_volumes() == [1]
     slab = deldrift.PeriodicDelaunay([[0.5, 0.5], [0.25, 0.75], [0.0, 0.5]], [[1.0, 0.0]])
     assert slab.vectors.shape == (1, 2) and slab.shifts.shape[2] == 1 and (slab.neighbors == -1).any()
     assert np.isinf(slab.voronoi_volumes()).all()
+    cells, facets = slab.voronoi_cells(), slab.voronoi_derivatives()
+    assert np.isinf(cells.areas).all() and np.isnan(cells.centroids).all()
+    assert len(slab.boundary().simplices) == (slab.neighbors == -1).sum()
+    ends = np.isinf(facets.measures)
+    assert ends.any() and np.isnan(facets.derivatives[ends]).all() and np.isfinite(facets.derivatives[~ends]).all()
 
 
 def test_points_come_and_go():

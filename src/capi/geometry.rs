@@ -3,14 +3,14 @@
 use std::mem::MaybeUninit;
 use std::slice;
 
-use super::handle::{Reading, deldrift_triangulation};
+use super::handle::{Content, Reading, deldrift_triangulation, in_any, in_its_period};
 use super::pointers::{Array, Buffer, Output, fill_all, given};
-use super::query::dimension_of;
 use super::status::{Failure, deldrift_status};
-use crate::delaunay::Dimension;
+use crate::complex::Corners;
 use crate::error::Result;
+use crate::ids::VertexId;
 use crate::in_its_dimension;
-use crate::motion::{BoundaryFacet, MovingTriangulation, check_not_negative};
+use crate::motion::{BoundaryFacet, check_not_negative};
 
 /// The circumcentres and squared circumradii of all cells, in the order of deldrift_cells.
 ///
@@ -21,6 +21,9 @@ use crate::motion::{BoundaryFacet, MovingTriangulation, check_not_negative};
 /// Rounded: a coordinate of a centre is off by at most 1e-9 circumradii and its own rounding, a squared radius by
 /// 4e-9 of itself, however flat the cell; unless it is nearly flat, by a few last bits. What is too large for a
 /// number is infinite; nothing is NaN. One pass over the cells; nearly flat ones take a microsecond each.
+///
+/// In a periodic triangulation a centre is where the cell's corner of the lowest id is at its own position, as
+/// deldrift_cell_shifts has it, and its rounding may be twice that of its coordinates and of the position's.
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
@@ -34,18 +37,18 @@ pub unsafe extern "C" fn deldrift_circumcentres(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, squared_radii[capacity]: Buffer, count: Output);
-    t.read(|t| {
-        in_its_dimension!(t => {
+    t.read_any(|t| {
+        let needed = cell_count_of(t)?;
+        in_any!(t => {
             let centres = centres.cast();
             given!(centres[capacity]: Buffer);
-            let needed = t.cell_count();
             fill_all(count, needed, capacity, [centres.offer(), squared_radii.offer()], || {
                 let mut centres = centres.places_if_any(needed)?.iter_mut();
                 let mut squared = squared_radii.places_if_any(needed)?.iter_mut();
-                for (centre, squared_radius) in t.circumspheres()? {
+                t.for_circumspheres(None, |_, (centre, squared_radius)| {
                     write_next(&mut centres, centre);
                     write_next(&mut squared, squared_radius);
-                }
+                })?;
                 Ok(())
             })
         })
@@ -72,7 +75,12 @@ pub unsafe extern "C" fn deldrift_volumes(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, volumes[capacity]: Buffer, count: Output);
-    t.read(|t| in_its_dimension!(t => volumes.fill(count, t.cell_count(), || Ok(t.volumes()?))))
+    t.read_any(|t| {
+        volumes.fill_by(count, cell_count_of(t)?, |places| {
+            let mut places = places.iter_mut();
+            in_any!(t => Ok(t.for_volumes(None, |_, volume| write_next(&mut places, volume))?))
+        })
+    })
 }
 
 /// Which cells have a circumradius of at most a given one, as for an alpha shape: 1 for those whose squared
@@ -99,10 +107,12 @@ pub unsafe extern "C" fn deldrift_mask_by_circumradius(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, mask[capacity]: Buffer, count: Output);
-    t.read(|t| {
-        in_its_dimension!(t => {
-            let entries = t.mask_by_circumradius(squared_radius)?.map(u8::from);
-            mask.fill(count, entries.len(), || Ok(entries))
+    t.read_any(|t| {
+        check_not_negative("squared_radius", squared_radius)?;
+        mask.fill_by(count, cell_count_of(t)?, |places| {
+            let mut places = places.iter_mut();
+            let write = |_, is_in: bool| write_next(&mut places, is_in.into());
+            in_any!(t => Ok(t.for_mask_by_circumradius(squared_radius, None, write)?))
         })
     })
 }
@@ -156,7 +166,8 @@ pub unsafe extern "C" fn deldrift_mask_without_flat_cells(
 /// facets, which is also written when the buffers are too small. NULL for all three with capacity 0 asks for the
 /// count alone.
 ///
-/// Facets are in ascending order of cell and then of corner. Exact. Two passes over the cells.
+/// Facets are in ascending order of cell and then of corner. Exact. Two passes over the cells. In a periodic triangulation each
+/// is where deldrift_cell_shifts has its cell.
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
@@ -174,15 +185,15 @@ pub unsafe extern "C" fn deldrift_mask_boundary(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, mask[mask_count]: Array, cells[capacity]: Buffer, corners[capacity]: Buffer, count: Output);
-    t.read(|t| {
-        in_its_dimension!(t => {
-            given!(facets[capacity.saturating_mul(dimension_of(t))]: Buffer);
+    t.read_any(|t| {
+        given!(facets[capacity.saturating_mul(t.dimension() as usize)]: Buffer);
+        in_any!(t => {
             t.check_mask(mask_count)?;
             let mask = mask.get()?;
             let mut needed = 0;
             t.mask_boundary(mask, |_| needed += 1)?;
             let columns = Columns { facets, cells, corners, capacity };
-            columns.fill(t, count, needed, |found| t.mask_boundary(mask, found))
+            columns.fill(count, needed, |found| t.mask_boundary(mask, found))
         })
     })
 }
@@ -196,7 +207,8 @@ pub unsafe extern "C" fn deldrift_mask_boundary(
 /// filled. count: receives the number of facets, which is also written when the buffers are too small. NULL for all
 /// three with capacity 0 asks for the count alone.
 ///
-/// Exact. One pass over the cells; constant time for the count alone.
+/// Exact. One pass over the cells; constant time for the count alone. A periodic triangulation has none unless its box is open
+/// somewhere; to count them takes a pass over the cells.
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
@@ -211,13 +223,28 @@ pub unsafe extern "C" fn deldrift_hull_facets(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, cells[capacity]: Buffer, corners[capacity]: Buffer, count: Output);
-    t.read(|t| {
-        in_its_dimension!(t => {
-            given!(facets[capacity.saturating_mul(dimension_of(t))]: Buffer);
-            let columns = Columns { facets, cells, corners, capacity };
-            columns.fill(t, count, t.hull_facet_count(), |found| t.hull_facets(found))
-        })
+    t.read_any(|t| {
+        given!(facets[capacity.saturating_mul(t.dimension() as usize)]: Buffer);
+        let columns = Columns { facets, cells, corners, capacity };
+        match t {
+            Content::Open(t) => in_its_dimension!(t => {
+                columns.fill(count, t.hull_facet_count(), |found| t.hull_facets(found))
+            }),
+            Content::Periodic(t) => in_its_period!(t, t => {
+                let mut needed = 0;
+                t.hull_facets(|_| needed += 1)?;
+                columns.fill(count, needed, |found| t.hull_facets(found))
+            }),
+        }
     })
+}
+
+/// How many cells there are, of those of a periodic triangulation one of each class.
+pub(super) fn cell_count_of(t: &Content) -> Result<usize> {
+    match t {
+        Content::Open(t) => Ok(in_its_dimension!(t => t.cell_count())),
+        Content::Periodic(t) => t.cell_count(),
+    }
 }
 
 /// Writes an entry of a buffer, if there is one.
@@ -239,17 +266,16 @@ struct Columns<'a> {
 
 impl Columns<'_> {
     /// Writes the `needed` facets that `list` lists, if the buffers are large enough, and tells their number.
-    fn fill<G: Dimension>(
+    fn fill<C: Corners<VertexId>>(
         self,
-        _t: &MovingTriangulation<G>,
         count: Output<'_, usize>,
         needed: usize,
-        list: impl FnOnce(&mut dyn FnMut(BoundaryFacet<G::Vertices>)) -> Result<()>,
+        list: impl FnOnce(&mut dyn FnMut(BoundaryFacet<C>)) -> Result<()>,
     ) -> Result<(), Failure> {
         let Columns { facets, cells, corners, capacity } = self;
         let offers = [facets.offer(), cells.offer(), corners.offer()];
         fill_all(count, needed, capacity, offers, || {
-            let mut vertices = facets.places_if_any(needed * G::D)?.iter_mut();
+            let mut vertices = facets.places_if_any(needed * (C::N - 1))?.iter_mut();
             let mut cells = cells.places_if_any(needed)?.iter_mut();
             let mut corners = corners.places_if_any(needed)?.iter_mut();
             list(&mut |facet| {

@@ -221,16 +221,8 @@ impl<'a> Reading<'a> {
         })
     }
 
-    /// Runs the body of an entry that looks at a triangulation for long, with a monitor that calls its callbacks. These
-    /// may look at it as well; calls that change it are turned away.
-    pub(super) fn read_watched(
-        self,
-        body: impl FnOnce(&AnyTriangulation, &mut dyn FnMut(f64) -> bool) -> Result<(), Failure>,
-    ) -> deldrift_status {
-        self.read_any_watched(|t, monitor| body(t.open()?, monitor))
-    }
-
-    /// That, of a triangulation that may be periodic.
+    /// Runs the body of an entry that looks at a triangulation, periodic or not, for long, with a monitor that calls its
+    /// callbacks. These may look at it as well; calls that change it are turned away.
     pub(super) fn read_any_watched(
         self,
         body: impl FnOnce(&Content, &mut dyn FnMut(f64) -> bool) -> Result<(), Failure>,

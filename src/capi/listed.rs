@@ -2,7 +2,8 @@
 
 use std::mem::MaybeUninit;
 
-use super::handle::{Reading, deldrift_triangulation};
+use super::geometry::cell_count_of;
+use super::handle::{Reading, deldrift_triangulation, in_any};
 use super::pointers::{Array, Buffer, Offer, Output, given};
 use super::status::{Failure, deldrift_status};
 use crate::ids::{CellId, VertexId};
@@ -70,18 +71,18 @@ pub unsafe extern "C" fn deldrift_update_circumcentres(
     capacity: usize,
 ) -> deldrift_status {
     given!(t: Reading, cells[cell_count]: Array, squared_radii[capacity]: Buffer);
-    t.read(|t| {
-        in_its_dimension!(t => {
+    t.read_any(|t| {
+        let n = cell_count_of(t)?;
+        in_any!(t => {
             let centres = centres.cast();
             given!(centres[capacity]: Buffer);
-            let n = t.cell_count();
             check_arrays([centres.offer(), squared_radii.offer()], capacity, n)?;
             let cells = CellId::of_numbers(cells.get()?);
             let (centres, squared_radii) = (centres.places_if_any(n)?, squared_radii.places_if_any(n)?);
-            for (&cell, (centre, squared_radius)) in cells.iter().zip(t.circumspheres_of(cells)?) {
+            t.for_circumspheres(Some(cells), |cell, (centre, squared_radius)| {
                 write_if_any(centres, cell, centre);
                 write_if_any(squared_radii, cell, squared_radius);
-            }
+            })?;
             Ok(())
         })
     })
@@ -110,17 +111,12 @@ pub unsafe extern "C" fn deldrift_update_volumes(
     capacity: usize,
 ) -> deldrift_status {
     given!(t: Reading, cells[cell_count]: Array, volumes[capacity]: Buffer);
-    t.read(|t| {
-        in_its_dimension!(t => {
-            let n = t.cell_count();
-            check_arrays([volumes.offer()], capacity, n)?;
-            let cells = CellId::of_numbers(cells.get()?);
-            let volumes = volumes.places(n)?;
-            for (&cell, volume) in cells.iter().zip(t.volumes_of(cells)?) {
-                volumes[cell].write(volume);
-            }
-            Ok(())
-        })
+    t.read_any(|t| {
+        let n = cell_count_of(t)?;
+        check_arrays([volumes.offer()], capacity, n)?;
+        let cells = CellId::of_numbers(cells.get()?);
+        let volumes = volumes.places(n)?;
+        in_any!(t => Ok(t.for_volumes(Some(cells), |cell, volume| _ = volumes[cell].write(volume))?))
     })
 }
 
@@ -152,17 +148,13 @@ pub unsafe extern "C" fn deldrift_update_mask_by_circumradius(
     capacity: usize,
 ) -> deldrift_status {
     given!(t: Reading, cells[cell_count]: Array, mask[capacity]: Buffer);
-    t.read(|t| {
-        in_its_dimension!(t => {
-            let n = t.cell_count();
-            check_arrays([mask.offer()], capacity, n)?;
-            let cells = CellId::of_numbers(cells.get()?);
-            let mask = mask.places(n)?;
-            for (&cell, is_in) in cells.iter().zip(t.mask_by_circumradius_of(cells, squared_radius)?) {
-                mask[cell].write(u8::from(is_in));
-            }
-            Ok(())
-        })
+    t.read_any(|t| {
+        let n = cell_count_of(t)?;
+        check_arrays([mask.offer()], capacity, n)?;
+        let cells = CellId::of_numbers(cells.get()?);
+        let mask = mask.places(n)?;
+        let write = |cell: CellId, is_in: bool| _ = mask[cell].write(is_in.into());
+        in_any!(t => Ok(t.for_mask_by_circumradius(squared_radius, Some(cells), write)?))
     })
 }
 

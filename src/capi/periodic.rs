@@ -44,8 +44,10 @@ use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 /// deldrift_commit_positions, deldrift_vertex_count, deldrift_id_count, deldrift_cell_count, deldrift_staged_count,
 /// deldrift_memory_bytes, deldrift_timestamp, deldrift_statistics, deldrift_is_present, deldrift_position,
 /// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges,
-/// deldrift_take_changes, and deldrift_voronoi_volumes without a box. All others return DELDRIFT_PERIODIC. Cells are
-/// numbered anew by each commit, unless changes are taken.
+/// deldrift_take_changes, deldrift_circumcentres, deldrift_volumes, deldrift_mask_by_circumradius with the functions that
+/// update what these give, deldrift_mask_boundary, deldrift_hull_facets, and without a box deldrift_voronoi_volumes,
+/// deldrift_voronoi_facets, deldrift_voronoi_cells and deldrift_voronoi_derivatives. All others return DELDRIFT_PERIODIC.
+/// Cells are numbered anew by each commit, unless changes are taken.
 ///
 /// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves,
 /// or of other vectors that are near those in force, costs what it costs in an open triangulation of as many, and n + m; one
@@ -219,7 +221,7 @@ pub unsafe extern "C" fn deldrift_cell_shifts(
 ///
 /// All are 0 where the triangulation is not periodic.
 ///
-/// Cost: m log m.
+/// Cost: n + m, and d log d for the d neighbours of each vertex.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY.

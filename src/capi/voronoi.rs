@@ -2,14 +2,14 @@
 
 use std::mem::MaybeUninit;
 
-use super::handle::{Content, Reading, deldrift_triangulation};
+use super::handle::{Content, Reading, deldrift_triangulation, in_its_period};
 use super::pointers::{Array, Buffer, Output, Point, fill_all, given};
-use super::query::dimension_of;
 use super::status::{Failure, deldrift_status};
 use crate::delaunay::Dimension;
+use crate::error::Result;
 use crate::ids::VertexId;
 use crate::in_its_dimension;
-use crate::motion::MovingTriangulation;
+use crate::motion::{MovingTriangulation, VoronoiCell, VoronoiFacet};
 
 /// The areas (2D) or volumes (3D) of the Voronoi cells of all ids, within a box.
 ///
@@ -30,6 +30,9 @@ use crate::motion::MovingTriangulation;
 /// triangles that the vertex makes with its edges if that is more, as it may be for cells with dozens of facets; an area
 /// by at most h times its perimeter, however near to each other vertices are. In place of 1e-8 it is some last bits, about 1e-15, unless cells are nearly flat (see
 /// deldrift_circumcentres). Never negative. The volumes of all ids add up to that of the box but for rounding.
+///
+/// In a periodic triangulation low and high must be NULL. Cells without an end, as there are in a box that is open somewhere,
+/// are infinite; the volumes are those of deldrift_voronoi_cells, to the last bit.
 ///
 /// Takes time in proportion to the number of cells, and of ids; in a box, for Voronoi cells at its boundary, to the
 /// number of corners of their facets as well, a microsecond (2D) or some (3D) for each such cell of ordinary sets.
@@ -56,8 +59,8 @@ pub unsafe extern "C" fn deldrift_voronoi_volumes(
     t.read_any_watched(|t, monitor| {
         let t = match t {
             Content::Open(t) => t,
-            Content::Periodic(_) if !(low.is_null() && high.is_null()) => return Err(Failure::Clipped),
             Content::Periodic(t) => {
+                check_no_box(low, high)?;
                 return volumes.fill(count, t.id_count(), || Ok(t.voronoi_volumes(monitor)?));
             }
         };
@@ -88,6 +91,10 @@ pub unsafe extern "C" fn deldrift_voronoi_volumes(
 /// facets of a vertex whose Voronoi cell is in the box, times the lengths of its edges and divided by 4 (2D) or 6 (3D),
 /// add up to its area or volume but for rounding.
 ///
+/// In a periodic triangulation low and high must be NULL. Of several edges between two vertices each has the facet of its own,
+/// and one that leads from a vertex to itself has the facet that two periods of its cell share. The measures are those of
+/// deldrift_voronoi_derivatives, to the last bit.
+///
 /// Takes time in proportion to the number of cells, and memory for circumcentres and for the cells of each vertex while
 /// it runs. What is cut by the box, and is nearly in a face of it, takes as long as in deldrift_voronoi_volumes. Calls
 /// the callbacks of the options.
@@ -107,11 +114,18 @@ pub unsafe extern "C" fn deldrift_voronoi_facets(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, low: Point, high: Point, measures[capacity]: Buffer, count: Output);
-    t.read_watched(|t, monitor| {
-        in_its_dimension!(t => {
+    t.read_any_watched(|t, monitor| match t {
+        Content::Open(t) => in_its_dimension!(t => {
             let clip = clip_for(t, low, high)?;
             measures.fill(count, t.edge_count(), || Ok(t.voronoi_facets_monitored(clip, monitor)?))
-        })
+        }),
+        Content::Periodic(t) => in_its_period!(t, t => {
+            check_no_box(low, high)?;
+            measures.fill_by(count, t.edge_count()?, |places| {
+                let tell = &mut |edge, facet: VoronoiFacet<_>| write(places, edge, &[facet.area]);
+                Ok(t.for_voronoi_facets(None, monitor, tell)?)
+            })
+        }),
     })
 }
 
@@ -141,6 +155,12 @@ pub unsafe extern "C" fn deldrift_voronoi_facets(
 /// each), and a centroid, where that is less than d, by that error of the volume times d / V; it is in the box in any
 /// case. The volumes of all ids add up to that of the box but for rounding.
 ///
+/// In a periodic triangulation low and high must be NULL: nothing is cut. A cell without an end, as there are in a box that is
+/// open somewhere, has volume and area infinite, and its centroid is NaN. The h is the one that deldrift_voronoi_volumes has
+/// without a box. A centroid is where the vertex is at its own position, in whatever period that is, and off by the rounding of
+/// its coordinates besides. The numbers do not depend on the periods in which positions are given nor on copies that the library
+/// keeps, but for rounding; with the same cells in the same order they are the same to the last bit.
+///
 /// Takes memory for circumcentres, for sums, and, where cells are cut by the box, for the cells of each vertex while it
 /// runs. Runs on several threads, as the options allow. Cells that are cut take several times as long as others. Calls
 /// the callbacks of the options.
@@ -167,27 +187,22 @@ pub unsafe extern "C" fn deldrift_voronoi_cells(
 ) -> deldrift_status {
     given!(t: Reading, low: Point, high: Point, mask[mask_count]: Array, volumes[capacity]: Buffer,
         areas[capacity]: Buffer, count: Output);
-    t.read_watched(|t, monitor| {
-        in_its_dimension!(t => {
-            let d = dimension_of(t);
-            given!(centroids[capacity.saturating_mul(d)]: Buffer);
-            let clip = [low.of("low", t)?, high.of("high", t)?];
-            t.check_clip(clip)?;
-            let mask = mask_for(t, mask, mask_count)?;
-            let needed = t.id_count();
-            let offers = [volumes.offer(), areas.offer(), centroids.offer()];
-            fill_all(count, needed, capacity, offers, || {
-                let volumes = volumes.places_if_any(needed)?;
-                let areas = areas.places_if_any(needed)?;
-                let centroids = centroids.places_if_any(needed * d)?;
-                t.for_voronoi_cells(clip, mask, monitor, &mut |v, cell| {
-                    write(volumes, v.index(), &[cell.volume]);
-                    write(areas, v.index(), &[cell.area]);
-                    write(centroids, v.index(), cell.centroid.as_ref());
-                })?;
-                Ok(())
-            })
-        })
+    t.read_any_watched(|t, monitor| {
+        given!(centroids[capacity.saturating_mul(t.dimension() as usize)]: Buffer);
+        let to = OfCells { volumes, areas, centroids, capacity };
+        match t {
+            Content::Open(t) => in_its_dimension!(t => {
+                let clip = [low.of("low", t)?, high.of("high", t)?];
+                t.check_clip(clip)?;
+                let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
+                to.fill(count, t.id_count(), |tell| t.for_voronoi_cells(clip, mask, monitor, tell))
+            }),
+            Content::Periodic(t) => in_its_period!(t, t => {
+                check_no_box(low, high)?;
+                let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
+                to.fill(count, t.id_count(), |tell| t.for_voronoi_cells(mask, monitor, tell))
+            }),
+        }
     })
 }
 
@@ -217,6 +232,14 @@ pub unsafe extern "C" fn deldrift_voronoi_cells(
 /// measure is off by at most h P, a centroid by h P d / A, and by d + h where A is less than 4 h P; a derivative by h P
 /// (d + |x - c|) / L, where x is the position by which it is.
 ///
+/// In a periodic triangulation low and high must be NULL; the h is the one that deldrift_voronoi_volumes has without a box, of
+/// the cells around the edge. A facet without an end has an infinite measure, and NaN for the rest. A centroid is where the first
+/// vertex of the edge is at its own position, and off by the rounding of its coordinates besides; the second vertex is where
+/// deldrift_edge_shifts has it. The derivatives of an edge are those by the position of one of its ends alone. As all periods of a
+/// vertex move, the derivative of the volume of the cell of i by the position of j is the sum over the edges between i and
+/// j, and that by its own position is minus the sum of the derivatives of the other cells by that position, over its edges to
+/// other vertices: an edge from a vertex to itself contributes nothing, as its facet moves along with all of the cell.
+///
 /// Takes memory for circumcentres, edges and the cells of each vertex while it runs. What is cut by the box, and facets
 /// narrower than 1e-7 of it, take about a microsecond each. Calls the callbacks of the options.
 ///
@@ -241,29 +264,24 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives(
 ) -> deldrift_status {
     given!(t: Reading, low: Point, high: Point, mask[mask_count]: Array, measures[capacity]: Buffer,
         count: Output);
-    t.read_watched(|t, monitor| {
-        in_its_dimension!(t => {
-            let d = dimension_of(t);
-            given!(centroids[capacity.saturating_mul(d)]: Buffer);
-            given!(derivatives[capacity.saturating_mul(2 * d)]: Buffer);
-            let clip = [low.of("low", t)?, high.of("high", t)?];
-            t.check_clip(clip)?;
-            let mask = mask_for(t, mask, mask_count)?;
-            let needed = t.edge_count();
-            let offers = [measures.offer(), centroids.offer(), derivatives.offer()];
-            fill_all(count, needed, capacity, offers, || {
-                let measures = measures.places_if_any(needed)?;
-                let centroids = centroids.places_if_any(needed * d)?;
-                let derivatives = derivatives.places_if_any(needed * 2 * d)?;
-                t.for_voronoi_facets(clip, mask, monitor, &mut |edge, facet| {
-                    write(measures, edge, &[facet.area]);
-                    write(centroids, edge, facet.centroid.as_ref());
-                    write(derivatives, 2 * edge, facet.derivatives[0].as_ref());
-                    write(derivatives, 2 * edge + 1, facet.derivatives[1].as_ref());
-                })?;
-                Ok(())
-            })
-        })
+    t.read_any_watched(|t, monitor| {
+        let d = t.dimension() as usize;
+        given!(centroids[capacity.saturating_mul(d)]: Buffer);
+        given!(derivatives[capacity.saturating_mul(2 * d)]: Buffer);
+        let to = OfFacets { measures, centroids, derivatives, capacity };
+        match t {
+            Content::Open(t) => in_its_dimension!(t => {
+                let clip = [low.of("low", t)?, high.of("high", t)?];
+                t.check_clip(clip)?;
+                let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
+                to.fill(count, t.edge_count(), |tell| t.for_voronoi_facets(clip, mask, monitor, tell))
+            }),
+            Content::Periodic(t) => in_its_period!(t, t => {
+                check_no_box(low, high)?;
+                let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
+                to.fill(count, t.edge_count()?, |tell| t.for_voronoi_facets(mask, monitor, tell))
+            }),
+        }
     })
 }
 
@@ -306,6 +324,70 @@ pub unsafe extern "C" fn deldrift_voronoi_changed(
     })
 }
 
+/// Buffers for what there is of Voronoi cells, for so many of these.
+struct OfCells<'a> {
+    volumes: Buffer<'a, f64>,
+    areas: Buffer<'a, f64>,
+    centroids: Buffer<'a, f64>,
+    capacity: usize,
+}
+
+impl OfCells<'_> {
+    /// Writes what `list` tells, if the buffers are large enough, and tells how many entries there are.
+    fn fill<P: AsRef<[f64]> + Default>(
+        self,
+        count: Output<'_, usize>,
+        needed: usize,
+        list: impl FnOnce(&mut dyn FnMut(VertexId, VoronoiCell<P>)) -> Result<()>,
+    ) -> Result<(), Failure> {
+        let OfCells { volumes, areas, centroids, capacity } = self;
+        fill_all(count, needed, capacity, [volumes.offer(), areas.offer(), centroids.offer()], || {
+            let volumes = volumes.places_if_any(needed)?;
+            let areas = areas.places_if_any(needed)?;
+            let centroids = centroids.places_if_any(needed * P::default().as_ref().len())?;
+            list(&mut |v, cell| {
+                write(volumes, v.index(), &[cell.volume]);
+                write(areas, v.index(), &[cell.area]);
+                write(centroids, v.index(), cell.centroid.as_ref());
+            })?;
+            Ok(())
+        })
+    }
+}
+
+/// Buffers for Voronoi facets, for so many of these.
+struct OfFacets<'a> {
+    measures: Buffer<'a, f64>,
+    centroids: Buffer<'a, f64>,
+    derivatives: Buffer<'a, f64>,
+    capacity: usize,
+}
+
+impl OfFacets<'_> {
+    /// Writes what `list` tells, if the buffers are large enough, and tells how many entries there are.
+    fn fill<P: AsRef<[f64]> + Default>(
+        self,
+        count: Output<'_, usize>,
+        needed: usize,
+        list: impl FnOnce(&mut dyn FnMut(usize, VoronoiFacet<P>)) -> Result<()>,
+    ) -> Result<(), Failure> {
+        let OfFacets { measures, centroids, derivatives, capacity } = self;
+        let d = P::default().as_ref().len();
+        fill_all(count, needed, capacity, [measures.offer(), centroids.offer(), derivatives.offer()], || {
+            let measures = measures.places_if_any(needed)?;
+            let centroids = centroids.places_if_any(needed * d)?;
+            let derivatives = derivatives.places_if_any(needed * 2 * d)?;
+            list(&mut |edge, facet| {
+                write(measures, edge, &[facet.area]);
+                write(centroids, edge, facet.centroid.as_ref());
+                write(derivatives, 2 * edge, facet.derivatives[0].as_ref());
+                write(derivatives, 2 * edge + 1, facet.derivatives[1].as_ref());
+            })?;
+            Ok(())
+        })
+    }
+}
+
 /// Writes a row of numbers, if there is a buffer for rows.
 fn write(places: &mut [MaybeUninit<f64>], row: usize, numbers: &[f64]) {
     let first = row * numbers.len();
@@ -314,17 +396,22 @@ fn write(places: &mut [MaybeUninit<f64>], row: usize, numbers: &[f64]) {
     }
 }
 
-/// A mask of vertices, if there is one.
-fn mask_for<'a, G: Dimension>(
-    t: &MovingTriangulation<G>,
-    mask: Array<'a, u8>,
+/// A mask of vertices, if there is one, with as many entries as `check` wants.
+fn mask_for(
+    mask: Array<'_, u8>,
     mask_count: usize,
-) -> Result<Option<&'a [u8]>, Failure> {
+    check: impl FnOnce(usize) -> Result<()>,
+) -> Result<Option<&[u8]>, Failure> {
     if mask.is_null() && mask_count == 0 {
         return Ok(None);
     }
-    t.check_vertex_mask(mask_count)?;
+    check(mask_count)?;
     mask.get().map(Some)
+}
+
+/// A failure where a box is given, in a triangulation that is periodic.
+fn check_no_box(low: Point<'_>, high: Point<'_>) -> Result<(), Failure> {
+    if low.is_null() && high.is_null() { Ok(()) } else { Err(Failure::Clipped) }
 }
 
 /// The corners of a box that is a good one, in the dimension of `t`; none if both are NULL.

@@ -47,8 +47,10 @@ pub use options::{
 pub use reading::domain::ChainEdge;
 pub use reading::exporting::Field;
 pub use reading::geometry::{
-    BoundaryFacet, Interpolation, OrderedStar, Rows, VertexValues, VoronoiCells, VoronoiFacets,
+    BoundaryFacet, Interpolation, OrderedStar, Rows, VertexValues, VoronoiCell, VoronoiCells, VoronoiFacet,
+    VoronoiFacets,
 };
+pub(crate) use reading::geometry::{list_boundary, tell_all};
 pub use reading::near::{InReach, VerticesInReach};
 pub use reading::query::Location;
 pub(crate) use reading::query::cells_at;

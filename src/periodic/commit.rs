@@ -153,6 +153,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         };
         self.staged.clear();
         self.cells = OnceLock::new();
+        self.edges = OnceLock::new();
         self.statistics.timestamp += 1;
         report.timestamp = self.statistics.timestamp;
         report.coincident = self.inside.coincident() as u64;

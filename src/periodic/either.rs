@@ -41,11 +41,11 @@ impl AnyPeriodic {
     ///
     /// # Errors
     /// [`Error::OutOfMemory`].
-    pub fn edges(&self) -> Result<Vec<([VertexId; 2], [i64; 3])>> {
-        match self {
-            Self::Plane(t) => t.edges(),
-            Self::Space(t) => t.edges(),
-        }
+    pub fn edges(&self) -> Result<impl ExactSizeIterator<Item = ([VertexId; 2], [i64; 3])> + '_> {
+        Ok(match self {
+            Self::Plane(t) => OfEither::Plane(t.edges()?),
+            Self::Space(t) => OfEither::Space(t.edges()?),
+        })
     }
 
     /// Those of [`PeriodicTriangulation::voronoi_volumes`].
@@ -86,3 +86,29 @@ impl AnyPeriodic {
         }
     }
 }
+
+/// What a triangulation of the plane or of space lists.
+enum OfEither<P, S> {
+    Plane(P),
+    Space(S),
+}
+
+impl<T, P: Iterator<Item = T>, S: Iterator<Item = T>> Iterator for OfEither<P, S> {
+    type Item = T;
+
+    fn next(&mut self) -> Option<T> {
+        match self {
+            Self::Plane(list) => list.next(),
+            Self::Space(list) => list.next(),
+        }
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        match self {
+            Self::Plane(list) => list.size_hint(),
+            Self::Space(list) => list.size_hint(),
+        }
+    }
+}
+
+impl<T, P: ExactSizeIterator<Item = T>, S: ExactSizeIterator<Item = T>> ExactSizeIterator for OfEither<P, S> {}

@@ -29,8 +29,10 @@
 mod cells;
 mod changes;
 mod commit;
+mod edges;
 mod either;
 mod following;
+mod geometry;
 mod images;
 mod inside;
 mod lattice;
@@ -40,6 +42,7 @@ mod staged;
 #[cfg(test)]
 mod tests;
 mod triangulation;
+mod voronoi;
 
 pub use cells::PeriodicView;
 pub use either::AnyPeriodic;

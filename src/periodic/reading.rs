@@ -143,51 +143,6 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         }))
     }
 
-    /// The edges, one of each class of translations of each other: two vertices, and by which multiples of the vectors the
-    /// second is translated from its position where the first is at its own. The first has the lower id; the order is that of
-    /// ids.
-    ///
-    /// # Errors
-    /// [`Error::OutOfMemory`].
-    pub fn edges(&self) -> Result<Vec<([VertexId; 2], [i64; 3])>> {
-        let cells = self.read_cells()?;
-        let mut edges = Vec::new();
-        memory::reserve(&mut edges, cells.corners.len() * G::D)?;
-        for (cell, row) in cells.corners.iter().enumerate() {
-            let shifts = &cells.shifts[cell * (G::D + 1)..][..=G::D];
-            for i in 0..=G::D {
-                for j in 0..i {
-                    let shift = [0, 1, 2].map(|k| shifts[j][k] - shifts[i][k]);
-                    let turned = shift.map(|n| -n);
-                    let (u, w) = (row.as_ref()[i], row.as_ref()[j]);
-                    let edge = if (u, turned) < (w, shift) { ([u, w], shift) } else { ([w, u], turned) };
-                    memory::push(&mut edges, edge)?;
-                }
-            }
-        }
-        edges.sort_unstable();
-        edges.dedup();
-        let mut given = Vec::new();
-        let shown = edges.iter().map(|&([u, w], shift)| ([u, w], self.given(u, w, shift)));
-        memory::collect(&mut given, shown)?;
-        Ok(given)
-    }
-
-    /// By vertex id the area or volume of its Voronoi cell: infinite for cells without an end, NaN for removed vertices, 0 for
-    /// hidden ones. `monitor` is called now and then, and told the fraction done.
-    ///
-    /// # Errors
-    /// [`Error::Cancelled`] if `monitor` returns `false`, [`Error::OutOfMemory`].
-    pub fn voronoi_volumes(&self, monitor: &mut dyn FnMut(f64) -> bool) -> Result<Vec<f64>> {
-        let inside = self.inside.t.voronoi_volumes_monitored(None, monitor)?;
-        let mut volumes = Vec::new();
-        memory::lengthen(&mut volumes, self.id_count(), f64::NAN)?;
-        for (image, volume) in self.inside.images.as_slice()[..self.inside.n_home].iter().zip(inside) {
-            volumes[image.vertex] = volume;
-        }
-        Ok(volumes)
-    }
-
     /// The vertex of lowest id of those that share a place with this one, in any period.
     ///
     /// # Errors
@@ -208,6 +163,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
                 .taking
                 .as_ref()
                 .map_or(0, |taking| taking.base.memory_bytes() + taking.lists.memory_bytes())
+            + self.edges.get().map_or(0, |edges| memory::bytes_of(&edges.list))
     }
 
     /// The cells, which the first that asks reads; several threads may do that at the same time.

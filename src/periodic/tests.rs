@@ -111,7 +111,7 @@ fn check_structure<G: Dimension>(t: &PeriodicTriangulation<G>, basis: &[G::Point
             assert!(!theirs.contains(&(row[i], shifts[c * n + i])));
         }
     }
-    let listed = t.edges().unwrap();
+    let listed: Vec<_> = t.edges().unwrap().collect();
     let mut found = BTreeSet::new();
     for &([u, w], shift) in &listed {
         assert!(found.insert(([u, w], shift)));

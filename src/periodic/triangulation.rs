@@ -9,6 +9,7 @@ use crate::machine::memory;
 use crate::motion::{CoincidencePolicy, CommitReport, MAX_VERTICES, MovingTriangulation, Options};
 use crate::periodic::cells::PeriodicCells;
 use crate::periodic::changes::Taking;
+use crate::periodic::edges::PeriodicEdges;
 use crate::periodic::images::{Image, Images};
 use crate::periodic::inside::{Inside, all};
 use crate::periodic::lattice::{HOME, Lattice, Occupied, ROOM};
@@ -45,6 +46,7 @@ pub struct PeriodicTriangulation<G: Dimension> {
     pub(super) cells: OnceLock<PeriodicCells<G>>,
     /// The changes that have been taken last, if they ever were.
     pub(super) taking: Option<Taking<G>>,
+    pub(super) edges: OnceLock<PeriodicEdges>,
 }
 
 impl<G: Dimension> PeriodicTriangulation<G> {
@@ -74,15 +76,15 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let mut inside = Inside::unbuilt(&lattice, &home, n, options)?;
         inside.build(&lattice)?;
         let statistics = CommitReport { coincident: inside.coincident() as u64, ..CommitReport::default() };
-        let (staged, cells) = (Staged::default(), OnceLock::new());
         Ok(PeriodicTriangulation {
             lattice,
             inside,
             wraps,
-            staged,
+            staged: Staged::default(),
             coming: None,
             statistics,
-            cells,
+            cells: OnceLock::new(),
+            edges: OnceLock::new(),
             taking: None,
         })
     }

@@ -45,6 +45,7 @@ impl History<'_> {
         assert_eq!(self.classes(t, d), self.classes(anew, d), "{rank} vectors, {n} vertices");
         self.take_boxed(t, &mut known);
         self.take_boxed(anew, &mut BTreeSet::new());
+        self.voronoi_of_periods(t, d, rank);
         c!(deldrift_destroy(anew));
         c!(deldrift_destroy(t));
     }
@@ -85,6 +86,64 @@ impl History<'_> {
         Boxed { vectors, positions }
     }
 
+    /// Voronoi cells fill the box, where it is open nowhere, and have the facets of edges on both of their sides.
+    fn voronoi_of_periods(&self, t: *const deldrift_triangulation, d: usize, rank: usize) {
+        let (none, nowhere, mut n, mut n_edges) = (null(), null_mut(), 0, 0);
+        self.is_ok(c!(deldrift_voronoi_cells(
+            t,
+            none,
+            none,
+            null(),
+            0,
+            nowhere,
+            nowhere,
+            nowhere,
+            0,
+            &mut n
+        )));
+        self.is_ok(c!(deldrift_edges(t, null_mut(), 0, &mut n_edges)));
+        let [mut volumes, mut areas, mut centroids] = [vec![0.0; n], vec![0.0; n], vec![0.0; n * d]];
+        let [to_volumes, to_areas, to_centroids] =
+            [&mut volumes, &mut areas, &mut centroids].map(|to| to.as_mut_ptr());
+        self.is_ok(c!(deldrift_voronoi_cells(
+            t,
+            none,
+            none,
+            null(),
+            0,
+            to_volumes,
+            to_areas,
+            to_centroids,
+            n,
+            &mut n
+        )));
+        let [mut measures, mut derivatives] = [vec![0.0; n_edges + 1], vec![0.0; (n_edges + 1) * 2 * d]];
+        let [to_measures, to_derivatives] = [&mut measures, &mut derivatives].map(|to| to.as_mut_ptr());
+        self.is_ok(c!(deldrift_voronoi_derivatives(
+            t,
+            none,
+            none,
+            null(),
+            0,
+            to_measures,
+            nowhere,
+            to_derivatives,
+            n_edges + 1,
+            &mut n_edges
+        )));
+        let same = measures.clone();
+        self.is_ok(c!(deldrift_voronoi_facets(t, none, none, to_measures, n_edges + 1, &mut n_edges)));
+        assert_eq!(same, measures);
+        if rank == d {
+            let (facets, all): (f64, f64) = (measures.iter().sum(), areas.iter().sum());
+            assert!((2.0 * facets - all).abs() <= 1e-9 * all, "{facets} {all}");
+            assert!(volumes.iter().all(|volume| (0.0..f64::INFINITY).contains(volume)));
+            assert!(derivatives.iter().all(|x| x.is_finite()));
+        } else {
+            assert!(areas.iter().zip(&volumes).all(|(x, y)| *x >= 0.0 && *y >= 0.0));
+        }
+    }
+
     /// The classes of cells: corners with their shifts beside those of the first.
     fn classes(&self, t: *const deldrift_triangulation, d: usize) -> BTreeSet<Vec<(u32, Vec<i64>)>> {
         let mut view =
@@ -94,6 +153,18 @@ impl History<'_> {
         let room = if view.count == 0 { null_mut() } else { shifts.as_mut_ptr() };
         self.is_ok(c!(deldrift_cell_shifts(t, room, null_mut(), view.count, &mut count)));
         assert_eq!(count, view.count);
+        let mut volumes = vec![0.0; view.count + 1];
+        self.is_ok(c!(deldrift_volumes(t, volumes.as_mut_ptr(), volumes.len(), &mut count)));
+        assert!(volumes[..count].iter().all(|&volume| volume > 0.0));
+        self.is_ok(c!(deldrift_circumcentres(
+            t,
+            null_mut(),
+            volumes.as_mut_ptr(),
+            volumes.len(),
+            &mut count
+        )));
+        assert!(volumes[..count].iter().all(|&square| square > 0.0));
+        self.is_ok(c!(deldrift_hull_facets(t, null_mut(), null_mut(), null_mut(), 0, &mut count)));
         self.is_ok(c!(deldrift_edge_shifts(t, null_mut(), 0, &mut count)));
         assert!(count >= view.count.min(1) * d, "{count} edges of {} cells", view.count);
         let corners = slice(view.vertices, view.count * (d + 1));

@@ -59,11 +59,15 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::WrongCount`] unless there is an entry for each cell, [`Error::OutOfMemory`].
     pub fn mask_boundary(&self, mask: &[u8], found: impl FnMut(BoundaryFacet<G::Vertices>)) -> Result<()> {
         self.check_mask(mask.len())?;
-        self.list_boundary(
+        let cells = self.cell_arrays()?;
+        list_boundary(
+            cells.corners(),
+            cells.neighbours(),
             #[inline(always)]
             |cell| mask[cell] != 0,
             found,
-        )
+        );
+        Ok(())
     }
 
     /// There must be an entry for each cell.
@@ -81,33 +85,34 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::OutOfMemory`].
     pub fn hull_facets(&self, found: impl FnMut(BoundaryFacet<G::Vertices>)) -> Result<()> {
-        self.list_boundary(|_| true, found)
+        let cells = self.cell_arrays()?;
+        list_boundary(cells.corners(), cells.neighbours(), |_| true, found);
+        Ok(())
     }
 
     /// Number of facets of the convex hull.
     pub fn hull_facet_count(&self) -> usize {
         self.mesh.kernel.complex().n_ghosts()
     }
+}
 
-    #[inline(always)]
-    fn list_boundary(
-        &self,
-        is_in: impl Fn(CellId) -> bool,
-        mut found: impl FnMut(BoundaryFacet<G::Vertices>),
-    ) -> Result<()> {
-        let cells = self.cell_arrays()?;
-        let rows = cells.corners().iter().zip(cells.neighbours());
-        for (cell, (corners, neighbours)) in CellId::range(0..cells.corners().len()).zip(rows) {
-            if !is_in(cell) {
-                continue;
-            }
-            for corner in 0..G::Corners::N {
-                let across = neighbours[corner];
-                if across == NO_CELL || !is_in(across) {
-                    found(BoundaryFacet::new(cell, corner, corners));
-                }
+/// The facets between cells that are in a set and those that are not, or the outside, ascending by cell and then by corner.
+#[inline(always)]
+pub(crate) fn list_boundary<C: Corners<VertexId>, N: Corners<CellId>>(
+    corners: &[C],
+    neighbours: &[N],
+    is_in: impl Fn(CellId) -> bool,
+    mut found: impl FnMut(BoundaryFacet<C>),
+) {
+    for (cell, (row, beside)) in CellId::range(0..corners.len()).zip(corners.iter().zip(neighbours)) {
+        if !is_in(cell) {
+            continue;
+        }
+        for corner in 0..C::N {
+            let across = beside[corner];
+            if across == NO_CELL || !is_in(across) {
+                found(BoundaryFacet::new(cell, corner, row));
             }
         }
-        Ok(())
     }
 }

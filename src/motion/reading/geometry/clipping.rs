@@ -92,9 +92,14 @@ impl Face {
 }
 
 /// The power of two times which a positive number is from 1 to 2, if that is far enough from the bounds of numbers.
-fn unit_of(size: f64) -> f64 {
+pub(super) fn unit_of(size: f64) -> f64 {
     let exponent = (size.to_bits() >> 52) as i32 - 1023;
     2f64.powi(-exponent.clamp(-1000, 1000))
+}
+
+/// A product of some lengths in such a unit, in that of coordinates.
+pub(super) fn without_unit(unit: f64, dimension: usize, product: f64) -> f64 {
+    (0..dimension).fold(product, |product, _| product / unit)
 }
 
 /// A box, between two opposite corners.
@@ -120,7 +125,7 @@ impl Clip {
 
     /// A product of some lengths in the box's unit, in that of its coordinates.
     pub(super) fn measure_in(&self, dimension: usize, product: f64) -> f64 {
-        (0..dimension).fold(product, |product, _| product / self.unit)
+        without_unit(self.unit, dimension, product)
     }
 
     /// The coordinate of a face along its axis.

@@ -91,11 +91,22 @@ pub struct VoronoiCell<P> {
 
 /// What a vertex has so far.
 #[derive(Clone, Copy, Debug, Default)]
-struct Target {
+pub(super) struct Target {
     /// From pieces: times 12, 2 and 48, in the plane times 4, 1 and 12.
-    sums: Sums,
+    pub(super) sums: Sums,
     /// Whether pieces do not tell all.
-    is_cut: bool,
+    pub(super) is_cut: bool,
+}
+
+impl Target {
+    /// By what to multiply sums of volumes, facets and moments.
+    pub(super) fn factors<G: Dimension>(&self) -> [f64; 3] {
+        match (self.is_cut, G::D) {
+            (true, _) => [1.0; 3],
+            (false, 2) => [0.25, 1.0, 1.0 / 12.0],
+            (false, _) => [1.0 / 12.0, 0.5, 1.0 / 48.0],
+        }
+    }
 }
 
 /// In place of a target: there is none.
@@ -232,7 +243,7 @@ impl<G: Dimension> Voronoi<'_, G> {
     }
 
     /// Adds all pieces to targets, which are numbered as sites are; on several threads where that pays.
-    fn add_all(
+    pub(super) fn add_all(
         &self,
         unit: f64,
         cells: impl Numbering,
@@ -294,20 +305,20 @@ fn mark(part: &mut [Target], targets: &[usize]) {
 }
 
 /// The targets of a pass: vertices by number.
-struct Targets<S> {
+pub(super) struct Targets<S> {
     /// The numbers of sites.
     sites: S,
     list: Vec<Target>,
 }
 
 impl<S: Numbering> Targets<S> {
-    fn new(sites: S, n: usize) -> Result<Self> {
+    pub(super) fn new(sites: S, n: usize) -> Result<Self> {
         let mut list = Vec::new();
         memory::lengthen(&mut list, n, Target::default())?;
         Ok(Targets { sites, list })
     }
 
-    fn of(&mut self, s: SiteId) -> &mut Target {
+    pub(super) fn of(&mut self, s: SiteId) -> &mut Target {
         &mut self.list[self.sites.number(s.index()).expect("a site of the pass")]
     }
 }
@@ -453,7 +464,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 }
 
 /// No place.
-fn nowhere<G: Dimension>() -> G::Point {
+pub(super) fn nowhere<G: Dimension>() -> G::Point {
     let mut nowhere = G::Point::default();
     (0..G::D).for_each(|axis| nowhere[axis] = f64::NAN);
     nowhere
@@ -461,12 +472,8 @@ fn nowhere<G: Dimension>() -> G::Point {
 
 /// What the sums of a vertex at this place say.
 fn cell_of<G: Dimension>(clip: &Clip, place: &G::Point, target: &Target) -> VoronoiCell<G::Point> {
-    let Target { sums, is_cut } = target;
-    let [of_volume, of_facets, of_moment] = match (is_cut, G::D) {
-        (true, _) => [1.0; 3],
-        (false, 2) => [0.25, 1.0, 1.0 / 12.0],
-        (false, _) => [1.0 / 12.0, 0.5, 1.0 / 48.0],
-    };
+    let sums = &target.sums;
+    let [of_volume, of_facets, of_moment] = target.factors::<G>();
     let volume = of_volume * sums.volume;
     let mut centroid = nowhere::<G>();
     if volume > 0.0 {

@@ -66,16 +66,16 @@ pub struct VoronoiFacet<P> {
 type Wanted = ([VertexId; 2], u32, CellId);
 
 /// A facet: measure, centroid, derivatives.
-type Facet = (f64, Vector, [Vector; 2]);
+pub(super) type Facet = (f64, Vector, [Vector; 2]);
 
-/// Sums over triangles of a facet, with lengths in the unit of a box.
-struct Polygon {
-    /// The measure times the length of the edge, and times two in space.
-    weight: f64,
+/// Sums over triangles of a facet, with lengths in some unit.
+pub(super) struct Polygon {
+    /// The measure times the length of the vector along the edge, and times two in space.
+    pub(super) weight: f64,
     /// The sum of the lengths of its sides.
-    perimeter: f64,
+    pub(super) perimeter: f64,
     /// The sum of the offsets of its points from the middle of the edge, times as much.
-    moment: Vector,
+    pub(super) moment: Vector,
 }
 
 /// What the area of a facet is to its perimeter, in sizes of the box, where it is narrow: twice what corners are off,
@@ -86,12 +86,10 @@ const NARROW: f64 = 4e-8;
 const FACETS_AT_A_TIME: usize = 1 << 15;
 
 impl<G: Dimension> Voronoi<'_, G> {
-    /// The facet of the ring.
-    fn whole_polygon(&self, x: &Vector, along: &Vector, unit: f64) -> Polygon {
-        let half = times(along, 0.5);
-        let from_middle = |cell: CellId| {
-            minus(&times(&minus(&in_space::<G>(&self.centres.of(cell).place), x), unit), &half)
-        };
+    /// The facet of the ring of an edge, of which `half` is a half and `along` any vector along it.
+    pub(super) fn whole_polygon(&self, x: &Vector, half: &Vector, along: &Vector, unit: f64) -> Polygon {
+        let from_middle =
+            |cell: CellId| minus(&times(&minus(&in_space::<G>(&self.centres.of(cell).place), x), unit), half);
         let way = |p: &Vector, q: &Vector| {
             let way = minus(q, p);
             dot(&way, &way).sqrt()
@@ -132,7 +130,7 @@ impl<G: Dimension> Voronoi<'_, G> {
             return None;
         }
         let length = square.sqrt();
-        let polygon = self.whole_polygon(x, &along, clip.unit);
+        let polygon = self.whole_polygon(x, &times(&along, 0.5), &along, clip.unit);
         if G::D == 3 && polygon.weight <= 2.0 * NARROW * polygon.perimeter * length {
             return None;
         }
@@ -245,26 +243,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         let progress = &mut Progress::new(monitor, 2 * self.edge_count());
         let (wanted, offsets) = self.wanted_edges(mask, progress)?;
         let chosen = mask.map(|mask| self.cells_around(&self.shown_in(mask)?)).transpose()?;
-        let cells = self.cell_arrays()?;
-        let centres = Centres::new(self, cells, Some(&clip), chosen.as_deref())?;
-        let mut facets = Vec::new();
-        memory::reserve_exact(&mut facets, wanted.len())?;
-        for some in wanted.chunks(FACETS_AT_A_TIME) {
-            let n_threads = self.mesh.kernel.threads().for_work(some.len(), SHARED_AT_LEAST, 64);
-            let parts = threads::for_ranges(some.len(), n_threads, |range| {
-                let mut voronoi = Voronoi::new(self, cells, &centres);
-                let mut facets: Vec<Facet> = Vec::new();
-                memory::reserve_exact(&mut facets, range.len())?;
-                for &(edge, _, first) in &some[range] {
-                    facets.push(voronoi.facet_of(&clip, edge, first)?);
-                }
-                Ok(facets)
-            })?;
-            for part in parts {
-                memory::append(&mut facets, &part?)?;
-            }
-            progress.advance(some.len())?;
-        }
+        let centres = Centres::new(self, self.cell_arrays()?, Some(&clip), chosen.as_deref())?;
+        let facets = self.facets_of(&wanted, &centres, progress, |voronoi, &(edge, _, first)| {
+            voronoi.facet_of(&clip, edge, first)
+        })?;
         for ((area, centroid, derivatives), ([v, _], k, _)) in facets.into_iter().zip(wanted) {
             let derivatives = derivatives.each_ref().map(of_space::<G>);
             tell(
@@ -273,6 +255,36 @@ impl<G: Dimension> MovingTriangulation<G> {
             );
         }
         Ok(())
+    }
+
+    /// The facets of edges, each by itself; on several threads where that pays.
+    pub(super) fn facets_of<E: Sync>(
+        &self,
+        edges: &[E],
+        centres: &Centres<'_, G::Point>,
+        progress: &mut Progress,
+        facet_of: impl Fn(&mut Voronoi<'_, G>, &E) -> Result<Facet> + Sync,
+    ) -> Result<Vec<Facet>> {
+        let cells = self.cell_arrays()?;
+        let mut facets = Vec::new();
+        memory::reserve_exact(&mut facets, edges.len())?;
+        for some in edges.chunks(FACETS_AT_A_TIME) {
+            let n_threads = self.mesh.kernel.threads().for_work(some.len(), SHARED_AT_LEAST, 64);
+            let parts = threads::for_ranges(some.len(), n_threads, |range| {
+                let mut voronoi = Voronoi::new(self, cells, centres);
+                let mut facets: Vec<Facet> = Vec::new();
+                memory::reserve_exact(&mut facets, range.len())?;
+                for edge in &some[range] {
+                    facets.push(facet_of(&mut voronoi, edge)?);
+                }
+                Ok(facets)
+            })?;
+            for part in parts {
+                memory::append(&mut facets, &part?)?;
+            }
+            progress.advance(some.len())?;
+        }
+        Ok(facets)
     }
 
     /// Tells the facets of the own edges of a constrained triangulation: there is none where the Voronoi cells of the
@@ -325,7 +337,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 }
 
 /// The coordinates that a dimension has.
-fn of_space<G: Dimension>(p: &Vector) -> G::Point {
+pub(super) fn of_space<G: Dimension>(p: &Vector) -> G::Point {
     let mut point = G::Point::default();
     (0..G::D).for_each(|axis| point[axis] = p[axis]);
     point

@@ -183,4 +183,52 @@ impl<G: Dimension> MovingTriangulation<G> {
             move |cell| G::Point::is_circumradius_within(cell, squared_radius),
         )
     }
+
+    /// Tells the [`circumspheres`](Self::circumspheres) of all cells, or of those of these indices, in their order.
+    pub(crate) fn for_circumspheres(
+        &self,
+        cells: Option<&[CellId]>,
+        tell: impl FnMut(CellId, (G::Point, f64)),
+    ) -> Result<()> {
+        match cells {
+            None => tell_all(None, self.circumspheres()?, tell),
+            Some(some) => tell_all(cells, self.circumspheres_of(some)?, tell),
+        }
+        Ok(())
+    }
+
+    /// Tells the [`volumes`](Self::volumes) of all cells, or of those of these indices, in their order.
+    pub(crate) fn for_volumes(&self, cells: Option<&[CellId]>, tell: impl FnMut(CellId, f64)) -> Result<()> {
+        match cells {
+            None => tell_all(None, self.volumes()?, tell),
+            Some(some) => tell_all(cells, self.volumes_of(some)?, tell),
+        }
+        Ok(())
+    }
+
+    /// Tells the [`mask_by_circumradius`](Self::mask_by_circumradius) of all cells, or of those of these indices, in their
+    /// order.
+    pub(crate) fn for_mask_by_circumradius(
+        &self,
+        squared_radius: f64,
+        cells: Option<&[CellId]>,
+        tell: impl FnMut(CellId, bool),
+    ) -> Result<()> {
+        match cells {
+            None => tell_all(None, self.mask_by_circumradius(squared_radius)?, tell),
+            Some(some) => tell_all(cells, self.mask_by_circumradius_of(some, squared_radius)?, tell),
+        }
+        Ok(())
+    }
+}
+
+/// Tells what there is of each cell: of these, or of all from 0 on.
+pub(crate) fn tell_all<T>(
+    cells: Option<&[CellId]>,
+    values: impl Iterator<Item = T>,
+    mut tell: impl FnMut(CellId, T),
+) {
+    for (k, value) in values.enumerate() {
+        tell(cells.map_or_else(|| CellId::at(k), |cells| cells[k]), value);
+    }
 }

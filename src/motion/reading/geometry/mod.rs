@@ -15,6 +15,7 @@
 //! | `voronoi_changes` | which Voronoi cells have changed |
 //! | `centres` | circumcentres for these, of all cells or of chosen ones |
 //! | `dual`, `dual_facets`, `sums` | volumes, boundaries and centroids of Voronoi cells; their facets, with derivatives |
+//! | `whole_cells`, `whole_facets` | those of some vertices, and of some edges, that no box cuts |
 //! | `clipping`, `cut_facets`, `cut_cells` | those that are cut by a box |
 //! | `flat_cells` | Voronoi cells of vertices in one hyperplane |
 //! | `interpolation`, `linear`, `natural` | values between vertices: linear, or of natural neighbours |
@@ -47,10 +48,14 @@ mod voronoi;
 mod voronoi_cells;
 mod voronoi_changes;
 mod weights;
+mod whole_cells;
+mod whole_facets;
 
 pub use boundary::BoundaryFacet;
-pub use dual::VoronoiCells;
-pub use dual_facets::VoronoiFacets;
+pub(crate) use boundary::list_boundary;
+pub use dual::{VoronoiCell, VoronoiCells};
+pub use dual_facets::{VoronoiFacet, VoronoiFacets};
 pub use incidence::Rows;
 pub use interpolation::{Interpolation, VertexValues};
+pub(crate) use measures::tell_all;
 pub use star::OrderedStar;

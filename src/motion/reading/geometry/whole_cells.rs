@@ -1,0 +1,143 @@
+//! Voronoi cells of some vertices that no box cuts: areas or volumes, boundaries and centroids.
+//!
+//! They are sums of pieces, as `dual` says, in a unit that the caller chooses. Where pieces do not tell all, as on the hull,
+//! where an edge is too short for products in the unit, or numbers too large, a cell is put together from its facets, each in
+//! a unit of its own (`whole_facets`).
+
+use crate::delaunay::Dimension;
+use crate::error::Result;
+use crate::ids::VertexId;
+use crate::machine::memory;
+use crate::motion::reading::geometry::centres::{Centres, Numbering, Ranks};
+use crate::motion::reading::geometry::clipping::{Vector, dot, length_by, minus, unit_of, without_unit};
+use crate::motion::reading::geometry::dual::{Target, Targets, VoronoiCell, nowhere};
+use crate::motion::reading::geometry::dual_facets::of_space;
+use crate::motion::reading::geometry::incidence::Neighbours;
+use crate::motion::reading::geometry::progress::Progress;
+use crate::motion::reading::geometry::sums::Sums;
+use crate::motion::reading::geometry::voronoi::{Voronoi, pyramid};
+use crate::motion::state::mesh::Standing;
+use crate::motion::triangulation::MovingTriangulation;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Tells the Voronoi cells of some vertices, which are ascending, one after the other, when all are computed; their
+    /// centroids as seen from the vertex. `size` is about that of the cells, or some thousand times as much. One without an
+    /// end is infinite, and so are all while there are no cells; removed vertices have NaN, hidden ones 0. The triangulation
+    /// has no segments.
+    ///
+    /// # Errors
+    /// [`Cancelled`](crate::Error::Cancelled) if `monitor` returns `false`, [`OutOfMemory`](crate::Error::OutOfMemory);
+    /// then nothing has been told.
+    pub(crate) fn for_whole_voronoi_cells(
+        &self,
+        wanted: impl Iterator<Item = VertexId> + Clone,
+        size: f64,
+        monitor: &mut dyn FnMut(f64) -> bool,
+        tell: &mut dyn FnMut(VertexId, VoronoiCell<G::Point>),
+    ) -> Result<()> {
+        let mut shown = Vec::new();
+        let is_shown = |v: &VertexId| matches!(self.mesh.standing(*v), Standing::Shown(_));
+        memory::collect(&mut shown, wanted.clone().filter(is_shown))?;
+        let (cells, n_sites) = (self.cell_arrays()?, self.mesh.kernel.sites().len());
+        let chosen = self.cells_around(&shown)?;
+        let centres = Centres::new(self, cells, None, Some(&chosen))?;
+        let (_, ranks) = centres.chosen.as_ref().expect("cells are chosen");
+        let numbers = Ranks::of(n_sites, shown.iter().map(|&v| self.mesh.site_of[v].index()))?;
+        let mut targets = Targets::new(&numbers, shown.len())?;
+        let mut voronoi = Voronoi::new(self, cells, &centres);
+        let (unit, progress) = (unit_of(size), &mut Progress::new(monitor, 2 * chosen.len()));
+        voronoi.add_all(unit, ranks, progress, &mut targets)?;
+        voronoi.by_facets(&shown, progress, &mut targets)?;
+        for v in wanted {
+            let none = |x| VoronoiCell { volume: x, area: x, centroid: nowhere::<G>() };
+            let cell = match self.mesh.standing(v) {
+                Standing::Gone => none(f64::NAN),
+                Standing::Hidden(_) => none(0.0),
+                Standing::Shown(_) if chosen.is_empty() => none(f64::INFINITY),
+                Standing::Shown(s) => whole_cell::<G>(unit, targets.of(s)),
+            };
+            tell(v, cell);
+        }
+        Ok(())
+    }
+}
+
+impl<G: Dimension> Voronoi<'_, G> {
+    /// Puts the cells of those of some vertices together from facets of which pieces do not tell all. Their sums are the
+    /// numbers themselves, with the centroid for the moment.
+    fn by_facets(
+        &mut self,
+        vertices: &[VertexId],
+        progress: &mut Progress,
+        targets: &mut Targets<impl Numbering>,
+    ) -> Result<()> {
+        let t = self.t;
+        let mut cut = Vec::new();
+        for &v in vertices {
+            let target = targets.of(t.mesh.site_of[v]);
+            let sums = &target.sums;
+            let parts = sums.moment.iter().chain([&sums.volume, &sums.facets]);
+            target.is_cut |= !parts.fold(true, |all, x| all & x.is_finite());
+            if target.is_cut {
+                memory::push(&mut cut, v)?;
+            }
+        }
+        if cut.is_empty() {
+            return Ok(());
+        }
+        let around = t.cells_around(&cut)?;
+        let mut neighbours = Neighbours::of(self.cells, t.id_count(), around.iter().copied())?;
+        let (mut list, mut pyramids) = (Vec::new(), Vec::new());
+        for v in cut {
+            neighbours.list(v, VertexId::new(0), &mut list, |w, cell| (w, cell))?;
+            let mut sums = Sums::default();
+            pyramids.clear();
+            for &(w, cell) in &list {
+                let (measure, centroid, _) = self.facet_without_box([v, w], cell)?;
+                let way = minus(&self.place(w), &self.place(v));
+                let volume = pyramid::<G>([measure, length_by(dot(&way, &way), &way)]);
+                sums.volume += volume;
+                sums.facets += measure;
+                memory::push(&mut pyramids, (volume, centroid))?;
+                progress.advance(self.ring.cells.len())?;
+            }
+            sums.moment = mean_of::<G>(&pyramids, sums.volume);
+            targets.of(t.mesh.site_of[v]).sums = sums;
+        }
+        Ok(())
+    }
+}
+
+/// The centroid of pyramids of some volume in all, by the centroids of their bases as seen from the apex.
+fn mean_of<G: Dimension>(pyramids: &[(f64, Vector)], total: f64) -> Vector {
+    let mut mean = [0.0; 3];
+    for (volume, centroid) in pyramids.iter().filter(|(volume, _)| *volume > 0.0) {
+        let share = volume / total * (G::D as f64 / (G::D + 1) as f64);
+        (0..3).for_each(|axis| mean[axis] += share * centroid[axis]);
+    }
+    mean
+}
+
+/// What the sums of a vertex say.
+fn whole_cell<G: Dimension>(unit: f64, target: &Target) -> VoronoiCell<G::Point> {
+    let (sums, [of_volume, of_facets, of_moment]) = (&target.sums, target.factors::<G>());
+    if target.is_cut {
+        let centroid = if sums.volume > 0.0 && sums.volume < f64::INFINITY {
+            of_space::<G>(&sums.moment)
+        } else {
+            nowhere::<G>()
+        };
+        return VoronoiCell { volume: sums.volume, area: sums.facets, centroid };
+    }
+    let volume = of_volume * sums.volume;
+    let told = without_unit(unit, G::D, volume).max(0.0);
+    let mut centroid = nowhere::<G>();
+    if volume > 0.0 && told > 0.0 && told < f64::INFINITY {
+        (0..G::D).for_each(|axis| centroid[axis] = of_moment * sums.moment[axis] / volume / unit);
+    }
+    VoronoiCell {
+        volume: told,
+        area: without_unit(unit, G::D - 1, of_facets * sums.facets).max(0.0),
+        centroid,
+    }
+}

@@ -1,0 +1,114 @@
+//! Voronoi facets that no box cuts, with centroids and derivatives of the volumes on their sides.
+//!
+//! Each is computed as `dual_facets` says, in a unit of its own, so that neither its products overflow nor the length of
+//! its edge matters.
+//!
+//! # Accuracy
+//!
+//! Let R be the greatest circumradius of the cells around the edge, M the greatest magnitude of a coordinate of their
+//! circumcentres, and h = 10⁻⁸ R + 10⁻¹⁵ M: corners are off by less than h. With P the perimeter and d the diameter of
+//! the facet, its measure A is off by h P, its centroid by h P d / A, a derivative, which is linear in measure and moment,
+//! by h P (|x − c| + d) / L. Where A ≤ 2 h P the mean of the corners stands for the centroid: off by d + h at most.
+
+use crate::delaunay::Dimension;
+use crate::error::Result;
+use crate::ids::{CellId, VertexId};
+use crate::machine::memory;
+use crate::motion::reading::geometry::centres::Centres;
+use crate::motion::reading::geometry::clipping::{
+    dot, greatest, in_space, length_by, minus, normalised, times, unit_of, without_unit,
+};
+use crate::motion::reading::geometry::dual_facets::{Facet, VoronoiFacet, of_space};
+use crate::motion::reading::geometry::progress::Progress;
+use crate::motion::reading::geometry::voronoi::Voronoi;
+use crate::motion::triangulation::MovingTriangulation;
+
+/// What corners are off in the unit of a facet, in which no coordinate of a way from its vertex to one of them is above 2, and
+/// so no circumradius above 3.5.
+const OFF: f64 = 3.5e-8;
+
+/// What they are off besides, in magnitudes of coordinates.
+const OFF_BY_PLACE: f64 = 1e-15;
+
+impl<G: Dimension> Voronoi<'_, G> {
+    /// The facet of an edge, of which `first` is a cell: its centroid as seen from the edge's first vertex. Where it has no
+    /// end, or none within the range of numbers, its measure is infinite and the rest NaN.
+    pub(super) fn facet_without_box(&mut self, edge: [VertexId; 2], first: CellId) -> Result<Facet> {
+        self.ring.go_around(self.cells, edge, first)?;
+        let [x, y] = edge.map(|v| self.place(v));
+        let way = minus(&y, &x);
+        let to = |&cell: &CellId| minus(&in_space::<G>(&self.centres.of(cell).place), &x);
+        let reach = self.ring.cells.iter().fold(greatest(&way), |most, cell| most.max(greatest(&to(cell))));
+        if !self.ring.is_closed || reach == f64::INFINITY {
+            return Ok((f64::INFINITY, [f64::NAN; 3], [[f64::NAN; 3]; 2]));
+        }
+        let unit = unit_of(reach);
+        let (half, normal) = (times(&way, 0.5 * unit), normalised(&way));
+        let length = unit * length_by(dot(&way, &way), &way);
+        let polygon = self.whole_polygon(&x, &half, &normal, unit);
+        let factor = if G::D == 2 { 1.0 } else { 0.5 };
+        let measure = factor * polygon.weight;
+        let off = OFF + OFF_BY_PLACE * unit * (reach + greatest(&x));
+        // In the plane the mean of the corners is the centroid.
+        let by_mean = G::D == 2 || measure <= 2.0 * off * polygon.perimeter;
+        let (share, mut sum) = (1.0 / self.ring.cells.len() as f64, [0.0; 3]);
+        for cell in self.ring.cells.iter().filter(|_| by_mean) {
+            let to = to(cell);
+            (0..3).for_each(|axis| sum[axis] += share * to[axis]);
+        }
+        let (mut centroid, mut derivatives) = ([f64::NAN; 3], [[0.0; 3]; 2]);
+        for axis in 0..3 {
+            if measure > 0.0 {
+                let by_moment = || (polygon.moment[axis] / polygon.weight + half[axis]) / unit;
+                centroid[axis] = if by_mean { sum[axis] } else { by_moment() };
+            }
+            let moment = factor * polygon.moment[axis];
+            // An edge may be too short for the unit.
+            let from_middle = if moment == 0.0 { 0.0 } else { moment / length };
+            let middle = 0.5 * measure * normal[axis];
+            derivatives[0][axis] = without_unit(unit, G::D - 1, middle - from_middle);
+            derivatives[1][axis] = without_unit(unit, G::D - 1, -middle - from_middle);
+        }
+        Ok((without_unit(unit, G::D - 1, measure), centroid, derivatives))
+    }
+}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Tells the Voronoi facets of some edges, each with a cell of it, by their numbers in this list: centroids are as seen
+    /// from the first vertex. All are computed before. The triangulation has no segments.
+    ///
+    /// # Errors
+    /// [`Cancelled`](crate::Error::Cancelled) if `monitor` returns `false`, [`OutOfMemory`](crate::Error::OutOfMemory);
+    /// then nothing has been told.
+    pub(crate) fn for_whole_voronoi_facets(
+        &self,
+        edges: &[([VertexId; 2], CellId)],
+        monitor: &mut dyn FnMut(f64) -> bool,
+        tell: &mut dyn FnMut(usize, VoronoiFacet<G::Point>),
+    ) -> Result<()> {
+        let progress = &mut Progress::new(monitor, edges.len());
+        let mut firsts = Vec::new();
+        let is_next = |k: &usize| *k == 0 || edges[*k].0[0] != edges[*k - 1].0[0];
+        memory::collect(&mut firsts, (0..edges.len()).filter(is_next).map(|k| edges[k].0[0]))?;
+        let chosen = self.cells_around(&firsts)?;
+        let centres = Centres::new(self, self.cell_arrays()?, None, Some(&chosen))?;
+        let facets = self.facets_of(edges, &centres, progress, |voronoi, &(edge, first)| {
+            voronoi.facet_without_box(edge, first)
+        })?;
+        for (k, (area, centroid, derivatives)) in facets.into_iter().enumerate() {
+            let derivatives = derivatives.each_ref().map(of_space::<G>);
+            tell(k, VoronoiFacet { area, centroid: of_space::<G>(&centroid), derivatives });
+        }
+        Ok(())
+    }
+
+    /// Visits the edges of each vertex of the first `n` ids to vertices of higher ids, with a cell of each, in lexicographic
+    /// order.
+    pub(crate) fn for_edges_of_first(
+        &self,
+        n: usize,
+        visit: impl FnMut([VertexId; 2], CellId) -> Result<()>,
+    ) -> Result<()> {
+        self.for_edges(VertexId::range(0..n), visit).map(drop)
+    }
+}
