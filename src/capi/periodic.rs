@@ -43,7 +43,9 @@ use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 /// deldrift_stage_insertions, deldrift_stage_removals, deldrift_discard_moves, deldrift_commit_timestamp,
 /// deldrift_commit_positions, deldrift_vertex_count, deldrift_id_count, deldrift_cell_count, deldrift_staged_count,
 /// deldrift_memory_bytes, deldrift_timestamp, deldrift_statistics, deldrift_is_present, deldrift_position,
-/// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges, and
+/// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges,
+/// deldrift_locate, deldrift_locate_points, deldrift_locate_in_period, deldrift_nearest_vertex, deldrift_nearest_vertices,
+/// deldrift_vertices_in_ball, deldrift_barycentric, deldrift_interpolate with DELDRIFT_INTERPOLATION_LINEAR, and
 /// deldrift_voronoi_volumes without a box. All others return DELDRIFT_PERIODIC. Cells are numbered anew by each commit.
 ///
 /// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves

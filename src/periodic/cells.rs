@@ -44,7 +44,7 @@ type Row = [u32; 4];
 
 /// Rows have numbers that are as good as random in their low bits, once multiplied.
 #[derive(Default)]
-struct RowHasher(u64);
+pub(super) struct RowHasher(u64);
 
 impl Hasher for RowHasher {
     fn finish(&self) -> u64 {

@@ -215,7 +215,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         Ok(self.cells.get_or_init(|| read))
     }
 
-    fn least_of(&self, cells: &PeriodicCells<G>, cell: usize) -> VertexId {
+    pub(super) fn least_of(&self, cells: &PeriodicCells<G>, cell: usize) -> VertexId {
         cells.corners[cell].as_ref()[usize::from(cells.least[cell])]
     }
 
