@@ -63,22 +63,28 @@ fn side<G: Dimension>(corners: &[G::Point], i: usize, p: &G::Point) -> f64 {
     G::orient(&G::filter(&low, &high), &points)
 }
 
+/// The corners of a cell after a translation from where its shifts have it.
+pub(super) fn corners<G: Dimension>(
+    t: &PeriodicTriangulation<G>,
+    points: &[G::Point],
+    basis: &[G::Point],
+    cell: CellId,
+    shift: [i64; 3],
+) -> Vec<G::Point> {
+    let row = t.cells().unwrap().corners[cell];
+    let shifts: Vec<_> = t.cell_shifts().unwrap().skip(cell.index() * (G::D + 1)).take(G::D + 1).collect();
+    let by = |i: usize| [0, 1, 2].map(|j| shifts[i][j] + shift[j]);
+    (0..=G::D).map(|i| place::<G>(points, basis, row.as_ref()[i].get(), by(i))).collect()
+}
+
 /// What a triangulation says of where positions are.
 struct Found<'t, G: Dimension> {
     t: &'t PeriodicTriangulation<G>,
     points: &'t [G::Point],
     basis: &'t [G::Point],
-    shifts: Vec<[i64; 3]>,
 }
 
 impl<G: Dimension> Found<'_, G> {
-    fn corners(&self, cell: CellId, shift: [i64; 3]) -> Vec<G::Point> {
-        let row = self.t.cells().unwrap().corners[cell];
-        let shifts = &self.shifts[cell.index() * (G::D + 1)..];
-        let by = |i: usize| [0, 1, 2].map(|j| shifts[i][j] + shift[j]);
-        (0..=G::D).map(|i| place::<G>(self.points, self.basis, row.as_ref()[i].get(), by(i))).collect()
-    }
-
     fn check(&self, p: &G::Point, location: Location, shift: [i64; 3]) {
         match location {
             Location::Vertex(v) => {
@@ -87,12 +93,12 @@ impl<G: Dimension> Found<'_, G> {
                 assert_eq!(self.t.coincident_representative(v), Ok(v));
             }
             Location::Cell(cell) => {
-                let corners = self.corners(cell, shift);
+                let corners = corners(self.t, self.points, self.basis, cell, shift);
                 assert!((0..=G::D).all(|i| side::<G>(&corners, i, p) >= 0.0), "{p:?} {corners:?}");
                 assert!(corners.iter().all(|q| q.as_ref() != p.as_ref()));
             }
             Location::Outside(cell) => {
-                let corners = self.corners(cell, shift);
+                let corners = corners(self.t, self.points, self.basis, cell, shift);
                 let hull = self.t.cells().unwrap().neighbours[cell];
                 let is_before = |i: usize| hull.as_ref()[i] == NO_CELL && side::<G>(&corners, i, p) < 0.0;
                 assert!((0..=G::D).any(is_before), "{p:?} {corners:?}");
@@ -126,7 +132,7 @@ fn check_located<G: Dimension>(
     basis: &[G::Point],
     rng: &mut Rng,
 ) {
-    let found = Found { t, points, basis, shifts: t.cell_shifts().unwrap().collect() };
+    let found = Found { t, points, basis };
     let positions: Vec<G::Point> = (0..40).map(|_| position::<G>(rng, points, basis)).collect();
     let mut told = positions.iter();
     t.locate_in_period(&positions, None, |location, shift| {
