@@ -51,7 +51,7 @@ from ._geometry import Boundary, VoronoiCells, VoronoiDerivatives
 from ._library import QualityReport, Report, version
 from ._mesh import Mesh
 from ._motion import Changes
-from ._periodic import PeriodicDelaunay
+from ._periodic import PeriodicDelaunay, PeriodicLocations
 from ._refining import MadeVertices, RefinedWeights
 from ._segments import Chains, Segments, Splits
 from ._step import Step, Trial
@@ -92,6 +92,7 @@ __all__ = [
     "OutOfRange",
     "PassingError",
     "PeriodicDelaunay",
+    "PeriodicLocations",
     "Prepared",
     "QualityReport",
     "RefinedWeights",

@@ -94,7 +94,10 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     pub fn nearest_vertex(&self, position: &G::Point) -> Result<Option<VertexId>> {
         let (q, _) = self.lattice.wrapped("position", 0, position)?;
         let start = self.start_at(self.inside.t.locate(&q)?)?;
-        Ok(self.nearest_of(&q, start)?.into_iter().map(|(vertex, _)| vertex).min())
+        let nearest = self.nearest_of(&q, start)?.into_iter().min_by(|(vertex, image), (other, of_other)| {
+            compare_distance(&q, image, of_other).then(vertex.cmp(other))
+        });
+        Ok(nearest.map(|(vertex, _)| vertex))
     }
 
     /// The `k` vertices nearest to each of several positions, rounded to the grid of the lattice, told to `found` one after the
