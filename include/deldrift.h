@@ -1490,9 +1490,13 @@ deldrift_status deldrift_validate(const deldrift_triangulation *t,
 ///
 /// position: 2 or 3 numbers.
 ///
+/// In a periodic triangulation the point is rounded to the grid of deldrift_create_periodic, as a vertex would be; it may
+/// be in any period. The location is that of the translation of a vertex or a cell that is there:
+/// deldrift_locate_in_period tells which one. It is outside only of what is open in some direction.
+///
 /// Cost: the cells that a walk crosses from where an earlier one ended, or from a vertex that is near: a few for most
-/// sets, m at most. While there are no cells, constant. After a change the first call also does what the first
-/// deldrift_cells does.
+/// sets, m at most. While there are no cells, constant; n in a periodic one. After a change the first call also does what
+/// the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
 /// DELDRIFT_OUT_OF_MEMORY.
@@ -1501,7 +1505,8 @@ deldrift_status deldrift_locate(const deldrift_triangulation *t,
                                 deldrift_location *location);
 
 /// Where count points lie, exactly, to locations, which has room for count: as count calls of deldrift_locate,
-/// and faster if each point is near the one before it.
+/// and faster if each point is near the one before it. deldrift_locate_in_period also tells in which period of a periodic
+/// triangulation.
 ///
 /// positions: 2 or 3 numbers for each point; NULL if count is 0, as may locations be. hint: where to begin to look
 /// for the first point, for example the last answer of the call before; NULL if nothing is known. It only
@@ -1518,11 +1523,36 @@ deldrift_status deldrift_locate_points(const deldrift_triangulation *t,
                                        const deldrift_location *hint,
                                        deldrift_location *locations);
 
+/// Where count points lie, exactly, to locations, and in which period what is there, to shifts: deldrift_locate_points for
+/// programs that need the places of the corners.
+///
+/// positions, hint, locations: as for deldrift_locate_points. shifts: receives a row of 2 (2D) or 3 (3D) whole numbers for
+/// each point, multiples of the vectors, 0 beyond the last of these: by them the vertex is to be translated from its
+/// position to be at the point, or the cell from where deldrift_cell_shifts has it to have the point, or, where the point is
+/// outside, a facet of the hull that faces it. So the corners of the cell are at their positions and the sums of these
+/// multiples and of theirs. May be NULL if count is 0.
+///
+/// In a periodic triangulation the points are rounded to the grid of deldrift_create_periodic, as vertices would be. All
+/// shifts are 0 where there are no cells or vertices at the point, and where the triangulation is not periodic.
+///
+/// Cost: count times that of deldrift_locate. After a change the first call also does what the first deldrift_cells
+/// does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
+deldrift_status deldrift_locate_in_period(const deldrift_triangulation *t,
+                                          const double *positions,
+                                          size_t count,
+                                          const deldrift_location *hint,
+                                          deldrift_location *locations,
+                                          int64_t *shifts);
+
 /// The vertex nearest to a point, to *vertex: the lowest id among the nearest, or where vertices have keys the one
 /// of the lowest key; DELDRIFT_NONE if the
 /// triangulation has no vertices.
 ///
-/// position: 2 or 3 numbers.
+/// position: 2 or 3 numbers. In a periodic triangulation it may be in any period, and is rounded as for deldrift_locate;
+/// the distance is that of the nearest image of a vertex.
 ///
 /// Cost: that of deldrift_locate, and the stars of the vertices on the way and of all that are nearest. While there are
 /// no cells, n.
@@ -1569,8 +1599,11 @@ deldrift_status deldrift_hidden_vertices(const deldrift_triangulation *t,
 ///
 /// It is fastest if each position is near the one before it. The first id of a row is that of deldrift_nearest_vertex.
 ///
+/// In a periodic triangulation positions may be in any period, and are rounded as for deldrift_locate. Each vertex comes
+/// once, by the distance of its nearest image (the minimum image); images farther away do not count.
+///
 /// Cost: count times that of deldrift_nearest_vertex, the stars of the k vertices, and k log k; with k = 0 constant.
-/// While there are no cells, count times n.
+/// While there are no cells, count times n; n more in a periodic triangulation with hidden vertices.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
@@ -1587,8 +1620,11 @@ deldrift_status deldrift_nearest_vertices(const deldrift_triangulation *t,
 /// capacity ids; deldrift_vertex_count is always enough. count: receives their number, which is also written when the
 /// buffer is too small. NULL with capacity 0 asks for the count alone, which takes as long.
 ///
+/// In a periodic triangulation the centre may be in any period, and is rounded as for deldrift_locate. A vertex is in the
+/// ball if any image of it is; each is told once. The ball may be larger than the box.
+///
 /// Cost: that of deldrift_nearest_vertex, the stars of the vertices in the ball, and k log k for the k of them; n log n
-/// at most but for the former. While there are no cells, n.
+/// at most but for the former. While there are no cells, and in a periodic triangulation with hidden vertices, n.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
 /// DELDRIFT_INVALID_VALUE for a squared radius that is negative or NaN, DELDRIFT_BUFFER_TOO_SMALL,
@@ -2602,7 +2638,9 @@ deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
 /// deldrift_stage_insertions, deldrift_stage_removals, deldrift_discard_moves, deldrift_commit_timestamp,
 /// deldrift_commit_positions, deldrift_vertex_count, deldrift_id_count, deldrift_cell_count, deldrift_staged_count,
 /// deldrift_memory_bytes, deldrift_timestamp, deldrift_statistics, deldrift_is_present, deldrift_position,
-/// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges, and
+/// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges,
+/// deldrift_locate, deldrift_locate_points, deldrift_locate_in_period, deldrift_nearest_vertex, deldrift_nearest_vertices,
+/// deldrift_vertices_in_ball, deldrift_barycentric, deldrift_interpolate with DELDRIFT_INTERPOLATION_LINEAR, and
 /// deldrift_voronoi_volumes without a box. All others return DELDRIFT_PERIODIC. Cells are numbered anew by each commit.
 ///
 /// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves
@@ -2708,6 +2746,9 @@ deldrift_status deldrift_edge_shifts(const deldrift_triangulation *t,
 /// reproduced but for rounding, with either method. Which cell or which neighbours count is decided exactly. A position
 /// takes as long as deldrift_locate_points, and with natural neighbours some microseconds more.
 ///
+/// In a periodic triangulation positions may be in any period, and are rounded as for deldrift_locate. An image of a
+/// vertex has the values of the vertex. Only DELDRIFT_INTERPOLATION_LINEAR is served; the other method is DELDRIFT_PERIODIC.
+///
 /// Cost: count times that of deldrift_locate and n_values; with natural neighbours also the cells whose circle or
 /// sphere has the position inside. After a change the first call also does what the first deldrift_cells does.
 ///
@@ -2738,6 +2779,9 @@ deldrift_status deldrift_interpolate(const deldrift_triangulation *t,
 /// The sign of each is exact, and so is 0; the value has a relative error of at most 2.5e-13, however flat the cell.
 /// (Where an area, a volume or the value itself is below the least normal number, 2.2e-308, it is less accurate.) What
 /// is beyond the range of numbers is infinite. A row adds up to 1 but for these errors.
+///
+/// In a periodic triangulation positions may be in any period, and are rounded as for deldrift_locate. The weights are
+/// those in the translation of the cell that has the position inside or on its boundary; where there is none, the row is NaN.
 ///
 /// Cost: count. After a change the first call also does what the first deldrift_cells does.
 ///
