@@ -74,6 +74,7 @@ pub unsafe extern "C" fn deldrift_interpolate(
         }
         check_product::<f64>("values", value_count, n_values)?;
         let values = VertexValues { values: values.get()?, n_values };
+        in_any!(t => positions.of(t).map(drop))?;
         check_product::<f64>("results", count, n_values)?;
         let hint = hint_at(hint)?;
         let outside = (!outside.is_null()).then(|| outside.get()).transpose()?;
