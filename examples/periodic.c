@@ -87,6 +87,20 @@ static void wrap(const double *box) {
     }
 }
 
+// Whether what is in the middle of the box is also ten boxes away, ten boxes away.
+static bool is_everywhere(const deldrift_triangulation *t, const double *box) {
+    double places[4];
+    int64_t shifts[4];
+    deldrift_location at[2];
+    for (int axis = 0; axis < 2; axis++) {
+        places[axis] = 0.5 * (box[axis] + box[2 + axis]);
+        places[2 + axis] = places[axis] + 10 * box[axis];
+    }
+    check(deldrift_locate_in_period(t, places, 2, NULL, at, shifts));
+    return at[0].kind == DELDRIFT_LOCATION_CELL && at[0].index == at[1].index && shifts[2] == shifts[0] + 10 &&
+           shifts[3] == shifts[1];
+}
+
 int main(int argc, char **argv) {
     double box[] = {1, 0, 0, 1}, used[4], error = 0, momentum = 0;
     size_t flips = 0, kept = 0, count = 0, cells = 0;
@@ -129,6 +143,7 @@ int main(int argc, char **argv) {
     FILE *file = argc > 1 ? fopen(argv[1], "w") : tmpfile();
     if (file == NULL) return 1;
     draw(file, t, box);
+    const bool is_found = is_everywhere(t, used);
     deldrift_destroy(t);
-    return fclose(file) == 0 && cells == 2 * N && kept == flips ? 0 : 1;
+    return fclose(file) == 0 && is_found && cells == 2 * N && kept == flips ? 0 : 1;
 }

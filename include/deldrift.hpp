@@ -740,6 +740,16 @@ public:
         require_ok(deldrift_locate_points(native(), numbers.data(), locations.size(), hint, locations.data()));
         return locations;
     }
+    // And in which period what is there is.
+    PeriodLocations locate_in_period(const Positions &positions, const deldrift_location *hint = nullptr) const {
+        std::vector<double> room;
+        const span<const double> numbers = positions.numbers("positions", dimension_, room);
+        const std::size_t count = count_of("positions", numbers);
+        PeriodLocations found{std::vector<deldrift_location>(count), std::vector<std::int64_t>(count * dimension_)};
+        require_ok(deldrift_locate_in_period(native(), numbers.data(), count, hint, found.locations.data(),
+                                             found.shifts.data()));
+        return found;
+    }
     // DELDRIFT_NONE if there are no vertices.
     std::uint32_t nearest_vertex(span<const double> position) const {
         return ask<std::uint32_t>(deldrift_nearest_vertex, point(position));

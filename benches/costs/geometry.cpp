@@ -291,6 +291,17 @@ std::vector<Call> geometry_calls() {
              c.meter.time([&] { must(deldrift_cell_shifts(c.t, shifts.data(), nullptr, c.cells(), &count)); });
              c.meter.count(double(c.n + count));
          }},
+        {"deldrift_locate_in_period", "anywhere in a periodic one", [](Context &c) {
+             make_periodic(c);
+             const Points p = c.many(c.n, &Context::anywhere);
+             std::vector<deldrift_location> locations(c.n + 1);
+             std::vector<std::int64_t> shifts(c.n * c.dimension + 1);
+             c.meter.reset();
+             c.meter.time([&] {
+                 must(deldrift_locate_in_period(c.t, p.data(), c.n, nullptr, locations.data(), shifts.data()));
+             });
+             c.meter.count(double(c.n));
+         }},
         {"deldrift_edge_shifts", "of a periodic one", [](Context &c) {
              make_periodic(c);
              c.meter.reset();

@@ -477,7 +477,8 @@ static bool serves_periodic(const char *name) {
         "copy_positions", "coincident_representative", "cells", "copy_cells", "edges", "voronoi_volumes",
         "voronoi_facets", "voronoi_cells", "voronoi_derivatives", "circumcentres", "volumes", "mask_by_circumradius",
         "mask_boundary", "hull_facets", "update_circumcentres", "update_volumes", "update_mask_by_circumradius",
-        "stage_vectors", "vectors", "cell_shifts", "edge_shifts", "take_changes"};
+        "stage_vectors", "vectors", "cell_shifts", "edge_shifts", "take_changes", "locate", "locate_points",
+        "locate_in_period", "nearest_vertex", "nearest_vertices", "vertices_in_ball", "barycentric", "interpolate"};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         if (strcmp(name + strlen("deldrift_"), all[k]) == 0) return true;
     }

@@ -86,6 +86,7 @@ pub const ROWS: &[Row] = &[
     row("deldrift_tolerance", &["t", "1", "out.numbers"]),
     row("deldrift_locate", &["t", "moved", "&out.location"]),
     row("deldrift_locate_points", &["t", "moved", "3", "near_by", "out.locations"]),
+    row("deldrift_locate_in_period", &["t", "moved", "3", "near_by", "out.locations", "out.shifts"]),
     row("deldrift_nearest_vertex", &["t", "moved", "&out.number"]),
     row("deldrift_coincident_representative", &["t", "HIDDEN", "&out.number"]),
     row("deldrift_hidden_vertices", &["t", "out.ids", "out.more_ids", "2", "&out.count"]),

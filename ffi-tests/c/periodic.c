@@ -247,6 +247,70 @@ static void check(const set *s, const deldrift_triangulation *t) {
     check_voronoi(s, t, edges, shifts, n_edges);
 }
 
+static bool is_same(const double *p, const double *q, size_t d) { return memcmp(p, q, d * sizeof *p) == 0; }
+
+// What is at vertices, and in the middle of cells, some periods away.
+static void check_located(const set *s, const deldrift_triangulation *t) {
+    static int64_t shifts[ROOM * 12], found[ROOM * 3];
+    static double middles[ROOM * 3], weights[ROOM * 4], values[MOST];
+    static deldrift_location locations[ROOM];
+    static uint32_t cells[ROOM];
+    const size_t d = s->dimension, n = d + 1;
+    const int64_t away[3] = {3, -2, s->vector_count > 2 ? 5 : 0};
+    const int64_t by[3] = {away[0], s->vector_count > 1 ? away[1] : 0, away[2]};
+    double at[3], nearest_place[3];
+    uint32_t nearest, ids[MOST];
+    size_t count;
+    deldrift_location location;
+    for (uint32_t v = 0; v < s->n; v++) {
+        translated(s, v, by, at);
+        OK(deldrift_locate_in_period(t, at, 1, NULL, &location, found));
+        CHECK(location.kind == DELDRIFT_LOCATION_VERTEX && location.index <= v);
+        translated(s, location.index, found, nearest_place);
+        CHECK(is_same(at, nearest_place, d));
+        OK(deldrift_locate(t, at, &location));
+        CHECK(location.kind == DELDRIFT_LOCATION_VERTEX && location.index <= v);
+        OK(deldrift_nearest_vertex(t, at, &nearest));
+        CHECK(nearest == location.index);
+        OK(deldrift_vertices_in_ball(t, at, 0, ids, MOST, &count));
+        CHECK(count >= 1 && ids[0] == nearest);
+        values[v] = v;
+    }
+    OK(deldrift_vertices_in_ball(t, s->points, 1e9, ids, MOST, &count));
+    CHECK(count == s->n && ids[count - 1] == count - 1);
+    const deldrift_cells_view view = cells_of(t);
+    OK(deldrift_cell_shifts(t, shifts, NULL, ROOM, &count));
+    for (size_t c = 0; c < count; c++) {
+        for (size_t i = 0; i < n; i++) {
+            int64_t shift[3] = {0, 0, 0};
+            for (size_t k = 0; k < s->vector_count; k++) shift[k] = shifts[(c * n + i) * d + k] + by[k];
+            translated(s, view.vertices[c * n + i], shift, at);
+            for (size_t axis = 0; axis < d; axis++) middles[c * d + axis] = (i > 0 ? middles[c * d + axis] : 0) + at[axis] / (double)n;
+        }
+    }
+    OK(deldrift_locate_points(t, middles, count, NULL, locations));
+    OK(deldrift_locate_in_period(t, middles, count, locations, locations, found));
+    for (size_t c = 0; c < count; c++) {
+        CHECK(locations[c].kind == DELDRIFT_LOCATION_CELL);
+        cells[c] = locations[c].index;
+        // But for cells so flat that their middle is rounded out of them.
+        if (cells[c] == c) CHECK(memcmp(found + c * d, by, d * sizeof *by) == 0);
+    }
+    OK(deldrift_barycentric(t, middles, cells, count, weights));
+    for (size_t c = 0; c < count; c++) {
+        double sum = 0, value = 0, given;
+        for (size_t i = 0; i < n; i++) {
+            sum += weights[c * n + i];
+            value += weights[c * n + i] * view.vertices[cells[c] * n + i];
+        }
+        OK(deldrift_interpolate(t, DELDRIFT_INTERPOLATION_LINEAR, values, s->n, 1, middles + c * d, 1, NULL, NULL, &given));
+        CHECK(fabs(sum - 1) < 1e-12 && fabs(value - given) < 1e-6);
+    }
+    CHECK_STATUS(deldrift_interpolate(t, DELDRIFT_INTERPOLATION_NATURAL_NEIGHBOUR, values, s->n, 1, middles, 1, NULL, NULL,
+                                      weights), DELDRIFT_PERIODIC);
+    CHECK_MESSAGE("method is 1, but t is periodic");
+}
+
 // Places on a grid, so that they are used as they are.
 static double random_place(uint64_t *state) { return floor(next_random(state) * 1048576) / 1048576; }
 
@@ -263,6 +327,7 @@ static void moves_and_boxes(uint32_t dimension, size_t n, size_t vector_count, u
     OK(deldrift_vertex_count(t, &count));
     CHECK(count == n);
     check(&s, t);
+    check_located(&s, t);
     for (int step = 0; step < 6; step++) {
         for (size_t i = 0; i < n * dimension; i++) {
             s.points[i] += (random_place(&seed) - 0.5) / (step % 2 == 0 ? 1024 : 4);
@@ -277,6 +342,7 @@ static void moves_and_boxes(uint32_t dimension, size_t n, size_t vector_count, u
         OK(deldrift_commit_positions(t, s.points, n, &report));
         CHECK(report.timestamp == (uint64_t)step + 1 && report.moved == n);
         check(&s, t);
+        check_located(&s, t);
     }
     deldrift_destroy(t);
 }

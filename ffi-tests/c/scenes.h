@@ -66,7 +66,7 @@ typedef enum { CREATE, CREATE_WITH_KEYS, CREATE_PERIODIC, RELOCATE, INSERT, INSE
     CELL_OF_EACH_VERTEX, BARYCENTRIC, MASK_WITHOUT_FLAT_CELLS, SEGMENTS_OF_CELLS, CELLS_OF_SEGMENTS, NESTING_LEVELS,
     LABEL_CELLS, UPDATE_LABELS, BOUNDARY_CHAINS, REFINE, COARSEN, RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT,
     PERIODIC_POSITIONS, STAGE_VECTORS, CELL_SHIFTS, EDGE_SHIFTS, PERIODIC_CELLS, PERIODIC_FACETS, PERIODIC_CENTRES,
-    N_KINDS } kind;
+    LOCATE_IN_PERIOD, PERIODIC_NEAREST, PERIODIC_BALL, PERIODIC_LINEAR, PERIODIC_WEIGHTS, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
     "deldrift_create", "deldrift_create_with_keys", "deldrift_create_periodic", "deldrift_relocate_vertex", "deldrift_insert_vertex",
@@ -97,6 +97,8 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_load_file", "deldrift_write_vtu", "deldrift_write_medit",
     "deldrift_commit_positions, periodic", "deldrift_stage_vectors", "deldrift_cell_shifts", "deldrift_edge_shifts", "deldrift_voronoi_cells, periodic",
     "deldrift_voronoi_derivatives, periodic", "deldrift_circumcentres, periodic",
+    "deldrift_locate_in_period", "deldrift_nearest_vertices, periodic", "deldrift_vertices_in_ball, periodic",
+    "deldrift_interpolate, periodic", "deldrift_barycentric, periodic",
 };
 
 enum { MOST_PAIRS = 24 };
@@ -482,6 +484,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     if (s->call.kind == REFINE) quality.greatest_area = s->area / 40;
     quality.has_weights = 1;
     const char *file = file_of_test();
+    static deldrift_location locations_out[ROOM];
     int32_t *const labels = (int32_t *)(void *)ids_out;
     static uint32_t segments_out[ROOM], chains_out[ROOM];
     // After all that may be staged, but in flat sets, where vertices are on them.
@@ -509,6 +512,16 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case PERIODIC_FACETS:
             status = deldrift_voronoi_derivatives(s->periodic, NULL, NULL, NULL, 0, numbers_out, NULL, NULL, ROOM, &count);
             break;
+        case LOCATE_IN_PERIOD:
+            status = deldrift_locate_in_period(s->periodic, s->places, s->n, NULL, locations_out, shifts_out);
+            break;
+        case PERIODIC_NEAREST: status = deldrift_nearest_vertices(s->periodic, to, 1, 9, ids_out); break;
+        case PERIODIC_BALL: status = deldrift_vertices_in_ball(s->periodic, at, 0.09, ids_out, ROOM, &count); break;
+        case PERIODIC_LINEAR:
+            status = deldrift_interpolate(s->periodic, DELDRIFT_INTERPOLATION_LINEAR, s->points, s->n, 1, at, 1, NULL, NULL,
+                                          numbers_out);
+            break;
+        case PERIODIC_WEIGHTS: status = deldrift_barycentric(s->periodic, at, &some_cell, 1, numbers_out); break;
         case CREATE_WITH_KEYS: status = deldrift_create_with_keys(d, s->points, keys_of(s->n), s->n, &options, &made); break;
         case INSERT_WITH_KEY: status = deldrift_insert_vertex_with_key(s->t, to, 3, &out); break;
         case INSERT: status = deldrift_insert_vertex(s->t, to, &out); break;
@@ -683,6 +696,10 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case PERIODIC_CELLS:
         case PERIODIC_CENTRES:
         case PERIODIC_FACETS: *given = count; break;
+        case LOCATE_IN_PERIOD:
+            for (size_t i = 0; i < s->n; i++) *given = mixed(*given, locations_out[i].kind);
+            break;
+        case PERIODIC_WEIGHTS: break;
         case CREATE:
         case CREATE_WITH_KEYS:
         case CLONE:
@@ -728,6 +745,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case CONFLICTS:
         case CELLS_IN_REACH:
         case STAR: *given = digest_of_cells(s->t, ids_out, count); break;
+        case PERIODIC_LINEAR:
         case INTERPOLATE:
         case INTERPOLATE_NATURAL:
             // Its last bits depend on the order of cells.
@@ -745,7 +763,9 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             if (s->call.kind == CIRCUMCENTRES || s->call.kind == UPDATE_CIRCUMCENTRES) count *= d;
             for (size_t i = 0; i < count; i++) *given += digest_of(&numbers_out[i], sizeof *numbers_out);
             break;
+        case PERIODIC_NEAREST:
         case NEAREST_VERTICES: *given = digest_of(ids_out, 9 * sizeof *ids_out); break;
+        case PERIODIC_BALL:
         case VERTICES_IN_BALL:
         case VERTICES_IN_REACH:
         case VERTICES_IN_BOX: *given = digest_of(ids_out, count * sizeof *ids_out); break;

@@ -580,6 +580,11 @@ static void make_tour(const places *p, record *made) {
     note(beside, count * (d + 1) * d * sizeof *beside);
     GO(deldrift_edge_shifts(t, NULL, 0, &count));
     note(&count, sizeof count);
+    GO(deldrift_locate_in_period(t, in_box, 12, NULL, tour_out.locations, shifts));
+    note(tour_out.locations, 12 * sizeof *tour_out.locations);
+    note(shifts, 12 * d * sizeof *shifts);
+    GO(deldrift_nearest_vertices(t, in_box, 12, 5, tour_out.ids));
+    note(tour_out.ids, 60 * sizeof *tour_out.ids);
     DO(deldrift_destroy(t));
 
     // Calls that are refused: what a number is like is told.

@@ -31,6 +31,11 @@ int main() {
     Triangulation t(2, points, deldrift::Periodic(box));
     CHECK(t.vectors() == box && t.cell_count() == 8 && std::fabs(area_of(t) - 1) < 1e-12);
     CHECK(t.cell_shifts().neighbours.size() == 48 && t.edge_shifts().size() == 24 && t.edges().size() == 24);
+    const deldrift::PeriodLocations at = t.locate_in_period(std::vector<double>{3.125, -7.75, 0.5, 0.5});
+    CHECK(at.locations[0].kind == DELDRIFT_LOCATION_VERTEX && at.locations[0].index == 0);
+    CHECK(at.shifts[0] == 5 && at.shifts[1] == -8 && at.locations[1].kind == DELDRIFT_LOCATION_CELL);
+    CHECK(t.locate(std::vector<double>{3.125, -7.75}).index == 0);
+    CHECK(t.nearest_vertex(std::vector<double>{3.125, -7.75}) == 0);
     t.stage_vectors(std::vector<double>{1, 0, 0, 1.5});
     t.commit_timestamp();
     CHECK(std::fabs(area_of(t) - 1.5) < 1e-12);

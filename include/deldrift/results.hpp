@@ -70,6 +70,13 @@ struct CellShifts {
     std::vector<std::int64_t> neighbours{};
 };
 
+// Where points lie, and rows of as many multiples of vectors as the dimension says, by which what is there is translated; see
+// deldrift_locate_in_period.
+struct PeriodLocations {
+    std::vector<deldrift_location> locations{};
+    std::vector<std::int64_t> shifts{};
+};
+
 // Cells that a vertex in a box could change, and balls that cover theirs; see deldrift_cells_in_reach.
 struct InReach {
     std::vector<std::uint32_t> cells{};

@@ -52,7 +52,7 @@ from ._measured import Boundary
 from ._library import QualityReport, Report, version
 from ._mesh import Mesh
 from ._motion import Changes
-from ._periodic import PeriodicDelaunay
+from ._periodic import PeriodicDelaunay, PeriodicLocations
 from ._refining import MadeVertices, RefinedWeights
 from ._segments import Chains, Segments, Splits
 from ._step import Step, Trial
@@ -93,6 +93,7 @@ __all__ = [
     "OutOfRange",
     "PassingError",
     "PeriodicDelaunay",
+    "PeriodicLocations",
     "Prepared",
     "QualityReport",
     "RefinedWeights",

@@ -19,8 +19,6 @@ from ._arrays import (
     one_point,
     places,
     points as point_rows,
-    real,
-    simplex_ids,
     whole,
 )
 from ._core import check, count_of, id_count
@@ -36,8 +34,6 @@ _ordered_star = _library.function("ordered_star")
 _tolerance = _library.function("tolerance")
 _validate = _library.function("validate")
 _locate_points = _library.function("locate_points")
-_nearest_vertices = _library.function("nearest_vertices")
-_vertices_in_ball = _library.function("vertices_in_ball")
 _vertices_in_box = _library.function("vertices_in_box")
 _conflicts = _library.function("conflicts")
 _cells_in_reach = _library.function("cells_in_reach")
@@ -45,7 +41,6 @@ _hull_facets_in_reach = _library.function("hull_facets_in_reach")
 _vertices_in_reach = _library.function("vertices_in_reach")
 _id_count = _library.function("id_count")
 _find_simplices = _library.function("find_simplices")
-_barycentric = _library.function("barycentric")
 _orientation = _library.function("orientation")
 _in_sphere = _library.function("in_sphere")
 _coincident_representative = _library.function("coincident_representative")
@@ -226,62 +221,6 @@ class Asking(Scipy):
             self._check(_locate_points(t, address(rows), len(rows), None, address(locations)), positions="xi")
         return Locations(locations[:, 0].reshape(shape), locations[:, 1].reshape(shape))
 
-    def nearest_vertices(self, xi: Any, k: Optional[int] = None) -> np.ndarray:
-        """The vertices nearest to points, by distance, compared exactly, and at the same distance by id.
-
-        Parameters
-        ----------
-        xi : array_like
-            Points; the last axis has the coordinates.
-        k : int, optional
-            How many for each point. By default the nearest one, without an axis of its own in the result.
-
-        Returns
-        -------
-        ndarray of int
-            Their ids, -1 where there are fewer vertices.
-
-        Examples
-        --------
-        >>> import deldrift
-        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3]])
-        >>> tri.nearest_vertices([[1, 1], [3, 3]])
-        array([0, 2], dtype=int32)
-        >>> tri.nearest_vertices([[1, 1], [3, 3]], k=2)
-        array([[0, 3],
-               [2, 3]], dtype=int32)
-        """
-        rows, shape = places("xi", xi, self.ndim)
-        width = 1 if k is None else whole("k", k)
-        if width < 0:
-            raise InvalidValue(f"k is {width}, and must be 0 or more", "k", None, width)
-        found = np.empty((len(rows), width), I32)
-        with self._reading as t:
-            self._check(_nearest_vertices(t, address(rows), len(rows), width, address(found)), positions="xi")
-        return found.reshape(shape if k is None else shape + (width,))
-
-    def vertices_in_ball(self, centre: Any, squared_radius: float) -> np.ndarray:
-        """The vertices whose squared distance from a point is at most a given one, exactly.
-
-        Parameters
-        ----------
-        centre : array_like
-            The point.
-        squared_radius : float
-            The square of the radius.
-
-        Returns
-        -------
-        ndarray of int
-            Their ids, ascending, hidden ones included.
-        """
-        position, limit = one_point("centre", centre, self.ndim), real("squared_radius", squared_radius)
-        with self._reading as t:
-            found, count = np.empty(count_of(_vertex_count, t), I32), ctypes.c_size_t()
-            status = _vertices_in_ball(t, address(position), limit, address(found), len(found), count)
-            self._check(status, squared_radius="squared_radius!", centre="centre!")
-        return np.array(found[: count.value])
-
     def vertices_in_box(self, low: Any, high: Any) -> np.ndarray:
         """The vertices in a box, boundary included.
 
@@ -445,47 +384,6 @@ class Asking(Scipy):
             status = _find_simplices(t, width, address(listed), len(array), address(found))
             self._check(status, vertex="vertices")
         return found
-
-    def barycentric(self, xi: Any, simplices: Any = None) -> np.ndarray:
-        """The barycentric coordinates of points, each in a simplex.
-
-        Parameters
-        ----------
-        xi : array_like
-            Points; the last axis has the coordinates.
-        simplices : array_like of int, optional
-            The simplex of each; by default the one that it is in.
-
-        Returns
-        -------
-        ndarray
-            A row for each point: a number for each corner, with the right sign; NaN where the simplex is -1.
-
-        Examples
-        --------
-        >>> import deldrift
-        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [0, 4]])
-        >>> tri.barycentric([[1, 1], [4, 4]])
-        array([[0.5 , 0.25, 0.25],
-               [ nan,  nan,  nan]])
-        """
-        rows, shape = places("xi", xi, self.ndim)
-        if simplices is None:
-            cells = self._simplices_at(rows)
-        else:
-            cells = np.asarray(simplices).reshape(-1)
-            is_none = cells == -1
-            cells = simplex_ids("simplices", np.where(is_none, 0, cells)).view(I32)
-            cells[is_none] = -1
-        if len(cells) != len(rows):
-            raise WrongCount(
-                f"simplices has {len(cells)} entries, and there are {len(rows)} points", "simplices", None, len(cells)
-            )
-        weights = np.empty((len(rows), self.ndim + 1), F64)
-        with self._reading as t:
-            status = _barycentric(t, address(rows), address(cells), len(rows), address(weights))
-            self._check(status, positions="xi", cells="simplices")
-        return weights.reshape(shape + (self.ndim + 1,))
 
 
 def orientation(points: Any) -> int:

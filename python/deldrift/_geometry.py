@@ -14,18 +14,14 @@ from ._arrays import (
     address,
     address_if,
     box_corners,
-    choice,
-    contiguous,
-    floats,
     ids,
     mask as mask_of,
-    places,
     real,
 )
 from ._core import cell_count, count_of, id_count
 from ._measured import Measured
 from ._scipy import Scipy
-from ._errors import InvalidShape, WrongCount
+from ._errors import WrongCount
 
 _mask_without_flat_cells = _library.function("mask_without_flat_cells")
 _edges = _library.function("edges")
@@ -37,7 +33,6 @@ _voronoi_facets = _library.function("voronoi_facets")
 _voronoi_changed = _library.function("voronoi_changed")
 _voronoi_cells = _library.function("voronoi_cells")
 _voronoi_derivatives = _library.function("voronoi_derivatives")
-_interpolate = _library.function("interpolate")
 
 
 class VoronoiCells(NamedTuple):
@@ -292,68 +287,6 @@ class Geometry(Measured, Scipy):
             self._check(_voronoi_derivatives(t, address_if(low), address_if(high), *given, *rows, n, count))
         return facets
 
-    def interpolate(self, values: Any, xi: Any, method: str = "linear", fill_value: Any = np.nan) -> np.ndarray:
-        """Values of the vertices, interpolated at other places.
-
-        Parameters
-        ----------
-        values : array_like
-            A number, or a row of them, for each id. Those of hidden and of removed vertices are not used.
-        xi : array_like
-            Points; the last axis has the coordinates.
-        method : {"linear", "natural"}, optional
-            Linear in each simplex, or by natural neighbours (Laplace's, or non-Sibsonian, interpolation).
-        fill_value : float or array_like, optional
-            What points outside the convex hull get.
-
-        Returns
-        -------
-        ndarray
-            Of the shape of xi without its last axis, and with that of a row of values.
-
-        Examples
-        --------
-        >>> import deldrift
-        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [0, 4]])
-        >>> tri.interpolate([0, 4, 8], [[1, 1], [5, 5]])
-        array([ 3., nan])
-        """
-        number = choice("method", method, _library.INTERPOLATIONS)
-        given = floats("values", values)
-        if given.ndim == 0:
-            raise InvalidShape("values is a single number, and must have an entry for each id", "values")
-        rows, shape = places("xi", xi, self.ndim)
-        width = int(np.prod(given.shape[1:], dtype=np.intp))
-        outside = _fill("fill_value", fill_value, given.shape[1:])
-        results = np.empty((len(rows), width), F64)
-        with self._reading as t:
-            if len(given) != id_count(t):
-                raise WrongCount(
-                    f"values has {len(given)} entries, and there are {id_count(t)} ids", "values", None, len(given)
-                )
-            status = _interpolate(
-                t,
-                number,
-                address(given),
-                len(given),
-                width,
-                address(rows),
-                len(rows),
-                None,
-                address(outside),
-                address(results),
-            )
-            self._check(status, positions="xi", value_count="values")
-        return results.reshape(shape + given.shape[1:])
-
-
-def _fill(argument: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
-    try:
-        return contiguous(np.broadcast_to(floats(argument, value), shape), F64).reshape(-1)
-    except ValueError:
-        raise InvalidShape(
-            f"{argument} has the shape {np.shape(value)}, and must be a number or {shape}", argument
-        ) from None
 
 
 def vertex_mask(chosen: Any, n: int) -> tuple[Any, int]:

@@ -277,6 +277,7 @@ PROTOTYPES = {
     "tolerance": (T, U32, POINTER(F64)),
     "validate": (T, U32),
     "locate_points": (T, A, N, A, A),
+    "locate_in_period": (T, A, N, A, A, A),
     "release_cells": (T, POINTER(CellsView), POINTER(T)),
     "nearest_vertices": (T, A, N, N, A),
     "vertices_in_ball": (T, A, F64, A, N, C),

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Callable, Optional
+from typing import Any, Callable, NamedTuple, Optional
 
 import numpy as np
 
 from . import _library
-from ._arrays import F64, I32, Handle, address, ids as listed_ids, mask as mask_of, points as point_rows
+from ._arrays import F64, I32, Handle, address, ids as listed_ids, mask as mask_of, places, points as point_rows
 from ._core import check, count_of, fixed, id_count, make_options
 from ._delaunay import _callbacks
 from ._errors import WrongCount
@@ -16,11 +16,13 @@ from ._geometry import VoronoiCells, VoronoiDerivatives, vertex_mask
 from ._library import Report
 from ._measured import Measured
 from ._motion import Changes, changes_of
+from ._near import Near
 
 _create_periodic = _library.function("create_periodic")
 _stage_vectors = _library.function("stage_vectors")
 _vectors = _library.function("vectors")
 _cell_shifts = _library.function("cell_shifts")
+_locate_in_period = _library.function("locate_in_period")
 _edge_shifts = _library.function("edge_shifts")
 _edges = _library.function("edges")
 _copy_cells = _library.function("copy_cells")
@@ -43,7 +45,18 @@ _voronoi_derivatives = _library.function("voronoi_derivatives")
 I64 = np.dtype(np.int64)
 
 
-class PeriodicDelaunay(Measured):
+class PeriodicLocations(NamedTuple):
+    """Where points of a periodic box lie."""
+
+    kinds: np.ndarray
+    """0 at a vertex, 1 in a simplex or on its boundary, 2 outside the convex hull, 3 where there are no simplices."""
+    indices: np.ndarray
+    """The vertex; the simplex; one with a facet on the hull that faces the point; -1."""
+    shifts: np.ndarray
+    """By which multiples of the vectors the vertex is translated from its point, or the simplex from its own shifts."""
+
+
+class PeriodicDelaunay(Near, Measured):
     """The Delaunay triangulation of points that repeat, and that may move.
 
     Each point is in all places to which sums of multiples of the vectors of the box take it. Of the simplices, one of each
@@ -214,6 +227,44 @@ class PeriodicDelaunay(Measured):
             self._check(_edges(t, address(edges), n, count))
             self._check(_edge_shifts(t, address(shifts), n, count))
         return edges, shifts[:, : len(self.vectors)]
+
+    def locate(self, xi: Any) -> PeriodicLocations:
+        """Where points lie, exactly, once they are rounded to the grid of the box as vertices are.
+
+        Parameters
+        ----------
+        xi : array_like
+            Points, in any period; the last axis has the coordinates.
+
+        Returns
+        -------
+        PeriodicLocations
+            A kind and an index for each, and in which period what is there is.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.PeriodicDelaunay([[0.1, 0.1], [0.6, 0.7], [0.4, 0.9]], vectors=[1, 1])
+        >>> tri.locate([5.6, -1.3])
+        PeriodicLocations(kinds=array(0, dtype=int32), indices=array(1, dtype=int32), shifts=array([ 5, -2]))
+        """
+        rows, shape = places("xi", xi, self.ndim)
+        locations, shifts = np.empty((len(rows), 2), I32), np.empty((len(rows), self.ndim), I64)
+        with self._reading as t:
+            status = _locate_in_period(t, address(rows), len(rows), None, address(locations), address(shifts))
+            self._check(status, positions="xi")
+        rank = len(self.vectors)
+        kinds, indices = (np.array(column).reshape(shape) for column in locations.T)
+        return PeriodicLocations(kinds, indices, np.array(shifts[:, :rank]).reshape(shape + (rank,)))
+
+    def _simplices_at(self, rows: np.ndarray) -> np.ndarray:
+        kinds, indices, _ = self.locate(rows)
+        found = np.where(kinds == 1, indices, -1).astype(I32)
+        if (kinds == 0).any():
+            simplex_of = np.full(len(self.points), -1, I32)
+            simplex_of[self.simplices] = np.arange(len(self.simplices), dtype=I32)[:, None]
+            found[kinds == 0] = simplex_of[indices[kinds == 0]]
+        return found
 
     def voronoi_volumes(self) -> np.ndarray:
         """By id the area or volume of the Voronoi cell of each vertex.

@@ -9,8 +9,9 @@ import numpy as np
 
 from . import _library
 from ._arrays import F64, I32, U32, address, places
-from ._core import Core, cell_count, fixed, id_count
+from ._core import cell_count, fixed, id_count
 from ._errors import InvalidOption, InvalidValue
+from ._near import Near
 
 _copy_positions = _library.function("copy_positions")
 _hidden_vertices = _library.function("hidden_vertices")
@@ -53,7 +54,7 @@ def check_scipy_options(furthest_site: Any, qhull_options: Any) -> None:
             )
 
 
-class Scipy(Core):
+class Scipy(Near):
     """What scipy.spatial.Delaunay has."""
 
     furthest_site = False

@@ -195,6 +195,44 @@ def test_simplices_have_the_sizes_and_balls_of_their_corners(name, rng):
     assert all((now == before).all() for now, before in zip(kept, [volumes, centres, squared, mask]))
 
 
+@pytest.mark.parametrize("name", BOXES)
+def test_places_are_in_the_cells_where_they_are_told_to_be(name, rng):
+    vectors = BOXES[name]
+    tri = deldrift.PeriodicDelaunay(rng.random((20, len(vectors))) @ vectors, vectors)
+    xi = rng.random((3, 10, tri.ndim)) @ vectors + rng.integers(-3, 4, (3, 10, tri.ndim)) @ vectors
+    kinds, cells, shifts = tri.locate(xi)
+    assert (kinds == 1).all() and kinds.shape == cells.shape == (3, 10) and shifts.shape == (3, 10, tri.ndim)
+    corners = tri.corners[cells] + (shifts @ tri.vectors)[..., None, :]
+    weights = tri.barycentric(xi, cells)
+    assert (weights >= 0).all() and np.abs(np.einsum("...i,...ik->...k", weights, corners) - xi).max() < 1e-12
+    assert (tri.barycentric(xi) == weights).all()
+    values = rng.random((20, 2))
+    wanted = np.einsum("...i,...ik->...k", weights, values[tri.simplices[cells]])
+    assert np.abs(tri.interpolate(values, xi) - wanted).max() < 1e-9
+    # Beside the nearest of all images.
+    multiples = np.array(list(itertools.product(range(-8, 9), repeat=tri.ndim)))
+    multiples = multiples[np.linalg.norm(multiples @ vectors, axis=1) < 4 * np.linalg.norm(vectors, axis=1).max()]
+    ways = (xi.reshape(-1, 1, tri.ndim) - tri.points) @ np.linalg.inv(vectors)
+    ways = (ways - np.round(ways)) @ vectors
+    squares = np.min([((ways + k @ vectors) ** 2).sum(axis=-1) for k in multiples], axis=0)
+    assert (tri.nearest_vertices(xi.reshape(-1, tri.ndim), k=20) == np.argsort(squares, axis=1)).all()
+    assert (tri.nearest_vertices(xi).ravel() == np.argmin(squares, axis=1)).all()
+    for place, row in zip(xi.reshape(-1, tri.ndim), squares):
+        assert tri.vertices_in_ball(place, 0.2).tolist() == np.flatnonzero(row <= 0.2).tolist()
+
+
+def test_places_at_vertices_and_outside():
+    tri = deldrift.PeriodicDelaunay([[0.25, 0.5], [0.5, 0.75], [0.75, 0.5]], [[1.0, 0.0]])
+    kinds, indices, shifts = tri.locate([[-2.75, 0.5], [7.5, 0.75], [0.5, 2.0]])
+    assert (kinds.tolist(), indices[:2].tolist(), shifts[:2].tolist()) == ([0, 0, 2], [0, 1], [[-3], [7]])
+    assert np.isnan(tri.barycentric([0.5, 2.0])).all() and np.isnan(tri.interpolate([1, 2, 3], [0.5, 2.0]))
+    assert tri.interpolate([1, 2, 3], [7.5, 0.75]) == 2 and tri.barycentric([7.5, 0.75]).max() == 1
+    with pytest.raises(deldrift.NotFinite, match=r"xi\[0\], coordinate 1, is NaN"):
+        tri.locate([0.5, np.nan])
+    with pytest.raises(deldrift.Error, match="method is 1, but t is periodic"):
+        tri.interpolate([1, 2, 3], [0.5, 0.5], method="natural")
+
+
 def test_one_point_and_a_slab():
     tri = deldrift.PeriodicDelaunay([[0.5, 0.5]], [1, 1])
     assert tri.nsimplex == 2 and tri.voronoi_volumes() == [1]

@@ -1,9 +1,8 @@
 //! Values between vertices.
 
-use super::handle::{Reading, deldrift_triangulation};
+use super::handle::{Content, Reading, deldrift_triangulation, in_any, in_its_period};
 use super::location::{deldrift_location, hint_at};
 use super::pointers::{Array, Buffer, Input, Points, given, write_all};
-use super::query::dimension_of;
 use super::status::{Failure, Wrong, deldrift_status};
 use crate::error::Error;
 use crate::ids::CellId;
@@ -40,6 +39,9 @@ pub type InterpolationCode = u32;
 /// reproduced but for rounding, with either method. Which cell or which neighbours count is decided exactly. A position
 /// takes as long as deldrift_locate_points, and with natural neighbours some microseconds more.
 ///
+/// In a periodic triangulation positions may be in any period, and are rounded as for deldrift_locate. An image of a
+/// vertex has the values of the vertex. Only DELDRIFT_INTERPOLATION_LINEAR is served; the other method is DELDRIFT_PERIODIC.
+///
 /// Cost: count times that of deldrift_locate and n_values; with natural neighbours also the cells whose circle or
 /// sphere has the position inside. After a change the first call also does what the first deldrift_cells does.
 ///
@@ -63,33 +65,48 @@ pub unsafe extern "C" fn deldrift_interpolate(
         (hint.cast(), value_count.saturating_mul(n_values), count.saturating_mul(n_values));
     given!(t: Reading, values[n_known]: Array, positions[count]: Points, hint: Input);
     given!(outside[n_values]: Array, results[n_results]: Buffer);
-    t.read(|t| {
-        in_its_dimension!(t => {
-            let method = method_of(method)?;
-            let wanted = t.id_count();
-            if value_count != wanted {
-                let (argument, given, coming) = ("value_count", value_count, t.staged_edits().0);
-                return Err(Error::WrongCount { argument, given, wanted, coming }.into());
+    t.read_any(|t| {
+        let method = method_of(method)?;
+        let (wanted, coming) = ids_of(t);
+        if value_count != wanted {
+            let (argument, given) = ("value_count", value_count);
+            return Err(Error::WrongCount { argument, given, wanted, coming }.into());
+        }
+        check_product::<f64>("values", value_count, n_values)?;
+        let values = VertexValues { values: values.get()?, n_values };
+        in_any!(t => positions.of(t).map(drop))?;
+        check_product::<f64>("results", count, n_values)?;
+        let hint = hint_at(hint)?;
+        let outside = (!outside.is_null()).then(|| outside.get()).transpose()?;
+        let places = results.places(n_results)?;
+        let mut made = Vec::new();
+        memory::reserve_exact(&mut made, n_results)?;
+        let enter = |row: Option<&[f64]>| match row.or(outside) {
+            Some(row) => made.extend_from_slice(row),
+            None => made.extend(std::iter::repeat_n(f64::NAN, n_values)),
+        };
+        match t {
+            Content::Open(t) => {
+                in_its_dimension!(t => t.interpolate(method, values, positions.of(t)?, hint, enter))?;
             }
-            check_product::<f64>("values", value_count, n_values)?;
-            let values = values.get()?;
-            let positions = positions.of(t)?;
-            check_product::<f64>("results", count, n_values)?;
-            let hint = hint_at(hint)?;
-            let outside = (!outside.is_null()).then(|| outside.get()).transpose()?;
-            let places = results.places(n_results)?;
-            let mut made = Vec::new();
-            memory::reserve_exact(&mut made, n_results)?;
-            t.interpolate(method, VertexValues { values, n_values }, positions, hint, |row| {
-                match row.or(outside) {
-                    Some(row) => made.extend_from_slice(row),
-                    None => made.extend(std::iter::repeat_n(f64::NAN, n_values)),
-                }
-            })?;
-            write_all(places, made);
-            Ok(())
-        })
+            Content::Periodic(_) if method != Interpolation::Linear => {
+                return Err(Failure::NaturalOfPeriodic);
+            }
+            Content::Periodic(t) => {
+                in_its_period!(t, t => t.interpolate(values, positions.of(t)?, hint, enter))?;
+            }
+        }
+        write_all(places, made);
+        Ok(())
     })
+}
+
+/// The number of ids, and of those that are staged.
+fn ids_of(t: &Content) -> (usize, usize) {
+    match t {
+        Content::Open(t) => in_its_dimension!(t => (t.id_count(), t.staged_edits().0)),
+        Content::Periodic(t) => (t.id_count(), 0),
+    }
 }
 
 /// The barycentric coordinates of count positions, each in a cell that is given: rows of 3 (2D) or 4 (3D) numbers, one
@@ -106,6 +123,9 @@ pub unsafe extern "C" fn deldrift_interpolate(
 /// (Where an area, a volume or the value itself is below the least normal number, 2.2e-308, it is less accurate.) What
 /// is beyond the range of numbers is infinite. A row adds up to 1 but for these errors.
 ///
+/// In a periodic triangulation positions may be in any period, and are rounded as for deldrift_locate. The weights are
+/// those in the translation of the cell that has the position inside or on its boundary; where there is none, the row is NaN.
+///
 /// Cost: count. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
@@ -120,11 +140,11 @@ pub unsafe extern "C" fn deldrift_barycentric(
     weights: *mut f64,
 ) -> deldrift_status {
     given!(t: Reading, positions[count]: Points, cells[count]: Array);
-    t.read(|t| {
-        in_its_dimension!(t => {
+    t.read_any(|t| {
+        let n_corners = t.dimension() as usize + 1;
+        in_any!(t => {
             let positions = positions.of(t)?;
             let cells = CellId::of_numbers(cells.get()?);
-            let n_corners = dimension_of(t) + 1;
             check_product::<f64>("weights", count, n_corners)?;
             given!(weights[count * n_corners]: Buffer);
             let mut rows = weights.places(count * n_corners)?.chunks_exact_mut(n_corners);

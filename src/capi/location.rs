@@ -1,6 +1,8 @@
 //! Where points lie, and which vertices are near.
 
-use super::handle::{Reading, deldrift_triangulation, tell, tell_any};
+use std::iter::repeat_n;
+
+use super::handle::{Content, Reading, deldrift_triangulation, in_its_period, tell_any};
 use super::pointers::{Buffer, Input, Output, Point, Points, fill_all, given, write_all};
 use super::query::DELDRIFT_NONE;
 use super::status::{Failure, deldrift_status};
@@ -51,9 +53,13 @@ const _: () = assert!(size_of::<deldrift_location>() == size_of::<[u32; 2]>());
 ///
 /// position: 2 or 3 numbers.
 ///
+/// In a periodic triangulation the point is rounded to the grid of deldrift_create_periodic, as a vertex would be; it may
+/// be in any period. The location is that of the translation of a vertex or a cell that is there:
+/// deldrift_locate_in_period tells which one. It is outside only of what is open in some direction.
+///
 /// Cost: the cells that a walk crosses from where an earlier one ended, or from a vertex that is near: a few for most
-/// sets, m at most. While there are no cells, constant. After a change the first call also does what the first
-/// deldrift_cells does.
+/// sets, m at most. While there are no cells, constant; n in a periodic one. After a change the first call also does what
+/// the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
 /// DELDRIFT_OUT_OF_MEMORY.
@@ -64,11 +70,12 @@ pub unsafe extern "C" fn deldrift_locate(
     location: *mut deldrift_location,
 ) -> deldrift_status {
     given!(t: Reading, position: Point, location: Output);
-    tell!(t, location => t.locate(position.of("position", t)?)?.into())
+    tell_any!(t, location => t.locate(position.of("position", t)?)?.into())
 }
 
 /// Where count points lie, exactly, to locations, which has room for count: as count calls of deldrift_locate,
-/// and faster if each point is near the one before it.
+/// and faster if each point is near the one before it. deldrift_locate_in_period also tells in which period of a periodic
+/// triangulation.
 ///
 /// positions: 2 or 3 numbers for each point; NULL if count is 0, as may locations be. hint: where to begin to look
 /// for the first point, for example the last answer of the call before; NULL if nothing is known. It only
@@ -89,27 +96,84 @@ pub unsafe extern "C" fn deldrift_locate_points(
 ) -> deldrift_status {
     let hint = hint.cast();
     given!(t: Reading, positions[count]: Points, hint: Input, locations[count]: Buffer);
-    t.read(|t| {
-        in_its_dimension!(t => {
-            if count == 0 {
-                return Ok(());
-            }
-            let positions = positions.of(t)?;
-            let hint = hint_at(hint)?;
-            let mut places = locations.places(count)?.iter_mut();
-            t.locate_points(positions, hint, |location| {
-                places.next().expect("as many as positions").write(location.into());
-            })?;
-            Ok(())
-        })
+    t.read_any(|t| locate(t, positions, count, hint_at(hint)?, locations, None))
+}
+
+/// Where count points lie, exactly, to locations, and in which period what is there, to shifts: deldrift_locate_points for
+/// programs that need the places of the corners.
+///
+/// positions, hint, locations: as for deldrift_locate_points. shifts: receives a row of 2 (2D) or 3 (3D) whole numbers for
+/// each point, multiples of the vectors, 0 beyond the last of these: by them the vertex is to be translated from its
+/// position to be at the point, or the cell from where deldrift_cell_shifts has it to have the point, or, where the point is
+/// outside, a facet of the hull that faces it. So the corners of the cell are at their positions and the sums of these
+/// multiples and of theirs. May be NULL if count is 0.
+///
+/// In a periodic triangulation the points are rounded to the grid of deldrift_create_periodic, as vertices would be. All
+/// shifts are 0 where there are no cells or vertices at the point, and where the triangulation is not periodic.
+///
+/// Cost: count times that of deldrift_locate. After a change the first call also does what the first deldrift_cells
+/// does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_locate_in_period(
+    t: *const deldrift_triangulation,
+    positions: *const f64,
+    count: usize,
+    hint: *const deldrift_location,
+    locations: *mut deldrift_location,
+    shifts: *mut i64,
+) -> deldrift_status {
+    let hint = hint.cast();
+    given!(t: Reading, positions[count]: Points, hint: Input, locations[count]: Buffer);
+    t.read_any(|t| {
+        let n_numbers = count.saturating_mul(t.dimension() as usize);
+        given!(shifts[n_numbers]: Buffer);
+        locate(t, positions, count, hint_at(hint)?, locations, Some((shifts, n_numbers)))
     })
+}
+
+/// Tells where points are, and by which shifts what is there is to be translated, with the number of these.
+fn locate(
+    t: &Content,
+    positions: Points<'_>,
+    count: usize,
+    hint: Option<Location>,
+    locations: Buffer<'_, deldrift_location>,
+    shifts: Option<(Buffer<'_, i64>, usize)>,
+) -> Result<(), Failure> {
+    if count == 0 {
+        return Ok(());
+    }
+    let mut places = locations.places(count)?.iter_mut();
+    let mut shifts = shifts.map_or(Ok(&mut [][..]), |(shifts, n_numbers)| shifts.places(n_numbers))?;
+    let mut tell = |location: Location| {
+        places.next().expect("as many as positions").write(location.into());
+    };
+    match t {
+        Content::Open(t) => in_its_dimension!(t => t.locate_points(positions.of(t)?, hint, tell))?,
+        Content::Periodic(periodic) => {
+            let d = t.dimension() as usize;
+            let mut rows = shifts.chunks_exact_mut(d);
+            in_its_period!(periodic, t => t.locate_in_period(positions.of(t)?, hint, |location, shift| {
+                tell(location);
+                rows.next().into_iter().for_each(|row| write_all(row, shift));
+            }))?;
+            shifts = &mut [];
+        }
+    }
+    let n_open = shifts.len();
+    write_all(shifts, repeat_n(0, n_open));
+    Ok(())
 }
 
 /// The vertex nearest to a point, to *vertex: the lowest id among the nearest, or where vertices have keys the one
 /// of the lowest key; DELDRIFT_NONE if the
 /// triangulation has no vertices.
 ///
-/// position: 2 or 3 numbers.
+/// position: 2 or 3 numbers. In a periodic triangulation it may be in any period, and is rounded as for deldrift_locate;
+/// the distance is that of the nearest image of a vertex.
 ///
 /// Cost: that of deldrift_locate, and the stars of the vertices on the way and of all that are nearest. While there are
 /// no cells, n.
@@ -123,7 +187,7 @@ pub unsafe extern "C" fn deldrift_nearest_vertex(
     vertex: *mut u32,
 ) -> deldrift_status {
     given!(t: Reading, position: Point, vertex: Output);
-    tell!(t, vertex => t.nearest_vertex(position.of("position", t)?)?.map_or(DELDRIFT_NONE, VertexId::get))
+    tell_any!(t, vertex => t.nearest_vertex(position.of("position", t)?)?.map_or(DELDRIFT_NONE, VertexId::get))
 }
 
 /// The lowest id among the vertices at the place of this one, or where vertices have keys the one of the lowest key and then

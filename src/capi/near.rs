@@ -1,6 +1,6 @@
 //! What is near a place: the nearest vertices, those in a ball or a box, the cells that a new vertex would remove.
 
-use super::handle::{Reading, deldrift_triangulation};
+use super::handle::{Reading, deldrift_triangulation, in_any};
 use super::interpolation::check_product;
 use super::location::{deldrift_location, hint_at};
 use super::pointers::{Buffer, Input, Output, Point, Points, given, write_all};
@@ -19,8 +19,11 @@ use crate::machine::memory;
 ///
 /// It is fastest if each position is near the one before it. The first id of a row is that of deldrift_nearest_vertex.
 ///
+/// In a periodic triangulation positions may be in any period, and are rounded as for deldrift_locate. Each vertex comes
+/// once, by the distance of its nearest image (the minimum image); images farther away do not count.
+///
 /// Cost: count times that of deldrift_nearest_vertex, the stars of the k vertices, and k log k; with k = 0 constant.
-/// While there are no cells, count times n.
+/// While there are no cells, count times n; n more in a periodic triangulation with hidden vertices.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
@@ -34,8 +37,8 @@ pub unsafe extern "C" fn deldrift_nearest_vertices(
 ) -> deldrift_status {
     let n_found = count.saturating_mul(k);
     given!(t: Reading, positions[count]: Points, vertices[n_found]: Buffer);
-    t.read(|t| {
-        in_its_dimension!(t => {
+    t.read_any(|t| {
+        in_any!(t => {
             let positions = positions.of(t)?;
             check_product::<u32>("vertices", count, k)?;
             let places = vertices.places(n_found)?;
@@ -55,8 +58,11 @@ pub unsafe extern "C" fn deldrift_nearest_vertices(
 /// capacity ids; deldrift_vertex_count is always enough. count: receives their number, which is also written when the
 /// buffer is too small. NULL with capacity 0 asks for the count alone, which takes as long.
 ///
+/// In a periodic triangulation the centre may be in any period, and is rounded as for deldrift_locate. A vertex is in the
+/// ball if any image of it is; each is told once. The ball may be larger than the box.
+///
 /// Cost: that of deldrift_nearest_vertex, the stars of the vertices in the ball, and k log k for the k of them; n log n
-/// at most but for the former. While there are no cells, n.
+/// at most but for the former. While there are no cells, and in a periodic triangulation with hidden vertices, n.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
 /// DELDRIFT_INVALID_VALUE for a squared radius that is negative or NaN, DELDRIFT_BUFFER_TOO_SMALL,
@@ -71,8 +77,8 @@ pub unsafe extern "C" fn deldrift_vertices_in_ball(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, centre: Point, vertices[capacity]: Buffer, count: Output);
-    t.read(|t| {
-        in_its_dimension!(t => {
+    t.read_any(|t| {
+        in_any!(t => {
             let found = t.vertices_in_ball(centre.of("centre", t)?, squared_radius)?;
             vertices.fill(count, found.len(), || Ok(found.into_iter().map(VertexId::get)))
         })

@@ -45,7 +45,9 @@ use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 /// deldrift_memory_bytes, deldrift_timestamp, deldrift_statistics, deldrift_is_present, deldrift_position,
 /// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges,
 /// deldrift_take_changes, deldrift_circumcentres, deldrift_volumes, deldrift_mask_by_circumradius with the functions that
-/// update what these give, deldrift_mask_boundary, deldrift_hull_facets, and without a box deldrift_voronoi_volumes,
+/// update what these give, deldrift_mask_boundary, deldrift_hull_facets, deldrift_locate, deldrift_locate_points,
+/// deldrift_locate_in_period, deldrift_nearest_vertex, deldrift_nearest_vertices, deldrift_vertices_in_ball,
+/// deldrift_barycentric, deldrift_interpolate with DELDRIFT_INTERPOLATION_LINEAR, and without a box deldrift_voronoi_volumes,
 /// deldrift_voronoi_facets, deldrift_voronoi_cells and deldrift_voronoi_derivatives. All others return DELDRIFT_PERIODIC.
 /// Cells are numbered anew by each commit, unless changes are taken.
 ///

@@ -37,7 +37,7 @@ pub(super) const HOME: Shift = [0; 3];
 pub(super) const ROOM: f64 = 0.25;
 
 /// By how much bounds on rounded numbers are widened, relatively.
-const SLACK: f64 = 1e-9;
+pub(super) const SLACK: f64 = 1e-9;
 
 /// Coordinates on the grid, and sums of them, have at most so many bits.
 const GRID_BITS: i32 = 52;
@@ -477,6 +477,25 @@ impl<G: Shape> Lattice<G> {
                 low as i32..=high as i32
             }
         })
+    }
+
+    /// By vector, a range of multiples of which some take a place at home to its image nearest to another place: of the way from
+    /// there to that image none is above half of the greatest between corners of a cell.
+    pub(super) fn shifts_near(&self, to: &G::Point, home: &G::Point) -> [Range; 3] {
+        let [to, from] = [to, home].map(|place| self.multiples(place));
+        [0, 1, 2].map(|j| {
+            if j >= self.rank {
+                return 0..=0;
+            }
+            let middle = to[j] - from[j];
+            let reach = 0.5 * f64::from(self.greatest[j]) + SLACK * (1.0 + to[j].abs() + from[j].abs());
+            (middle - reach).ceil() as i32..=(middle + reach).floor() as i32
+        })
+    }
+
+    /// A way of that length is nearer to no other vector of the lattice than to none.
+    pub(super) fn short_way(&self) -> f64 {
+        self.short_way
     }
 
     /// All shifts that can be needed.

@@ -8,6 +8,9 @@ use crate::motion::{Algorithm, MovingTriangulation, NO_CELL, Options};
 use crate::random::Rng;
 use std::collections::BTreeSet;
 
+mod locating;
+mod near;
+
 type Class = Vec<(u32, [i64; 3])>;
 
 /// A class of cells: the corners in order, relative to the first.

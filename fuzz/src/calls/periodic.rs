@@ -46,6 +46,7 @@ impl History<'_> {
         self.take_boxed(t, &mut known);
         self.take_boxed(anew, &mut BTreeSet::new());
         self.voronoi_of_periods(t, d, rank);
+        self.look_around([t, anew], d, n);
         c!(deldrift_destroy(anew));
         c!(deldrift_destroy(t));
     }
@@ -72,6 +73,45 @@ impl History<'_> {
         let mut count = 0;
         self.is_ok(c!(deldrift_cell_count(t, &mut count)));
         assert!(known.iter().copied().eq(0..count as u32), "all are known");
+    }
+
+    /// Places are as near to vertices in a box, and at the same of them, as in one that is made of what it has become.
+    fn look_around(&mut self, both: [*const deldrift_triangulation; 2], d: usize, n: usize) {
+        let places: Vec<f64> = (0..4 * d).map(|_| (self.s.below(129) as f64 - 64.0) / 16.0).collect();
+        let values: Vec<f64> = (0..n).map(|v| v as f64).collect();
+        let squared = self.s.below(40) as f64 / 8.0;
+        let seen = both.map(|t| {
+            let mut locations =
+                [deldrift_location { kind: deldrift_location_kind::DELDRIFT_LOCATION_CELL, index: 0 }; 4];
+            let (mut shifts, mut near, mut ids) = ([0i64; 12], [0u32; 12], [0u32; 9]);
+            let (mut nearest, mut count, mut results, mut weights) = (0, 0, [0.0; 4], [0.0; 16]);
+            let (at, shown) = (places.as_ptr(), locations.as_mut_ptr());
+            self.is_ok(c!(deldrift_locate(t, at, shown)));
+            self.is_ok(c!(deldrift_locate_points(t, at, 4, null(), shown)));
+            self.is_ok(c!(deldrift_locate_in_period(t, at, 4, shown, shown, shifts.as_mut_ptr())));
+            self.is_ok(c!(deldrift_nearest_vertex(t, at, &mut nearest)));
+            self.is_ok(c!(deldrift_nearest_vertices(t, at, 4, 3, near.as_mut_ptr())));
+            self.is_ok(c!(deldrift_vertices_in_ball(t, at, squared, ids.as_mut_ptr(), 9, &mut count)));
+            let (of, to) = (values.as_ptr(), results.as_mut_ptr());
+            self.is_ok(c!(deldrift_interpolate(t, 0, of, n, 1, at, 4, null(), null(), to)));
+            let cells = locations.map(|location| match location.kind {
+                deldrift_location_kind::DELDRIFT_LOCATION_CELL => location.index,
+                _ => DELDRIFT_NONE,
+            });
+            self.is_ok(c!(deldrift_barycentric(t, at, cells.as_ptr(), 4, weights.as_mut_ptr())));
+            assert_eq!(nearest, near[0]);
+            let is_sum = |row: &[f64]| row[0].is_nan() || (row.iter().sum::<f64>() - 1.0).abs() < 1e-12;
+            assert!(weights[..4 * (d + 1)].chunks_exact(d + 1).all(is_sum), "{weights:?}");
+            let vertices = locations.map(|at| match at.kind {
+                deldrift_location_kind::DELDRIFT_LOCATION_VERTEX => (at.kind, at.index),
+                kind => (kind, 0),
+            });
+            ((vertices, near, ids[..count].to_vec()), results)
+        });
+        let [(one, values), (other, others)] = seen;
+        assert_eq!(one, other, "{places:?}");
+        let is_like = |(x, y): (f64, f64)| x.is_nan() && y.is_nan() || (x - y).abs() < 1e-6;
+        assert!(values.into_iter().zip(others).all(is_like), "{values:?} {others:?}");
     }
 
     /// Whole numbers of eighths, so that much ties.

@@ -5,7 +5,7 @@
 
 use crate::delaunay::{Dimension, Place};
 use crate::error::{Error, Result};
-use crate::ids::SiteId;
+use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::reading::geometry::linear::{Weights, list_linear};
 use crate::motion::reading::geometry::natural::Natural;
@@ -31,7 +31,37 @@ pub struct VertexValues<'v> {
     pub n_values: usize,
 }
 
+impl VertexValues<'_> {
+    /// The sum of the values of some vertices with weights, of which there are some, and which add up to 1.
+    #[inline(always)]
+    pub(crate) fn combine(&self, weights: impl IntoIterator<Item = (VertexId, f64)>, result: &mut [f64]) {
+        let values_of = |v: VertexId| &self.values[v.index() * self.n_values..][..self.n_values];
+        let mut weights = weights.into_iter();
+        let base = values_of(weights.next().expect("a vertex").0);
+        result.copy_from_slice(base);
+        for (v, weight) in weights {
+            for ((result, value), base) in result.iter_mut().zip(values_of(v)).zip(base) {
+                *result += weight * (value - base);
+            }
+        }
+    }
+}
+
 impl<G: Dimension> MovingTriangulation<G> {
+    /// The weights of linear interpolation at a place in a cell, which is there, of its corners.
+    pub(crate) fn linear_weights(
+        &self,
+        cell: CellId,
+        q: &G::Point,
+        weights: &mut Vec<(VertexId, f64)>,
+    ) -> Result<()> {
+        let (kernel, mut of_sites) = (&self.mesh.kernel, Weights::new());
+        let slot = self.start_near(Some(Location::Cell(cell)))?;
+        list_linear(kernel, slot, q, &mut of_sites)?;
+        weights.clear();
+        memory::collect(weights, of_sites.iter().map(|&(s, weight)| (kernel.site(s).id, weight)))
+    }
+
     /// Interpolates values of vertices at positions: those of each are told to `found`, or `None` for positions outside
     /// the convex hull. Values of hidden and removed vertices are not read. Each position is looked for from the one
     /// before, the first one from `near`, if that is near it.
@@ -91,15 +121,8 @@ impl<G: Dimension> MovingTriangulation<G> {
                     continue;
                 }
             }
-            let values_of = |s: SiteId| &values[self.mesh.kernel.site(s).id.index() * n_values..][..n_values];
-            let (first, others) = weights.split_first().expect("a vertex");
-            let base = values_of(first.0);
-            result.copy_from_slice(base);
-            for &(s, weight) in others {
-                for ((result, value), base) in result.iter_mut().zip(values_of(s)).zip(base) {
-                    *result += weight * (value - base);
-                }
-            }
+            let of_vertices = weights.iter().map(|&(s, weight)| (self.mesh.kernel.site(s).id, weight));
+            given.combine(of_vertices, &mut result);
             found(Some(&result));
         }
         Ok(())

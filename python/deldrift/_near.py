@@ -1,0 +1,194 @@
+"""What is near places, and values there: of open and of periodic triangulations."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any, Optional
+
+import numpy as np
+
+from . import _library
+from ._arrays import F64, I32, address, choice, contiguous, floats, one_point, places, real, simplex_ids, whole
+from ._core import Core, count_of, id_count
+from ._errors import InvalidShape, InvalidValue, WrongCount
+
+_vertex_count = _library.function("vertex_count")
+_nearest_vertices = _library.function("nearest_vertices")
+_vertices_in_ball = _library.function("vertices_in_ball")
+_barycentric = _library.function("barycentric")
+_interpolate = _library.function("interpolate")
+
+
+class Near(Core):
+    """What is near places, and values there."""
+
+    def _simplices_at(self, rows: np.ndarray) -> np.ndarray:
+        """The simplex that each point is in, -1 where there is none."""
+        raise NotImplementedError
+
+    def nearest_vertices(self, xi: Any, k: Optional[int] = None) -> np.ndarray:
+        """The vertices nearest to points, by distance, compared exactly, and at the same distance by id.
+
+        In a periodic box each vertex counts once, by its nearest image.
+
+        Parameters
+        ----------
+        xi : array_like
+            Points; the last axis has the coordinates.
+        k : int, optional
+            How many for each point. By default the nearest one, without an axis of its own in the result.
+
+        Returns
+        -------
+        ndarray of int
+            Their ids, -1 where there are fewer vertices.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3]])
+        >>> tri.nearest_vertices([[1, 1], [3, 3]])
+        array([0, 2], dtype=int32)
+        >>> tri.nearest_vertices([[1, 1], [3, 3]], k=2)
+        array([[0, 3],
+               [2, 3]], dtype=int32)
+        """
+        rows, shape = places("xi", xi, self.ndim)
+        width = 1 if k is None else whole("k", k)
+        if width < 0:
+            raise InvalidValue(f"k is {width}, and must be 0 or more", "k", None, width)
+        found = np.empty((len(rows), width), I32)
+        with self._reading as t:
+            self._check(_nearest_vertices(t, address(rows), len(rows), width, address(found)), positions="xi")
+        return found.reshape(shape if k is None else shape + (width,))
+
+    def vertices_in_ball(self, centre: Any, squared_radius: float) -> np.ndarray:
+        """The vertices whose squared distance from a point is at most a given one, exactly.
+
+        In a periodic box a vertex is listed, once, if any image of it is that near.
+
+        Parameters
+        ----------
+        centre : array_like
+            The point.
+        squared_radius : float
+            The square of the radius.
+
+        Returns
+        -------
+        ndarray of int
+            Their ids, ascending, hidden ones included.
+        """
+        position, limit = one_point("centre", centre, self.ndim), real("squared_radius", squared_radius)
+        with self._reading as t:
+            found, count = np.empty(count_of(_vertex_count, t), I32), ctypes.c_size_t()
+            status = _vertices_in_ball(t, address(position), limit, address(found), len(found), count)
+            self._check(status, squared_radius="squared_radius!", centre="centre!")
+        return np.array(found[: count.value])
+
+    def barycentric(self, xi: Any, simplices: Any = None) -> np.ndarray:
+        """The barycentric coordinates of points, each in a simplex.
+
+        In a periodic box they are those in the translation of the simplex that has the point, NaN where there is none.
+
+        Parameters
+        ----------
+        xi : array_like
+            Points; the last axis has the coordinates.
+        simplices : array_like of int, optional
+            The simplex of each; by default the one that it is in.
+
+        Returns
+        -------
+        ndarray
+            A row for each point: a number for each corner, with the right sign; NaN where the simplex is -1.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [0, 4]])
+        >>> tri.barycentric([[1, 1], [4, 4]])
+        array([[0.5 , 0.25, 0.25],
+               [ nan,  nan,  nan]])
+        """
+        rows, shape = places("xi", xi, self.ndim)
+        if simplices is None:
+            cells = self._simplices_at(rows)
+        else:
+            cells = np.asarray(simplices).reshape(-1)
+            is_none = cells == -1
+            cells = simplex_ids("simplices", np.where(is_none, 0, cells)).view(I32)
+            cells[is_none] = -1
+        if len(cells) != len(rows):
+            raise WrongCount(
+                f"simplices has {len(cells)} entries, and there are {len(rows)} points", "simplices", None, len(cells)
+            )
+        weights = np.empty((len(rows), self.ndim + 1), F64)
+        with self._reading as t:
+            status = _barycentric(t, address(rows), address(cells), len(rows), address(weights))
+            self._check(status, positions="xi", cells="simplices")
+        return weights.reshape(shape + (self.ndim + 1,))
+
+    def interpolate(self, values: Any, xi: Any, method: str = "linear", fill_value: Any = np.nan) -> np.ndarray:
+        """Values of the vertices, interpolated at other places.
+
+        Parameters
+        ----------
+        values : array_like
+            A number, or a row of them, for each id. Those of hidden and of removed vertices are not used.
+        xi : array_like
+            Points; the last axis has the coordinates.
+        method : {"linear", "natural"}, optional
+            Linear in each simplex, or by natural neighbours (Laplace's, or non-Sibsonian, interpolation), which there is
+            not yet in a periodic box.
+        fill_value : float or array_like, optional
+            What points outside the convex hull get.
+
+        Returns
+        -------
+        ndarray
+            Of the shape of xi without its last axis, and with that of a row of values.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [0, 4]])
+        >>> tri.interpolate([0, 4, 8], [[1, 1], [5, 5]])
+        array([ 3., nan])
+        """
+        number = choice("method", method, _library.INTERPOLATIONS)
+        given = floats("values", values)
+        if given.ndim == 0:
+            raise InvalidShape("values is a single number, and must have an entry for each id", "values")
+        rows, shape = places("xi", xi, self.ndim)
+        width = int(np.prod(given.shape[1:], dtype=np.intp))
+        outside = _fill("fill_value", fill_value, given.shape[1:])
+        results = np.empty((len(rows), width), F64)
+        with self._reading as t:
+            if len(given) != id_count(t):
+                raise WrongCount(
+                    f"values has {len(given)} entries, and there are {id_count(t)} ids", "values", None, len(given)
+                )
+            status = _interpolate(
+                t,
+                number,
+                address(given),
+                len(given),
+                width,
+                address(rows),
+                len(rows),
+                None,
+                address(outside),
+                address(results),
+            )
+            self._check(status, positions="xi", value_count="values")
+        return results.reshape(shape + given.shape[1:])
+
+
+def _fill(argument: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
+    try:
+        return contiguous(np.broadcast_to(floats(argument, value), shape), F64).reshape(-1)
+    except ValueError:
+        raise InvalidShape(
+            f"{argument} has the shape {np.shape(value)}, and must be a number or {shape}", argument
+        ) from None
