@@ -12,7 +12,7 @@ use crate::delaunay::{Plane, Space};
 use crate::error::Error;
 use crate::in_its_dimension;
 use crate::machine::memory;
-use crate::motion::{CoincidencePolicy, MAX_VERTICES};
+use crate::motion::{CoincidencePolicy, MAX_VERTICES, Options};
 use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 
 /// Creates the Delaunay triangulation of points that repeat: each is in all places to which sums of multiples of the
@@ -73,13 +73,7 @@ pub unsafe extern "C" fn deldrift_create_periodic(
         let options = options.read()?;
         let callbacks = options.callbacks();
         let options = options.convert()?;
-        if options.coincidence == CoincidencePolicy::Reject {
-            return Err(invalid(
-                "options.coincidence",
-                1,
-                "DELDRIFT_COINCIDENCE_MERGE where the triangulation is periodic",
-            ));
-        }
+        reject_coincidence(&options)?;
         // Looked at here as well, lest an absurd count becomes the length of a slice.
         if count > MAX_VERTICES {
             return Err(Error::TooManyVertices { given: count, limit: MAX_VERTICES }.into());
@@ -238,6 +232,15 @@ pub unsafe extern "C" fn deldrift_edge_shifts(
             fill_edge_shifts::<3>(t, shifts, count)
         }
     })
+}
+
+/// Vertices of a periodic triangulation may share a place, as images may do.
+pub(super) fn reject_coincidence(options: &Options) -> Result<(), Failure> {
+    if options.coincidence == CoincidencePolicy::Reject {
+        let wanted = "DELDRIFT_COINCIDENCE_MERGE where the triangulation is periodic";
+        return Err(invalid("options.coincidence", 1, wanted));
+    }
+    Ok(())
 }
 
 /// By how many vectors a triangulation repeats.

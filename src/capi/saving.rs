@@ -5,8 +5,9 @@ use std::mem::MaybeUninit;
 
 use super::files::{NewFile, OldFile};
 use super::guard;
-use super::handle::{Reading, deldrift_triangulation, hand_out};
+use super::handle::{Content, Reading, deldrift_triangulation, hand_out, in_any};
 use super::options::{GivenOptions, deldrift_options};
+use super::periodic::reject_coincidence;
 use super::pointers::{Array, Buffer, Output, Text, given, write_all};
 use super::status::{Failure, deldrift_status};
 use crate::damage::LoadError;
@@ -14,13 +15,14 @@ use crate::either::AnyTriangulation;
 use crate::in_its_dimension;
 use crate::machine::memory;
 use crate::motion::{Field, Saved};
+use crate::periodic::{AnyPeriodic, SavedPeriodic};
 
 /// Makes an independent triangulation that is as this one, to *out, which the caller has to hand to
 /// deldrift_destroy; it is written on success only.
 ///
 /// Positions, ids, segments, cells with their indices, hidden vertices, staged moves, insertions and removals, the timestamp,
 /// statistics, options, the changes that deldrift_take_changes has not given yet, and what the algorithm keeps between
-/// commits are those of t: after the same calls both have the same cells. The callbacks of the options are called for
+/// commits are those of t, and so are the vectors of a periodic one, also those that are staged: after the same calls both have the same cells. The callbacks of the options are called for
 /// either, so what user_data points to must live as long as both. Views, and changes that have been taken, belong to t
 /// alone.
 ///
@@ -38,7 +40,11 @@ pub unsafe extern "C" fn deldrift_clone(
     given!(t: Reading, out: Output);
     t.read_with_callbacks(|t, callbacks| {
         let out = out.place()?;
-        hand_out(out, t.try_clone(callbacks.monitor()?)?, callbacks)
+        let monitor = callbacks.monitor()?;
+        match t {
+            Content::Open(t) => hand_out(out, t.try_clone(monitor)?, callbacks),
+            Content::Periodic(t) => hand_out(out, memory::boxed(t.try_clone(monitor)?)?, callbacks),
+        }
     })
 }
 
@@ -46,7 +52,8 @@ pub unsafe extern "C" fn deldrift_clone(
 ///
 /// Saved are positions, ids, segments, removed and hidden vertices, cells with their indices, staged moves, insertions and
 /// removals, the timestamp and statistics. Not saved are the options, what the algorithm keeps between commits, and
-/// which changes have been taken. docs/FORMAT.md describes the bytes.
+/// which changes have been taken. docs/FORMAT.md describes the bytes. Of a periodic triangulation the vectors as they were
+/// given, those that are staged, and the periods of vertices are saved, too, and all images with their cells.
 ///
 /// buffer: room for capacity bytes, with any alignment. count: receives the number of bytes, which is also written
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone, in constant time.
@@ -66,9 +73,9 @@ pub unsafe extern "C" fn deldrift_save(
 ) -> deldrift_status {
     let buffer = buffer.cast();
     given!(t: Reading, buffer[capacity]: Buffer, count: Output);
-    t.read(|t| {
-        in_its_dimension!(t => {
-            t.reject_prepared()?;
+    t.read_any(|t| {
+        t.reject_prepared()?;
+        in_any!(t => {
             buffer.fill_by(count, t.saved_size(), |places| {
                 let mut rest = places;
                 t.save(|bytes| {
@@ -102,9 +109,14 @@ fn fill_front<'b>(buffer: &'b mut [MaybeUninit<u8>], bytes: &[u8]) -> &'b mut [M
 /// times as many bytes. This holds whatever the data are: what is not a Delaunay triangulation, exactly, is refused,
 /// even if the checksum is right.
 ///
-/// Cost: n log n + m, whatever the data are.
+/// Data of a periodic triangulation give one. Its images count as vertices: all that is in the data is checked, and that no image is
+/// missing. Where cells do not tell that at once, as after some commits, it takes a copy of the triangulation, into which
+/// images are inserted: as long as creation, and as much memory, at most, with data of any kind.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS,
+/// Cost: n log n + m, whatever the data are; of a periodic one that of creation at most.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS (also if
+/// the options reject coincidence and the data are of a periodic one),
 /// DELDRIFT_INVALID_DATA, DELDRIFT_COINCIDENT (if vertices are hidden and the options reject it),
 /// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. May be called from
 /// any number of threads at once.
@@ -134,9 +146,16 @@ fn load(
         LoadError::Call(error) => Failure::Call(error),
         LoadError::Data(damage) => Failure::Data { argument, damage },
     };
+    let damaged = |damage| Failure::Data { argument, damage };
     let callbacks = options.callbacks();
     let options = options.convert()?;
-    let saved = Saved::of(data).map_err(|damage| Failure::Data { argument, damage })?;
+    if SavedPeriodic::is_of(data, data.len() as u64) {
+        reject_coincidence(&options)?;
+        let saved = SavedPeriodic::of(data).map_err(damaged)?;
+        let made = AnyPeriodic::load(&saved, options).map_err(failed)?;
+        return hand_out(out, memory::boxed(made)?, callbacks);
+    }
+    let saved = Saved::of(data).map_err(damaged)?;
     hand_out(out, AnyTriangulation::load(&saved, options).map_err(failed)?, callbacks)
 }
 
@@ -145,7 +164,12 @@ fn load(
 fn bytes_of(file: &OldFile<'_>) -> Result<Vec<u8>, Failure> {
     let mut bytes = Vec::new();
     file.read(&mut bytes, Saved::HEADER)?;
-    let size = Saved::size_by(&bytes, file.size());
+    let size = if SavedPeriodic::is_of(&bytes, file.size()) {
+        // It is as long as it says there.
+        Ok(usize::try_from(file.size()).unwrap_or(usize::MAX))
+    } else {
+        Saved::size_by(&bytes, file.size())
+    };
     let size = size.map_err(|damage| Failure::Data { argument: "path", damage })?;
     // One more, which there is only if somebody writes to it.
     memory::reserve_exact(&mut bytes, size - Saved::HEADER + 1)?;
@@ -175,10 +199,10 @@ pub unsafe extern "C" fn deldrift_save_file(
     path: *const c_char,
 ) -> deldrift_status {
     given!(t: Reading, path: Text);
-    t.read(|t| {
-        in_its_dimension!(t => t.reject_prepared())?;
+    t.read_any(|t| {
+        t.reject_prepared()?;
         let mut file = NewFile::create(path.get()?)?;
-        in_its_dimension!(t => t.save(|bytes| file.put(bytes)))?;
+        in_any!(t => t.save(|bytes| file.put(bytes)))?;
         Ok(file.finish()?)
     })
 }

@@ -26,7 +26,9 @@
 //! the present one, and takes its place when it is complete.
 
 mod cells;
+mod cloning;
 mod commit;
+mod completeness;
 mod either;
 mod following;
 mod images;
@@ -34,6 +36,7 @@ mod inside;
 mod lattice;
 mod needed;
 mod reading;
+mod saving;
 mod staged;
 #[cfg(test)]
 mod tests;
@@ -41,4 +44,5 @@ mod triangulation;
 
 pub use cells::PeriodicView;
 pub use either::AnyPeriodic;
+pub use saving::SavedPeriodic;
 pub use triangulation::PeriodicTriangulation;

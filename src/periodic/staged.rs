@@ -142,6 +142,15 @@ impl<G: Dimension> Staged<G> {
         n
     }
 
+    pub(super) fn copied(&self) -> Result<Self> {
+        Ok(Staged {
+            moves: memory::copy_of(&self.moves)?,
+            marks: memory::copy_of(&self.marks)?,
+            insertions: memory::copy_of(&self.insertions)?,
+            removals: memory::copy_of(&self.removals)?,
+        })
+    }
+
     pub(super) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.moves)
             + memory::bytes_of(&self.marks)

@@ -8,6 +8,8 @@ use crate::motion::{MovingTriangulation, NO_CELL, Options};
 use crate::random::Rng;
 use std::collections::BTreeSet;
 
+mod keeping;
+
 type Class = Vec<(u32, [i64; 3])>;
 
 /// A class of cells: the corners in order, relative to the first.

@@ -51,10 +51,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// Those of [`MovingTriangulation::new`]; [`Error::DependentVectors`] for vectors that depend on each other,
     /// [`Error::InvalidValue`] for options that reject coincident vertices.
     pub fn new(positions: &[G::Point], vectors: &[G::Point], options: Options) -> Result<Self> {
-        if options.coincidence == CoincidencePolicy::Reject {
-            let (value, wanted) = (1.0, "0, to merge");
-            return Err(Error::InvalidValue { argument: "options.coincidence", index: 0, value, wanted });
-        }
+        check_options(&options)?;
         let lattice = memory::boxed(Lattice::<G>::new(vectors)?)?;
         let n = positions.len();
         if n > MAX_VERTICES {
@@ -76,6 +73,15 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 }
 
+/// Vertices that share a place are no mistake, as images may do.
+pub(super) fn check_options(options: &Options) -> Result<()> {
+    if options.coincidence == CoincidencePolicy::Reject {
+        let (value, wanted) = (1.0, "0, to merge");
+        return Err(Error::InvalidValue { argument: "options.coincidence", index: 0, value, wanted });
+    }
+    Ok(())
+}
+
 impl<G: Dimension> Inside<G> {
     /// Vertices, which are in the unit cell, and images near it, that are to be [built](Self::build); others of the ids up to
     /// `n_ids` are of removed vertices.
@@ -88,7 +94,7 @@ impl<G: Dimension> Inside<G> {
         let mut occupied = Occupied::NOTHING;
         home.iter().for_each(|(_, place)| occupied.enter(&lattice.multiples(place)));
         let spacing = spacing(lattice, home);
-        let room = lattice.thickness().map(|thickness| ROOM.min(DRIFT * spacing * thickness));
+        let room = room_of(lattice, home);
         let mut images = Images::default();
         images.reserve(n_ids, home.len())?;
         let mut places = Vec::new();
@@ -139,6 +145,12 @@ impl<G: Dimension> Inside<G> {
             + memory::bytes_of(&self.places)
             + memory::bytes_of(&self.goals)
     }
+}
+
+/// By vector, how far outside of the unit cell vertices at home may be, as a share of it.
+pub(super) fn room_of<G: Dimension>(lattice: &Lattice<G>, home: &[(VertexId, G::Point)]) -> [f64; 3] {
+    let spacing = spacing(lattice, home);
+    lattice.thickness().map(|thickness| ROOM.min(DRIFT * spacing * thickness))
 }
 
 /// The mean distance of vertices.
