@@ -294,12 +294,16 @@ unsafe fn fields_of<'a>(
 /// is hidden is the vertex that represents it. Their markers are the cell data "marker", which is 0 for cells that are
 /// no lines, and cell_fields are NaN for lines.
 ///
+/// Of a periodic triangulation the cells are together as deldrift_cell_shifts has them. A vertex is a point for each period
+/// in which a cell has it, ascending by id and by these shifts, all with its id and its numbers of fields; one that no cell
+/// has is a point at its position.
+///
 /// vertex_fields, cell_fields: numbers to be written along as point data and cell data, vertex_field_count and
 /// cell_field_count of them; NULL if the count is 0. All of it is read during the call only.
 ///
 /// Does what deldrift_cells does.
 ///
-/// Cost: n + m, and the numbers of the fields.
+/// Cost: n + m, and the numbers of the fields; m log m for a periodic triangulation.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_FIELD,
 /// DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
@@ -314,15 +318,19 @@ pub unsafe extern "C" fn deldrift_write_vtu(
 ) -> deldrift_status {
     given!(t: Reading, path: Text);
     given!(vertex_fields[vertex_field_count]: Array, cell_fields[cell_field_count]: Array);
-    t.read(|t| {
-        in_its_dimension!(t => {
+    t.read_any(|t| {
+        let n_cells = match t {
+            Content::Open(t) => in_its_dimension!(t => t.cell_count()),
+            Content::Periodic(t) => t.cell_count()?,
+        };
+        in_any!(t => {
             let path = path.get()?;
             let has_lines = t.has_lines();
             // SAFETY: the header's conditions on fields.
             let (vertices, cells) = unsafe {
                 (
                     fields_of("vertex_fields", vertex_fields, t.id_count(), has_lines)?,
-                    fields_of("cell_fields", cell_fields, t.cell_count(), has_lines)?,
+                    fields_of("cell_fields", cell_fields, n_cells, has_lines)?,
                 )
             };
             let mut file = NewFile::create(path)?;
@@ -337,7 +345,8 @@ pub unsafe extern "C" fn deldrift_write_vtu(
 /// Its vertices are those that are present, hidden ones included, ascending by id and numbered from 1; the reference
 /// of each is its id. Its triangles or tetrahedra are the cells, in the order of deldrift_cells. If there are segments in
 /// force, those of deldrift_segments are its edges, in that order, behind the triangles; the reference of each is its
-/// marker, and an end that is hidden is the vertex that represents it. Reading the numbers gives the same doubles.
+/// marker, and an end that is hidden is the vertex that represents it. Reading the numbers gives the same doubles. Of a
+/// periodic triangulation a vertex is there once for each period in which a cell has it, as in deldrift_write_vtu.
 ///
 /// references: reference_count numbers, the reference of each cell in the order of deldrift_cells (reference_count must
 /// be deldrift_cell_count), such as those of deldrift_label_cells; NULL with reference_count 0 for 1. They are read
@@ -346,7 +355,7 @@ pub unsafe extern "C" fn deldrift_write_vtu(
 ///
 /// Does what deldrift_cells does.
 ///
-/// Cost: n + m.
+/// Cost: n + m; m log m for a periodic triangulation.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_IO_ERROR,
 /// DELDRIFT_OUT_OF_MEMORY.
@@ -359,9 +368,9 @@ pub unsafe extern "C" fn deldrift_write_medit(
 ) -> deldrift_status {
     let is_given = !references.is_null() || reference_count != 0;
     given!(t: Reading, path: Text, references[reference_count]: Array);
-    t.read(|t| {
+    t.read_any(|t| {
         let path = path.get()?;
-        in_its_dimension!(t => {
+        in_any!(t => {
             let references = if is_given {
                 t.check_references(reference_count)?;
                 Some(references.get()?)

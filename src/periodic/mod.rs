@@ -30,6 +30,7 @@ mod cloning;
 mod commit;
 mod completeness;
 mod either;
+mod exporting;
 mod following;
 mod images;
 mod inside;

@@ -165,6 +165,9 @@ fn images_of<G: Dimension>(
     let mut images = Images::default();
     images.reserve(n_ids, listed.len())?;
     for (index, &image) in listed.iter().enumerate() {
+        if index == n_home {
+            images.skip_to(VertexId::at(n_ids));
+        }
         let Image { vertex, shift } = image;
         let is_known = vertex.index() < n_ids;
         let is_right = if index < n_home {
@@ -183,13 +186,8 @@ fn images_of<G: Dimension>(
             images.skip_to(vertex);
         }
         images.push(image);
-        if index + 1 == n_home {
-            images.skip_to(VertexId::at(n_ids));
-        }
     }
-    if n_home == 0 {
-        images.skip_to(VertexId::at(n_ids));
-    }
+    images.skip_to(VertexId::at(n_ids));
     Ok((images, n_home))
 }
 
