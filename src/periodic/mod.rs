@@ -33,6 +33,7 @@ mod either;
 mod exporting;
 mod following;
 mod images;
+mod incidence;
 mod inside;
 mod lattice;
 mod needed;
@@ -42,6 +43,7 @@ mod staged;
 #[cfg(test)]
 mod tests;
 mod triangulation;
+mod validate;
 
 pub use cells::PeriodicView;
 pub use either::AnyPeriodic;
