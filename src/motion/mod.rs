@@ -46,8 +46,8 @@ pub use options::{
 };
 pub(crate) use reading::chunks::Chunks;
 pub use reading::domain::ChainEdge;
-pub(crate) use reading::exporting::{Drawn, check_references};
 pub use reading::exporting::Field;
+pub(crate) use reading::exporting::{Drawn, check_references};
 pub use reading::geometry::{
     BoundaryFacet, Interpolation, OrderedStar, Rows, VertexValues, VoronoiCells, VoronoiFacets,
 };

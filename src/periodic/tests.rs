@@ -9,6 +9,7 @@ use crate::random::Rng;
 use std::collections::BTreeSet;
 
 mod keeping;
+mod telling;
 
 type Class = Vec<(u32, [i64; 3])>;
 

@@ -26,7 +26,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let of = |message| Some(Violation { level: Level::Structure, message });
         if let Some(inner) = self.inside.misplaced(&self.lattice)? {
             let vertex = self.inside.images.of(inner).vertex;
-            return Ok(of(memory::text(format_args!("an image of vertex {vertex} is not where the vectors take it"))));
+            return Ok(of(memory::text(format_args!(
+                "an image of vertex {vertex} is not where the vectors take it"
+            ))));
         }
         if level != Level::Delaunay {
             return Ok(None);
