@@ -125,6 +125,8 @@ static void faults_of(uint32_t dimension, call call, size_t which, double share,
     // Of those that are in a line without end most images are there.
     const bool is_periodic = call.kind == CREATE_PERIODIC || call.kind >= PERIODIC_POSITIONS;
     if (is_periodic && (setting->n > 100 || setting->stages > 0)) return;
+    // And so many bytes.
+    if ((call.kind == PERIODIC_SAVE || call.kind == PERIODIC_LOAD) && setting->is_flat) return;
     // Segments are of the plane; a set without them has nothing to check.
     const bool is_of_segments = call.kind == CHECK_STAGED || call.kind == CHECK_PASSINGS || call.kind == STAGE_SPLITS;
     if (setting->segments > 0 ? dimension == 3 : is_of_segments) return;

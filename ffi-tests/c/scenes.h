@@ -65,7 +65,8 @@ typedef enum { CREATE, CREATE_WITH_KEYS, CREATE_PERIODIC, RELOCATE, INSERT, INSE
     CELLS_IN_REACH, HULL_FACETS_IN_REACH, VERTICES_IN_REACH, FIND_SIMPLICES, FIND_SIMPLICES_ALL,
     CELL_OF_EACH_VERTEX, BARYCENTRIC, MASK_WITHOUT_FLAT_CELLS, SEGMENTS_OF_CELLS, CELLS_OF_SEGMENTS, NESTING_LEVELS,
     LABEL_CELLS, UPDATE_LABELS, BOUNDARY_CHAINS, REFINE, COARSEN, RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT,
-    PERIODIC_POSITIONS, STAGE_VECTORS, CELL_SHIFTS, EDGE_SHIFTS, N_KINDS } kind;
+    PERIODIC_POSITIONS, STAGE_VECTORS, CELL_SHIFTS, EDGE_SHIFTS, PERIODIC_CLONE, PERIODIC_SAVE, PERIODIC_LOAD, PERIODIC_VTU,
+    PERIODIC_NEIGHBOURS, PERIODIC_CHECK, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
     "deldrift_create", "deldrift_create_with_keys", "deldrift_create_periodic", "deldrift_relocate_vertex", "deldrift_insert_vertex",
@@ -95,6 +96,8 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_release_cells", "deldrift_clone", "deldrift_save", "deldrift_load", "deldrift_save_file",
     "deldrift_load_file", "deldrift_write_vtu", "deldrift_write_medit",
     "deldrift_commit_positions, periodic", "deldrift_stage_vectors", "deldrift_cell_shifts", "deldrift_edge_shifts",
+    "deldrift_clone, periodic", "deldrift_save, periodic", "deldrift_load, periodic", "deldrift_write_vtu, periodic",
+    "deldrift_vertex_neighbours, periodic", "deldrift_validate, periodic",
 };
 
 enum { MOST_PAIRS = 24 };
@@ -486,6 +489,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     const bool is_flat = s->setting->is_flat || s->setting->flattens;
     const size_t n_segments = d == 2 ? s->setting->segments : 0, n_more = is_flat ? 0 : 5;
     if (s->call.kind == LOAD) OK(deldrift_save(s->t, saved, sizeof saved, &size));
+    if (s->call.kind == PERIODIC_LOAD) OK(deldrift_save(s->periodic, saved, sizeof saved, &size));
     if (s->call.kind == LOAD_FILE) OK(deldrift_save_file(s->t, file));
     count_requests(first, too);
     switch (s->call.kind) {
@@ -498,6 +502,14 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case STAGE_VECTORS: status = deldrift_stage_vectors(s->periodic, OTHER_BOX[d - 2], d); break;
         case CELL_SHIFTS: status = deldrift_cell_shifts(s->periodic, shifts_out, NULL, ROOM / 12, &count); break;
         case EDGE_SHIFTS: status = deldrift_edge_shifts(s->periodic, shifts_out, ROOM / 3, &count); break;
+        case PERIODIC_CLONE: status = deldrift_clone(s->periodic, &made); break;
+        case PERIODIC_SAVE: status = deldrift_save(s->periodic, bytes_out, sizeof bytes_out, &count); break;
+        case PERIODIC_LOAD: status = deldrift_load(saved, size, &options, &made); break;
+        case PERIODIC_VTU: status = deldrift_write_vtu(s->periodic, file, NULL, 0, NULL, 0); break;
+        case PERIODIC_NEIGHBOURS:
+            status = deldrift_vertex_neighbours(s->periodic, NULL, 0, ids_out, ROOM, &count);
+            break;
+        case PERIODIC_CHECK: status = deldrift_validate(s->periodic, 3); break;
         case CREATE_WITH_KEYS: status = deldrift_create_with_keys(d, s->points, keys_of(s->n), s->n, &options, &made); break;
         case INSERT_WITH_KEY: status = deldrift_insert_vertex_with_key(s->t, to, 3, &out); break;
         case INSERT: status = deldrift_insert_vertex(s->t, to, &out); break;
@@ -629,7 +641,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     }
     stop_counting();
     // It is there exactly if it has been written.
-    bool writes = s->call.kind == SAVE_FILE || s->call.kind == WRITE_VTU || s->call.kind == WRITE_MEDIT;
+    bool writes = s->call.kind == SAVE_FILE || s->call.kind == WRITE_VTU || s->call.kind == WRITE_MEDIT || s->call.kind == PERIODIC_VTU;
     bool is_there = unlink(file) == 0;
     if (writes && is_there != (status == DELDRIFT_OK)) {
         *wrong = "half a file";
@@ -669,6 +681,14 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             break;
         case CELL_SHIFTS:
         case EDGE_SHIFTS: *given = count; break;
+        case PERIODIC_SAVE: *given = count; break;
+        case PERIODIC_NEIGHBOURS: *given = digest_of(ids_out, count * sizeof *ids_out); break;
+        case PERIODIC_CLONE:
+        case PERIODIC_LOAD:
+            *given = digest_of_periodic(made, d);
+            if (deldrift_validate(made, 3) != DELDRIFT_OK) *wrong = "no triangulation";
+            deldrift_destroy(made);
+            break;
         case CREATE:
         case CREATE_WITH_KEYS:
         case CLONE:

@@ -37,7 +37,10 @@ int main() {
     double sum = 0;
     for (const double volume : t.voronoi_volumes()) sum += volume;
     CHECK(std::fabs(sum - 1.5) < 1e-12);
-    CHECK_THROWS(t.clone(), DELDRIFT_PERIODIC, "t is periodic");
+    const Triangulation copy = t.clone(), loaded = Triangulation::load(t.save());
+    CHECK(copy.cell_shifts().corners == t.cell_shifts().corners && loaded.edge_shifts() == t.edge_shifts());
+    CHECK(loaded.vectors() == t.vectors() && loaded.positions() == t.positions() && loaded.save() == t.save());
+    loaded.validate(3);
     CHECK_THROWS(t.stage_vectors(std::vector<double>{1, 0}), DELDRIFT_WRONG_COUNT, "vector_count is 1");
     CHECK_THROWS(Triangulation(2, points, deldrift::Periodic(std::vector<double>{1, 1, 2, 2})),
                  DELDRIFT_DEPENDENT_VECTORS, "vectors[1]");

@@ -43,8 +43,11 @@ use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 /// deldrift_stage_insertions, deldrift_stage_removals, deldrift_discard_moves, deldrift_commit_timestamp,
 /// deldrift_commit_positions, deldrift_vertex_count, deldrift_id_count, deldrift_cell_count, deldrift_staged_count,
 /// deldrift_memory_bytes, deldrift_timestamp, deldrift_statistics, deldrift_is_present, deldrift_position,
-/// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges, and
-/// deldrift_voronoi_volumes without a box. All others return DELDRIFT_PERIODIC. Cells are numbered anew by each commit.
+/// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges,
+/// deldrift_clone, deldrift_save, deldrift_load, deldrift_save_file, deldrift_load_file, deldrift_write_vtu,
+/// deldrift_write_medit, deldrift_validate, deldrift_hidden_vertices, deldrift_star, deldrift_vertex_cells,
+/// deldrift_vertex_neighbours, deldrift_cell_of_each_vertex, deldrift_cells_around, deldrift_mirror_indices,
+/// deldrift_mirror_index, and deldrift_voronoi_volumes without a box. All others return DELDRIFT_PERIODIC. Cells are numbered anew by each commit.
 ///
 /// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves
 /// costs what it costs in an open triangulation of as many, and n + m; one with insertions, removals or other vectors, or
