@@ -323,7 +323,7 @@ static void what_is_wrong_is_told(void) {
     CHECK_STATUS(deldrift_create_periodic(2, one, 1, one, 1, &options, &t), DELDRIFT_INVALID_OPTIONS);
     CHECK_MESSAGE("options.coincidence is 1");
     OK(deldrift_create_periodic(3, one, 1, one, 1, NULL, &t));
-    CHECK_STATUS(deldrift_take_changes(t, NULL), DELDRIFT_PERIODIC);
+    CHECK_STATUS(deldrift_prepare_timestamp(t, NULL), DELDRIFT_PERIODIC);
     CHECK_STATUS(deldrift_stage_vectors(t, one, 0), DELDRIFT_WRONG_COUNT);
     CHECK_MESSAGE("vector_count is 0, but must be 1");
     CHECK_STATUS(deldrift_stage_vectors(t, (double[]){0, 0, 0}, 1), DELDRIFT_DEPENDENT_VECTORS);

@@ -150,8 +150,8 @@ fn load(
     let callbacks = options.callbacks();
     let options = options.convert()?;
     if SavedPeriodic::is_of(data, data.len() as u64) {
-        reject_coincidence(&options)?;
         let saved = SavedPeriodic::of(data).map_err(damaged)?;
+        reject_coincidence(&options)?;
         let made = AnyPeriodic::load(&saved, options).map_err(failed)?;
         return hand_out(out, memory::boxed(made)?, callbacks);
     }

@@ -155,10 +155,13 @@ fn check_files<G: Dimension>(n: usize, basis: &[G::Point]) {
     let place_of = |c: usize, i: usize| {
         place::<G>(&points, basis, cells.corners[c].as_ref()[i].get(), shifts[c * n_corners + i])
     };
-    let mut places: BTreeSet<(u32, [i64; 3])> = BTreeSet::from([(n as u32 - 1, [0; 3])]);
+    let mut places: BTreeSet<(u32, [i64; 3])> = BTreeSet::new();
     for (c, row) in cells.corners.iter().enumerate() {
         places.extend(row.as_ref().iter().enumerate().map(|(i, v)| (v.get(), shifts[c * n_corners + i])));
     }
+    let in_none = VertexId::range(0..n)
+        .filter(|&v| t.is_present(v) && !cells.corners.iter().any(|row| row.as_ref().contains(&v)));
+    places.extend(in_none.map(|v| (v.get(), [0; 3])));
     let expected: Vec<(u32, G::Point)> =
         places.iter().map(|&(v, shift)| (v, place::<G>(&points, basis, v, shift))).collect();
     // The text, word by word.
@@ -228,5 +231,6 @@ fn check_files<G: Dimension>(n: usize, basis: &[G::Point]) {
 fn files_hold_cells_together() {
     check_files::<Plane>(9, &[[1.0, 0.0], [0.25, 1.0]]);
     check_files::<Plane>(3, &[[1.0, 0.0]]);
+    check_files::<Plane>(6, &[[1.0, 0.0]]);
     check_files::<Space>(8, &[[1.0, 0.0, 0.0], [0.25, 1.0, 0.0], [0.0, 0.0, 1.0]]);
 }
