@@ -306,6 +306,13 @@ static void vertices_come_and_go(void) {
     CHECK_STATUS(deldrift_position(t, 0, position), DELDRIFT_REMOVED_VERTEX);
     OK(deldrift_cell_count(t, &count));
     CHECK(count == 2);
+    uint32_t map[3];
+    CHECK_STATUS(deldrift_compact(t, map, 2, &count), DELDRIFT_BUFFER_TOO_SMALL);
+    OK(deldrift_compact(t, map, 3, &count));
+    CHECK(count == 3 && map[0] == DELDRIFT_NONE && map[1] == 0 && map[2] == 1);
+    OK(deldrift_position(t, 0, position));
+    OK(deldrift_coincident_representative(t, 1, &other));
+    CHECK(position[0] == 7.5 && other == 0);
     deldrift_destroy(t);
 }
 

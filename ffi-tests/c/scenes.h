@@ -66,7 +66,7 @@ typedef enum { CREATE, CREATE_WITH_KEYS, CREATE_PERIODIC, RELOCATE, INSERT, INSE
     CELL_OF_EACH_VERTEX, BARYCENTRIC, MASK_WITHOUT_FLAT_CELLS, SEGMENTS_OF_CELLS, CELLS_OF_SEGMENTS, NESTING_LEVELS,
     LABEL_CELLS, UPDATE_LABELS, BOUNDARY_CHAINS, REFINE, COARSEN, RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT,
     PERIODIC_POSITIONS, STAGE_VECTORS, CELL_SHIFTS, EDGE_SHIFTS, PERIODIC_CLONE, PERIODIC_SAVE, PERIODIC_LOAD, PERIODIC_VTU,
-    PERIODIC_NEIGHBOURS, PERIODIC_CHECK, N_KINDS } kind;
+    PERIODIC_NEIGHBOURS, PERIODIC_CHECK, PERIODIC_COMPACT, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
     "deldrift_create", "deldrift_create_with_keys", "deldrift_create_periodic", "deldrift_relocate_vertex", "deldrift_insert_vertex",
@@ -97,7 +97,7 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_load_file", "deldrift_write_vtu", "deldrift_write_medit",
     "deldrift_commit_positions, periodic", "deldrift_stage_vectors", "deldrift_cell_shifts", "deldrift_edge_shifts",
     "deldrift_clone, periodic", "deldrift_save, periodic", "deldrift_load, periodic", "deldrift_write_vtu, periodic",
-    "deldrift_vertex_neighbours, periodic", "deldrift_validate, periodic",
+    "deldrift_vertex_neighbours, periodic", "deldrift_validate, periodic", "deldrift_compact, periodic",
 };
 
 enum { MOST_PAIRS = 24 };
@@ -360,6 +360,10 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
     memcpy(s.places, s.points, room * sizeof *s.places);
     nudge(s.places, s.n * d, 0.3 * spacing, &state);
     if (call.kind >= PERIODIC_POSITIONS) OK(deldrift_create_periodic(d, s.points, s.n, BOX[d - 2], d, &options, &s.periodic));
+    if (call.kind == PERIODIC_COMPACT) {
+        OK(deldrift_stage_removals(s.periodic, (uint32_t[]){1, 4}, 2));
+        OK(deldrift_commit_timestamp(s.periodic, NULL));
+    }
     if (setting->flattens) flatten(s.places, s.n + 20, d);
     for (size_t k = 0; k < s.n_pairs && n_laid > 0; k++) {
         for (int i = 0; i < 2; i++) {
@@ -510,6 +514,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             status = deldrift_vertex_neighbours(s->periodic, NULL, 0, ids_out, ROOM, &count);
             break;
         case PERIODIC_CHECK: status = deldrift_validate(s->periodic, 3); break;
+        case PERIODIC_COMPACT: status = deldrift_compact(s->periodic, ids_out, ROOM, &count); break;
         case CREATE_WITH_KEYS: status = deldrift_create_with_keys(d, s->points, keys_of(s->n), s->n, &options, &made); break;
         case INSERT_WITH_KEY: status = deldrift_insert_vertex_with_key(s->t, to, 3, &out); break;
         case INSERT: status = deldrift_insert_vertex(s->t, to, &out); break;
@@ -682,6 +687,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case CELL_SHIFTS:
         case EDGE_SHIFTS: *given = count; break;
         case PERIODIC_SAVE: *given = count; break;
+        case PERIODIC_COMPACT: *given = digest_of_periodic(s->periodic, d); break;
         case PERIODIC_NEIGHBOURS: *given = digest_of(ids_out, count * sizeof *ids_out); break;
         case PERIODIC_CLONE:
         case PERIODIC_LOAD:

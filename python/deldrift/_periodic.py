@@ -33,6 +33,7 @@ _discard_moves = _library.function("discard_moves")
 _move_vertices = _library.function("move_vertices")
 _stage_insertions = _library.function("stage_insertions")
 _stage_removals = _library.function("stage_removals")
+_compact = _library.function("compact")
 _vertex_count = _library.function("vertex_count")
 _memory_bytes = _library.function("memory_bytes")
 _timestamp = _library.function("timestamp")
@@ -401,6 +402,19 @@ class PeriodicDelaunay(Meeting, Writing):
         return self._change(
             lambda t, report: int(_stage_removals(t, address(going), len(going)) or _commit_timestamp(t, report))
         )
+
+    def compact(self) -> np.ndarray:
+        """Gives vertices the ids 0, 1, ... in the order of those that they have, and frees what removed ones used.
+
+        Returns
+        -------
+        ndarray of int
+            The new id of each old one, -1 for removed vertices. Simplices may have other indices.
+        """
+        with self._changing as t:
+            new_ids = np.empty(id_count(t), I32)
+            self._check(_compact(t, address(new_ids), len(new_ids), ctypes.c_size_t()))
+        return new_ids
 
     def _change(self, change: Callable[[int, Report], int]) -> Report:
         """A change, which has no effect if it fails."""

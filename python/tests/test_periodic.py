@@ -100,6 +100,8 @@ def test_points_come_and_go():
     assert (tri.nvertices, tri.nsimplex) == (3, 6) and np.isnan(tri.points[0]).all()
     assert tri.move([[0.5, 0.5]], ids=[3]).moved == 1
     assert "3 points in 2D" in repr(tri) and tri.nbytes > 0 and tri.report.timestamp == 3
+    points = tri.points
+    assert tri.compact().tolist() == [-1, 0, 1, 2] and (tri.points == points[1:]).all() and tri.nsimplex == 6
 
 
 def test_what_is_wrong_is_told_and_changes_nothing():

@@ -1,6 +1,6 @@
 //! Changes that take effect at once, one vertex at a time; and new ids.
 
-use super::handle::{Changing, deldrift_triangulation};
+use super::handle::{Changing, deldrift_triangulation, in_any};
 use super::pointers::{Buffer, Output, Point, fit, given, write_all};
 use super::status::deldrift_status;
 use crate::ids::VertexId;
@@ -97,12 +97,13 @@ pub unsafe extern "C" fn deldrift_remove_vertex(
 /// has been compacted.
 ///
 /// Takes no longer than a rebuild, and while it runs the memory of a second
-/// triangulation.
+/// triangulation. A periodic triangulation is built anew, if vertices have been removed: its cells stay, and may have other
+/// indices.
 ///
-/// Cost: n + m.
+/// Cost: n + m; of a periodic triangulation that of creation.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
+/// DELDRIFT_OUT_OF_MEMORY; if t is periodic, DELDRIFT_CANCELLED, DELDRIFT_TOO_MANY_CELLS. Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_compact(
     t: *mut deldrift_triangulation,
@@ -111,8 +112,8 @@ pub unsafe extern "C" fn deldrift_compact(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Changing, map[capacity]: Buffer, count: Output);
-    t.change(|t| {
-        in_its_dimension!(t => {
+    t.change_any(|t| {
+        in_any!(t => {
             let needed = t.id_count();
             let fitting = fit(count, needed, capacity, &[map.offer()])?;
             // Looked at before anything changes.

@@ -28,6 +28,7 @@
 mod cells;
 mod cloning;
 mod commit;
+mod compaction;
 mod completeness;
 mod either;
 mod exporting;

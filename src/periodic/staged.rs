@@ -151,6 +151,18 @@ impl<G: Dimension> Staged<G> {
         })
     }
 
+    /// The same edits, of vertices under these ids; `n_vertices` of them are there.
+    pub(super) fn renumbered(&self, new_ids: &[VertexId], n_vertices: usize) -> Result<Self> {
+        let mut new = self.copied()?;
+        new.marks.clear();
+        new.make_room(n_vertices)?;
+        new.moves.iter_mut().for_each(|(vertex, _)| *vertex = new_ids[*vertex]);
+        new.removals.iter_mut().for_each(|vertex| *vertex = new_ids[*vertex]);
+        new.moves.iter().for_each(|(vertex, _)| new.marks[vertex.index()] |= MOVES);
+        new.removals.iter().for_each(|vertex| new.marks[vertex.index()] |= GOES);
+        Ok(new)
+    }
+
     pub(super) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.moves)
             + memory::bytes_of(&self.marks)

@@ -174,6 +174,21 @@ fn seal(bytes: &mut [u8]) {
     write(0..end);
 }
 
+/// The cells, by names for their vertices, each as a sorted list of corners with their shifts.
+fn by_id<G: Dimension>(
+    t: &PeriodicTriangulation<G>,
+    names: &dyn Fn(VertexId) -> VertexId,
+) -> BTreeSet<Vec<(VertexId, [i64; 3])>> {
+    let shifts: Vec<_> = t.cell_shifts().unwrap().collect();
+    let rows = t.cells().unwrap().corners.iter().zip(shifts.chunks(G::D + 1));
+    let rows = rows.map(|(row, shifts)| {
+        let mut row: Vec<_> = row.as_ref().iter().map(|&v| names(v)).zip(shifts.to_vec()).collect();
+        row.sort();
+        row
+    });
+    rows.collect()
+}
+
 /// What is loaded is what is made anew of its positions and vectors. Positions that are too far away to be read exactly, and
 /// vectors that are, tell nothing.
 fn check_loaded<G: Dimension>(t: &PeriodicTriangulation<G>) {
@@ -185,16 +200,6 @@ fn check_loaded<G: Dimension>(t: &PeriodicTriangulation<G>) {
         return;
     }
     let fresh = PeriodicTriangulation::<G>::new(&points, &vectors, Options::default()).unwrap();
-    let by_id = |t: &PeriodicTriangulation<G>, names: &dyn Fn(VertexId) -> VertexId| {
-        let shifts: Vec<_> = t.cell_shifts().unwrap().collect();
-        let rows = t.cells().unwrap().corners.iter().zip(shifts.chunks(G::D + 1));
-        let rows = rows.map(|(row, shifts)| {
-            let mut row: Vec<_> = row.as_ref().iter().map(|&v| names(v)).zip(shifts.to_vec()).collect();
-            row.sort();
-            row
-        });
-        rows.collect::<BTreeSet<_>>()
-    };
     assert!(by_id(t, &|v| v) == by_id(&fresh, &|v| present[v.index()]));
 }
 
@@ -297,6 +302,44 @@ fn kinds_of_data_are_told_apart() {
     assert!(
         SavedPeriodic::is_of(&bytes, bytes.len() as u64) && !SavedPeriodic::is_of(&open, open.len() as u64)
     );
+}
+
+/// Ids are closed up; cells, positions and what is staged stay.
+fn check_compaction<G: Dimension>(seed: u64, basis: &[G::Point]) {
+    let rng = &mut Rng::new(seed);
+    let points = random_points::<G>(rng, 12, basis);
+    let mut t = PeriodicTriangulation::<G>::new(&points, basis, Options::default()).unwrap();
+    let identity = VertexId::range(0..12).collect::<Vec<_>>();
+    assert_eq!(t.compact().unwrap(), identity);
+    t.stage_removals(&[2, 7, 3].map(VertexId::new)).unwrap();
+    t.commit_timestamp().unwrap();
+    stage(&mut t, rng, basis);
+    let mut before = t.try_clone(None).unwrap();
+    let new_ids = t.compact().unwrap();
+    assert_eq!((new_ids.len(), t.id_count()), (before.id_count(), before.id_count() - 3));
+    assert_eq!((t.staged_count(), t.staged_edits()), (before.staged_count(), before.staged_edits()));
+    for _ in 0..2 {
+        for (old, &new) in VertexId::range(0..before.id_count()).zip(&new_ids) {
+            let position = (new != crate::motion::NO_VERTEX).then(|| t.position_or_goal(new));
+            assert_eq!(position.flatten(), before.position_or_goal(old), "seed {seed}");
+        }
+        assert!(by_id(&t, &|v| v) == by_id(&before, &|v| new_ids[v.index()]), "seed {seed}");
+        assert_eq!(
+            (t.timestamp(), t.violation(crate::motion::Level::Delaunay)),
+            (before.timestamp(), Ok(None))
+        );
+        t.commit_timestamp().unwrap();
+        before.commit_timestamp().unwrap();
+    }
+}
+
+#[test]
+fn compactions_keep_all_but_ids() {
+    for seed in 0..12 {
+        check_compaction::<Plane>(seed, &[[1.0, 0.0], [0.25, 1.0]]);
+        check_compaction::<Plane>(seed, &[[1.0, 0.25]]);
+        check_compaction::<Space>(seed, &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.25, 0.0, 1.0]]);
+    }
 }
 
 /// How often the balls ask for images without which the cells are right.
