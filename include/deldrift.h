@@ -989,12 +989,13 @@ deldrift_status deldrift_remove_vertex(deldrift_triangulation *t,
 /// has been compacted.
 ///
 /// Takes no longer than a rebuild, and while it runs the memory of a second
-/// triangulation.
+/// triangulation. A periodic triangulation is built anew, if vertices have been removed: its cells stay, and may have other
+/// indices.
 ///
-/// Cost: n + m.
+/// Cost: n + m; of a periodic triangulation that of creation.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
+/// DELDRIFT_OUT_OF_MEMORY; if t is periodic, DELDRIFT_CANCELLED, DELDRIFT_TOO_MANY_CELLS. Not to be called at the same time as any other call on t.
 deldrift_status deldrift_compact(deldrift_triangulation *t,
                                  uint32_t *map,
                                  size_t capacity,
@@ -1446,7 +1447,9 @@ deldrift_status deldrift_copy_cells(const deldrift_triangulation *t,
 /// cells: a buffer with room for capacity indices. count: receives their number, which is also written
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone.
 ///
-/// Cost: the cells of the star. After a change the first call also does what the first deldrift_cells does. Where there
+/// Of a periodic triangulation a cell is there once for each of its corners that is the vertex, in whatever period.
+///
+/// Cost: the cells of the star; m for a periodic triangulation. After a change the first call also does what the first deldrift_cells does. Where there
 /// are more vertices than a cache holds, stars are read fastest in the order of the ids.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX,
@@ -1477,12 +1480,14 @@ deldrift_status deldrift_tolerance(const deldrift_triangulation *t,
 ///
 /// level: 1 checks indices and adjacency; 2 also the orientation of the cells, and that the hull is
 /// convex and winds once; 3 also that no sphere through the vertices of a cell contains a vertex, or, with segments, none
-/// that can be seen from the cell's inside.
+/// that can be seen from the cell's inside. Of a periodic triangulation what is kept inside is checked so, images included,
+/// and that these are where the vectors take their vertices; 3 also that none is missing, and that each cell is there
+/// once for each of its corners.
 ///
-/// Cost: n + m.
+/// Cost: n + m. Of a periodic triangulation at level 3 that of creation at most, in a copy.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_INVALID_LEVEL, DELDRIFT_INVALID if something is wrong:
-/// deldrift_last_error then gives the first violation.
+/// deldrift_last_error then gives the first violation; DELDRIFT_OUT_OF_MEMORY if t is periodic.
 deldrift_status deldrift_validate(const deldrift_triangulation *t,
                                   uint32_t level);
 
@@ -1544,15 +1549,17 @@ deldrift_status deldrift_coincident_representative(const deldrift_triangulation 
                                                    uint32_t vertex,
                                                    uint32_t *representative);
 
-/// The vertices that are hidden, ascending, each with the one that represents it.
+/// The vertices that are hidden, ascending, each with the one that represents it. Vertices of a periodic triangulation that share
+/// a place in any period count.
 ///
 /// vertices, representatives: buffers with room for capacity ids each. One that is NULL is not filled. count: receives
 /// the number of hidden vertices, which is also written when the buffers are too small. NULL for both with capacity 0
 /// asks for the count alone.
 ///
-/// Cost: n; constant where there are none, and for the count alone.
+/// Cost: n; constant where there are none, and for the count alone; n for a periodic triangulation.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL; DELDRIFT_OUT_OF_MEMORY if t is
+/// periodic.
 deldrift_status deldrift_hidden_vertices(const deldrift_triangulation *t,
                                          uint32_t *vertices,
                                          uint32_t *representatives,
@@ -2166,9 +2173,12 @@ deldrift_status deldrift_edges(const deldrift_triangulation *t,
 /// receives the number of entries, twice that of the edges, which is also written when neighbours is too small. NULL
 /// for both asks for the count alone, in constant time.
 ///
+/// Of a periodic triangulation a vertex is listed once for each edge that leads to it: several times where edges lead to it
+/// in several periods, and itself twice for each edge to itself.
+///
 /// Takes some passes over the cells, and while it runs memory for the lists and for the cells of each vertex.
 ///
-/// Cost: n + m, and d log d for the d neighbours of each vertex. After a change the first call also does what the first
+/// Cost: n + m, and d log d for the d neighbours of each vertex; m log m for a periodic triangulation. After a change the first call also does what the first
 /// deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
@@ -2189,9 +2199,11 @@ deldrift_status deldrift_vertex_neighbours(const deldrift_triangulation *t,
 /// the number of entries, 3 (2D) or 4 (3D) times that of the cells, which is also written when cells is too small. NULL
 /// for both asks for the count alone, in constant time.
 ///
+/// Of a periodic triangulation a cell is listed once for each of its corners that is the vertex, in whatever period.
+///
 /// Takes two passes over the cells, and memory for the lists while it runs.
 ///
-/// Cost: n + m. After a change the first call also does what the first deldrift_cells does.
+/// Cost: n + m; m log m for a periodic triangulation. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY.
@@ -2237,7 +2249,7 @@ deldrift_status deldrift_find_simplices(const deldrift_triangulation *t,
 
 /// The mirror indices of all facets: entry i of the row of a cell, in the order of deldrift_cells, is about the facet
 /// opposite corner i. It is the corner (0, 1, ...) of the neighbour beyond that is opposite the same facet, 255 on
-/// the hull.
+/// the hull. In a periodic triangulation a cell may be its own neighbour.
 ///
 /// mirrors: a buffer with room for capacity rows of 3 (2D) or 4 (3D) bytes. count: receives the number of cells, which
 /// is also written when the buffer is too small. NULL with capacity 0 asks for the count alone.
@@ -2295,7 +2307,7 @@ deldrift_status deldrift_ordered_star(const deldrift_triangulation *t,
 /// are all whose shape has changed: with the functions that follow, a program that keeps an array for all cells updates
 /// those entries alone.
 ///
-/// Cost: the cells of the stars, and k log k for the k of them; m at most. After a change the first call also does what
+/// Cost: the cells of the stars, and k log k for the k of them; m at most, and for a periodic triangulation. After a change the first call also does what
 /// the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX,
@@ -2602,8 +2614,11 @@ deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
 /// deldrift_stage_insertions, deldrift_stage_removals, deldrift_discard_moves, deldrift_commit_timestamp,
 /// deldrift_commit_positions, deldrift_vertex_count, deldrift_id_count, deldrift_cell_count, deldrift_staged_count,
 /// deldrift_memory_bytes, deldrift_timestamp, deldrift_statistics, deldrift_is_present, deldrift_position,
-/// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges, and
-/// deldrift_voronoi_volumes without a box. All others return DELDRIFT_PERIODIC. Cells are numbered anew by each commit.
+/// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges,
+/// deldrift_clone, deldrift_save, deldrift_load, deldrift_save_file, deldrift_load_file, deldrift_write_vtu,
+/// deldrift_write_medit, deldrift_compact, deldrift_validate, deldrift_hidden_vertices, deldrift_star, deldrift_vertex_cells,
+/// deldrift_vertex_neighbours, deldrift_cell_of_each_vertex, deldrift_cells_around, deldrift_mirror_indices,
+/// deldrift_mirror_index, and deldrift_voronoi_volumes without a box. All others return DELDRIFT_PERIODIC. Cells are numbered anew by each commit.
 ///
 /// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves
 /// costs what it costs in an open triangulation of as many, and n + m; one with insertions, removals or other vectors, or
@@ -2755,7 +2770,7 @@ deldrift_status deldrift_barycentric(const deldrift_triangulation *t,
 ///
 /// Positions, ids, segments, cells with their indices, hidden vertices, staged moves, insertions and removals, the timestamp,
 /// statistics, options, the changes that deldrift_take_changes has not given yet, and what the algorithm keeps between
-/// commits are those of t: after the same calls both have the same cells. The callbacks of the options are called for
+/// commits are those of t, and so are the vectors of a periodic one, also those that are staged: after the same calls both have the same cells. The callbacks of the options are called for
 /// either, so what user_data points to must live as long as both. Views, and changes that have been taken, belong to t
 /// alone.
 ///
@@ -2772,7 +2787,8 @@ deldrift_status deldrift_clone(const deldrift_triangulation *t,
 ///
 /// Saved are positions, ids, segments, removed and hidden vertices, cells with their indices, staged moves, insertions and
 /// removals, the timestamp and statistics. Not saved are the options, what the algorithm keeps between commits, and
-/// which changes have been taken. docs/FORMAT.md describes the bytes.
+/// which changes have been taken. docs/FORMAT.md describes the bytes. Of a periodic triangulation the vectors as they were
+/// given, those that are staged, and the periods of vertices are saved, too, and all images with their cells.
 ///
 /// buffer: room for capacity bytes, with any alignment. count: receives the number of bytes, which is also written
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone, in constant time.
@@ -2803,9 +2819,14 @@ deldrift_status deldrift_save(const deldrift_triangulation *t,
 /// times as many bytes. This holds whatever the data are: what is not a Delaunay triangulation, exactly, is refused,
 /// even if the checksum is right.
 ///
-/// Cost: n log n + m, whatever the data are.
+/// Data of a periodic triangulation give one. Its images count as vertices: all that is in the data is checked, and that no image is
+/// missing. Where cells do not tell that at once, as after some commits, it takes a copy of the triangulation, into which
+/// images are inserted: as long as creation, and as much memory, at most, with data of any kind.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS,
+/// Cost: n log n + m, whatever the data are; of a periodic one that of creation at most.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS (also if
+/// the options reject coincidence and the data are of a periodic one),
 /// DELDRIFT_INVALID_DATA, DELDRIFT_COINCIDENT (if vertices are hidden and the options reject it),
 /// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. May be called from
 /// any number of threads at once.
@@ -2857,12 +2878,16 @@ deldrift_status deldrift_load_file(const char *path,
 /// is hidden is the vertex that represents it. Their markers are the cell data "marker", which is 0 for cells that are
 /// no lines, and cell_fields are NaN for lines.
 ///
+/// Of a periodic triangulation the cells are together as deldrift_cell_shifts has them. A vertex is a point for each period
+/// in which a cell has it, ascending by id and by these shifts, all with its id and its numbers of fields; one that no cell
+/// has is a point at its position.
+///
 /// vertex_fields, cell_fields: numbers to be written along as point data and cell data, vertex_field_count and
 /// cell_field_count of them; NULL if the count is 0. All of it is read during the call only.
 ///
 /// Does what deldrift_cells does.
 ///
-/// Cost: n + m, and the numbers of the fields.
+/// Cost: n + m, and the numbers of the fields; m log m for a periodic triangulation.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_FIELD,
 /// DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
@@ -2878,7 +2903,8 @@ deldrift_status deldrift_write_vtu(const deldrift_triangulation *t,
 /// Its vertices are those that are present, hidden ones included, ascending by id and numbered from 1; the reference
 /// of each is its id. Its triangles or tetrahedra are the cells, in the order of deldrift_cells. If there are segments in
 /// force, those of deldrift_segments are its edges, in that order, behind the triangles; the reference of each is its
-/// marker, and an end that is hidden is the vertex that represents it. Reading the numbers gives the same doubles.
+/// marker, and an end that is hidden is the vertex that represents it. Reading the numbers gives the same doubles. Of a
+/// periodic triangulation a vertex is there once for each period in which a cell has it, as in deldrift_write_vtu.
 ///
 /// references: reference_count numbers, the reference of each cell in the order of deldrift_cells (reference_count must
 /// be deldrift_cell_count), such as those of deldrift_label_cells; NULL with reference_count 0 for 1. They are read
@@ -2887,7 +2913,7 @@ deldrift_status deldrift_write_vtu(const deldrift_triangulation *t,
 ///
 /// Does what deldrift_cells does.
 ///
-/// Cost: n + m.
+/// Cost: n + m; m log m for a periodic triangulation.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_IO_ERROR,
 /// DELDRIFT_OUT_OF_MEMORY.

@@ -476,7 +476,7 @@ static bool serves_periodic(const char *name) {
         "cell_count", "staged_count", "memory_bytes", "timestamp", "statistics", "is_present", "position",
         "copy_positions", "coincident_representative", "cells", "copy_cells", "edges", "voronoi_volumes",
         "stage_vectors", "vectors", "cell_shifts", "edge_shifts", "clone", "save", "save_file", "write_vtu",
-        "write_medit", "compact", "validate", "hidden_vertices", "star", "vertex_cells", "vertex_neighbours",
+        "write_medit", "compact", "relocate_vertex", "insert_vertex", "remove_vertex", "validate", "hidden_vertices", "star", "vertex_cells", "vertex_neighbours",
         "cell_of_each_vertex", "cells_around", "mirror_indices", "mirror_index"};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         if (strcmp(name + strlen("deldrift_"), all[k]) == 0) return true;

@@ -313,6 +313,14 @@ static void vertices_come_and_go(void) {
     OK(deldrift_position(t, 0, position));
     OK(deldrift_coincident_representative(t, 1, &other));
     CHECK(position[0] == 7.5 && other == 0);
+    OK(deldrift_relocate_vertex(t, 1, (double[]){0.25, 0.75}));
+    OK(deldrift_insert_vertex(t, (double[]){0.125, 0.25}, &other));
+    OK(deldrift_cell_count(t, &count));
+    CHECK(other == 2 && count == 6);
+    OK(deldrift_remove_vertex(t, 0));
+    OK(deldrift_cell_count(t, &count));
+    CHECK(count == 4);
+    OK(deldrift_validate(t, 3));
     deldrift_destroy(t);
 }
 

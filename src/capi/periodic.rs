@@ -45,7 +45,8 @@ use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 /// deldrift_memory_bytes, deldrift_timestamp, deldrift_statistics, deldrift_is_present, deldrift_position,
 /// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges,
 /// deldrift_clone, deldrift_save, deldrift_load, deldrift_save_file, deldrift_load_file, deldrift_write_vtu,
-/// deldrift_write_medit, deldrift_compact, deldrift_validate, deldrift_hidden_vertices, deldrift_star, deldrift_vertex_cells,
+/// deldrift_write_medit, deldrift_compact, deldrift_relocate_vertex, deldrift_insert_vertex, deldrift_remove_vertex,
+/// deldrift_validate, deldrift_hidden_vertices, deldrift_star, deldrift_vertex_cells,
 /// deldrift_vertex_neighbours, deldrift_cell_of_each_vertex, deldrift_cells_around, deldrift_mirror_indices,
 /// deldrift_mirror_index, and deldrift_voronoi_volumes without a box. All others return DELDRIFT_PERIODIC. Cells are numbered anew by each commit.
 ///

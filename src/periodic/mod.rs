@@ -34,6 +34,7 @@ mod either;
 mod exporting;
 mod following;
 mod images;
+mod immediate;
 mod incidence;
 mod inside;
 mod lattice;

@@ -151,6 +151,15 @@ impl<G: Dimension> Staged<G> {
         })
     }
 
+    /// Forgets the move and the removal of a vertex.
+    pub(super) fn forget(&mut self, vertex: VertexId) {
+        self.moves.retain(|&(moving, _)| moving != vertex);
+        self.removals.retain(|&going| going != vertex);
+        if let Some(marks) = self.marks.get_mut(vertex.index()) {
+            *marks = 0;
+        }
+    }
+
     /// The same edits, of vertices under these ids; `n_vertices` of them are there.
     pub(super) fn renumbered(&self, new_ids: &[VertexId], n_vertices: usize) -> Result<Self> {
         let mut new = self.copied()?;

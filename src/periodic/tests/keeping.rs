@@ -342,6 +342,54 @@ fn compactions_keep_all_but_ids() {
     }
 }
 
+/// Single vertices at once, while edits of others are staged: cells are those of what is made anew, and the edits stay.
+fn check_at_once<G: Dimension>(seed: u64, basis: &[G::Point]) {
+    let rng = &mut Rng::new(seed);
+    let mut points = random_points::<G>(rng, 8, basis);
+    let mut t = PeriodicTriangulation::<G>::new(&points, basis, Options::default()).unwrap();
+    let more = random_points::<G>(rng, 3, basis);
+    let [first, second, last] = [0, 1, 7].map(VertexId::new);
+    t.move_vertices(&[first, last], &more[..2]).unwrap();
+    t.stage_removals(&[second]).unwrap();
+    let mut wider = basis.to_vec();
+    wider[0][0] += 0.5;
+    t.stage_vectors(&wider).unwrap();
+    assert!(matches!(
+        t.relocate_vertex(first, &more[2]),
+        Err(Error::DuplicateMove { argument: "vertex", .. })
+    ));
+    t.relocate_vertex(VertexId::new(2), &more[2]).unwrap();
+    points[2] = more[2];
+    assert_eq!(t.insert_vertex(&more[1]), Ok(VertexId::new(8)));
+    points.push(more[1]);
+    assert_eq!((t.timestamp(), t.staged_count(), t.staged_edits()), (0, 2, (0, 1)));
+    check_loaded(&t);
+    t.remove_vertex(last).unwrap();
+    assert_eq!((t.staged_count(), t.is_present(last)), (1, false));
+    check_loaded(&t);
+    t.commit_timestamp().unwrap();
+    assert_eq!((t.timestamp(), t.position(first), t.is_present(second)), (1, Ok(more[0]), false));
+    assert!(t.vectors().eq(wider));
+    check_loaded(&t);
+    t.stage_insertions(&more).unwrap();
+    assert!(matches!(t.insert_vertex(&more[0]), Err(Error::StagedVertex { .. })));
+    let removed = t.remove_vertex(last);
+    assert!(matches!(removed, Err(Error::RemovedVertex { argument: "vertex", .. })));
+    let mut nan = more[0];
+    nan[1] = f64::NAN;
+    let bad = t.relocate_vertex(first, &nan);
+    assert!(matches!(bad, Err(Error::NotFinite { argument: "position", axis: 1, .. })), "{bad:?}");
+    assert_eq!(t.staged_edits(), (3, 0));
+}
+
+#[test]
+fn single_vertices_change_at_once() {
+    for seed in 0..8 {
+        check_at_once::<Plane>(seed, &[[1.0, 0.0], [0.25, 1.0]]);
+        check_at_once::<Space>(seed, &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.25, 0.0, 1.0]]);
+    }
+}
+
 /// How often the balls ask for images without which the cells are right.
 #[test]
 #[ignore = "prints how often"]
