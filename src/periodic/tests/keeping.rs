@@ -225,7 +225,7 @@ fn forged_bytes_give_triangulations_or_nothing<G: Dimension>() {
         // Of a long list of images some.
         let n = bytes.len() - 4;
         let chosen =
-            (0..n.min(1000)).chain((0..n.saturating_sub(1000).min(500)).map(|_| 1000 + rng.below(n - 1000)));
+            (0..n.min(600)).chain((0..n.saturating_sub(600).min(250)).map(|_| 600 + rng.below(n - 600)));
         for at in chosen.collect::<Vec<_>>() {
             for change in [1, 128, rng.within(1, 255) as u8] {
                 let mut bytes = bytes.clone();

@@ -187,8 +187,9 @@ fn check_files<G: Dimension>(n: usize, basis: &[G::Point]) {
         assert_eq!(next(), references[c].to_string());
     }
     assert_eq!((next(), words.next()), ("End", None));
-    let short = t.write_medit::<Error>(Some(&references[1..]), |_| Ok(()));
-    assert!(matches!(short, Err(Error::WrongCount { argument: "reference_count", .. })));
+    let more = [&references[..], &[0]].concat();
+    let long = t.write_medit::<Error>(Some(&more), |_| Ok(()));
+    assert!(matches!(long, Err(Error::WrongCount { argument: "reference_count", .. })));
     // The arrays, one after the other.
     let heat: Vec<f64> = (0..n).map(|v| v as f64).collect();
     let volumes: Vec<f64> = (0..cells.corners.len()).map(|c| c as f64 / 8.0).collect();
