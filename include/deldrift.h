@@ -938,7 +938,7 @@ deldrift_status deldrift_withdraw_timestamp(deldrift_triangulation *t);
 /// position: 2 or 3 numbers, read during the call only.
 ///
 /// Cost: that of a removal and an insertion at most, of the cells around the vertex before and after, which can be
-/// many. While there are no cells, that of deldrift_create.
+/// many. While there are no cells, that of deldrift_create. Of a periodic triangulation that of a commit of this one move.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
 /// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_DUPLICATE_MOVE if a move of
@@ -954,11 +954,11 @@ deldrift_status deldrift_relocate_vertex(deldrift_triangulation *t,
 /// position: 2 or 3 numbers, read during the call only. out_vertex: receives its id, which is one above
 /// the highest ever given, or left by the latest deldrift_compact.
 ///
-/// Cost: that of deldrift_locate, and the cells created and removed.
+/// Cost: that of deldrift_locate, and the cells created and removed; of a periodic triangulation that of creation.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_ON_SEGMENT,
-/// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_ON_SEGMENT, DELDRIFT_STAGED_VERTEX (if t
+/// is periodic and insertions are staged, which have the next ids), DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at
 /// the same time as any other call on t.
 deldrift_status deldrift_insert_vertex(deldrift_triangulation *t,
                                        const double *position,
@@ -969,7 +969,7 @@ deldrift_status deldrift_insert_vertex(deldrift_triangulation *t,
 ///
 /// Cost: up to 64 neighbours at most the square of their number, beyond that a build of the neighbours alone. In 3D
 /// that may have as many cells as half the square of their number, as where all points are on the moment curve; each
-/// ten to twenty thousand of them the callbacks are called.
+/// ten to twenty thousand of them the callbacks are called. Of a periodic triangulation that of creation.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its
 /// insertion is staged, DELDRIFT_END_REMOVED for an end of a segment in force, DELDRIFT_TOO_MANY_CELLS,
@@ -2616,7 +2616,8 @@ deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
 /// deldrift_memory_bytes, deldrift_timestamp, deldrift_statistics, deldrift_is_present, deldrift_position,
 /// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges,
 /// deldrift_clone, deldrift_save, deldrift_load, deldrift_save_file, deldrift_load_file, deldrift_write_vtu,
-/// deldrift_write_medit, deldrift_compact, deldrift_validate, deldrift_hidden_vertices, deldrift_star, deldrift_vertex_cells,
+/// deldrift_write_medit, deldrift_compact, deldrift_relocate_vertex, deldrift_insert_vertex, deldrift_remove_vertex,
+/// deldrift_validate, deldrift_hidden_vertices, deldrift_star, deldrift_vertex_cells,
 /// deldrift_vertex_neighbours, deldrift_cell_of_each_vertex, deldrift_cells_around, deldrift_mirror_indices,
 /// deldrift_mirror_index, and deldrift_voronoi_volumes without a box. All others return DELDRIFT_PERIODIC. Cells are numbered anew by each commit.
 ///
