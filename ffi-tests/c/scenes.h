@@ -65,8 +65,8 @@ typedef enum { CREATE, CREATE_WITH_KEYS, CREATE_PERIODIC, RELOCATE, INSERT, INSE
     CELLS_IN_REACH, HULL_FACETS_IN_REACH, VERTICES_IN_REACH, FIND_SIMPLICES, FIND_SIMPLICES_ALL,
     CELL_OF_EACH_VERTEX, BARYCENTRIC, MASK_WITHOUT_FLAT_CELLS, SEGMENTS_OF_CELLS, CELLS_OF_SEGMENTS, NESTING_LEVELS,
     LABEL_CELLS, UPDATE_LABELS, BOUNDARY_CHAINS, REFINE, COARSEN, RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT,
-    PERIODIC_POSITIONS, STAGE_VECTORS, CELL_SHIFTS, EDGE_SHIFTS, PERIODIC_CLONE, PERIODIC_SAVE, PERIODIC_LOAD, PERIODIC_VTU,
-    PERIODIC_NEIGHBOURS, PERIODIC_CHECK, PERIODIC_COMPACT, N_KINDS } kind;
+    PERIODIC_POSITIONS, STAGE_VECTORS, CELL_SHIFTS, EDGE_SHIFTS, PERIODIC_CLONE, PERIODIC_LOAD, PERIODIC_VTU,
+    PERIODIC_NEIGHBOURS, PERIODIC_CHECK, PERIODIC_COMPACT, PERIODIC_HIDDEN, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
     "deldrift_create", "deldrift_create_with_keys", "deldrift_create_periodic", "deldrift_relocate_vertex", "deldrift_insert_vertex",
@@ -96,8 +96,8 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_release_cells", "deldrift_clone", "deldrift_save", "deldrift_load", "deldrift_save_file",
     "deldrift_load_file", "deldrift_write_vtu", "deldrift_write_medit",
     "deldrift_commit_positions, periodic", "deldrift_stage_vectors", "deldrift_cell_shifts", "deldrift_edge_shifts",
-    "deldrift_clone, periodic", "deldrift_save, periodic", "deldrift_load, periodic", "deldrift_write_vtu, periodic",
-    "deldrift_vertex_neighbours, periodic", "deldrift_validate, periodic", "deldrift_compact, periodic",
+    "deldrift_clone, periodic", "deldrift_load, periodic", "deldrift_write_vtu, periodic",
+    "deldrift_vertex_neighbours, periodic", "deldrift_validate, periodic", "deldrift_compact, periodic", "deldrift_hidden_vertices, periodic",
 };
 
 enum { MOST_PAIRS = 24 };
@@ -507,13 +507,13 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case CELL_SHIFTS: status = deldrift_cell_shifts(s->periodic, shifts_out, NULL, ROOM / 12, &count); break;
         case EDGE_SHIFTS: status = deldrift_edge_shifts(s->periodic, shifts_out, ROOM / 3, &count); break;
         case PERIODIC_CLONE: status = deldrift_clone(s->periodic, &made); break;
-        case PERIODIC_SAVE: status = deldrift_save(s->periodic, bytes_out, sizeof bytes_out, &count); break;
         case PERIODIC_LOAD: status = deldrift_load(saved, size, &options, &made); break;
         case PERIODIC_VTU: status = deldrift_write_vtu(s->periodic, file, NULL, 0, NULL, 0); break;
         case PERIODIC_NEIGHBOURS:
             status = deldrift_vertex_neighbours(s->periodic, NULL, 0, ids_out, ROOM, &count);
             break;
         case PERIODIC_CHECK: status = deldrift_validate(s->periodic, 3); break;
+        case PERIODIC_HIDDEN: status = deldrift_hidden_vertices(s->periodic, ids_out, more_out, ROOM, &count); break;
         case PERIODIC_COMPACT: status = deldrift_compact(s->periodic, ids_out, ROOM, &count); break;
         case CREATE_WITH_KEYS: status = deldrift_create_with_keys(d, s->points, keys_of(s->n), s->n, &options, &made); break;
         case INSERT_WITH_KEY: status = deldrift_insert_vertex_with_key(s->t, to, 3, &out); break;
@@ -686,8 +686,8 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             break;
         case CELL_SHIFTS:
         case EDGE_SHIFTS: *given = count; break;
-        case PERIODIC_SAVE: *given = count; break;
         case PERIODIC_COMPACT: *given = digest_of_periodic(s->periodic, d); break;
+        case PERIODIC_HIDDEN: *given = digest_of(ids_out, count * sizeof *ids_out); break;
         case PERIODIC_NEIGHBOURS: *given = digest_of(ids_out, count * sizeof *ids_out); break;
         case PERIODIC_CLONE:
         case PERIODIC_LOAD:
