@@ -179,12 +179,12 @@ fn check_files<G: Dimension>(n: usize, basis: &[G::Point]) {
     }
     assert_eq!(next(), if G::D == 2 { "Triangles" } else { "Tetrahedra" });
     assert_eq!(next(), cells.corners.len().to_string());
-    for c in 0..cells.corners.len() {
+    for (c, reference) in references.iter().enumerate() {
         for i in 0..n_corners {
             let (v, point) = &expected[next().parse::<usize>().unwrap() - 1];
             assert_eq!((*v, point.as_ref()), (cells.corners[c].as_ref()[i].get(), place_of(c, i).as_ref()));
         }
-        assert_eq!(next(), references[c].to_string());
+        assert_eq!(next(), reference.to_string());
     }
     assert_eq!((next(), words.next()), ("End", None));
     let more = [&references[..], &[0]].concat();
