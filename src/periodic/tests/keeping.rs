@@ -253,6 +253,49 @@ fn forged_bytes_give_triangulations_or_nothing_in_both_dimensions() {
     forged_bytes_give_triangulations_or_nothing::<Space>();
 }
 
+/// What docs/FORMAT.md says is checked, where all else is right.
+#[test]
+fn what_is_wrong_in_data_is_told() {
+    type Case = (&'static str, usize, &'static [u8], fn(&Damage) -> bool);
+    let t = with_everything::<Plane>();
+    let bytes = t.saved().unwrap();
+    let n_points = 2 + 2 + t.staged_count() + t.staged_edits().0;
+    // Where the periods of vertices begin, ids of moves, those of removals, and what is inside.
+    let periods = 192 + 16 * n_points;
+    let moves = periods + 16 * t.inside.images.n_vertices();
+    let removals = moves + 4 * t.staged_count();
+    let images = removals + 4 * t.staged_edits().1;
+    let far = images + 12 * t.inside.n_home;
+    let nan = &[0, 0, 0, 0, 0, 0, 0xf8, 0x7f];
+    let cases: [Case; 16] = [
+        ("version 4", 8, &[3], |d| matches!(d, Damage::Periodic { is_periodic: false })),
+        ("all bytes", 16, &[0], |d| matches!(d, Damage::Size { .. })),
+        ("ids", 24, &[77], |d| matches!(d, Damage::Counts)),
+        ("timestamp", 71, &[0x40], |d| matches!(d, Damage::Sum { offset: 64, .. })),
+        ("1 to d vectors", 168, &[3], |d| matches!(d, Damage::Counts)),
+        ("r staged vectors, or 0", 176, &[1], |d| matches!(d, Damage::Counts)),
+        ("finite vectors", 192, nan, |d| matches!(d, Damage::Vectors)),
+        ("independent vectors", 192, &[0; 16], |d| matches!(d, Damage::Vectors)),
+        ("finite staged vectors", 224, nan, |d| matches!(d, Damage::Vectors)),
+        ("finite moves", 256, nan, |d| matches!(d, Damage::Position { axis: 0, .. })),
+        ("0 for removed ones", periods + 16, &[1], |d| *d == Damage::Period { vertex: VertexId::new(1) }),
+        ("in range", periods + 7, &[0x10], |d| *d == Damage::Period { vertex: VertexId::new(0) }),
+        ("moves of vertices that are there", moves, &[1], |d| matches!(d, Damage::Staged { .. })),
+        ("removals of different ones", removals, &[3], |d| matches!(d, Damage::Staged { .. })),
+        ("ascending by id", images, &[4], |d| matches!(d, Damage::Image { .. })),
+        ("an image that may be needed", far + 4, &[100, 0, 0, 0], |d| matches!(d, Damage::Image { .. })),
+    ];
+    for (what, at, change, is_told) in cases {
+        let mut bytes = bytes.clone();
+        bytes[at..at + change.len()].copy_from_slice(change);
+        seal(&mut bytes);
+        match load::<Plane>(&bytes).map(drop) {
+            Err(LoadError::Data(damage)) => assert!(is_told(&damage), "{what}: {damage:?}"),
+            other => panic!("{what}: {other:?}"),
+        }
+    }
+}
+
 /// One vertex with those images alone whose shifts these are, all right otherwise.
 fn with_images(shifts: &[[i32; 2]]) -> PeriodicTriangulation<Plane> {
     let square = [[1.0, 0.0], [0.0, 1.0]];
