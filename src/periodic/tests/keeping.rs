@@ -269,7 +269,7 @@ fn what_is_wrong_in_data_is_told() {
     let nan = &[0, 0, 0, 0, 0, 0, 0xf8, 0x7f];
     let cases: [Case; 16] = [
         ("version 4", 8, &[3], |d| matches!(d, Damage::Periodic { is_periodic: false })),
-        ("all bytes", 16, &[0], |d| matches!(d, Damage::Size { .. })),
+        ("all bytes", 23, &[1], |d| matches!(d, Damage::Size { .. })),
         ("ids", 24, &[77], |d| matches!(d, Damage::Counts)),
         ("timestamp", 71, &[0x40], |d| matches!(d, Damage::Sum { offset: 64, .. })),
         ("1 to d vectors", 168, &[3], |d| matches!(d, Damage::Counts)),
