@@ -44,6 +44,28 @@ pub enum Damage {
         /// What the header says.
         given: u32,
     },
+    /// The data are those of a triangulation that is periodic, where one that is not is asked for, or the other way.
+    Periodic {
+        /// Whether the data are of one that is.
+        is_periodic: bool,
+    },
+    /// The vectors of a periodic triangulation are not finite, out of range, or depend on each other.
+    Vectors,
+    /// A vertex of a periodic triangulation is in a period that is too far away, or one that is not there is in any.
+    Period {
+        /// The vertex.
+        vertex: VertexId,
+    },
+    /// What is inside of a periodic triangulation is not a vertex at home, each once and in order, nor an image of one, each
+    /// once and where the vectors take it.
+    Image {
+        /// The id inside.
+        inside: VertexId,
+        /// The vertex that it should be, or be an image of.
+        vertex: VertexId,
+    },
+    /// The cells inside of a periodic triangulation are not those of the set that repeats: images are missing.
+    NoImages,
     /// A segment has not two different ends that are present, or something is on it, or it is no edge.
     Segment {
         /// The segment.
@@ -186,6 +208,16 @@ impl fmt::Display for Damage {
             Version { given, latest } => {
                 write!(f, "the format is version {given}, and the latest known here is {latest}")
             }
+            Periodic { is_periodic } => {
+                let not = if is_periodic { "" } else { "not " };
+                write!(f, "the triangulation is {not}periodic, and one of the other kind is asked for")
+            }
+            Vectors => write!(f, "the vectors are out of range, or depend on each other"),
+            Period { vertex } => write!(f, "the period of vertex {vertex} is out of range"),
+            Image { inside, vertex } => {
+                write!(f, "vertex {inside} inside is neither vertex {vertex} at home nor its image")
+            }
+            NoImages => write!(f, "the cells inside are not those of the set that repeats"),
             Segment { segment } => write!(
                 f,
                 "segment {segment} has not two ends that are present and apart, is no edge, or has something on it"

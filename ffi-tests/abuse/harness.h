@@ -478,7 +478,10 @@ static bool serves_periodic(const char *name) {
         "voronoi_facets", "voronoi_cells", "voronoi_derivatives", "circumcentres", "volumes", "mask_by_circumradius",
         "mask_boundary", "hull_facets", "update_circumcentres", "update_volumes", "update_mask_by_circumradius",
         "stage_vectors", "vectors", "cell_shifts", "edge_shifts", "take_changes", "locate", "locate_points",
-        "locate_in_period", "nearest_vertex", "nearest_vertices", "vertices_in_ball", "barycentric", "interpolate"};
+        "locate_in_period", "nearest_vertex", "nearest_vertices", "vertices_in_ball", "barycentric", "interpolate",
+        "clone", "save", "save_file", "write_vtu", "write_medit", "compact", "relocate_vertex", "insert_vertex",
+        "remove_vertex", "validate", "hidden_vertices", "star", "vertex_cells", "vertex_neighbours",
+        "cell_of_each_vertex", "cells_around", "mirror_indices", "mirror_index"};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         if (strcmp(name + strlen("deldrift_"), all[k]) == 0) return true;
     }

@@ -311,6 +311,82 @@ static void check_located(const set *s, const deldrift_triangulation *t) {
     CHECK_MESSAGE("method is 1, but t is periodic");
 }
 
+// What is cloned and what is saved and loaded, in memory or in a file, have these cells as well, and the first two the same bytes.
+static void check_kept(const set *s, const deldrift_triangulation *t) {
+    deldrift_triangulation *kept[3] = {NULL};
+    size_t size, count;
+    OK(deldrift_save(t, NULL, 0, &size));
+    unsigned char *bytes = malloc(size), *again = malloc(size);
+    CHECK(bytes != NULL && again != NULL);
+    CHECK_STATUS(deldrift_save(t, bytes, size - 1, &count), DELDRIFT_BUFFER_TOO_SMALL);
+    OK(deldrift_save(t, bytes, size, &count));
+    OK(deldrift_clone(t, &kept[0]));
+    OK(deldrift_load(bytes, size, NULL, &kept[1]));
+    OK(deldrift_save_file(t, "periodic.saved"));
+    OK(deldrift_load_file("periodic.saved", NULL, &kept[2]));
+    remove("periodic.saved");
+    for (int k = 0; k < 3; k++) {
+        check(s, kept[k]);
+        OK(deldrift_validate(kept[k], 3));
+        OK(deldrift_save(kept[k], again, size, &count));
+        CHECK(count == size && memcmp(bytes, again, size) == 0);
+        deldrift_destroy(kept[k]);
+    }
+    bytes[size / 2] ^= 1;
+    CHECK_STATUS(deldrift_load(bytes, size, NULL, &kept[0]), DELDRIFT_INVALID_DATA);
+    free(bytes);
+    free(again);
+}
+
+// Lists by vertex have an entry for each end of an edge, and each corner of a cell.
+static void check_lists(const set *s, const deldrift_triangulation *t) {
+    static uint32_t edges[ROOM * 2], lists[ROOM * 4], star[ROOM], offsets[MOST + 1];
+    static uint8_t mirrors[ROOM * 4];
+    const size_t n = s->dimension + 1;
+    const deldrift_cells_view view = cells_of(t);
+    size_t n_edges, count;
+    OK(deldrift_edges(t, edges, ROOM, &n_edges));
+    OK(deldrift_vertex_neighbours(t, offsets, s->n + 1, lists, ROOM * 4, &count));
+    CHECK(count == 2 * n_edges && offsets[0] == 0 && offsets[s->n] == count);
+    for (uint32_t v = 0; v < s->n; v++) {
+        uint64_t sum = 0, expected = 0;
+        for (size_t k = 0; k < n_edges; k++) {
+            for (int i = 0; i < 2; i++) expected += edges[2 * k + i] == v ? mixed(1, edges[2 * k + 1 - i]) : 0;
+        }
+        for (uint32_t k = offsets[v]; k < offsets[v + 1]; k++) {
+            CHECK(k == offsets[v] || lists[k - 1] <= lists[k]);
+            sum += mixed(1, lists[k]);
+        }
+        CHECK(sum == expected);
+    }
+    OK(deldrift_vertex_cells(t, offsets, s->n + 1, lists, ROOM * 4, &count));
+    CHECK(count == n * view.count);
+    for (uint32_t v = 0; v < s->n; v++) {
+        size_t n_corners = 0;
+        for (size_t k = 0; k < n * view.count; k++) n_corners += view.vertices[k] == v;
+        CHECK(offsets[v + 1] - offsets[v] == n_corners);
+        OK(deldrift_star(t, v, star, ROOM, &count));
+        CHECK(count == n_corners && memcmp(star, lists + offsets[v], count * sizeof *star) == 0);
+        OK(deldrift_cells_around(t, &v, 1, star, ROOM, &count));
+        CHECK(count <= n_corners);
+    }
+    OK(deldrift_cell_of_each_vertex(t, star, ROOM, &count));
+    CHECK(count == s->n && star[0] == (view.count == 0 ? DELDRIFT_NONE : lists[0]));
+    OK(deldrift_mirror_indices(t, mirrors, ROOM, &count));
+    for (size_t k = 0; k < n * view.count; k++) {
+        uint32_t mirror;
+        OK(deldrift_mirror_index(t, (uint32_t)(k / n), (uint32_t)(k % n), &mirror));
+        CHECK(view.neighbours[k] == DELDRIFT_NONE ? mirrors[k] == UINT8_MAX && mirror == DELDRIFT_NONE : mirror == mirrors[k]);
+        if (mirror != DELDRIFT_NONE) CHECK(view.neighbours[view.neighbours[k] * n + mirror] == k / n);
+    }
+    OK(deldrift_hidden_vertices(t, NULL, NULL, 0, &count));
+    CHECK(count == 0);
+    const deldrift_field field = {"x", s->points, s->dimension};
+    OK(deldrift_write_vtu(t, "periodic.vtu", &field, 1, NULL, 0));
+    OK(deldrift_write_medit(t, "periodic.mesh", NULL, 0));
+    CHECK(remove("periodic.vtu") == 0 && remove("periodic.mesh") == 0);
+}
+
 // Places on a grid, so that they are used as they are.
 static double random_place(uint64_t *state) { return floor(next_random(state) * 1048576) / 1048576; }
 
@@ -328,6 +404,7 @@ static void moves_and_boxes(uint32_t dimension, size_t n, size_t vector_count, u
     CHECK(count == n);
     check(&s, t);
     check_located(&s, t);
+    check_lists(&s, t);
     for (int step = 0; step < 6; step++) {
         for (size_t i = 0; i < n * dimension; i++) {
             s.points[i] += (random_place(&seed) - 0.5) / (step % 2 == 0 ? 1024 : 4);
@@ -343,6 +420,7 @@ static void moves_and_boxes(uint32_t dimension, size_t n, size_t vector_count, u
         CHECK(report.timestamp == (uint64_t)step + 1 && report.moved == n);
         check(&s, t);
         check_located(&s, t);
+        if (step == 3) check_kept(&s, t);
     }
     deldrift_destroy(t);
 }
@@ -397,6 +475,9 @@ static void vertices_come_and_go(void) {
     OK(deldrift_coincident_representative(t, 2, &other));
     OK(deldrift_cell_count(t, &count));
     CHECK(other == 0 && count == 4);
+    uint32_t hidden, shown;
+    OK(deldrift_hidden_vertices(t, &hidden, &shown, 1, &count));
+    CHECK(count == 1 && hidden == 2 && shown == 0);
     OK(deldrift_stage_removals(t, (uint32_t[]){0}, 1));
     CHECK_STATUS(deldrift_move_vertex(t, 0, square), DELDRIFT_STAGED_VERTEX);
     OK(deldrift_move_vertex(t, 1, (double[]){7.5, 0.5}));
@@ -409,6 +490,21 @@ static void vertices_come_and_go(void) {
     CHECK_STATUS(deldrift_position(t, 0, position), DELDRIFT_REMOVED_VERTEX);
     OK(deldrift_cell_count(t, &count));
     CHECK(count == 2);
+    uint32_t map[3];
+    CHECK_STATUS(deldrift_compact(t, map, 2, &count), DELDRIFT_BUFFER_TOO_SMALL);
+    OK(deldrift_compact(t, map, 3, &count));
+    CHECK(count == 3 && map[0] == DELDRIFT_NONE && map[1] == 0 && map[2] == 1);
+    OK(deldrift_position(t, 0, position));
+    OK(deldrift_coincident_representative(t, 1, &other));
+    CHECK(position[0] == 7.5 && other == 0);
+    OK(deldrift_relocate_vertex(t, 1, (double[]){0.25, 0.75}));
+    OK(deldrift_insert_vertex(t, (double[]){0.125, 0.25}, &other));
+    OK(deldrift_cell_count(t, &count));
+    CHECK(other == 2 && count == 6);
+    OK(deldrift_remove_vertex(t, 0));
+    OK(deldrift_cell_count(t, &count));
+    CHECK(count == 4);
+    OK(deldrift_validate(t, 3));
     deldrift_destroy(t);
 }
 
@@ -426,7 +522,7 @@ static void what_is_wrong_is_told(void) {
     CHECK_STATUS(deldrift_create_periodic(2, one, 1, one, 1, &options, &t), DELDRIFT_INVALID_OPTIONS);
     CHECK_MESSAGE("options.coincidence is 1");
     OK(deldrift_create_periodic(3, one, 1, one, 1, NULL, &t));
-    CHECK_STATUS(deldrift_validate(t, 3), DELDRIFT_PERIODIC);
+    CHECK_STATUS(deldrift_prepare_timestamp(t, NULL), DELDRIFT_PERIODIC);
     size_t count;
     CHECK_STATUS(deldrift_voronoi_cells(t, one, one, NULL, 0, NULL, NULL, NULL, 0, &count), DELDRIFT_PERIODIC);
     CHECK_MESSAGE("low and high are given, but t is periodic");
@@ -437,6 +533,16 @@ static void what_is_wrong_is_told(void) {
     CHECK_STATUS(deldrift_stage_vectors(t, (double[]){0, 0, 0}, 1), DELDRIFT_DEPENDENT_VECTORS);
     CHECK_STATUS(deldrift_commit_positions(t, (double[]){0, 1e30, 0}, 1, NULL), DELDRIFT_OUT_OF_RANGE);
     CHECK_MESSAGE("positions[0], coordinate 1, is 1e30");
+    unsigned char bytes[4096];
+    size_t size;
+    deldrift_triangulation *other = NULL;
+    CHECK_STATUS(deldrift_validate(t, 4), DELDRIFT_INVALID_LEVEL);
+    OK(deldrift_save(t, bytes, sizeof bytes, &size));
+    CHECK_STATUS(deldrift_load(bytes, size, &options, &other), DELDRIFT_INVALID_OPTIONS);
+    CHECK_MESSAGE("options.coincidence is 1");
+    CHECK_STATUS(deldrift_load(bytes, size - 1, NULL, &other), DELDRIFT_INVALID_DATA);
+    OK(deldrift_load(bytes, size, NULL, &other));
+    deldrift_destroy(other);
     deldrift_destroy(t);
 }
 

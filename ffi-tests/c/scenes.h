@@ -66,7 +66,8 @@ typedef enum { CREATE, CREATE_WITH_KEYS, CREATE_PERIODIC, RELOCATE, INSERT, INSE
     CELL_OF_EACH_VERTEX, BARYCENTRIC, MASK_WITHOUT_FLAT_CELLS, SEGMENTS_OF_CELLS, CELLS_OF_SEGMENTS, NESTING_LEVELS,
     LABEL_CELLS, UPDATE_LABELS, BOUNDARY_CHAINS, REFINE, COARSEN, RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT,
     PERIODIC_POSITIONS, STAGE_VECTORS, CELL_SHIFTS, EDGE_SHIFTS, PERIODIC_CELLS, PERIODIC_FACETS, PERIODIC_CENTRES,
-    LOCATE_IN_PERIOD, PERIODIC_NEAREST, PERIODIC_BALL, PERIODIC_LINEAR, PERIODIC_WEIGHTS, N_KINDS } kind;
+    LOCATE_IN_PERIOD, PERIODIC_NEAREST, PERIODIC_BALL, PERIODIC_LINEAR, PERIODIC_WEIGHTS, PERIODIC_CLONE, PERIODIC_LOAD,
+    PERIODIC_VTU, PERIODIC_NEIGHBOURS, PERIODIC_CHECK, PERIODIC_COMPACT, PERIODIC_HIDDEN, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
     "deldrift_create", "deldrift_create_with_keys", "deldrift_create_periodic", "deldrift_relocate_vertex", "deldrift_insert_vertex",
@@ -99,6 +100,8 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_voronoi_derivatives, periodic", "deldrift_circumcentres, periodic",
     "deldrift_locate_in_period", "deldrift_nearest_vertices, periodic", "deldrift_vertices_in_ball, periodic",
     "deldrift_interpolate, periodic", "deldrift_barycentric, periodic",
+    "deldrift_clone, periodic", "deldrift_load, periodic", "deldrift_write_vtu, periodic",
+    "deldrift_vertex_neighbours, periodic", "deldrift_validate, periodic", "deldrift_compact, periodic", "deldrift_hidden_vertices, periodic",
 };
 
 enum { MOST_PAIRS = 24 };
@@ -361,6 +364,10 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
     memcpy(s.places, s.points, room * sizeof *s.places);
     nudge(s.places, s.n * d, 0.3 * spacing, &state);
     if (call.kind >= PERIODIC_POSITIONS) OK(deldrift_create_periodic(d, s.points, s.n, BOX[d - 2], d, &options, &s.periodic));
+    if (call.kind == PERIODIC_COMPACT) {
+        OK(deldrift_stage_removals(s.periodic, (uint32_t[]){1, 4}, 2));
+        OK(deldrift_commit_timestamp(s.periodic, NULL));
+    }
     if (setting->flattens) flatten(s.places, s.n + 20, d);
     for (size_t k = 0; k < s.n_pairs && n_laid > 0; k++) {
         for (int i = 0; i < 2; i++) {
@@ -491,6 +498,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     const bool is_flat = s->setting->is_flat || s->setting->flattens;
     const size_t n_segments = d == 2 ? s->setting->segments : 0, n_more = is_flat ? 0 : 5;
     if (s->call.kind == LOAD) OK(deldrift_save(s->t, saved, sizeof saved, &size));
+    if (s->call.kind == PERIODIC_LOAD) OK(deldrift_save(s->periodic, saved, sizeof saved, &size));
     if (s->call.kind == LOAD_FILE) OK(deldrift_save_file(s->t, file));
     count_requests(first, too);
     switch (s->call.kind) {
@@ -522,6 +530,15 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
                                           numbers_out);
             break;
         case PERIODIC_WEIGHTS: status = deldrift_barycentric(s->periodic, at, &some_cell, 1, numbers_out); break;
+        case PERIODIC_CLONE: status = deldrift_clone(s->periodic, &made); break;
+        case PERIODIC_LOAD: status = deldrift_load(saved, size, &options, &made); break;
+        case PERIODIC_VTU: status = deldrift_write_vtu(s->periodic, file, NULL, 0, NULL, 0); break;
+        case PERIODIC_NEIGHBOURS:
+            status = deldrift_vertex_neighbours(s->periodic, NULL, 0, ids_out, ROOM, &count);
+            break;
+        case PERIODIC_CHECK: status = deldrift_validate(s->periodic, 3); break;
+        case PERIODIC_HIDDEN: status = deldrift_hidden_vertices(s->periodic, ids_out, more_out, ROOM, &count); break;
+        case PERIODIC_COMPACT: status = deldrift_compact(s->periodic, ids_out, ROOM, &count); break;
         case CREATE_WITH_KEYS: status = deldrift_create_with_keys(d, s->points, keys_of(s->n), s->n, &options, &made); break;
         case INSERT_WITH_KEY: status = deldrift_insert_vertex_with_key(s->t, to, 3, &out); break;
         case INSERT: status = deldrift_insert_vertex(s->t, to, &out); break;
@@ -653,7 +670,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     }
     stop_counting();
     // It is there exactly if it has been written.
-    bool writes = s->call.kind == SAVE_FILE || s->call.kind == WRITE_VTU || s->call.kind == WRITE_MEDIT;
+    bool writes = s->call.kind == SAVE_FILE || s->call.kind == WRITE_VTU || s->call.kind == WRITE_MEDIT || s->call.kind == PERIODIC_VTU;
     bool is_there = unlink(file) == 0;
     if (writes && is_there != (status == DELDRIFT_OK)) {
         *wrong = "half a file";
@@ -700,6 +717,15 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             for (size_t i = 0; i < s->n; i++) *given = mixed(*given, locations_out[i].kind);
             break;
         case PERIODIC_WEIGHTS: break;
+        case PERIODIC_COMPACT: *given = digest_of_periodic(s->periodic, d); break;
+        case PERIODIC_HIDDEN: *given = digest_of(ids_out, count * sizeof *ids_out); break;
+        case PERIODIC_NEIGHBOURS: *given = digest_of(ids_out, count * sizeof *ids_out); break;
+        case PERIODIC_CLONE:
+        case PERIODIC_LOAD:
+            *given = digest_of_periodic(made, d);
+            if (deldrift_validate(made, 3) != DELDRIFT_OK) *wrong = "no triangulation";
+            deldrift_destroy(made);
+            break;
         case CREATE:
         case CREATE_WITH_KEYS:
         case CLONE:

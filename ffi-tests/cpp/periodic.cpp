@@ -56,7 +56,10 @@ int main() {
     for (const double volume : t.volumes()) all += volume;
     CHECK(std::fabs(all - 1.5) < 1e-12 && t.hull_facets().cells.empty() && t.circumcentres().squared_radii.size() == 8);
     CHECK_THROWS(t.voronoi_cells(std::vector<double>{0, 0}, std::vector<double>{1, 1}), DELDRIFT_PERIODIC, "low and high");
-    CHECK_THROWS(t.clone(), DELDRIFT_PERIODIC, "t is periodic");
+    const Triangulation copy = t.clone(), loaded = Triangulation::load(t.save());
+    CHECK(copy.cell_shifts().corners == t.cell_shifts().corners && loaded.edge_shifts() == t.edge_shifts());
+    CHECK(loaded.vectors() == t.vectors() && loaded.positions() == t.positions() && loaded.save() == t.save());
+    CHECK(deldrift_validate(loaded.native(), 3) == DELDRIFT_OK && loaded.star(0).size() == loaded.vertex_neighbours().of_vertex(0).size());
     CHECK_THROWS(t.stage_vectors(std::vector<double>{1, 0}), DELDRIFT_WRONG_COUNT, "vector_count is 1");
     CHECK_THROWS(Triangulation(2, points, deldrift::Periodic(std::vector<double>{1, 1, 2, 2})),
                  DELDRIFT_DEPENDENT_VECTORS, "vectors[1]");

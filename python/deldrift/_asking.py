@@ -32,7 +32,6 @@ _is_present = _library.function("is_present")
 _star = _library.function("star")
 _ordered_star = _library.function("ordered_star")
 _tolerance = _library.function("tolerance")
-_validate = _library.function("validate")
 _locate_points = _library.function("locate_points")
 _vertices_in_box = _library.function("vertices_in_box")
 _conflicts = _library.function("conflicts")
@@ -152,20 +151,6 @@ class Asking(Scipy):
             found = ctypes.c_double()
             self._check(_tolerance(t, number, found), vertex="vertex!")
         return found.value
-
-    def validate(self, level: int = 3) -> None:
-        """Checks the triangulation, exactly; raises `Invalid` for a defect.
-
-        Parameters
-        ----------
-        level : int, optional
-            1 checks indices and adjacency, 2 also orientation and hull, 3 also that circumspheres are empty.
-        """
-        number = whole("level", level)
-        if number not in (1, 2, 3):
-            raise InvalidValue(f"level is {number}, and must be 1, 2 or 3", "level", None, number)
-        with self._reading as t:
-            self._check(_validate(t, number))
 
     def star(self, vertex: int, ordered: bool = False) -> np.ndarray:
         """The simplices that have a vertex as a corner.

@@ -131,6 +131,8 @@ class Core:
 
     ndim: int
     """The number of dimensions, 2 or 3."""
+    is_periodic = False
+    """Whether points repeat."""
 
     def _start(
         self, handle: Handle, ndim: int, threads: int, coincidence: str, passing: str, callbacks: Optional[Callbacks]

@@ -10,20 +10,17 @@ import numpy as np
 from . import _library
 from ._arrays import Handle, address, address_if, keys as given_keys, points as point_rows
 from ._asking import Asking
-from ._callbacks import Callbacks
 from ._core import check, make_options
-from ._files import Files, Path, file_name
+from ._files import Files
 from ._geometry import Geometry
+from ._loading import given_callbacks, made, of_bytes, of_file
 from ._motion import Motion
 from ._refining import Refining
 from ._scipy import check_scipy_options
+from ._writing import Path
 
 _create = _library.function("create_with_keys")
 _clone = _library.function("clone")
-_dimension = _library.function("dimension")
-_discard_moves = _library.function("discard_moves")
-_load = _library.function("load")
-_load_file = _library.function("load_file")
 
 
 SEGMENT_ARGUMENTS = "segments", "segment_markers"
@@ -119,7 +116,7 @@ class Delaunay(Motion, Refining, Asking, Geometry, Files):
         keys: Any = None,
     ) -> None:
         given = given_keys("keys", keys, len(rows))
-        callbacks = _callbacks(progress, cancel)
+        callbacks = given_callbacks(progress, cancel)
         options = make_options(algorithm, threads, coincidence, passing, callbacks)
         pointer = ctypes.c_void_p()
         status = _create(rows.shape[1], address(rows), address_if(given), len(rows), options, pointer)
@@ -150,7 +147,7 @@ class Delaunay(Motion, Refining, Asking, Geometry, Files):
         with self._reading as t:
             pointer = ctypes.c_void_p()
             self._check(_clone(t, pointer))
-        return _made(pointer, self._threads, self._coincidence, self._passing, self._callbacks, type(self))
+        return made(type(self), pointer, self._threads, self._coincidence, self._passing, self._callbacks)
 
     def __copy__(self) -> "Delaunay":
         return self.copy()
@@ -166,35 +163,10 @@ class Delaunay(Motion, Refining, Asking, Geometry, Files):
         return f"<deldrift.Delaunay of {self.nvertices} points in {self.ndim}D, {self.nsimplex} simplices>"
 
 
-def _callbacks(progress: Any, cancel: Optional[Callable[[], bool]]) -> Optional[Callbacks]:
-    if cancel is not None and not callable(cancel):
-        raise TypeError(f"cancel is {cancel!r}, and must be a function that tells whether to cancel")
-    return None if progress is None and cancel is None else Callbacks(progress, cancel)
-
-
-def _made(
-    pointer: ctypes.c_void_p,
-    threads: int,
-    coincidence: str,
-    passing: str,
-    callbacks: Optional[Callbacks],
-    kind: type[Delaunay] = Delaunay,
-) -> Delaunay:
-    """A triangulation that the library has made; what is staged, which no step would commit, is forgotten."""
-    handle = Handle(pointer.value or 0, callbacks)
-    check(_discard_moves(handle.pointer))
-    ndim = ctypes.c_uint32()
-    check(_dimension(handle.pointer, ndim))
-    made = kind.__new__(kind)
-    made._start(handle, ndim.value, threads, coincidence, passing, callbacks)
-    return made
-
-
 def _unpickled(
     kind: type[Delaunay], data: bytes, algorithm: str, threads: int, coincidence: str, passing: str
 ) -> Delaunay:
-    options = {"algorithm": algorithm, "threads": threads, "coincidence": coincidence, "passing": passing}
-    return frombytes(data, **options, _kind=kind)  # type: ignore[arg-type]
+    return of_bytes(kind, data, algorithm, threads, coincidence, passing)
 
 
 def load(
@@ -229,11 +201,7 @@ def load(
     >>> deldrift.load(path)
     <deldrift.Delaunay of 4 points in 2D, 2 simplices>
     """
-    callbacks = _callbacks(progress, cancel)
-    options = make_options(algorithm, threads, coincidence, passing, callbacks)
-    pointer = ctypes.c_void_p()
-    check(_load_file(file_name(path), options, pointer), {}, callbacks)
-    return _made(pointer, threads, coincidence, passing, callbacks)
+    return of_file(Delaunay, path, algorithm, threads, coincidence, passing, progress, cancel)
 
 
 def frombytes(
@@ -245,7 +213,6 @@ def frombytes(
     passing: str = "ignore",
     progress: Any = None,
     cancel: Optional[Callable[[], bool]] = None,
-    _kind: type[Delaunay] = Delaunay,
 ) -> Delaunay:
     """Makes a triangulation of bytes that `Delaunay.tobytes` gave.
 
@@ -261,15 +228,7 @@ def frombytes(
     Delaunay
         As the one that was saved, simplices with their indices included.
     """
-    callbacks = _callbacks(progress, cancel)
-    options = make_options(algorithm, threads, coincidence, passing, callbacks)
-    try:
-        buffer = np.frombuffer(data, np.uint8)
-    except (TypeError, AttributeError):
-        raise TypeError(f"data is a {type(data).__name__}, and must be bytes") from None
-    pointer = ctypes.c_void_p()
-    check(_load(address(buffer), len(buffer), options, pointer), {}, callbacks)
-    return _made(pointer, threads, coincidence, passing, callbacks, _kind)
+    return of_bytes(Delaunay, data, algorithm, threads, coincidence, passing, progress, cancel)
 
 
 def tsearch(tri: Any, xi: Any) -> np.ndarray:

@@ -25,9 +25,6 @@ from ._errors import WrongCount
 
 _mask_without_flat_cells = _library.function("mask_without_flat_cells")
 _edges = _library.function("edges")
-_vertex_cells = _library.function("vertex_cells")
-_mirror_indices = _library.function("mirror_indices")
-_cells_around = _library.function("cells_around")
 _voronoi_volumes = _library.function("voronoi_volumes")
 _voronoi_facets = _library.function("voronoi_facets")
 _voronoi_changed = _library.function("voronoi_changed")
@@ -94,55 +91,6 @@ class Geometry(Measured, Scipy):
             self._check(_edges(t, address(edges), len(edges), count))
         return edges
 
-    def vertex_simplices(self) -> tuple[np.ndarray, np.ndarray]:
-        """The simplices around each vertex: `indices[indptr[k]:indptr[k + 1]]`, ascending, for vertex k.
-
-        Returns
-        -------
-        indptr, indices : ndarray of int
-            As of `vertex_neighbor_vertices`.
-        """
-        with self._reading as t:
-            indptr, indices = np.empty(id_count(t) + 1, I32), np.empty(cell_count(t) * (self.ndim + 1), I32)
-            count = ctypes.c_size_t()
-            self._check(_vertex_cells(t, address(indptr), len(indptr), address(indices), len(indices), count))
-        return indptr, indices
-
-    def mirror_indices(self) -> np.ndarray:
-        """For each facet the corner of the simplex beyond that is opposite to it, 255 on the hull.
-
-        Returns
-        -------
-        ndarray of uint8
-            Of the shape of `neighbors`.
-        """
-        with self._reading as t:
-            mirrors = np.empty((cell_count(t), self.ndim + 1), np.uint8)
-            count = ctypes.c_size_t()
-            self._check(_mirror_indices(t, address(mirrors), len(mirrors), count))
-        return mirrors
-
-    def simplices_around(self, vertices: Any) -> np.ndarray:
-        """The simplices of which at least one of some vertices is a corner.
-
-        Parameters
-        ----------
-        vertices : array_like of int
-            Ids.
-
-        Returns
-        -------
-        ndarray of int
-            Their indices, ascending, each once.
-        """
-        listed = ids("vertices", vertices)
-        with self._reading as t:
-            count = ctypes.c_size_t()
-            names = {"vertices": "vertices", "vertex": "vertices"}
-            self._check(_cells_around(t, address(listed), len(listed), None, 0, count), **names)
-            cells = np.empty(count.value, I32)
-            self._check(_cells_around(t, address(listed), len(listed), address(cells), len(cells), count), **names)
-        return cells
 
     def voronoi_volumes(self, box: Any = None) -> np.ndarray:
         """The areas or volumes of the Voronoi cells of all ids, within a box.

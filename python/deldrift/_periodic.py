@@ -8,19 +8,24 @@ from typing import Any, Callable, NamedTuple, Optional
 import numpy as np
 
 from . import _library
-from ._arrays import F64, I32, Handle, address, ids as listed_ids, mask as mask_of, places, points as point_rows
+from ._arrays import F64, I32, Handle, address, ids as listed_ids, mask as mask_of, one_id, places, points as point_rows
 from ._core import check, count_of, fixed, id_count, make_options
-from ._delaunay import _callbacks
 from ._errors import WrongCount
 from ._geometry import VoronoiCells, VoronoiDerivatives, vertex_mask
 from ._library import Report
+from ._loading import given_callbacks, made, of_bytes, of_file
 from ._measured import Measured
+from ._meeting import Meeting
 from ._motion import Changes, changes_of
 from ._near import Near
+from ._writing import Path, Writing
 
 _create_periodic = _library.function("create_periodic")
 _stage_vectors = _library.function("stage_vectors")
 _vectors = _library.function("vectors")
+_clone = _library.function("clone")
+_star = _library.function("star")
+_get_algorithm = _library.function("get_algorithm")
 _cell_shifts = _library.function("cell_shifts")
 _locate_in_period = _library.function("locate_in_period")
 _edge_shifts = _library.function("edge_shifts")
@@ -34,6 +39,7 @@ _discard_moves = _library.function("discard_moves")
 _move_vertices = _library.function("move_vertices")
 _stage_insertions = _library.function("stage_insertions")
 _stage_removals = _library.function("stage_removals")
+_compact = _library.function("compact")
 _vertex_count = _library.function("vertex_count")
 _memory_bytes = _library.function("memory_bytes")
 _timestamp = _library.function("timestamp")
@@ -56,7 +62,7 @@ class PeriodicLocations(NamedTuple):
     """By which multiples of the vectors the vertex is translated from its point, or the simplex from its own shifts."""
 
 
-class PeriodicDelaunay(Near, Measured):
+class PeriodicDelaunay(Near, Measured, Meeting, Writing):
     """The Delaunay triangulation of points that repeat, and that may move.
 
     Each point is in all places to which sums of multiples of the vectors of the box take it. Of the simplices, one of each
@@ -91,6 +97,9 @@ class PeriodicDelaunay(Near, Measured):
     1
     """
 
+    is_periodic = True
+    """Whether points repeat."""
+
     def __init__(
         self,
         points: Any,
@@ -104,16 +113,111 @@ class PeriodicDelaunay(Near, Measured):
         rows = point_rows("points", points)
         ndim = rows.shape[1]
         box = _box(vectors, ndim)
-        callbacks = _callbacks(progress, cancel)
+        callbacks = given_callbacks(progress, cancel)
         options = make_options(algorithm, threads, "merge", "ignore", callbacks)
         pointer = ctypes.c_void_p()
         status = _create_periodic(ndim, address(rows), len(rows), address(box), len(box), options, pointer)
         check(status, {"positions": "points"}, callbacks)
         self._start(Handle(pointer.value or 0, callbacks), ndim, threads, "merge", "ignore", callbacks)
 
+    @classmethod
+    def load(
+        cls,
+        path: Path,
+        *,
+        algorithm: str = "auto",
+        threads: int = 0,
+        progress: Any = None,
+        cancel: Optional[Callable[[], bool]] = None,
+    ) -> "PeriodicDelaunay":
+        """Makes a triangulation of a file that `save` has written.
+
+        Parameters
+        ----------
+        path : str or path
+            Of the file.
+        algorithm, threads, progress, cancel
+            As of `PeriodicDelaunay`; they are not saved.
+
+        Returns
+        -------
+        PeriodicDelaunay
+            As the one that was saved, simplices with their indices included.
+        """
+        return of_file(cls, path, algorithm, threads, "merge", "ignore", progress, cancel)
+
+    @classmethod
+    def frombytes(
+        cls,
+        data: Any,
+        *,
+        algorithm: str = "auto",
+        threads: int = 0,
+        progress: Any = None,
+        cancel: Optional[Callable[[], bool]] = None,
+    ) -> "PeriodicDelaunay":
+        """Makes a triangulation of bytes that `tobytes` gave.
+
+        Parameters
+        ----------
+        data : bytes-like
+            The bytes. Whatever they are, nothing is loaded that is not right, exactly.
+        algorithm, threads, progress, cancel
+            As of `PeriodicDelaunay`; they are not saved.
+
+        Returns
+        -------
+        PeriodicDelaunay
+            As the one that was saved, simplices with their indices included.
+        """
+        return of_bytes(cls, data, algorithm, threads, "merge", "ignore", progress, cancel)
+
+    def copy(self) -> "PeriodicDelaunay":
+        """An independent triangulation that is as this one.
+
+        Returns
+        -------
+        PeriodicDelaunay
+            After the same calls it has the same simplices. It calls the same callbacks.
+        """
+        with self._reading as t:
+            pointer = ctypes.c_void_p()
+            self._check(_clone(t, pointer))
+        return made(type(self), pointer, self._threads, self._coincidence, self._passing, self._callbacks)
+
+    def __copy__(self) -> "PeriodicDelaunay":
+        return self.copy()
+
+    def __deepcopy__(self, _memo: Any) -> "PeriodicDelaunay":
+        return self.copy()
+
     def __reduce__(self) -> Any:
-        # Copies of the attributes would share what the library holds, and destroy it twice.
-        raise TypeError("a PeriodicDelaunay can be neither copied nor pickled: make one of its points and vectors")
+        with self._reading as t:
+            number = ctypes.c_uint32()
+            self._check(_get_algorithm(t, number))
+        options = _library.ALGORITHMS[number.value], self._threads, self._coincidence, self._passing
+        return of_bytes, (type(self), self.tobytes(), *options)
+
+    def star(self, vertex: int) -> np.ndarray:
+        """The simplices at the place of a vertex: one for each corner that is the vertex, in whatever period.
+
+        Parameters
+        ----------
+        vertex : int
+            The id; for a hidden vertex that of its representative counts.
+
+        Returns
+        -------
+        ndarray of int
+            Their indices.
+        """
+        number = one_id("vertex", vertex)
+        with self._reading as t:
+            count = ctypes.c_size_t()
+            self._check(_star(t, number, None, 0, count), vertex="vertex!")
+            cells = np.empty(count.value, I32)
+            self._check(_star(t, number, address(cells), len(cells), count), vertex="vertex!")
+        return cells
 
     @property
     def nvertices(self) -> int:
@@ -453,6 +557,19 @@ class PeriodicDelaunay(Near, Measured):
             view = _library.ChangesView()
             self._check(_take_changes(t, view))
             return changes_of(view, self.ndim + 1)
+
+    def compact(self) -> np.ndarray:
+        """Gives vertices the ids 0, 1, ... in the order of those that they have, and frees what removed ones used.
+
+        Returns
+        -------
+        ndarray of int
+            The new id of each old one, -1 for removed vertices. Simplices may have other indices.
+        """
+        with self._changing as t:
+            new_ids = np.empty(id_count(t), I32)
+            self._check(_compact(t, address(new_ids), len(new_ids), ctypes.c_size_t()))
+        return new_ids
 
     def _change(self, change: Callable[[int, Report], int]) -> Report:
         """A change, which has no effect if it fails."""

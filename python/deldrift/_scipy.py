@@ -11,13 +11,11 @@ from . import _library
 from ._arrays import F64, I32, U32, address, places
 from ._core import cell_count, fixed, id_count
 from ._errors import InvalidOption, InvalidValue
+from ._meeting import Meeting
 from ._near import Near
 
 _copy_positions = _library.function("copy_positions")
-_hidden_vertices = _library.function("hidden_vertices")
-_cell_of_each_vertex = _library.function("cell_of_each_vertex")
 _hull_facets = _library.function("hull_facets")
-_vertex_neighbours = _library.function("vertex_neighbours")
 _locate_points = _library.function("locate_points")
 
 IN_VERTEX, IN_CELL, OUTSIDE, NO_CELLS = range(4)
@@ -54,7 +52,7 @@ def check_scipy_options(furthest_site: Any, qhull_options: Any) -> None:
             )
 
 
-class Scipy(Near):
+class Scipy(Near, Meeting):
     """What scipy.spatial.Delaunay has."""
 
     furthest_site = False
@@ -110,64 +108,6 @@ class Scipy(Near):
     def max_bound(self) -> np.ndarray:
         """The greatest coordinates of the points."""
         return self._once("max_bound", lambda: fixed(_bound(np.fmax, self.points)))
-
-    @property
-    def coplanar(self) -> np.ndarray:
-        """Points that are in no simplex: rows of the point, a simplex at its place, and the vertex there, int32.
-
-        With exact arithmetic these are the points at the place of one of lower id, and no others.
-        """
-        return self._once("coplanar", self._hidden)
-
-    def _hidden(self) -> np.ndarray:
-        hidden, representatives = self._hidden_vertices()
-        rows = np.empty((len(hidden), 3), I32)
-        rows[:, 0], rows[:, 1], rows[:, 2] = hidden, self._corner_simplices()[representatives], representatives
-        return fixed(rows)
-
-    def _hidden_vertices(self) -> tuple[np.ndarray, np.ndarray]:
-        """The hidden vertices, and the one at the place of each that is a corner of simplices."""
-        with self._reading as t:
-            count = ctypes.c_size_t()
-            self._check(_hidden_vertices(t, None, None, 0, count))
-            hidden, shown = np.empty(count.value, I32), np.empty(count.value, I32)
-            self._check(_hidden_vertices(t, address(hidden), address(shown), len(hidden), count))
-        return hidden, shown
-
-    def _corner_simplices(self) -> np.ndarray:
-        """A simplex that each id is a corner of, -1 for none."""
-        return self._once("corner_simplices", self._simplex_at_each)
-
-    def _simplex_at_each(self) -> np.ndarray:
-        with self._reading as t:
-            simplices = np.empty(id_count(t), I32)
-            count = ctypes.c_size_t()
-            self._check(_cell_of_each_vertex(t, address(simplices), len(simplices), count))
-        return simplices
-
-    @property
-    def vertex_to_simplex(self) -> np.ndarray:
-        """For each id a simplex that it is a corner of; for points in `coplanar` the one there; -1 for removed ones."""
-        return self._once("vertex_to_simplex", self._simplex_of_each)
-
-    def _simplex_of_each(self) -> np.ndarray:
-        of_vertex = self._corner_simplices().copy()
-        coplanar = self.coplanar
-        of_vertex[coplanar[:, 0]] = coplanar[:, 1]
-        return fixed(of_vertex)
-
-    @property
-    def vertex_neighbor_vertices(self) -> tuple[np.ndarray, np.ndarray]:
-        """The vertices that share an edge with each: `indices[indptr[k]:indptr[k + 1]]`, ascending, for vertex k."""
-        return self._once("vertex_neighbor_vertices", self._neighbour_lists)
-
-    def _neighbour_lists(self) -> tuple[np.ndarray, np.ndarray]:
-        with self._reading as t:
-            count = ctypes.c_size_t()
-            self._check(_vertex_neighbours(t, None, 0, None, 0, count))
-            offsets, entries = np.empty(id_count(t) + 1, I32), np.empty(count.value, I32)
-            self._check(_vertex_neighbours(t, address(offsets), len(offsets), address(entries), len(entries), count))
-        return fixed(offsets), fixed(entries)
 
     @property
     def convex_hull(self) -> np.ndarray:

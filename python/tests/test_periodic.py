@@ -254,6 +254,8 @@ def test_points_come_and_go():
     assert (tri.nvertices, tri.nsimplex) == (3, 6) and np.isnan(tri.points[0]).all()
     assert tri.move([[0.5, 0.5]], ids=[3]).moved == 1
     assert "3 points in 2D" in repr(tri) and tri.nbytes > 0 and tri.report.timestamp == 3
+    points = tri.points
+    assert tri.compact().tolist() == [-1, 0, 1, 2] and (tri.points == points[1:]).all() and tri.nsimplex == 6
 
 
 def test_what_is_wrong_is_told_and_changes_nothing():
@@ -271,10 +273,89 @@ def test_what_is_wrong_is_told_and_changes_nothing():
     assert tri.timestamp == 0 and tri.move([[0.2, 0.1], [0.6, 0.7]]).timestamp == 1
 
 
-@pytest.mark.parametrize("make", [copy.copy, copy.deepcopy, pickle.dumps])
-def test_a_copy_is_refused_and_harms_nothing(make, rng):
-    tri = deldrift.PeriodicDelaunay(rng.random((20, 2)), [1, 1])
-    with pytest.raises(TypeError, match="neither copied nor pickled"):
-        make(tri)
-    assert tri.move(rng.random((20, 2))).timestamp == 1
-    assert tri.voronoi_volumes().sum() == pytest.approx(1, rel=1e-12)
+def same(tri, other):
+    """Whether all that is read of one is read of the other."""
+    names = "simplices", "neighbors", "shifts", "neighbor_shifts", "points", "vectors", "timestamp", "nvertices"
+    return all(np.array_equal(getattr(tri, n), getattr(other, n), equal_nan=n == "points") for n in names)
+
+
+def saved(tri, tmp_path):
+    tri.save(tmp_path / "box")
+    return deldrift.PeriodicDelaunay.load(tmp_path / "box")
+
+
+AGAIN = {
+    "copy": lambda t, _: copy.copy(t),
+    "deepcopy": lambda t, _: copy.deepcopy(t),
+    "pickle": lambda t, _: pickle.loads(pickle.dumps(t)),
+    "bytes": lambda t, _: deldrift.PeriodicDelaunay.frombytes(t.tobytes()),
+    "file": saved,
+}
+
+
+@pytest.mark.parametrize("name", AGAIN)
+def test_what_is_kept_goes_on(name, rng, tmp_path):
+    vectors = BOXES["triclinic"]
+    tri = deldrift.PeriodicDelaunay(rng.random((20, 3)) @ vectors, vectors, algorithm="repair")
+    tri.remove([3])
+    tri.move(tri.points + rng.normal(scale=0.1, size=(20, 3)))
+    other = AGAIN[name](tri, tmp_path)
+    assert type(other) is deldrift.PeriodicDelaunay and same(tri, other)
+    points = tri.points + rng.normal(scale=0.1, size=(20, 3))
+    before = tri.points
+    other.move(points, vectors=1.25 * vectors)
+    assert np.array_equal(tri.points, before, equal_nan=True) and tri.timestamp == 2
+    tri.move(points, vectors=1.25 * vectors)
+    assert classes(tri.simplices, tri.shifts, tri.vectors) == classes(other.simplices, other.shifts, other.vectors)
+    other.validate()
+
+
+def test_kinds_of_files_are_told_apart(rng, tmp_path):
+    tri, flat = deldrift.PeriodicDelaunay(rng.random((5, 2)), [1, 1]), deldrift.Delaunay(rng.random((5, 2)))
+    with pytest.raises(deldrift.InvalidData, match="PeriodicDelaunay.frombytes"):
+        deldrift.frombytes(tri.tobytes())
+    with pytest.raises(deldrift.InvalidData, match="deldrift.load"):
+        deldrift.PeriodicDelaunay.frombytes(flat.tobytes())
+    data = bytearray(tri.tobytes())
+    data[200] ^= 1
+    with pytest.raises(deldrift.InvalidData, match="checksum"):
+        deldrift.PeriodicDelaunay.frombytes(data)
+
+
+def test_what_meets(rng):
+    points = rng.random((12, 2))
+    points[7] = points[2] + [1, -2]
+    tri = deldrift.PeriodicDelaunay(points, [1, 1])
+    assert tri.coplanar[:, [0, 2]].tolist() == [[7, 2]]
+    edges, _ = tri.edges()
+    indptr, indices = tri.vertex_neighbor_vertices
+    offsets, cells = tri.vertex_simplices()
+    for v in range(12):
+        ends = np.concatenate([edges[edges[:, 0] == v, 1], edges[edges[:, 1] == v, 0]])
+        assert indices[indptr[v] : indptr[v + 1]].tolist() == sorted(ends.tolist())
+        row = np.repeat(np.arange(tri.nsimplex), (tri.simplices == v).sum(axis=1)).tolist()
+        assert cells[offsets[v] : offsets[v + 1]].tolist() == row == (row if v == 7 else tri.star(v).tolist())
+        assert tri.simplices_around([v]).tolist() == sorted(set(row))
+        assert tri.vertex_to_simplex[v] == tri.star(v)[0]
+    assert tri.star(7).tolist() == tri.star(2).tolist()
+    mirrors = tri.mirror_indices()
+    for cell, corner in itertools.product(range(tri.nsimplex), range(3)):
+        assert tri.neighbors[tri.neighbors[cell, corner], mirrors[cell, corner]] == cell
+    tri.validate()
+
+
+def test_files_of_other_programs(rng, tmp_path):
+    meshio = pytest.importorskip("meshio")
+    tri = deldrift.PeriodicDelaunay(rng.random((10, 2)), [1, 1])
+    heat = np.arange(10.0)
+    tri.write_vtu(tmp_path / "a.vtu", {"heat": heat}, {"number": np.arange(tri.nsimplex)})
+    tri.write_medit(tmp_path / "a.mesh", np.arange(tri.nsimplex))
+    for name in "a.vtu", "a.mesh":
+        mesh = meshio.read(tmp_path / name)
+        assert (mesh.points[:, :2][mesh.cells[0].data] == tri.corners).all()
+        ids = mesh.point_data["vertex" if name == "a.vtu" else "medit:ref"]
+        assert (ids[mesh.cells[0].data] == tri.simplices).all() and len(ids) > 10
+    mesh = meshio.read(tmp_path / "a.vtu")
+    assert (mesh.point_data["heat"] == heat[mesh.point_data["vertex"]]).all()
+    with pytest.raises(deldrift.WrongCount):
+        tri.write_vtu(tmp_path / "a.vtu", {"heat": heat[1:]})

@@ -11,6 +11,7 @@ use super::pointers::{Input, Output};
 use super::status::{Failure, deldrift_status};
 use crate::either::AnyTriangulation;
 use crate::error::Error;
+use crate::in_its_dimension;
 use crate::machine::{environment, memory};
 use crate::periodic::AnyPeriodic;
 
@@ -42,6 +43,14 @@ impl Content {
         match self {
             Content::Open(t) => t.dimension(),
             Content::Periodic(t) => t.dimension(),
+        }
+    }
+
+    /// Refuses what may not be done while a timestamp is prepared, as those of open triangulations may be.
+    pub(super) fn reject_prepared(&self) -> Result<(), Error> {
+        match self {
+            Content::Open(t) => in_its_dimension!(t => t.reject_prepared()),
+            Content::Periodic(_) => Ok(()),
         }
     }
 
@@ -213,11 +222,11 @@ impl<'a> Reading<'a> {
     /// Runs the body of an entry that makes something of a triangulation that calls the same callbacks.
     pub(super) fn read_with_callbacks(
         self,
-        body: impl FnOnce(&AnyTriangulation, Callbacks) -> Result<(), Failure>,
+        body: impl FnOnce(&Content, Callbacks) -> Result<(), Failure>,
     ) -> deldrift_status {
         guard::enter(|| {
             let (t, handle) = self.ready()?;
-            body(t.open()?, handle.callbacks)
+            body(t, handle.callbacks)
         })
     }
 

@@ -1,6 +1,6 @@
 //! Changes that take effect at once, one vertex at a time; and new ids.
 
-use super::handle::{Changing, deldrift_triangulation};
+use super::handle::{Changing, deldrift_triangulation, in_any};
 use super::pointers::{Buffer, Output, Point, fit, given, write_all};
 use super::status::deldrift_status;
 use crate::ids::VertexId;
@@ -12,7 +12,7 @@ use crate::in_its_dimension;
 /// position: 2 or 3 numbers, read during the call only.
 ///
 /// Cost: that of a removal and an insertion at most, of the cells around the vertex before and after, which can be
-/// many. While there are no cells, that of deldrift_create.
+/// many. While there are no cells, that of deldrift_create. Of a periodic triangulation that of a commit of this one move.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
 /// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_DUPLICATE_MOVE if a move of
@@ -38,7 +38,7 @@ pub unsafe extern "C" fn deldrift_relocate_vertex(
 /// The long way of [`deldrift_relocate_vertex`], kept out of the short one's registers.
 #[inline(never)]
 fn relocate_in_guard(t: Changing<'_>, vertex: VertexId, position: Point<'_>) -> deldrift_status {
-    t.change(|t| in_its_dimension!(t => Ok(t.relocate_vertex(vertex, position.of("position", t)?)?)))
+    t.change_any(|t| in_any!(t => Ok(t.relocate_vertex(vertex, position.of("position", t)?)?)))
 }
 
 /// Inserts a vertex at once. Ends all views.
@@ -46,11 +46,11 @@ fn relocate_in_guard(t: Changing<'_>, vertex: VertexId, position: Point<'_>) -> 
 /// position: 2 or 3 numbers, read during the call only. out_vertex: receives its id, which is one above
 /// the highest ever given, or left by the latest deldrift_compact.
 ///
-/// Cost: that of deldrift_locate, and the cells created and removed.
+/// Cost: that of deldrift_locate, and the cells created and removed; of a periodic triangulation that of creation.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_ON_SEGMENT,
-/// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_ON_SEGMENT, DELDRIFT_STAGED_VERTEX (if t
+/// is periodic and insertions are staged, which have the next ids), DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at
 /// the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_insert_vertex(
@@ -59,9 +59,9 @@ pub unsafe extern "C" fn deldrift_insert_vertex(
     out_vertex: *mut u32,
 ) -> deldrift_status {
     given!(t: Changing, position: Point, out_vertex: Output);
-    t.change(|t| {
+    t.change_any(|t| {
         let out_vertex = out_vertex.place()?;
-        out_vertex.write(in_its_dimension!(t => t.insert_vertex(position.of("position", t)?))?.get());
+        out_vertex.write(in_any!(t => t.insert_vertex(position.of("position", t)?))?.get());
         Ok(())
     })
 }
@@ -71,7 +71,7 @@ pub unsafe extern "C" fn deldrift_insert_vertex(
 ///
 /// Cost: up to 64 neighbours at most the square of their number, beyond that a build of the neighbours alone. In 3D
 /// that may have as many cells as half the square of their number, as where all points are on the moment curve; each
-/// ten to twenty thousand of them the callbacks are called.
+/// ten to twenty thousand of them the callbacks are called. Of a periodic triangulation that of creation.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its
 /// insertion is staged, DELDRIFT_END_REMOVED for an end of a segment in force, DELDRIFT_TOO_MANY_CELLS,
@@ -82,7 +82,7 @@ pub unsafe extern "C" fn deldrift_remove_vertex(
     vertex: u32,
 ) -> deldrift_status {
     given!(t: Changing);
-    t.change(|t| Ok(in_its_dimension!(t => t.remove_vertex(VertexId::new(vertex)))?))
+    t.change_any(|t| Ok(in_any!(t => t.remove_vertex(VertexId::new(vertex)))?))
 }
 
 /// Frees the memory that has served removed vertices, and gives the others new ids: 0, 1, ... in the order
@@ -97,12 +97,13 @@ pub unsafe extern "C" fn deldrift_remove_vertex(
 /// has been compacted.
 ///
 /// Takes no longer than a rebuild, and while it runs the memory of a second
-/// triangulation.
+/// triangulation. A periodic triangulation is built anew, if vertices have been removed: its cells stay, and may have other
+/// indices.
 ///
-/// Cost: n + m.
+/// Cost: n + m; of a periodic triangulation that of creation.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
+/// DELDRIFT_OUT_OF_MEMORY; if t is periodic, DELDRIFT_CANCELLED, DELDRIFT_TOO_MANY_CELLS. Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_compact(
     t: *mut deldrift_triangulation,
@@ -111,8 +112,8 @@ pub unsafe extern "C" fn deldrift_compact(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Changing, map[capacity]: Buffer, count: Output);
-    t.change(|t| {
-        in_its_dimension!(t => {
+    t.change_any(|t| {
+        in_any!(t => {
             let needed = t.id_count();
             let fitting = fit(count, needed, capacity, &[map.offer()])?;
             // Looked at before anything changes.

@@ -1,17 +1,16 @@
 //! What meets what: edges, neighbours and cells of vertices, mirror indices, ordered stars.
 
-use super::handle::{Content, Reading, deldrift_triangulation, tell};
+use super::handle::{Content, Reading, deldrift_triangulation, in_any, in_its_period, tell_any};
 use super::interpolation::check_product;
 use super::pointers::{Array, Buffer, Output, fill_all, fit, given, write_all};
-use super::query::{DELDRIFT_NONE, check_facet, dimension_of};
+use super::query::{DELDRIFT_NONE, check_facet, corners_of, dimension_of};
 use super::status::{Failure, deldrift_status};
-use crate::delaunay::Dimension;
 use crate::either::AnyTriangulation;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
 use crate::in_its_dimension;
 use crate::machine::memory;
-use crate::motion::{MovingTriangulation, Rows};
+use crate::motion::Rows;
 
 /// The edges: rows of two vertex ids, the lower one first, each edge once, in lexicographic order. They are a
 /// function of positions and ids alone.
@@ -51,9 +50,12 @@ pub unsafe extern "C" fn deldrift_edges(
 /// receives the number of entries, twice that of the edges, which is also written when neighbours is too small. NULL
 /// for both asks for the count alone, in constant time.
 ///
+/// Of a periodic triangulation a vertex is listed once for each edge that leads to it: several times where edges lead to it
+/// in several periods, and itself twice for each edge to itself.
+///
 /// Takes some passes over the cells, and while it runs memory for the lists and for the cells of each vertex.
 ///
-/// Cost: n + m, and d log d for the d neighbours of each vertex. After a change the first call also does what the first
+/// Cost: n + m, and d log d for the d neighbours of each vertex; m log m for a periodic triangulation. After a change the first call also does what the first
 /// deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
@@ -69,10 +71,15 @@ pub unsafe extern "C" fn deldrift_vertex_neighbours(
 ) -> deldrift_status {
     given!(t: Reading, offsets[offset_count]: Buffer, neighbours[capacity]: Buffer, count: Output);
     let lists = Lists { offsets, offset_count, entries: neighbours, capacity };
-    t.read(|t| {
-        in_its_dimension!(t => {
-            lists.fill(t, count, 2 * t.edge_count(), || t.vertex_neighbours(), VertexId::numbers_of)
-        })
+    t.read_any(|t| match t {
+        Content::Open(t) => in_its_dimension!(t => {
+            let needed = 2 * t.edge_count();
+            lists.fill(id_counts!(t), count, needed, || t.vertex_neighbours(), VertexId::numbers_of)
+        }),
+        Content::Periodic(t) => in_its_period!(t, t => {
+            let made = t.vertex_neighbours()?;
+            lists.fill(id_counts!(t), count, made.entries.len(), || Ok(made), VertexId::numbers_of)
+        }),
     })
 }
 
@@ -85,9 +92,11 @@ pub unsafe extern "C" fn deldrift_vertex_neighbours(
 /// the number of entries, 3 (2D) or 4 (3D) times that of the cells, which is also written when cells is too small. NULL
 /// for both asks for the count alone, in constant time.
 ///
+/// Of a periodic triangulation a cell is listed once for each of its corners that is the vertex, in whatever period.
+///
 /// Takes two passes over the cells, and memory for the lists while it runs.
 ///
-/// Cost: n + m. After a change the first call also does what the first deldrift_cells does.
+/// Cost: n + m; m log m for a periodic triangulation. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY.
@@ -102,11 +111,15 @@ pub unsafe extern "C" fn deldrift_vertex_cells(
 ) -> deldrift_status {
     given!(t: Reading, offsets[offset_count]: Buffer, cells[capacity]: Buffer, count: Output);
     let lists = Lists { offsets, offset_count, entries: cells, capacity };
-    t.read(|t| {
-        in_its_dimension!(t => {
+    t.read_any(|t| match t {
+        Content::Open(t) => in_its_dimension!(t => {
             let needed = t.cell_count() * (dimension_of(t) + 1);
-            lists.fill(t, count, needed, || t.vertex_cells(), CellId::numbers_of)
-        })
+            lists.fill(id_counts!(t), count, needed, || t.vertex_cells(), CellId::numbers_of)
+        }),
+        Content::Periodic(t) => in_its_period!(t, t => {
+            let made = t.vertex_cells()?;
+            lists.fill(id_counts!(t), count, made.entries.len(), || Ok(made), CellId::numbers_of)
+        }),
     })
 }
 
@@ -127,10 +140,14 @@ pub unsafe extern "C" fn deldrift_cell_of_each_vertex(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, cells[capacity]: Buffer, count: Output);
-    t.read(|t| {
-        in_its_dimension!(t => {
+    t.read_any(|t| match t {
+        Content::Open(t) => in_its_dimension!(t => {
             cells.fill(count, t.id_count(), || Ok(t.cell_of_each_vertex()?.map(CellId::get)))
-        })
+        }),
+        Content::Periodic(t) => in_its_period!(t, t => {
+            let first = || Ok(t.cell_of_each_vertex()?.into_iter().map(CellId::get));
+            cells.fill(count, t.id_count(), first)
+        }),
     })
 }
 
@@ -175,7 +192,7 @@ pub unsafe extern "C" fn deldrift_find_simplices(
 
 /// The mirror indices of all facets: entry i of the row of a cell, in the order of deldrift_cells, is about the facet
 /// opposite corner i. It is the corner (0, 1, ...) of the neighbour beyond that is opposite the same facet, 255 on
-/// the hull.
+/// the hull. In a periodic triangulation a cell may be its own neighbour.
 ///
 /// mirrors: a buffer with room for capacity rows of 3 (2D) or 4 (3D) bytes. count: receives the number of cells, which
 /// is also written when the buffer is too small. NULL with capacity 0 asks for the count alone.
@@ -191,9 +208,10 @@ pub unsafe extern "C" fn deldrift_mirror_indices(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, count: Output);
-    t.read(|t| {
-        in_its_dimension!(t => {
-            let (needed, n_corners) = (t.cell_count(), dimension_of(t) + 1);
+    t.read_any(|t| {
+        in_any!(t => {
+            let cells = t.cells()?;
+            let (needed, n_corners) = (cells.corners.len(), corners_of(cells.corners));
             given!(mirrors[capacity.saturating_mul(n_corners)]: Buffer);
             fill_all(count, needed, capacity, [mirrors.offer()], || {
                 let places = mirrors.places(needed * n_corners)?;
@@ -222,8 +240,8 @@ pub unsafe extern "C" fn deldrift_mirror_index(
     mirror: *mut u32,
 ) -> deldrift_status {
     given!(t: Reading, mirror: Output);
-    tell!(t, mirror => {
-        check_facet(t, cell, corner)?;
+    tell_any!(t, mirror => {
+        check_facet(t.cells()?.corners, cell, corner)?;
         let index = t.mirror_index(CellId::new(cell), corner as usize)?;
         index.map_or(DELDRIFT_NONE, |index| index as u32)
     })
@@ -259,6 +277,14 @@ pub unsafe extern "C" fn deldrift_ordered_star(
     })
 }
 
+/// The number of ids, and how many of them are of staged insertions.
+macro_rules! id_counts {
+    ($t:ident) => {
+        [$t.id_count(), $t.staged_edits().0]
+    };
+}
+use id_counts;
+
 /// The buffers for lists by vertex.
 struct Lists<'a> {
     offsets: Buffer<'a, u32>,
@@ -268,19 +294,19 @@ struct Lists<'a> {
 }
 
 impl Lists<'_> {
-    /// Writes the lists of `t` with `needed` entries, if the buffers are large enough, and tells that number.
-    fn fill<G: Dimension, T>(
+    /// Writes the lists of so many ids, of which some are of staged insertions, with `needed` entries, if the buffers are large enough, and tells that number.
+    fn fill<T>(
         self,
-        t: &MovingTriangulation<G>,
+        [n_ids, coming]: [usize; 2],
         count: Output<'_, usize>,
         needed: usize,
         make: impl FnOnce() -> Result<Rows<T>>,
         numbers_of: impl FnOnce(&[T]) -> &[u32],
     ) -> Result<(), Failure> {
         let Lists { offsets, offset_count, entries, capacity } = self;
-        let wanted = t.id_count() + 1;
+        let wanted = n_ids + 1;
         if !offsets.is_null() && offset_count != wanted {
-            let (argument, given, coming) = ("offset_count", offset_count, t.staged_edits().0);
+            let (argument, given) = ("offset_count", offset_count);
             return Err(Error::WrongCount { argument, given, wanted, coming }.into());
         }
         let fitting = fit(count, needed, capacity, &[entries.offer()])?;

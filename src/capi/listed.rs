@@ -7,7 +7,6 @@ use super::handle::{Reading, deldrift_triangulation, in_any};
 use super::pointers::{Array, Buffer, Offer, Output, given};
 use super::status::{Failure, deldrift_status};
 use crate::ids::{CellId, VertexId};
-use crate::in_its_dimension;
 
 /// The cells around some vertices: the indices of those of which at least one of the vertices is a corner, ascending,
 /// each once.
@@ -21,7 +20,7 @@ use crate::in_its_dimension;
 /// are all whose shape has changed: with the functions that follow, a program that keeps an array for all cells updates
 /// those entries alone.
 ///
-/// Cost: the cells of the stars, and k log k for the k of them; m at most. After a change the first call also does what
+/// Cost: the cells of the stars, and k log k for the k of them; m at most, and for a periodic triangulation. After a change the first call also does what
 /// the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX,
@@ -36,9 +35,9 @@ pub unsafe extern "C" fn deldrift_cells_around(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, vertices[vertex_count]: Array, cells[capacity]: Buffer, count: Output);
-    t.read(|t| {
+    t.read_any(|t| {
         let vertices = VertexId::of_numbers(vertices.get()?);
-        let found = in_its_dimension!(t => t.cells_around(vertices))?;
+        let found = in_any!(t => t.cells_around(vertices))?;
         cells.fill(count, found.len(), || Ok(found.iter().map(|cell| cell.get())))
     })
 }

@@ -207,15 +207,17 @@ pub unsafe extern "C" fn deldrift_coincident_representative(
     tell_any!(t, representative => t.coincident_representative(VertexId::new(vertex))?.get())
 }
 
-/// The vertices that are hidden, ascending, each with the one that represents it.
+/// The vertices that are hidden, ascending, each with the one that represents it. Vertices of a periodic triangulation that share
+/// a place in any period count.
 ///
 /// vertices, representatives: buffers with room for capacity ids each. One that is NULL is not filled. count: receives
 /// the number of hidden vertices, which is also written when the buffers are too small. NULL for both with capacity 0
 /// asks for the count alone.
 ///
-/// Cost: n; constant where there are none, and for the count alone.
+/// Cost: n; constant where there are none, and for the count alone; n for a periodic triangulation.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL; DELDRIFT_OUT_OF_MEMORY if t is
+/// periodic.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_hidden_vertices(
     t: *const deldrift_triangulation,
@@ -225,8 +227,19 @@ pub unsafe extern "C" fn deldrift_hidden_vertices(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, vertices[capacity]: Buffer, representatives[capacity]: Buffer, count: Output);
-    t.read(|t| {
-        in_its_dimension!(t => {
+    t.read_any(|t| match t {
+        Content::Periodic(t) => in_its_period!(t, t => {
+            let hidden = t.hidden_vertices()?;
+            let needed = hidden.len();
+            fill_all(count, needed, capacity, [vertices.offer(), representatives.offer()], || {
+                let (vertices, representatives) =
+                    (vertices.places_if_any(needed)?, representatives.places_if_any(needed)?);
+                write_all(vertices, hidden.iter().map(|(vertex, _)| vertex.get()));
+                write_all(representatives, hidden.iter().map(|(_, other)| other.get()));
+                Ok(())
+            })
+        }),
+        Content::Open(t) => in_its_dimension!(t => {
             let needed = t.hidden_count();
             fill_all(count, needed, capacity, [vertices.offer(), representatives.offer()], || {
                 let (vertices, representatives) =
@@ -235,7 +248,7 @@ pub unsafe extern "C" fn deldrift_hidden_vertices(
                 write_all(representatives, t.hidden_vertices().map(|(_, other)| other.get()));
                 Ok(())
             })
-        })
+        }),
     })
 }
 

@@ -12,7 +12,7 @@ use crate::delaunay::{Plane, Space};
 use crate::error::Error;
 use crate::in_its_dimension;
 use crate::machine::memory;
-use crate::motion::{CoincidencePolicy, MAX_VERTICES};
+use crate::motion::{CoincidencePolicy, MAX_VERTICES, Options};
 use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 
 /// Creates the Delaunay triangulation of points that repeat: each is in all places to which sums of multiples of the
@@ -47,9 +47,13 @@ use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 /// deldrift_take_changes, deldrift_circumcentres, deldrift_volumes, deldrift_mask_by_circumradius with the functions that
 /// update what these give, deldrift_mask_boundary, deldrift_hull_facets, deldrift_locate, deldrift_locate_points,
 /// deldrift_locate_in_period, deldrift_nearest_vertex, deldrift_nearest_vertices, deldrift_vertices_in_ball,
-/// deldrift_barycentric, deldrift_interpolate with DELDRIFT_INTERPOLATION_LINEAR, and without a box deldrift_voronoi_volumes,
-/// deldrift_voronoi_facets, deldrift_voronoi_cells and deldrift_voronoi_derivatives. All others return DELDRIFT_PERIODIC.
-/// Cells are numbered anew by each commit, unless changes are taken.
+/// deldrift_barycentric, deldrift_interpolate with DELDRIFT_INTERPOLATION_LINEAR, deldrift_clone, deldrift_save,
+/// deldrift_load, deldrift_save_file, deldrift_load_file, deldrift_write_vtu, deldrift_write_medit, deldrift_compact,
+/// deldrift_relocate_vertex, deldrift_insert_vertex, deldrift_remove_vertex, deldrift_validate, deldrift_hidden_vertices,
+/// deldrift_star, deldrift_vertex_cells, deldrift_vertex_neighbours, deldrift_cell_of_each_vertex, deldrift_cells_around,
+/// deldrift_mirror_indices, deldrift_mirror_index, and without a box deldrift_voronoi_volumes, deldrift_voronoi_facets,
+/// deldrift_voronoi_cells and deldrift_voronoi_derivatives. All others return DELDRIFT_PERIODIC. Cells are numbered anew
+/// by each commit, unless changes are taken.
 ///
 /// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves,
 /// or of other vectors that are near those in force, costs what it costs in an open triangulation of as many, and n + m; one
@@ -79,13 +83,7 @@ pub unsafe extern "C" fn deldrift_create_periodic(
         let options = options.read()?;
         let callbacks = options.callbacks();
         let options = options.convert()?;
-        if options.coincidence == CoincidencePolicy::Reject {
-            return Err(invalid(
-                "options.coincidence",
-                1,
-                "DELDRIFT_COINCIDENCE_MERGE where the triangulation is periodic",
-            ));
-        }
+        reject_coincidence(&options)?;
         // Looked at here as well, lest an absurd count becomes the length of a slice.
         if count > MAX_VERTICES {
             return Err(Error::TooManyVertices { given: count, limit: MAX_VERTICES }.into());
@@ -246,6 +244,15 @@ pub unsafe extern "C" fn deldrift_edge_shifts(
             fill_edge_shifts::<3>(t, shifts, count)
         }
     })
+}
+
+/// Vertices of a periodic triangulation may share a place, as images may do.
+pub(super) fn reject_coincidence(options: &Options) -> Result<(), Failure> {
+    if options.coincidence == CoincidencePolicy::Reject {
+        let wanted = "DELDRIFT_COINCIDENCE_MERGE where the triangulation is periodic";
+        return Err(invalid("options.coincidence", 1, wanted));
+    }
+    Ok(())
 }
 
 /// By how many vectors a triangulation repeats.

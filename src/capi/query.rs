@@ -1,8 +1,11 @@
 //! Queries: cells, and what is where. None changes the triangulation.
 
-use super::handle::{Changing, Reading, deldrift_triangulation, in_any, tell, tell_any};
+use super::handle::{
+    Changing, Content, Reading, deldrift_triangulation, in_any, in_its_period, tell, tell_any,
+};
 use super::pointers::{Buffer, Output, Owned, fill_all, given, start_of, write_all};
 use super::status::{Failure, deldrift_status};
+use crate::complex::Corners;
 use crate::delaunay::{Dimension, IndexSet, Plane, Space};
 use crate::either::AnyTriangulation;
 use crate::ids::{CellId, VertexId};
@@ -159,7 +162,9 @@ pub unsafe extern "C" fn deldrift_copy_cells(
 /// cells: a buffer with room for capacity indices. count: receives their number, which is also written
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone.
 ///
-/// Cost: the cells of the star. After a change the first call also does what the first deldrift_cells does. Where there
+/// Of a periodic triangulation a cell is there once for each of its corners that is the vertex, in whatever period.
+///
+/// Cost: the cells of the star; m for a periodic triangulation. After a change the first call also does what the first deldrift_cells does. Where there
 /// are more vertices than a cache holds, stars are read fastest in the order of the ids.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX,
@@ -173,10 +178,16 @@ pub unsafe extern "C" fn deldrift_star(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, cells[capacity]: Buffer, count: Output);
-    t.read(|t| {
-        let mut slots = IndexSet::new();
-        let (index_of, needed) = in_its_dimension!(t => t.list_star(VertexId::new(vertex), &mut slots))?;
-        cells.fill(count, needed, || Ok(cells_at(&slots, index_of).map(CellId::get)))
+    t.read_any(|t| match t {
+        Content::Open(t) => {
+            let mut slots = IndexSet::new();
+            let (index_of, needed) = in_its_dimension!(t => t.list_star(VertexId::new(vertex), &mut slots))?;
+            cells.fill(count, needed, || Ok(cells_at(&slots, index_of).map(CellId::get)))
+        }
+        Content::Periodic(t) => in_its_period!(t, t => {
+            let star = t.star(VertexId::new(vertex))?;
+            cells.fill(count, star.len(), || Ok(star.into_iter().map(CellId::get)))
+        }),
     })
 }
 
@@ -206,23 +217,31 @@ pub unsafe extern "C" fn deldrift_tolerance(
 ///
 /// level: 1 checks indices and adjacency; 2 also the orientation of the cells, and that the hull is
 /// convex and winds once; 3 also that no sphere through the vertices of a cell contains a vertex, or, with segments, none
-/// that can be seen from the cell's inside.
+/// that can be seen from the cell's inside. Of a periodic triangulation what is kept inside is checked so, images included,
+/// and that these are where the vectors take their vertices; 3 also that none is missing, and that each cell is there
+/// once for each of its corners.
 ///
-/// Cost: n + m.
+/// Cost: n + m. Of a periodic triangulation at level 3 that of creation at most, in a copy.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_INVALID_LEVEL, DELDRIFT_INVALID if something is wrong:
-/// deldrift_last_error then gives the first violation.
+/// deldrift_last_error then gives the first violation; DELDRIFT_OUT_OF_MEMORY if t is periodic.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_validate(t: *const deldrift_triangulation, level: u32) -> deldrift_status {
     given!(t: Reading);
-    t.read(|t| {
+    t.read_any(|t| {
         let level = match level {
             1 => Level::Structure,
             2 => Level::Embedding,
             3 => Level::Delaunay,
             given => return Err(Failure::Level { given }),
         };
-        in_its_dimension!(t => t.validate(level)).map_err(Failure::Invalid)
+        match t {
+            Content::Open(t) => in_its_dimension!(t => t.validate(level)).map_err(Failure::Invalid),
+            Content::Periodic(t) => {
+                let violation = in_its_period!(t, t => t.violation(level))?;
+                violation.map_or(Ok(()), |violation| Err(Failure::Invalid(violation)))
+            }
+        }
     })
 }
 
@@ -237,16 +256,17 @@ fn view_of<V: Copy, N>(corners: &[V], neighbours: &[N]) -> deldrift_cells_view {
 }
 
 /// There must be a facet opposite this corner of this cell.
-pub(super) fn check_facet<G: Dimension>(
-    t: &MovingTriangulation<G>,
-    cell: u32,
-    corner: u32,
-) -> Result<(), Failure> {
-    let (cells, corners) = (t.cell_count(), dimension_of(t) + 1);
+pub(super) fn check_facet<V: Corners<VertexId>>(rows: &[V], cell: u32, corner: u32) -> Result<(), Failure> {
+    let (cells, corners) = (rows.len(), corners_of(rows));
     if cell as usize >= cells || corner as usize >= corners {
         return Err(Failure::NoSuchFacet { cell, corner, cells, corners });
     }
     Ok(())
+}
+
+/// The number of corners of each cell.
+pub(super) fn corners_of<V: Corners<VertexId>>(_rows: &[V]) -> usize {
+    V::N
 }
 
 /// The number of coordinates of a point of `t`.

@@ -201,7 +201,7 @@ pub unsafe extern "C" fn deldrift_research_standard_delimiter(
             let centre = centre.cast();
             given!(centre: Output);
             let (centre, radius, tolerance) = (centre.place()?, radius.place()?, tolerance.place()?);
-            check_facet(t, cell, corner)?;
+            check_facet(t.cells()?.corners, cell, corner)?;
             let delimiter = t.standard_delimiter(CellId::new(cell), corner)?;
             centre.write(delimiter.as_ref().map_or_else(|| nowhere(t), |delimiter| delimiter.centre));
             radius.write(delimiter.as_ref().map_or(f64::NAN, |delimiter| delimiter.radius));

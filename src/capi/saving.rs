@@ -5,8 +5,9 @@ use std::mem::MaybeUninit;
 
 use super::files::{NewFile, OldFile};
 use super::guard;
-use super::handle::{Reading, deldrift_triangulation, hand_out};
+use super::handle::{Content, Reading, deldrift_triangulation, hand_out, in_any};
 use super::options::{GivenOptions, deldrift_options};
+use super::periodic::reject_coincidence;
 use super::pointers::{Array, Buffer, Output, Text, given, write_all};
 use super::status::{Failure, deldrift_status};
 use crate::damage::LoadError;
@@ -14,13 +15,14 @@ use crate::either::AnyTriangulation;
 use crate::in_its_dimension;
 use crate::machine::memory;
 use crate::motion::{Field, Saved};
+use crate::periodic::{AnyPeriodic, SavedPeriodic};
 
 /// Makes an independent triangulation that is as this one, to *out, which the caller has to hand to
 /// deldrift_destroy; it is written on success only.
 ///
 /// Positions, ids, segments, cells with their indices, hidden vertices, staged moves, insertions and removals, the timestamp,
 /// statistics, options, the changes that deldrift_take_changes has not given yet, and what the algorithm keeps between
-/// commits are those of t: after the same calls both have the same cells. The callbacks of the options are called for
+/// commits are those of t, and so are the vectors of a periodic one, also those that are staged: after the same calls both have the same cells. The callbacks of the options are called for
 /// either, so what user_data points to must live as long as both. Views, and changes that have been taken, belong to t
 /// alone.
 ///
@@ -38,7 +40,11 @@ pub unsafe extern "C" fn deldrift_clone(
     given!(t: Reading, out: Output);
     t.read_with_callbacks(|t, callbacks| {
         let out = out.place()?;
-        hand_out(out, t.try_clone(callbacks.monitor()?)?, callbacks)
+        let monitor = callbacks.monitor()?;
+        match t {
+            Content::Open(t) => hand_out(out, t.try_clone(monitor)?, callbacks),
+            Content::Periodic(t) => hand_out(out, memory::boxed(t.try_clone(monitor)?)?, callbacks),
+        }
     })
 }
 
@@ -46,7 +52,8 @@ pub unsafe extern "C" fn deldrift_clone(
 ///
 /// Saved are positions, ids, segments, removed and hidden vertices, cells with their indices, staged moves, insertions and
 /// removals, the timestamp and statistics. Not saved are the options, what the algorithm keeps between commits, and
-/// which changes have been taken. docs/FORMAT.md describes the bytes.
+/// which changes have been taken. docs/FORMAT.md describes the bytes. Of a periodic triangulation the vectors as they were
+/// given, those that are staged, and the periods of vertices are saved, too, and all images with their cells.
 ///
 /// buffer: room for capacity bytes, with any alignment. count: receives the number of bytes, which is also written
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone, in constant time.
@@ -66,9 +73,9 @@ pub unsafe extern "C" fn deldrift_save(
 ) -> deldrift_status {
     let buffer = buffer.cast();
     given!(t: Reading, buffer[capacity]: Buffer, count: Output);
-    t.read(|t| {
-        in_its_dimension!(t => {
-            t.reject_prepared()?;
+    t.read_any(|t| {
+        t.reject_prepared()?;
+        in_any!(t => {
             buffer.fill_by(count, t.saved_size(), |places| {
                 let mut rest = places;
                 t.save(|bytes| {
@@ -102,9 +109,14 @@ fn fill_front<'b>(buffer: &'b mut [MaybeUninit<u8>], bytes: &[u8]) -> &'b mut [M
 /// times as many bytes. This holds whatever the data are: what is not a Delaunay triangulation, exactly, is refused,
 /// even if the checksum is right.
 ///
-/// Cost: n log n + m, whatever the data are.
+/// Data of a periodic triangulation give one. Its images count as vertices: all that is in the data is checked, and that no image is
+/// missing. Where cells do not tell that at once, as after some commits, it takes a copy of the triangulation, into which
+/// images are inserted: as long as creation, and as much memory, at most, with data of any kind.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS,
+/// Cost: n log n + m, whatever the data are; of a periodic one that of creation at most.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS (also if
+/// the options reject coincidence and the data are of a periodic one),
 /// DELDRIFT_INVALID_DATA, DELDRIFT_COINCIDENT (if vertices are hidden and the options reject it),
 /// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. May be called from
 /// any number of threads at once.
@@ -134,9 +146,16 @@ fn load(
         LoadError::Call(error) => Failure::Call(error),
         LoadError::Data(damage) => Failure::Data { argument, damage },
     };
+    let damaged = |damage| Failure::Data { argument, damage };
     let callbacks = options.callbacks();
     let options = options.convert()?;
-    let saved = Saved::of(data).map_err(|damage| Failure::Data { argument, damage })?;
+    if SavedPeriodic::is_of(data, data.len() as u64) {
+        let saved = SavedPeriodic::of(data).map_err(damaged)?;
+        reject_coincidence(&options)?;
+        let made = AnyPeriodic::load(&saved, options).map_err(failed)?;
+        return hand_out(out, memory::boxed(made)?, callbacks);
+    }
+    let saved = Saved::of(data).map_err(damaged)?;
     hand_out(out, AnyTriangulation::load(&saved, options).map_err(failed)?, callbacks)
 }
 
@@ -145,7 +164,12 @@ fn load(
 fn bytes_of(file: &OldFile<'_>) -> Result<Vec<u8>, Failure> {
     let mut bytes = Vec::new();
     file.read(&mut bytes, Saved::HEADER)?;
-    let size = Saved::size_by(&bytes, file.size());
+    let size = if SavedPeriodic::is_of(&bytes, file.size()) {
+        // It is as long as it says there.
+        Ok(usize::try_from(file.size()).unwrap_or(usize::MAX))
+    } else {
+        Saved::size_by(&bytes, file.size())
+    };
     let size = size.map_err(|damage| Failure::Data { argument: "path", damage })?;
     // One more, which there is only if somebody writes to it.
     memory::reserve_exact(&mut bytes, size - Saved::HEADER + 1)?;
@@ -175,10 +199,10 @@ pub unsafe extern "C" fn deldrift_save_file(
     path: *const c_char,
 ) -> deldrift_status {
     given!(t: Reading, path: Text);
-    t.read(|t| {
-        in_its_dimension!(t => t.reject_prepared())?;
+    t.read_any(|t| {
+        t.reject_prepared()?;
         let mut file = NewFile::create(path.get()?)?;
-        in_its_dimension!(t => t.save(|bytes| file.put(bytes)))?;
+        in_any!(t => t.save(|bytes| file.put(bytes)))?;
         Ok(file.finish()?)
     })
 }
@@ -270,12 +294,16 @@ unsafe fn fields_of<'a>(
 /// is hidden is the vertex that represents it. Their markers are the cell data "marker", which is 0 for cells that are
 /// no lines, and cell_fields are NaN for lines.
 ///
+/// Of a periodic triangulation the cells are together as deldrift_cell_shifts has them. A vertex is a point for each period
+/// in which a cell has it, ascending by id and by these shifts, all with its id and its numbers of fields; one that no cell
+/// has is a point at its position.
+///
 /// vertex_fields, cell_fields: numbers to be written along as point data and cell data, vertex_field_count and
 /// cell_field_count of them; NULL if the count is 0. All of it is read during the call only.
 ///
 /// Does what deldrift_cells does.
 ///
-/// Cost: n + m, and the numbers of the fields.
+/// Cost: n + m, and the numbers of the fields; m log m for a periodic triangulation.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_FIELD,
 /// DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
@@ -290,15 +318,19 @@ pub unsafe extern "C" fn deldrift_write_vtu(
 ) -> deldrift_status {
     given!(t: Reading, path: Text);
     given!(vertex_fields[vertex_field_count]: Array, cell_fields[cell_field_count]: Array);
-    t.read(|t| {
-        in_its_dimension!(t => {
+    t.read_any(|t| {
+        let n_cells = match t {
+            Content::Open(t) => in_its_dimension!(t => t.cell_count()),
+            Content::Periodic(t) => t.cell_count()?,
+        };
+        in_any!(t => {
             let path = path.get()?;
             let has_lines = t.has_lines();
             // SAFETY: the header's conditions on fields.
             let (vertices, cells) = unsafe {
                 (
                     fields_of("vertex_fields", vertex_fields, t.id_count(), has_lines)?,
-                    fields_of("cell_fields", cell_fields, t.cell_count(), has_lines)?,
+                    fields_of("cell_fields", cell_fields, n_cells, has_lines)?,
                 )
             };
             let mut file = NewFile::create(path)?;
@@ -313,7 +345,8 @@ pub unsafe extern "C" fn deldrift_write_vtu(
 /// Its vertices are those that are present, hidden ones included, ascending by id and numbered from 1; the reference
 /// of each is its id. Its triangles or tetrahedra are the cells, in the order of deldrift_cells. If there are segments in
 /// force, those of deldrift_segments are its edges, in that order, behind the triangles; the reference of each is its
-/// marker, and an end that is hidden is the vertex that represents it. Reading the numbers gives the same doubles.
+/// marker, and an end that is hidden is the vertex that represents it. Reading the numbers gives the same doubles. Of a
+/// periodic triangulation a vertex is there once for each period in which a cell has it, as in deldrift_write_vtu.
 ///
 /// references: reference_count numbers, the reference of each cell in the order of deldrift_cells (reference_count must
 /// be deldrift_cell_count), such as those of deldrift_label_cells; NULL with reference_count 0 for 1. They are read
@@ -322,7 +355,7 @@ pub unsafe extern "C" fn deldrift_write_vtu(
 ///
 /// Does what deldrift_cells does.
 ///
-/// Cost: n + m.
+/// Cost: n + m; m log m for a periodic triangulation.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_IO_ERROR,
 /// DELDRIFT_OUT_OF_MEMORY.
@@ -335,9 +368,9 @@ pub unsafe extern "C" fn deldrift_write_medit(
 ) -> deldrift_status {
     let is_given = !references.is_null() || reference_count != 0;
     given!(t: Reading, path: Text, references[reference_count]: Array);
-    t.read(|t| {
+    t.read_any(|t| {
         let path = path.get()?;
-        in_its_dimension!(t => {
+        in_any!(t => {
             let references = if is_given {
                 t.check_references(reference_count)?;
                 Some(references.get()?)

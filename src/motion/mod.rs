@@ -44,8 +44,10 @@ pub use options::{
     CoarsenOptions, CoincidencePolicy, MAX_LEAST_ANGLE, Monitor, Options, PassingPolicy, Quality,
     RefineOptions, SwitchingRule, TooLarge,
 };
+pub(crate) use reading::chunks::Chunks;
 pub use reading::domain::ChainEdge;
 pub use reading::exporting::Field;
+pub(crate) use reading::exporting::{Drawn, check_references};
 pub use reading::geometry::{
     BoundaryFacet, Interpolation, OrderedStar, Rows, VertexValues, VoronoiCell, VoronoiCells, VoronoiFacet,
     VoronoiFacets,
@@ -55,6 +57,8 @@ pub use reading::near::{InReach, VerticesInReach};
 pub use reading::query::Location;
 pub(crate) use reading::query::cells_at;
 pub use reading::saving::Saved;
+pub(crate) use reading::saving::header::Beginning;
+pub(crate) use reading::saving::reader::Reader;
 pub use report::{CommitReport, QualityReport, SplitReport, VertexWeights};
 pub use state::cells::{NO_CELL, NO_CORNER, OwnedCells};
 pub use state::changes::{Changes, NO_VERTEX};

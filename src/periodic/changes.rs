@@ -35,6 +35,28 @@ impl<G: Dimension> Base<G> {
         Base { corners: Vec::new(), index_of: HashMap::default(), hidden: Vec::new() }
     }
 
+    /// A copy in which vertices have other ids, listed by the old ones; those that have none any more are in no cell of now.
+    fn renumbered(&self, new_id: impl Fn(VertexId) -> VertexId) -> Result<Self> {
+        let mut base = Base::none();
+        let renumbered = self.corners.iter().map(|row| {
+            let mut row = *row;
+            row.as_mut().iter_mut().for_each(|v| *v = new_id(*v));
+            row
+        });
+        memory::collect(&mut base.corners, renumbered)?;
+        memory::reserve_map(&mut base.index_of, self.index_of.len())?;
+        for (name, &cell) in &self.index_of {
+            let mut name = *name;
+            name[..=G::D].iter_mut().for_each(|(v, _)| *v = new_id(*v));
+            if name[..=G::D].iter().all(|&(v, _)| v != VertexId::NONE) {
+                base.index_of.insert(name, cell);
+            }
+        }
+        memory::reserve_exact(&mut base.hidden, self.hidden.len())?;
+        base.hidden.extend(self.hidden.iter().map(|&v| new_id(v)).filter(|&v| v != VertexId::NONE));
+        Ok(base)
+    }
+
     pub(super) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.corners)
             + self.index_of.capacity() * size_of::<(Name, CellId)>()
@@ -97,6 +119,13 @@ impl<G: Dimension> Lists<G> {
 pub(super) struct Taking<G: Dimension> {
     pub(super) base: Base<G>,
     pub(super) lists: Lists<G>,
+}
+
+impl<G: Dimension> Taking<G> {
+    /// What it is for another triangulation with these ids, listed by the old ones; without the lists.
+    pub(super) fn renumbered(&self, new_id: impl Fn(VertexId) -> VertexId) -> Result<Self> {
+        Ok(Taking { base: self.base.renumbered(new_id)?, lists: Lists::none() })
+    }
 }
 
 impl<G: Dimension> PeriodicTriangulation<G> {

@@ -236,11 +236,12 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let mut images = Vec::new();
         memory::reserve_exact(&mut images, inside.images.len())?;
         for image in inside.images.as_slice() {
-            let Some(shift) = relation.of(image.shift.map(i64::from)).filter(|s| other.has_room_for(s))
-            else {
-                return Ok(None);
-            };
-            images.push(Image { vertex: image.vertex, shift: shift.map(|n| n as i32) });
+            let shift = relation.of(image.shift.map(i64::from)).and_then(|shift| {
+                let short = shift.map(|n| i32::try_from(n).unwrap_or(i32::MAX));
+                other.may_need(short).then_some(short)
+            });
+            let Some(shift) = shift else { return Ok(None) };
+            images.push(Image { vertex: image.vertex, shift });
         }
         inside.images.exchange(&mut images);
         let moved =

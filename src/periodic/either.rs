@@ -1,9 +1,11 @@
 //! A periodic triangulation of either dimension, for bindings to other languages.
 
+use crate::damage::LoadError;
 use crate::delaunay::{Plane, Space};
 use crate::error::{Error, Result};
 use crate::ids::VertexId;
-use crate::motion::Options;
+use crate::motion::{Monitor, Options};
+use crate::periodic::saving::SavedPeriodic;
 use crate::periodic::triangulation::PeriodicTriangulation;
 use crate::points_of;
 
@@ -34,6 +36,29 @@ impl AnyPeriodic {
                 Self::Space(PeriodicTriangulation::new(points, vectors, options)?)
             }
             given => return Err(Error::InvalidDimension { given }),
+        })
+    }
+
+    /// Makes the triangulation that has been saved, as [`PeriodicTriangulation::load`] does, in its dimension.
+    ///
+    /// # Errors
+    /// Those of [`PeriodicTriangulation::load`].
+    pub fn load(saved: &SavedPeriodic<'_>, options: Options) -> Result<Self, LoadError> {
+        Ok(if saved.dimension() == 2 {
+            Self::Plane(PeriodicTriangulation::load(saved, options)?)
+        } else {
+            Self::Space(PeriodicTriangulation::load(saved, options)?)
+        })
+    }
+
+    /// A copy with a monitor of its own, as [`PeriodicTriangulation::try_clone`] makes it.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn try_clone(&self, monitor: Option<Monitor>) -> Result<Self> {
+        Ok(match self {
+            Self::Plane(t) => Self::Plane(t.try_clone(monitor)?),
+            Self::Space(t) => Self::Space(t.try_clone(monitor)?),
         })
     }
 

@@ -129,6 +129,11 @@ impl Images {
         }
     }
 
+    pub(super) fn copied(&self) -> Result<Self> {
+        let (images, next) = (memory::copy_of(&self.images)?, memory::copy_of(&self.next)?);
+        Ok(Images { images, next, home: memory::copy_of(&self.home)? })
+    }
+
     pub(super) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.images) + memory::bytes_of(&self.next) + memory::bytes_of(&self.home)
     }

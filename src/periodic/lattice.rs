@@ -51,6 +51,9 @@ const BITS_OF_OPEN: i32 = 10;
 /// there are.
 const MOST_UNITS: i128 = 1 << 52;
 
+/// Translations are so many of the caller's vectors at most: sums of some are numbers of 64 bits.
+const MOST_OF_CALLER: i128 = 1 << 61;
+
 /// Caller's vectors are read with so many bits.
 const LONG_BITS: i32 = 96;
 
@@ -83,6 +86,8 @@ impl Occupied {
 pub(super) struct Lattice<G: Shape> {
     /// The number of vectors: of directions in which the set is periodic.
     rank: usize,
+    /// The caller's, as they were given.
+    original: [G::Point; 3],
     /// Reduced, on the grid.
     vectors: [G::Point; 3],
     /// By vector, its multiples of the caller's vectors.
@@ -141,6 +146,7 @@ impl<G: Shape> Lattice<G> {
         };
         let mut lattice = Lattice::<G> {
             rank,
+            original: [0, 1, 2].map(|j| basis.get(j).copied().unwrap_or_default()),
             vectors: [G::Point::default(); 3],
             of_caller: reduced.of_caller,
             unit: [0.0; 3],
@@ -170,6 +176,10 @@ impl<G: Shape> Lattice<G> {
             }
         }
         Ok(lattice)
+    }
+
+    pub(super) fn copied(&self) -> Self {
+        Lattice { ..*self }
     }
 
     /// Whether these are the same vectors, given as the same.
@@ -209,12 +219,36 @@ impl<G: Shape> Lattice<G> {
         Some(Relation { rows }).filter(|relation| relation.determinant().abs() == 1)
     }
 
-    /// Whether images with these multiples of the vectors are where they are without rounding.
-    pub(super) fn has_room_for(&self, shift: &[i64; 3]) -> bool {
-        shift
-            .iter()
-            .zip(&self.greatest)
-            .all(|(n, &greatest)| n.unsigned_abs() <= greatest.unsigned_abs().into())
+    /// The caller's vectors as they were given: of these [`new`](Self::new) makes the same lattice, on any machine.
+    pub(super) fn original(&self) -> &[G::Point] {
+        &self.original[..self.rank]
+    }
+
+    /// Whether a place is one at home: on the grid, near the unit cell, and not too far away where no vector goes.
+    pub(super) fn has_at_home(&self, place: &G::Point) -> bool {
+        let is_on_grid = |axis: usize| {
+            let units = place[axis] / self.unit[axis];
+            self.unit[axis] == 0.0 || units == units.round_ties_even() && units.abs() <= MOST_UNITS as f64
+        };
+        let mut occupied = Occupied::NOTHING;
+        occupied.enter(&self.multiples(place));
+        (0..G::D).all(is_on_grid) && occupied.is_within(&[ROOM; 3])
+    }
+
+    /// Whether there may be an image with this shift.
+    pub(super) fn may_need(&self, shift: Shift) -> bool {
+        shift.iter().zip(self.greatest).all(|(n, greatest)| n.unsigned_abs() <= greatest.unsigned_abs())
+    }
+
+    /// Whether a vertex at home may have come there by this translation: its position is in range, and so are shifts from it in
+    /// terms of the caller's vectors.
+    pub(super) fn may_come_by(&self, place: &G::Point, wrap: &[i64; 3]) -> bool {
+        let sum = |k: usize| -> i128 {
+            let of = |j: usize| i128::from(wrap[j]).abs().saturating_mul(self.of_caller[j][k].into());
+            (0..3).map(of).fold(0, |sum: i128, n| sum.saturating_add(n.saturating_abs()))
+        };
+        let are_few = (0..3).all(|k| sum(k) <= MOST_OF_CALLER);
+        are_few && self.check("positions", 0, &self.unwrapped(place, wrap)).is_ok()
     }
 
     /// The caller's vectors, on the grid: exact, but for those that have more than 53 digits in its units.
@@ -724,9 +758,10 @@ fn widened<G: Shape>(point: &G::Point) -> [f64; 3] {
     [0, 1, 2].map(|axis| if axis < G::D { point[axis] } else { 0.0 })
 }
 
-/// The least exponent of a power of two that is not below a positive number.
+/// The least exponent of a power of two that is not below a positive number; exact, so that grids are those of any machine.
 fn exponent_above(x: f64) -> i32 {
-    x.log2().ceil() as i32
+    let bits = x.to_bits();
+    (bits >> 52) as i32 - 1023 + i32::from(bits << 12 != 0)
 }
 
 /// The nearest multiple of a unit, a power of two.

@@ -28,12 +28,18 @@
 
 mod cells;
 mod changes;
+mod cloning;
 mod commit;
+mod compaction;
+mod completeness;
 mod edges;
 mod either;
+mod exporting;
 mod following;
 mod geometry;
 mod images;
+mod immediate;
+mod incidence;
 mod inside;
 mod interpolating;
 mod lattice;
@@ -41,12 +47,15 @@ mod locating;
 mod near;
 mod needed;
 mod reading;
+mod saving;
 mod staged;
 #[cfg(test)]
 mod tests;
 mod triangulation;
+mod validate;
 mod voronoi;
 
 pub use cells::PeriodicView;
 pub use either::AnyPeriodic;
+pub use saving::SavedPeriodic;
 pub use triangulation::PeriodicTriangulation;

@@ -40,6 +40,11 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         self.staged.moves().len()
     }
 
+    /// The numbers of staged insertions and removals.
+    pub fn staged_edits(&self) -> (usize, usize) {
+        (self.staged.insertions().len(), self.staged.removals().len())
+    }
+
     /// Whether a vertex is there.
     pub fn is_present(&self, vertex: VertexId) -> bool {
         vertex.index() < self.inside.images.n_vertices() && self.inside.images.home(vertex) != VertexId::NONE

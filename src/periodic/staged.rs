@@ -142,6 +142,36 @@ impl<G: Dimension> Staged<G> {
         n
     }
 
+    pub(super) fn copied(&self) -> Result<Self> {
+        Ok(Staged {
+            moves: memory::copy_of(&self.moves)?,
+            marks: memory::copy_of(&self.marks)?,
+            insertions: memory::copy_of(&self.insertions)?,
+            removals: memory::copy_of(&self.removals)?,
+        })
+    }
+
+    /// Forgets the move and the removal of a vertex.
+    pub(super) fn forget(&mut self, vertex: VertexId) {
+        self.moves.retain(|&(moving, _)| moving != vertex);
+        self.removals.retain(|&going| going != vertex);
+        if let Some(marks) = self.marks.get_mut(vertex.index()) {
+            *marks = 0;
+        }
+    }
+
+    /// The same edits, of vertices under these ids; `n_vertices` of them are there.
+    pub(super) fn renumbered(&self, new_ids: &[VertexId], n_vertices: usize) -> Result<Self> {
+        let mut new = self.copied()?;
+        new.marks.clear();
+        new.make_room(n_vertices)?;
+        new.moves.iter_mut().for_each(|(vertex, _)| *vertex = new_ids[*vertex]);
+        new.removals.iter_mut().for_each(|vertex| *vertex = new_ids[*vertex]);
+        new.moves.iter().for_each(|(vertex, _)| new.marks[vertex.index()] |= MOVES);
+        new.removals.iter().for_each(|vertex| new.marks[vertex.index()] |= GOES);
+        Ok(new)
+    }
+
     pub(super) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.moves)
             + memory::bytes_of(&self.marks)

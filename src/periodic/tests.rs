@@ -8,8 +8,10 @@ use crate::motion::{Algorithm, MovingTriangulation, NO_CELL, Options};
 use crate::random::Rng;
 use std::collections::BTreeSet;
 
+mod keeping;
 mod locating;
 mod near;
+mod telling;
 
 type Class = Vec<(u32, [i64; 3])>;
 

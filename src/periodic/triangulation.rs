@@ -56,10 +56,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// Those of [`MovingTriangulation::new`]; [`Error::DependentVectors`] for vectors that depend on each other,
     /// [`Error::InvalidValue`] for options that reject coincident vertices.
     pub fn new(positions: &[G::Point], vectors: &[G::Point], options: Options) -> Result<Self> {
-        if options.coincidence == CoincidencePolicy::Reject {
-            let (value, wanted) = (1.0, "0, to merge");
-            return Err(Error::InvalidValue { argument: "options.coincidence", index: 0, value, wanted });
-        }
+        check_options(&options)?;
         let lattice = memory::boxed(Lattice::<G>::new(vectors)?)?;
         let n = positions.len();
         if n > MAX_VERTICES {
@@ -88,6 +85,15 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             taking: None,
         })
     }
+}
+
+/// Vertices that share a place are no mistake, as images may do.
+pub(super) fn check_options(options: &Options) -> Result<()> {
+    if options.coincidence == CoincidencePolicy::Reject {
+        let (value, wanted) = (1.0, "0, to merge");
+        return Err(Error::InvalidValue { argument: "options.coincidence", index: 0, value, wanted });
+    }
+    Ok(())
 }
 
 impl<G: Dimension> Inside<G> {
@@ -169,7 +175,7 @@ impl<G: Dimension> Inside<G> {
 }
 
 /// The mean distance of vertices.
-fn spacing<G: Dimension>(lattice: &Lattice<G>, home: &[(VertexId, G::Point)]) -> f64 {
+pub(super) fn spacing<G: Dimension>(lattice: &Lattice<G>, home: &[(VertexId, G::Point)]) -> f64 {
     let mut measure = lattice.measure();
     // Along axes that are open, the box of the vertices.
     for axis in (0..G::D).filter(|&axis| !lattice.is_spanned(axis)) {

@@ -35,6 +35,7 @@ impl History<'_> {
             let status = c!(deldrift_commit_positions(t, next.positions.as_ptr(), n, null_mut()));
             self.is_ok(status);
         }
+        let t = self.kept(t, d);
         let [mut positions, mut vectors] = [vec![0.0; n * d], vec![0.0; rank * d]];
         let mut count = 0;
         self.is_ok(c!(deldrift_copy_positions(t, positions.as_mut_ptr(), n, &mut count)));
@@ -112,6 +113,30 @@ impl History<'_> {
         assert_eq!(one, other, "{places:?}");
         let is_like = |(x, y): (f64, f64)| x.is_nan() && y.is_nan() || (x - y).abs() < 1e-6;
         assert!(values.into_iter().zip(others).all(is_like), "{values:?} {others:?}");
+    }
+
+    /// The triangulation, a clone of it, or one that is loaded of what it was, each with its cells.
+    fn kept(&mut self, t: *mut deldrift_triangulation, d: usize) -> *mut deldrift_triangulation {
+        let mut other = null_mut();
+        match self.s.below(3) {
+            0 => self.is_ok(c!(deldrift_clone(t, &mut other))),
+            1 => {
+                let mut size = 0;
+                self.is_ok(c!(deldrift_save(t, null_mut(), 0, &mut size)));
+                let mut bytes = vec![0u8; size];
+                self.is_ok(c!(deldrift_save(t, bytes.as_mut_ptr().cast(), size, &mut size)));
+                self.is_ok(c!(deldrift_load(bytes.as_ptr().cast(), size, null(), &mut other)));
+            }
+            _ => return t,
+        }
+        assert_eq!(self.classes(t, d), self.classes(other, d));
+        self.is_ok(c!(deldrift_validate(other, 3)));
+        let (mut count, mut n_edges) = (0, 0);
+        self.is_ok(c!(deldrift_edges(other, null_mut(), 0, &mut n_edges)));
+        self.is_ok(c!(deldrift_vertex_neighbours(other, null_mut(), 0, null_mut(), 0, &mut count)));
+        assert_eq!(count, 2 * n_edges);
+        c!(deldrift_destroy(t));
+        other
     }
 
     /// Whole numbers of eighths, so that much ties.

@@ -9,14 +9,14 @@ use crate::error::Result;
 const CHUNK: usize = 1 << 14;
 
 /// What waits to be handed on to `put`.
-pub(in crate::motion) struct Chunks<P> {
+pub(crate) struct Chunks<P> {
     put: P,
     n: usize,
     bytes: [u8; CHUNK],
 }
 
 impl<E, P: FnMut(&[u8]) -> Result<(), E>> Chunks<P> {
-    pub(in crate::motion) fn new(put: P) -> Self {
+    pub(crate) fn new(put: P) -> Self {
         Chunks { put, n: 0, bytes: [0; CHUNK] }
     }
 
@@ -27,7 +27,7 @@ impl<E, P: FnMut(&[u8]) -> Result<(), E>> Chunks<P> {
 
     /// Writes a few bytes.
     #[inline(always)]
-    pub(in crate::motion) fn write<const N: usize>(&mut self, bytes: [u8; N]) -> Result<(), E> {
+    pub(crate) fn write<const N: usize>(&mut self, bytes: [u8; N]) -> Result<(), E> {
         const { assert!(N <= CHUNK) };
         if self.n + N > CHUNK {
             self.flush()?;
@@ -37,15 +37,16 @@ impl<E, P: FnMut(&[u8]) -> Result<(), E>> Chunks<P> {
         Ok(())
     }
 
-    pub(in crate::motion) fn point<G: Dimension>(&mut self, point: &G::Point) -> Result<(), E> {
+    pub(crate) fn point<G: Dimension>(&mut self, point: &G::Point) -> Result<(), E> {
         (0..G::D).try_for_each(|axis| self.write(point[axis].to_le_bytes()))
     }
 
-    pub(in crate::motion) fn numbers(&mut self, numbers: &[u32]) -> Result<(), E> {
+    pub(crate) fn numbers(&mut self, numbers: &[u32]) -> Result<(), E> {
         numbers.iter().try_for_each(|number| self.write(number.to_le_bytes()))
     }
 
-    fn append(&mut self, mut more: &[u8]) -> Result<(), E> {
+    /// Writes bytes, as many as there are.
+    pub(crate) fn append(&mut self, mut more: &[u8]) -> Result<(), E> {
         while !more.is_empty() {
             if self.n == CHUNK {
                 self.flush()?;
@@ -59,7 +60,7 @@ impl<E, P: FnMut(&[u8]) -> Result<(), E>> Chunks<P> {
     }
 
     /// Writes a text.
-    pub(in crate::motion) fn text(&mut self, text: fmt::Arguments<'_>) -> Result<(), E> {
+    pub(crate) fn text(&mut self, text: fmt::Arguments<'_>) -> Result<(), E> {
         let mut writer = Text { chunks: self, failed: Ok(()) };
         // It fails where a chunk cannot be handed on.
         let _ = writer.write_fmt(text);
@@ -67,7 +68,7 @@ impl<E, P: FnMut(&[u8]) -> Result<(), E>> Chunks<P> {
     }
 
     /// Hands on the rest.
-    pub(in crate::motion) fn end(mut self) -> Result<(), E> {
+    pub(crate) fn end(mut self) -> Result<(), E> {
         self.flush()
     }
 }

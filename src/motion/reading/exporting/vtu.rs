@@ -8,8 +8,7 @@ use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::machine::memory;
 use crate::motion::reading::chunks::Chunks;
-use crate::motion::reading::exporting::rank;
-use crate::motion::triangulation::MovingTriangulation;
+use crate::motion::reading::exporting::Drawn;
 
 /// Numbers for each vertex, or for each cell, that are written along.
 #[derive(Clone, Copy, Debug)]
@@ -99,84 +98,72 @@ impl<E, P: FnMut(&[u8]) -> Result<(), E>> Directory<'_, P> {
     }
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
-    /// Hands on the bytes of a `.vtu` file, some thousand at a time. The points have three coordinates, the third being
-    /// 0 in the plane, and their ids as an array `vertex`. If there are segments in force, they are lines behind the
-    /// cells: their markers are an array `marker` of cell data, which is 0 for cells, and fields of cells are NaN there.
-    ///
-    /// # Errors
-    /// [`Error::InvalidName`] if a field is called what XML does not have, or as another one; [`Error::WrongCount`] if
-    /// one has no or too few numbers, or too many; [`Error::OutOfMemory`]; all before the first byte; and those of
-    /// `put`, with which it ends.
-    pub fn write_vtu<E: From<Error>>(
-        &self,
-        vertex_fields: &[Field<'_>],
-        cell_fields: &[Field<'_>],
-        put: impl FnMut(&[u8]) -> Result<(), E>,
-    ) -> Result<(), E> {
-        let n_lines = self.lines().count();
-        Field::check_names("vertex_fields", vertex_fields, n_lines != 0)?;
-        Field::check_names("cell_fields", cell_fields, n_lines != 0)?;
-        let (cells, ranks) = (self.cells()?, self.ranks()?);
-        let n_coming = self.staged_edits().0;
-        let sides = [(vertex_fields, self.id_count(), n_coming), (cell_fields, cells.corners.len(), 0)];
-        for (fields, n, coming) in sides {
-            for field in fields {
-                let wanted = n.saturating_mul(field.components);
-                if field.components == 0 || field.values.len() != wanted {
-                    let given = field.values.len();
-                    let coming = coming.saturating_mul(field.components);
-                    return Err(Error::WrongCount { argument: "values", given, wanted, coming }.into());
-                }
+/// Writes all.
+pub(super) fn write<G: Dimension, E: From<Error>>(
+    drawn: &impl Drawn<G>,
+    vertex_fields: &[Field<'_>],
+    cell_fields: &[Field<'_>],
+    put: impl FnMut(&[u8]) -> Result<(), E>,
+) -> Result<(), E> {
+    let n_lines = drawn.lines().count();
+    Field::check_names("vertex_fields", vertex_fields, n_lines != 0)?;
+    Field::check_names("cell_fields", cell_fields, n_lines != 0)?;
+    let ([n_ids, n_coming], n, n_cells) = (drawn.id_counts(), drawn.point_count(), drawn.cell_count());
+    for (fields, n, coming) in [(vertex_fields, n_ids, n_coming), (cell_fields, n_cells, 0)] {
+        for field in fields {
+            let wanted = n.saturating_mul(field.components);
+            if field.components == 0 || field.values.len() != wanted {
+                let given = field.values.len();
+                let coming = coming.saturating_mul(field.components);
+                return Err(Error::WrongCount { argument: "values", given, wanted, coming }.into());
             }
         }
-        let mut chunks = Chunks::new(put);
-        let (n, n_cells) = (self.vertex_count(), cells.corners.len());
-        let written = Written { n, n_cells, n_lines, corners: G::Corners::N };
-        written.directory(vertex_fields, cell_fields, &mut chunks)?;
-        let size = |chunks: &mut Chunks<_>, bytes: usize| chunks.write((bytes as u64).to_le_bytes());
-        size(&mut chunks, 24 * n)?;
-        for v in self.present() {
-            chunks.point::<G>(&self.mesh.kernel.site(self.mesh.site_of[v]).point)?;
-            (G::D..3).try_for_each(|_| chunks.write(0_f64.to_le_bytes()))?;
-        }
-        size(&mut chunks, 8 * written.n_connected())?;
-        for row in cells.corners {
-            row.as_ref().iter().try_for_each(|&v| chunks.write(u64::from(rank(&ranks, v)).to_le_bytes()))?;
-        }
-        for line in self.lines() {
-            line.ends.iter().try_for_each(|&v| chunks.write(u64::from(rank(&ranks, v)).to_le_bytes()))?;
-        }
-        size(&mut chunks, 8 * (n_cells + n_lines))?;
-        let corners = G::Corners::N as u64;
-        (1..=n_cells as u64).try_for_each(|k| chunks.write((k * corners).to_le_bytes()))?;
-        let end = n_cells as u64 * corners;
-        (1..=n_lines as u64).try_for_each(|k| chunks.write((end + 2 * k).to_le_bytes()))?;
-        size(&mut chunks, n_cells + n_lines)?;
-        (0..n_cells).try_for_each(|_| chunks.write([if G::D == 2 { 5 } else { 10 }]))?;
-        (0..n_lines).try_for_each(|_| chunks.write([LINE]))?;
-        size(&mut chunks, 4 * n)?;
-        self.present().try_for_each(|v| chunks.numbers(&[v.get()]))?;
-        for field in vertex_fields {
-            size(&mut chunks, 8 * field.components * n)?;
-            for v in self.present() {
-                let row = &field.values[v.index() * field.components..][..field.components];
-                row.iter().try_for_each(|value| chunks.write(value.to_le_bytes()))?;
-            }
-        }
-        if n_lines != 0 {
-            size(&mut chunks, 4 * (n_cells + n_lines))?;
-            (0..n_cells).try_for_each(|_| chunks.write(0_i32.to_le_bytes()))?;
-            self.lines().try_for_each(|line| chunks.write(line.marker.to_le_bytes()))?;
-        }
-        for field in cell_fields {
-            size(&mut chunks, 8 * field.components * (n_cells + n_lines))?;
-            field.values.iter().try_for_each(|value| chunks.write(value.to_le_bytes()))?;
-            (0..field.components * n_lines).try_for_each(|_| chunks.write(f64::NAN.to_le_bytes()))?;
-        }
-        chunks.text(format_args!("\n</AppendedData>\n</VTKFile>\n"))?;
-        chunks.end()
     }
+    let mut chunks = Chunks::new(put);
+    let written = Written { n, n_cells, n_lines, corners: G::Corners::N };
+    written.directory(vertex_fields, cell_fields, &mut chunks)?;
+    let size = |chunks: &mut Chunks<_>, bytes: usize| chunks.write((bytes as u64).to_le_bytes());
+    size(&mut chunks, 24 * n)?;
+    for (_, point) in drawn.points() {
+        chunks.point::<G>(&point)?;
+        (G::D..3).try_for_each(|_| chunks.write(0_f64.to_le_bytes()))?;
+    }
+    size(&mut chunks, 8 * written.n_connected())?;
+    for row in drawn.cells() {
+        row[..=G::D].iter().try_for_each(|&n| chunks.write(u64::from(n).to_le_bytes()))?;
+    }
+    for (ends, _) in drawn.lines() {
+        ends.iter().try_for_each(|&n| chunks.write(u64::from(n).to_le_bytes()))?;
+    }
+    size(&mut chunks, 8 * (n_cells + n_lines))?;
+    let corners = G::Corners::N as u64;
+    (1..=n_cells as u64).try_for_each(|k| chunks.write((k * corners).to_le_bytes()))?;
+    let end = n_cells as u64 * corners;
+    (1..=n_lines as u64).try_for_each(|k| chunks.write((end + 2 * k).to_le_bytes()))?;
+    size(&mut chunks, n_cells + n_lines)?;
+    (0..n_cells).try_for_each(|_| chunks.write([if G::D == 2 { 5 } else { 10 }]))?;
+    (0..n_lines).try_for_each(|_| chunks.write([LINE]))?;
+    size(&mut chunks, 4 * n)?;
+    drawn.points().try_for_each(|(v, _)| chunks.numbers(&[v.get()]))?;
+    for field in vertex_fields {
+        size(&mut chunks, 8 * field.components * n)?;
+        for (v, _) in drawn.points() {
+            let row = &field.values[v.index() * field.components..][..field.components];
+            row.iter().try_for_each(|value| chunks.write(value.to_le_bytes()))?;
+        }
+    }
+    if n_lines != 0 {
+        size(&mut chunks, 4 * (n_cells + n_lines))?;
+        (0..n_cells).try_for_each(|_| chunks.write(0_i32.to_le_bytes()))?;
+        drawn.lines().try_for_each(|(_, marker)| chunks.write(marker.to_le_bytes()))?;
+    }
+    for field in cell_fields {
+        size(&mut chunks, 8 * field.components * (n_cells + n_lines))?;
+        field.values.iter().try_for_each(|value| chunks.write(value.to_le_bytes()))?;
+        (0..field.components * n_lines).try_for_each(|_| chunks.write(f64::NAN.to_le_bytes()))?;
+    }
+    chunks.text(format_args!("\n</AppendedData>\n</VTKFile>\n"))?;
+    chunks.end()
 }
 
 /// How many there are of what is written.

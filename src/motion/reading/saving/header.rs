@@ -9,10 +9,11 @@ use crate::motion::state::segments::Segment;
 /// on its way.
 const MAGIC: [u8; 8] = *b"\x89DLD\r\n\x1a\n";
 
-/// The version of the format, without segments and keys, with segments, and with keys.
+/// The version of the format, without segments and keys, with segments, with keys, and of what repeats.
 const VERSION: u32 = 1;
 const WITH_SEGMENTS: u32 = 2;
 const WITH_KEYS: u32 = 3;
+const PERIODIC: u32 = 4;
 
 /// Bytes of a key.
 const KEY: usize = 8;
@@ -44,6 +45,91 @@ const N_SUMS: usize = 12;
 
 /// Sums above this are saved as this, and refused: no program reaches it, and so none that has been loaded overflows.
 const GREATEST_SUM: u64 = (1 << 62) - 1;
+
+/// What data of all versions begin with. The counts are of ids, of cells (of what repeats, of vertices inside), and of
+/// staged moves, insertions and removals.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Beginning {
+    pub(crate) version: u32,
+    pub(crate) dimension: u32,
+    /// Bytes of all data.
+    pub(crate) size: u64,
+    pub(crate) counts: [usize; 5],
+}
+
+impl Beginning {
+    /// Bytes of it and of the statistics.
+    pub(crate) const SIZE: usize = SIZE;
+
+    /// Bytes of the checksum at the end of all data.
+    pub(crate) const CHECKSUM: usize = CHECKSUM;
+
+    /// The version of what repeats.
+    pub(crate) const PERIODIC: u32 = PERIODIC;
+
+    /// Its bytes, and those of the statistics.
+    pub(crate) fn bytes(&self, statistics: &CommitReport) -> [u8; SIZE] {
+        let mut bytes = [0; SIZE];
+        bytes[..8].copy_from_slice(&MAGIC);
+        bytes[8..12].copy_from_slice(&self.version.to_le_bytes());
+        bytes[12..16].copy_from_slice(&self.dimension.to_le_bytes());
+        let counts = self.counts.map(|n| n as u64);
+        let numbers =
+            std::iter::once(self.size).chain(counts).chain([statistics.timestamp.min(GREATEST_SUM)]);
+        let numbers = numbers.chain(sums(statistics).map(|sum| sum.min(GREATEST_SUM)));
+        for (place, number) in bytes[16..].chunks_exact_mut(8).zip(numbers) {
+            place.copy_from_slice(&number.to_le_bytes());
+        }
+        bytes
+    }
+
+    /// Reads it, and checks that the data are as long as it says, of which `given` bytes are there, and these are the
+    /// first.
+    pub(crate) fn read(data: &[u8], given: u64) -> Result<Self, Damage> {
+        let n_magic = MAGIC.len().min(data.len());
+        if data[..n_magic] != MAGIC[..n_magic] {
+            return Err(Damage::Foreign);
+        }
+        if data.len() < SIZE {
+            return Err(Damage::NoHeader { given: data.len(), wanted: SIZE });
+        }
+        let version = word(data, 8);
+        if !matches!(version, VERSION..=PERIODIC) {
+            return Err(Damage::Version { given: version, latest: PERIODIC });
+        }
+        let size = number(data, 16);
+        if size != given {
+            return Err(Damage::Size { given: given as usize, wanted: size });
+        }
+        let dimension = word(data, 12);
+        if !matches!(dimension, 2 | 3) {
+            return Err(Damage::Dimension { given: dimension });
+        }
+        let mut counts = [0; 5];
+        for (at, count) in (24..).step_by(8).zip(&mut counts) {
+            *count = usize::try_from(number(data, at)).map_err(|_| Damage::Counts)?;
+        }
+        Ok(Beginning { version, dimension, size, counts })
+    }
+
+    /// Checks the checksum at the end of data that begin like this.
+    pub(crate) fn check_sum(data: &[u8]) -> Result<(), Damage> {
+        check_sum(data)
+    }
+
+    /// The timestamp and the sums that follow it.
+    pub(crate) fn statistics_of(data: &[u8]) -> Result<CommitReport, Damage> {
+        let mut numbers = [0; 1 + N_SUMS];
+        for (at, place) in (64..).step_by(8).zip(&mut numbers) {
+            *place = number(data, at);
+            if *place > GREATEST_SUM {
+                return Err(Damage::Sum { offset: at, value: *place });
+            }
+        }
+        let [timestamp, sums @ ..] = numbers;
+        Ok(of_sums(timestamp, sums))
+    }
+}
 
 /// How much there is of everything.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -79,79 +165,38 @@ impl Header {
 
     /// Its bytes.
     pub(super) fn bytes(&self) -> [u8; SIZE] {
-        let mut bytes = [0; SIZE];
-        bytes[..8].copy_from_slice(&MAGIC);
         let version = match (self.has_keys, self.segment_bytes > 0) {
             (true, _) => WITH_KEYS,
             (false, true) => WITH_SEGMENTS,
             (false, false) => VERSION,
         };
-        bytes[8..12].copy_from_slice(&version.to_le_bytes());
-        bytes[12..16].copy_from_slice(&self.dimension.to_le_bytes());
         let size = self.size().expect("what is in memory has a size");
-        let counts = [self.ids, self.cells, self.moves, self.insertions, self.removals].map(|n| n as u64);
-        let numbers =
-            std::iter::once(size).chain(counts).chain([self.statistics.timestamp.min(GREATEST_SUM)]);
-        let numbers = numbers.chain(sums(&self.statistics).map(|sum| sum.min(GREATEST_SUM)));
-        for (place, number) in bytes[16..].chunks_exact_mut(8).zip(numbers) {
-            place.copy_from_slice(&number.to_le_bytes());
-        }
-        bytes
+        let counts = [self.ids, self.cells, self.moves, self.insertions, self.removals];
+        Beginning { version, dimension: self.dimension, size, counts }.bytes(&self.statistics)
     }
 
     /// Reads it, and checks that the data are as long as it says, of which `given` bytes are there, and these are the
     /// first.
     pub(super) fn read(data: &[u8], given: u64) -> Result<Self, Damage> {
-        let n_magic = MAGIC.len().min(data.len());
-        if data[..n_magic] != MAGIC[..n_magic] {
-            return Err(Damage::Foreign);
+        let Beginning { version, dimension, size, counts } = Beginning::read(data, given)?;
+        if version == PERIODIC {
+            return Err(Damage::Periodic { is_periodic: true });
         }
-        if data.len() < SIZE {
-            return Err(Damage::NoHeader { given: data.len(), wanted: SIZE });
-        }
-        let number = |at: usize| u64::from_le_bytes(data[at..at + 8].try_into().expect("eight bytes"));
-        let version = word(data, 8);
-        if !matches!(version, VERSION | WITH_SEGMENTS | WITH_KEYS) {
-            return Err(Damage::Version { given: version, latest: WITH_KEYS });
-        }
-        if number(16) != given {
-            return Err(Damage::Size { given: given as usize, wanted: number(16) });
-        }
-        let dimension = word(data, 12);
-        if !matches!(dimension, 2 | 3) {
-            return Err(Damage::Dimension { given: dimension });
-        }
-        let count = |at| usize::try_from(number(at)).map_err(|_| Damage::Counts);
-        let mut header = Header {
-            dimension,
-            ids: count(24)?,
-            cells: count(32)?,
-            moves: count(40)?,
-            insertions: count(48)?,
-            removals: count(56)?,
-            has_keys: version == WITH_KEYS,
-            segment_bytes: 0,
-            statistics: CommitReport::default(),
-        };
+        let [ids, cells, moves, insertions, removals] = counts;
+        let has_keys = version == WITH_KEYS;
+        let mut header =
+            Header { dimension, ids, cells, moves, insertions, removals, has_keys, ..Header::default() };
         if version != VERSION {
             // All that is left is about segments; how much that has to be is told there.
-            let left = header.size().and_then(|size| number(16).checked_sub(size)).ok_or(Damage::Counts)?;
+            let left = header.size().and_then(|known| size.checked_sub(known)).ok_or(Damage::Counts)?;
             header.segment_bytes = usize::try_from(left).map_err(|_| Damage::Counts)?;
         }
         let may_lack_segments = version != WITH_SEGMENTS && header.segment_bytes == 0;
         let has_counts = may_lack_segments || header.segment_bytes >= SEGMENT_COUNTS;
-        if header.size() != Some(number(16)) || !has_counts {
+        if header.size() != Some(size) || !has_counts {
             return Err(Damage::Counts);
         }
-        let mut numbers = [0; 1 + N_SUMS];
-        for (at, place) in (64..).step_by(8).zip(&mut numbers) {
-            *place = number(at);
-            if *place > GREATEST_SUM {
-                return Err(Damage::Sum { offset: at, value: *place });
-            }
-        }
-        let [timestamp, sums @ ..] = numbers;
-        header.statistics = of_sums(timestamp, sums);
+        header.statistics = Beginning::statistics_of(data)?;
         Ok(header)
     }
 }
@@ -196,6 +241,11 @@ impl SegmentCounts {
 /// The number of four bytes at a place.
 fn word(data: &[u8], at: usize) -> u32 {
     u32::from_le_bytes(data[at..at + 4].try_into().expect("four bytes"))
+}
+
+/// The number of eight bytes at a place.
+fn number(data: &[u8], at: usize) -> u64 {
+    u64::from_le_bytes(data[at..at + 8].try_into().expect("eight bytes"))
 }
 
 /// Checks the checksum at the end of data whose header is right.

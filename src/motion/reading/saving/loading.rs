@@ -10,6 +10,7 @@ use crate::machine::threads::Threads;
 use crate::motion::options::Options;
 use crate::motion::reading::saving::Saved;
 use crate::motion::reading::saving::header::{GIVEN_UP, Header, SIZE, SegmentCounts};
+use crate::motion::reading::saving::reader::Reader;
 use crate::motion::state::cells::Cells;
 use crate::motion::state::checking::check_position;
 use crate::motion::state::hidden::Hidden;
@@ -18,36 +19,7 @@ use crate::motion::state::segments::{Segment, Segments};
 use crate::motion::triangulation::{MAX_VERTICES, MovingTriangulation};
 use crate::predicates::is_in_range;
 
-/// What has not been read.
-struct Reader<'d>(&'d [u8]);
-
-impl<'d> Reader<'d> {
-    /// The next entries, of `N` bytes each; they are there, as the header has been checked.
-    fn entries<const N: usize>(&mut self, n: usize) -> &'d [[u8; N]] {
-        let (entries, rest) = self.0.split_at(n * N);
-        self.0 = rest;
-        entries.as_chunks().0
-    }
-
-    fn points<G: Dimension>(&mut self, n: usize) -> Result<Vec<G::Point>> {
-        let mut points = Vec::new();
-        memory::reserve_exact(&mut points, n)?;
-        points.extend(self.entries::<8>(n * G::D).chunks_exact(G::D).map(|bytes| {
-            let mut point = G::Point::default();
-            // The sum makes -0 into 0, so that equal places are equal bits.
-            (0..G::D).for_each(|axis| point[axis] = f64::from_le_bytes(bytes[axis]) + 0.0);
-            point
-        }));
-        Ok(points)
-    }
-
-    fn numbers<I: Id>(&mut self, n: usize) -> Result<Vec<I>> {
-        let mut numbers = Vec::new();
-        memory::reserve_exact(&mut numbers, n)?;
-        numbers.extend(self.entries(n).iter().map(|&bytes| I::new(u32::from_le_bytes(bytes))));
-        Ok(numbers)
-    }
-
+impl Reader<'_> {
     /// The keys, if there are some.
     fn keys(&mut self, header: &Header) -> Result<Keys> {
         if !header.has_keys {

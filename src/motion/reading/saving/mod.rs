@@ -7,8 +7,9 @@
 //! Loading triangulates nothing. It trusts nothing either: after the checksum, cells must fit together, and pass all
 //! certificates of a Delaunay triangulation ([`Damage`](crate::Damage) has what may be wrong).
 
-mod header;
+pub(in crate::motion) mod header;
 mod loading;
+pub(in crate::motion) mod reader;
 mod writing;
 
 use crate::damage::Damage;
@@ -44,6 +45,12 @@ impl<'d> Saved<'d> {
         let header = Header::read(header, given)?;
         // It is one that is given.
         Ok(header.size().and_then(|size| usize::try_from(size).ok()).unwrap_or(usize::MAX))
+    }
+
+    /// The number of ids, if nothing is staged and there have been no segments.
+    pub(crate) fn plain_ids(&self) -> Option<usize> {
+        let Header { ids, moves, insertions, removals, segment_bytes, .. } = self.header;
+        ([moves, insertions, removals, segment_bytes] == [0; 4]).then_some(ids)
     }
 
     /// The dimension of the triangulation, 2 or 3.

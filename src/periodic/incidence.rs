@@ -1,0 +1,177 @@
+//! What meets what: the neighbours and the cells of each vertex, and facets seen from the other side.
+//!
+//! A vertex meets an edge or a cell once for each end or corner that it is, as in space, where it is at one place. So an edge from
+//! a vertex to itself in another period is met twice, and a cell with a vertex in two periods as well.
+
+use crate::delaunay::Dimension;
+use crate::error::Result;
+use crate::ids::{CellId, VertexId};
+use crate::machine::memory;
+use crate::motion::{NO_CELL, NO_CORNER, Rows};
+use crate::periodic::cells::PeriodicCells;
+use crate::periodic::triangulation::PeriodicTriangulation;
+
+impl<G: Dimension> PeriodicTriangulation<G> {
+    /// The vertices to which edges lead from each one, ascending: one for each edge, so that a vertex is there several times where
+    /// edges lead to it in several periods, and itself twice for each edge to itself. None for those that are hidden or removed.
+    ///
+    /// ```
+    /// use deldrift::{Plane, VertexId, motion::Options, periodic::PeriodicTriangulation};
+    ///
+    /// let t = PeriodicTriangulation::<Plane>::new(&[[0.25, 0.25]], &[[1.0, 0.0], [0.0, 1.0]], Options::default())?;
+    /// // Three edges lead from the vertex to itself.
+    /// assert_eq!(t.vertex_neighbours()?.row(VertexId::new(0)), [VertexId::new(0); 6]);
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn vertex_neighbours(&self) -> Result<Rows<VertexId>> {
+        let edges = self.edges()?;
+        let mut ends = Vec::new();
+        memory::reserve_exact(&mut ends, 2 * edges.len())?;
+        ends.extend(edges.flat_map(|([u, w], _)| [(u, w), (w, u)]));
+        ends.sort_unstable();
+        rows_of(&ends, self.id_count())
+    }
+
+    /// The cells of which each vertex is a corner, ascending: one for each corner. None for those that are hidden or removed.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn vertex_cells(&self) -> Result<Rows<CellId>> {
+        let mut met = Vec::new();
+        let cells = self.read_cells()?;
+        memory::reserve_exact(&mut met, cells.corners.len() * (G::D + 1))?;
+        for (cell, row) in CellId::range(0..cells.corners.len()).zip(&cells.corners) {
+            met.extend(row.as_ref().iter().map(|&v| (v, cell)));
+        }
+        met.sort_unstable();
+        rows_of(&met, self.id_count())
+    }
+
+    /// A cell of each vertex by id, the first one; [`NO_CELL`] for those that are hidden or removed, whose insertion is staged, and
+    /// while there are no cells.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn cell_of_each_vertex(&self) -> Result<Vec<CellId>> {
+        let cells = self.read_cells()?;
+        let mut first = Vec::new();
+        memory::lengthen(&mut first, self.id_count(), NO_CELL)?;
+        for (cell, row) in CellId::range(0..cells.corners.len()).zip(&cells.corners) {
+            row.as_ref().iter().for_each(|&v| first[v] = first[v].min(cell));
+        }
+        Ok(first)
+    }
+
+    /// The cells around the place of a vertex, ascending: one for each corner that is the vertex.
+    ///
+    /// # Errors
+    /// Those of [`position`](Self::position), and [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn star(&self, vertex: VertexId) -> Result<Vec<CellId>> {
+        let shown = self.coincident_representative(vertex)?;
+        let cells = self.read_cells()?;
+        let mut star = Vec::new();
+        for (cell, row) in CellId::range(0..cells.corners.len()).zip(&cells.corners) {
+            for _ in row.as_ref().iter().filter(|&&v| v == shown) {
+                memory::push(&mut star, cell)?;
+            }
+        }
+        Ok(star)
+    }
+
+    /// The cells of which at least one of these vertices is a corner: ascending, each once. Vertices may be listed more than
+    /// once; hidden ones have no cells.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex),
+    /// [`Error::StagedVertex`](crate::Error::StagedVertex), [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn cells_around(&self, vertices: &[VertexId]) -> Result<Vec<CellId>> {
+        let images = &self.inside.images;
+        let mut is_listed = Vec::new();
+        memory::lengthen(&mut is_listed, images.n_vertices(), false)?;
+        for (index, &vertex) in vertices.iter().enumerate() {
+            images.check(index, vertex, self.staged.insertions().len())?;
+            is_listed[vertex] = true;
+        }
+        let cells = self.read_cells()?;
+        let mut list = Vec::new();
+        for (cell, row) in CellId::range(0..cells.corners.len()).zip(&cells.corners) {
+            if row.as_ref().iter().any(|&v| is_listed[v]) {
+                memory::push(&mut list, cell)?;
+            }
+        }
+        Ok(list)
+    }
+
+    /// The vertices that are hidden, ascending, each with the one of the lowest id at its place in any period.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn hidden_vertices(&self) -> Result<Vec<(VertexId, VertexId)>> {
+        let mut hidden = Vec::new();
+        let vertex = |inner| self.inside.images.of(inner).vertex;
+        for (inner, shown) in self.inside.t.hidden_vertices() {
+            if inner.index() < self.inside.n_home {
+                memory::push(&mut hidden, (vertex(inner), vertex(shown)))?;
+            }
+        }
+        hidden.sort_unstable();
+        Ok(hidden)
+    }
+
+    /// For each cell and each of its corners the corner of the neighbour across the facet opposite it that is opposite the same
+    /// facet, in the order of [`cells`](Self::cells); [`NO_CORNER`] on the hull, and after the last corner.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn mirror_indices(&self) -> Result<impl ExactSizeIterator<Item = [u8; 4]> + '_> {
+        let cells = self.read_cells()?;
+        Ok((0..cells.corners.len()).map(|cell| {
+            let mut mirrors = [NO_CORNER; 4];
+            (0..=G::D).for_each(|corner| mirrors[corner] = mirror::<G>(cells, cell, corner));
+            mirrors
+        }))
+    }
+
+    /// The corner of the neighbour across the facet opposite `corner` of `cell` that is opposite the same facet; `None` on the
+    /// hull, or if there is no such facet.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn mirror_index(&self, cell: CellId, corner: usize) -> Result<Option<usize>> {
+        let cells = self.read_cells()?;
+        if cell.index() >= cells.corners.len() || corner > G::D {
+            return Ok(None);
+        }
+        let mirror = mirror::<G>(cells, cell.index(), corner);
+        Ok((mirror != NO_CORNER).then_some(usize::from(mirror)))
+    }
+}
+
+/// The corner of the neighbour that is not one of the facet opposite a corner of a cell.
+fn mirror<G: Dimension>(cells: &PeriodicCells<G>, cell: usize, corner: usize) -> u8 {
+    let across = cells.neighbours[cell].as_ref()[corner];
+    if across == NO_CELL {
+        return NO_CORNER;
+    }
+    let n = G::D + 1;
+    let by = cells.neighbour_shifts[cell * n + corner];
+    let (row, others) = (cells.corners[cell].as_ref(), cells.corners[across].as_ref());
+    let is_shared = |k: usize| {
+        let shift = [0, 1, 2].map(|j| cells.shifts[across.index() * n + k][j] + by[j]);
+        (0..n).any(|i| i != corner && row[i] == others[k] && cells.shifts[cell * n + i] == shift)
+    };
+    (0..n).find(|&k| !is_shared(k)).map_or(NO_CORNER, |k| k as u8)
+}
+
+/// The lists of pairs that are sorted by vertex.
+fn rows_of<T: Copy>(pairs: &[(VertexId, T)], n_ids: usize) -> Result<Rows<T>> {
+    let (mut offsets, mut entries) = (Vec::new(), Vec::new());
+    memory::lengthen(&mut offsets, n_ids + 1, 0)?;
+    memory::collect(&mut entries, pairs.iter().map(|&(_, entry)| entry))?;
+    pairs.iter().for_each(|&(vertex, _)| offsets[vertex.index() + 1] += 1);
+    (1..=n_ids).for_each(|k| offsets[k] += offsets[k - 1]);
+    Ok(Rows { offsets, entries })
+}

@@ -1,0 +1,79 @@
+//! Writing all bytes, from the first to the last.
+
+use crate::delaunay::Dimension;
+use crate::error::{Error, Result};
+use crate::ids::VertexId;
+use crate::machine::memory;
+use crate::motion::Chunks;
+use crate::periodic::saving::header::Header;
+use crate::periodic::triangulation::PeriodicTriangulation;
+
+impl<G: Dimension> PeriodicTriangulation<G> {
+    fn header(&self) -> Header {
+        Header {
+            dimension: G::D as u32,
+            ids: self.inside.images.n_vertices(),
+            images: self.inside.images.len(),
+            moves: self.staged.moves().len(),
+            insertions: self.staged.insertions().len(),
+            removals: self.staged.removals().len(),
+            vectors: self.lattice.rank(),
+            staged_vectors: self.coming.as_ref().map_or(0, |lattice| lattice.rank()),
+            inside_bytes: self.inside.t.saved_size(),
+            statistics: self.statistics,
+        }
+    }
+
+    /// How many bytes [`save`](Self::save) writes.
+    pub fn saved_size(&self) -> usize {
+        self.header().size().and_then(|size| usize::try_from(size).ok()).expect("it fits in memory")
+    }
+
+    /// Hands on all bytes from which [`load`](Self::load) makes a triangulation like this one, a few thousand at a time.
+    ///
+    /// Cost: a pass over what is saved, images included.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`], before the first byte; and those of `put`, with which it ends.
+    pub fn save<E: From<Error>>(&self, mut put: impl FnMut(&[u8]) -> Result<(), E>) -> Result<(), E> {
+        // What is inside needs memory for its cells when it is written, unless that has been asked for.
+        self.inside.t.cells()?;
+        let mut checksum = crc32fast::Hasher::new();
+        let mut chunks = Chunks::new(|bytes: &[u8]| {
+            checksum.update(bytes);
+            put(bytes)
+        });
+        chunks.write(self.header().bytes())?;
+        let vectors = self.lattice.original().iter();
+        let staged = self.coming.iter().flat_map(|lattice| lattice.original());
+        let goals = self.staged.moves().iter().map(|(_, goal)| goal);
+        for point in vectors.chain(staged).chain(goals).chain(self.staged.insertions()) {
+            chunks.point::<G>(point)?;
+        }
+        let rank = self.lattice.rank();
+        for wrap in &self.wraps {
+            wrap[..rank].iter().try_for_each(|n| chunks.write(n.to_le_bytes()))?;
+        }
+        self.staged.moves().iter().try_for_each(|(v, _)| chunks.numbers(&[v.get()]))?;
+        chunks.numbers(VertexId::numbers_of(self.staged.removals()))?;
+        for image in self.inside.images.as_slice() {
+            chunks.numbers(&[image.vertex.get()])?;
+            image.shift[..rank].iter().try_for_each(|n| chunks.write(n.to_le_bytes()))?;
+        }
+        self.inside.t.save(|bytes| chunks.append(bytes))?;
+        chunks.end()?;
+        put(&checksum.finalize().to_le_bytes())
+    }
+
+    /// All bytes that [`save`](Self::save) writes.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn saved(&self) -> Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        memory::reserve_exact(&mut bytes, self.saved_size())?;
+        self.save(|more| memory::append(&mut bytes, more))?;
+        debug_assert_eq!(bytes.len(), self.saved_size());
+        Ok(bytes)
+    }
+}
