@@ -680,13 +680,21 @@ public:
     // for the others.
     VoronoiCells voronoi_cells(span<const double> low, span<const double> high,
                                span<const std::uint8_t> mask = {}) const {
+        return voronoi_cells_within(low, high, {}, mask);
+    }
+    // Also within half-spaces: for each the coordinates of an outward normal, and an offset.
+    VoronoiCells voronoi_cells_within(span<const double> low, span<const double> high, span<const double> half_spaces,
+                                      span<const std::uint8_t> mask = {}) const {
+        const std::size_t rows = half_spaces.size() / (dimension_ + 1);
+        expect("half_spaces", half_spaces.size(), rows * (dimension_ + 1));
         std::size_t count = id_count();
         const double nan = std::numeric_limits<double>::quiet_NaN();
         VoronoiCells cells{std::vector<double>(count, nan), std::vector<double>(count, nan),
                            std::vector<double>(count * dimension_, nan)};
-        require_ok(deldrift_voronoi_cells(native(), corner("low", low), corner("high", high),
-                                          mask.empty() ? nullptr : mask.data(), mask.size(), cells.volumes.data(),
-                                          cells.areas.data(), cells.centroids.data(), count, &count));
+        require_ok(deldrift_voronoi_cells_within(native(), corner("low", low), corner("high", high), half_spaces.data(),
+                                                 rows, mask.empty() ? nullptr : mask.data(), mask.size(),
+                                                 cells.volumes.data(), cells.areas.data(), cells.centroids.data(), count,
+                                                 &count));
         return cells;
     }
     // Of all edges, in their order; with a mask, of those that have an end where it is not 0.

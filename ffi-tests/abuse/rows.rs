@@ -190,6 +190,23 @@ pub const ROWS: &[Row] = &[
         ],
     ),
     row(
+        "deldrift_voronoi_cells_within",
+        &[
+            "t",
+            "low",
+            "high",
+            "half_spaces",
+            "2",
+            "mask",
+            "n_ids",
+            "out.numbers",
+            "out.more_numbers",
+            "out.rows",
+            "n_ids",
+            "&out.count",
+        ],
+    ),
+    row(
         "deldrift_voronoi_derivatives",
         &[
             "t",

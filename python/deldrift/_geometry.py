@@ -44,7 +44,7 @@ _update_mask_by_circumradius = _library.function("update_mask_by_circumradius")
 _voronoi_volumes = _library.function("voronoi_volumes")
 _voronoi_facets = _library.function("voronoi_facets")
 _voronoi_changed = _library.function("voronoi_changed")
-_voronoi_cells = _library.function("voronoi_cells")
+_voronoi_cells_within = _library.function("voronoi_cells_within")
 _voronoi_derivatives = _library.function("voronoi_derivatives")
 _interpolate = _library.function("interpolate")
 
@@ -398,8 +398,8 @@ class Geometry(Scipy):
             self._check(status, vertices="moved", vertex="moved")
         return mask
 
-    def voronoi_cells(self, box: Any, mask: Any = None) -> VoronoiCells:
-        """Areas or volumes, boundaries and centroids of the Voronoi cells of all ids, within a box.
+    def voronoi_cells(self, box: Any, mask: Any = None, *, half_spaces: Any = None) -> VoronoiCells:
+        """Areas or volumes, boundaries and centroids of the Voronoi cells of all ids, within a box and half-spaces.
 
         Parameters
         ----------
@@ -407,11 +407,14 @@ class Geometry(Scipy):
             Its corners of least and of greatest coordinates.
         mask : array_like of bool, optional
             Whether the cell of each id is asked for; all are by default. The others get NaN.
+        half_spaces : array_like, (n, ndim + 1), optional
+            A row each: an outward normal, of any length, and an offset. The half-space is where normal · x is at most
+            the offset. There may be hundreds.
 
         Returns
         -------
         VoronoiCells
-            Volumes, areas and centroids.
+            Volumes, areas and centroids. A cell of which nothing is left has 0, 0 and NaN.
 
         Examples
         --------
@@ -419,8 +422,11 @@ class Geometry(Scipy):
         >>> tri = deldrift.Delaunay([[1, 1], [3, 1], [1, 3], [3, 3]])
         >>> tri.voronoi_cells(([0, 0], [4, 4])).areas
         array([8., 8., 8., 8.])
+        >>> tri.voronoi_cells(([0, 0], [4, 4]), half_spaces=[[1, 1, 4]]).volumes  # x + y <= 4
+        array([4., 2., 2., 0.])
         """
         low, high = box_corners(box, self.ndim)
+        rows_of_planes = numbers_of("half_spaces", [] if half_spaces is None else half_spaces, self.ndim + 1)
         chosen = None if mask is None else mask_of("mask", mask)
         with self._reading as t:
             n = id_count(t)
@@ -428,7 +434,9 @@ class Geometry(Scipy):
             cells = VoronoiCells(np.full(n, np.nan), np.full(n, np.nan), np.full((n, self.ndim), np.nan))
             count = ctypes.c_size_t()
             rows = (address(array) for array in cells)
-            self._check(_voronoi_cells(t, address_if(low), address_if(high), *given, *rows, n, count))
+            planes = address(rows_of_planes), len(rows_of_planes)
+            status = _voronoi_cells_within(t, address_if(low), address_if(high), *planes, *given, *rows, n, count)
+            self._check(status)
         return cells
 
     def voronoi_derivatives(self, box: Any, mask: Any = None) -> VoronoiDerivatives:

@@ -334,6 +334,7 @@ PROTOTYPES = {
     "voronoi_facets": (T, A, A, A, N, C),
     "voronoi_changed": (T, A, N, A, N, C),
     "voronoi_cells": (T, A, A, A, N, A, A, A, N, C),
+    "voronoi_cells_within": (T, A, A, A, N, A, N, A, A, A, N, C),
     "voronoi_derivatives": (T, A, A, A, N, A, A, A, N, C),
     "interpolate": (T, U32, A, N, N, A, N, A, A, A),
     "clone": (T, POINTER(T)),
