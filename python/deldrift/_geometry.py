@@ -18,6 +18,7 @@ from ._arrays import (
     choice,
     contiguous,
     floats,
+    half_space_rows,
     ids,
     mask as mask_of,
     places,
@@ -426,7 +427,7 @@ class Geometry(Scipy):
         array([4., 2., 2., 0.])
         """
         low, high = box_corners(box, self.ndim)
-        rows_of_planes = numbers_of("half_spaces", [] if half_spaces is None else half_spaces, self.ndim + 1)
+        rows_of_planes = half_space_rows(half_spaces, self.ndim)
         chosen = None if mask is None else mask_of("mask", mask)
         with self._reading as t:
             n = id_count(t)

@@ -25,6 +25,9 @@ use crate::motion::reading::geometry::voronoi::Voronoi;
 use crate::motion::state::cells::NO_CELL;
 use crate::motion::triangulation::MovingTriangulation;
 
+/// How many half-spaces a cell is compared with in about the time of a visit to a cell of the triangulation.
+const SPACES_PER_CELL: usize = 32;
+
 /// What Voronoi cells are clipped by.
 pub(super) struct Region {
     pub(super) clip: Clip,
@@ -90,7 +93,7 @@ impl<G: Dimension> Voronoi<'_, G> {
         self.for_corners(&region.clip, |corner, owner| memory::push(&mut corners, (corner, owner)))?;
         let (mut list, mut cell) = (Vec::new(), Polytope::default());
         for v in vertices {
-            progress.advance(neighbours.star(v).len())?;
+            progress.advance(neighbours.star(v).len() + region.half_spaces.list.len() / SPACES_PER_CELL)?;
             if self.is_missed(region, neighbours.star(v), v) {
                 tell(v, &Sums::default());
                 continue;

@@ -249,8 +249,10 @@ fn cell_of<G: Dimension>(clip: &Clip, place: &G::Point, target: &Target) -> Voro
         (false, _) => [1.0 / 12.0, 0.5, 1.0 / 48.0],
     };
     let volume = of_volume * sums.volume;
+    // What is left of negative parts by rounding may be negative.
+    let measured = clip.measure_in(G::D, volume).max(0.0);
     let mut centroid = nowhere::<G>();
-    if volume > 0.0 {
+    if measured > 0.0 {
         let apex = clip.offset_within(&in_space::<G>(place));
         for axis in 0..G::D {
             let way = of_moment * sums.moment[axis] / volume / clip.unit;
@@ -258,9 +260,8 @@ fn cell_of<G: Dimension>(clip: &Clip, place: &G::Point, target: &Target) -> Voro
             centroid[axis] = at.clamp(clip.low()[axis], clip.high()[axis]);
         }
     }
-    // What is left of negative parts by rounding may be negative.
     VoronoiCell {
-        volume: clip.measure_in(G::D, volume).max(0.0),
+        volume: measured,
         area: clip.measure_in(G::D - 1, of_facets * sums.facets + sums.wall).max(0.0),
         centroid,
     }

@@ -20,9 +20,12 @@ use crate::motion::reading::geometry::clipping::{Clip, Vector, dot, greatest};
 /// More than a distance from a plane is rounded by, in the unit of the box.
 const MARGIN: f64 = 1e-13;
 
-/// How many cells of a triangulation there are for each block, at least, and how often blocks are halved, at most.
+/// How many cells of a triangulation there are for each block, at least.
 const CELLS_PER_BLOCK: usize = 16;
-const MOST_HALVINGS: u32 = 15;
+
+/// Bounds of how many blocks there are, and of how many half-spaces all of them list.
+const MOST_BLOCKS: usize = 1 << 15;
+const MOST_ENTRIES: usize = 1 << 24;
 
 /// The places x with normal · x at most the offset. The normal has length 1.
 #[derive(Clone, Copy, Debug)]
@@ -118,14 +121,15 @@ impl HalfSpaces {
         let extents = [0, 1, 2].map(|axis| clip.extent(axis) * clip.unit);
         let mut length = extents;
         self.n_blocks = [1; 3];
-        for _ in 0..(n_cells / CELLS_PER_BLOCK).max(1).ilog2().min(MOST_HALVINGS) {
-            let longest = (1..G::D).fold(0, |best, axis| if length[axis] > length[best] { axis } else { best });
+        let most = (n_cells / CELLS_PER_BLOCK).min(MOST_BLOCKS).min(MOST_ENTRIES / self.list.len());
+        for _ in 0..most.max(1).ilog2() {
+            let longest =
+                (1..G::D).fold(0, |best, axis| if length[axis] > length[best] { axis } else { best });
             length[longest] *= 0.5;
             self.n_blocks[longest] *= 2;
         }
-        self.per_length = [0, 1, 2].map(|axis| {
-            if axis < G::D { self.n_blocks[axis] as f64 / extents[axis] } else { 0.0 }
-        });
+        self.per_length =
+            [0, 1, 2].map(|axis| if axis < G::D { self.n_blocks[axis] as f64 / extents[axis] } else { 0.0 });
         memory::lengthen(&mut self.blocks, self.n_blocks.iter().product(), [0; 2])?;
         let mut candidates = Vec::new();
         memory::collect(&mut candidates, 0..self.list.len() as u32)?;
@@ -140,9 +144,8 @@ impl HalfSpaces {
         candidates: &mut Vec<u32>,
         first: usize,
     ) -> Result<()> {
-        let corner = |end: fn(&Range<usize>) -> usize| {
-            [0, 1, 2].map(|axis| end(&blocks[axis]) as f64 * length[axis])
-        };
+        let corner =
+            |end: fn(&Range<usize>) -> usize| [0, 1, 2].map(|axis| end(&blocks[axis]) as f64 * length[axis]);
         let bounds = Bounds { low: corner(|range| range.start), high: corner(|range| range.end) };
         let last = candidates.len();
         for at in first..last {
@@ -158,7 +161,8 @@ impl HalfSpaces {
                 memory::push(candidates, candidates[at])?;
             }
         }
-        let widest = (1..3).fold(0, |best, axis| if blocks[axis].len() > blocks[best].len() { axis } else { best });
+        let widest =
+            (1..3).fold(0, |best, axis| if blocks[axis].len() > blocks[best].len() { axis } else { best });
         let Range { start, end } = blocks[widest];
         if candidates.len() > last && end - start > 1 {
             let middle = start + (end - start) / 2;

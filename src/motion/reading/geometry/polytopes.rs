@@ -248,7 +248,11 @@ impl Polytope {
         let mut start = 0;
         for side in &self.sides {
             let edges = &self.edges[start..side.end];
-            if G::D == 2 { add_polygon(edges, first, &mut sums) } else { add_face(edges, &side.normal, first, &mut sums) }
+            if G::D == 2 {
+                add_polygon(edges, first, &mut sums)
+            } else {
+                add_face(edges, &side.normal, first, &mut sums)
+            }
             start = side.end;
         }
         if sums.volume > 0.0 {
