@@ -232,6 +232,9 @@ static void ask_for_geometry(const deldrift_triangulation *t) {
     expect(count == VERTICES && mask[middle] == 1, "with a vertex its Voronoi cell changes");
     check(deldrift_voronoi_derivatives(t, (double[]){0, 0}, (double[]){1, 1}, NULL, 0, lengths, NULL, NULL, MOST, &count));
     expect(count == n_edges, "each edge has a derivative");
+    check(deldrift_voronoi_derivatives_within(t, (double[]){0, 0}, (double[]){1, 1}, below_diagonal, 1, NULL, 0, lengths,
+                                              NULL, NULL, MOST, &count));
+    expect(count == n_edges && lengths[0] >= 0, "a half-plane cuts Voronoi edges, too");
 }
 
 // Whether two triangulations have the same cells under the same indices.

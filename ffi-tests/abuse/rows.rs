@@ -222,6 +222,23 @@ pub const ROWS: &[Row] = &[
         ],
     ),
     row(
+        "deldrift_voronoi_derivatives_within",
+        &[
+            "t",
+            "low",
+            "high",
+            "half_spaces",
+            "2",
+            "mask",
+            "n_ids",
+            "out.numbers",
+            "out.more_numbers",
+            "out.rows",
+            "n_edges",
+            "&out.count",
+        ],
+    ),
+    row(
         "deldrift_interpolate",
         &["t", "0", "values", "n_ids", "2", "moved", "3", "near_by", "outside", "out.numbers"],
     ),

@@ -408,6 +408,13 @@ static void voronoi_cells_in_half_spaces(void) {
     for (int v = 0; v < 5; v++) CHECK(fabs(volumes[v] - wanted[v]) < 1e-14);
     CHECK(areas[3] == 0 && isnan(centroids[6]) && fabs(areas[4] - 3 * sqrt(2)) < 1e-14);
     CHECK(fabs(centroids[8] - 0.75) < 1e-14 && fabs(centroids[9] - 0.75) < 1e-14);
+    double measures[8], middles[16], derivatives[32];
+    OK(deldrift_voronoi_derivatives_within(t, low, high, diagonal, 1, NULL, 0, measures, middles, derivatives, 8, &count));
+    // From vertex 0 to the middle a side of the diamond; from vertex 1 half of one; from vertex 3 nothing.
+    CHECK(count == 8 && fabs(measures[2] - sqrt(2)) < 1e-14 && measures[7] == 0 && isnan(middles[14]));
+    CHECK(fabs(measures[4] - sqrt(2) / 2) < 1e-14 && fabs(middles[8] - 1.25) < 1e-14 && fabs(middles[9] - 0.25) < 1e-14);
+    // Its length over that of the edge, times the way from the middle of what is left to (1, 1).
+    CHECK(fabs(derivatives[16] + 0.125) < 1e-14 && fabs(derivatives[17] - 0.375) < 1e-14);
     // The square with its corners in the middles of the box's sides, of which the middle's cell is a quarter.
     static const double turned[] = {1, 1, 4, -1, 1, 2, 1, -1, 2, -3, -3, 0};
     OK(deldrift_voronoi_cells_within(t, low, high, turned, 4, NULL, 0, volumes, NULL, NULL, 5, &count));

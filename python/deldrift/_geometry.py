@@ -46,7 +46,7 @@ _voronoi_volumes = _library.function("voronoi_volumes")
 _voronoi_facets = _library.function("voronoi_facets")
 _voronoi_changed = _library.function("voronoi_changed")
 _voronoi_cells_within = _library.function("voronoi_cells_within")
-_voronoi_derivatives = _library.function("voronoi_derivatives")
+_voronoi_derivatives_within = _library.function("voronoi_derivatives_within")
 _interpolate = _library.function("interpolate")
 
 
@@ -427,7 +427,7 @@ class Geometry(Scipy):
         array([4., 2., 2., 0.])
         """
         low, high = box_corners(box, self.ndim)
-        rows_of_planes = half_space_rows(half_spaces, self.ndim)
+        planes_given = half_space_rows(half_spaces, self.ndim)
         chosen = None if mask is None else mask_of("mask", mask)
         with self._reading as t:
             n = id_count(t)
@@ -435,13 +435,13 @@ class Geometry(Scipy):
             cells = VoronoiCells(np.full(n, np.nan), np.full(n, np.nan), np.full((n, self.ndim), np.nan))
             count = ctypes.c_size_t()
             rows = (address(array) for array in cells)
-            planes = address(rows_of_planes), len(rows_of_planes)
-            status = _voronoi_cells_within(t, address_if(low), address_if(high), *planes, *given, *rows, n, count)
-            self._check(status)
+            planes = address(planes_given), len(planes_given)
+            low_high = address_if(low), address_if(high)
+            self._check(_voronoi_cells_within(t, *low_high, *planes, *given, *rows, n, count))
         return cells
 
-    def voronoi_derivatives(self, box: Any, mask: Any = None) -> VoronoiDerivatives:
-        """The Voronoi facets of all edges within a box, with derivatives of volumes by positions.
+    def voronoi_derivatives(self, box: Any, mask: Any = None, *, half_spaces: Any = None) -> VoronoiDerivatives:
+        """The Voronoi facets of all edges within a box and half-spaces, with derivatives of volumes by positions.
 
         The derivative of the volume of a cell by the position of its own vertex is minus the sum of those of the other
         cells by that position.
@@ -452,6 +452,8 @@ class Geometry(Scipy):
             Its corners of least and of greatest coordinates.
         mask : array_like of bool, optional
             Edges with an end in it are asked for; all are by default. The others get NaN.
+        half_spaces : array_like, (n, ndim + 1), optional
+            Rows of an outward normal and an offset, as `voronoi_cells` has them.
 
         Returns
         -------
@@ -459,6 +461,7 @@ class Geometry(Scipy):
             Measures, centroids and derivatives, in the order of `edges`.
         """
         low, high = box_corners(box, self.ndim)
+        planes_given = half_space_rows(half_spaces, self.ndim)
         chosen = None if mask is None else mask_of("mask", mask)
         with self._reading as t:
             given = self._vertex_mask(chosen, id_count(t))
@@ -466,7 +469,9 @@ class Geometry(Scipy):
             facets = VoronoiDerivatives(np.full(n, np.nan), np.full((n, d), np.nan), np.full((n, 2, d), np.nan))
             count = ctypes.c_size_t()
             rows = (address(array) for array in facets)
-            self._check(_voronoi_derivatives(t, address_if(low), address_if(high), *given, *rows, n, count))
+            planes = address(planes_given), len(planes_given)
+            low_high = address_if(low), address_if(high)
+            self._check(_voronoi_derivatives_within(t, *low_high, *planes, *given, *rows, n, count))
         return facets
 
     def _vertex_mask(self, chosen: Any, n: int) -> tuple[Any, int]:

@@ -168,6 +168,13 @@ def test_half_spaces_clip_voronoi_cells(tri):
     mask = np.arange(tri.npoints) % 3 == 0
     some = tri.voronoi_cells((low, high), mask, half_spaces=[row])
     np.testing.assert_array_equal(some.volumes[mask], below.volumes[mask])
+    whole_facets = tri.voronoi_derivatives((low, high))
+    facets, others = (tri.voronoi_derivatives((low, high), half_spaces=[sign * row]) for sign in (1, -1))
+    np.testing.assert_allclose(facets.measures + others.measures, whole_facets.measures, rtol=1e-6, atol=1e-9)
+    np.testing.assert_allclose(
+        facets.derivatives + others.derivatives, whole_facets.derivatives, rtol=1e-6, atol=1e-6
+    )
+    assert (facets.centroids[facets.measures > 0] @ normal <= row[-1] + 1e-9).all()
     empty = tri.voronoi_cells((low, high), half_spaces=[row, -row - np.append(np.zeros(tri.ndim), 1)])
     assert (empty.volumes == 0).all() and (empty.areas == 0).all()
 

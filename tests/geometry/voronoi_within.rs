@@ -94,11 +94,101 @@ fn check<G: Exact>(places: &[G::Point], clip: [&G::Point; 2], rows: &[f64], shar
         sum += cells.volumes[of];
         of_surfaces += surface;
     }
+    check_facets::<G>(&t, places, clip, rows, off);
     let region = G::cell(&[places[0]], 0, clip, rows).volume(G::D as i32);
     assert!(
         (sum - region).abs() <= off * of_surfaces + 1e-14 * region,
         "{sum}, not {region}: {places:?} in {clip:?} and {rows:?}"
     );
+}
+
+/// By how much more than its corners a facet of two places may be off, as a plane is nearly parallel to it: one over the
+/// sine of the angle; none if it may be in the plane.
+fn stretch<G: Dimension>(p: &G::Point, q: &G::Point, rows: &[f64], near: f64) -> Option<f64> {
+    let length = |x: &[f64]| {
+        let most = x.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+        most * x.iter().map(|x| (x / most).powi(2)).sum::<f64>().sqrt()
+    };
+    let way: Vec<f64> = (0..G::D).map(|axis| q[axis] - p[axis]).collect();
+    let mut stretch = 1.0f64;
+    for row in rows.chunks(G::D + 1) {
+        let unit = |x: &[f64]| -> Vec<f64> { x.iter().map(|y| y / length(x)).collect() };
+        let (normal, along) = (unit(&row[..G::D]), unit(&way));
+        let cosine: f64 = (0..G::D).map(|axis| normal[axis] * along[axis]).sum();
+        // As differences of unit vectors, which are accurate.
+        let across: Vec<f64> = (0..G::D).map(|axis| along[axis] - cosine.signum() * normal[axis]).collect();
+        let sine = if cosine.abs() > 0.5 { length(&across) } else { 0.5 };
+        let middle: f64 = (0..G::D).map(|axis| normal[axis] * (0.5 * (p[axis] + q[axis]))).sum();
+        let distance = (middle - row[G::D] / length(&row[..G::D])).abs();
+        if !(sine > 1e-6) && distance < near {
+            return None;
+        }
+        stretch = stretch.max(1.0 / sine.max(1e-6));
+    }
+    Some(stretch)
+}
+
+/// Compares facets, their centroids and derivatives with exact ones.
+fn check_facets<G: Exact>(
+    t: &MovingTriangulation<G>,
+    places: &[G::Point],
+    clip: [&G::Point; 2],
+    rows: &[f64],
+    off: f64,
+) {
+    let facets = t.voronoi_derivatives_within(clip, rows, None, &mut |_| true).expect("room");
+    let size = (0..G::D).map(|axis| clip[1][axis] - clip[0][axis]).fold(0.0, f64::max);
+    let reach = (0..G::D).map(|axis| clip[1][axis].abs().max(clip[0][axis].abs())).fold(0.0, f64::max);
+    let mut n_compared = 0;
+    for (k, edge) in facets.edges.iter().enumerate() {
+        let [of, other] = edge.map(|v| v.index());
+        let [p, q] = [places[of], places[other]];
+        let context = || format!("{of} {other} of {places:?} in {clip:?} and {rows:?}");
+        // Faces of the box are planes, too.
+        let mut planes = rows.to_vec();
+        for axis in 0..G::D {
+            for side in clip {
+                planes.extend((0..G::D).map(|k| f64::from(k == axis)));
+                planes.push(side[axis]);
+            }
+        }
+        let Some(stretch) = stretch::<G>(&p, &q, &planes, 4.0 * most_off::<G>(clip) + 1e-5 * size) else {
+            continue;
+        };
+        n_compared += 1;
+        let cell = G::cell(places, of, clip, rows);
+        let Some(face) = cell.faces.iter().find(|face| face.other == Some(other)) else {
+            // Something as thin as corners are off may be there.
+            assert!(
+                facets.areas[k] <= stretch * off * size.powi(G::D as i32 - 2) * 4.0 + 1e-300,
+                "{}",
+                context()
+            );
+            continue;
+        };
+        let (area, perimeter) = (cell.area(face), cell.perimeter(face));
+        let most = stretch * off * perimeter + 4.0 * f64::EPSILON * area + 1e-300;
+        let found = facets.areas[k];
+        assert!((found - area).abs() <= most, "facet {found}, not {area}: {}", context());
+        let (centroid, diameter) = cell.face_centroid_and_diameter(face);
+        let length = (0..G::D).map(|axis| (p[axis] - q[axis]).powi(2)).sum::<f64>().sqrt();
+        if area <= 8.0 * most || length == 0.0 {
+            continue;
+        }
+        for axis in 0..G::D {
+            let at = facets.centroids[k][axis];
+            let near = most * diameter / area + 1e-15 * reach;
+            assert!((at - centroid[axis]).abs() <= near, "{at}, not {centroid:?}: {}", context());
+            for (derivative, by) in facets.derivatives[k].iter().zip([q, p]) {
+                let from_centroid = (0..G::D).map(|k| (by[k] - centroid[k]).powi(2)).sum::<f64>().sqrt();
+                let wanted = area * ((by[axis] - centroid[axis]) / length);
+                let near = (most * (from_centroid + diameter) + area * 1e-15 * reach) / length;
+                let error = (derivative[axis] - wanted).abs();
+                assert!(error <= near + 1e-15 * wanted.abs(), "derivative {derivative:?}: {}", context());
+            }
+        }
+    }
+    assert!(n_compared > 0 || facets.edges.len() < 60);
 }
 
 fn cube<G: Dimension>(low: f64, high: f64) -> [G::Point; 2] {
@@ -370,16 +460,32 @@ fn threads_and_masks_agree<G: Dimension>(n: usize) {
             let saved = Saved::of(&bytes).expect("its own bytes");
             let t = MovingTriangulation::<G>::load(&saved, options).expect("its own bytes");
             let cells = within(&t, [&low, &high], &rows);
+            let facets = t.voronoi_derivatives_within([&low, &high], &rows, None, &mut |_| true);
+            let facets = facets.expect("room");
             for share in [2, 30, n] {
                 let mask: Vec<u8> = (0..n).map(|k| u8::from(k % share == 0)).collect();
                 let some = t.voronoi_cells_within([&low, &high], &rows, Some(&mask), &mut |_| true);
                 let some = some.expect("room");
+                let some_facets = t
+                    .voronoi_derivatives_within([&low, &high], &rows, Some(&mask), &mut |_| true)
+                    .expect("room");
+                for (k, edge) in facets.edges.iter().enumerate() {
+                    let is_wanted = edge.iter().any(|v| mask[v.index()] != 0);
+                    let [area, other] = [facets.areas[k], some_facets.areas[k]].map(f64::to_bits);
+                    assert!(area == other || !is_wanted, "{edge:?}");
+                }
                 for v in 0..n {
                     assert!(mask[v] == 0 || bits::<G>(&cells, v) == bits::<G>(&some, v), "{v}");
                     assert!(mask[v] != 0 || some.volumes[v].is_nan());
                 }
             }
-            (0..n).map(|v| bits::<G>(&cells, v)).collect()
+            let mut all: Vec<Vec<u64>> = (0..n).map(|v| bits::<G>(&cells, v)).collect();
+            let row = |k: usize| {
+                let points = facets.derivatives[k].iter().chain([&facets.centroids[k]]);
+                points.flat_map(|p| (0..G::D).map(|axis| p[axis].to_bits())).collect()
+            };
+            all.extend((0..facets.edges.len()).map(row));
+            all
         })
         .into();
     assert!(made.windows(2).all(|pair| pair[0] == pair[1]));

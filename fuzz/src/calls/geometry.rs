@@ -372,7 +372,7 @@ impl History<'_> {
         let other: Vec<f64> = row.iter().map(|x| -0.25 * x).collect();
         // The second one is there twice, and there is one that contains the box.
         let beside: Vec<f64> = (0..=d).map(|k| if k == d { 100.0 } else { 1.0 }).collect();
-        let sides = [(row, 1), ([other.clone(), beside, other].concat(), 3)];
+        let sides = [(row, 1), ([other.clone(), beside.clone(), other].concat(), 3)];
         let [one, two] = sides.map(|(rows, n)| {
             self.copied(-7.0, 1, |to, room, count| {
                 let (low, high, rows) = (low.as_ptr(), high.as_ptr(), rows.as_ptr());
@@ -382,6 +382,14 @@ impl History<'_> {
                 ))
             })
         });
+        let measures = self.copied(-7.0, 1, |to, room, count| {
+            let (low, high, rows) = (low.as_ptr(), high.as_ptr(), beside.as_ptr());
+            let (none, nowhere) = (null(), null_mut());
+            c!(deldrift_voronoi_derivatives_within(
+                t, low, high, rows, 1, none, 0, to, nowhere, nowhere, room, count
+            ))
+        });
+        assert!(measures.iter().all(|&measure| measure >= 0.0), "{measures:?}");
         let most = 1e-5 * 7f64.powi(d as i32);
         for (v, whole) in wholes.iter().enumerate() {
             let sum = one[v] + two[v];

@@ -180,7 +180,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// What cells are clipped by, if it is good.
-    fn region(&self, clip: [&G::Point; 2], half_spaces: &[f64]) -> Result<Region> {
+    pub(super) fn region(&self, clip: [&G::Point; 2], half_spaces: &[f64]) -> Result<Region> {
         let clip = checked::<G>(clip)?;
         self.check_half_spaces(half_spaces)?;
         let half_spaces = HalfSpaces::new::<G>(half_spaces, &clip, self.cell_count())?;

@@ -48,9 +48,8 @@ impl Bounds {
     /// Makes room for a place.
     #[inline(always)]
     pub(super) fn include(&mut self, p: &Vector) {
-        for axis in 0..3 {
-            self.low[axis] = self.low[axis].min(p[axis]);
-            self.high[axis] = self.high[axis].max(p[axis]);
+        for ((low, high), &x) in self.low.iter_mut().zip(&mut self.high).zip(p) {
+            (*low, *high) = (low.min(x), high.max(x));
         }
     }
 }

@@ -25,7 +25,7 @@
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::machine::memory;
-use crate::motion::reading::geometry::clipping::{Clip, Face, Vector, cross, dot, minus};
+use crate::motion::reading::geometry::clipping::{Clip, Face, Vector, cross, dot, minus, times};
 use crate::motion::reading::geometry::cut_cells::BoxCorner;
 use crate::motion::reading::geometry::cut_facets::CutFacet;
 use crate::motion::reading::geometry::facet_measures::Piece;
@@ -33,7 +33,7 @@ use crate::motion::reading::geometry::half_spaces::{Bounds, HalfSpace, HalfSpace
 use crate::motion::reading::geometry::sums::Sums;
 
 /// A directed edge, with offsets from the box's corner of least coordinates, in its unit.
-pub(super) type Edge = [Vector; 2];
+type Edge = [Vector; 2];
 
 /// A face: where its edges end among all, and its outward normal.
 #[derive(Clone, Copy, Debug)]
@@ -61,7 +61,7 @@ pub(super) struct Polytope {
 
 /// What a half-space makes of faces.
 #[derive(Debug, Default)]
-pub(super) struct Cut {
+struct Cut {
     /// Where a face is left, and where it is entered.
     exits: Vec<Vector>,
     entries: Vec<Vector>,
@@ -82,7 +82,7 @@ fn crossing([inside, beyond]: [&Vector; 2], [from, to]: [f64; 2]) -> Vector {
 
 impl Cut {
     /// Adds what a half-space leaves of the edges of a face to a list.
-    pub(super) fn face(&mut self, space: &HalfSpace, edges: &[Edge], left: &mut Vec<Edge>) -> Result<()> {
+    fn face(&mut self, space: &HalfSpace, edges: &[Edge], left: &mut Vec<Edge>) -> Result<()> {
         self.exits.clear();
         self.entries.clear();
         for [p, q] in edges {
@@ -214,15 +214,50 @@ impl Polytope {
         Ok(())
     }
 
+    /// What half-spaces leave of a facet in the box: its length or area, and its centroid as an offset from the box's
+    /// corner of least coordinates.
+    pub(super) fn facet_within<G: Dimension>(
+        &mut self,
+        clip: &Clip,
+        spaces: &HalfSpaces,
+        facet: &CutFacet,
+    ) -> Result<(f64, Vector)> {
+        self.clear();
+        facet.for_pieces(clip.unit, |piece| match piece {
+            Piece::Edge(edge) => push(&mut self.edges, edge),
+            Piece::On(..) | Piece::End { .. } => Ok(()),
+        })?;
+        let mut bounds = self.bounds();
+        for space in &spaces.list {
+            if space.range(&bounds)[1] <= 0.0 {
+                continue;
+            }
+            let left = &mut self.left.0;
+            left.clear();
+            if G::D == 2 {
+                cut_segments(space, &self.edges, left)?;
+            } else {
+                self.cut.cap.clear();
+                self.cut.face(space, &self.edges, left)?;
+            }
+            std::mem::swap(&mut self.edges, left);
+            bounds = self.bounds();
+        }
+        let (measure, centroid) = measure_and_centroid::<G>(&self.edges, &facet.direction());
+        Ok((clip.measure_in(G::D - 1, measure), times(&centroid, 1.0 / clip.unit)))
+    }
+
     fn bounds(&self) -> Bounds {
         let mut bounds = Bounds::NONE;
-        self.edges.iter().for_each(|[p, _]| bounds.include(p));
+        self.edges.iter().flatten().for_each(|p| bounds.include(p));
         bounds
     }
 
     fn cut_by<G: Dimension>(&mut self, space: &HalfSpace) -> Result<()> {
         let (edges, sides) = (&mut self.left.0, &mut self.left.1);
-        (edges.clear(), sides.clear(), self.cut.cap.clear());
+        edges.clear();
+        sides.clear();
+        self.cut.cap.clear();
         let mut start = 0;
         for side in &self.sides {
             let before = edges.len();
@@ -265,8 +300,41 @@ impl Polytope {
     }
 }
 
+/// Adds what a half-space leaves of segments to a list.
+fn cut_segments(space: &HalfSpace, segments: &[Edge], left: &mut Vec<Edge>) -> Result<()> {
+    for [p, q] in segments {
+        let [from, to] = [space.beyond(p), space.beyond(q)];
+        match (from <= 0.0, to <= 0.0) {
+            (true, true) => push(left, [*p, *q])?,
+            (true, false) => push(left, [*p, crossing([p, q], [from, to])])?,
+            (false, true) => push(left, [crossing([q, p], [to, from]), *q])?,
+            (false, false) => {}
+        }
+    }
+    Ok(())
+}
+
+/// Length or area of a facet with a normal, and its centroid; NaN if there is none.
+fn measure_and_centroid<G: Dimension>(edges: &[Edge], normal: &Vector) -> (f64, Vector) {
+    let Some([first, end]) = edges.first() else { return (0.0, [f64::NAN; 3]) };
+    if G::D == 2 {
+        let way = minus(end, first);
+        return (dot(&way, &way).sqrt(), [0, 1, 2].map(|axis| 0.5 * (first[axis] + end[axis])));
+    }
+    let (mut doubled, mut moment) = (0.0, [0.0; 3]);
+    for [p, q] in edges {
+        let [p, q] = [minus(p, first), minus(q, first)];
+        // It is convex, so that what is below zero is rounding.
+        let weight = dot(normal, &cross(&p, &q)).max(0.0);
+        doubled += weight;
+        (0..3).for_each(|axis| moment[axis] += weight * (p[axis] + q[axis]));
+    }
+    let offset = if doubled > 0.0 { moment.map(|x| x / (3.0 * doubled)) } else { [0.0; 3] };
+    (0.5 * doubled, [0, 1, 2].map(|axis| first[axis] + offset[axis]))
+}
+
 /// The mean of the places where edges begin.
-pub(super) fn mean(edges: &[Edge]) -> Vector {
+fn mean(edges: &[Edge]) -> Vector {
     let sum = edges.iter().fold([0.0; 3], |sum, [p, _]| [0, 1, 2].map(|axis| sum[axis] + p[axis]));
     sum.map(|x| x / edges.len() as f64)
 }
