@@ -233,11 +233,11 @@ pub unsafe extern "C" fn deldrift_voronoi_cells_within(
     t.read_watched(|t, monitor| {
         in_its_dimension!(t => {
             let d = dimension_of(t);
-            given!(half_spaces[half_space_count.saturating_mul(d + 1)]: Array);
             given!(centroids[capacity.saturating_mul(d)]: Buffer);
             let clip = [low.of("low", t)?, high.of("high", t)?];
             t.check_clip(clip)?;
-            let half_spaces = half_spaces.get()?;
+            // SAFETY: as was promised to this function.
+            let half_spaces = unsafe { half_space_rows(d, half_spaces, half_space_count)? };
             t.check_half_spaces(half_spaces)?;
             let mask = mask_for(t, mask, mask_count)?;
             let needed = t.id_count();
@@ -364,10 +364,10 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives_within(
             let d = dimension_of(t);
             given!(centroids[capacity.saturating_mul(d)]: Buffer);
             given!(derivatives[capacity.saturating_mul(2 * d)]: Buffer);
-            given!(half_spaces[half_space_count.saturating_mul(d + 1)]: Array);
             let clip = [low.of("low", t)?, high.of("high", t)?];
             t.check_clip(clip)?;
-            let half_spaces = half_spaces.get()?;
+            // SAFETY: as was promised to this function.
+            let half_spaces = unsafe { half_space_rows(d, half_spaces, half_space_count)? };
             t.check_half_spaces(half_spaces)?;
             let mask = mask_for(t, mask, mask_count)?;
             let needed = t.edge_count();
@@ -425,6 +425,25 @@ pub unsafe extern "C" fn deldrift_voronoi_changed(
             mask.fill(count, t.id_count(), || Ok(t.voronoi_changed(moved)?))
         })
     })
+}
+
+/// Rows of a normal and an offset, as numbers.
+///
+/// # Safety
+/// `half_spaces` is NULL, misaligned, or to as many rows of `d` + 1 numbers, for as long as they are used.
+unsafe fn half_space_rows<'a>(
+    d: usize,
+    half_spaces: *const f64,
+    half_space_count: usize,
+) -> Result<&'a [f64], Failure> {
+    if d == 2 {
+        let half_spaces = half_spaces.cast::<[f64; 3]>();
+        given!(half_spaces[half_space_count]: Array);
+        return Ok(half_spaces.get()?.as_flattened());
+    }
+    let half_spaces = half_spaces.cast::<[f64; 4]>();
+    given!(half_spaces[half_space_count]: Array);
+    Ok(half_spaces.get()?.as_flattened())
 }
 
 /// Writes a row of numbers, if there is a buffer for rows.

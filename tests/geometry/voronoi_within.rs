@@ -124,7 +124,8 @@ fn check<G: Exact>(places: &[G::Point], clip: [&G::Point; 2], rows: &[f64], shar
 fn stretch<G: Dimension>(p: &G::Point, q: &G::Point, rows: &[f64], near: f64) -> Option<f64> {
     let length = |x: &[f64]| {
         let most = x.iter().fold(0.0f64, |most, x| most.max(x.abs()));
-        most * x.iter().map(|x| (x / most).powi(2)).sum::<f64>().sqrt()
+        let scaled = |x: &f64| if most > 0.0 { x / most } else { 0.0 };
+        most * x.iter().map(|x| scaled(x).powi(2)).sum::<f64>().sqrt()
     };
     let way: Vec<f64> = (0..G::D).map(|axis| q[axis] - p[axis]).collect();
     let mut stretch = 1.0f64;
