@@ -262,7 +262,7 @@ fn degenerate<G: Exact>() {
     let steps = steps::<G>();
     let [low, high] = cube::<G>(-0.5, n_side as f64 - 0.25);
     for jitter in [0.0, 1e-15, 1e-12, 1e-9] {
-        for _ in 0..if G::D == 2 { 16 } else { 3 } {
+        for _ in 0..if G::D == 2 { 8 } else { 2 } {
             let mut shaken = lattice.clone();
             for p in &mut shaken {
                 (0..G::D).for_each(|axis| p[axis] += jitter * (rng.unit() - 0.5));
