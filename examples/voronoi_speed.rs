@@ -61,7 +61,7 @@ fn speed<G: Dimension>(n: usize, threads: u32, share: f64) {
             micros(n_masked, || t.voronoi_cells(clip, Some(&mask), &mut |_| true).expect("room"));
         let (scattered, _) =
             micros(n_few, || t.voronoi_cells(clip, Some(&few), &mut |_| true).expect("room"));
-        let [(walled, _), (cylinder, _)] = [&all, &cylinder]
+        let [(walled, _), (cylinder, _)] = [&wide, &narrow]
             .map(|rows| micros(n, || t.voronoi_cells_within(clip, rows, None, &mut |_| true).expect("room")));
         let go = || t.voronoi_derivatives(clip, None, &mut |_| true).expect("room");
         let (facets, _) = micros(n, go);
