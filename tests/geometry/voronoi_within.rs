@@ -175,6 +175,7 @@ fn check_facets<G: Exact>(
             continue;
         };
         n_compared += 1;
+        assert_eq!(facets.areas[k] == 0.0, facets.centroids[k][0].is_nan(), "{}", context());
         let cell = exact[of].as_ref().expect("a vertex that is not hidden");
         let Some(face) = cell.faces.iter().find(|face| face.other == Some(other)) else {
             // Something as thin as corners are off may be there.

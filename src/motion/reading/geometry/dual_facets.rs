@@ -180,13 +180,13 @@ impl<G: Dimension> Voronoi<'_, G> {
         } else {
             left.facet_within::<G>(clip, &region.half_spaces, &self.facet)?
         };
+        if measure == 0.0 {
+            return Ok((0.0, [f64::NAN; 3], [[0.0; 3]; 2]));
+        }
         let centroid = [0, 1, 2].map(|axis| (clip.low()[axis] + offset[axis]).min(clip.high()[axis]));
         let way = minus(&ends[1], &ends[0]);
         let length = length_by(dot(&way, &way), &way);
-        let derivative = |of: &Vector| {
-            let by = |axis: usize| measure * ((of[axis] - centroid[axis]) / length);
-            if measure > 0.0 { [0, 1, 2].map(by) } else { [0.0; 3] }
-        };
+        let derivative = |of: &Vector| [0, 1, 2].map(|axis| measure * ((of[axis] - centroid[axis]) / length));
         Ok((measure, centroid, [derivative(&ends[1]), derivative(&ends[0])]))
     }
 }
