@@ -222,10 +222,19 @@ static void ask_for_geometry(const deldrift_triangulation *t) {
     double whole = 0;
     for (size_t v = 0; v < count; v++) whole += areas[v] > 0 ? areas[v] : 0;
     expect(fabs(whole - 1) < 1e-9, "the Voronoi cells fill the box");
+    const double below_diagonal[] = {1, 1, 1}; // x + y is at most 1
+    check(deldrift_voronoi_cells_within(t, (double[]){0, 0}, (double[]){1, 1}, below_diagonal, 1, NULL, 0, areas, NULL,
+                                        NULL, MOST, &count));
+    double half = 0;
+    for (size_t v = 0; v < count; v++) half += areas[v] > 0 ? areas[v] : 0;
+    expect(fabs(half - 0.5) < 1e-9, "a half-plane leaves half of the box");
     check(deldrift_voronoi_changed(t, &middle, 1, mask, MOST, &count));
     expect(count == VERTICES && mask[middle] == 1, "with a vertex its Voronoi cell changes");
     check(deldrift_voronoi_derivatives(t, (double[]){0, 0}, (double[]){1, 1}, NULL, 0, lengths, NULL, NULL, MOST, &count));
     expect(count == n_edges, "each edge has a derivative");
+    check(deldrift_voronoi_derivatives_within(t, (double[]){0, 0}, (double[]){1, 1}, below_diagonal, 1, NULL, 0, lengths,
+                                              NULL, NULL, MOST, &count));
+    expect(count == n_edges && lengths[0] >= 0, "a half-plane cuts Voronoi edges, too");
 }
 
 // Whether two triangulations have the same cells under the same indices.

@@ -3,7 +3,8 @@
 //! vertex of which a call is for; the numbers of vertices and of threads may be given.
 //!
 //! With a mask of the vertices that have no part of the box's boundary (inner) the cells that are cut are left out. With
-//! one of every 1,000th vertex (few) cells are far from each other.
+//! one of every 1,000th vertex (few) cells are far from each other. With 100 half-spaces as upright walls they may contain
+//! all (walled), or be a cylinder as wide as the square or cube (cylinder), and cut what is near its wall.
 mod common;
 
 use common::{Rng, in_cube};
@@ -16,6 +17,18 @@ fn micros<T>(n: usize, work: impl FnOnce() -> T) -> (f64, T) {
     let start = Instant::now();
     let made = black_box(work());
     (start.elapsed().as_secs_f64() * 1e6 / n as f64, made)
+}
+
+/// Upright half-spaces around the middle, which are this far from it.
+fn walls<G: Dimension>(n: usize, radius: f64) -> Vec<f64> {
+    let wall = |k: usize| {
+        let angle = std::f64::consts::TAU * k as f64 / n as f64;
+        let mut row = vec![0.0; G::D + 1];
+        (row[0], row[1]) = (angle.cos(), angle.sin());
+        row[G::D] = radius + 0.5 * (row[0] + row[1]);
+        row
+    };
+    (0..n).flat_map(wall).collect()
 }
 
 fn speed<G: Dimension>(n: usize, threads: u32, share: f64) {
@@ -32,7 +45,8 @@ fn speed<G: Dimension>(n: usize, threads: u32, share: f64) {
     let n_masked = mask.iter().filter(|&&m| m != 0).count();
     let few: Vec<u8> = (0..n).map(|k| u8::from(k % 1000 == 500)).collect();
     let n_few = few.iter().filter(|&&m| m != 0).count();
-    let mut least = [f64::MAX; 7];
+    let [wide, narrow] = [0.75, 0.5].map(|radius| walls::<G>(100, radius));
+    let mut least = [f64::MAX; 9];
     let mut off: f64 = 0.0;
     for _ in 0..6 {
         for p in &mut places {
@@ -47,17 +61,19 @@ fn speed<G: Dimension>(n: usize, threads: u32, share: f64) {
             micros(n_masked, || t.voronoi_cells(clip, Some(&mask), &mut |_| true).expect("room"));
         let (scattered, _) =
             micros(n_few, || t.voronoi_cells(clip, Some(&few), &mut |_| true).expect("room"));
+        let [(walled, _), (cylinder, _)] = [&wide, &narrow]
+            .map(|rows| micros(n, || t.voronoi_cells_within(clip, rows, None, &mut |_| true).expect("room")));
         let go = || t.voronoi_derivatives(clip, None, &mut |_| true).expect("room");
         let (facets, _) = micros(n, go);
         let (volumes, _) = micros(n, || t.voronoi_volumes(Some(clip)).expect("room"));
-        let now = [commit, view, cells, inner, scattered, facets, volumes];
+        let now = [commit, view, cells, inner, scattered, walled, cylinder, facets, volumes];
         least = std::array::from_fn(|k| least[k].min(now[k]));
         let size: f64 = (0..G::D).map(|axis| high[axis] - low[axis]).product();
         off = off.max((made.volumes.iter().sum::<f64>() / size - 1.0).abs());
     }
-    let [commit, view, cells, inner, scattered, facets, volumes] = least;
+    let [commit, view, cells, inner, scattered, walled, cylinder, facets, volumes] = least;
     println!(
-        "{}D {share:7.0e}  {commit:8.3} {view:8.3} {cells:8.3} {inner:8.3} {scattered:8.3} {facets:8.3} {volumes:8.3}   {off:.0e}",
+        "{}D {share:7.0e}  {commit:8.3} {view:8.3} {cells:8.3} {inner:8.3} {scattered:8.3} {walled:8.3} {cylinder:8.3} {facets:8.3} {volumes:8.3}   {off:.0e}",
         G::D
     );
 }
@@ -67,7 +83,9 @@ fn main() {
         |k: usize, other: usize| std::env::args().nth(k).map_or(other, |n| n.parse().expect("a number"));
     let (n, threads) = (given(1, 100_000), given(2, 1) as u32);
     println!("{n} vertices, {threads} threads, microseconds a vertex");
-    println!("    moves     commit    cells  voronoi    inner      few   facets  volumes   sum off by");
+    println!(
+        "    moves     commit    cells  voronoi    inner      few   walled cylinder   facets  volumes   sum off by"
+    );
     for share in [1e-4, 1e-2] {
         speed::<Plane>(n, threads, share);
         speed::<Space>(n, threads, share);

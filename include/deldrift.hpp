@@ -680,27 +680,43 @@ public:
     // id, of those where it is not 0 alone, NaN for the others.
     VoronoiCells voronoi_cells(span<const double> low = {}, span<const double> high = {},
                                span<const std::uint8_t> mask = {}) const {
+        return voronoi_cells_within(low, high, {}, mask);
+    }
+    // Also within half-spaces: for each the coordinates of an outward normal, and an offset.
+    VoronoiCells voronoi_cells_within(span<const double> low, span<const double> high, span<const double> half_spaces,
+                                      span<const std::uint8_t> mask = {}) const {
+        const std::size_t rows = half_spaces.size() / (dimension_ + 1);
+        expect("half_spaces", half_spaces.size(), rows * (dimension_ + 1));
         std::size_t count = id_count();
         const double nan = std::numeric_limits<double>::quiet_NaN();
         VoronoiCells cells{std::vector<double>(count, nan), std::vector<double>(count, nan),
                            std::vector<double>(count * dimension_, nan)};
-        require_ok(deldrift_voronoi_cells(native(), corner("low", low), corner("high", high),
-                                          mask.empty() ? nullptr : mask.data(), mask.size(), cells.volumes.data(),
-                                          cells.areas.data(), cells.centroids.data(), count, &count));
+        require_ok(deldrift_voronoi_cells_within(native(), corner("low", low), corner("high", high), half_spaces.data(),
+                                                 rows, mask.empty() ? nullptr : mask.data(), mask.size(),
+                                                 cells.volumes.data(), cells.areas.data(), cells.centroids.data(), count,
+                                                 &count));
         return cells;
     }
     // Of all edges, in their order; with a mask, of those that have an end where it is not 0.
     VoronoiDerivatives voronoi_derivatives(span<const double> low = {}, span<const double> high = {},
                                            span<const std::uint8_t> mask = {}) const {
+        return voronoi_derivatives_within(low, high, {}, mask);
+    }
+    // Also within half-spaces: for each the coordinates of an outward normal, and an offset.
+    VoronoiDerivatives voronoi_derivatives_within(span<const double> low, span<const double> high,
+                                                  span<const double> half_spaces,
+                                                  span<const std::uint8_t> mask = {}) const {
+        const std::size_t rows = half_spaces.size() / (dimension_ + 1);
+        expect("half_spaces", half_spaces.size(), rows * (dimension_ + 1));
         std::size_t count = 0;
         require_ok(deldrift_edges(native(), nullptr, 0, &count));
         const double nan = std::numeric_limits<double>::quiet_NaN();
         VoronoiDerivatives facets{std::vector<double>(count, nan), std::vector<double>(count * dimension_, nan),
                                   std::vector<double>(count * 2 * dimension_, nan)};
-        require_ok(deldrift_voronoi_derivatives(native(), corner("low", low), corner("high", high),
-                                                mask.empty() ? nullptr : mask.data(), mask.size(),
-                                                facets.measures.data(), facets.centroids.data(),
-                                                facets.derivatives.data(), count, &count));
+        require_ok(deldrift_voronoi_derivatives_within(native(), corner("low", low), corner("high", high),
+                                                       half_spaces.data(), rows, mask.empty() ? nullptr : mask.data(),
+                                                       mask.size(), facets.measures.data(), facets.centroids.data(),
+                                                       facets.derivatives.data(), count, &count));
         return facets;
     }
     // values: n_values numbers for each id. outside: those of positions outside the hull, NaN if there are none.

@@ -255,6 +255,7 @@ enum Call {
     VoronoiVolumes,
     VoronoiFacets,
     VoronoiCells,
+    VoronoiCellsWithin,
     VoronoiDerivatives,
     VoronoiChanged,
     Interpolate(Interpolation),
@@ -293,7 +294,12 @@ impl Call {
         calls.extend([Call::TakeChanges, Call::Tolerance]);
         calls.extend([Call::Circumspheres, Call::MaskBoundary, Call::Edges, Call::VertexNeighbours]);
         calls.extend([Call::VertexCells, Call::MirrorIndices, Call::VoronoiVolumes, Call::VoronoiFacets]);
-        calls.extend([Call::VoronoiCells, Call::VoronoiDerivatives, Call::VoronoiChanged]);
+        calls.extend([
+            Call::VoronoiCells,
+            Call::VoronoiCellsWithin,
+            Call::VoronoiDerivatives,
+            Call::VoronoiChanged,
+        ]);
         calls.extend([Interpolation::Linear, Interpolation::NaturalNeighbour].map(Call::Interpolate));
         calls.extend([Call::CellsAround(false), Call::CellsAround(true)]);
         calls.extend([Call::NearestVertices, Call::VerticesInBall, Call::VerticesInBox]);
@@ -607,6 +613,13 @@ impl<G: Dimension> Scene<G> {
             Call::VoronoiCells => {
                 let clip = [&point::<G>(|_| 0.2), &point::<G>(|_| 0.7)];
                 let cells = given(t.voronoi_cells(clip, None, &mut |_| true))?;
+                Given::Numbers(vec![cells.volumes.len() as u64])
+            }
+            Call::VoronoiCellsWithin => {
+                let clip = [&point::<G>(|_| 0.2), &point::<G>(|_| 0.7)];
+                let mut rows = vec![1.0; 2 * (G::D + 1)];
+                rows[0] = -0.5;
+                let cells = given(t.voronoi_cells_within(clip, &rows, None, &mut |_| true))?;
                 Given::Numbers(vec![cells.volumes.len() as u64])
             }
             Call::VoronoiDerivatives => {

@@ -7,6 +7,7 @@ mod near;
 mod voronoi;
 mod voronoi_exact;
 mod voronoi_steps;
+mod voronoi_within;
 
 use crate::common::exact::{Grid, orientation, representatives};
 use crate::common::inputs::{KINDS, Kind, QUANTUM, draw, draw_one, to_grid};

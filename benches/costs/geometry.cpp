@@ -94,12 +94,51 @@ void voronoi_cells(Context &c) {
     c.meter.count(double(c.n + c.cells()));
 }
 
+/// An upright polygon of some sides, with a share of the diagonal of a box as its radius.
+Points polygon_in(unsigned dimension, const Points &low, const Points &high, int sides, int percent) {
+    Points half_spaces;
+    for (int k = 0; k < sides; ++k) {
+        const double angle = 2 * 3.14159265358979 * k / sides, normal[] = {std::cos(angle), std::sin(angle), 0};
+        double offset = percent / 100.0 * std::hypot(high[0] - low[0], high[1] - low[1]);
+        for (unsigned axis = 0; axis < dimension; ++axis) {
+            half_spaces.push_back(normal[axis]);
+            offset += normal[axis] * (low[axis] + high[axis]) / 2;
+        }
+        half_spaces.push_back(offset);
+    }
+    return half_spaces;
+}
+
+template <int sides, int percent>
+void voronoi_cells_within(Context &c) {
+    const auto [low, high] = c.box(0.1);
+    const Points half_spaces = polygon_in(c.dimension, low, high, sides, percent);
+    std::vector<double> volumes(c.n), areas(c.n), centroids(c.n * c.dimension);
+    std::size_t count;
+    c.meter.time([&, low = low.data(), high = high.data()] {
+        must(deldrift_voronoi_cells_within(c.t, low, high, half_spaces.data(), sides, nullptr, 0, volumes.data(),
+                                           areas.data(), centroids.data(), c.n, &count));
+    });
+    c.meter.count(double(c.n + c.cells()));
+}
+
 template <int percent>
 void voronoi_derivatives(Context &c) {
     const auto [low, high] = c.box(percent / 100.0);
     counted<double>(c, 2 * c.dimension,
                     [&, low = low.data(), high = high.data()](double *to, std::size_t room, std::size_t *count) {
                         return deldrift_voronoi_derivatives(c.t, low, high, nullptr, 0, nullptr, nullptr, to, room, count);
+                    });
+}
+
+template <int sides, int percent>
+void voronoi_derivatives_within(Context &c) {
+    const auto [low, high] = c.box(0.1);
+    const Points half_spaces = polygon_in(c.dimension, low, high, sides, percent);
+    counted<double>(c, 2 * c.dimension,
+                    [&, low = low.data(), high = high.data()](double *to, std::size_t room, std::size_t *count) {
+                        return deldrift_voronoi_derivatives_within(c.t, low, high, half_spaces.data(), sides, nullptr, 0,
+                                                                   nullptr, nullptr, to, room, count);
                     });
 }
 
@@ -318,6 +357,9 @@ std::vector<Call> geometry_calls() {
         {"deldrift_voronoi_facets", "in a box inside", voronoi_facets<-20>},
         {"deldrift_voronoi_cells", "in a box around all", voronoi_cells<10>},
         {"deldrift_voronoi_cells", "in a box inside", voronoi_cells<-20>},
+        {"deldrift_voronoi_cells_within", "of 64 half-spaces, that contain all", voronoi_cells_within<64, 60>},
+        {"deldrift_voronoi_cells_within", "of 64 half-spaces, that cut", voronoi_cells_within<64, 25>},
+        {"deldrift_voronoi_derivatives_within", "of 64 half-spaces, that cut", voronoi_derivatives_within<64, 25>},
         {"deldrift_voronoi_changed", "one vertex, as often as there are vertices", [](Context &c) {
              deldrift_changes changes;
              must(deldrift_take_changes(c.t, &changes));

@@ -244,6 +244,18 @@ impl Cases<'_> {
                     wanted,
                 );
             }
+            Role::HalfSpaces => {
+                for (given, value, said) in [("NaN", "NAN", "NaN"), ("infinity", "INFINITY", "inf")] {
+                    let wrong = format!("bad({valid}, 2 * dimension + 1, {value})");
+                    let message = format!("\"{name}[1], coordinate %u, is {said}\", dimension");
+                    let column = if value == "NAN" { "nan" } else { "infinite" };
+                    self.refused(column, at, given, &wrong, "NOT_FINITE", &message);
+                }
+                self.legal("range", at, "2e57", &format!("bad({valid}, 2 * dimension + 1, 2e57)"));
+                let message = format!("\"{name}[1] is 0, but must be a normal\"");
+                let wrong = format!("bad({valid}, dimension + 1, 0)");
+                self.refused("value", at, "a normal that is zero", &wrong, "INVALID_VALUE", &message);
+            }
             Role::PointsOfSimplex => self.coordinates(at, name, valid, "(dimension + 1)"),
             Role::PointsOfSphere => self.coordinates(at, name, valid, "(dimension + 2)"),
             Role::BoxCorner => {

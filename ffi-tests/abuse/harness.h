@@ -58,7 +58,7 @@ static uint32_t inner_cell, inner_corner, fence[3];
 
 // Arguments, which are made again before each call.
 static double points[(COUNT + 2) * 3], moved[(COUNT + 2) * 3], values[(COUNT + 2) * 3], inside[(COUNT + 2) * 3];
-static double outside[ROOM], low[ROOM], high[ROOM], vectors[(COUNT + 2) * 3];
+static double outside[ROOM], low[ROOM], high[ROOM], vectors[(COUNT + 2) * 3], half_spaces[(COUNT + 2) * 3];
 static const double one_direction[9] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
 static uint32_t ids[3], ends[6], segments[2];
 static int32_t wholes[ROOM];
@@ -248,6 +248,10 @@ static void before(void) {
     for (size_t i = 0; i < dimension * dimension; i++) {
         vectors[i] = i % (dimension + 1) == 0 ? 1 : i % (dimension + 1) == dimension ? 0.25 : 0;
     }
+    // Two: x is at most 0.5, and at least 0.25.
+    memset(half_spaces, 0, sizeof half_spaces);
+    half_spaces[0] = 2, half_spaces[dimension] = 1;
+    half_spaces[dimension + 1] = -1, half_spaces[2 * dimension + 1] = -0.25;
     for (size_t i = 0; i < 3; i++) {
         low[i] = -1;
         high[i] = 2;

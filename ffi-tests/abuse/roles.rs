@@ -14,6 +14,8 @@ pub enum Role {
     /// Vectors of a box; how many they are.
     Vectors,
     VectorCount,
+    /// Rows of a normal and an offset.
+    HalfSpaces,
     /// A corner of a box: both are given, or none; and one that must be given, and may be anywhere.
     BoxCorner,
     OpenBoxCorner,
@@ -93,6 +95,7 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("const double *", "points") if function.name == "deldrift_in_sphere" => Role::PointsOfSphere,
         ("const double *", "points") => Role::PointsOfSimplex,
         ("const double *", "vectors") => Role::Vectors,
+        ("const double *", "half_spaces") => Role::HalfSpaces,
         ("size_t", "vector_count") => Role::VectorCount,
         ("const double *", "low" | "high") if function.name == "deldrift_vertices_in_box" => {
             Role::OpenBoxCorner
@@ -132,7 +135,10 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("uint32_t", "corners_per_simplex") => Role::Corners,
         ("double", "squared_radius" | "tolerance") => Role::Magnitude,
         ("size_t", "count") if function.name == "deldrift_commit_positions" => Role::FixedCount,
-        ("size_t", "count" | "vertex_count" | "cell_count" | "seed_count" | "box_count") => Role::Count,
+        (
+            "size_t",
+            "count" | "vertex_count" | "cell_count" | "seed_count" | "box_count" | "half_space_count",
+        ) => Role::Count,
         ("size_t", "vertex_field_count" | "cell_field_count") => Role::Count,
         ("size_t", "value_count" | "mask_count" | "offset_count" | "reference_count") => Role::FixedCount,
         ("size_t", "n_values" | "k") => Role::CountOfEach,

@@ -26,6 +26,9 @@ static void buffers_are_as_large_as_they_say(uint32_t d) {
     CHECK_BUFFER(double, n_edges, 1, deldrift_voronoi_facets(t, NULL, NULL, buffer, capacity, &count));
     CHECK_BUFFER(double, (size_t)5, d,
                  deldrift_voronoi_cells(t, low, high, NULL, 0, NULL, NULL, buffer, capacity, &count));
+    CHECK_BUFFER(double, (size_t)5, d,
+                 deldrift_voronoi_cells_within(t, low, high, (double[]){1, 1, 1, 9}, 1, NULL, 0, NULL, NULL, buffer,
+                                               capacity, &count));
     CHECK_BUFFER(double, n_edges, 2 * d,
                  deldrift_voronoi_derivatives(t, low, high, NULL, 0, NULL, NULL, buffer, capacity, &count));
     const uint32_t inner[2] = {4, 4};
@@ -390,6 +393,47 @@ static void voronoi_cells_have_centroids(void) {
     deldrift_destroy(t);
 }
 
+// Of a square with a vertex in its middle, in a box whose corner is cut off, and in a square that is turned.
+static void voronoi_cells_in_half_spaces(void) {
+    static const double places[] = {0, 0, 2, 0, 0, 2, 2, 2, 1, 1}, low[] = {-1, -1}, high[] = {3, 3};
+    deldrift_triangulation *t = create(2, places, 5, NULL);
+    double volumes[5], areas[5], centroids[10];
+    size_t count;
+    OK(deldrift_voronoi_cells_within(t, low, high, NULL, 0, NULL, 0, volumes, areas, centroids, 5, &count));
+    CHECK(count == 5 && volumes[4] == 2 && volumes[3] == 3.5);
+    // x + y is at most 2: through the middle, the two vertices beside it and two corners of the box.
+    static const double diagonal[] = {0.5, 0.5, 1};
+    OK(deldrift_voronoi_cells_within(t, low, high, diagonal, 1, NULL, 0, volumes, areas, centroids, 5, &count));
+    static const double wanted[] = {3.5, 1.75, 1.75, 0, 1};
+    for (int v = 0; v < 5; v++) CHECK(fabs(volumes[v] - wanted[v]) < 1e-14);
+    CHECK(areas[3] == 0 && isnan(centroids[6]) && fabs(areas[4] - 3 * sqrt(2)) < 1e-14);
+    CHECK(fabs(centroids[8] - 0.75) < 1e-14 && fabs(centroids[9] - 0.75) < 1e-14);
+    double measures[8], middles[16], derivatives[32];
+    OK(deldrift_voronoi_derivatives_within(t, low, high, diagonal, 1, NULL, 0, measures, middles, derivatives, 8, &count));
+    // From vertex 0 to the middle a side of the diamond; from vertex 1 half of one; from vertex 3 nothing.
+    CHECK(count == 8 && fabs(measures[2] - sqrt(2)) < 1e-14 && measures[7] == 0 && isnan(middles[14]));
+    CHECK(fabs(measures[4] - sqrt(2) / 2) < 1e-14 && fabs(middles[8] - 1.25) < 1e-14 && fabs(middles[9] - 0.25) < 1e-14);
+    // Its length over that of the edge, times the way from the middle of what is left to (1, 1).
+    CHECK(fabs(derivatives[16] + 0.125) < 1e-14 && fabs(derivatives[17] - 0.375) < 1e-14);
+    // The square with its corners in the middles of the box's sides, of which the middle's cell is a quarter.
+    static const double turned[] = {1, 1, 4, -1, 1, 2, 1, -1, 2, -3, -3, 0};
+    OK(deldrift_voronoi_cells_within(t, low, high, turned, 4, NULL, 0, volumes, NULL, NULL, 5, &count));
+    for (int v = 0; v < 5; v++) CHECK(fabs(volumes[v] - (v == 4 ? 2 : 1.5)) < 1e-14);
+    static const double bad[] = {1, 1, 4, 0, 0, 2, 1, NAN, 2};
+    CHECK_STATUS(deldrift_voronoi_cells_within(t, low, high, bad, 2, NULL, 0, volumes, NULL, NULL, 5, &count),
+                 DELDRIFT_INVALID_VALUE);
+    CHECK_MESSAGE("half_spaces[1] is 0, but must be a normal that is not zero");
+    CHECK_STATUS(deldrift_voronoi_cells_within(t, low, high, bad + 3, 2, NULL, 0, volumes, NULL, NULL, 5, &count),
+                 DELDRIFT_INVALID_VALUE);
+    CHECK_STATUS(deldrift_voronoi_cells_within(t, low, high, bad + 6, 1, NULL, 0, volumes, NULL, NULL, 5, &count),
+                 DELDRIFT_NOT_FINITE);
+    CHECK_MESSAGE("half_spaces[0], coordinate 1, is NaN");
+    CHECK_STATUS(deldrift_voronoi_cells_within(t, low, high, NULL, 1, NULL, 0, volumes, NULL, NULL, 5, &count),
+                 DELDRIFT_NULL_ARGUMENT);
+    CHECK(fabs(volumes[4] - 2) < 1e-14);
+    deldrift_destroy(t);
+}
+
 // A lattice, of which the vertex in the middle moves: its own cell changes and those of its neighbours.
 static void voronoi_cells_that_have_changed(void) {
     enum { SIDE = 9, N = SIDE * SIDE };
@@ -488,6 +532,7 @@ static void values_are_interpolated(void) {
 int main(void) {
     voronoi_cells_fill_the_box();
     voronoi_cells_have_centroids();
+    voronoi_cells_in_half_spaces();
     voronoi_cells_that_have_changed();
     voronoi_cells_of_few_vertices();
     voronoi_cells_can_be_cancelled();

@@ -60,7 +60,8 @@ typedef enum { CREATE, CREATE_WITH_KEYS, CREATE_PERIODIC, RELOCATE, INSERT, INSE
     DELIMITER, LOCATE, LOCATE_POINTS, NEAREST, CIRCUMCENTRES, VOLUMES, MASK_BY_CIRCUMRADIUS,
     MASK_BOUNDARY, HULL_FACETS, EDGES, VERTEX_NEIGHBOURS, VERTEX_CELLS, MIRROR_INDICES, MIRROR_INDEX, ORDERED_STAR,
     CELLS_AROUND, CELLS_AROUND_ALL, UPDATE_CIRCUMCENTRES, UPDATE_VOLUMES, UPDATE_MASK,
-    VORONOI_VOLUMES, VORONOI_FACETS, VORONOI_CELLS, VORONOI_DERIVATIVES, VORONOI_CHANGED, INTERPOLATE, INTERPOLATE_NATURAL,
+    VORONOI_VOLUMES, VORONOI_FACETS, VORONOI_CELLS, VORONOI_CELLS_WITHIN, VORONOI_DERIVATIVES,
+    VORONOI_DERIVATIVES_WITHIN, VORONOI_CHANGED, INTERPOLATE, INTERPOLATE_NATURAL,
     NEAREST_VERTICES, VERTICES_IN_BALL, VERTICES_IN_BOX, CONFLICTS,
     CELLS_IN_REACH, HULL_FACETS_IN_REACH, VERTICES_IN_REACH, FIND_SIMPLICES, FIND_SIMPLICES_ALL,
     CELL_OF_EACH_VERTEX, BARYCENTRIC, MASK_WITHOUT_FLAT_CELLS, SEGMENTS_OF_CELLS, CELLS_OF_SEGMENTS, NESTING_LEVELS,
@@ -86,7 +87,8 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_edges", "deldrift_vertex_neighbours", "deldrift_vertex_cells", "deldrift_mirror_indices",
     "deldrift_mirror_index", "deldrift_ordered_star", "deldrift_cells_around", "deldrift_cells_around, all",
     "deldrift_update_circumcentres", "deldrift_update_volumes", "deldrift_update_mask_by_circumradius",
-    "deldrift_voronoi_volumes", "deldrift_voronoi_facets", "deldrift_voronoi_cells", "deldrift_voronoi_derivatives",
+    "deldrift_voronoi_volumes", "deldrift_voronoi_facets", "deldrift_voronoi_cells",
+    "deldrift_voronoi_cells_within", "deldrift_voronoi_derivatives", "deldrift_voronoi_derivatives_within",
     "deldrift_voronoi_changed", "deldrift_interpolate", "deldrift_interpolate, natural",
     "deldrift_nearest_vertices", "deldrift_vertices_in_ball", "deldrift_vertices_in_box", "deldrift_conflicts",
     "deldrift_cells_in_reach", "deldrift_hull_facets_in_reach", "deldrift_vertices_in_reach",
@@ -617,8 +619,16 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case VORONOI_CELLS:
             status = deldrift_voronoi_cells(s->t, low, high, NULL, 0, numbers_out, NULL, NULL, ROOM, &count);
             break;
+        case VORONOI_CELLS_WITHIN:
+            status = deldrift_voronoi_cells_within(s->t, low, high, (double[]){1, 1, 1, 0.5, 2, -1, 1, 3}, 2, NULL, 0,
+                                                   numbers_out, NULL, NULL, ROOM, &count);
+            break;
         case VORONOI_DERIVATIVES:
             status = deldrift_voronoi_derivatives(s->t, low, high, NULL, 0, numbers_out, NULL, NULL, ROOM, &count);
+            break;
+        case VORONOI_DERIVATIVES_WITHIN:
+            status = deldrift_voronoi_derivatives_within(s->t, low, high, (double[]){1, 1, 1, 0.5, 2, -1, 1, 3}, 2, NULL, 0,
+                                                         numbers_out, NULL, NULL, ROOM, &count);
             break;
         case INTERPOLATE:
         case INTERPOLATE_NATURAL:
@@ -778,6 +788,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             *given = numbers_out[0] == numbers_out[0] ? (uint64_t)(1e6 * (numbers_out[0] + 4)) : 0;
             break;
         case VORONOI_CELLS:
+        case VORONOI_CELLS_WITHIN:
         case VORONOI_VOLUMES:
             for (size_t i = 0; i < count; i++) *given += (uint64_t)(1e6 * (numbers_out[i] > 0 ? numbers_out[i] : 0));
             break;

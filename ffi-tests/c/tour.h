@@ -404,7 +404,13 @@ static void ask_about(const deldrift_triangulation *t, const places *p) {
         if (is_masked && n_ids > 0) bytes[0] = 0;
         TRY(deldrift_voronoi_cells(t, p->low, p->high, mask, mask_count, numbers, NULL, more, TOUR_ROOM / 3, &count));
         note(numbers, n_ids * sizeof *numbers);
+        TRY(deldrift_voronoi_cells_within(t, p->low, p->high, (double[]){1, 2, 3, 4, -1, 1, 1, 4}, 2, mask, mask_count,
+                                          numbers, more, NULL, TOUR_ROOM, &count));
+        note(numbers, n_ids * sizeof *numbers);
         TRY(deldrift_voronoi_derivatives(t, p->low, p->high, mask, mask_count, numbers, NULL, NULL, TOUR_ROOM, &count));
+        note(numbers, n_ids * sizeof *numbers);
+        TRY(deldrift_voronoi_derivatives_within(t, p->low, p->high, (double[]){1, 2, 3, 4, -1, 1, 1, 4}, 2, mask,
+                                                mask_count, numbers, NULL, NULL, TOUR_ROOM, &count));
         note(numbers, n_ids * sizeof *numbers);
     }
     for (uint32_t method = 0; method < 2; method++) {

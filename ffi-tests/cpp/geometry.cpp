@@ -125,11 +125,22 @@ static void voronoi_cells_fill_a_box() {
     CHECK(facets.measures.size() == 8 && facets.centroids.size() == 16 && facets.derivatives.size() == 32);
     const std::vector<std::uint8_t> mask{0, 0, 0, 0, 1};
     const deldrift::VoronoiCells one = t.voronoi_cells({-1.0, -2.0}, {7.0, 3.0}, mask);
+    const deldrift::VoronoiCells half = t.voronoi_cells_within({-1.0, -2.0}, {7.0, 3.0}, {2.0, 0.0, 6.0});
+    CHECK(std::fabs(std::accumulate(half.volumes.begin(), half.volumes.end(), 0.0) - 20) < 1e-12);
+    const deldrift::VoronoiDerivatives left = t.voronoi_derivatives_within({-1.0, -2.0}, {7.0, 3.0}, {2.0, 0.0, 6.0});
+    for (std::size_t e = 0; e < 8; ++e) CHECK(left.measures[e] <= facets.measures[e] + 1e-12);
     CHECK(t.voronoi_changed({4}) == std::vector<std::uint8_t>(5, 1));
     CHECK(std::isnan(one.volumes[0]) && one.volumes[4] == cells.volumes[4] && one.areas[4] == cells.areas[4]);
     bool thrown = false;
     try {
         t.voronoi_volumes({0.0}, {1.0, 1.0});
+    } catch (const deldrift::Error &error) {
+        thrown = error.status() == DELDRIFT_WRONG_COUNT;
+    }
+    CHECK(thrown);
+    thrown = false;
+    try {
+        t.voronoi_cells_within({0.0, 0.0}, {1.0, 1.0}, {1.0, 1.0});
     } catch (const deldrift::Error &error) {
         thrown = error.status() == DELDRIFT_WRONG_COUNT;
     }

@@ -41,7 +41,8 @@ struct Hidden {
     std::size_t size() const noexcept { return vertices.size(); }
 };
 
-// What there is of Voronoi cells in a box, by vertex id: see deldrift_voronoi_cells. NaN where a mask has 0.
+// What there is of Voronoi cells in a box, and maybe in half-spaces, by vertex id: see deldrift_voronoi_cells and
+// deldrift_voronoi_cells_within. NaN where a mask has 0.
 struct VoronoiCells {
     std::vector<double> volumes;
     std::vector<double> areas;

@@ -271,6 +271,19 @@ def box_corners(box: Any, ndim: int) -> tuple[Optional[np.ndarray], Optional[np.
     return one_point("low", low, ndim), one_point("high", high, ndim)
 
 
+def half_space_rows(half_spaces: Any, ndim: int) -> np.ndarray:
+    """Rows of a normal and an offset, or none."""
+    if half_spaces is None:
+        return np.empty((0, ndim + 1))
+    array = floats("half_spaces", half_spaces)
+    if array.ndim != 2 or array.shape[1] != ndim + 1:
+        raise InvalidShape(
+            f"half_spaces has the shape {array.shape}, and must have rows of a normal and an offset, {ndim + 1} numbers",
+            "half_spaces",
+        )
+    return array
+
+
 def choice(argument: str, value: Any, choices: tuple[str, ...], kind: type = InvalidValue) -> int:
     """The number of a name in a list of them."""
     if value in choices:

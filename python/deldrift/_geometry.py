@@ -14,6 +14,7 @@ from ._arrays import (
     address,
     address_if,
     box_corners,
+    half_space_rows,
     ids,
     mask as mask_of,
     real,
@@ -28,8 +29,8 @@ _edges = _library.function("edges")
 _voronoi_volumes = _library.function("voronoi_volumes")
 _voronoi_facets = _library.function("voronoi_facets")
 _voronoi_changed = _library.function("voronoi_changed")
-_voronoi_cells = _library.function("voronoi_cells")
-_voronoi_derivatives = _library.function("voronoi_derivatives")
+_voronoi_cells_within = _library.function("voronoi_cells_within")
+_voronoi_derivatives_within = _library.function("voronoi_derivatives_within")
 
 
 class VoronoiCells(NamedTuple):
@@ -173,8 +174,8 @@ class Geometry(Measured, Scipy):
             self._check(status, vertices="moved", vertex="moved")
         return mask
 
-    def voronoi_cells(self, box: Any, mask: Any = None) -> VoronoiCells:
-        """Areas or volumes, boundaries and centroids of the Voronoi cells of all ids, within a box.
+    def voronoi_cells(self, box: Any, mask: Any = None, *, half_spaces: Any = None) -> VoronoiCells:
+        """Areas or volumes, boundaries and centroids of the Voronoi cells of all ids, within a box and half-spaces.
 
         Parameters
         ----------
@@ -182,11 +183,14 @@ class Geometry(Measured, Scipy):
             Its corners of least and of greatest coordinates.
         mask : array_like of bool, optional
             Whether the cell of each id is asked for; all are by default. The others get NaN.
+        half_spaces : array_like, (n, ndim + 1), optional
+            A row each: an outward normal, of any length, and an offset. The half-space is where normal · x is at most
+            the offset. There may be hundreds.
 
         Returns
         -------
         VoronoiCells
-            Volumes, areas and centroids.
+            Volumes, areas and centroids. A cell of which nothing is left has 0, 0 and NaN.
 
         Examples
         --------
@@ -194,8 +198,11 @@ class Geometry(Measured, Scipy):
         >>> tri = deldrift.Delaunay([[1, 1], [3, 1], [1, 3], [3, 3]])
         >>> tri.voronoi_cells(([0, 0], [4, 4])).areas
         array([8., 8., 8., 8.])
+        >>> tri.voronoi_cells(([0, 0], [4, 4]), half_spaces=[[1, 1, 4]]).volumes  # x + y <= 4
+        array([4., 2., 2., 0.])
         """
         low, high = box_corners(box, self.ndim)
+        planes_given = half_space_rows(half_spaces, self.ndim)
         chosen = None if mask is None else mask_of("mask", mask)
         with self._reading as t:
             n = id_count(t)
@@ -203,11 +210,13 @@ class Geometry(Measured, Scipy):
             cells = VoronoiCells(np.full(n, np.nan), np.full(n, np.nan), np.full((n, self.ndim), np.nan))
             count = ctypes.c_size_t()
             rows = (address(array) for array in cells)
-            self._check(_voronoi_cells(t, address_if(low), address_if(high), *given, *rows, n, count))
+            planes = address(planes_given), len(planes_given)
+            low_high = address_if(low), address_if(high)
+            self._check(_voronoi_cells_within(t, *low_high, *planes, *given, *rows, n, count))
         return cells
 
-    def voronoi_derivatives(self, box: Any, mask: Any = None) -> VoronoiDerivatives:
-        """The Voronoi facets of all edges within a box, with derivatives of volumes by positions.
+    def voronoi_derivatives(self, box: Any, mask: Any = None, *, half_spaces: Any = None) -> VoronoiDerivatives:
+        """The Voronoi facets of all edges within a box and half-spaces, with derivatives of volumes by positions.
 
         The derivative of the volume of a cell by the position of its own vertex is minus the sum of those of the other
         cells by that position.
@@ -218,6 +227,8 @@ class Geometry(Measured, Scipy):
             Its corners of least and of greatest coordinates.
         mask : array_like of bool, optional
             Edges with an end in it are asked for; all are by default. The others get NaN.
+        half_spaces : array_like, (n, ndim + 1), optional
+            Rows of an outward normal and an offset, as `voronoi_cells` has them.
 
         Returns
         -------
@@ -225,6 +236,7 @@ class Geometry(Measured, Scipy):
             Measures, centroids and derivatives, in the order of `edges`.
         """
         low, high = box_corners(box, self.ndim)
+        planes_given = half_space_rows(half_spaces, self.ndim)
         chosen = None if mask is None else mask_of("mask", mask)
         with self._reading as t:
             given = vertex_mask(chosen, id_count(t))
@@ -232,7 +244,9 @@ class Geometry(Measured, Scipy):
             facets = VoronoiDerivatives(np.full(n, np.nan), np.full((n, d), np.nan), np.full((n, 2, d), np.nan))
             count = ctypes.c_size_t()
             rows = (address(array) for array in facets)
-            self._check(_voronoi_derivatives(t, address_if(low), address_if(high), *given, *rows, n, count))
+            planes = address(planes_given), len(planes_given)
+            low_high = address_if(low), address_if(high)
+            self._check(_voronoi_derivatives_within(t, *low_high, *planes, *given, *rows, n, count))
         return facets
 
 

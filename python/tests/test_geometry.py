@@ -155,6 +155,30 @@ def test_voronoi_derivatives_are_those_of_volumes(tri, rng):
     np.testing.assert_array_equal(np.isnan(of_some.measures), ~mask[edges].any(axis=1))
 
 
+def test_half_spaces_clip_voronoi_cells(tri):
+    low, high = np.full(tri.ndim, -0.5), np.full(tri.ndim, 1.5)
+    wholes = tri.voronoi_cells((low, high))
+    normal = np.arange(1.0, tri.ndim + 1)
+    row = np.append(normal, normal.sum() / 2)  # through the middle of the box
+    below, above = (tri.voronoi_cells((low, high), half_spaces=[sign * row]) for sign in (1, -1))
+    assert below.volumes.sum() == pytest.approx(2.0**tri.ndim / 2, rel=1e-9)
+    np.testing.assert_allclose(below.volumes + above.volumes, wholes.volumes, rtol=1e-9, atol=1e-12)
+    assert (below.centroids[below.volumes > 0] @ normal <= row[-1] + 1e-9).all()
+    assert np.isnan(below.centroids[below.volumes == 0]).all()
+    mask = np.arange(tri.npoints) % 3 == 0
+    some = tri.voronoi_cells((low, high), mask, half_spaces=[row])
+    np.testing.assert_array_equal(some.volumes[mask], below.volumes[mask])
+    whole_facets = tri.voronoi_derivatives((low, high))
+    facets, others = (tri.voronoi_derivatives((low, high), half_spaces=[sign * row]) for sign in (1, -1))
+    np.testing.assert_allclose(facets.measures + others.measures, whole_facets.measures, rtol=1e-6, atol=1e-9)
+    np.testing.assert_allclose(
+        facets.derivatives + others.derivatives, whole_facets.derivatives, rtol=1e-6, atol=1e-6
+    )
+    assert (facets.centroids[facets.measures > 0] @ normal <= row[-1] + 1e-9).all()
+    empty = tri.voronoi_cells((low, high), half_spaces=[row, -row - np.append(np.zeros(tri.ndim), 1)])
+    assert (empty.volumes == 0).all() and (empty.areas == 0).all()
+
+
 @pytest.mark.parametrize("method", ["linear", "natural"])
 def test_interpolation_reproduces_linear_functions(tri, rng, method):
     slopes = rng.standard_normal((tri.ndim, 2))

@@ -1,4 +1,4 @@
-//! Voronoi cells and facets, clipped by a box.
+//! Voronoi cells and facets, clipped by a box, or by half-spaces besides.
 
 use std::mem::MaybeUninit;
 
@@ -60,7 +60,7 @@ pub unsafe extern "C" fn deldrift_voronoi_volumes(
         let t = match t {
             Content::Open(t) => t,
             Content::Periodic(t) => {
-                check_no_box(low, high)?;
+                check_no_box(low, high, 0)?;
                 return volumes.fill(count, t.id_count(), || Ok(t.voronoi_volumes(monitor)?));
             }
         };
@@ -120,7 +120,7 @@ pub unsafe extern "C" fn deldrift_voronoi_facets(
             measures.fill(count, t.edge_count(), || Ok(t.voronoi_facets_monitored(clip, monitor)?))
         }),
         Content::Periodic(t) => in_its_period!(t, t => {
-            check_no_box(low, high)?;
+            check_no_box(low, high, 0)?;
             measures.fill_by(count, t.edge_count()?, |places| {
                 let tell = &mut |edge, facet: VoronoiFacet<_>| write(places, edge, &[facet.area]);
                 Ok(t.for_voronoi_facets(None, monitor, tell)?)
@@ -185,20 +185,87 @@ pub unsafe extern "C" fn deldrift_voronoi_cells(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
+    // SAFETY: what the caller promises here is what is to be promised there; there are no half-spaces.
+    unsafe {
+        deldrift_voronoi_cells_within(
+            t,
+            low,
+            high,
+            std::ptr::null(),
+            0,
+            mask,
+            mask_count,
+            volumes,
+            areas,
+            centroids,
+            capacity,
+            count,
+        )
+    }
+}
+
+/// The Voronoi cells of all ids within a box and half-spaces, as deldrift_voronoi_cells has them within a box: for
+/// containers with oblique walls, as hoppers, wedges, boxes that are turned, and polygons that approximate a cylinder.
+///
+/// low, high, mask, mask_count, volumes, areas, centroids, capacity, count: as deldrift_voronoi_cells has them.
+/// half_spaces: half_space_count rows of 3 (2D) or 4 (3D) numbers, read during the call only: an outward normal, of any
+/// length, and an offset. The half-space is the set of the places x with normal · x at most the offset. NULL if there are
+/// none. The box is needed besides; one around the container does. Vertices may be outside of box and half-spaces.
+///
+/// What there is of a cell in the box and all half-spaces is convex. Areas include what it has of the faces of the
+/// box and of the planes. Where nothing of a cell is left, or of the box, volume and area are 0 and the centroid is NaN.
+/// Half-spaces may be equal, opposite, touch cells at corners or along faces, or leave nothing.
+///
+/// Rounded: let h be what deldrift_voronoi_volumes has for a box, with 3e-15 in place of 1e-15. Unlike the faces of the
+/// box, planes are not exact: a corner within h of one may be taken as inside or as beyond. With this h the errors are those of
+/// deldrift_voronoi_cells; what is left of a cell or of the box, and is thinner than 2 h, may have any area up to that of
+/// its boundary. The volumes of all ids add up to that of the box in the half-spaces, but for rounding. Numbers depend
+/// neither on the mask nor on the number of threads, to the last bit; without half-spaces they are those of
+/// deldrift_voronoi_cells.
+///
+/// A cell that is in all half-spaces takes little longer than in deldrift_voronoi_cells, as circumcentres are
+/// compared with the half-spaces nearby alone. One that is cut takes some microseconds, and some nanoseconds for each
+/// half-space. One thread computes those that are cut. Takes memory for half-spaces, and for lists of those nearby.
+///
+/// Cost: n + m, and half_space_count for each cell that is cut; otherwise that of deldrift_voronoi_cells.
+///
+/// Errors: those of deldrift_voronoi_cells: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE (also for a normal or an offset), DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_INVALID_VALUE (also if a normal is zero), DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_voronoi_cells_within(
+    t: *const deldrift_triangulation,
+    low: *const f64,
+    high: *const f64,
+    half_spaces: *const f64,
+    half_space_count: usize,
+    mask: *const u8,
+    mask_count: usize,
+    volumes: *mut f64,
+    areas: *mut f64,
+    centroids: *mut f64,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
     given!(t: Reading, low: Point, high: Point, mask[mask_count]: Array, volumes[capacity]: Buffer,
         areas[capacity]: Buffer, count: Output);
     t.read_any_watched(|t, monitor| {
-        given!(centroids[capacity.saturating_mul(t.dimension() as usize)]: Buffer);
+        let d = t.dimension() as usize;
+        given!(centroids[capacity.saturating_mul(d)]: Buffer);
         let to = OfCells { volumes, areas, centroids, capacity };
         match t {
             Content::Open(t) => in_its_dimension!(t => {
                 let clip = [low.of("low", t)?, high.of("high", t)?];
                 t.check_clip(clip)?;
+                // SAFETY: as was promised to this function.
+                let half_spaces = unsafe { half_space_rows(d, half_spaces, half_space_count)? };
+                t.check_half_spaces(half_spaces)?;
                 let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
-                to.fill(count, t.id_count(), |tell| t.for_voronoi_cells(clip, mask, monitor, tell))
+                to.fill(count, t.id_count(), |tell| t.for_voronoi_cells(clip, half_spaces, mask, monitor, tell))
             }),
             Content::Periodic(t) => in_its_period!(t, t => {
-                check_no_box(low, high)?;
+                check_no_box(low, high, half_space_count)?;
                 let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
                 to.fill(count, t.id_count(), |tell| t.for_voronoi_cells(mask, monitor, tell))
             }),
@@ -262,6 +329,58 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
+    // SAFETY: what the caller promises here is what is to be promised there; there are no half-spaces.
+    unsafe {
+        deldrift_voronoi_derivatives_within(
+            t,
+            low,
+            high,
+            std::ptr::null(),
+            0,
+            mask,
+            mask_count,
+            measures,
+            centroids,
+            derivatives,
+            capacity,
+            count,
+        )
+    }
+}
+
+/// The Voronoi facets of all edges within a box and half-spaces, with derivatives, as deldrift_voronoi_derivatives has
+/// them within a box.
+///
+/// low, high, mask, mask_count, measures, centroids, derivatives, capacity, count: as deldrift_voronoi_derivatives has
+/// them. half_spaces, half_space_count: as deldrift_voronoi_cells_within has them. Box and half-spaces stay where they
+/// are when vertices move, so that the sums of derivatives are as in a box.
+///
+/// Rounded: with the h of deldrift_voronoi_cells_within the errors are those of deldrift_voronoi_derivatives; for a facet that a plane
+/// cuts divided by the sine of the angle between both. A facet that is in a plane, but for h, may be there or not.
+///
+/// Takes memory for half-spaces besides, and for lists of those nearby. A facet that is cut takes about a microsecond,
+/// and some nanoseconds for each half-space.
+///
+/// Cost: n + m, and half_space_count for each facet that is cut; otherwise that of deldrift_voronoi_derivatives.
+///
+/// Errors: those of deldrift_voronoi_cells_within: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_WRONG_COUNT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_voronoi_derivatives_within(
+    t: *const deldrift_triangulation,
+    low: *const f64,
+    high: *const f64,
+    half_spaces: *const f64,
+    half_space_count: usize,
+    mask: *const u8,
+    mask_count: usize,
+    measures: *mut f64,
+    centroids: *mut f64,
+    derivatives: *mut f64,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
     given!(t: Reading, low: Point, high: Point, mask[mask_count]: Array, measures[capacity]: Buffer,
         count: Output);
     t.read_any_watched(|t, monitor| {
@@ -273,11 +392,14 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives(
             Content::Open(t) => in_its_dimension!(t => {
                 let clip = [low.of("low", t)?, high.of("high", t)?];
                 t.check_clip(clip)?;
+                // SAFETY: as was promised to this function.
+                let half_spaces = unsafe { half_space_rows(d, half_spaces, half_space_count)? };
+                t.check_half_spaces(half_spaces)?;
                 let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
-                to.fill(count, t.edge_count(), |tell| t.for_voronoi_facets(clip, mask, monitor, tell))
+                to.fill(count, t.edge_count(), |tell| t.for_voronoi_facets(clip, half_spaces, mask, monitor, tell))
             }),
             Content::Periodic(t) => in_its_period!(t, t => {
-                check_no_box(low, high)?;
+                check_no_box(low, high, half_space_count)?;
                 let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
                 to.fill(count, t.edge_count()?, |tell| t.for_voronoi_facets(mask, monitor, tell))
             }),
@@ -388,6 +510,25 @@ impl OfFacets<'_> {
     }
 }
 
+/// Rows of a normal and an offset, as numbers.
+///
+/// # Safety
+/// `half_spaces` is NULL, misaligned, or to as many rows of `d` + 1 numbers, for as long as they are used.
+unsafe fn half_space_rows<'a>(
+    d: usize,
+    half_spaces: *const f64,
+    half_space_count: usize,
+) -> Result<&'a [f64], Failure> {
+    if d == 2 {
+        let half_spaces = half_spaces.cast::<[f64; 3]>();
+        given!(half_spaces[half_space_count]: Array);
+        return Ok(half_spaces.get()?.as_flattened());
+    }
+    let half_spaces = half_spaces.cast::<[f64; 4]>();
+    given!(half_spaces[half_space_count]: Array);
+    Ok(half_spaces.get()?.as_flattened())
+}
+
 /// Writes a row of numbers, if there is a buffer for rows.
 fn write(places: &mut [MaybeUninit<f64>], row: usize, numbers: &[f64]) {
     let first = row * numbers.len();
@@ -409,9 +550,12 @@ fn mask_for(
     mask.get().map(Some)
 }
 
-/// A failure where a box is given, in a triangulation that is periodic.
-fn check_no_box(low: Point<'_>, high: Point<'_>) -> Result<(), Failure> {
-    if low.is_null() && high.is_null() { Ok(()) } else { Err(Failure::Clipped) }
+/// A failure where a box is given, or half-spaces are, in a triangulation that is periodic.
+fn check_no_box(low: Point<'_>, high: Point<'_>, half_space_count: usize) -> Result<(), Failure> {
+    if !(low.is_null() && high.is_null()) {
+        return Err(Failure::Clipped);
+    }
+    if half_space_count == 0 { Ok(()) } else { Err(Failure::Periodic) }
 }
 
 /// The corners of a box that is a good one, in the dimension of `t`; none if both are NULL.

@@ -198,6 +198,25 @@ impl ExactCell {
         }
     }
 
+    /// Cuts off what is beyond a half-space, given by a normal and an offset, as if there was another vertex.
+    pub fn cut_by<const D: usize>(&mut self, row: &[f64], other: usize) {
+        assert_eq!(row.len(), D + 1);
+        let parts: Vec<_> = row.iter().map(|&x| decode(x)).collect();
+        // A coordinate is a number of units.
+        let exponent = |k: usize| parts[k].1 + if k < D { self.unit } else { 0 };
+        let least = (0..=D).filter(|&k| parts[k].0 != 0).map(exponent).min().expect("a normal");
+        let integer = |k: usize| {
+            if parts[k].0 == 0 { zero() } else { BigInt::from(parts[k].0) << (exponent(k) - least) }
+        };
+        let mut plane = [zero(), zero(), zero(), -integer(D)];
+        (0..D).for_each(|axis| plane[axis] = integer(axis));
+        self.cut(plane, other);
+        // What is left in the plane alone has no inside.
+        if self.faces.len() < 4 {
+            self.faces.clear();
+        }
+    }
+
     /// Its volume, or, in the plane, its area.
     pub fn volume(&self, dimension: i32) -> f64 {
         let Some(apex) = self.faces.first().map(|face| &face.corners[0]) else { return 0.0 };

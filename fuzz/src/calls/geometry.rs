@@ -355,10 +355,46 @@ impl History<'_> {
             let most = 1e-6 * 7f64.powi(d as i32);
             let is_near = |(a, b): (&f64, &f64)| a.is_nan() && b.is_nan() || (a - b).abs() < most;
             assert!(again.iter().zip(&volumes).all(is_near), "{again:?}, not {volumes:?}");
+            self.voronoi_halves(&again);
             let measures = self.copied(-7.0, 1, |to, room, count| {
                 c!(deldrift_voronoi_derivatives(t, low, high, none, 0, to, nowhere, nowhere, room, count))
             });
             assert!(measures.len() == facets.len() && measures.iter().all(|&measure| measure >= 0.0));
+        }
+    }
+
+    /// What both sides of a plane have of each Voronoi cell is what there is of it.
+    fn voronoi_halves(&mut self, wholes: &[f64]) {
+        let (t, d) = (self.t, self.m.d);
+        let (low, high) = ([-3.0; 3], [4.0; 3]);
+        let mut row: Vec<f64> = (0..=d).map(|_| self.s.below(9) as f64 - 4.0).collect();
+        row[0] += 0.5;
+        let other: Vec<f64> = row.iter().map(|x| -0.25 * x).collect();
+        // The second one is there twice, and there is one that contains the box.
+        let beside: Vec<f64> = (0..=d).map(|k| if k == d { 100.0 } else { 1.0 }).collect();
+        let sides = [(row, 1), ([other.clone(), beside.clone(), other].concat(), 3)];
+        let [one, two] = sides.map(|(rows, n)| {
+            self.copied(-7.0, 1, |to, room, count| {
+                let (low, high, rows) = (low.as_ptr(), high.as_ptr(), rows.as_ptr());
+                let (none, nowhere) = (null(), null_mut());
+                c!(deldrift_voronoi_cells_within(
+                    t, low, high, rows, n, none, 0, to, nowhere, nowhere, room, count
+                ))
+            })
+        });
+        let measures = self.copied(-7.0, 1, |to, room, count| {
+            let (low, high, rows) = (low.as_ptr(), high.as_ptr(), beside.as_ptr());
+            let (none, nowhere) = (null(), null_mut());
+            c!(deldrift_voronoi_derivatives_within(
+                t, low, high, rows, 1, none, 0, to, nowhere, nowhere, room, count
+            ))
+        });
+        assert!(measures.iter().all(|&measure| measure >= 0.0), "{measures:?}");
+        let most = 1e-5 * 7f64.powi(d as i32);
+        for (v, whole) in wholes.iter().enumerate() {
+            let sum = one[v] + two[v];
+            let is_right = whole.is_nan() && sum.is_nan() || (sum - whole).abs() < most;
+            assert!(is_right, "halves of the cell of {v} are {} and {}, not {whole}", one[v], two[v]);
         }
     }
 

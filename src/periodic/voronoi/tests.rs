@@ -95,7 +95,7 @@ impl<G: Dimension> Copies<G> {
         let edges = self.t.edges().unwrap();
         let mut found = BTreeMap::new();
         self.t
-            .for_voronoi_facets([&low, &high], None, &mut |_| true, &mut |k, facet| {
+            .for_voronoi_facets([&low, &high], &[], None, &mut |_| true, &mut |k, facet| {
                 let [v, w] = edges[k].map(|v| self.of[v.index()]);
                 for (first, second, is_turned) in [(v, w, false), (w, v, true)] {
                     if first.1 == [0; 3] {
@@ -378,14 +378,14 @@ fn times() {
     };
     time("cells", &|| t.for_voronoi_cells(None, &mut |_| true, &mut |_, _| ()).unwrap());
     let clip = [&[0.0; 3], &[1.0; 3]];
-    time("open cells", &|| open.for_voronoi_cells(clip, None, &mut |_| true, &mut |_, _| ()).unwrap());
+    time("open cells", &|| open.for_voronoi_cells(clip, &[], None, &mut |_| true, &mut |_, _| ()).unwrap());
     let home: Vec<u8> = (0..t.image_count()).map(|v| u8::from(v < n)).collect();
     let far = [&[-9.0; 3], &[9.0; 3]];
-    let masked = || t.inside.t.for_voronoi_cells(far, Some(&home), &mut |_| true, &mut |_, _| ());
+    let masked = || t.inside.t.for_voronoi_cells(far, &[], Some(&home), &mut |_| true, &mut |_, _| ());
     time("inside, masked", &|| masked().unwrap());
     time("edges", &|| assert!(super::super::edges::PeriodicEdges::of(&t.inside).unwrap().list.len() > n));
     time("edges again", &|| assert!(t.edges().unwrap().all(|(edge, _)| edge[0] <= edge[1])));
     time("open edges", &|| assert!(open.edges().unwrap().len() > n));
     time("facets", &|| t.for_voronoi_facets(None, &mut |_| true, &mut |_, _| ()).unwrap());
-    time("open facets", &|| open.for_voronoi_facets(clip, None, &mut |_| true, &mut |_, _| ()).unwrap());
+    time("open facets", &|| open.for_voronoi_facets(clip, &[], None, &mut |_| true, &mut |_, _| ()).unwrap());
 }

@@ -77,12 +77,24 @@ impl Numbering for &Ranks {
 pub(super) struct Centre<P> {
     /// Infinite where it is not accurate for the box.
     pub(super) place: P,
-    /// The faces of the box that it is beyond, by their bits; none without a box.
+    /// The faces of the box that it is beyond, by their bits; none without a box. [`BEYOND`] if it is beyond a
+    /// half-space.
     pub(super) sides: u8,
 }
 
+/// The bit of all half-spaces.
+pub(super) const BEYOND: u8 = 1 << 7;
+
+impl<P> Centre<P> {
+    /// The faces of the box that it is beyond, by their bits.
+    #[inline(always)]
+    pub(super) fn faces(&self) -> u8 {
+        self.sides & !BEYOND
+    }
+}
+
 impl<P: AsRef<[f64]>> Centre<P> {
-    /// Whether it is in the box.
+    /// Whether it is in the box, and in the half-spaces.
     #[inline(always)]
     pub(super) fn fits(&self) -> bool {
         self.sides == 0 && self.place.as_ref()[0].is_finite()

@@ -32,7 +32,7 @@ use crate::predicates::compare_distance;
 #[derive(Clone, Copy)]
 pub(super) struct BoxCorner {
     at: Vector,
-    highs: usize,
+    pub(super) highs: usize,
 }
 
 impl BoxCorner {
@@ -43,6 +43,11 @@ impl BoxCorner {
             let at = [0, 1, 2].map(|axis| if highs >> axis & 1 == 1 { high[axis] } else { low[axis] });
             BoxCorner { at, highs }
         })
+    }
+
+    /// The offset from the corner of least coordinates, in the box's unit.
+    pub(super) fn offset(&self, clip: &Clip) -> Vector {
+        [0, 1, 2].map(|axis| if self.highs >> axis & 1 == 1 { clip.extent(axis) * clip.unit } else { 0.0 })
     }
 
     /// In coordinates of the dimension.
@@ -180,6 +185,20 @@ impl<G: Dimension> Voronoi<'_, G> {
         is_wanted: impl Fn(VertexId) -> bool,
         mut tell: impl FnMut(VertexId, &Sums),
     ) -> Result<()> {
+        self.for_corners(clip, |corner, owner| {
+            if is_wanted(owner) {
+                tell(owner, &corner.sums::<G>(clip, &clip.offset_within(&self.place(owner))));
+            }
+            Ok(())
+        })
+    }
+
+    /// Tells the corners of the box, and the vertices in whose cells they are.
+    pub(super) fn for_corners(
+        &self,
+        clip: &Clip,
+        mut tell: impl FnMut(BoxCorner, VertexId) -> Result<()>,
+    ) -> Result<()> {
         let mut star = IndexSet::new();
         for corner in BoxCorner::all::<G>(clip) {
             let near = self.t.nearest_vertex(&corner.point::<G>())?.expect("there are vertices");
@@ -188,9 +207,7 @@ impl<G: Dimension> Voronoi<'_, G> {
                 |v| self.place(v),
                 |v, others| self.list_neighbours(v, &mut star, others),
             )?;
-            if is_wanted(owner) {
-                tell(owner, &corner.sums::<G>(clip, &clip.offset_within(&self.place(owner))));
-            }
+            tell(corner, owner)?;
         }
         Ok(())
     }

@@ -31,11 +31,8 @@ use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::reading::geometry::centres::Centres;
-use crate::motion::reading::geometry::clipping::{
-    Clip, Face, Vector, cross, dot, length_by, minus, normalised,
-};
+use crate::motion::reading::geometry::clipping::{Clip, Face, Vector};
 use crate::motion::reading::geometry::rings::Ring;
-use crate::motion::reading::geometry::sums::Sums;
 use crate::predicates::{Meeting, sign_of_cross};
 
 /// What a corner other than a circumcentre may be off by, in sizes of the box: 2⁻⁴⁴.
@@ -43,7 +40,7 @@ const TOLERANCE: f64 = 1.0 / (1u64 << 44) as f64;
 
 /// A side of a facet.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Side {
+pub(super) enum Side {
     /// Where the cell of another vertex begins, which is at this place.
     With(Vector),
     /// On a face of the box.
@@ -55,8 +52,8 @@ enum Side {
 
 /// A corner of a facet, and the sides before and after it.
 #[derive(Clone, Copy, Debug)]
-struct Corner {
-    sides: [Side; 2],
+pub(super) struct Corner {
+    pub(super) sides: [Side; 2],
     /// The cell of which it is the circumcentre, if any.
     cell: CellId,
     /// The signs of the direction in which it is, if it is at infinity.
@@ -80,16 +77,16 @@ impl Corner {
 /// A facet, or what is left of it.
 #[derive(Debug, Default)]
 pub(super) struct CutFacet {
-    at: Vector,
-    to: Vector,
+    pub(super) at: Vector,
+    pub(super) to: Vector,
     /// The signs of the coordinates of the edge.
-    normal: [i32; 3],
-    is_plane: bool,
-    corners: Vec<Corner>,
+    pub(super) normal: [i32; 3],
+    pub(super) is_plane: bool,
+    pub(super) corners: Vec<Corner>,
     cut: Vec<Corner>,
     is_beyond: Vec<bool>,
     /// The corners that are left, from the box's corner of least coordinates.
-    places: Vec<Vector>,
+    pub(super) places: Vec<Vector>,
 }
 
 fn negated(direction: [i32; 3]) -> [i32; 3] {
@@ -232,6 +229,8 @@ impl CutFacet {
                 Side::AtInfinity | Side::None => {}
             }
         }
+        // The same in all facets at the corner, to the last bit.
+        others[..n].sort_unstable_by(|p, q| p.partial_cmp(q).expect("numbers"));
         then(Meeting { others: &others[..n], ..meeting })
     }
 
@@ -284,7 +283,7 @@ impl CutFacet {
     /// The faces that some corner may be beyond, by their bits: no corner that is new is beyond others.
     fn faces_to_cut<P>(&self, centres: &Centres<P>) -> u8 {
         let faces = |corner: &Corner| {
-            if corner.is_far() { u8::MAX } else { centres.of(corner.cell).sides }
+            if corner.is_far() { u8::MAX } else { centres.of(corner.cell).faces() }
         };
         self.corners.iter().fold(0, |all, corner| all | faces(corner))
     }
@@ -377,89 +376,5 @@ impl CutFacet {
                 }
             })
         })
-    }
-
-    /// Its length or area.
-    pub(super) fn measure(&self) -> f64 {
-        let normal = minus(&self.to, &self.at);
-        match self.places[..] {
-            [] => 0.0,
-            [p, q] if self.is_plane => {
-                let along = minus(&q, &p);
-                length_by(dot(&along, &along), &along)
-            }
-            [first, ref others @ ..] => {
-                let mut doubled = [0.0; 3];
-                for pair in others.windows(2) {
-                    let more = cross(&minus(&pair[0], &first), &minus(&pair[1], &first));
-                    doubled = [0, 1, 2].map(|axis| doubled[axis] + more[axis]);
-                }
-                (0.5 * dot(&doubled, &normalised(&normal))).max(0.0)
-            }
-        }
-    }
-
-    /// Its length or area, and its centroid, from the box's corner of least coordinates; NaN if nothing is left.
-    pub(super) fn measure_and_centroid(&self) -> (f64, Vector) {
-        let measure = self.measure();
-        let [first, ref others @ ..] = self.places[..] else { return (0.0, [f64::NAN; 3]) };
-        if self.is_plane {
-            return (measure, [0, 1, 2].map(|axis| 0.5 * (first[axis] + others[0][axis])));
-        }
-        let normal = normalised(&minus(&self.to, &self.at));
-        let (mut sum, mut moment) = (0.0, [0.0; 3]);
-        for pair in others.windows(2) {
-            let [p, q] = [0, 1].map(|k| minus(&pair[k], &first));
-            // It is convex, so that what is below zero is rounding.
-            let weight = dot(&cross(&p, &q), &normal).max(0.0);
-            sum += weight;
-            moment = [0, 1, 2].map(|axis| moment[axis] + weight * (p[axis] + q[axis]));
-        }
-        let offset = if sum > 0.0 { moment.map(|x| x / (3.0 * sum)) } else { [0.0; 3] };
-        (measure, [0, 1, 2].map(|axis| first[axis] + offset[axis]))
-    }
-
-    /// Adds what it is of the cell of its edge's first end: the pyramid above it, and those above its sides and corners
-    /// on faces of the box, as `cut_cells.rs` has them. All have their apex at the same place in the box.
-    pub(super) fn add_pyramids(&self, clip: &Clip, apex: &Vector, sums: &mut Sums) {
-        let n = self.places.len();
-        let from_apex = |k: usize| minus(&self.places[k % n], apex).map(|x| x * clip.unit);
-        for (k, corner) in self.corners.iter().enumerate() {
-            let p = from_apex(k);
-            if self.is_plane {
-                if let Side::On(face) = corner.sides[0] {
-                    let foot = clip.way_to(face, apex);
-                    let along = 1 - face.axis;
-                    let length = f64::from(self.normal[along]) * p[along];
-                    sums.wall += length;
-                    sums.add(0.5 * foot[face.axis].abs() * length, 1.0 / 3.0, [&foot, &p]);
-                }
-                continue;
-            }
-            let q = from_apex(k + 1);
-            let first = from_apex(0);
-            sums.add(dot(&first, &cross(&p, &q)) / 6.0, 0.25, [&first, &p, &q]);
-            if let Side::On(face) = corner.sides[1] {
-                let foot = clip.way_to(face, apex);
-                let doubled = f64::from(face.outward()) * cross(&q, &p)[face.axis];
-                sums.wall += 0.5 * doubled;
-                sums.add(foot[face.axis].abs() * doubled / 6.0, 0.25, [&foot, &p, &q]);
-            }
-            if let [Side::On(face), Side::On(next)] = corner.sides {
-                let along = 3 - face.axis - next.axis;
-                let [one, other] = [face, next].map(|face| clip.way_to(face, apex));
-                let heights = [one[face.axis].abs(), other[next.axis].abs()];
-                let length = f64::from(self.normal[along]) * p[along];
-                sums.wall += 0.5 * (heights[0] + heights[1]) * length;
-                // Two tetrahedra, with the foot on either face; one and a half times the foot on the edge is the sum of
-                // what both have on average.
-                let foot = [0, 1, 2].map(|axis| 1.5 * (one[axis] + other[axis]));
-                sums.add(heights[0] * heights[1] * length / 3.0, 0.25, [&foot, &p]);
-            }
-        }
-        if self.is_plane && n == 2 {
-            let [p, q] = [0, 1].map(from_apex);
-            sums.add(0.5 * cross(&p, &q)[2], 1.0 / 3.0, [&p, &q]);
-        }
     }
 }

@@ -55,39 +55,14 @@ use crate::error::Result;
 use crate::ids::{CellId, SiteId, VertexId};
 use crate::machine::prefetch::AHEAD;
 use crate::machine::{memory, threads};
-use crate::motion::reading::geometry::centres::{All, Centres, Numbering, Ranks, SHARED_AT_LEAST, ask_for};
-use crate::motion::reading::geometry::clipping::{Clip, Vector, cross, dot, in_space, minus, times};
+use crate::motion::reading::geometry::cells_within::Region;
+use crate::motion::reading::geometry::centres::{Numbering, SHARED_AT_LEAST, ask_for};
+use crate::motion::reading::geometry::clipping::{Vector, cross, dot, in_space, minus, times};
 use crate::motion::reading::geometry::incidence::Neighbours;
 use crate::motion::reading::geometry::progress::Progress;
 use crate::motion::reading::geometry::sums::{LEAST_SQUARE, Sums};
 use crate::motion::reading::geometry::voronoi::Voronoi;
-use crate::motion::reading::geometry::voronoi_cells::checked;
 use crate::motion::state::cells::NO_CELL;
-use crate::motion::state::mesh::Standing;
-use crate::motion::triangulation::MovingTriangulation;
-
-/// What there is of the Voronoi cells of all ids in a box. A removed vertex, and one that is left out, has NaN in all
-/// three; a hidden one has no volume.
-#[derive(Clone, Debug, PartialEq)]
-pub struct VoronoiCells<P> {
-    /// Areas or volumes.
-    pub volumes: Vec<f64>,
-    /// Lengths or areas of the boundaries, with what they have of the box's.
-    pub areas: Vec<f64>,
-    /// Centroids; NaN where the volume is 0.
-    pub centroids: Vec<P>,
-}
-
-/// What there is of one Voronoi cell in a box.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct VoronoiCell<P> {
-    /// Area or volume.
-    pub volume: f64,
-    /// Length or area of the boundary, with what it has of the box's.
-    pub area: f64,
-    /// Centroid; NaN where the volume is 0.
-    pub centroid: P,
-}
 
 /// What a vertex has so far.
 #[derive(Clone, Copy, Debug, Default)]
@@ -264,9 +239,9 @@ impl<G: Dimension> Voronoi<'_, G> {
     }
 
     /// Puts the cells of those of some vertices together from corners that are marked as cut.
-    fn cut_all(
+    pub(super) fn cut_all(
         &mut self,
-        clip: &Clip,
+        region: &Region,
         vertices: &[VertexId],
         progress: &mut Progress,
         targets: &mut Targets<impl Numbering>,
@@ -284,9 +259,13 @@ impl<G: Dimension> Voronoi<'_, G> {
         let around = t.cells_around(&cut)?;
         let neighbours = Neighbours::of(self.cells, t.id_count(), around.iter().copied())?;
         let cut = cut.into_iter();
-        self.cut_cells(clip, neighbours, cut, progress, |v, part| targets.of(site_of[v]).sums.join(part))?;
+        let join = |v, part: &Sums| targets.of(site_of[v]).sums.join(part);
+        if !region.half_spaces.is_empty() {
+            return self.cells_within(region, neighbours, cut, progress, join);
+        }
+        self.cut_cells(&region.clip, neighbours, cut, progress, join)?;
         self.corner_parts(
-            clip,
+            &region.clip,
             |v| sites.number(site_of[v].index()).is_some(),
             |v, part| {
                 targets.of(site_of[v]).sums.join(part);
@@ -308,7 +287,7 @@ fn mark(part: &mut [Target], targets: &[usize]) {
 pub(super) struct Targets<S> {
     /// The numbers of sites.
     sites: S,
-    list: Vec<Target>,
+    pub(super) list: Vec<Target>,
 }
 
 impl<S: Numbering> Targets<S> {
@@ -320,174 +299,5 @@ impl<S: Numbering> Targets<S> {
 
     pub(super) fn of(&mut self, s: SiteId) -> &mut Target {
         &mut self.list[self.sites.number(s.index()).expect("a site of the pass")]
-    }
-}
-
-impl<G: Dimension> MovingTriangulation<G> {
-    /// Areas or volumes, boundaries and centroids of the Voronoi cells of all ids within the box from `low` to `high`,
-    /// or of those of which `mask` has an entry that is not 0.
-    ///
-    /// Rounded: let h be 10⁻⁸ times the greatest extent of the box and 10⁻¹⁵ times the greatest magnitude of its
-    /// coordinates. To first order in h, a volume is off by at most h times the area of the cell's surface or two
-    /// thirds of that of the triangles that the vertex makes with its edges, whichever is more (an area, by h times the
-    /// length of the boundary), an area by h times the sum of the perimeters of its facets, and a centroid by the error
-    /// of the volume times d / V, where d is the diameter of the cell and V its volume.
-    /// In place of 10⁻⁸ it is some last bits unless cells are nearly flat. The volumes of all ids add up to that of the
-    /// box.
-    ///
-    /// ```
-    /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
-    ///
-    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
-    /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
-    /// let cells = t.voronoi_cells([&[0.0, 0.0], &[1.0, 1.0]], None, &mut |_| true)?;
-    /// assert_eq!(cells.volumes, [0.25; 4]);
-    /// assert_eq!(cells.areas, [2.0; 4]);
-    /// assert_eq!(cells.centroids[3], [0.75, 0.75]);
-    /// # Ok::<(), deldrift::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Cancelled`](crate::Error::Cancelled) if `monitor`, which is told the fraction done now and then, returns
-    /// `false`; [`NotFinite`](crate::Error::NotFinite), [`OutOfRange`](crate::Error::OutOfRange) and
-    /// [`InvalidValue`](crate::Error::InvalidValue) for the box; [`WrongCount`](crate::Error::WrongCount) if the mask has
-    /// not an entry for each id; [`OutOfMemory`](crate::Error::OutOfMemory).
-    pub fn voronoi_cells(
-        &self,
-        clip: [&G::Point; 2],
-        mask: Option<&[u8]>,
-        monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<VoronoiCells<G::Point>> {
-        let (mut volumes, mut areas, mut centroids) = (Vec::new(), Vec::new(), Vec::new());
-        let n_ids = self.id_count();
-        memory::lengthen(&mut volumes, n_ids, f64::NAN)?;
-        memory::lengthen(&mut areas, n_ids, f64::NAN)?;
-        memory::lengthen(&mut centroids, n_ids, nowhere::<G>())?;
-        self.for_voronoi_cells(clip, mask, monitor, &mut |v, cell| {
-            volumes[v.index()] = cell.volume;
-            areas[v.index()] = cell.area;
-            centroids[v.index()] = cell.centroid;
-        })?;
-        Ok(VoronoiCells { volumes, areas, centroids })
-    }
-
-    /// Tells the [`voronoi_cells`](Self::voronoi_cells) of all ids, or of those of which `mask` has an entry that is not
-    /// 0, one after the other in ascending order, when all are computed.
-    ///
-    /// # Errors
-    /// Those of [`voronoi_cells`](Self::voronoi_cells); then nothing has been told.
-    pub fn for_voronoi_cells(
-        &self,
-        clip: [&G::Point; 2],
-        mask: Option<&[u8]>,
-        monitor: &mut dyn FnMut(f64) -> bool,
-        tell: &mut dyn FnMut(VertexId, VoronoiCell<G::Point>),
-    ) -> Result<()> {
-        mask.map_or(Ok(()), |mask| self.check_vertex_mask(mask.len()))?;
-        if self.mesh.kernel.is_constrained() {
-            return self.without_segments()?.for_voronoi_cells(clip, mask, monitor, tell);
-        }
-        let clip = checked::<G>(clip)?;
-        let is_wanted = |v: &VertexId| mask.is_none_or(|mask| mask[v.index()] != 0);
-        let wanted = VertexId::range(0..self.id_count()).filter(is_wanted);
-        if self.cell_count() == 0 {
-            let targets = self.flat_targets(&clip, monitor)?;
-            self.tell_cells(&clip, wanted, targets, tell);
-            return Ok(());
-        }
-        let (cells, n_sites) = (self.cell_arrays()?, self.mesh.kernel.sites().len());
-        let Some(mask) = mask else {
-            let mut vertices = Vec::new();
-            memory::reserve_exact(&mut vertices, self.vertex_count())?;
-            vertices.extend(self.mesh.kernel.live_sites().map(|s| self.mesh.kernel.site(s).id));
-            let centres = Centres::new(self, cells, Some(&clip), None)?;
-            let targets = Targets::new(All, n_sites)?;
-            let targets = self.targets_of(&clip, (&centres, All), &vertices, targets, monitor)?;
-            self.tell_cells(&clip, wanted, targets, tell);
-            return Ok(());
-        };
-        let vertices = self.shown_in(mask)?;
-        let chosen = self.cells_around(&vertices)?;
-        let centres = Centres::new(self, cells, Some(&clip), Some(&chosen))?;
-        let (_, ranks) = centres.chosen.as_ref().expect("cells are chosen");
-        let numbers = Ranks::of(n_sites, vertices.iter().map(|&v| self.mesh.site_of[v].index()))?;
-        let targets = Targets::new(&numbers, vertices.len())?;
-        let targets = self.targets_of(&clip, (&centres, ranks), &vertices, targets, monitor)?;
-        self.tell_cells(&clip, wanted, targets, tell);
-        Ok(())
-    }
-
-    /// Sums for vertices in one hyperplane.
-    fn flat_targets(&self, clip: &Clip, monitor: &mut dyn FnMut(f64) -> bool) -> Result<Targets<All>> {
-        let mut targets = Targets::new(All, self.mesh.kernel.sites().len())?;
-        targets.list.iter_mut().for_each(|target| target.is_cut = true);
-        self.flat_cells(clip, &mut Progress::new(monitor, 1), |v, part| {
-            targets.of(self.mesh.site_of[v]).sums.join(part);
-        })?;
-        Ok(targets)
-    }
-
-    /// Sums for some vertices, which have targets, by the centres of all cells around these, which are numbered.
-    fn targets_of<S: Numbering>(
-        &self,
-        clip: &Clip,
-        (centres, numbers): (&Centres<G::Point>, impl Numbering),
-        vertices: &[VertexId],
-        mut targets: Targets<S>,
-        monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Targets<S>> {
-        let mut voronoi = Voronoi::new(self, self.cell_arrays()?, centres);
-        let progress = &mut Progress::new(monitor, 2 * centres.list.len());
-        voronoi.add_all(clip.unit, numbers, progress, &mut targets)?;
-        voronoi.cut_all(clip, vertices, progress, &mut targets)?;
-        Ok(targets)
-    }
-
-    /// Tells what is known of vertices.
-    fn tell_cells(
-        &self,
-        clip: &Clip,
-        wanted: impl Iterator<Item = VertexId>,
-        mut targets: Targets<impl Numbering>,
-        tell: &mut dyn FnMut(VertexId, VoronoiCell<G::Point>),
-    ) {
-        for v in wanted {
-            let none = |x| VoronoiCell { volume: x, area: x, centroid: nowhere::<G>() };
-            let cell = match self.mesh.standing(v) {
-                Standing::Gone => none(f64::NAN),
-                Standing::Hidden(_) => none(0.0),
-                Standing::Shown(s) => cell_of::<G>(clip, self.mesh.kernel.place(s), targets.of(s)),
-            };
-            tell(v, cell);
-        }
-    }
-}
-
-/// No place.
-pub(super) fn nowhere<G: Dimension>() -> G::Point {
-    let mut nowhere = G::Point::default();
-    (0..G::D).for_each(|axis| nowhere[axis] = f64::NAN);
-    nowhere
-}
-
-/// What the sums of a vertex at this place say.
-fn cell_of<G: Dimension>(clip: &Clip, place: &G::Point, target: &Target) -> VoronoiCell<G::Point> {
-    let sums = &target.sums;
-    let [of_volume, of_facets, of_moment] = target.factors::<G>();
-    let volume = of_volume * sums.volume;
-    let mut centroid = nowhere::<G>();
-    if volume > 0.0 {
-        let apex = clip.offset_within(&in_space::<G>(place));
-        for axis in 0..G::D {
-            let way = of_moment * sums.moment[axis] / volume / clip.unit;
-            let at = clip.low()[axis] + (apex[axis] + way);
-            centroid[axis] = at.clamp(clip.low()[axis], clip.high()[axis]);
-        }
-    }
-    // What is left of negative parts by rounding may be negative.
-    VoronoiCell {
-        volume: clip.measure_in(G::D, volume).max(0.0),
-        area: clip.measure_in(G::D - 1, of_facets * sums.facets + sums.wall).max(0.0),
-        centroid,
     }
 }

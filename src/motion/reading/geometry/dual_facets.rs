@@ -1,4 +1,4 @@
-//! Voronoi facets in a box, with centroids and derivatives of the volumes on their sides by positions.
+//! Voronoi facets in a box, and in half-spaces, with centroids and derivatives of the volumes on their sides by positions.
 //!
 //! # Idea
 //!
@@ -25,14 +25,15 @@ use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::{memory, threads};
+use crate::motion::reading::geometry::cells_within::Region;
 use crate::motion::reading::geometry::centres::{Centres, SHARED_AT_LEAST};
 use crate::motion::reading::geometry::clipping::{
     Clip, Vector, cross, dot, in_space, length_by, minus, times,
 };
+use crate::motion::reading::geometry::polytopes::Polytope;
 use crate::motion::reading::geometry::progress::Progress;
 use crate::motion::reading::geometry::sums::LEAST_SQUARE;
 use crate::motion::reading::geometry::voronoi::{Part, Voronoi};
-use crate::motion::reading::geometry::voronoi_cells::checked;
 use crate::motion::triangulation::MovingTriangulation;
 
 /// The Voronoi facets of edges in a box.
@@ -153,7 +154,14 @@ impl<G: Dimension> Voronoi<'_, G> {
     }
 
     /// The facet of an edge, of which `first` is a cell.
-    fn facet_of(&mut self, clip: &Clip, edge: [VertexId; 2], first: CellId) -> Result<Facet> {
+    fn facet_of(
+        &mut self,
+        region: &Region,
+        left: &mut Polytope,
+        edge: [VertexId; 2],
+        first: CellId,
+    ) -> Result<Facet> {
+        let clip = &region.clip;
         let ends = edge.map(|v| self.place(v));
         self.ring.go_around(self.cells, edge, first)?;
         if let Part::All = self.part()
@@ -165,14 +173,18 @@ impl<G: Dimension> Voronoi<'_, G> {
             return Ok((0.0, [f64::NAN; 3], [[0.0; 3]; 2]));
         }
         self.cut(edge, clip)?;
-        let (measure, offset) = self.facet.measure_and_centroid();
+        let (measure, offset) = if region.half_spaces.is_empty() {
+            self.facet.measure_and_centroid()
+        } else {
+            left.facet_within::<G>(clip, &region.half_spaces, &self.facet)?
+        };
+        if measure == 0.0 {
+            return Ok((0.0, [f64::NAN; 3], [[0.0; 3]; 2]));
+        }
         let centroid = [0, 1, 2].map(|axis| (clip.low()[axis] + offset[axis]).min(clip.high()[axis]));
         let way = minus(&ends[1], &ends[0]);
         let length = length_by(dot(&way, &way), &way);
-        let derivative = |of: &Vector| {
-            let by = |axis: usize| measure * ((of[axis] - centroid[axis]) / length);
-            if measure > 0.0 { [0, 1, 2].map(by) } else { [0.0; 3] }
-        };
+        let derivative = |of: &Vector| [0, 1, 2].map(|axis| measure * ((of[axis] - centroid[axis]) / length));
         Ok((measure, centroid, [derivative(&ends[1]), derivative(&ends[0])]))
     }
 }
@@ -209,12 +221,31 @@ impl<G: Dimension> MovingTriangulation<G> {
         mask: Option<&[u8]>,
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<VoronoiFacets<G::Point>> {
+        self.voronoi_derivatives_within(clip, &[], mask, monitor)
+    }
+
+    /// The [`voronoi_derivatives`](Self::voronoi_derivatives) within a box and half-spaces, rows as
+    /// [`voronoi_cells_within`](Self::voronoi_cells_within) has them; box and half-spaces stay where they are.
+    ///
+    /// With h as there, errors are those of [`voronoi_derivatives`](Self::voronoi_derivatives), but for a facet that a
+    /// plane cuts divided by the sine of the angle between both; a facet that is in a plane, but for h, may be there or
+    /// not.
+    ///
+    /// # Errors
+    /// Those of [`voronoi_cells_within`](Self::voronoi_cells_within).
+    pub fn voronoi_derivatives_within(
+        &self,
+        clip: [&G::Point; 2],
+        half_spaces: &[f64],
+        mask: Option<&[u8]>,
+        monitor: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<VoronoiFacets<G::Point>> {
         let nowhere = of_space::<G>(&[f64::NAN; 3]);
         let (mut areas, mut centroids, mut derivatives) = (Vec::new(), Vec::new(), Vec::new());
         memory::lengthen(&mut areas, self.edge_count(), f64::NAN)?;
         memory::lengthen(&mut centroids, self.edge_count(), nowhere)?;
         memory::lengthen(&mut derivatives, self.edge_count(), [nowhere; 2])?;
-        self.for_voronoi_facets(clip, mask, monitor, &mut |edge, facet| {
+        self.for_voronoi_facets(clip, half_spaces, mask, monitor, &mut |edge, facet| {
             areas[edge] = facet.area;
             centroids[edge] = facet.centroid;
             derivatives[edge] = facet.derivatives;
@@ -222,30 +253,32 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(VoronoiFacets { edges: self.edges()?, areas, centroids, derivatives })
     }
 
-    /// Tells the [`voronoi_derivatives`](Self::voronoi_derivatives) of all edges, or of those that have an end of which
+    /// Tells the [`voronoi_derivatives_within`](Self::voronoi_derivatives_within) of all edges, or of those that have an end of which
     /// `mask` has an entry that is not 0, in any order: the number of the edge in the order of
     /// [`edges`](Self::edges), and the facet. All are computed before.
     ///
     /// # Errors
-    /// Those of [`voronoi_derivatives`](Self::voronoi_derivatives); then nothing has been told.
+    /// Those of [`voronoi_derivatives_within`](Self::voronoi_derivatives_within); then nothing has been told.
     pub fn for_voronoi_facets(
         &self,
         clip: [&G::Point; 2],
+        half_spaces: &[f64],
         mask: Option<&[u8]>,
         monitor: &mut dyn FnMut(f64) -> bool,
         tell: &mut dyn FnMut(usize, VoronoiFacet<G::Point>),
     ) -> Result<()> {
         mask.map_or(Ok(()), |mask| self.check_vertex_mask(mask.len()))?;
         if self.mesh.kernel.is_constrained() {
-            return self.facets_at_own_edges(clip, mask, monitor, tell);
+            return self.facets_at_own_edges(clip, half_spaces, mask, monitor, tell);
         }
-        let clip = checked::<G>(clip)?;
+        let region = self.region(clip, half_spaces)?;
         let progress = &mut Progress::new(monitor, 2 * self.edge_count());
         let (wanted, offsets) = self.wanted_edges(mask, progress)?;
         let chosen = mask.map(|mask| self.cells_around(&self.shown_in(mask)?)).transpose()?;
-        let centres = Centres::new(self, self.cell_arrays()?, Some(&clip), chosen.as_deref())?;
-        let facets = self.facets_of(&wanted, &centres, progress, |voronoi, &(edge, _, first)| {
-            voronoi.facet_of(&clip, edge, first)
+        let mut centres = Centres::new(self, self.cell_arrays()?, Some(&region.clip), chosen.as_deref())?;
+        region.mark(self, &mut centres);
+        let facets = self.facets_of(&wanted, &centres, progress, |voronoi, left, &(edge, _, first)| {
+            voronoi.facet_of(&region, left, edge, first)
         })?;
         for ((area, centroid, derivatives), ([v, _], k, _)) in facets.into_iter().zip(wanted) {
             let derivatives = derivatives.each_ref().map(of_space::<G>);
@@ -263,7 +296,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         edges: &[E],
         centres: &Centres<'_, G::Point>,
         progress: &mut Progress,
-        facet_of: impl Fn(&mut Voronoi<'_, G>, &E) -> Result<Facet> + Sync,
+        facet_of: impl Fn(&mut Voronoi<'_, G>, &mut Polytope, &E) -> Result<Facet> + Sync,
     ) -> Result<Vec<Facet>> {
         let cells = self.cell_arrays()?;
         let mut facets = Vec::new();
@@ -272,10 +305,10 @@ impl<G: Dimension> MovingTriangulation<G> {
             let n_threads = self.mesh.kernel.threads().for_work(some.len(), SHARED_AT_LEAST, 64);
             let parts = threads::for_ranges(some.len(), n_threads, |range| {
                 let mut voronoi = Voronoi::new(self, cells, centres);
-                let mut facets: Vec<Facet> = Vec::new();
+                let (mut facets, mut left): (Vec<Facet>, _) = (Vec::new(), Polytope::default());
                 memory::reserve_exact(&mut facets, range.len())?;
                 for edge in &some[range] {
-                    facets.push(facet_of(&mut voronoi, edge)?);
+                    facets.push(facet_of(&mut voronoi, &mut left, edge)?);
                 }
                 Ok(facets)
             })?;
@@ -292,6 +325,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn facets_at_own_edges(
         &self,
         clip: [&G::Point; 2],
+        half_spaces: &[f64],
         mask: Option<&[u8]>,
         monitor: &mut dyn FnMut(f64) -> bool,
         tell: &mut dyn FnMut(usize, VoronoiFacet<G::Point>),
@@ -304,7 +338,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         let (there, own) = (plain.edges()?, self.edges()?);
         let mut facets = Vec::new();
         memory::lengthen(&mut facets, there.len(), nothing(f64::NAN))?;
-        plain.for_voronoi_facets(clip, mask, monitor, &mut |edge, facet| facets[edge] = facet)?;
+        plain
+            .for_voronoi_facets(clip, half_spaces, mask, monitor, &mut |edge, facet| facets[edge] = facet)?;
         for (k, edge) in own.iter().enumerate() {
             if mask.is_none_or(|mask| edge.iter().any(|v| mask[v.index()] != 0)) {
                 tell(k, there.binary_search(edge).map_or(nothing(0.0), |at| facets[at]));

@@ -13,11 +13,13 @@ use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::options::Options;
+use crate::motion::reading::geometry::cells_within::Region;
 use crate::motion::reading::geometry::centres::Centres;
 use crate::motion::reading::geometry::clipping::{Clip, Vector, greatest, in_space};
 use crate::motion::reading::geometry::cut_cells::BoxCorner;
 use crate::motion::reading::geometry::cut_facets::CutFacet;
 use crate::motion::reading::geometry::incidence::Neighbours;
+use crate::motion::reading::geometry::polytopes::Polytope;
 use crate::motion::reading::geometry::progress::Progress;
 use crate::motion::reading::geometry::rings::Ring;
 use crate::motion::reading::geometry::sums::Sums;
@@ -59,7 +61,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// added, with offsets as in [`cut_cells`](super::voronoi::Voronoi::cut_cells).
     pub(super) fn flat_cells(
         &self,
-        clip: &Clip,
+        region: &Region,
         progress: &mut Progress,
         mut tell: impl FnMut(VertexId, &Sums),
     ) -> Result<()> {
@@ -72,25 +74,29 @@ impl<G: Dimension> MovingTriangulation<G> {
         memory::collect(&mut places, ids.iter().map(|&v| self.mesh.kernel.site(self.mesh.site_of[v]).point))?;
         let options = Options { threads: self.options.threads, ..Options::default() };
         let spanning = MovingTriangulation::<G>::new(&spanning::<G>(places)?, options)?;
-        spanning.cells_of_first(ids.len(), clip, progress, |v, sums| tell(ids[v.index()], sums))
+        spanning.cells_of_first(ids.len(), region, progress, |v, sums| tell(ids[v.index()], sums))
     }
 
     /// Tells parts of the Voronoi cells of the first vertices, which are in one hyperplane, as if there were no others.
     fn cells_of_first(
         &self,
         n: usize,
-        clip: &Clip,
+        region: &Region,
         progress: &mut Progress,
         mut tell: impl FnMut(VertexId, &Sums),
     ) -> Result<()> {
-        let cells = self.cell_arrays()?;
+        let (cells, clip) = (self.cell_arrays()?, &region.clip);
         progress.expect(2 * cells.corners().len());
         let mut neighbours = Neighbours::new(cells, self.id_count())?;
+        let corners = self.corners_of_first(n, clip, &mut neighbours)?;
+        let is_cut = !region.half_spaces.is_empty();
         let (mut ring, mut facet, mut list) = (Ring::default(), CutFacet::default(), Vec::new());
+        let mut cell = Polytope::default();
         let centres = Centres::<G::Point>::NONE;
         for v in VertexId::range(0..n) {
             let at = self.place_in_space(v);
             let apex = clip.offset_within(&at);
+            cell.clear();
             neighbours.list(v, VertexId::new(0), &mut list, |w, cell| (w, cell))?;
             for &(w, first) in list.iter().filter(|(w, _)| w.index() < n) {
                 ring.go_around(cells, [v, w], first)?;
@@ -102,13 +108,34 @@ impl<G: Dimension> MovingTriangulation<G> {
                 facet.fill_flat([at, self.place_in_space(w)], &others[..n_others], G::D == 2)?;
                 facet.cut(clip, &centres)?;
                 facet.place(clip, &centres)?;
+                progress.advance(ring.cells.len())?;
+                if is_cut {
+                    cell.add_facet::<G>(clip, &facet)?;
+                    continue;
+                }
                 let mut sums = Sums::default();
                 facet.add_pyramids(clip, &apex, &mut sums);
                 sums.facets = clip.facet_in_unit(G::D, facet.measure());
                 tell(v, &sums);
-                progress.advance(ring.cells.len())?;
+            }
+            if is_cut {
+                tell(v, &region.sums_of::<G>(&mut cell, &corners, v, &at)?);
             }
         }
+        for (corner, owner) in corners.iter().filter(|_| !is_cut) {
+            tell(*owner, &corner.sums::<G>(clip, &clip.offset_within(&self.place_in_space(*owner))));
+        }
+        Ok(())
+    }
+
+    /// The corners of the box, and in whose cells of the first vertices they are.
+    fn corners_of_first(
+        &self,
+        n: usize,
+        clip: &Clip,
+        neighbours: &mut Neighbours<'_, G>,
+    ) -> Result<Vec<(BoxCorner, VertexId)>> {
+        let mut corners = Vec::new();
         for corner in BoxCorner::all::<G>(clip) {
             let near = self.nearest_of_first(n, &corner)?;
             let owner = corner.owner(
@@ -120,9 +147,9 @@ impl<G: Dimension> MovingTriangulation<G> {
                     Ok(())
                 },
             )?;
-            tell(owner, &corner.sums::<G>(clip, &clip.offset_within(&self.place_in_space(owner))));
+            memory::push(&mut corners, (corner, owner))?;
         }
-        Ok(())
+        Ok(corners)
     }
 
     /// Of the first vertices, one from which to look for that nearest to a corner of the box.

@@ -68,6 +68,11 @@ impl<'t, G: Dimension> Neighbours<'t, G> {
         Ok(Neighbours { corners: cells.corners(), stars, seen_in, round: 0 })
     }
 
+    /// The cells of a vertex, ascending.
+    pub(super) fn star(&self, vertex: VertexId) -> &[CellId] {
+        self.stars.row(vertex)
+    }
+
     /// Appends what `entry` makes of each neighbour of a vertex that is not below `least`, and of a cell that both
     /// share, in ascending order, to a list with room for them.
     #[inline(always)]

@@ -14,9 +14,10 @@
 //! | `voronoi`, `voronoi_cells`, `progress` | Voronoi cells and facets |
 //! | `voronoi_changes` | which Voronoi cells have changed |
 //! | `centres` | circumcentres for these, of all cells or of chosen ones |
-//! | `dual`, `dual_facets`, `sums` | volumes, boundaries and centroids of Voronoi cells; their facets, with derivatives |
+//! | `dual`, `dual_cells`, `dual_facets`, `sums` | volumes, boundaries and centroids of Voronoi cells; their facets, with derivatives |
 //! | `whole_cells`, `whole_facets` | those of some vertices, and of some edges, that no box cuts |
-//! | `clipping`, `cut_facets`, `cut_cells` | those that are cut by a box |
+//! | `clipping`, `cut_facets`, `facet_measures`, `cut_cells` | those that are cut by a box |
+//! | `half_spaces`, `polytopes`, `cells_within` | those that are cut by half-spaces besides |
 //! | `flat_cells` | Voronoi cells of vertices in one hyperplane |
 //! | `interpolation`, `linear`, `natural` | values between vertices: linear, or of natural neighbours |
 //! | `weights` | barycentric coordinates of places |
@@ -26,19 +27,24 @@
 
 mod around;
 mod boundary;
+mod cells_within;
 mod centres;
 mod clipping;
 mod cut_cells;
 mod cut_facets;
 mod dual;
+mod dual_cells;
 mod dual_facets;
+mod facet_measures;
 mod flat_cells;
 mod flat_sides;
+mod half_spaces;
 mod incidence;
 mod interpolation;
 mod linear;
 mod measures;
 mod natural;
+mod polytopes;
 mod progress;
 mod rings;
 mod simplices;
@@ -53,7 +59,7 @@ mod whole_facets;
 
 pub use boundary::BoundaryFacet;
 pub(crate) use boundary::list_boundary;
-pub use dual::{VoronoiCell, VoronoiCells};
+pub use dual_cells::{VoronoiCell, VoronoiCells};
 pub use dual_facets::{VoronoiFacet, VoronoiFacets};
 pub use incidence::Rows;
 pub use interpolation::{Interpolation, VertexValues};

@@ -60,7 +60,8 @@ impl<'t, G: Dimension> Voronoi<'t, G> {
 
     /// Whether the facet of the ring is beyond a face of the box.
     pub(super) fn is_outside(&self) -> bool {
-        let sides = self.ring.cells.iter().fold(u8::MAX, |sides, cell| sides & self.centres.of(*cell).sides);
+        let sides =
+            self.ring.cells.iter().fold(u8::MAX, |sides, cell| sides & self.centres.of(*cell).faces());
         self.ring.is_closed && sides != 0
     }
 

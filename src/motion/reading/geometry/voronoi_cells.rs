@@ -7,6 +7,7 @@ use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
+use crate::motion::reading::geometry::cells_within::Region;
 use crate::motion::reading::geometry::centres::Centres;
 use crate::motion::reading::geometry::clipping::Clip;
 use crate::motion::reading::geometry::incidence::Neighbours;
@@ -74,7 +75,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
             None => self.whole_volumes(&mut volumes, progress)?,
             Some(clip) if self.cell_count() == 0 => {
-                self.flat_cells(&clip, progress, |v, sums| {
+                self.flat_cells(&Region::of(clip), progress, |v, sums| {
                     volumes[v.index()] += clip.measure_in(G::D, sums.volume);
                 })?;
                 // Parts may be negative, and what is left of them by rounding.

@@ -92,7 +92,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         memory::collect(&mut firsts, (0..edges.len()).filter(is_next).map(|k| edges[k].0[0]))?;
         let chosen = self.cells_around(&firsts)?;
         let centres = Centres::new(self, self.cell_arrays()?, None, Some(&chosen))?;
-        let facets = self.facets_of(edges, &centres, progress, |voronoi, &(edge, first)| {
+        let facets = self.facets_of(edges, &centres, progress, |voronoi, _, &(edge, first)| {
             voronoi.facet_without_box(edge, first)
         })?;
         for (k, (area, centroid, derivatives)) in facets.into_iter().enumerate() {
