@@ -4,10 +4,8 @@ use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
-use crate::periodic::images::Image;
 use crate::periodic::inside::Inside;
 use crate::periodic::lattice::HOME;
-use crate::periodic::triangulation::PeriodicTriangulation;
 
 /// The edges, each where its first vertex is at home. That is of the lower id; of an edge between images of one vertex, the
 /// one from which the shift is greater than nothing in the order of its multiples.
@@ -34,37 +32,5 @@ impl PeriodicEdges {
         })?;
         list[begin..].sort_unstable_by_key(|edge| images.of(edge.0[1]));
         Ok(PeriodicEdges { list })
-    }
-}
-
-impl<G: Dimension> PeriodicTriangulation<G> {
-    /// The edges, one of each class of translations of each other: two vertices, and by which multiples of the vectors the
-    /// second is translated from its position where the first is at its own. The first has the lower id; the order is that of
-    /// ids.
-    ///
-    /// # Errors
-    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-    pub fn edges(&self) -> Result<impl ExactSizeIterator<Item = ([VertexId; 2], [i64; 3])> + '_> {
-        Ok(self.read_edges()?.list.iter().map(|(edge, _)| {
-            let [from, to]: [Image; 2] = edge.map(|inside| self.inside.images.of(inside));
-            ([from.vertex, to.vertex], self.given(from.vertex, to.vertex, to.shift))
-        }))
-    }
-
-    /// Number of edges that are not translations of each other.
-    ///
-    /// # Errors
-    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-    pub fn edge_count(&self) -> Result<usize> {
-        Ok(self.read_edges()?.list.len())
-    }
-
-    /// The edges, which the first that asks reads; several threads may do that at the same time.
-    pub(super) fn read_edges(&self) -> Result<&PeriodicEdges> {
-        if let Some(edges) = self.edges.get() {
-            return Ok(edges);
-        }
-        let read = PeriodicEdges::of(&self.inside)?;
-        Ok(self.edges.get_or_init(|| read))
     }
 }

@@ -6,6 +6,7 @@ use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::{Algorithm, CommitReport};
 use crate::periodic::cells::{PeriodicCells, PeriodicView};
+use crate::periodic::edges::PeriodicEdges;
 use crate::periodic::lattice::Shift;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
@@ -148,6 +149,27 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         }))
     }
 
+    /// The edges, one of each class of translations of each other: two vertices, and by which multiples of the vectors the
+    /// second is translated from its position where the first is at its own. The first has the lower id; the order is that of
+    /// ids.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn edges(&self) -> Result<impl ExactSizeIterator<Item = ([VertexId; 2], [i64; 3])> + '_> {
+        Ok(self.read_edges()?.list.iter().map(|(edge, _)| {
+            let [from, to] = edge.map(|inside| self.inside.images.of(inside));
+            ([from.vertex, to.vertex], self.given(from.vertex, to.vertex, to.shift))
+        }))
+    }
+
+    /// Number of edges that are not translations of each other.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn edge_count(&self) -> Result<usize> {
+        Ok(self.read_edges()?.list.len())
+    }
+
     /// The vertex of lowest id of those that share a place with this one, in any period.
     ///
     /// # Errors
@@ -178,6 +200,15 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         }
         let read = self.in_order(PeriodicCells::of(&self.inside)?)?;
         Ok(self.cells.get_or_init(|| read))
+    }
+
+    /// The edges, which the first that asks reads; several threads may do that at the same time.
+    pub(super) fn read_edges(&self) -> Result<&PeriodicEdges> {
+        if let Some(edges) = self.edges.get() {
+            return Ok(edges);
+        }
+        let read = PeriodicEdges::of(&self.inside)?;
+        Ok(self.edges.get_or_init(|| read))
     }
 
     pub(super) fn least_of(&self, cells: &PeriodicCells<G>, cell: usize) -> VertexId {
