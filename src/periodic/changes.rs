@@ -14,24 +14,23 @@ use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::{Changes, NO_CELL};
 use crate::periodic::cells::{PeriodicCells, RowHasher};
-use crate::periodic::triangulation::PeriodicTriangulation;
 
 /// A cell by its vertices in order, each with the period in which it is, where the first is at its position; the last is none
 /// in the plane.
-type Name = [(VertexId, [i64; 3]); 4];
+pub(super) type Name = [(VertexId, [i64; 3]); 4];
 
 /// The cells when changes were last taken.
 #[derive(Debug)]
 pub(super) struct Base<G: Dimension> {
-    corners: Vec<G::Vertices>,
-    index_of: HashMap<Name, CellId, BuildHasherDefault<RowHasher>>,
+    pub(super) corners: Vec<G::Vertices>,
+    pub(super) index_of: HashMap<Name, CellId, BuildHasherDefault<RowHasher>>,
     /// Vertices that others hid, ascending.
-    hidden: Vec<VertexId>,
+    pub(super) hidden: Vec<VertexId>,
 }
 
 impl<G: Dimension> Base<G> {
     /// That of a box in which no cell has been told yet.
-    fn none() -> Self {
+    pub(super) fn none() -> Self {
         Base { corners: Vec::new(), index_of: HashMap::default(), hidden: Vec::new() }
     }
 
@@ -67,18 +66,18 @@ impl<G: Dimension> Base<G> {
 /// The lists behind [`Changes`].
 #[derive(Debug)]
 pub(super) struct Lists<G: Dimension> {
-    created: Vec<CellId>,
-    removed: Vec<CellId>,
-    removed_corners: Vec<G::Vertices>,
-    renumbered_from: Vec<CellId>,
-    renumbered_to: Vec<CellId>,
-    stars: Vec<VertexId>,
-    hidden: Vec<VertexId>,
-    shown: Vec<VertexId>,
+    pub(super) created: Vec<CellId>,
+    pub(super) removed: Vec<CellId>,
+    pub(super) removed_corners: Vec<G::Vertices>,
+    pub(super) renumbered_from: Vec<CellId>,
+    pub(super) renumbered_to: Vec<CellId>,
+    pub(super) stars: Vec<VertexId>,
+    pub(super) hidden: Vec<VertexId>,
+    pub(super) shown: Vec<VertexId>,
 }
 
 impl<G: Dimension> Lists<G> {
-    fn none() -> Self {
+    pub(super) fn none() -> Self {
         Lists {
             created: Vec::new(),
             removed: Vec::new(),
@@ -91,7 +90,7 @@ impl<G: Dimension> Lists<G> {
         }
     }
 
-    fn changes(&self) -> Changes<'_, G::Vertices> {
+    pub(super) fn changes(&self) -> Changes<'_, G::Vertices> {
         Changes {
             created: &self.created,
             removed: &self.removed,
@@ -128,145 +127,14 @@ impl<G: Dimension> Taking<G> {
     }
 }
 
-impl<G: Dimension> PeriodicTriangulation<G> {
-    /// What has changed since this was last called: everything, as created, at the first call. A cell is its vertices with their
-    /// [shifts](Self::cell_shifts) from each other, so one is new if the program takes one of its vertices to another period,
-    /// or gives other vectors of the lattice. A cell that stays keeps its index unless it is among the renumbered ones.
-    ///
-    /// The cost is n + m.
-    ///
-    /// # Errors
-    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory); then nothing has been taken.
-    pub fn take_changes(&mut self) -> Result<Changes<'_, G::Vertices>> {
-        let cells = self.read_cells()?;
-        let (lists, base) = (self.list_changes(cells)?, self.base_of(cells)?);
-        // From now on, each has been where it is.
-        self.set_origins()?;
-        Ok(self.taking.insert(Taking { base, lists }).lists.changes())
-    }
-
-    /// Gives cells that were there at the base their indices, as far as there are as many.
-    pub(super) fn in_order(&self, read: PeriodicCells<G>) -> Result<PeriodicCells<G>> {
-        let Some(Taking { base, .. }) = &self.taking else { return Ok(read) };
-        let n = read.corners.len();
-        let mut origins = Vec::new();
-        memory::reserve_exact(&mut origins, n)?;
-        for cell in 0..n {
-            origins.push(base.index_of.get(&self.name_of(&read, cell)).copied().unwrap_or(NO_CELL));
-        }
-        // By index, which one has it.
-        let mut order = Vec::new();
-        memory::lengthen(&mut order, n, NO_CELL)?;
-        let stays = |origin: CellId| origin != NO_CELL && origin.index() < n;
-        for (cell, &origin) in CellId::range(0..n).zip(&origins).filter(|&(_, &origin)| stays(origin)) {
-            order[origin] = cell;
-        }
-        let mut others = CellId::range(0..n).filter(|&cell| !stays(origins[cell]));
-        for entry in order.iter_mut().filter(|entry| **entry == NO_CELL) {
-            *entry = others.next().expect("there are as many as places");
-        }
-        read.reordered(&order, &origins)
-    }
-
-    /// By which a cell is known to the program.
-    fn name_of(&self, cells: &PeriodicCells<G>, cell: usize) -> Name {
-        let from = self.least_of(cells, cell);
-        let mut name = [(VertexId::NONE, [0; 3]); 4];
-        let row = cells.corners[cell].as_ref();
-        for (i, (entry, &v)) in name.iter_mut().zip(row).enumerate() {
-            *entry = (v, self.given(from, v, cells.shifts[cell * (G::D + 1) + i]));
-        }
-        let name_of_all = &mut name[..=G::D];
-        name_of_all.sort_unstable();
-        let first = name_of_all[0].1;
-        name_of_all.iter_mut().for_each(|(_, shift)| *shift = [0, 1, 2].map(|j| shift[j] - first[j]));
-        name
-    }
-
-    fn base_of(&self, cells: &PeriodicCells<G>) -> Result<Base<G>> {
-        let mut base = Base::none();
-        base.corners = memory::copy_of(&cells.corners)?;
-        memory::reserve_map(&mut base.index_of, cells.corners.len())?;
-        for cell in CellId::range(0..cells.corners.len()) {
-            base.index_of.insert(self.name_of(cells, cell.index()), cell);
-        }
-        base.hidden = self.hidden_now()?;
-        Ok(base)
-    }
-
-    /// Vertices that others hide, ascending.
-    fn hidden_now(&self) -> Result<Vec<VertexId>> {
-        let mut hidden = Vec::new();
-        if self.inside.t.hidden_count() > 0 {
-            let at_home =
-                self.inside.t.hidden_vertices().map(|(v, _)| v).filter(|v| v.index() < self.inside.n_home);
-            for v in at_home {
-                memory::push(&mut hidden, self.inside.images.of(v).vertex)?;
-            }
-        }
-        hidden.sort_unstable();
-        Ok(hidden)
-    }
-
-    fn list_changes(&self, cells: &PeriodicCells<G>) -> Result<Lists<G>> {
-        let none = Base::none();
-        let base = self.taking.as_ref().map_or(&none, |taking| &taking.base);
-        let mut lists = Lists::none();
-        let mut is_there = Vec::new();
-        memory::lengthen(&mut is_there, base.corners.len(), false)?;
-        for cell in CellId::range(0..cells.corners.len()) {
-            match cells.origin(cell) {
-                NO_CELL => {
-                    memory::push(&mut lists.created, cell)?;
-                    memory::append(&mut lists.stars, cells.corners[cell].as_ref())?;
-                }
-                origin => {
-                    is_there[origin] = true;
-                    if origin != cell {
-                        memory::push(&mut lists.renumbered_from, origin)?;
-                        memory::push(&mut lists.renumbered_to, cell)?;
-                    }
-                }
-            }
-        }
-        for cell in CellId::range(0..is_there.len()).filter(|&cell| !is_there[cell]) {
-            let row = base.corners[cell];
-            memory::push(&mut lists.removed, cell)?;
-            memory::push(&mut lists.removed_corners, row)?;
-            memory::append(&mut lists.stars, row.as_ref())?;
-        }
-        lists.stars.sort_unstable();
-        lists.stars.dedup();
-        let hidden = self.hidden_now()?;
-        for &v in hidden.iter().filter(|v| base.hidden.binary_search(v).is_err()) {
-            memory::push(&mut lists.hidden, v)?;
-        }
-        let is_shown = |v: &&VertexId| hidden.binary_search(v).is_err() && self.is_present(**v);
-        for &v in base.hidden.iter().filter(is_shown) {
-            memory::push(&mut lists.shown, v)?;
-        }
-        Ok(lists)
-    }
-
-    /// The cells of now are those of the base.
-    fn set_origins(&mut self) -> Result<()> {
-        let Some(cells) = self.cells.get_mut() else { return Ok(()) };
-        let n = cells.corners.len();
-        let mut origins = Vec::new();
-        memory::collect(&mut origins, CellId::range(0..n))?;
-        cells.origins = origins;
-        Ok(())
-    }
-}
-
 impl<G: Dimension> PeriodicCells<G> {
     /// The index that a cell had at the base; none for one that was not there.
-    fn origin(&self, cell: CellId) -> CellId {
+    pub(super) fn origin(&self, cell: CellId) -> CellId {
         self.origins.get(cell.index()).copied().unwrap_or(NO_CELL)
     }
 
     /// In another order: by index, the one of `self`, which had these indices at the base.
-    fn reordered(self, order: &[CellId], origins: &[CellId]) -> Result<Self> {
+    pub(super) fn reordered(self, order: &[CellId], origins: &[CellId]) -> Result<Self> {
         let n = order.len();
         let mut index_of = Vec::new();
         memory::lengthen(&mut index_of, n, NO_CELL)?;

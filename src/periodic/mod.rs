@@ -49,6 +49,7 @@ mod needed;
 mod reading;
 mod saving;
 mod staged;
+mod taking;
 #[cfg(test)]
 mod tests;
 mod triangulation;

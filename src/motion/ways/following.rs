@@ -7,7 +7,7 @@ use crate::motion::filters::safe_regions::Admission;
 use crate::motion::filters::store::Steps;
 use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
-use crate::motion::state::goals::Goals;
+use crate::motion::state::goals::{Goals, Moves};
 use crate::motion::triangulation::MovingTriangulation;
 use crate::motion::ways::placement::Placed;
 
@@ -79,6 +79,23 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.mesh.order_by_site(&mut queue);
         self.with_regions(report, |t, report| {
             t.place_all(&queue, goals, report, |t, v, goal, report| t.relocate_noted(v, goal, report))
+        })?;
+        self.queue = queue;
+        Ok(())
+    }
+
+    /// Relocates the vertices one after the other, with flips, and rebuilds where what is left would take longer; the regions
+    /// that are kept follow.
+    pub(in crate::motion) fn place_or_rebuild_with_regions(
+        &mut self,
+        moves: &mut Moves<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        let goals = moves.checked()?;
+        let mut queue = self.queue_of(moves)?;
+        self.mesh.order_for_placement(&mut queue, goals);
+        self.with_regions(report, |t, report| {
+            t.place_within_budget(&queue, goals, 0, report, Self::relocate_noted)
         })?;
         self.queue = queue;
         Ok(())

@@ -77,23 +77,6 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.mesh.relocate(vertex, q, Shortcut::Flips, report)
     }
 
-    /// Relocates the vertices one after the other, with flips, and rebuilds where what is left would take longer; the regions
-    /// that are kept follow.
-    pub(in crate::motion) fn place_or_rebuild_with_regions(
-        &mut self,
-        moves: &mut Moves<'_, G>,
-        report: &mut CommitReport,
-    ) -> Result<()> {
-        let goals = moves.checked()?;
-        let mut queue = self.queue_of(moves)?;
-        self.mesh.order_for_placement(&mut queue, goals);
-        self.with_regions(report, |t, report| {
-            t.place_within_budget(&queue, goals, 0, report, Self::relocate_noted)
-        })?;
-        self.queue = queue;
-        Ok(())
-    }
-
     /// Relocates these vertices, with flips, while that costs less than to rebuild; after a sweep with `exact` exact
     /// evaluations, or none.
     pub(in crate::motion) fn place_within_budget(

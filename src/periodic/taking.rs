@@ -1,0 +1,141 @@
+//! Taking what has changed.
+
+use crate::delaunay::Dimension;
+use crate::error::Result;
+use crate::ids::{CellId, VertexId};
+use crate::machine::memory;
+use crate::motion::{Changes, NO_CELL};
+use crate::periodic::cells::PeriodicCells;
+use crate::periodic::changes::{Base, Lists, Name, Taking};
+use crate::periodic::triangulation::PeriodicTriangulation;
+
+impl<G: Dimension> PeriodicTriangulation<G> {
+    /// What has changed since this was last called: everything, as created, at the first call. A cell is its vertices with their
+    /// [shifts](Self::cell_shifts) from each other, so one is new if the program takes one of its vertices to another period,
+    /// or gives other vectors of the lattice. A cell that stays keeps its index unless it is among the renumbered ones.
+    ///
+    /// The cost is n + m.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory); then nothing has been taken.
+    pub fn take_changes(&mut self) -> Result<Changes<'_, G::Vertices>> {
+        let cells = self.read_cells()?;
+        let (lists, base) = (self.list_changes(cells)?, self.base_of(cells)?);
+        // From now on, each has been where it is.
+        self.set_origins()?;
+        Ok(self.taking.insert(Taking { base, lists }).lists.changes())
+    }
+
+    /// Gives cells that were there at the base their indices, as far as there are as many.
+    pub(super) fn in_order(&self, read: PeriodicCells<G>) -> Result<PeriodicCells<G>> {
+        let Some(Taking { base, .. }) = &self.taking else { return Ok(read) };
+        let n = read.corners.len();
+        let mut origins = Vec::new();
+        memory::reserve_exact(&mut origins, n)?;
+        for cell in 0..n {
+            origins.push(base.index_of.get(&self.name_of(&read, cell)).copied().unwrap_or(NO_CELL));
+        }
+        // By index, which one has it.
+        let mut order = Vec::new();
+        memory::lengthen(&mut order, n, NO_CELL)?;
+        let stays = |origin: CellId| origin != NO_CELL && origin.index() < n;
+        for (cell, &origin) in CellId::range(0..n).zip(&origins).filter(|&(_, &origin)| stays(origin)) {
+            order[origin] = cell;
+        }
+        let mut others = CellId::range(0..n).filter(|&cell| !stays(origins[cell]));
+        for entry in order.iter_mut().filter(|entry| **entry == NO_CELL) {
+            *entry = others.next().expect("there are as many as places");
+        }
+        read.reordered(&order, &origins)
+    }
+
+    /// By which a cell is known to the program.
+    fn name_of(&self, cells: &PeriodicCells<G>, cell: usize) -> Name {
+        let from = self.least_of(cells, cell);
+        let mut name = [(VertexId::NONE, [0; 3]); 4];
+        let row = cells.corners[cell].as_ref();
+        for (i, (entry, &v)) in name.iter_mut().zip(row).enumerate() {
+            *entry = (v, self.given(from, v, cells.shifts[cell * (G::D + 1) + i]));
+        }
+        let name_of_all = &mut name[..=G::D];
+        name_of_all.sort_unstable();
+        let first = name_of_all[0].1;
+        name_of_all.iter_mut().for_each(|(_, shift)| *shift = [0, 1, 2].map(|j| shift[j] - first[j]));
+        name
+    }
+
+    fn base_of(&self, cells: &PeriodicCells<G>) -> Result<Base<G>> {
+        let mut base = Base::none();
+        base.corners = memory::copy_of(&cells.corners)?;
+        memory::reserve_map(&mut base.index_of, cells.corners.len())?;
+        for cell in CellId::range(0..cells.corners.len()) {
+            base.index_of.insert(self.name_of(cells, cell.index()), cell);
+        }
+        base.hidden = self.hidden_now()?;
+        Ok(base)
+    }
+
+    /// Vertices that others hide, ascending.
+    fn hidden_now(&self) -> Result<Vec<VertexId>> {
+        let mut hidden = Vec::new();
+        if self.inside.t.hidden_count() > 0 {
+            let at_home =
+                self.inside.t.hidden_vertices().map(|(v, _)| v).filter(|v| v.index() < self.inside.n_home);
+            for v in at_home {
+                memory::push(&mut hidden, self.inside.images.of(v).vertex)?;
+            }
+        }
+        hidden.sort_unstable();
+        Ok(hidden)
+    }
+
+    fn list_changes(&self, cells: &PeriodicCells<G>) -> Result<Lists<G>> {
+        let none = Base::none();
+        let base = self.taking.as_ref().map_or(&none, |taking| &taking.base);
+        let mut lists = Lists::none();
+        let mut is_there = Vec::new();
+        memory::lengthen(&mut is_there, base.corners.len(), false)?;
+        for cell in CellId::range(0..cells.corners.len()) {
+            match cells.origin(cell) {
+                NO_CELL => {
+                    memory::push(&mut lists.created, cell)?;
+                    memory::append(&mut lists.stars, cells.corners[cell].as_ref())?;
+                }
+                origin => {
+                    is_there[origin] = true;
+                    if origin != cell {
+                        memory::push(&mut lists.renumbered_from, origin)?;
+                        memory::push(&mut lists.renumbered_to, cell)?;
+                    }
+                }
+            }
+        }
+        for cell in CellId::range(0..is_there.len()).filter(|&cell| !is_there[cell]) {
+            let row = base.corners[cell];
+            memory::push(&mut lists.removed, cell)?;
+            memory::push(&mut lists.removed_corners, row)?;
+            memory::append(&mut lists.stars, row.as_ref())?;
+        }
+        lists.stars.sort_unstable();
+        lists.stars.dedup();
+        let hidden = self.hidden_now()?;
+        for &v in hidden.iter().filter(|v| base.hidden.binary_search(v).is_err()) {
+            memory::push(&mut lists.hidden, v)?;
+        }
+        let is_shown = |v: &&VertexId| hidden.binary_search(v).is_err() && self.is_present(**v);
+        for &v in base.hidden.iter().filter(is_shown) {
+            memory::push(&mut lists.shown, v)?;
+        }
+        Ok(lists)
+    }
+
+    /// The cells of now are those of the base.
+    fn set_origins(&mut self) -> Result<()> {
+        let Some(cells) = self.cells.get_mut() else { return Ok(()) };
+        let n = cells.corners.len();
+        let mut origins = Vec::new();
+        memory::collect(&mut origins, CellId::range(0..n))?;
+        cells.origins = origins;
+        Ok(())
+    }
+}
