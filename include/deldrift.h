@@ -938,7 +938,7 @@ deldrift_status deldrift_withdraw_timestamp(deldrift_triangulation *t);
 /// position: 2 or 3 numbers, read during the call only.
 ///
 /// Cost: that of a removal and an insertion at most, of the cells around the vertex before and after, which can be
-/// many. While there are no cells, that of deldrift_create.
+/// many. While there are no cells, that of deldrift_create. Of a periodic triangulation that of a commit of this one move.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
 /// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_DUPLICATE_MOVE if a move of
@@ -954,11 +954,11 @@ deldrift_status deldrift_relocate_vertex(deldrift_triangulation *t,
 /// position: 2 or 3 numbers, read during the call only. out_vertex: receives its id, which is one above
 /// the highest ever given, or left by the latest deldrift_compact.
 ///
-/// Cost: that of deldrift_locate, and the cells created and removed.
+/// Cost: that of deldrift_locate, and the cells created and removed; of a periodic triangulation that of creation.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_ON_SEGMENT,
-/// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_ON_SEGMENT, DELDRIFT_STAGED_VERTEX (if t
+/// is periodic and insertions are staged, which have the next ids), DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at
 /// the same time as any other call on t.
 deldrift_status deldrift_insert_vertex(deldrift_triangulation *t,
                                        const double *position,
@@ -969,7 +969,7 @@ deldrift_status deldrift_insert_vertex(deldrift_triangulation *t,
 ///
 /// Cost: up to 64 neighbours at most the square of their number, beyond that a build of the neighbours alone. In 3D
 /// that may have as many cells as half the square of their number, as where all points are on the moment curve; each
-/// ten to twenty thousand of them the callbacks are called.
+/// ten to twenty thousand of them the callbacks are called. Of a periodic triangulation that of creation.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its
 /// insertion is staged, DELDRIFT_END_REMOVED for an end of a segment in force, DELDRIFT_TOO_MANY_CELLS,
@@ -989,12 +989,13 @@ deldrift_status deldrift_remove_vertex(deldrift_triangulation *t,
 /// has been compacted.
 ///
 /// Takes no longer than a rebuild, and while it runs the memory of a second
-/// triangulation.
+/// triangulation. A periodic triangulation is built anew, if vertices have been removed: its cells stay, and may have other
+/// indices.
 ///
-/// Cost: n + m.
+/// Cost: n + m; of a periodic triangulation that of creation.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
+/// DELDRIFT_OUT_OF_MEMORY; if t is periodic, DELDRIFT_CANCELLED, DELDRIFT_TOO_MANY_CELLS. Not to be called at the same time as any other call on t.
 deldrift_status deldrift_compact(deldrift_triangulation *t,
                                  uint32_t *map,
                                  size_t capacity,
@@ -1450,7 +1451,9 @@ deldrift_status deldrift_copy_cells(const deldrift_triangulation *t,
 /// cells: a buffer with room for capacity indices. count: receives their number, which is also written
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone.
 ///
-/// Cost: the cells of the star. After a change the first call also does what the first deldrift_cells does. Where there
+/// Of a periodic triangulation a cell is there once for each of its corners that is the vertex, in whatever period.
+///
+/// Cost: the cells of the star; m for a periodic triangulation. After a change the first call also does what the first deldrift_cells does. Where there
 /// are more vertices than a cache holds, stars are read fastest in the order of the ids.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX,
@@ -1481,12 +1484,14 @@ deldrift_status deldrift_tolerance(const deldrift_triangulation *t,
 ///
 /// level: 1 checks indices and adjacency; 2 also the orientation of the cells, and that the hull is
 /// convex and winds once; 3 also that no sphere through the vertices of a cell contains a vertex, or, with segments, none
-/// that can be seen from the cell's inside.
+/// that can be seen from the cell's inside. Of a periodic triangulation what is kept inside is checked so, images included,
+/// and that these are where the vectors take their vertices; 3 also that none is missing, and that each cell is there
+/// once for each of its corners.
 ///
-/// Cost: n + m.
+/// Cost: n + m. Of a periodic triangulation at level 3 that of creation at most, in a copy.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_INVALID_LEVEL, DELDRIFT_INVALID if something is wrong:
-/// deldrift_last_error then gives the first violation.
+/// deldrift_last_error then gives the first violation; DELDRIFT_OUT_OF_MEMORY if t is periodic.
 deldrift_status deldrift_validate(const deldrift_triangulation *t,
                                   uint32_t level);
 
@@ -1494,9 +1499,13 @@ deldrift_status deldrift_validate(const deldrift_triangulation *t,
 ///
 /// position: 2 or 3 numbers.
 ///
+/// In a periodic triangulation the point is rounded to the grid of deldrift_create_periodic, as a vertex would be; it may
+/// be in any period. The location is that of the translation of a vertex or a cell that is there:
+/// deldrift_locate_in_period tells which one. It is outside only of what is open in some direction.
+///
 /// Cost: the cells that a walk crosses from where an earlier one ended, or from a vertex that is near: a few for most
-/// sets, m at most. While there are no cells, constant. After a change the first call also does what the first
-/// deldrift_cells does.
+/// sets, m at most. While there are no cells, constant; n in a periodic one. After a change the first call also does what
+/// the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
 /// DELDRIFT_OUT_OF_MEMORY.
@@ -1505,7 +1514,8 @@ deldrift_status deldrift_locate(const deldrift_triangulation *t,
                                 deldrift_location *location);
 
 /// Where count points lie, exactly, to locations, which has room for count: as count calls of deldrift_locate,
-/// and faster if each point is near the one before it.
+/// and faster if each point is near the one before it. deldrift_locate_in_period also tells in which period of a periodic
+/// triangulation.
 ///
 /// positions: 2 or 3 numbers for each point; NULL if count is 0, as may locations be. hint: where to begin to look
 /// for the first point, for example the last answer of the call before; NULL if nothing is known. It only
@@ -1522,11 +1532,36 @@ deldrift_status deldrift_locate_points(const deldrift_triangulation *t,
                                        const deldrift_location *hint,
                                        deldrift_location *locations);
 
+/// Where count points lie, exactly, to locations, and in which period what is there, to shifts: deldrift_locate_points for
+/// programs that need the places of the corners.
+///
+/// positions, hint, locations: as for deldrift_locate_points. shifts: receives a row of 2 (2D) or 3 (3D) whole numbers for
+/// each point, multiples of the vectors, 0 beyond the last of these: by them the vertex is to be translated from its
+/// position to be at the point, or the cell from where deldrift_cell_shifts has it to have the point, or, where the point is
+/// outside, a facet of the hull that faces it. So the corners of the cell are at their positions and the sums of these
+/// multiples and of theirs. May be NULL if count is 0.
+///
+/// In a periodic triangulation the points are rounded to the grid of deldrift_create_periodic, as vertices would be. All
+/// shifts are 0 where there are no cells or vertices at the point, and where the triangulation is not periodic.
+///
+/// Cost: count times that of deldrift_locate. After a change the first call also does what the first deldrift_cells
+/// does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
+deldrift_status deldrift_locate_in_period(const deldrift_triangulation *t,
+                                          const double *positions,
+                                          size_t count,
+                                          const deldrift_location *hint,
+                                          deldrift_location *locations,
+                                          int64_t *shifts);
+
 /// The vertex nearest to a point, to *vertex: the lowest id among the nearest, or where vertices have keys the one
 /// of the lowest key; DELDRIFT_NONE if the
 /// triangulation has no vertices.
 ///
-/// position: 2 or 3 numbers.
+/// position: 2 or 3 numbers. In a periodic triangulation it may be in any period, and is rounded as for deldrift_locate;
+/// the distance is that of the nearest image of a vertex.
 ///
 /// Cost: that of deldrift_locate, and the stars of the vertices on the way and of all that are nearest. While there are
 /// no cells, n.
@@ -1548,15 +1583,17 @@ deldrift_status deldrift_coincident_representative(const deldrift_triangulation 
                                                    uint32_t vertex,
                                                    uint32_t *representative);
 
-/// The vertices that are hidden, ascending, each with the one that represents it.
+/// The vertices that are hidden, ascending, each with the one that represents it. Vertices of a periodic triangulation that share
+/// a place in any period count.
 ///
 /// vertices, representatives: buffers with room for capacity ids each. One that is NULL is not filled. count: receives
 /// the number of hidden vertices, which is also written when the buffers are too small. NULL for both with capacity 0
 /// asks for the count alone.
 ///
-/// Cost: n; constant where there are none, and for the count alone.
+/// Cost: n; constant where there are none, and for the count alone; n for a periodic triangulation.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL; DELDRIFT_OUT_OF_MEMORY if t is
+/// periodic.
 deldrift_status deldrift_hidden_vertices(const deldrift_triangulation *t,
                                          uint32_t *vertices,
                                          uint32_t *representatives,
@@ -1573,8 +1610,11 @@ deldrift_status deldrift_hidden_vertices(const deldrift_triangulation *t,
 ///
 /// It is fastest if each position is near the one before it. The first id of a row is that of deldrift_nearest_vertex.
 ///
+/// In a periodic triangulation positions may be in any period, and are rounded as for deldrift_locate. Each vertex comes
+/// once, by the distance of its nearest image (the minimum image); images farther away do not count.
+///
 /// Cost: count times that of deldrift_nearest_vertex, the stars of the k vertices, and k log k; with k = 0 constant.
-/// While there are no cells, count times n.
+/// While there are no cells, count times n; n more in a periodic triangulation with hidden vertices.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
@@ -1591,8 +1631,11 @@ deldrift_status deldrift_nearest_vertices(const deldrift_triangulation *t,
 /// capacity ids; deldrift_vertex_count is always enough. count: receives their number, which is also written when the
 /// buffer is too small. NULL with capacity 0 asks for the count alone, which takes as long.
 ///
+/// In a periodic triangulation the centre may be in any period, and is rounded as for deldrift_locate. A vertex is in the
+/// ball if any image of it is; each is told once. The ball may be larger than the box.
+///
 /// Cost: that of deldrift_nearest_vertex, the stars of the vertices in the ball, and k log k for the k of them; n log n
-/// at most but for the former. While there are no cells, n.
+/// at most but for the former. While there are no cells, and in a periodic triangulation with hidden vertices, n.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
 /// DELDRIFT_INVALID_VALUE for a squared radius that is negative or NaN, DELDRIFT_BUFFER_TOO_SMALL,
@@ -1761,6 +1804,9 @@ deldrift_status deldrift_vertices_in_reach(const deldrift_triangulation *t,
 /// 4e-9 of itself, however flat the cell; unless it is nearly flat, by a few last bits. What is too large for a
 /// number is infinite; nothing is NaN. One pass over the cells; nearly flat ones take a microsecond each.
 ///
+/// In a periodic triangulation a centre is where the cell's corner of the lowest id is at its own position, as
+/// deldrift_cell_shifts has it, and its rounding may be twice that of its coordinates and of the position's.
+///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
@@ -1846,7 +1892,8 @@ deldrift_status deldrift_mask_without_flat_cells(const deldrift_triangulation *t
 /// facets, which is also written when the buffers are too small. NULL for all three with capacity 0 asks for the
 /// count alone.
 ///
-/// Facets are in ascending order of cell and then of corner. Exact. Two passes over the cells.
+/// Facets are in ascending order of cell and then of corner. Exact. Two passes over the cells. In a periodic triangulation each
+/// is where deldrift_cell_shifts has its cell.
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
@@ -1870,7 +1917,8 @@ deldrift_status deldrift_mask_boundary(const deldrift_triangulation *t,
 /// filled. count: receives the number of facets, which is also written when the buffers are too small. NULL for all
 /// three with capacity 0 asks for the count alone.
 ///
-/// Exact. One pass over the cells; constant time for the count alone.
+/// Exact. One pass over the cells; constant time for the count alone. A periodic triangulation has none unless its box is open
+/// somewhere; to count them takes a pass over the cells.
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
@@ -2170,9 +2218,12 @@ deldrift_status deldrift_edges(const deldrift_triangulation *t,
 /// receives the number of entries, twice that of the edges, which is also written when neighbours is too small. NULL
 /// for both asks for the count alone, in constant time.
 ///
+/// Of a periodic triangulation a vertex is listed once for each edge that leads to it: several times where edges lead to it
+/// in several periods, and itself twice for each edge to itself.
+///
 /// Takes some passes over the cells, and while it runs memory for the lists and for the cells of each vertex.
 ///
-/// Cost: n + m, and d log d for the d neighbours of each vertex. After a change the first call also does what the first
+/// Cost: n + m, and d log d for the d neighbours of each vertex; m log m for a periodic triangulation. After a change the first call also does what the first
 /// deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
@@ -2193,9 +2244,11 @@ deldrift_status deldrift_vertex_neighbours(const deldrift_triangulation *t,
 /// the number of entries, 3 (2D) or 4 (3D) times that of the cells, which is also written when cells is too small. NULL
 /// for both asks for the count alone, in constant time.
 ///
+/// Of a periodic triangulation a cell is listed once for each of its corners that is the vertex, in whatever period.
+///
 /// Takes two passes over the cells, and memory for the lists while it runs.
 ///
-/// Cost: n + m. After a change the first call also does what the first deldrift_cells does.
+/// Cost: n + m; m log m for a periodic triangulation. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY.
@@ -2241,7 +2294,7 @@ deldrift_status deldrift_find_simplices(const deldrift_triangulation *t,
 
 /// The mirror indices of all facets: entry i of the row of a cell, in the order of deldrift_cells, is about the facet
 /// opposite corner i. It is the corner (0, 1, ...) of the neighbour beyond that is opposite the same facet, 255 on
-/// the hull.
+/// the hull. In a periodic triangulation a cell may be its own neighbour.
 ///
 /// mirrors: a buffer with room for capacity rows of 3 (2D) or 4 (3D) bytes. count: receives the number of cells, which
 /// is also written when the buffer is too small. NULL with capacity 0 asks for the count alone.
@@ -2299,7 +2352,7 @@ deldrift_status deldrift_ordered_star(const deldrift_triangulation *t,
 /// are all whose shape has changed: with the functions that follow, a program that keeps an array for all cells updates
 /// those entries alone.
 ///
-/// Cost: the cells of the stars, and k log k for the k of them; m at most. After a change the first call also does what
+/// Cost: the cells of the stars, and k log k for the k of them; m at most, and for a periodic triangulation. After a change the first call also does what
 /// the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX,
@@ -2401,6 +2454,9 @@ deldrift_status deldrift_update_mask_by_circumradius(const deldrift_triangulatio
 /// by at most h times its perimeter, however near to each other vertices are. In place of 1e-8 it is some last bits, about 1e-15, unless cells are nearly flat (see
 /// deldrift_circumcentres). Never negative. The volumes of all ids add up to that of the box but for rounding.
 ///
+/// In a periodic triangulation low and high must be NULL. Cells without an end, as there are in a box that is open somewhere,
+/// are infinite; the volumes are those of deldrift_voronoi_cells, to the last bit.
+///
 /// Takes time in proportion to the number of cells, and of ids; in a box, for Voronoi cells at its boundary, to the
 /// number of corners of their facets as well, a microsecond (2D) or some (3D) for each such cell of ordinary sets.
 /// Where a circumcentre nearly is in a face of the box, microseconds for each, as that is decided exactly. Takes memory
@@ -2439,6 +2495,10 @@ deldrift_status deldrift_voronoi_volumes(const deldrift_triangulation *t,
 /// an area by at most h times the perimeter of the facet, however near to each other vertices are. Never negative. The
 /// facets of a vertex whose Voronoi cell is in the box, times the lengths of its edges and divided by 4 (2D) or 6 (3D),
 /// add up to its area or volume but for rounding.
+///
+/// In a periodic triangulation low and high must be NULL. Of several edges between two vertices each has the facet of its own,
+/// and one that leads from a vertex to itself has the facet that two periods of its cell share. The measures are those of
+/// deldrift_voronoi_derivatives, to the last bit.
 ///
 /// Takes time in proportion to the number of cells, and memory for circumcentres and for the cells of each vertex while
 /// it runs. What is cut by the box, and is nearly in a face of it, takes as long as in deldrift_voronoi_volumes. Calls
@@ -2481,6 +2541,12 @@ deldrift_status deldrift_voronoi_facets(const deldrift_triangulation *t,
 /// times the length of the boundary), an area by h times the sum of the perimeters of the cell's faces (2D: 2 h for
 /// each), and a centroid, where that is less than d, by that error of the volume times d / V; it is in the box in any
 /// case. The volumes of all ids add up to that of the box but for rounding.
+///
+/// In a periodic triangulation low and high must be NULL: nothing is cut. A cell without an end, as there are in a box that is
+/// open somewhere, has volume and area infinite, and its centroid is NaN. The h is the one that deldrift_voronoi_volumes has
+/// without a box. A centroid is where the vertex is at its own position, in whatever period that is, and off by the rounding of
+/// its coordinates besides. The numbers do not depend on the periods in which positions are given nor on copies that the library
+/// keeps, but for rounding; with the same cells in the same order they are the same to the last bit.
 ///
 /// Takes memory for circumcentres, for sums, and, where cells are cut by the box, for the cells of each vertex while it
 /// runs. Runs on several threads, as the options allow. Cells that are cut take several times as long as others. Calls
@@ -2571,6 +2637,14 @@ deldrift_status deldrift_voronoi_cells_within(const deldrift_triangulation *t,
 /// Rounded: let h be what deldrift_voronoi_volumes has for a box, P the perimeter of a facet (2D: 2), d its diameter. A
 /// measure is off by at most h P, a centroid by h P d / A, and by d + h where A is less than 4 h P; a derivative by h P
 /// (d + |x - c|) / L, where x is the position by which it is.
+///
+/// In a periodic triangulation low and high must be NULL; the h is the one that deldrift_voronoi_volumes has without a box, of
+/// the cells around the edge. A facet without an end has an infinite measure, and NaN for the rest. A centroid is where the first
+/// vertex of the edge is at its own position, and off by the rounding of its coordinates besides; the second vertex is where
+/// deldrift_edge_shifts has it. The derivatives of an edge are those by the position of one of its ends alone. As all periods of a
+/// vertex move, the derivative of the volume of the cell of i by the position of j is the sum over the edges between i and
+/// j, and that by its own position is minus the sum of the derivatives of the other cells by that position, over its edges to
+/// other vertices: an edge from a vertex to itself contributes nothing, as its facet moves along with all of the cell.
 ///
 /// Takes memory for circumcentres, edges and the cells of each vertex while it runs. What is cut by the box, and facets
 /// narrower than 1e-7 of it, take about a microsecond each. Calls the callbacks of the options.
@@ -2680,8 +2754,16 @@ deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
 /// deldrift_commit_positions, deldrift_vertex_count, deldrift_id_count, deldrift_cell_count, deldrift_staged_count,
 /// deldrift_memory_bytes, deldrift_timestamp, deldrift_statistics, deldrift_is_present, deldrift_position,
 /// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges,
-/// deldrift_take_changes, and deldrift_voronoi_volumes without a box. All others return DELDRIFT_PERIODIC. Cells are
-/// numbered anew by each commit, unless changes are taken.
+/// deldrift_take_changes, deldrift_circumcentres, deldrift_volumes, deldrift_mask_by_circumradius with the functions that
+/// update what these give, deldrift_mask_boundary, deldrift_hull_facets, deldrift_locate, deldrift_locate_points,
+/// deldrift_locate_in_period, deldrift_nearest_vertex, deldrift_nearest_vertices, deldrift_vertices_in_ball,
+/// deldrift_barycentric, deldrift_interpolate with DELDRIFT_INTERPOLATION_LINEAR, deldrift_clone, deldrift_save,
+/// deldrift_load, deldrift_save_file, deldrift_load_file, deldrift_write_vtu, deldrift_write_medit, deldrift_compact,
+/// deldrift_relocate_vertex, deldrift_insert_vertex, deldrift_remove_vertex, deldrift_validate, deldrift_hidden_vertices,
+/// deldrift_star, deldrift_vertex_cells, deldrift_vertex_neighbours, deldrift_cell_of_each_vertex, deldrift_cells_around,
+/// deldrift_mirror_indices, deldrift_mirror_index, and without a box deldrift_voronoi_volumes, deldrift_voronoi_facets,
+/// deldrift_voronoi_cells and deldrift_voronoi_derivatives. All others return DELDRIFT_PERIODIC. Cells are numbered anew
+/// by each commit, unless changes are taken.
 ///
 /// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves,
 /// or of other vectors that are near those in force, costs what it costs in an open triangulation of as many, and n + m; one
@@ -2766,7 +2848,7 @@ deldrift_status deldrift_cell_shifts(const deldrift_triangulation *t,
 ///
 /// All are 0 where the triangulation is not periodic.
 ///
-/// Cost: m log m.
+/// Cost: n + m, and d log d for the d neighbours of each vertex.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY.
@@ -2788,6 +2870,9 @@ deldrift_status deldrift_edge_shifts(const deldrift_triangulation *t,
 /// At the place of a vertex the result is that of the vertex. Elsewhere it is rounded, and linear functions are
 /// reproduced but for rounding, with either method. Which cell or which neighbours count is decided exactly. A position
 /// takes as long as deldrift_locate_points, and with natural neighbours some microseconds more.
+///
+/// In a periodic triangulation positions may be in any period, and are rounded as for deldrift_locate. An image of a
+/// vertex has the values of the vertex. Only DELDRIFT_INTERPOLATION_LINEAR is served; the other method is DELDRIFT_PERIODIC.
 ///
 /// Cost: count times that of deldrift_locate and n_values; with natural neighbours also the cells whose circle or
 /// sphere has the position inside. After a change the first call also does what the first deldrift_cells does.
@@ -2820,6 +2905,9 @@ deldrift_status deldrift_interpolate(const deldrift_triangulation *t,
 /// (Where an area, a volume or the value itself is below the least normal number, 2.2e-308, it is less accurate.) What
 /// is beyond the range of numbers is infinite. A row adds up to 1 but for these errors.
 ///
+/// In a periodic triangulation positions may be in any period, and are rounded as for deldrift_locate. The weights are
+/// those in the translation of the cell that has the position inside or on its boundary; where there is none, the row is NaN.
+///
 /// Cost: count. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
@@ -2836,7 +2924,7 @@ deldrift_status deldrift_barycentric(const deldrift_triangulation *t,
 ///
 /// Positions, ids, segments, cells with their indices, hidden vertices, staged moves, insertions and removals, the timestamp,
 /// statistics, options, the changes that deldrift_take_changes has not given yet, and what the algorithm keeps between
-/// commits are those of t: after the same calls both have the same cells. The callbacks of the options are called for
+/// commits are those of t, and so are the vectors of a periodic one, also those that are staged: after the same calls both have the same cells. The callbacks of the options are called for
 /// either, so what user_data points to must live as long as both. Views, and changes that have been taken, belong to t
 /// alone.
 ///
@@ -2853,7 +2941,8 @@ deldrift_status deldrift_clone(const deldrift_triangulation *t,
 ///
 /// Saved are positions, ids, segments, removed and hidden vertices, cells with their indices, staged moves, insertions and
 /// removals, the timestamp and statistics. Not saved are the options, what the algorithm keeps between commits, and
-/// which changes have been taken. docs/FORMAT.md describes the bytes.
+/// which changes have been taken. docs/FORMAT.md describes the bytes. Of a periodic triangulation the vectors as they were
+/// given, those that are staged, and the periods of vertices are saved, too, and all images with their cells.
 ///
 /// buffer: room for capacity bytes, with any alignment. count: receives the number of bytes, which is also written
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone, in constant time.
@@ -2884,9 +2973,14 @@ deldrift_status deldrift_save(const deldrift_triangulation *t,
 /// times as many bytes. This holds whatever the data are: what is not a Delaunay triangulation, exactly, is refused,
 /// even if the checksum is right.
 ///
-/// Cost: n log n + m, whatever the data are.
+/// Data of a periodic triangulation give one. Its images count as vertices: all that is in the data is checked, and that no image is
+/// missing. Where cells do not tell that at once, as after some commits, it takes a copy of the triangulation, into which
+/// images are inserted: as long as creation, and as much memory, at most, with data of any kind.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS,
+/// Cost: n log n + m, whatever the data are; of a periodic one that of creation at most.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS (also if
+/// the options reject coincidence and the data are of a periodic one),
 /// DELDRIFT_INVALID_DATA, DELDRIFT_COINCIDENT (if vertices are hidden and the options reject it),
 /// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. May be called from
 /// any number of threads at once.
@@ -2938,12 +3032,16 @@ deldrift_status deldrift_load_file(const char *path,
 /// is hidden is the vertex that represents it. Their markers are the cell data "marker", which is 0 for cells that are
 /// no lines, and cell_fields are NaN for lines.
 ///
+/// Of a periodic triangulation the cells are together as deldrift_cell_shifts has them. A vertex is a point for each period
+/// in which a cell has it, ascending by id and by these shifts, all with its id and its numbers of fields; one that no cell
+/// has is a point at its position.
+///
 /// vertex_fields, cell_fields: numbers to be written along as point data and cell data, vertex_field_count and
 /// cell_field_count of them; NULL if the count is 0. All of it is read during the call only.
 ///
 /// Does what deldrift_cells does.
 ///
-/// Cost: n + m, and the numbers of the fields.
+/// Cost: n + m, and the numbers of the fields; m log m for a periodic triangulation.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_FIELD,
 /// DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
@@ -2959,7 +3057,8 @@ deldrift_status deldrift_write_vtu(const deldrift_triangulation *t,
 /// Its vertices are those that are present, hidden ones included, ascending by id and numbered from 1; the reference
 /// of each is its id. Its triangles or tetrahedra are the cells, in the order of deldrift_cells. If there are segments in
 /// force, those of deldrift_segments are its edges, in that order, behind the triangles; the reference of each is its
-/// marker, and an end that is hidden is the vertex that represents it. Reading the numbers gives the same doubles.
+/// marker, and an end that is hidden is the vertex that represents it. Reading the numbers gives the same doubles. Of a
+/// periodic triangulation a vertex is there once for each period in which a cell has it, as in deldrift_write_vtu.
 ///
 /// references: reference_count numbers, the reference of each cell in the order of deldrift_cells (reference_count must
 /// be deldrift_cell_count), such as those of deldrift_label_cells; NULL with reference_count 0 for 1. They are read
@@ -2968,7 +3067,7 @@ deldrift_status deldrift_write_vtu(const deldrift_triangulation *t,
 ///
 /// Does what deldrift_cells does.
 ///
-/// Cost: n + m.
+/// Cost: n + m; m log m for a periodic triangulation.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_IO_ERROR,
 /// DELDRIFT_OUT_OF_MEMORY.

@@ -510,7 +510,7 @@ static void periodic_ones_are_refused_or_served(void) {
         check_refusal(f->name, "t", "periodic", status, DELDRIFT_PERIODIC, "t is periodic", f->has_count);
         n_refused++;
     }
-    CHECK(n_refused > 40);
+    CHECK(n_refused > 20);
     before();
     size_t count;
     CHECK_STATUS(deldrift_voronoi_volumes(made, low, high, out.numbers, ROOM, &count), DELDRIFT_PERIODIC);

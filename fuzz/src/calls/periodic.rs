@@ -35,7 +35,7 @@ impl History<'_> {
             let status = c!(deldrift_commit_positions(t, next.positions.as_ptr(), n, null_mut()));
             self.is_ok(status);
         }
-        let t = self.kept(t, d);
+        let t = self.kept(t, d, &mut known);
         let [mut positions, mut vectors] = [vec![0.0; n * d], vec![0.0; rank * d]];
         let mut count = 0;
         self.is_ok(c!(deldrift_copy_positions(t, positions.as_mut_ptr(), n, &mut count)));
@@ -116,11 +116,18 @@ impl History<'_> {
     }
 
     /// The triangulation, a clone of it, or one that is loaded of what it was, each with its cells.
-    fn kept(&mut self, t: *mut deldrift_triangulation, d: usize) -> *mut deldrift_triangulation {
+    fn kept(
+        &mut self,
+        t: *mut deldrift_triangulation,
+        d: usize,
+        known: &mut BTreeSet<u32>,
+    ) -> *mut deldrift_triangulation {
         let mut other = null_mut();
         match self.s.below(3) {
             0 => self.is_ok(c!(deldrift_clone(t, &mut other))),
             1 => {
+                // Of one that has been loaded no changes have been taken.
+                known.clear();
                 let mut size = 0;
                 self.is_ok(c!(deldrift_save(t, null_mut(), 0, &mut size)));
                 let mut bytes = vec![0u8; size];
