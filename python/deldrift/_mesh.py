@@ -367,10 +367,12 @@ class Mesh:
 
         Parameters
         ----------
-        least_angle, greatest_area, sizes, is_too_large, keep, limit, is_conforming, values
+        least_angle, greatest_area
             As of `Delaunay.refine`.
         areas : dict, optional
             The greatest area of triangles by the label of their region, 0 for any.
+        sizes, is_too_large, keep, limit, is_conforming, values
+            As of `Delaunay.refine`.
 
         Returns
         -------
@@ -417,10 +419,12 @@ class Mesh:
 
         Parameters
         ----------
-        least_angle, greatest_area, sizes, is_too_large, margin, share, joins, is_conforming
+        least_angle, greatest_area
             As of `Delaunay.coarsen`.
         areas : dict, optional
             The greatest area of triangles by the label of their region, 0 for any.
+        sizes, is_too_large, margin, share, joins, is_conforming
+            As of `Delaunay.coarsen`.
 
         Returns
         -------
