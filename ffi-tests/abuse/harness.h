@@ -475,7 +475,7 @@ static bool serves_periodic(const char *name) {
         "stage_removals", "discard_moves", "commit_timestamp", "commit_positions", "vertex_count", "id_count",
         "cell_count", "staged_count", "memory_bytes", "timestamp", "statistics", "is_present", "position",
         "copy_positions", "coincident_representative", "cells", "copy_cells", "edges", "voronoi_volumes",
-        "stage_vectors", "vectors", "cell_shifts", "edge_shifts"};
+        "stage_vectors", "vectors", "cell_shifts", "edge_shifts", "reduced_vectors", "wrap_positions"};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         if (strcmp(name + strlen("deldrift_"), all[k]) == 0) return true;
     }

@@ -65,7 +65,7 @@ typedef enum { CREATE, CREATE_WITH_KEYS, CREATE_PERIODIC, RELOCATE, INSERT, INSE
     CELLS_IN_REACH, HULL_FACETS_IN_REACH, VERTICES_IN_REACH, FIND_SIMPLICES, FIND_SIMPLICES_ALL,
     CELL_OF_EACH_VERTEX, BARYCENTRIC, MASK_WITHOUT_FLAT_CELLS, SEGMENTS_OF_CELLS, CELLS_OF_SEGMENTS, NESTING_LEVELS,
     LABEL_CELLS, UPDATE_LABELS, BOUNDARY_CHAINS, REFINE, COARSEN, RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT,
-    PERIODIC_POSITIONS, STAGE_VECTORS, CELL_SHIFTS, EDGE_SHIFTS, N_KINDS } kind;
+    PERIODIC_POSITIONS, STAGE_VECTORS, CELL_SHIFTS, EDGE_SHIFTS, WRAP_POSITIONS, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
     "deldrift_create", "deldrift_create_with_keys", "deldrift_create_periodic", "deldrift_relocate_vertex", "deldrift_insert_vertex",
@@ -95,6 +95,7 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_release_cells", "deldrift_clone", "deldrift_save", "deldrift_load", "deldrift_save_file",
     "deldrift_load_file", "deldrift_write_vtu", "deldrift_write_medit",
     "deldrift_commit_positions, periodic", "deldrift_stage_vectors", "deldrift_cell_shifts", "deldrift_edge_shifts",
+    "deldrift_wrap_positions",
 };
 
 enum { MOST_PAIRS = 24 };
@@ -498,6 +499,9 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case STAGE_VECTORS: status = deldrift_stage_vectors(s->periodic, OTHER_BOX[d - 2], d); break;
         case CELL_SHIFTS: status = deldrift_cell_shifts(s->periodic, shifts_out, NULL, ROOM / 12, &count); break;
         case EDGE_SHIFTS: status = deldrift_edge_shifts(s->periodic, shifts_out, ROOM / 3, &count); break;
+        case WRAP_POSITIONS:
+            status = deldrift_wrap_positions(s->periodic, s->places, s->points, s->n, numbers_out, shifts_out);
+            break;
         case CREATE_WITH_KEYS: status = deldrift_create_with_keys(d, s->points, keys_of(s->n), s->n, &options, &made); break;
         case INSERT_WITH_KEY: status = deldrift_insert_vertex_with_key(s->t, to, 3, &out); break;
         case INSERT: status = deldrift_insert_vertex(s->t, to, &out); break;

@@ -31,6 +31,11 @@ int main() {
     Triangulation t(2, points, deldrift::Periodic(box));
     CHECK(t.vectors() == box && t.cell_count() == 8 && std::fabs(area_of(t) - 1) < 1e-12);
     CHECK(t.cell_shifts().neighbours.size() == 48 && t.edge_shifts().size() == 24 && t.edges().size() == 24);
+    CHECK(t.reduced_vectors().vectors == box && t.reduced_vectors().multiples == (std::vector<std::int64_t>{1, 0, 0, 1}));
+    const std::vector<double> near{0, 0, 0, 0, 0, 0, 2.375, 0};
+    CHECK(t.wrap_positions(points).places[6] == 0.75 && t.wrap_positions(points).shifts[7] == -1);
+    CHECK(t.wrap_positions(points, near).shifts == t.wrap_positions(points).shifts);
+    CHECK_THROWS(t.wrap_positions(points, box), DELDRIFT_WRONG_COUNT, "near has 4 numbers");
     t.stage_vectors(std::vector<double>{1, 0, 0, 1.5});
     t.commit_timestamp();
     CHECK(std::fabs(area_of(t) - 1.5) < 1e-12);

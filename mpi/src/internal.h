@@ -239,8 +239,8 @@ bool dm_wrap(dm_refusal *refusal, const dm_lattice *lattice, const double *posit
              double *places, int64_t *shifts);
 // Has what a commit is given in m->home, and where each comes from in m->home_wraps; positions become these.
 bool dm_come_home(deldrift_mpi *m, const double **positions);
-// Own vertices in the unit cell of a periodic box, and by which multiples of the vectors they are out of it.
-bool dm_unit_places(const deldrift_mpi *m, dm_refusal *refusal, double *places, int64_t *shifts);
+// Own vertices where they are; in a periodic box all in the unit cell.
+bool dm_unit_places(const deldrift_mpi *m, dm_refusal *refusal, double *places);
 
 // peers.c
 dm_peer *dm_peer_of(deldrift_mpi *m, int rank);

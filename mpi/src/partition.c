@@ -127,7 +127,7 @@ deldrift_status deldrift_mpi_partition(deldrift_mpi *m, const double *weights, s
     uint64_t *bounds = dm_allocate(&refusal, 2 * size, sizeof *bounds);
     double *sums = dm_allocate(&refusal, 2 * size, sizeof *sums);
     double *own = dm_allocate(&refusal, m->own_count * m->dimension, sizeof *own);
-    if (own) dm_unit_places(m, &refusal, own, NULL);
+    if (own) dm_unit_places(m, &refusal, own);
     deldrift_status status = dm_decide(m->comm, &refusal, NULL).status;
     if (status == DELDRIFT_OK) {
         find_places(m, own, items);

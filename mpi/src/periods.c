@@ -110,16 +110,18 @@ bool dm_come_home(deldrift_mpi *m, const double **positions) {
     return dm_wrap(r, &m->lattice, given, m->home_before, count, m->home, m->home_wraps);
 }
 
-bool dm_unit_places(const deldrift_mpi *m, dm_refusal *refusal, double *places, int64_t *shifts) {
+bool dm_unit_places(const deldrift_mpi *m, dm_refusal *refusal, double *places) {
     uint32_t d = m->dimension;
     if (!m->lattice.rank) {
         gather_own(m, places);
         return true;
     }
     double *own = dm_allocate(refusal, m->own_count * d, sizeof *own);
+    int64_t *shifts = dm_allocate(refusal, m->own_count * d, sizeof *shifts);
     if (own) gather_own(m, own);
-    bool has_them = own && dm_wrap(refusal, &m->lattice, own, NULL, m->own_count, places, shifts);
+    bool has_them = own && shifts && dm_wrap(refusal, &m->lattice, own, NULL, m->own_count, places, shifts);
     free(own);
+    free(shifts);
     return has_them;
 }
 

@@ -209,9 +209,8 @@ pub unsafe extern "C" fn deldrift_reduced_vectors(
 /// positions: count points, in any period; they need not be those of vertices, and the triangulation may have none. near: NULL,
 /// or count points, where the vertices have been: each goes to the period that is nearest to its entry, if that place is
 /// out of the unit cell by a quarter of it at most, so that a vertex at a side does not go to and fro.
-/// places: a buffer with room for count points. shifts: a buffer with room for count rows of 2 (2D) or 3 (3D) whole numbers:
-/// by which multiples of the vectors that were given the position is translated from its place. One that is NULL is not
-/// filled.
+/// places: receives count points. shifts: receives count rows of 2 (2D) or 3 (3D) whole numbers: by which multiples of the
+/// vectors that were given the position is translated from its place, 0 beyond the last of these.
 ///
 /// Where the triangulation is not periodic, places are the positions, and shifts 0.
 ///
@@ -357,7 +356,7 @@ fn fill_wrapped<const D: usize>(
     places: Buffer<'_, [f64; D]>,
     shifts: Buffer<'_, [i64; D]>,
 ) -> Result<(), Failure> {
-    let (places, shifts) = (places.places_if_any(count)?, shifts.places_if_any(count)?);
+    let (places, shifts) = (places.places(count)?, shifts.places(count)?);
     match t {
         Content::Open(t) => in_its_dimension!(t => {
             let positions = positions.of(t)?;
