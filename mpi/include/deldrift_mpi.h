@@ -253,7 +253,8 @@ deldrift_status deldrift_mpi_local(const deldrift_mpi *m, const deldrift_triangu
 deldrift_status deldrift_mpi_owners(const deldrift_mpi *m, int32_t *owners, size_t capacity, size_t *count);
 
 /// The cells that the calling process owns: of those with an own vertex the ones whose corner of least global id is
-/// own. So each cell of the whole is owned by one process.
+/// own. So each cell of the whole is owned by one process. In a periodic box one cell is owned of each class of those
+/// that are translations of each other; ids may be there more than once in a row.
 ///
 /// ids: a buffer with room for capacity rows of 3 (2D) or 4 (3D) global ids, positively oriented. cells: a buffer with
 /// room for capacity indices of cells in the triangulation of the process. One that is NULL is not filled. count:
@@ -265,12 +266,12 @@ deldrift_status deldrift_mpi_owners(const deldrift_mpi *m, int32_t *owners, size
 deldrift_status deldrift_mpi_cells(const deldrift_mpi *m, uint64_t *ids, uint32_t *cells, size_t capacity,
                                    size_t *count);
 
-/// In which period each corner of each own cell is, in the order of deldrift_mpi_cells. Collective, as owners tell how they
-/// were given.
+/// In which period each corner of each own cell is, in the order of deldrift_mpi_cells. Collective, as owners tell how
+/// vertices were given.
 ///
 /// shifts: receives a row of 2 (2D) or 3 (3D) whole numbers for each of the 3 or 4 corners: multiples of the vectors, 0
-/// beyond the last of these. The corner is at the position that its owner has given, rounded to the grid, and the sum of
-/// these multiples. The corner of the least id is at its position (if the vertex is there more than once, the first of
+/// beyond the last of these. The corner is at the position that its owner has given, rounded to the grid, and the sum
+/// of these multiples. The corner of the least id is at its position (if the vertex is there more than once, the first of
 /// these by x, y, z). A buffer with room for capacity cells. count: receives the number of cells, also when the buffer
 /// is too small: that of deldrift_mpi_cells.
 ///
