@@ -39,6 +39,8 @@ mod staged;
 #[cfg(test)]
 mod tests;
 mod triangulation;
+#[cfg(test)]
+mod wrapping;
 
 pub use cells::PeriodicView;
 pub use either::AnyPeriodic;
