@@ -2605,9 +2605,10 @@ deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
 /// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges, and
 /// deldrift_voronoi_volumes without a box. All others return DELDRIFT_PERIODIC. Cells are numbered anew by each commit.
 ///
-/// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves
-/// costs what it costs in an open triangulation of as many, and n + m; one with insertions, removals or other vectors, or
-/// where a vertex has drifted far out of the box since the last such commit, costs as much as creation.
+/// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves,
+/// or of other vectors that are near those in force, costs what it costs in an open triangulation of as many, and n + m; one
+/// with insertions or removals, or where a vertex has drifted far out of the box since the last such commit, costs as much as
+/// creation.
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_INVALID_OPTIONS, DELDRIFT_NULL_ARGUMENT,
 /// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
@@ -2628,7 +2629,9 @@ deldrift_status deldrift_create_periodic(uint32_t dimension,
 /// that is not periodic. Vertices that do not move stay at their positions: a program that deforms its box with all that
 /// is in it gives the positions, too. Vectors that are staged already are forgotten. deldrift_discard_moves discards them.
 ///
-/// Cost: constant; the commit costs as much as creation, unless the vectors are those that are in force already.
+/// Cost: constant. The commit costs as much as one of moves of all vertices, as long as the vectors lead to a lattice that is
+/// near the one in force, whichever vectors of it are given: a box that is strained or sheared in small steps costs a creation
+/// once for each strain of about 1.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT,
 /// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_DEPENDENT_VECTORS, DELDRIFT_OUT_OF_MEMORY.
@@ -2673,7 +2676,7 @@ deldrift_status deldrift_reduced_vectors(const deldrift_triangulation *t,
 /// Takes positions into the box: each to its place in the unit cell of deldrift_reduced_vectors, on the grid of
 /// deldrift_create_periodic, which is where the triangulation would have it.
 ///
-/// positions: count points, in any period; they need not be those of vertices, and the triangulation may have none. near: NULL,
+/// positions: count points, in any period; they need not be those of vertices, and the triangulation may have none. previous: NULL,
 /// or count points, where the vertices have been: each goes to the period that is nearest to its entry, if that place is
 /// out of the unit cell by a quarter of it at most, so that a vertex at a side does not go to and fro.
 /// places: receives count points. shifts: receives count rows of 2 (2D) or 3 (3D) whole numbers: by which multiples of the
@@ -2687,7 +2690,7 @@ deldrift_status deldrift_reduced_vectors(const deldrift_triangulation *t,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_wrap_positions(const deldrift_triangulation *t,
                                         const double *positions,
-                                        const double *near,
+                                        const double *previous,
                                         size_t count,
                                         double *places,
                                         int64_t *shifts);

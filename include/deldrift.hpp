@@ -589,13 +589,13 @@ public:
                                             reduced.greatest.data(), count, &count));
         return reduced;
     }
-    // Positions in the unit cell of the reduced vectors, or in the period that is nearest to an entry of near, if that is given,
+    // Positions in the unit cell of the reduced vectors, or in the period that is nearest to an entry of previous, if given,
     // and by which multiples of the vectors of the box they are translated from there.
-    WrappedPositions wrap_positions(span<const double> positions, span<const double> near = {}) const {
+    WrappedPositions wrap_positions(span<const double> positions, span<const double> previous = {}) const {
         const std::size_t count = count_of("positions", positions);
-        if (near.size() != 0) expect("near", near.size(), positions.size());
+        if (previous.size() != 0) expect("previous", previous.size(), positions.size());
         WrappedPositions wrapped{std::vector<double>(positions.size()), std::vector<std::int64_t>(positions.size())};
-        require_ok(deldrift_wrap_positions(native(), positions.data(), near.size() != 0 ? near.data() : nullptr, count,
+        require_ok(deldrift_wrap_positions(native(), positions.data(), previous.size() != 0 ? previous.data() : nullptr, count,
                                            wrapped.places.data(), wrapped.shifts.data()));
         return wrapped;
     }

@@ -165,14 +165,14 @@ class PeriodicDelaunay(Core):
             self._check(_reduced_vectors(t, address(rows), address(multiples), None, self.ndim, count))
         return rows[: count.value], multiples[: count.value, : count.value]
 
-    def wrap(self, points: Any, near: Any = None) -> tuple[np.ndarray, np.ndarray]:
+    def wrap(self, points: Any, previous: Any = None) -> tuple[np.ndarray, np.ndarray]:
         """Takes points into the box: into the unit cell of the reduced vectors, on the grid of the box.
 
         Parameters
         ----------
         points : array_like
             Any points, in any period.
-        near : array_like, optional
+        previous : array_like, optional
             A row for each: it goes to the period nearest to that, if this is out of the unit cell by a quarter of it at most.
 
         Returns
@@ -183,9 +183,9 @@ class PeriodicDelaunay(Core):
             By which multiples of the vectors of the box each point is translated from there.
         """
         rows = point_rows("points", points, self.ndim)
-        beside = None if near is None else point_rows("near", near, self.ndim)
+        beside = None if previous is None else point_rows("previous", previous, self.ndim)
         if beside is not None and len(beside) != len(rows):
-            raise WrongCount(f"there are {len(beside)} rows of near for {len(rows)} points", "near", None, len(beside))
+            raise WrongCount(f"there are {len(beside)} rows of previous for {len(rows)} points", "previous", None, len(beside))
         places, shifts = np.empty(rows.shape, F64), np.empty(rows.shape, I64)
         other = None if beside is None else address(beside)
         with self._reading as t:

@@ -62,10 +62,10 @@ def test_points_are_taken_into_the_box(name):
     inside = places @ np.linalg.inv(shortest)
     assert inside.min() > -1e-9 and inside.max() < 1 + 1e-9
     # Near a side vertices stay where they have been.
-    moved, shifts = tri.wrap(places + 0.1 * shortest[0], near=places)
+    moved, shifts = tri.wrap(places + 0.1 * shortest[0], previous=places)
     assert not shifts.any() and np.abs(moved - places - 0.1 * shortest[0]).max() < 1e-12
-    with pytest.raises(deldrift.WrongCount, match="1 rows of near for 50 points"):
-        tri.wrap(points, near=points[:1])
+    with pytest.raises(deldrift.WrongCount, match="1 rows of previous for 50 points"):
+        tri.wrap(points, previous=points[:1])
 
 
 @pytest.mark.parametrize("name", BOXES)

@@ -206,7 +206,7 @@ pub unsafe extern "C" fn deldrift_reduced_vectors(
 /// Takes positions into the box: each to its place in the unit cell of deldrift_reduced_vectors, on the grid of
 /// deldrift_create_periodic, which is where the triangulation would have it.
 ///
-/// positions: count points, in any period; they need not be those of vertices, and the triangulation may have none. near: NULL,
+/// positions: count points, in any period; they need not be those of vertices, and the triangulation may have none. previous: NULL,
 /// or count points, where the vertices have been: each goes to the period that is nearest to its entry, if that place is
 /// out of the unit cell by a quarter of it at most, so that a vertex at a side does not go to and fro.
 /// places: receives count points. shifts: receives count rows of 2 (2D) or 3 (3D) whole numbers: by which multiples of the
@@ -222,21 +222,21 @@ pub unsafe extern "C" fn deldrift_reduced_vectors(
 pub unsafe extern "C" fn deldrift_wrap_positions(
     t: *const deldrift_triangulation,
     positions: *const f64,
-    near: *const f64,
+    previous: *const f64,
     count: usize,
     places: *mut f64,
     shifts: *mut i64,
 ) -> deldrift_status {
-    given!(t: Reading, positions[count]: Points, near[count]: Points);
+    given!(t: Reading, positions[count]: Points, previous[count]: Points);
     t.read_any(|t| {
         if t.dimension() == 2 {
             let (places, shifts) = (places.cast(), shifts.cast());
             given!(places[count]: Buffer, shifts[count]: Buffer);
-            fill_wrapped::<2>(t, positions, near, count, places, shifts)
+            fill_wrapped::<2>(t, positions, previous, count, places, shifts)
         } else {
             let (places, shifts) = (places.cast(), shifts.cast());
             given!(places[count]: Buffer, shifts[count]: Buffer);
-            fill_wrapped::<3>(t, positions, near, count, places, shifts)
+            fill_wrapped::<3>(t, positions, previous, count, places, shifts)
         }
     })
 }
@@ -351,7 +351,7 @@ fn fill_reduced_vectors<const D: usize>(
 fn fill_wrapped<const D: usize>(
     t: &Content,
     positions: Points<'_>,
-    near: Points<'_>,
+    previous: Points<'_>,
     count: usize,
     places: Buffer<'_, [f64; D]>,
     shifts: Buffer<'_, [i64; D]>,
@@ -360,14 +360,14 @@ fn fill_wrapped<const D: usize>(
     match t {
         Content::Open(t) => in_its_dimension!(t => {
             let positions = positions.of(t)?;
-            near.if_any(t)?;
+            previous.if_any(t)?;
             check_points_of(t, positions)?;
             write_all(places, positions.iter().map(|position| row_of(position.as_ref())));
             write_all(shifts, repeat([0; D]));
             Ok(())
         }),
         Content::Periodic(t) => in_its_period!(t, t => {
-            let wrapped = t.wrap_positions(positions.of(t)?, near.if_any(t)?)?;
+            let wrapped = t.wrap_positions(positions.of(t)?, previous.if_any(t)?)?;
             write_all(places, wrapped.iter().map(|(place, _)| row_of(place.as_ref())));
             write_all(shifts, wrapped.iter().map(|&(_, shift)| first_of(shift)));
             Ok(())

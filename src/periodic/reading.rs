@@ -48,25 +48,25 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     /// The place of each position in the unit cell of the reduced vectors, on the grid, and by which multiples of the vectors
-    /// that were given the position is translated from there. With `near`, the period whose place is nearest to the entry
-    /// there, if that is out of the unit cell by a quarter of it at most.
+    /// that were given the position is translated from there. With `previous`, the period whose place is nearest to the
+    /// entry there, if that is out of the unit cell by a quarter of it at most.
     ///
     /// # Errors
-    /// [`Error::WrongCount`] unless there are as many entries of `near`; [`Error::NotFinite`], [`Error::OutOfRange`],
+    /// [`Error::WrongCount`] unless there are as many entries of `previous`; [`Error::NotFinite`], [`Error::OutOfRange`],
     /// [`Error::OutOfMemory`].
     pub fn wrap_positions(
         &self,
         positions: &[G::Point],
-        near: Option<&[G::Point]>,
+        previous: Option<&[G::Point]>,
     ) -> Result<Vec<(G::Point, [i64; 3])>> {
-        if let Some(near) = near.filter(|near| near.len() != positions.len()) {
-            let (given, wanted) = (near.len(), positions.len());
-            return Err(Error::WrongCount { argument: "the length of near", given, wanted, coming: 0 });
+        if let Some(previous) = previous.filter(|previous| previous.len() != positions.len()) {
+            let (given, wanted) = (previous.len(), positions.len());
+            return Err(Error::WrongCount { argument: "the length of previous", given, wanted, coming: 0 });
         }
         let mut wrapped = Vec::new();
         memory::reserve_exact(&mut wrapped, positions.len())?;
         for (index, position) in positions.iter().enumerate() {
-            let near = near.map(|near| &near[index]);
+            let near = previous.map(|previous| &previous[index]);
             let (place, wrap) = self.lattice.at_home("positions", index, position, near)?;
             wrapped.push((place, self.lattice.of_caller(wrap)));
         }
