@@ -301,7 +301,8 @@ deldrift_status deldrift_mpi_periods(deldrift_mpi *m, int64_t *shifts, size_t ca
 ///
 /// Cost: the cells of the triangulation of the process.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_PERIODIC in a periodic
+/// box.
 deldrift_status deldrift_mpi_hull_facets(const deldrift_mpi *m, uint64_t *ids, uint32_t *cells, uint8_t *corners,
                                          size_t capacity, size_t *count);
 
@@ -311,7 +312,8 @@ deldrift_status deldrift_mpi_hull_facets(const deldrift_mpi *m, uint64_t *ids, u
 /// Cost: what has changed in the triangulation of the process, its halo included, and the stars of vertices that have
 /// an id which was another one's; of a list of all, the cells.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_OUT_OF_MEMORY; then the next list is of all own cells.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_OUT_OF_MEMORY; then the next list is of all own cells; DELDRIFT_PERIODIC in a
+/// periodic box.
 deldrift_status deldrift_mpi_take_changes(deldrift_mpi *m, deldrift_mpi_changes *changes);
 
 /// Brings values of vertices from their owners to all copies. Collective, but messages go between neighbours only.
