@@ -271,8 +271,8 @@ deldrift_status deldrift_mpi_cells(const deldrift_mpi *m, uint64_t *ids, uint32_
 ///
 /// shifts: receives a row of 2 (2D) or 3 (3D) whole numbers for each of the 3 or 4 corners: multiples of the vectors, 0
 /// beyond the last of these. The corner is at the position that its owner has given, rounded to the grid, and the sum
-/// of these multiples. The corner of the least id is at its position (if the vertex is there more than once, the first of
-/// these by x, y, z). A buffer with room for capacity cells. count: receives the number of cells, also when the buffer
+/// of these multiples. The corner of the least id is at its position (if the vertex is there more than once, the first
+/// of these by x, y, z). A buffer with room for capacity cells. count: receives the number of cells, also when the buffer
 /// is too small: that of deldrift_mpi_cells.
 ///
 /// Of each class of cells that are translations of each other, one process owns one. All shifts are 0 where the
@@ -312,8 +312,8 @@ deldrift_status deldrift_mpi_hull_facets(const deldrift_mpi *m, uint64_t *ids, u
 /// Cost: what has changed in the triangulation of the process, its halo included, and the stars of vertices that have
 /// an id which was another one's; of a list of all, the cells.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_OUT_OF_MEMORY; then the next list is of all own cells; DELDRIFT_PERIODIC in a
-/// periodic box.
+/// Errors: DELDRIFT_NULL_ARGUMENT; DELDRIFT_OUT_OF_MEMORY, then the next list is of all own cells; DELDRIFT_PERIODIC in
+/// a periodic box.
 deldrift_status deldrift_mpi_take_changes(deldrift_mpi *m, deldrift_mpi_changes *changes);
 
 /// Brings values of vertices from their owners to all copies. Collective, but messages go between neighbours only.
