@@ -216,6 +216,20 @@ deldrift_status deldrift_mpi_discard(deldrift_mpi *m);
 deldrift_status deldrift_mpi_commit(deldrift_mpi *m, const double *positions, size_t count,
                                     deldrift_mpi_report *report);
 
+/// Makes other vectors of a periodic box, and new positions of the own vertices, the next timestamp. Collective. All is
+/// built again: vertices have other ids in the triangulations of the processes, as after deldrift_mpi_migrate.
+///
+/// positions, count, report: as in deldrift_mpi_commit, but for positions, which are to be given. vectors: vector_count
+/// rows, as many as there are, the same on all processes. What is staged has to be committed or discarded before:
+/// DELDRIFT_STAGED_VERTEX.
+///
+/// Cost: that of deldrift_mpi_create_periodic.
+///
+/// Errors: those of deldrift_mpi_create_periodic, DELDRIFT_WRONG_COUNT for another number of positions or vectors,
+/// DELDRIFT_STAGED_VERTEX.
+deldrift_status deldrift_mpi_commit_vectors(deldrift_mpi *m, const double *positions, size_t count,
+                                            const double *vectors, size_t vector_count, deldrift_mpi_report *report);
+
 /// How many vertices the calling process owns, to *count.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT.
@@ -272,8 +286,8 @@ deldrift_status deldrift_mpi_cells(const deldrift_mpi *m, uint64_t *ids, uint32_
 /// shifts: receives a row of 2 (2D) or 3 (3D) whole numbers for each of the 3 or 4 corners: multiples of the vectors, 0
 /// beyond the last of these. The corner is at the position that its owner has given, rounded to the grid, and the sum
 /// of these multiples. The corner of the least id is at its position (if the vertex is there more than once, the first
-/// of these by x, y, z). A buffer with room for capacity cells. count: receives the number of cells, also when the buffer
-/// is too small: that of deldrift_mpi_cells.
+/// of these by x, y, z). A buffer with room for capacity cells. count: receives the number of cells, also when the
+/// buffer is too small: that of deldrift_mpi_cells.
 ///
 /// Of each class of cells that are translations of each other, one process owns one. All shifts are 0 where the
 /// triangulation is not periodic.

@@ -89,6 +89,7 @@ def _load() -> ctypes.CDLL:
         "stage_removals": [pointer, pointer, size],
         "discard": [pointer],
         "commit": [pointer, pointer, size, POINTER(Report)],
+        "commit_vectors": [pointer, pointer, size, pointer, size, POINTER(Report)],
         "count": [pointer, count],
         "vertices": [pointer, pointer, pointer, size, count],
         "local": [pointer, POINTER(c_void_p)],
@@ -365,10 +366,11 @@ class Delaunay:
         """Forgets what is staged on this process."""
         _check(_library.deldrift_mpi_discard(self._handle), False)
 
-    def commit(self, points: Any = None) -> Report:
+    def commit(self, points: Any = None, *, vectors: Any = None) -> Report:
         """Makes new positions of the own vertices, and what is staged, the next timestamp. Collective.
 
-        points: a row for each own vertex, also for those whose removal is staged; None if none moves.
+        points: a row for each own vertex, also for those whose removal is staged; None if none moves. vectors: those of
+        a periodic box from now on; all points have to be given then, and nothing may be staged.
         """
         report, count = Report(), 0
         if points is not None:
@@ -376,6 +378,15 @@ class Delaunay:
             # A wrong shape is refused as a wrong count, by all.
             is_right = points.ndim == 2 and points.shape[1] == self.dimension
             count = len(points) if is_right else len(self) + 1
+        if vectors is not None:
+            box = np.ascontiguousarray(vectors, dtype=np.float64)
+            n_vectors = len(box) if box.ndim == 2 and box.shape[1] == self.dimension else 0
+            _check(
+                _library.deldrift_mpi_commit_vectors(
+                    self._handle, _address(points), count, _address(box), n_vectors, byref(report)
+                )
+            )
+            return report
         _check(_library.deldrift_mpi_commit(self._handle, _address(points), count, byref(report)))
         return report
 

@@ -194,8 +194,7 @@ static deldrift_status check_arguments(MPI_Comm comm, dm_refusal *refusal, uint3
 }
 
 // All processes have to have the vectors of process 0.
-static deldrift_status check_vectors(MPI_Comm comm, dm_refusal *refusal, uint32_t dimension, const box *given,
-                                     const deldrift_options *local) {
+static deldrift_status check_vectors(MPI_Comm comm, dm_refusal *refusal, uint32_t dimension, const box *given) {
     uint64_t count = given->vector_count;
     double first[9] = {0};
     MPI_Bcast(&count, 1, MPI_UINT64_T, 0, comm);
@@ -206,8 +205,6 @@ static deldrift_status check_vectors(MPI_Comm comm, dm_refusal *refusal, uint32_
         dm_refuse(refusal, DELDRIFT_DEPENDENT_VECTORS, "vector_count is %zu", given->vector_count);
     else if (!given->vectors)
         dm_refuse(refusal, DELDRIFT_NULL_ARGUMENT, "vectors is NULL");
-    if (local->coincidence == DELDRIFT_COINCIDENCE_REJECT)
-        dm_refuse(refusal, DELDRIFT_INVALID_OPTIONS, "a periodic triangulation does not reject coincident vertices");
     deldrift_status status = dm_decide(comm, refusal, NULL).status;
     if (status != DELDRIFT_OK) return status;
     size_t length = given->vector_count * dimension;
@@ -236,8 +233,10 @@ static deldrift_status create(MPI_Comm comm, uint32_t dimension, const double *p
     uint64_t *own_ids = NULL;
     double *home = NULL;
     int64_t *wraps = NULL;
+    if (given && local.coincidence == DELDRIFT_COINCIDENCE_REJECT)
+        dm_refuse(&refusal, DELDRIFT_INVALID_OPTIONS, "a periodic triangulation does not reject coincident vertices");
     deldrift_status status = check_arguments(copy, &refusal, dimension, positions, ids, count, &read);
-    if (status == DELDRIFT_OK && given) status = check_vectors(copy, &refusal, dimension, given, &local);
+    if (status == DELDRIFT_OK && given) status = check_vectors(copy, &refusal, dimension, given);
     if (status == DELDRIFT_OK) {
         int size;
         MPI_Comm_size(copy, &size);
@@ -279,6 +278,61 @@ deldrift_status deldrift_mpi_create_periodic(MPI_Comm comm, uint32_t dimension, 
                                              deldrift_mpi **out) {
     box given = {vectors, vector_count};
     return create(comm, dimension, positions, ids, count, &given, options, out);
+}
+
+void dm_replace(deldrift_mpi *m, deldrift_mpi *fresh) {
+    deldrift_mpi old = *m;
+    fresh->timestamp = old.timestamp;
+    fresh->report.timestamp = old.timestamp;
+    *m = *fresh;
+    dm_free(&old);
+}
+
+// What is wrong with the arguments of one process.
+static void check_strain(const deldrift_mpi *m, dm_refusal *refusal, const double *positions, size_t count,
+                         size_t vector_count) {
+    if (m->insertion_count || m->removal_count)
+        dm_refuse(refusal, DELDRIFT_STAGED_VERTEX, "%zu insertions and %zu removals are staged", m->insertion_count,
+                  m->removal_count);
+    if (count != m->own_count)
+        dm_refuse(refusal, DELDRIFT_WRONG_COUNT, "count is %zu, and there are %zu own vertices", count, m->own_count);
+    else
+        dm_check_points(refusal, "positions", m->dimension, positions, count, NULL);
+    if (vector_count != m->lattice.rank)
+        dm_refuse(refusal, DELDRIFT_WRONG_COUNT, "vector_count is %zu, and the box has %u vectors", vector_count,
+                  m->lattice.rank);
+}
+
+deldrift_status deldrift_mpi_commit_vectors(deldrift_mpi *m, const double *positions, size_t count,
+                                            const double *vectors, size_t vector_count, deldrift_mpi_report *report) {
+    if (!m) return dm_no_handle();
+    dm_refusal refusal = {DELDRIFT_OK, ""};
+    box given = {vectors, vector_count};
+    check_strain(m, &refusal, positions, count, vector_count);
+    deldrift_status status = check_vectors(m->comm, &refusal, m->dimension, &given);
+    if (status != DELDRIFT_OK) return status;
+    uint64_t *ids = dm_allocate(&refusal, count, sizeof *ids);
+    double *home = dm_allocate(&refusal, count * m->dimension, sizeof *home);
+    int64_t *wraps = dm_allocate(&refusal, count * m->dimension, sizeof *wraps);
+    deldrift_mpi *fresh = dm_new(&refusal, m->comm, m->dimension, &m->options, &m->local, vectors, vector_count);
+    if (refusal.status == DELDRIFT_OK) {
+        for (size_t i = 0; i < count; i++) ids[i] = m->id_of[m->own[i]];
+        dm_wrap(&refusal, &fresh->lattice, positions, NULL, count, home, wraps);
+    }
+    status = dm_decide(m->comm, &refusal, NULL).status;
+    if (status == DELDRIFT_OK) status = dm_build(fresh, home, ids, wraps, count);
+    if (status == DELDRIFT_OK) {
+        dm_replace(m, fresh);
+        m->report.timestamp = ++m->timestamp;
+        if (report) *report = m->report;
+    } else if (fresh) {
+        dm_free(fresh);
+    }
+    free(fresh);
+    free(ids);
+    free(home);
+    free(wraps);
+    return status;
 }
 
 void deldrift_mpi_destroy(deldrift_mpi *m) {

@@ -301,6 +301,8 @@ uint32_t dm_least(const deldrift_mpi *m, const uint32_t *corners, uint32_t count
 // The triangulation of own vertices, for the first time: `points`, at home, with `ids` and `wraps`. Collective.
 deldrift_status dm_build(deldrift_mpi *m, const double *points, const uint64_t *ids, const int64_t *wraps,
                          size_t count);
+// Puts what has been built in the place of what there was.
+void dm_replace(deldrift_mpi *m, deldrift_mpi *fresh);
 deldrift_mpi *dm_new(dm_refusal *refusal, MPI_Comm comm, uint32_t dimension, const deldrift_mpi_options *options,
                      const deldrift_options *local, const double *vectors, size_t vector_count);
 

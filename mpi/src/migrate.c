@@ -140,15 +140,6 @@ static const double *come_home(dm_refusal *refusal, const deldrift_mpi *fresh, f
     return f->home;
 }
 
-// Puts what has been built in the place of what there was.
-static void replace(deldrift_mpi *m, deldrift_mpi *fresh) {
-    deldrift_mpi old = *m;
-    fresh->timestamp = old.timestamp;
-    fresh->report.timestamp = old.timestamp;
-    *m = *fresh;
-    dm_free(&old);
-}
-
 deldrift_status deldrift_mpi_migrate(deldrift_mpi *m, const int32_t *targets, size_t count, const void *values,
                                      size_t bytes_per_vertex, const void **received, deldrift_mpi_report *report) {
     if (!m) return dm_no_handle();
@@ -169,7 +160,7 @@ deldrift_status deldrift_mpi_migrate(deldrift_mpi *m, const int32_t *targets, si
     if (status == DELDRIFT_OK) {
         fresh->migrated = f.values;
         f.values = NULL;
-        replace(m, fresh);
+        dm_replace(m, fresh);
         if (received) *received = m->migrated;
         if (report) *report = m->report;
     } else if (fresh) {

@@ -105,6 +105,17 @@ static void migrate(history *h) {
     h->migrations++;
 }
 
+// Another box, a little longer or shorter, or by eighths where positions are on a lattice.
+static void strain(history *h) {
+    bool is_exact = h->kind == CUBES || h->kind == MEETING;
+    for (size_t k = 0; k < h->vector_count * h->dimension; k++) {
+        double share = 0.2 * random_number(&h->common) - 0.1;
+        if (h->vectors[k] != 0) h->vectors[k] *= is_exact ? 1.125 : 1 + share;
+    }
+    OK(deldrift_mpi_commit_vectors(h->m, h->positions, h->count, h->vectors, h->vector_count, NULL));
+    h->strains++;
+}
+
 static void run(long number, int steps, history *totals) {
     history h;
     memset(&h, 0, sizeof h);
@@ -112,7 +123,7 @@ static void run(long number, int steps, history *totals) {
     h.dimension = 2 + (uint32_t)(number % 2);
     size_t box = (size_t)(number / 2) % BOXES;
     h.kind = (set_kind)((number / 2 + number / 12) % SETS);
-    h.vectors = boxes[h.dimension - 2][box];
+    memcpy(h.vectors, boxes[h.dimension - 2][box], sizeof h.vectors);
     h.vector_count = vector_counts[h.dimension - 2][box];
     int spread = (int)(random_bits(&h.common) % 3);
     size_t n = 20 + random_bits(&h.common) % 60;
@@ -133,6 +144,7 @@ static void run(long number, int steps, history *totals) {
         if (step && choice % 8 == 0) migrate(&h);
         if (step && choice / 256 % 3 == 0) stage_edits(&h);
         if (choice / 1024 % 5 == 0) refuse_once(&h);
+        if (step && choice / 65536 % 4 == 0) strain(&h);
         if (step) {
             move(&h, choice / 8 % 16 < 8 ? (int)(choice / 8 % 16) / 2 : 4);
             OK(deldrift_mpi_commit(h.m, choice / 4096 % 4 || h.count ? h.positions : NULL, h.count, NULL));
@@ -149,6 +161,7 @@ static void run(long number, int steps, history *totals) {
     totals->refusals += h.refusals;
     totals->migrations += h.migrations;
     totals->edits += h.edits;
+    totals->strains += h.strains;
     totals->cells += h.cells;
 }
 
@@ -158,7 +171,7 @@ static void refuse_memory(uint32_t d, long *refused) {
     history h;
     memset(&h, 0, sizeof h);
     h.dimension = d;
-    h.vectors = boxes[d - 2][1];
+    memcpy(h.vectors, boxes[d - 2][1], sizeof h.vectors);
     h.vector_count = d;
     h.common = 3;
     h.state = 17 + (uint64_t)rank;
@@ -205,7 +218,7 @@ static void plant(void) {
             history h;
             memset(&h, 0, sizeof h);
             h.dimension = d;
-            h.vectors = boxes[d - 2][0];
+            memcpy(h.vectors, boxes[d - 2][0], sizeof h.vectors);
             h.vector_count = vector_counts[d - 2][0];
             h.common = d;
             deldrift_mpi_fault = is_planted ? DM_FAULT_NO_PERIOD : DM_FAULT_NONE;
@@ -257,6 +270,12 @@ static void check_arguments(void) {
     CHECK(deldrift_mpi_periods(m, NULL, 0, &count) == DELDRIFT_NULL_ARGUMENT && count > 0);
     int64_t shifts[2];
     CHECK(deldrift_mpi_periods(m, shifts, 1, &count) == DELDRIFT_BUFFER_TOO_SMALL);
+    CHECK(deldrift_mpi_commit_vectors(m, place, 1, box, 1, NULL) == DELDRIFT_WRONG_COUNT);
+    CHECK(deldrift_mpi_commit_vectors(m, NULL, 0, box, 2, NULL) == DELDRIFT_WRONG_COUNT);
+    CHECK(deldrift_mpi_commit_vectors(m, place, 1, (double[]){1, 1, 1, 1}, 2, NULL) == DELDRIFT_DEPENDENT_VECTORS);
+    if (size > 1)
+        CHECK(deldrift_mpi_commit_vectors(m, place, 1, rank == 1 ? other : box, 2, NULL) == DELDRIFT_INVALID_VALUE);
+    OK(deldrift_mpi_commit_vectors(m, place, 1, other, 2, NULL));
     place[0] = 1e30;
     CHECK(deldrift_mpi_stage_insertions(m, place, &id, 1) == DELDRIFT_OUT_OF_RANGE);
     CHECK(deldrift_mpi_commit(m, place, 1, NULL) == DELDRIFT_OUT_OF_RANGE);
@@ -282,10 +301,10 @@ int main(int argc, char **argv) {
     plant();
     check_arguments();
     if (rank == 0)
-        printf("periodic, P = %d: %ld histories, %ld commits, %ld cells, %ld edits, %ld refusals, %ld migrations, %ld "
-               "failures; memory refused %ld times\n",
-               size, count, totals.commits, totals.cells, totals.edits, totals.refusals, totals.migrations, failures,
-               refused);
+        printf("periodic, P = %d: %ld histories, %ld commits, %ld cells, %ld edits, %ld strains, %ld refusals, "
+               "%ld migrations, %ld failures; memory refused %ld times\n",
+               size, count, totals.commits, totals.cells, totals.edits, totals.strains, totals.refusals,
+               totals.migrations, failures, refused);
     MPI_Finalize();
     return failures ? 1 : 0;
 }

@@ -16,7 +16,7 @@ extern const size_t vector_counts[2][BOXES];
 typedef struct {
     uint32_t dimension;
     size_t vector_count;
-    const double *vectors;
+    double vectors[9];
     set_kind kind;
     deldrift_mpi *m;
     double *positions; // of own vertices, as they were given
@@ -25,7 +25,7 @@ typedef struct {
     uint64_t state;  // differs between processes
     uint64_t common; // is the same on all
     uint64_t next_id;
-    long commits, refusals, migrations, edits, cells;
+    long commits, refusals, migrations, edits, strains, cells;
 } history;
 
 // A place in the box, in any of some periods.
