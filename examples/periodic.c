@@ -78,13 +78,11 @@ static void draw(FILE *file, const deldrift_triangulation *t, const double *box)
 }
 
 // Positions in the box; a vertex that leaves it comes in at the other side.
-static void wrap(const double *box) {
-    for (size_t v = 0; v < N; v++) {
-        double *p = positions + 2 * v;
-        const double up = floor(p[1] / box[3]);
-        for (int axis = 0; axis < 2; axis++) p[axis] -= up * box[2 + axis];
-        p[0] -= box[0] * floor((p[0] - p[1] * box[2] / box[3]) / box[0]);
-    }
+static void wrap(const deldrift_triangulation *t) {
+    static double places[2 * N];
+    static int64_t shifts[2 * N];
+    check(deldrift_wrap_positions(t, positions, NULL, N, places, shifts));
+    memcpy(positions, places, sizeof positions);
 }
 
 // Whether what is in the middle of the box is also ten boxes away, ten boxes away.
@@ -102,7 +100,7 @@ static bool is_everywhere(const deldrift_triangulation *t, const double *box) {
 }
 
 int main(int argc, char **argv) {
-    double box[] = {1, 0, 0, 1}, used[4], error = 0, momentum = 0;
+    double box[] = {1, 0, 0, 1}, used[4], shortest[4], error = 0, momentum = 0;
     size_t flips = 0, kept = 0, count = 0, cells = 0;
     deldrift_triangulation *t = NULL;
     for (size_t i = 0; i < 2 * N; i++) positions[i] = random_number();
@@ -112,13 +110,13 @@ int main(int argc, char **argv) {
         double sum = 0;
         for (size_t i = 0; i < 2 * N; i++) sum += forces[i];
         momentum = fmax(momentum, fabs(sum));
+        wrap(t);
         // What is in the box is sheared with it.
         for (size_t v = 0; v < N; v++) {
             positions[2 * v] += 0.4 * forces[2 * v] + STEP * positions[2 * v + 1];
             positions[2 * v + 1] += 0.4 * forces[2 * v + 1];
         }
         box[2] += STEP * box[3];
-        wrap(box);
         check(deldrift_stage_vectors(t, box, 2));
         check(deldrift_commit_positions(t, positions, N, NULL));
         check(deldrift_voronoi_volumes(t, NULL, NULL, areas, N, &count));
@@ -138,6 +136,7 @@ int main(int argc, char **argv) {
     }
     check(deldrift_cell_count(t, &cells));
     check(deldrift_vectors(t, used, 2, &count));
+    check(deldrift_reduced_vectors(t, shortest, NULL, NULL, 2, &count));
     printf("%d steps, %zu cells of %d discs; area within %.1e, momentum within %.1e\n", STEPS, cells, N, error, momentum);
     printf("after %zu of %zu changes of the basis all areas are as before; the box leans by %.3f\n", kept, flips, used[2]);
     FILE *file = argc > 1 ? fopen(argv[1], "w") : tmpfile();
@@ -145,5 +144,5 @@ int main(int argc, char **argv) {
     draw(file, t, box);
     const bool is_found = is_everywhere(t, used);
     deldrift_destroy(t);
-    return fclose(file) == 0 && is_found && cells == 2 * N && kept == flips ? 0 : 1;
+    return fclose(file) == 0 && is_found && cells == 2 * N && kept == flips && shortest[2] == used[2] ? 0 : 1;
 }

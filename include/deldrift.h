@@ -2814,6 +2814,47 @@ deldrift_status deldrift_vectors(const deldrift_triangulation *t,
                                  size_t capacity,
                                  size_t *count);
 
+/// The shortest vectors of the lattice, which deldrift_wrap_positions translates by: a reduced basis of it.
+///
+/// vectors: receives rows of 2 (2D) or 3 (3D) numbers. multiples: receives as many rows of whole numbers, the multiples of the
+/// vectors that were given whose sum each one is. greatest: receives a number for each: where two vertices are at places that
+/// deldrift_wrap_positions tells, and an edge leads from the one to a translation of the other, that is one by this multiple of
+/// the vector at most, and its place is calculated without rounding. All are buffers with room for capacity vectors; one
+/// that is NULL is not filled. count: receives their number, 0 for a triangulation that is not periodic; it is also written
+/// when the buffers are too small. NULL for all with capacity 0 asks for the count alone.
+///
+/// Cost: constant.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_BUFFER_TOO_SMALL.
+deldrift_status deldrift_reduced_vectors(const deldrift_triangulation *t,
+                                         double *vectors,
+                                         int64_t *multiples,
+                                         uint32_t *greatest,
+                                         size_t capacity,
+                                         size_t *count);
+
+/// Takes positions into the box: each to its place in the unit cell of deldrift_reduced_vectors, on the grid of
+/// deldrift_create_periodic, which is where the triangulation would have it.
+///
+/// positions: count points, in any period; they need not be those of vertices, and the triangulation may have none. previous: NULL,
+/// or count points, where the vertices have been: each goes to the period that is nearest to its entry, if that place is
+/// out of the unit cell by a quarter of it at most, so that a vertex at a side does not go to and fro.
+/// places: receives count points. shifts: receives count rows of 2 (2D) or 3 (3D) whole numbers: by which multiples of the
+/// vectors that were given the position is translated from its place, 0 beyond the last of these.
+///
+/// Where the triangulation is not periodic, places are the positions, and shifts 0.
+///
+/// Cost: count.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_wrap_positions(const deldrift_triangulation *t,
+                                        const double *positions,
+                                        const double *previous,
+                                        size_t count,
+                                        double *places,
+                                        int64_t *shifts);
+
 /// In which period each corner of each cell is, and each neighbour.
 ///
 /// shifts: receives a row of 2 (2D) or 3 (3D) whole numbers for each of the 3 or 4 corners of each cell, in the order of

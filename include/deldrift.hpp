@@ -578,6 +578,27 @@ public:
         require_ok(deldrift_vectors(native(), vectors.data(), count, &count));
         return vectors;
     }
+    // The shortest vectors of the lattice, the multiples of those of the box that each is the sum of, and how often the place
+    // of a neighbour is translated by it at most.
+    ReducedVectors reduced_vectors() const {
+        std::size_t count = 0;
+        require_ok(deldrift_reduced_vectors(native(), nullptr, nullptr, nullptr, 0, &count));
+        ReducedVectors reduced{std::vector<double>(dimension_ * count), std::vector<std::int64_t>(dimension_ * count),
+                               std::vector<std::uint32_t>(count)};
+        require_ok(deldrift_reduced_vectors(native(), reduced.vectors.data(), reduced.multiples.data(),
+                                            reduced.greatest.data(), count, &count));
+        return reduced;
+    }
+    // Positions in the unit cell of the reduced vectors, or in the period that is nearest to an entry of previous, if given,
+    // and by which multiples of the vectors of the box they are translated from there.
+    WrappedPositions wrap_positions(span<const double> positions, span<const double> previous = {}) const {
+        const std::size_t count = count_of("positions", positions);
+        if (previous.size() != 0) expect("previous", previous.size(), positions.size());
+        WrappedPositions wrapped{std::vector<double>(positions.size()), std::vector<std::int64_t>(positions.size())};
+        require_ok(deldrift_wrap_positions(native(), positions.data(), previous.size() != 0 ? previous.data() : nullptr, count,
+                                           wrapped.places.data(), wrapped.shifts.data()));
+        return wrapped;
+    }
     // Rows of multiples of the vectors, by which the corners of cells are translated from their positions, and by which the
     // neighbours opposite them are from where their own shifts have them.
     CellShifts cell_shifts() const {

@@ -617,9 +617,10 @@ impl<G: Dimension> Scene<G> {
             }
             Call::VoronoiCellsWithin => {
                 let clip = [&point::<G>(|_| 0.2), &point::<G>(|_| 0.7)];
-                let mut rows = vec![1.0; 2 * (G::D + 1)];
+                let mut rows = [1.0; 8];
                 rows[0] = -0.5;
-                let cells = given(t.voronoi_cells_within(clip, &rows, None, &mut |_| true))?;
+                let rows = &rows[..2 * (G::D + 1)];
+                let cells = given(t.voronoi_cells_within(clip, rows, None, &mut |_| true))?;
                 Given::Numbers(vec![cells.volumes.len() as u64])
             }
             Call::VoronoiDerivatives => {

@@ -322,6 +322,25 @@ std::vector<Call> geometry_calls() {
              c.meter.time([&] { must(deldrift_vectors(c.t, box.data(), c.dimension, &count)); });
              c.meter.count(1);
          }},
+        {"deldrift_reduced_vectors", "of a periodic one", [](Context &c) {
+             std::vector<double> box = make_periodic(c);
+             std::size_t count;
+             c.meter.reset();
+             c.meter.time([&] {
+                 must(deldrift_reduced_vectors(c.t, box.data(), nullptr, nullptr, c.dimension, &count));
+             });
+             c.meter.count(1);
+         }},
+        {"deldrift_wrap_positions", "of a periodic one", [](Context &c) {
+             make_periodic(c);
+             std::vector<double> places(c.n * c.dimension + 1);
+             std::vector<std::int64_t> shifts(c.n * c.dimension + 1);
+             c.meter.reset();
+             c.meter.time([&] {
+                 must(deldrift_wrap_positions(c.t, c.points.data(), nullptr, c.n, places.data(), shifts.data()));
+             });
+             c.meter.count(double(c.n));
+         }},
         {"deldrift_cell_shifts", "of a periodic one", [](Context &c) {
              make_periodic(c);
              std::vector<std::int64_t> shifts(c.cells() * 12 + 1);

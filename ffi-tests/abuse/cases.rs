@@ -30,7 +30,8 @@ const OF_PLANE: [&str; 19] = [
 ];
 
 /// Functions that list what there is not.
-const TELL_NOTHING: [&str; 3] = ["deldrift_segment_conflicts", "deldrift_passings", "deldrift_vectors"];
+const TELL_NOTHING: [&str; 4] =
+    ["deldrift_segment_conflicts", "deldrift_passings", "deldrift_vectors", "deldrift_reduced_vectors"];
 
 /// The source of the program.
 pub fn program(functions: &[Declaration]) -> String {

@@ -103,7 +103,7 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("const double *", "low" | "high") if function.has("box_count") => Role::OpenBoxCorner,
         ("const double *", "low" | "high") => Role::BoxCorner,
         ("const double *", "values") => Role::Numbers,
-        ("const double *", "outside") => Role::NumbersIfAny,
+        ("const double *", "outside" | "previous") => Role::NumbersIfAny,
         ("const uint32_t *", "vertices") => Role::Ids,
         ("const uint32_t *", "ends") => Role::Ends,
         ("const uint32_t *", "segments") => Role::SegmentIds,

@@ -55,6 +55,8 @@ pub const ROWS: &[Row] = &[
     ),
     row("deldrift_stage_vectors", &["t", "NULL", "0"]),
     row("deldrift_vectors", &["t", "out.numbers", "8", "&out.count"]),
+    row("deldrift_reduced_vectors", &["t", "out.numbers", "out.shifts", "out.ids", "8", "&out.count"]),
+    row("deldrift_wrap_positions", &["t", "moved", "points", "3", "out.numbers", "out.shifts"]),
     row("deldrift_cell_shifts", &["t", "out.shifts", "out.more_shifts", "n_cells", "&out.count"]),
     row("deldrift_edge_shifts", &["t", "out.shifts", "n_edges", "&out.count"]),
     row("deldrift_compact", &["t", "out.ids", "n_ids", "&out.count"]),

@@ -223,6 +223,7 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     OK(deldrift_vertex_count(s.t, &count));
     OK(deldrift_keys(s.t, NULL, 0, &count));
     OK(deldrift_vectors(s.t, NULL, 0, &count));
+    OK(deldrift_reduced_vectors(s.t, NULL, NULL, NULL, 0, &count));
     OK(deldrift_cell_count(s.t, &count));
     OK(deldrift_staged_count(s.t, &count));
     OK(deldrift_memory_bytes(s.t, &count));

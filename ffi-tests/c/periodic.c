@@ -183,6 +183,32 @@ static void check_cells(const set *s, const deldrift_triangulation *t, const int
     CHECK_STATUS(deldrift_update_volumes(t, (uint32_t[]){last + 1}, 1, again, ROOM), DELDRIFT_NO_SUCH_FACET);
 }
 
+// Places in the box are positions less what is told, and those of places are themselves. Reduced vectors are sums of others.
+static void check_places(const set *s, const deldrift_triangulation *t) {
+    const size_t d = s->dimension, rank = s->vector_count;
+    double places[MOST * 3], again[MOST * 3], reduced[9];
+    int64_t shifts[MOST * 3], multiples[9];
+    uint32_t greatest[3];
+    size_t count;
+    OK(deldrift_reduced_vectors(t, reduced, multiples, greatest, 3, &count));
+    CHECK(count == rank);
+    for (size_t k = 0; k < rank * d; k++) {
+        double sum = 0;
+        for (size_t j = 0; j < rank; j++) sum += (double)multiples[k / d * d + j] * s->vectors[j * d + k % d];
+        CHECK(sum == reduced[k] && greatest[k / d] >= 1);
+    }
+    OK(deldrift_wrap_positions(t, s->points, NULL, s->n, places, shifts));
+    for (size_t v = 0; v < s->n; v++) {
+        for (size_t axis = 0; axis < d; axis++) {
+            double sum = places[v * d + axis];
+            for (size_t j = 0; j < rank; j++) sum += (double)shifts[v * d + j] * s->vectors[j * d + axis];
+            CHECK(sum == s->points[v * d + axis]);
+        }
+    }
+    OK(deldrift_wrap_positions(t, places, places, s->n, again, shifts));
+    for (size_t i = 0; i < s->n * d; i++) CHECK(again[i] == places[i] && shifts[i] == 0);
+}
+
 // The cells of a triangulation are those classes, and each is told once.
 static void check(const set *s, const deldrift_triangulation *t) {
     static uint64_t expected[ROOM], found[ROOM];
@@ -196,6 +222,7 @@ static void check(const set *s, const deldrift_triangulation *t) {
     CHECK(count == s->vector_count && memcmp(vectors, s->vectors, count * d * sizeof *vectors) == 0);
     OK(deldrift_copy_positions(t, positions, MOST, &count));
     CHECK(count == s->n && memcmp(positions, s->points, count * d * sizeof *positions) == 0);
+    check_places(s, t);
     const size_t n_expected = classes_of_copies(s, expected);
     const deldrift_cells_view view = cells_of(t);
     OK(deldrift_cell_shifts(t, shifts, beside, ROOM, &count));
@@ -523,6 +550,11 @@ static void what_is_wrong_is_told(void) {
     CHECK_MESSAGE("options.coincidence is 1");
     OK(deldrift_create_periodic(3, one, 1, one, 1, NULL, &t));
     CHECK_STATUS(deldrift_prepare_timestamp(t, NULL), DELDRIFT_PERIODIC);
+    double place[3];
+    int64_t shift[3];
+    CHECK_STATUS(deldrift_wrap_positions(t, (double[]){0, NAN, 0}, NULL, 1, place, shift), DELDRIFT_NOT_FINITE);
+    CHECK_MESSAGE("positions[0], coordinate 1");
+    CHECK_STATUS(deldrift_wrap_positions(t, one, NULL, 1, NULL, shift), DELDRIFT_NULL_ARGUMENT);
     size_t count;
     CHECK_STATUS(deldrift_voronoi_cells(t, one, one, NULL, 0, NULL, NULL, NULL, 0, &count), DELDRIFT_PERIODIC);
     CHECK_MESSAGE("low and high are given, but t is periodic");

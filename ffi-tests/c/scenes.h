@@ -68,7 +68,7 @@ typedef enum { CREATE, CREATE_WITH_KEYS, CREATE_PERIODIC, RELOCATE, INSERT, INSE
     LABEL_CELLS, UPDATE_LABELS, BOUNDARY_CHAINS, REFINE, COARSEN, RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT,
     PERIODIC_POSITIONS, STAGE_VECTORS, CELL_SHIFTS, EDGE_SHIFTS, PERIODIC_CELLS, PERIODIC_FACETS, PERIODIC_CENTRES,
     LOCATE_IN_PERIOD, PERIODIC_NEAREST, PERIODIC_BALL, PERIODIC_LINEAR, PERIODIC_WEIGHTS, PERIODIC_CLONE, PERIODIC_LOAD,
-    PERIODIC_VTU, PERIODIC_NEIGHBOURS, PERIODIC_CHECK, PERIODIC_COMPACT, PERIODIC_HIDDEN, N_KINDS } kind;
+    PERIODIC_VTU, PERIODIC_NEIGHBOURS, PERIODIC_CHECK, PERIODIC_COMPACT, PERIODIC_HIDDEN, WRAP_POSITIONS, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
     "deldrift_create", "deldrift_create_with_keys", "deldrift_create_periodic", "deldrift_relocate_vertex", "deldrift_insert_vertex",
@@ -104,6 +104,7 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_interpolate, periodic", "deldrift_barycentric, periodic",
     "deldrift_clone, periodic", "deldrift_load, periodic", "deldrift_write_vtu, periodic",
     "deldrift_vertex_neighbours, periodic", "deldrift_validate, periodic", "deldrift_compact, periodic", "deldrift_hidden_vertices, periodic",
+    "deldrift_wrap_positions",
 };
 
 enum { MOST_PAIRS = 24 };
@@ -541,6 +542,9 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case PERIODIC_CHECK: status = deldrift_validate(s->periodic, 3); break;
         case PERIODIC_HIDDEN: status = deldrift_hidden_vertices(s->periodic, ids_out, more_out, ROOM, &count); break;
         case PERIODIC_COMPACT: status = deldrift_compact(s->periodic, ids_out, ROOM, &count); break;
+        case WRAP_POSITIONS:
+            status = deldrift_wrap_positions(s->periodic, s->places, s->points, s->n, numbers_out, shifts_out);
+            break;
         case CREATE_WITH_KEYS: status = deldrift_create_with_keys(d, s->points, keys_of(s->n), s->n, &options, &made); break;
         case INSERT_WITH_KEY: status = deldrift_insert_vertex_with_key(s->t, to, 3, &out); break;
         case INSERT: status = deldrift_insert_vertex(s->t, to, &out); break;

@@ -566,7 +566,8 @@ static void make_tour(const places *p, record *made) {
     static const double box[2][9] = {{3, 0, 0.5, 3}, {3, 0, 0, 0.5, 3, 0, 0, 0.75, 3}};
     static const double other_box[2][9] = {{3, 0, 6.5, 3.25}, {3, 0, 0, 0.5, 3.25, 0, 0, 0.75, 3}};
     static int64_t shifts[48 * TOUR_POINTS], beside[48 * TOUR_POINTS];
-    static double box_out[9], in_box[36], in_other_box[36];
+    static double box_out[9], in_box[36], in_other_box[36], wrapped[36];
+    uint32_t greatest[3];
     // Those of the tour may be far away, for a box.
     for (uint32_t i = 0; i < 36; i++) {
         in_box[i] = (i * 37 + 11) % 97 / 32.0;
@@ -581,6 +582,13 @@ static void make_tour(const places *p, record *made) {
     note(&report, sizeof report);
     GO(deldrift_vectors(t, box_out, d, &count));
     note(box_out, count * d * sizeof *box_out);
+    GO(deldrift_reduced_vectors(t, box_out, shifts, greatest, d, &count));
+    note(box_out, count * d * sizeof *box_out);
+    note(shifts, count * d * sizeof *shifts);
+    note(greatest, count * sizeof *greatest);
+    GO(deldrift_wrap_positions(t, in_box, in_other_box, 12, wrapped, shifts));
+    note(wrapped, 12 * d * sizeof *wrapped);
+    note(shifts, 12 * d * sizeof *shifts);
     GO(deldrift_cell_shifts(t, shifts, beside, 4 * TOUR_POINTS, &count));
     note(shifts, count * (d + 1) * d * sizeof *shifts);
     note(beside, count * (d + 1) * d * sizeof *beside);

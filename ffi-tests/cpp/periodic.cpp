@@ -36,6 +36,11 @@ int main() {
     CHECK(at.shifts[0] == 5 && at.shifts[1] == -8 && at.locations[1].kind == DELDRIFT_LOCATION_CELL);
     CHECK(t.locate(std::vector<double>{3.125, -7.75}).index == 0);
     CHECK(t.nearest_vertex(std::vector<double>{3.125, -7.75}) == 0);
+    CHECK(t.reduced_vectors().vectors == box && t.reduced_vectors().multiples == (std::vector<std::int64_t>{1, 0, 0, 1}));
+    const std::vector<double> previous(8, 0.5);
+    CHECK(t.wrap_positions(points).places[6] == 0.75 && t.wrap_positions(points).shifts[7] == -1);
+    CHECK(t.wrap_positions(points, previous).shifts == t.wrap_positions(points).shifts);
+    CHECK_THROWS(t.wrap_positions(points, box), DELDRIFT_WRONG_COUNT, "previous has 4 numbers");
     t.stage_vectors(std::vector<double>{1, 0, 0, 1.5});
     t.commit_timestamp();
     CHECK(std::fabs(area_of(t) - 1.5) < 1e-12);

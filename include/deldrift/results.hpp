@@ -78,6 +78,19 @@ struct PeriodLocations {
     std::vector<std::int64_t> shifts{};
 };
 
+// Rows of numbers of vectors, and of the multiples that they are; see deldrift_reduced_vectors.
+struct ReducedVectors {
+    std::vector<double> vectors{};
+    std::vector<std::int64_t> multiples{};
+    std::vector<std::uint32_t> greatest{};
+};
+
+// Positions in the box, and rows of multiples of vectors; see deldrift_wrap_positions.
+struct WrappedPositions {
+    std::vector<double> places{};
+    std::vector<std::int64_t> shifts{};
+};
+
 // Cells that a vertex in a box could change, and balls that cover theirs; see deldrift_cells_in_reach.
 struct InReach {
     std::vector<std::uint32_t> cells{};

@@ -1,5 +1,5 @@
-// Gas in the plane on a mesh that moves with it, on several processes: the Euler equations on Voronoi cells. A disc of
-// denser gas turns within gas at rest; the layer of shear around it rolls up. Walls are around all.
+// Gas in the plane on a mesh that moves with it, on several processes: the Euler equations on Voronoi cells in a square
+// that repeats. A stream of denser gas is between two that go the other way; the layers of shear roll up.
 //     mpiexec -n 4 shear_layer [VERTICES [END [PICTURE.svg]]]
 // Mass and energy are kept to rounding, and what is printed is the same on any number of processes.
 #include <deldrift_mpi.h>
@@ -9,21 +9,21 @@
 #include <string.h>
 
 static const double GAMMA = 5.0 / 3, PI = 3.14159265358979323846, COURANT = 0.3;
-static const double LOW[2] = {0, 0}, HIGH[2] = {1, 1};
+static const double BOX[4] = {1, 0, 0, 1};
+static const double LOW[2] = {-1, -1}, HIGH[2] = {2, 2}; // around all cells of own vertices
 
 enum { DENSITY, X_VELOCITY, Y_VELOCITY, PRESSURE, X_MESH, Y_MESH, STATE };
 
 // What a process has: of own vertices, in the order of their list, positions and what is in their cells (mass,
-// momentum, energy); by id of its triangulation the state that follows, of own vertices and copies.
+// momentum, energy); by id of its triangulation the state that follows, of own vertices and copies in any period.
 typedef struct {
     deldrift_mpi *m;
     const deldrift_triangulation *t;
     size_t count, ids;
     uint32_t *vertices;
-    double *points, *kept;
-    double *places, *volumes, *centroids, *states, *flux;
-    uint8_t *is_own;
+    double *points, *kept, *places, *volumes, *centroids, *states, *flux;
     uint64_t *keys;
+    uint8_t *is_own;
 } gas;
 
 static int rank;
@@ -52,7 +52,7 @@ static void read_mesh(gas *g) {
     g->volumes = resized(g->volumes, g->ids, sizeof(double));
     g->centroids = resized(g->centroids, g->ids, 2 * sizeof(double));
     g->states = resized(g->states, g->ids, STATE * sizeof(double));
-    g->flux = resized(g->flux, g->ids, 6 * sizeof(double));
+    g->flux = resized(g->flux, g->ids, 4 * sizeof(double));
     g->is_own = resized(g->is_own, g->ids, 1);
     g->keys = resized(g->keys, g->ids, sizeof *g->keys);
     NEED(deldrift_mpi_vertices(g->m, NULL, g->vertices, g->count, &g->count));
@@ -60,9 +60,8 @@ static void read_mesh(gas *g) {
     READ(deldrift_keys(g->t, g->keys, g->ids, &g->ids));
     memset(g->is_own, 0, g->ids);
     for (size_t i = 0; i < g->count; i++) g->is_own[g->vertices[i]] = 1;
-    if (g->ids)
-        READ(deldrift_voronoi_cells(g->t, LOW, HIGH, g->is_own, g->ids, g->volumes, NULL, g->centroids, g->ids,
-                                    &g->ids));
+    size_t n = g->ids;
+    if (n) READ(deldrift_voronoi_cells(g->t, LOW, HIGH, g->is_own, n, g->volumes, NULL, g->centroids, n, &n));
     g->points = resized(g->points, g->count, 2 * sizeof(double));
     for (size_t i = 0; i < g->count; i++) memcpy(g->points + 2 * i, g->places + 2 * g->vertices[i], 2 * sizeof(double));
 }
@@ -74,8 +73,7 @@ static double find_states(gas *g) {
     for (size_t i = 0; i < g->count; i++) {
         uint32_t v = g->vertices[i];
         double *s = g->states + STATE * v, *q = g->kept + 4 * i, volume = g->volumes[v];
-        s[DENSITY] = q[0] / volume;
-        for (int k = 0; k < 2; k++) s[X_VELOCITY + k] = q[1 + k] / q[0];
+        s[DENSITY] = q[0] / volume, s[X_VELOCITY] = q[1] / q[0], s[Y_VELOCITY] = q[2] / q[0];
         s[PRESSURE] = (GAMMA - 1) * (q[3] - 0.5 * (q[1] * q[1] + q[2] * q[2]) / q[0]) / volume;
         double sound = sqrt(GAMMA * s[PRESSURE] / s[DENSITY]), radius = sqrt(volume / PI);
         for (int k = 0; k < 2; k++)
@@ -122,7 +120,7 @@ static void find_flux(const double *left, const double *right, const double *n, 
         flux[k] = is_outside ? a->f[k] - w * a->u[k] : a->f[k] + wave * (star[k] - a->u[k]) - w * star[k];
 }
 
-// What leaves each cell through its facets, and the part of its boundary that is none of these: a wall.
+// What leaves each cell through its facets.
 static void find_fluxes(gas *g) {
     size_t count = 0;
     READ(deldrift_edges(g->t, NULL, 0, &count));
@@ -131,41 +129,34 @@ static void find_fluxes(gas *g) {
     READ(deldrift_edges(g->t, edges, count, &count));
     if (count)
         READ(deldrift_voronoi_derivatives(g->t, LOW, HIGH, g->is_own, g->ids, lengths, middles, NULL, count, &count));
-    memset(g->flux, 0, 6 * g->ids * sizeof(double));
+    memset(g->flux, 0, 4 * g->ids * sizeof(double));
     for (size_t e = 0; e < count; e++) {
         uint32_t a = edges[2 * e], b = edges[2 * e + 1];
         if (!(g->is_own[a] || g->is_own[b]) || !(lengths[e] > 0)) continue;
         // The vertex of lower id is on the left, whichever process asks.
         if (g->keys[a] > g->keys[b]) a = edges[2 * e + 1], b = edges[2 * e];
-        const double *l = g->states + STATE * a, *r = g->states + STATE * b, *p = g->places + 2 * a,
-                     *q = g->places + 2 * b;
+        const double *l = g->states + STATE * a, *r = g->states + STATE * b;
+        const double *p = g->places + 2 * a, *q = g->places + 2 * b;
         double distance = hypot(q[0] - p[0], q[1] - p[1]), n[2] = {(q[0] - p[0]) / distance, (q[1] - p[1]) / distance};
         double w = 0, flux[4];
         for (int k = 0; k < 2; k++)
             w += 0.5 * (l[X_MESH + k] + r[X_MESH + k]) * n[k] +
                  (l[X_MESH + k] - r[X_MESH + k]) * (middles[2 * e + k] - 0.5 * (p[k] + q[k])) / distance;
         find_flux(l, r, n, w, flux);
-        for (int k = 0; k < 6; k++) {
-            double part = lengths[e] * (k < 4 ? flux[k] : n[k - 4]);
-            g->flux[6 * a + k] += part;
-            g->flux[6 * b + k] -= part;
+        for (int k = 0; k < 4; k++) {
+            g->flux[4 * a + k] += lengths[e] * flux[k];
+            g->flux[4 * b + k] -= lengths[e] * flux[k];
         }
     }
     free(edges), free(lengths), free(middles);
 }
 
+// A vertex that leaves the square goes on outside of it, or comes in at the other side: the library takes either.
 static void advance(gas *g, double step) {
     for (size_t i = 0; i < g->count; i++) {
-        const double *s = g->states + STATE * g->vertices[i], *f = g->flux + 6 * g->vertices[i];
-        double wall[2] = {-f[4], -f[5]}, length = hypot(wall[0], wall[1]);
-        double sound = sqrt(GAMMA * s[PRESSURE] / s[DENSITY]), pressure = s[PRESSURE];
-        if (length > 1e-9)
-            pressure += s[DENSITY] * sound * (s[X_VELOCITY] * wall[0] + s[Y_VELOCITY] * wall[1]) / length;
+        const double *s = g->states + STATE * g->vertices[i], *f = g->flux + 4 * g->vertices[i];
         for (int k = 0; k < 4; k++) g->kept[4 * i + k] -= step * f[k];
-        for (int k = 0; k < 2; k++) {
-            g->kept[4 * i + 1 + k] -= step * pressure * wall[k];
-            g->points[2 * i + k] = fmin(fmax(g->points[2 * i + k] + step * s[X_MESH + k], 1e-6), 1 - 1e-6);
-        }
+        for (int k = 0; k < 2; k++) g->points[2 * i + k] += step * s[X_MESH + k];
     }
     NEED(deldrift_mpi_commit(g->m, g->points, g->count, NULL));
     read_mesh(g);
@@ -186,27 +177,25 @@ static void balance(gas *g) {
 static void fill(gas *g) {
     g->kept = resized(g->kept, g->count, 4 * sizeof(double));
     for (size_t i = 0; i < g->count; i++) {
-        double x = g->points[2 * i] - 0.5, y = g->points[2 * i + 1] - 0.5, volume = g->volumes[g->vertices[i]];
-        double edge = 0.25 * (1 + 0.03 * cos(5 * atan2(y, x))), radius = hypot(x, y), turn = radius < edge ? 4 : 0;
-        double density = turn > 0 ? 2 : 1, pressure = 4 - 0.5 * density * turn * turn * (edge * edge - radius * radius);
-        double energy = pressure / (GAMMA - 1) + 0.5 * density * turn * turn * radius * radius;
-        double per_area[4] = {density, -turn * y * density, turn * x * density, energy};
+        double x = g->points[2 * i], y = g->points[2 * i + 1], volume = g->volumes[g->vertices[i]];
+        double density = fabs(y - 0.5) < 0.25 ? 2 : 1, u = density - 1.5, v = 0.1 * sin(4 * PI * x);
+        double energy = 2.5 / (GAMMA - 1) + 0.5 * density * (u * u + v * v);
+        double per_area[4] = {density, density * u, density * v, energy};
         for (int k = 0; k < 4; k++) g->kept[4 * i + k] = per_area[k] * volume;
     }
 }
 
 static void report(const gas *g, int steps, double time) {
-    double sums[2] = {0}, all[2], densest = 0, most;
+    double parts[2] = {0}, sums[2], densest = 0, most;
     for (size_t i = 0; i < g->count; i++) {
-        sums[0] += g->kept[4 * i];
-        sums[1] += g->kept[4 * i + 3];
+        parts[0] += g->kept[4 * i], parts[1] += g->kept[4 * i + 3];
         densest = fmax(densest, g->kept[4 * i] / g->volumes[g->vertices[i]]);
     }
-    MPI_Reduce(sums, all, 2, MPI_DOUBLE, MPI_SUM, 0, MPI_COMM_WORLD);
+    MPI_Reduce(parts, sums, 2, MPI_DOUBLE, MPI_SUM, 0, MPI_COMM_WORLD);
     MPI_Reduce(&densest, &most, 1, MPI_DOUBLE, MPI_MAX, 0, MPI_COMM_WORLD);
     if (rank == 0)
-        printf("step %4d, time %.4f: mass %.12f, energy %.12f, greatest density %.6f\n", steps, time, all[0], all[1],
-               most);
+        printf("step %4d, time %.4f: mass %.12f, energy %.12f, greatest density %.6f\n", steps, time, sums[0],
+               sums[1], most);
 }
 
 // Each cell as a dot of the colour of its density, by one process after the other.
@@ -218,9 +207,10 @@ static void draw(const gas *g, const char *path, int size) {
         if (turn == 0) fprintf(file, "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 1000 1000' width='500'>\n");
         for (size_t i = 0; i < g->count; i++) {
             double volume = g->volumes[g->vertices[i]], share = fmin(fmax(g->kept[4 * i] / volume - 0.8, 0) / 1.2, 1);
-            fprintf(file, "<circle cx='%.0f' cy='%.0f' r='%.0f' fill='#%02x50%02x'/>\n", 1000 * g->points[2 * i],
-                    1000 - 1000 * g->points[2 * i + 1], 1 + 640 * sqrt(volume), (int)(240 * share),
-                    (int)(240 * (1 - share)));
+            double x = g->points[2 * i], y = -g->points[2 * i + 1];
+            int red = (int)(240 * share), blue = (int)(240 * (1 - share));
+            fprintf(file, "<circle cx='%.0f' cy='%.0f' r='%.0f' fill='#%02x50%02x'/>\n", 1000 * (x - floor(x)),
+                    1000 * (y - floor(y)), 1 + 760 * sqrt(volume), red, blue);
         }
         if (turn == size - 1) fprintf(file, "</svg>\n");
         fclose(file);
@@ -229,8 +219,7 @@ static void draw(const gas *g, const char *path, int size) {
 
 int main(int argc, char **argv) {
     int size, steps = 0;
-    MPI_Init(&argc, &argv);
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank), MPI_Comm_size(MPI_COMM_WORLD, &size);
+    MPI_Init(&argc, &argv), MPI_Comm_rank(MPI_COMM_WORLD, &rank), MPI_Comm_size(MPI_COMM_WORLD, &size);
     size_t vertices = argc > 1 ? (size_t)atol(argv[1]) : 2500, row = (size_t)ceil(sqrt((double)vertices));
     double end = argc > 2 ? atof(argv[2]) : 1, time = 0;
     gas g = {0};
@@ -241,22 +230,20 @@ int main(int argc, char **argv) {
         g.points[2 * g.count] = ((double)(i % row) + 0.5 + 0.2 * sin(37.0 * (double)i)) / (double)row;
         g.points[2 * g.count + 1] = ((double)(i / row) + 0.5 + 0.2 * sin(91.0 * (double)i)) / (double)row;
     }
-    NEED(deldrift_mpi_create(MPI_COMM_WORLD, 2, g.points, ids, g.count, NULL, &g.m));
+    NEED(deldrift_mpi_create_periodic(MPI_COMM_WORLD, 2, g.points, ids, g.count, BOX, 2, NULL, &g.m));
     read_mesh(&g);
     fill(&g);
     for (; time < end; steps++) {
         if (steps % 50 == 0) balance(&g);
         double step = fmin(find_states(&g), end - time);
         if (steps % 50 == 0) report(&g, steps, time);
-        find_fluxes(&g);
-        advance(&g, step);
+        find_fluxes(&g), advance(&g, step);
         time += step;
     }
     report(&g, steps, time);
     if (argc > 3) draw(&g, argv[3], size);
     deldrift_mpi_destroy(g.m);
-    void *arrays[] = {g.vertices, g.points, g.kept,   g.places, g.volumes, g.centroids,
-                      g.states,   g.flux,   g.is_own, g.keys,   ids};
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) free(arrays[i]);
+    free(g.vertices), free(g.points), free(g.kept), free(g.places), free(g.volumes), free(g.centroids);
+    free(g.states), free(g.flux), free(g.is_own), free(g.keys), free(ids);
     MPI_Finalize();
 }

@@ -150,6 +150,26 @@ typedef struct deldrift_mpi_changes {
 deldrift_status deldrift_mpi_create(MPI_Comm comm, uint32_t dimension, const double *positions, const uint64_t *ids,
                                     size_t count, const deldrift_mpi_options *options, deldrift_mpi **out);
 
+/// Creates the triangulation of the vertices of all processes and all places to which sums of multiples of the vectors
+/// take them, at timestamp 0: that of deldrift_create_periodic, on several processes. Collective.
+///
+/// comm, dimension, positions, ids, count, options, out: as in deldrift_mpi_create; a position may be in any period.
+/// vectors: vector_count rows of dimension numbers, 1 to dimension of them, the same on all processes. Positions are
+/// rounded to a grid as deldrift_create_periodic says.
+///
+/// A process has copies of vertices in other periods, those of its own included. Inside, each vertex is *at home* in
+/// the unit cell of deldrift_reduced_vectors, or near it: there its owner has it in deldrift_mpi_local, wherever the
+/// program gives it, and each copy is a translation from there. A vertex that leaves the cell goes on outside of it, by
+/// a quarter of it at most, and then comes in at the other side. deldrift_mpi_periods and deldrift_mpi_cell_shifts tell
+/// periods. deldrift_mpi_hull_facets and deldrift_mpi_take_changes return DELDRIFT_PERIODIC; all else serves.
+///
+/// Errors: those of deldrift_mpi_create and deldrift_create_periodic; DELDRIFT_INVALID_VALUE for vectors that are not
+/// those of process 0.
+deldrift_status deldrift_mpi_create_periodic(MPI_Comm comm, uint32_t dimension, const double *positions,
+                                             const uint64_t *ids, size_t count, const double *vectors,
+                                             size_t vector_count, const deldrift_mpi_options *options,
+                                             deldrift_mpi **out);
+
 /// Destroys a triangulation. Collective. NULL is legal and does nothing.
 void deldrift_mpi_destroy(deldrift_mpi *m);
 
@@ -196,6 +216,20 @@ deldrift_status deldrift_mpi_discard(deldrift_mpi *m);
 deldrift_status deldrift_mpi_commit(deldrift_mpi *m, const double *positions, size_t count,
                                     deldrift_mpi_report *report);
 
+/// Makes other vectors of a periodic box, and new positions of the own vertices, the next timestamp. Collective. All is
+/// built again: vertices have other ids in the triangulations of the processes, as after deldrift_mpi_migrate.
+///
+/// positions, count, report: as in deldrift_mpi_commit, but for positions, which are to be given. vectors: vector_count
+/// rows, as many as there are, the same on all processes. What is staged has to be committed or discarded before:
+/// DELDRIFT_STAGED_VERTEX.
+///
+/// Cost: that of deldrift_mpi_create_periodic.
+///
+/// Errors: those of deldrift_mpi_create_periodic, DELDRIFT_WRONG_COUNT for another number of positions or vectors,
+/// DELDRIFT_STAGED_VERTEX.
+deldrift_status deldrift_mpi_commit_vectors(deldrift_mpi *m, const double *positions, size_t count,
+                                            const double *vectors, size_t vector_count, deldrift_mpi_report *report);
+
 /// How many vertices the calling process owns, to *count.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT.
@@ -222,7 +256,7 @@ deldrift_status deldrift_mpi_vertices(const deldrift_mpi *m, uint64_t *ids, uint
 deldrift_status deldrift_mpi_local(const deldrift_mpi *m, const deldrift_triangulation **t);
 
 /// For each id of the triangulation of the process the rank of the process that owns the vertex, or -1 where there is
-/// none.
+/// none. In a periodic box copies of own vertices have the own rank as well; deldrift_mpi_vertices has those at home.
 ///
 /// owners: a buffer with room for capacity entries. count: receives the number of ids, also when the buffer is too
 /// small. NULL with capacity 0 asks for the count alone.
@@ -233,7 +267,8 @@ deldrift_status deldrift_mpi_local(const deldrift_mpi *m, const deldrift_triangu
 deldrift_status deldrift_mpi_owners(const deldrift_mpi *m, int32_t *owners, size_t capacity, size_t *count);
 
 /// The cells that the calling process owns: of those with an own vertex the ones whose corner of least global id is
-/// own. So each cell of the whole is owned by one process.
+/// own. So each cell of the whole is owned by one process. In a periodic box one cell is owned of each class of those
+/// that are translations of each other; ids may be there more than once in a row.
 ///
 /// ids: a buffer with room for capacity rows of 3 (2D) or 4 (3D) global ids, positively oriented. cells: a buffer with
 /// room for capacity indices of cells in the triangulation of the process. One that is NULL is not filled. count:
@@ -245,13 +280,43 @@ deldrift_status deldrift_mpi_owners(const deldrift_mpi *m, int32_t *owners, size
 deldrift_status deldrift_mpi_cells(const deldrift_mpi *m, uint64_t *ids, uint32_t *cells, size_t capacity,
                                    size_t *count);
 
+/// In which period each corner of each own cell is, in the order of deldrift_mpi_cells. Collective, as owners tell how
+/// vertices were given.
+///
+/// shifts: receives a row of 2 (2D) or 3 (3D) whole numbers for each of the 3 or 4 corners: multiples of the vectors, 0
+/// beyond the last of these. The corner is at the position that its owner has given, rounded to the grid, and the sum
+/// of these multiples. The corner of the least id is at its position (if the vertex is there more than once, the first
+/// of these by x, y, z). A buffer with room for capacity cells. count: receives the number of cells, also when the
+/// buffer is too small: that of deldrift_mpi_cells.
+///
+/// Of each class of cells that are translations of each other, one process owns one. All shifts are 0 where the
+/// triangulation is not periodic.
+///
+/// Cost: the halo, and the cells of the triangulation of the process.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, on any process.
+deldrift_status deldrift_mpi_cell_shifts(deldrift_mpi *m, int64_t *shifts, size_t capacity, size_t *count);
+
+/// For each id of the triangulation of the process the multiples of the vectors by which the vertex is translated there
+/// from the position that its owner has given. Collective.
+///
+/// shifts: receives rows of 2 (2D) or 3 (3D) whole numbers; 0 where there is no vertex, and all where the triangulation
+/// is not periodic. A buffer with room for capacity ids. count: receives the number of ids, also when the buffer is too
+/// small: that of deldrift_mpi_owners.
+///
+/// Cost: the halo.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, on any process.
+deldrift_status deldrift_mpi_periods(deldrift_mpi *m, int64_t *shifts, size_t capacity, size_t *count);
+
 /// The facets of the convex hull of the whole that the calling process owns, as deldrift_mpi_cells does: rows of 2 (2D)
 /// or 3 (3D) global ids, seen from outside as deldrift_hull_facets has them, and in the triangulation of the process
 /// the cell of each and which of its corners is opposite.
 ///
 /// Cost: the cells of the triangulation of the process.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_PERIODIC in a periodic
+/// box.
 deldrift_status deldrift_mpi_hull_facets(const deldrift_mpi *m, uint64_t *ids, uint32_t *cells, uint8_t *corners,
                                          size_t capacity, size_t *count);
 
@@ -261,7 +326,8 @@ deldrift_status deldrift_mpi_hull_facets(const deldrift_mpi *m, uint64_t *ids, u
 /// Cost: what has changed in the triangulation of the process, its halo included, and the stars of vertices that have
 /// an id which was another one's; of a list of all, the cells.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_OUT_OF_MEMORY; then the next list is of all own cells.
+/// Errors: DELDRIFT_NULL_ARGUMENT; DELDRIFT_OUT_OF_MEMORY, then the next list is of all own cells; DELDRIFT_PERIODIC in
+/// a periodic box.
 deldrift_status deldrift_mpi_take_changes(deldrift_mpi *m, deldrift_mpi_changes *changes);
 
 /// Brings values of vertices from their owners to all copies. Collective, but messages go between neighbours only.

@@ -80,10 +80,16 @@ def _load() -> ctypes.CDLL:
     pointer, size, count = c_void_p, c_size_t, POINTER(c_size_t)
     arguments = {
         "create": [_Comm, c_uint32, pointer, pointer, size, POINTER(Options), POINTER(c_void_p)],
+        "create_periodic": [
+            _Comm, c_uint32, pointer, pointer, size, pointer, size, POINTER(Options), POINTER(c_void_p)
+        ],
+        "cell_shifts": [pointer, pointer, size, count],
+        "periods": [pointer, pointer, size, count],
         "stage_insertions": [pointer, pointer, pointer, size],
         "stage_removals": [pointer, pointer, size],
         "discard": [pointer],
         "commit": [pointer, pointer, size, POINTER(Report)],
+        "commit_vectors": [pointer, pointer, size, pointer, size, POINTER(Report)],
         "count": [pointer, count],
         "vertices": [pointer, pointer, pointer, size, count],
         "local": [pointer, POINTER(c_void_p)],
@@ -140,12 +146,21 @@ class Delaunay:
     ids : (n,) array of uint64, optional
         A global id for each, each once in all processes. By default 0, 1, ... through the processes. All give ids,
         or none.
+    vectors : (1 to 3, 2 or 3) array of float, optional
+        The vectors of a periodic box, the same on all processes.
     boxes, drop_percent : int, optional
         As in deldrift_mpi_options.
     """
 
     def __init__(
-        self, comm: MPI.Intracomm, points: Any, ids: Any = None, *, boxes: int = 0, drop_percent: int = 0
+        self,
+        comm: MPI.Intracomm,
+        points: Any,
+        ids: Any = None,
+        *,
+        vectors: Any = None,
+        boxes: int = 0,
+        drop_percent: int = 0,
     ) -> None:
         self._handle = c_void_p()
         # What is wrong with the shape of one is told to all: the dimension 0 is refused.
@@ -156,10 +171,20 @@ class Delaunay:
             self.dimension = 0
         options = Options(ctypes.sizeof(Options), boxes, drop_percent, None)
         handle = _Comm.from_address(MPI._addressof(comm))
+        if vectors is None:
+            _check(
+                _library.deldrift_mpi_create(
+                    handle, self.dimension, _address(points), _address(ids), len(points), byref(options),
+                    byref(self._handle),
+                )
+            )
+            return
+        box = np.ascontiguousarray(vectors, dtype=np.float64)
+        is_right = box.ndim == 2 and box.shape[1] == self.dimension
         _check(
-            _library.deldrift_mpi_create(
-                handle, self.dimension, _address(points), _address(ids), len(points), byref(options),
-                byref(self._handle),
+            _library.deldrift_mpi_create_periodic(
+                handle, self.dimension, _address(points), _address(ids), len(points), _address(box),
+                len(box) if is_right else 0, byref(options), byref(self._handle),
             )
         )
 
@@ -220,7 +245,7 @@ class Delaunay:
 
     @property
     def points(self) -> np.ndarray:
-        """The positions of the own vertices."""
+        """The positions of the own vertices; in a periodic box those at home."""
         return self.local_points[self.vertices]
 
     def _local(self) -> c_void_p:
@@ -276,6 +301,26 @@ class Delaunay:
         )
         return rows, cells
 
+    def cell_shifts(self) -> np.ndarray:
+        """By own cell and corner the multiples of the vectors by which it is translated from where it was given. Collective.
+
+        The corner of the least id is where it was given.
+        """
+        count = c_size_t(len(self.own_cells))
+        shifts = np.empty((count.value, self.dimension + 1, self.dimension), np.int64)
+        _check(_library.deldrift_mpi_cell_shifts(self._handle, _address(shifts), count.value, byref(count)))
+        return shifts
+
+    def periods(self) -> np.ndarray:
+        """By id of the triangulation of this process the multiples by which it is translated from where it was given.
+
+        Collective.
+        """
+        count = c_size_t(len(self.owners))
+        shifts = np.empty((count.value, self.dimension), np.int64)
+        _check(_library.deldrift_mpi_periods(self._handle, _address(shifts), count.value, byref(count)))
+        return shifts
+
     def hull_facets(self) -> np.ndarray:
         """The facets of the convex hull of the whole that this process owns, as rows of global ids, seen from outside."""
         count = c_size_t()
@@ -321,10 +366,11 @@ class Delaunay:
         """Forgets what is staged on this process."""
         _check(_library.deldrift_mpi_discard(self._handle), False)
 
-    def commit(self, points: Any = None) -> Report:
+    def commit(self, points: Any = None, *, vectors: Any = None) -> Report:
         """Makes new positions of the own vertices, and what is staged, the next timestamp. Collective.
 
-        points: a row for each own vertex, also for those whose removal is staged; None if none moves.
+        points: a row for each own vertex, also for those whose removal is staged; None if none moves. vectors: those of
+        a periodic box from now on; all points have to be given then, and nothing may be staged.
         """
         report, count = Report(), 0
         if points is not None:
@@ -332,6 +378,15 @@ class Delaunay:
             # A wrong shape is refused as a wrong count, by all.
             is_right = points.ndim == 2 and points.shape[1] == self.dimension
             count = len(points) if is_right else len(self) + 1
+        if vectors is not None:
+            box = np.ascontiguousarray(vectors, dtype=np.float64)
+            n_vectors = len(box) if box.ndim == 2 and box.shape[1] == self.dimension else 0
+            _check(
+                _library.deldrift_mpi_commit_vectors(
+                    self._handle, _address(points), count, _address(box), n_vectors, byref(report)
+                )
+            )
+            return report
         _check(_library.deldrift_mpi_commit(self._handle, _address(points), count, byref(report)))
         return report
 

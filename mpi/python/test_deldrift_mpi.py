@@ -81,8 +81,42 @@ def history(dimension):
     tri.destroy()
 
 
+def in_a_box(dimension):
+    """Cells fill the box, as the sum of their volumes says, while vertices leave it."""
+    rng = np.random.default_rng(comm.rank)
+    vectors = np.eye(dimension) + np.tri(dimension, k=-1) / 4
+    given = rng.random((30, dimension)) @ vectors
+    tri = Delaunay(comm, given, vectors=vectors)
+    for step in range(4):
+        given += 0.2 * rng.random(given.shape)
+        if step == 1:
+            vectors = vectors * 1.25 ** (1 / dimension)
+            tri.commit(given, vectors=vectors)
+        tri.commit(given)
+        if step == 2:
+            given = tri.migrate(tri.partition(), given)
+        positions = {i: x for part in comm.allgather(list(zip(tri.ids.tolist(), given))) for i, x in part}
+        cells, shifts = tri.cells(), tri.cell_shifts()
+        corners = np.array([[positions[i] for i in row] for row in cells.tolist()]).reshape(shifts.shape)
+        corners = corners + shifts @ vectors
+        volume = np.linalg.det(corners[:, 1:] - corners[:, :1]).sum() if len(cells) else 0.0
+        volume = comm.allreduce(volume) / (2 if dimension == 2 else 6)
+        assert abs(volume - abs(np.linalg.det(vectors))) < 1e-9, volume
+        n_cells = comm.allreduce(len(cells))
+        assert dimension == 3 or n_cells == 2 * len(positions), n_cells
+        values = np.zeros(tri.local_points.shape)
+        values[tri.vertices] = given
+        values = tri.exchange(values) + tri.periods() @ vectors
+        assert np.abs((values - tri.local_points)[tri.owners >= 0]).max() < 1e-9
+    assert refusal(tri.take_changes).process == -1
+    tri.destroy()
+    assert refusal(lambda: Delaunay(comm, given, vectors=np.ones((2, dimension)))).process == 0
+
+
 history(2)
 history(3)
+in_a_box(2)
+in_a_box(3)
 empty = Delaunay(comm, np.random.default_rng(1).random((40, 2)) if comm.rank == 0 else np.empty((0, 2)))
 assert is_serial(empty)
 assert refusal(Delaunay, comm, np.zeros(3)).process == 0

@@ -149,6 +149,11 @@ deldrift_status deldrift_mpi_take_changes(deldrift_mpi *m, deldrift_mpi_changes 
         dm_refuse(&m->refusal, DELDRIFT_NULL_ARGUMENT, "changes is NULL");
         return dm_fail(&m->refusal);
     }
+    // Ids alone do not tell cells apart.
+    if (m->lattice.rank) {
+        dm_refuse(&m->refusal, DELDRIFT_PERIODIC, "the triangulation is periodic");
+        return dm_fail(&m->refusal);
+    }
     memset(&m->changes, 0, sizeof m->changes);
     // Where memory is refused after the triangulation has told its changes, the next list is of all.
     m->has_taken = take(m);

@@ -16,12 +16,20 @@ deldrift_status deldrift_mpi_stage_insertions(deldrift_mpi *m, const double *pos
     dm_check_points(&refusal, "positions", m->dimension, positions, count, NULL);
     if (refusal.status != DELDRIFT_OK) return dm_fail(&refusal);
     uint32_t d = m->dimension;
-    size_t needed = m->insertion_count + count, room = m->insertion_room;
+    size_t needed = m->insertion_count + count, room = m->insertion_room, wrap_room = room;
     if (!dm_reserve(&refusal, &m->insertion_positions, &room, needed, d * sizeof(double)) ||
+        (m->lattice.rank && !dm_reserve(&refusal, &m->insertion_wraps, &wrap_room, needed, d * sizeof(int64_t))) ||
         !dm_reserve(&refusal, &m->insertion_ids, &m->insertion_room, needed, sizeof *ids))
         return dm_fail(&refusal);
-    if (count) {
+    if (m->lattice.rank) {
+        size_t first = m->insertion_count * d;
+        if (!dm_wrap(&refusal, &m->lattice, positions, NULL, count, m->insertion_positions + first,
+                     m->insertion_wraps + first))
+            return dm_fail(&refusal);
+    } else if (count) {
         memcpy(m->insertion_positions + m->insertion_count * d, positions, count * d * sizeof(double));
+    }
+    if (count) {
         memcpy(m->insertion_ids + m->insertion_count, ids, count * sizeof *ids);
     }
     m->insertion_count = needed;
@@ -87,10 +95,13 @@ static bool make_next(deldrift_mpi *m, const double *positions) {
         m->next_own[next] = m->own[i];
         m->next_box_of[next] = m->box_of[i];
         if (is_copied) memcpy(m->next_points + next * d, position_of(m, positions, i), d * sizeof(double));
+        if (m->lattice.rank) memcpy(m->next_wraps + next * d, m->home_wraps + i * d, d * sizeof *m->next_wraps);
         next++;
     }
     if (m->insertion_count)
         memcpy(m->next_points + next * d, m->insertion_positions, m->insertion_count * d * sizeof(double));
+    if (m->insertion_count && m->lattice.rank)
+        memcpy(m->next_wraps + next * d, m->insertion_wraps, m->insertion_count * d * sizeof *m->next_wraps);
     return true;
 }
 
@@ -174,7 +185,7 @@ static bool stage_insertions(deldrift_mpi *m) {
         return false;
     for (size_t k = 0; k < count; k++) {
         m->next_own[kept + k] = m->vertices[k];
-        dm_set_vertex(m, m->vertices[k], m->rank, m->insertion_ids[k], m->insertion_positions + k * d);
+        dm_set_vertex(m, m->vertices[k], m->rank, 0, m->insertion_ids[k], m->insertion_positions + k * d);
     }
     return true;
 }
@@ -231,6 +242,7 @@ deldrift_status deldrift_mpi_commit(deldrift_mpi *m, const double *positions, si
         is_legal = dm_check_points(&m->refusal, "positions", m->dimension, positions, count,
                                    m->removal_count ? m->is_removal : NULL);
     }
+    if (is_legal && m->lattice.rank) is_legal = dm_come_home(m, &positions);
     int64_t numbers[4] = {0};
     if (is_legal && make_next(m, positions) && dm_make_peers_ready(m)) {
         numbers[0] = m->insertion_count || m->removal_count || moves(m, positions);
@@ -241,6 +253,8 @@ deldrift_status deldrift_mpi_commit(deldrift_mpi *m, const double *positions, si
     deldrift_status status = vote.status;
     if (status == DELDRIFT_OK && vote.most[0]) status = advance(m, positions, vote.most[1]);
     if (status != DELDRIFT_OK) return status;
+    if (m->lattice.rank && m->own_count)
+        memcpy(m->wraps, m->next_wraps, m->own_count * m->dimension * sizeof *m->wraps);
     dm_count_copies(m);
     m->was_spanning = m->report.is_spanning;
     m->report.timestamp = ++m->timestamp;

@@ -1,8 +1,15 @@
 // Handles: made, built, unmade.
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "internal.h"
+
+// The vectors of a periodic box.
+typedef struct {
+    const double *vectors;
+    size_t vector_count;
+} box;
 
 enum { DEFAULT_BOXES = 16, DEFAULT_DROP_PERCENT = 5 };
 
@@ -41,7 +48,7 @@ static bool read_options(dm_refusal *refusal, const deldrift_mpi_options *given,
 }
 
 deldrift_mpi *dm_new(dm_refusal *refusal, MPI_Comm comm, uint32_t dimension, const deldrift_mpi_options *options,
-                     const deldrift_options *local) {
+                     const deldrift_options *local, const double *vectors, size_t vector_count) {
     deldrift_mpi *m = dm_allocate(refusal, 1, sizeof *m);
     if (!m) return NULL;
     m->comm = comm;
@@ -55,7 +62,8 @@ deldrift_mpi *dm_new(dm_refusal *refusal, MPI_Comm comm, uint32_t dimension, con
     m->next_boxes = dm_allocate(refusal, boxes, sizeof *m->next_boxes);
     m->peer_of = dm_allocate(refusal, size, sizeof *m->peer_of);
     m->bases = dm_allocate(refusal, size, sizeof *m->bases);
-    m->chunk = dm_allocate(refusal, DM_CHUNK, sizeof(uint64_t) + 3 * sizeof(double));
+    m->chunk = dm_allocate(refusal, DM_CHUNK, 2 * sizeof(uint64_t) + 3 * sizeof(double));
+    dm_make_lattice(refusal, &m->lattice, dimension, vectors, vector_count);
     if (refusal->status != DELDRIFT_OK) {
         dm_free(m);
         free(m);
@@ -65,7 +73,21 @@ deldrift_mpi *dm_new(dm_refusal *refusal, MPI_Comm comm, uint32_t dimension, con
     return m;
 }
 
-deldrift_status dm_build(deldrift_mpi *m, const double *points, const uint64_t *ids, size_t count) {
+// The first push of a periodic box, before anything is known of cells.
+static deldrift_status push_seeds(deldrift_mpi *m) {
+    dm_seed(m);
+    dm_pack_sends(m);
+    deldrift_status status = dm_decide(m->comm, &m->refusal, NULL).status;
+    m->report.collectives++;
+    if (status != DELDRIFT_OK) return status;
+    m->report.rounds++;
+    dm_push(m);
+    if (dm_stage_received(m)) dm_prepare(m);
+    return DELDRIFT_OK;
+}
+
+deldrift_status dm_build(deldrift_mpi *m, const double *points, const uint64_t *ids, const int64_t *wraps,
+                         size_t count) {
     dm_refusal *refusal = &m->refusal;
     memset(&m->report, 0, sizeof m->report);
     m->next_count = count;
@@ -81,13 +103,15 @@ deldrift_status dm_build(deldrift_mpi *m, const double *points, const uint64_t *
     if (status != DELDRIFT_OK) return status;
     for (size_t i = 0; i < count; i++) {
         m->next_own[i] = (uint32_t)i;
-        dm_set_vertex(m, (uint32_t)i, m->rank, ids[i], points + i * m->dimension);
+        dm_set_vertex(m, (uint32_t)i, m->rank, 0, ids[i], points + i * m->dimension);
     }
     dm_make_boxes(m, own, m->next_box_of);
     dm_share_boxes(m, own);
-    status = dm_rounds(m);
+    if (m->lattice.rank) status = push_seeds(m);
+    if (status == DELDRIFT_OK) status = dm_rounds(m);
     if (status != DELDRIFT_OK) return status;
     dm_settle(m);
+    if (m->lattice.rank && count) memcpy(m->wraps, wraps, count * m->dimension * sizeof *wraps);
     m->was_spanning = m->report.is_spanning;
     return DELDRIFT_OK;
 }
@@ -169,8 +193,34 @@ static deldrift_status check_arguments(MPI_Comm comm, dm_refusal *refusal, uint3
     return vote.status;
 }
 
-deldrift_status deldrift_mpi_create(MPI_Comm comm, uint32_t dimension, const double *positions, const uint64_t *ids,
-                                    size_t count, const deldrift_mpi_options *options, deldrift_mpi **out) {
+// All processes have to have the vectors of process 0.
+static deldrift_status check_vectors(MPI_Comm comm, dm_refusal *refusal, uint32_t dimension, const box *given) {
+    uint64_t count = given->vector_count;
+    double first[9] = {0};
+    MPI_Bcast(&count, 1, MPI_UINT64_T, 0, comm);
+    if (count != given->vector_count)
+        dm_refuse(refusal, DELDRIFT_INVALID_VALUE, "vector_count is %zu, that of process 0 is %llu",
+                  given->vector_count, (unsigned long long)count);
+    else if (!count || count > dimension)
+        dm_refuse(refusal, DELDRIFT_DEPENDENT_VECTORS, "vector_count is %zu", given->vector_count);
+    else if (!given->vectors)
+        dm_refuse(refusal, DELDRIFT_NULL_ARGUMENT, "vectors is NULL");
+    deldrift_status status = dm_decide(comm, refusal, NULL).status;
+    if (status != DELDRIFT_OK) return status;
+    size_t length = given->vector_count * dimension;
+    memcpy(first, given->vectors, length * sizeof *first);
+    MPI_Bcast(first, (int)length, MPI_DOUBLE, 0, comm);
+    for (size_t k = 0; k < length; k++)
+        if (first[k] != given->vectors[k] && !(isnan(first[k]) && isnan(given->vectors[k])))
+            dm_refuse(refusal, DELDRIFT_INVALID_VALUE, "number %zu of vectors is %.17g, that of process 0 is %.17g", k,
+                      given->vectors[k], first[k]);
+    return dm_decide(comm, refusal, NULL).status;
+}
+
+// With the vectors of a box, or NULL where the set is open.
+static deldrift_status create(MPI_Comm comm, uint32_t dimension, const double *positions, const uint64_t *ids,
+                              size_t count, const box *given, const deldrift_mpi_options *options,
+                              deldrift_mpi **out) {
     dm_refusal refusal = {DELDRIFT_OK, ""};
     deldrift_mpi_options read;
     deldrift_options local;
@@ -181,17 +231,30 @@ deldrift_status deldrift_mpi_create(MPI_Comm comm, uint32_t dimension, const dou
     read_options(&refusal, options, &read, &local);
     deldrift_mpi *m = NULL;
     uint64_t *own_ids = NULL;
+    double *home = NULL;
+    int64_t *wraps = NULL;
+    if (given && local.coincidence == DELDRIFT_COINCIDENCE_REJECT)
+        dm_refuse(&refusal, DELDRIFT_INVALID_OPTIONS, "a periodic triangulation does not reject coincident vertices");
     deldrift_status status = check_arguments(copy, &refusal, dimension, positions, ids, count, &read);
+    if (status == DELDRIFT_OK && given) status = check_vectors(copy, &refusal, dimension, given);
     if (status == DELDRIFT_OK) {
         int size;
         MPI_Comm_size(copy, &size);
         own_ids = make_ids(copy, &refusal, ids, count);
         if (own_ids) find_twins(copy, size, &refusal, own_ids, count);
-        m = dm_new(&refusal, copy, dimension, &read, &local);
+        m = dm_new(&refusal, copy, dimension, &read, &local, given ? given->vectors : NULL,
+                   given ? given->vector_count : 0);
+        if (given && m) {
+            home = dm_allocate(&refusal, count * dimension, sizeof *home);
+            wraps = dm_allocate(&refusal, count * dimension, sizeof *wraps);
+            if (home && wraps) dm_wrap(&refusal, &m->lattice, positions, NULL, count, home, wraps);
+        }
         status = dm_decide(copy, &refusal, NULL).status;
     }
-    if (status == DELDRIFT_OK) status = dm_build(m, positions, own_ids, count);
+    if (status == DELDRIFT_OK) status = dm_build(m, given ? home : positions, own_ids, wraps, count);
     free(own_ids);
+    free(home);
+    free(wraps);
     if (status == DELDRIFT_OK) {
         *out = m;
         return status;
@@ -201,6 +264,74 @@ deldrift_status deldrift_mpi_create(MPI_Comm comm, uint32_t dimension, const dou
         free(m);
     }
     MPI_Comm_free(&copy);
+    return status;
+}
+
+deldrift_status deldrift_mpi_create(MPI_Comm comm, uint32_t dimension, const double *positions, const uint64_t *ids,
+                                    size_t count, const deldrift_mpi_options *options, deldrift_mpi **out) {
+    return create(comm, dimension, positions, ids, count, NULL, options, out);
+}
+
+deldrift_status deldrift_mpi_create_periodic(MPI_Comm comm, uint32_t dimension, const double *positions,
+                                             const uint64_t *ids, size_t count, const double *vectors,
+                                             size_t vector_count, const deldrift_mpi_options *options,
+                                             deldrift_mpi **out) {
+    box given = {vectors, vector_count};
+    return create(comm, dimension, positions, ids, count, &given, options, out);
+}
+
+void dm_replace(deldrift_mpi *m, deldrift_mpi *fresh) {
+    deldrift_mpi old = *m;
+    fresh->timestamp = old.timestamp;
+    fresh->report.timestamp = old.timestamp;
+    *m = *fresh;
+    dm_free(&old);
+}
+
+// What is wrong with the arguments of one process.
+static void check_strain(const deldrift_mpi *m, dm_refusal *refusal, const double *positions, size_t count,
+                         size_t vector_count) {
+    if (m->insertion_count || m->removal_count)
+        dm_refuse(refusal, DELDRIFT_STAGED_VERTEX, "%zu insertions and %zu removals are staged", m->insertion_count,
+                  m->removal_count);
+    if (count != m->own_count)
+        dm_refuse(refusal, DELDRIFT_WRONG_COUNT, "count is %zu, and there are %zu own vertices", count, m->own_count);
+    else
+        dm_check_points(refusal, "positions", m->dimension, positions, count, NULL);
+    if (vector_count != m->lattice.rank)
+        dm_refuse(refusal, DELDRIFT_WRONG_COUNT, "vector_count is %zu, and the box has %u vectors", vector_count,
+                  m->lattice.rank);
+}
+
+deldrift_status deldrift_mpi_commit_vectors(deldrift_mpi *m, const double *positions, size_t count,
+                                            const double *vectors, size_t vector_count, deldrift_mpi_report *report) {
+    if (!m) return dm_no_handle();
+    dm_refusal refusal = {DELDRIFT_OK, ""};
+    box given = {vectors, vector_count};
+    check_strain(m, &refusal, positions, count, vector_count);
+    deldrift_status status = check_vectors(m->comm, &refusal, m->dimension, &given);
+    if (status != DELDRIFT_OK) return status;
+    uint64_t *ids = dm_allocate(&refusal, count, sizeof *ids);
+    double *home = dm_allocate(&refusal, count * m->dimension, sizeof *home);
+    int64_t *wraps = dm_allocate(&refusal, count * m->dimension, sizeof *wraps);
+    deldrift_mpi *fresh = dm_new(&refusal, m->comm, m->dimension, &m->options, &m->local, vectors, vector_count);
+    if (refusal.status == DELDRIFT_OK) {
+        for (size_t i = 0; i < count; i++) ids[i] = m->id_of[m->own[i]];
+        dm_wrap(&refusal, &fresh->lattice, positions, NULL, count, home, wraps);
+    }
+    status = dm_decide(m->comm, &refusal, NULL).status;
+    if (status == DELDRIFT_OK) status = dm_build(fresh, home, ids, wraps, count);
+    if (status == DELDRIFT_OK) {
+        dm_replace(m, fresh);
+        m->report.timestamp = ++m->timestamp;
+        if (report) *report = m->report;
+    } else if (fresh) {
+        dm_free(fresh);
+    }
+    free(fresh);
+    free(ids);
+    free(home);
+    free(wraps);
     return status;
 }
 

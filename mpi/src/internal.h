@@ -18,6 +18,7 @@ enum {
 // order.
 typedef struct {
     uint32_t *at;
+    uint32_t *period;    // by which translation it is there
     uint8_t *is_leaving; // by place in the list: goes with the timestamp that is being prepared
     size_t count;
     size_t settled; // those of the timestamp in force; the others have come since
@@ -45,6 +46,7 @@ typedef struct {
     uint64_t id;
     uint32_t vertex; // local id
     int32_t owner;
+    uint32_t period; // by which translation it is at the position
 } dm_basis_point;
 
 typedef struct {
@@ -57,9 +59,22 @@ typedef struct {
 typedef struct {
     uint32_t vertex;
     int32_t owner;
+    uint32_t period;
     uint64_t id;
     size_t order; // among those since changes were last taken
 } dm_undo;
+
+// By which translations vertices repeat: numbers of them, of which 0 leaves everything where it is.
+typedef struct {
+    deldrift_triangulation *box; // of no vertices, which wraps positions; NULL where the set is open
+    uint32_t rank;               // how many vectors it has
+    double given[9];
+    double measure;   // product of the lengths of reduced vectors
+    size_t count;     // of translations
+    uint32_t unit[3]; // those by one of the reduced vectors
+    double *ways;     // by translation: what is added to a position
+    int64_t *shifts;  // by translation: multiples of the given vectors
+} dm_lattice;
 
 // The first thing that this process refused in the collective call that runs.
 typedef struct {
@@ -74,6 +89,7 @@ struct deldrift_mpi {
     deldrift_mpi_options options;
     deldrift_options local;
     deldrift_triangulation *t;
+    dm_lattice lattice;
     uint64_t timestamp;
     bool is_prepared; // t has rounds that are neither published nor withdrawn
     dm_refusal refusal;
@@ -84,6 +100,7 @@ struct deldrift_mpi {
     size_t ids, ids_room;
     uint64_t *id_of;
     int32_t *owner_of;
+    uint32_t *period_of; // the translation from its place at home, by which a copy is here
     uint8_t *is_own;
     uint8_t *is_leaving;
     double *where;
@@ -99,16 +116,24 @@ struct deldrift_mpi {
     // Own vertices in the order of their list: local ids, and the box that each is in.
     uint32_t *own;
     uint16_t *box_of;
+    // In a periodic box the multiples of the vectors by which the program's position is translated from that at home.
+    int64_t *wraps;
     size_t own_count, own_room;
     // Those of the timestamp that is being prepared, and where they are: `points` is that, or an array of the caller.
     uint32_t *next_own;
     uint16_t *next_box_of;
+    int64_t *next_wraps;
     double *next_points;
     size_t next_count, next_room;
     const double *points;
+    // In a periodic box what a commit is given, at home, and where own vertices are.
+    double *home, *home_before;
+    int64_t *home_wraps;
+    size_t home_room;
 
     // Staged by the program.
-    double *insertion_positions;
+    double *insertion_positions; // at home
+    int64_t *insertion_wraps;
     uint64_t *insertion_ids;
     size_t insertion_count, insertion_room;
     uint8_t *is_removal; // by place; all 0 without removals
@@ -140,6 +165,7 @@ struct deldrift_mpi {
     double *low, *high; // boxes that are asked about
     int *box_ranks;     // of what process, or first process of a group
     int *nodes;         // processes, or groups of them
+    uint32_t *box_periods; // by which translation copies come to the box
     size_t box_room;
     size_t *offsets;
     size_t offset_room;
@@ -204,6 +230,18 @@ double dm_boxes_extent(const deldrift_mpi *m, const dm_box *boxes);
 // Widens own boxes for the displacements to come, and lets all processes know each other's.
 void dm_share_boxes(deldrift_mpi *m, dm_box *own);
 
+// periods.c
+bool dm_make_lattice(dm_refusal *refusal, dm_lattice *lattice, uint32_t dimension, const double *vectors, size_t rank);
+void dm_free_lattice(dm_lattice *lattice);
+uint32_t dm_opposite(uint32_t period);
+void dm_translate(const deldrift_mpi *m, double *to, const double *from, uint32_t period);
+bool dm_wrap(dm_refusal *refusal, const dm_lattice *lattice, const double *positions, const double *near, size_t count,
+             double *places, int64_t *shifts);
+// Has what a commit is given in m->home, and where each comes from in m->home_wraps; positions become these.
+bool dm_come_home(deldrift_mpi *m, const double **positions);
+// Own vertices where they are; in a periodic box all in the unit cell.
+bool dm_unit_places(const deldrift_mpi *m, dm_refusal *refusal, double *places);
+
 // peers.c
 dm_peer *dm_peer_of(deldrift_mpi *m, int rank);
 // Makes room for the exchange, before processes agree to make it.
@@ -216,6 +254,8 @@ void dm_restore_peers(deldrift_mpi *m);
 void dm_free_peers(deldrift_mpi *m);
 
 // reach.c
+// Adds to the peers' lists own vertices near their boxes, in a periodic box. Collective.
+void dm_seed(deldrift_mpi *m);
 // Adds to the peers' lists own vertices that these may need and do not have, and returns how many.
 size_t dm_find_sends(deldrift_mpi *m);
 // Marks those that peers have and do not need, by the wider boxes of the rule for dropping.
@@ -241,7 +281,8 @@ void dm_withdraw(deldrift_mpi *m);
 deldrift_status dm_rounds(deldrift_mpi *m);
 // Stages insertions, whose ids are in m->vertices then, which has room for them.
 bool dm_insert(deldrift_mpi *m, const double *positions, const uint64_t *ids, size_t count);
-void dm_set_vertex(deldrift_mpi *m, uint32_t vertex, int32_t owner, uint64_t id, const double *position);
+void dm_set_vertex(deldrift_mpi *m, uint32_t vertex, int32_t owner, uint32_t period, uint64_t id,
+                   const double *position);
 void dm_unset_vertex(deldrift_mpi *m, uint32_t vertex);
 // What the triangulation and the lists say becomes, or does not become, the timestamp in force.
 void dm_settle(deldrift_mpi *m);
@@ -252,11 +293,18 @@ void dm_restore(deldrift_mpi *m);
 // What the ids that have been given or taken away in a commit stood for.
 void dm_note_rebound(deldrift_mpi *m);
 
+// reading.c
+// The corner of the least global id; of several images of that vertex the first by position.
+uint32_t dm_least(const deldrift_mpi *m, const uint32_t *corners, uint32_t count);
+
 // create.c
-// The triangulation of own vertices, for the first time: `points`, with `ids`. Collective.
-deldrift_status dm_build(deldrift_mpi *m, const double *points, const uint64_t *ids, size_t count);
+// The triangulation of own vertices, for the first time: `points`, at home, with `ids` and `wraps`. Collective.
+deldrift_status dm_build(deldrift_mpi *m, const double *points, const uint64_t *ids, const int64_t *wraps,
+                         size_t count);
+// Puts what has been built in the place of what there was.
+void dm_replace(deldrift_mpi *m, deldrift_mpi *fresh);
 deldrift_mpi *dm_new(dm_refusal *refusal, MPI_Comm comm, uint32_t dimension, const deldrift_mpi_options *options,
-                     const deldrift_options *local);
+                     const deldrift_options *local, const double *vectors, size_t vector_count);
 
 // fault.c, in the build for tests alone: which of the faults that tests plant is in force, and how much memory there
 // is.
@@ -269,6 +317,7 @@ enum {
     DM_FAULT_STALE_HALO,
     DM_FAULT_NO_ROUND,
     DM_FAULT_LOCAL_KEYS,
+    DM_FAULT_NO_PERIOD,
 };
 extern int deldrift_mpi_fault;
 extern long deldrift_mpi_allocations_left; // negative: no limit

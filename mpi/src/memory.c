@@ -45,27 +45,32 @@ void *dm_allocate(dm_refusal *refusal, size_t count, size_t size) {
 
 bool dm_reserve_list(dm_refusal *refusal, dm_list *list, size_t needed) {
     size_t room = list->capacity;
-    if (!dm_reserve(refusal, &list->is_leaving, &room, needed, 1)) return false;
+    size_t other_room = list->capacity;
+    if (!dm_reserve(refusal, &list->is_leaving, &room, needed, 1) ||
+        !dm_reserve(refusal, &list->period, &other_room, needed, sizeof *list->period))
+        return false;
     return dm_reserve(refusal, &list->at, &list->capacity, needed, sizeof *list->at);
 }
 
 // There is an array also for no ids, or own vertices: copies of nothing need an address.
 bool dm_reserve_ids(deldrift_mpi *m, size_t ids) {
     if (ids > m->ids_room || !m->ids_room) {
-        size_t room[6] = {m->ids_room, m->ids_room, m->ids_room, m->ids_room, m->ids_room, m->ids_room};
+        size_t room[7] = {m->ids_room, m->ids_room, m->ids_room, m->ids_room, m->ids_room, m->ids_room, m->ids_room};
         dm_refusal *r = &m->refusal;
         size_t needed = ids ? ids : 1;
         if (!dm_reserve(r, &m->id_of, &room[0], needed, sizeof *m->id_of) ||
             !dm_reserve(r, &m->owner_of, &room[1], needed, sizeof *m->owner_of) ||
             !dm_reserve(r, &m->is_own, &room[2], needed, 1) || !dm_reserve(r, &m->is_leaving, &room[3], needed, 1) ||
             !dm_reserve(r, &m->where, &room[4], needed, m->dimension * sizeof *m->where) ||
-            !dm_reserve(r, &m->stamp, &room[5], needed, sizeof *m->stamp))
+            !dm_reserve(r, &m->stamp, &room[5], needed, sizeof *m->stamp) ||
+            !dm_reserve(r, &m->period_of, &room[6], needed, sizeof *m->period_of))
             return false;
         m->ids_room = room[0];
     }
     for (; m->ids < ids; m->ids++) {
         m->id_of[m->ids] = 0;
         m->owner_of[m->ids] = -1;
+        m->period_of[m->ids] = 0;
         m->is_own[m->ids] = 0;
         m->is_leaving[m->ids] = 0;
         m->stamp[m->ids] = 0;
@@ -76,12 +81,15 @@ bool dm_reserve_ids(deldrift_mpi *m, size_t ids) {
 bool dm_reserve_own(deldrift_mpi *m, size_t count) {
     if (!count) count = 1;
     if (count > m->own_room) {
-        size_t room[4] = {m->own_room, m->own_room, m->own_room, m->own_room};
+        size_t room[6] = {m->own_room, m->own_room, m->own_room, m->own_room, m->own_room, m->own_room};
+        size_t wrap = m->dimension * sizeof *m->wraps;
         dm_refusal *r = &m->refusal;
         if (!dm_reserve(r, &m->own, &room[0], count, sizeof *m->own) ||
             !dm_reserve(r, &m->box_of, &room[1], count, sizeof *m->box_of) ||
             !dm_reserve(r, &m->next_own, &room[2], count, sizeof *m->next_own) ||
-            !dm_reserve(r, &m->next_box_of, &room[3], count, sizeof *m->next_box_of))
+            !dm_reserve(r, &m->next_box_of, &room[3], count, sizeof *m->next_box_of) ||
+            (m->lattice.rank && (!dm_reserve(r, &m->wraps, &room[4], count, wrap) ||
+                                 !dm_reserve(r, &m->next_wraps, &room[5], count, wrap))))
             return false;
         m->own_room = room[0];
     }
@@ -92,6 +100,7 @@ bool dm_reserve_own(deldrift_mpi *m, size_t count) {
 void dm_free(deldrift_mpi *m) {
     dm_free_peers(m);
     deldrift_destroy(m->t);
+    dm_free_lattice(&m->lattice);
     void *arrays[] = {
         m->id_of,         m->owner_of,   m->is_own,       m->is_leaving,  m->where,       m->stamp,
         m->own,           m->box_of,     m->next_own,     m->next_box_of, m->next_points, m->insertion_positions,
@@ -99,6 +108,7 @@ void dm_free(deldrift_mpi *m) {
         m->low,           m->high,       m->box_ranks,    m->offsets,     m->found,       m->vertices,
         m->coordinates,   m->numbers,    m->outgoing,     m->incoming,    m->chunks,      m->requests,
         m->chunk,         m->bases,      m->migrated,     m->moved,       m->nodes,       m->rebound,
-        m->created,       m->removed,    m->created_cells};
+        m->created,       m->removed,    m->created_cells, m->period_of,  m->wraps,       m->next_wraps,
+        m->home,          m->home_before, m->home_wraps,  m->box_periods, m->insertion_wraps};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) free(arrays[i]);
 }

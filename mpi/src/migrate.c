@@ -7,7 +7,8 @@
 
 enum { TAG_MIGRATION = 3 };
 
-// What goes and what comes: records (id, position, data) by process.
+// What goes and what comes: records (id, position, in a periodic box the multiples of the vectors by which that is
+// translated to where the program has it, data) by process.
 typedef struct {
     size_t record, *goes, *comes; // counts by rank
     char *outgoing, *incoming;
@@ -15,12 +16,14 @@ typedef struct {
     size_t arriving;
     // What has come: ids, positions, data, each contiguous.
     uint64_t *ids;
-    double *positions;
+    double *positions, *home;
+    int64_t *wraps, *more_wraps;
     char *values;
 } freight;
 
 static void free_freight(freight *f) {
-    void *arrays[] = {f->goes, f->comes, f->outgoing, f->incoming, f->requests, f->ids, f->positions, f->values};
+    void *arrays[] = {f->goes, f->comes,     f->outgoing, f->incoming, f->requests,  f->ids,
+                      f->home, f->positions, f->wraps,    f->values,   f->more_wraps};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) free(arrays[i]);
 }
 
@@ -54,7 +57,10 @@ static void pack(const deldrift_mpi *m, freight *f, const int32_t *targets, cons
         char *record = f->outgoing + next[targets[i]]++ * f->record;
         uint32_t v = m->own[i];
         memcpy(record, &m->id_of[v], sizeof(uint64_t));
-        memcpy(record + sizeof(uint64_t), m->where + (size_t)v * m->dimension, m->dimension * sizeof(double));
+        char *place = record + sizeof(uint64_t);
+        memcpy(place, m->where + (size_t)v * m->dimension, m->dimension * sizeof(double));
+        if (m->lattice.rank)
+            memcpy(place + m->dimension * sizeof(double), m->wraps + i * m->dimension, m->dimension * sizeof(int64_t));
         if (bytes) memcpy(record + f->record - bytes, (const char *)values + i * bytes, bytes);
     }
 }
@@ -87,7 +93,10 @@ static void unpack(const deldrift_mpi *m, freight *f, size_t bytes) {
     for (size_t i = 0; i < f->arriving; i++) {
         const char *record = f->incoming + i * f->record;
         memcpy(&f->ids[i], record, sizeof(uint64_t));
-        memcpy(f->positions + i * m->dimension, record + sizeof(uint64_t), m->dimension * sizeof(double));
+        const char *place = record + sizeof(uint64_t);
+        memcpy(f->positions + i * m->dimension, place, m->dimension * sizeof(double));
+        if (m->lattice.rank)
+            memcpy(f->wraps + i * m->dimension, place + m->dimension * sizeof(double), m->dimension * sizeof(int64_t));
         if (bytes) memcpy(f->values + i * bytes, record + f->record - bytes, bytes);
     }
 }
@@ -97,6 +106,7 @@ static deldrift_status move_freight(deldrift_mpi *m, dm_refusal *refusal, freigh
                                     const void *values, size_t bytes) {
     size_t size = (size_t)m->size;
     f->record = sizeof(uint64_t) + m->dimension * sizeof(double) + bytes;
+    if (m->lattice.rank) f->record += m->dimension * sizeof(int64_t);
     f->goes = dm_allocate(refusal, size, sizeof *f->goes);
     f->comes = dm_allocate(refusal, size, sizeof *f->comes);
     f->requests = dm_allocate(refusal, 2 * size, sizeof *f->requests);
@@ -111,6 +121,9 @@ static deldrift_status move_freight(deldrift_mpi *m, dm_refusal *refusal, freigh
     f->incoming = dm_allocate(refusal, f->arriving, f->record);
     f->ids = dm_allocate(refusal, f->arriving, sizeof *f->ids);
     f->positions = dm_allocate(refusal, f->arriving, m->dimension * sizeof *f->positions);
+    f->home = dm_allocate(refusal, f->arriving, m->dimension * sizeof *f->home);
+    f->wraps = dm_allocate(refusal, f->arriving, m->dimension * sizeof *f->wraps);
+    f->more_wraps = dm_allocate(refusal, f->arriving, m->dimension * sizeof *f->more_wraps);
     f->values = dm_allocate(refusal, f->arriving, bytes ? bytes : 1);
     status = dm_decide(m->comm, refusal, NULL).status;
     if (status != DELDRIFT_OK) return status;
@@ -119,13 +132,12 @@ static deldrift_status move_freight(deldrift_mpi *m, dm_refusal *refusal, freigh
     return DELDRIFT_OK;
 }
 
-// Puts what has been built in the place of what there was.
-static void replace(deldrift_mpi *m, deldrift_mpi *fresh) {
-    deldrift_mpi old = *m;
-    fresh->timestamp = old.timestamp;
-    fresh->report.timestamp = old.timestamp;
-    *m = *fresh;
-    dm_free(&old);
+// All that has come goes to the unit cell of a periodic box: the places that dm_build is given.
+static const double *come_home(dm_refusal *refusal, const deldrift_mpi *fresh, freight *f) {
+    if (!fresh->lattice.rank) return f->positions;
+    dm_wrap(refusal, &fresh->lattice, f->positions, NULL, f->arriving, f->home, f->more_wraps);
+    for (size_t i = 0; i < f->arriving * fresh->dimension; i++) f->wraps[i] += f->more_wraps[i];
+    return f->home;
 }
 
 deldrift_status deldrift_mpi_migrate(deldrift_mpi *m, const int32_t *targets, size_t count, const void *values,
@@ -138,15 +150,17 @@ deldrift_status deldrift_mpi_migrate(deldrift_mpi *m, const int32_t *targets, si
     deldrift_status status = dm_decide(m->comm, &refusal, NULL).status;
     if (status == DELDRIFT_OK) status = move_freight(m, &refusal, &f, targets, values, bytes_per_vertex);
     deldrift_mpi *fresh = NULL;
+    const double *places = NULL;
     if (status == DELDRIFT_OK) {
-        fresh = dm_new(&refusal, m->comm, m->dimension, &m->options, &m->local);
+        fresh = dm_new(&refusal, m->comm, m->dimension, &m->options, &m->local, m->lattice.given, m->lattice.rank);
+        if (fresh) places = come_home(&refusal, fresh, &f);
         status = dm_decide(m->comm, &refusal, NULL).status;
     }
-    if (status == DELDRIFT_OK) status = dm_build(fresh, f.positions, f.ids, f.arriving);
+    if (status == DELDRIFT_OK) status = dm_build(fresh, places, f.ids, f.wraps, f.arriving);
     if (status == DELDRIFT_OK) {
         fresh->migrated = f.values;
         f.values = NULL;
-        replace(m, fresh);
+        dm_replace(m, fresh);
         if (received) *received = m->migrated;
         if (report) *report = m->report;
     } else if (fresh) {

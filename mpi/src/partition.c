@@ -44,13 +44,13 @@ static int compare_items(const void *first, const void *second) {
     return a->place < b->place ? -1 : a->place > b->place;
 }
 
-// The place of each own vertex, on a grid of cubes over all vertices.
-static void find_places(deldrift_mpi *m, item *items) {
+// The place on the curve of each own vertex, which is at `own`, on a grid of cubes over all vertices.
+static void find_places(const deldrift_mpi *m, const double *own, item *items) {
     uint32_t d = m->dimension;
     double bounds[6], all[6], side = 0;
     for (uint32_t k = 0; k < 2 * d; k++) bounds[k] = INFINITY;
     for (size_t i = 0; i < m->own_count; i++) {
-        const double *where = m->where + (size_t)m->own[i] * d;
+        const double *where = own + i * d;
         for (uint32_t k = 0; k < d; k++) {
             bounds[k] = fmin(bounds[k], where[k]);
             bounds[d + k] = fmin(bounds[d + k], -where[k]);
@@ -60,7 +60,7 @@ static void find_places(deldrift_mpi *m, item *items) {
     for (uint32_t k = 0; k < d; k++) side = fmax(side, -all[d + k] - all[k]);
     double cells = ldexp(1, bits_of(d));
     for (size_t i = 0; i < m->own_count; i++) {
-        const double *where = m->where + (size_t)m->own[i] * d;
+        const double *where = own + i * d;
         uint32_t cell[3] = {0, 0, 0};
         for (uint32_t k = 0; k < d; k++) {
             double share = side > 0 ? (where[k] - all[k]) / side : 0;
@@ -126,9 +126,11 @@ deldrift_status deldrift_mpi_partition(deldrift_mpi *m, const double *weights, s
     item *items = dm_allocate(&refusal, count, sizeof *items), *sorted = dm_allocate(&refusal, count, sizeof *sorted);
     uint64_t *bounds = dm_allocate(&refusal, 2 * size, sizeof *bounds);
     double *sums = dm_allocate(&refusal, 2 * size, sizeof *sums);
+    double *own = dm_allocate(&refusal, m->own_count * m->dimension, sizeof *own);
+    if (own) dm_unit_places(m, &refusal, own);
     deldrift_status status = dm_decide(m->comm, &refusal, NULL).status;
     if (status == DELDRIFT_OK) {
-        find_places(m, items);
+        find_places(m, own, items);
         for (size_t i = 0; i < count; i++) items[i].weight = weights ? weights[i] : 1;
         if (count) memcpy(sorted, items, count * sizeof *items);
         qsort(sorted, count, sizeof *sorted, compare_items);
@@ -151,5 +153,6 @@ deldrift_status deldrift_mpi_partition(deldrift_mpi *m, const double *weights, s
     free(sorted);
     free(bounds);
     free(sums);
+    free(own);
     return status;
 }

@@ -64,7 +64,7 @@ void dm_exchange_positions(deldrift_mpi *m) {
         for (size_t k = 0; k < peer->sent.count; k++) {
             uint32_t v = peer->sent.at[k];
             if (m->is_leaving[v]) peer->sent.is_leaving[k] = 1;
-            memcpy(peer->outgoing + k * d, m->where + (size_t)v * d, d * sizeof(double));
+            dm_translate(m, peer->outgoing + k * d, m->where + (size_t)v * d, peer->sent.period[k]);
             // A position that is no number says that the copy goes.
             if (peer->sent.is_leaving[k]) peer->outgoing[k * d] = NAN;
         }
@@ -95,8 +95,12 @@ void dm_exchange_positions(deldrift_mpi *m) {
 
 static void settle_list(dm_list *list) {
     size_t kept = 0;
-    for (size_t k = 0; k < list->count; k++)
-        if (!list->is_leaving[k]) list->at[kept++] = list->at[k];
+    for (size_t k = 0; k < list->count; k++) {
+        if (!list->is_leaving[k]) {
+            list->period[kept] = list->period[k];
+            list->at[kept++] = list->at[k];
+        }
+    }
     list->count = list->settled = list->pushed = kept;
     if (kept) memset(list->is_leaving, 0, kept);
 }
@@ -125,8 +129,9 @@ void dm_free_peers(deldrift_mpi *m) {
         dm_peer *peer = &m->peers[p];
         for (int k = 0; k < 2; k++)
             if (peer->requests[k] != MPI_REQUEST_NULL) MPI_Request_free(&peer->requests[k]);
-        void *arrays[] = {peer->sent.at,  peer->sent.is_leaving, peer->received.at, peer->received.is_leaving,
-                          peer->outgoing, peer->incoming};
+        void *arrays[] = {peer->sent.at,       peer->sent.period,     peer->sent.is_leaving,
+                          peer->received.at,   peer->received.period, peer->received.is_leaving,
+                          peer->outgoing,      peer->incoming};
         for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) free(arrays[i]);
     }
     free(m->peers);

@@ -8,8 +8,15 @@
 
 enum { TAG_PUSH = 2 };
 
+// The global id, the position, and in a periodic box the translation.
 static size_t record_bytes(const deldrift_mpi *m) {
-    return sizeof(uint64_t) + m->dimension * sizeof(double);
+    return sizeof(uint64_t) + m->dimension * sizeof(double) + (m->lattice.rank ? sizeof(uint64_t) : 0);
+}
+
+static uint32_t period_in(const deldrift_mpi *m, const char *record) {
+    uint64_t period = 0;
+    if (m->lattice.rank) memcpy(&period, record + record_bytes(m) - sizeof period, sizeof period);
+    return (uint32_t)period;
 }
 
 // Writes records of what is to be sent, one list behind the other, and makes room for a request for each message.
@@ -29,7 +36,11 @@ bool dm_pack_sends(deldrift_mpi *m) {
         for (size_t k = sent->pushed; k < sent->count; k++, record += bytes) {
             uint32_t v = sent->at[k];
             memcpy(record, &m->id_of[v], sizeof m->id_of[v]);
-            memcpy(record + sizeof(uint64_t), m->where + (size_t)v * m->dimension, m->dimension * sizeof(double));
+            double place[3];
+            uint64_t period = sent->period[k];
+            dm_translate(m, place, m->where + (size_t)v * m->dimension, sent->period[k]);
+            memcpy(record + sizeof(uint64_t), place, m->dimension * sizeof(double));
+            if (m->lattice.rank) memcpy(record + bytes - sizeof period, &period, sizeof period);
         }
     }
     return true;
@@ -122,10 +133,13 @@ bool dm_stage_received(deldrift_mpi *m) {
         if (!peer || !dm_reserve_list(&m->refusal, &peer->received, peer->received.count + m->chunks[c].count))
             return false;
         dm_list *received = &peer->received;
-        for (size_t k = 0; k < m->chunks[c].count; k++, next++) {
+        const char *record = m->incoming + m->chunks[c].offset;
+        for (size_t k = 0; k < m->chunks[c].count; k++, next++, record += bytes) {
+            uint32_t period = period_in(m, record);
             received->is_leaving[received->count] = 0;
+            received->period[received->count] = period;
             received->at[received->count++] = m->vertices[next];
-            dm_set_vertex(m, m->vertices[next], peer->rank, m->numbers[next], m->coordinates + next * d);
+            dm_set_vertex(m, m->vertices[next], peer->rank, period, m->numbers[next], m->coordinates + next * d);
         }
     }
     m->report.received += count;

@@ -9,6 +9,10 @@
 // so that it is not soon sent again.
 static const double DROP_MARGIN = 0.1;
 
+// Copies up to so many mean distances of vertices from the boxes of a process are there from the beginning: no vertex
+// then has a cell without an end, whose half-space meets the boxes of nearly all periods.
+static const double SEED_MARGIN = 1.5;
+
 // Processes are asked about in groups of this number, and groups of groups, as most are far.
 #ifdef DELDRIFT_MPI_TESTING
 enum { GROUP = 2 }; // so that few processes have groups of groups
@@ -18,27 +22,39 @@ enum { GROUP = 16 };
 
 static bool reserve_boxes(deldrift_mpi *m, size_t boxes) {
     uint32_t d = m->dimension;
-    size_t room[4] = {m->box_room, m->box_room, m->box_room, m->box_room};
+    size_t room[5] = {m->box_room, m->box_room, m->box_room, m->box_room, m->box_room};
     dm_refusal *r = &m->refusal;
     if (!dm_reserve(r, &m->low, &room[0], boxes, d * sizeof(double)) ||
         !dm_reserve(r, &m->high, &room[1], boxes, d * sizeof(double)) ||
         !dm_reserve(r, &m->box_ranks, &room[2], boxes, sizeof *m->box_ranks) ||
         !dm_reserve(r, &m->nodes, &room[3], boxes, sizeof *m->nodes) ||
+        !dm_reserve(r, &m->box_periods, &room[4], boxes, sizeof *m->box_periods) ||
         !dm_reserve(r, &m->offsets, &m->offset_room, boxes + 1, sizeof *m->offsets))
         return false;
     m->box_room = room[0] < room[2] ? room[0] : room[2];
     return true;
 }
 
-// A box that is asked about, widened by `margin` spacings.
-static void put_box(deldrift_mpi *m, size_t at, const dm_box *box, double margin, int process) {
+// A box that is asked about: what is in reach of it goes to the process, by that translation.
+static void put_box(deldrift_mpi *m, size_t at, const dm_box *box, int process, uint32_t period) {
     for (uint32_t k = 0; k < m->dimension; k++) {
-        double low = box->low[k] - margin * box->spacing, high = box->high[k] + margin * box->spacing;
-        if (DM_HAS_FAULT(DM_FAULT_SMALL_REACH)) low = high = low + (high - low) / 2;
-        m->low[at * m->dimension + k] = low;
-        m->high[at * m->dimension + k] = high;
+        m->low[at * m->dimension + k] = box->low[k];
+        m->high[at * m->dimension + k] = box->high[k];
     }
     m->box_ranks[at] = process;
+    m->box_periods[at] = period;
+}
+
+// A box, wider by `margin` spacings.
+static dm_box widened(const deldrift_mpi *m, const dm_box *box, double margin) {
+    dm_box wider = *box;
+    for (uint32_t k = 0; k < m->dimension; k++) {
+        wider.low[k] -= margin * box->spacing;
+        wider.high[k] += margin * box->spacing;
+        if (DM_HAS_FAULT(DM_FAULT_SMALL_REACH))
+            wider.low[k] = wider.high[k] = wider.low[k] + (wider.high[k] - wider.low[k]) / 2;
+    }
+    return wider;
 }
 
 static void unite(const deldrift_mpi *m, dm_box *all, const dm_box *box) {
@@ -49,16 +65,22 @@ static void unite(const deldrift_mpi *m, dm_box *all, const dm_box *box) {
     all->spacing = fmax(all->spacing, box->spacing);
 }
 
+static dm_box no_box(void) {
+    return (dm_box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
+}
+
+static void unite_boxes_of(const deldrift_mpi *m, dm_box *all, int process) {
+    const dm_box *boxes = dm_boxes_now(m) + (size_t)process * m->options.boxes;
+    for (uint32_t b = 0; b < m->options.boxes; b++)
+        if (!dm_is_empty_box(&boxes[b])) unite(m, all, &boxes[b]);
+}
+
 // The box around those of some processes, without this one, and without those that have no copies if these are not
 // wanted.
 static dm_box box_of_group(const deldrift_mpi *m, int first, int width, bool of_peers) {
-    dm_box all = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
-    for (int process = first; process < m->size && process < first + width; process++) {
-        if (process == m->rank || (of_peers && m->peer_of[process] < 0)) continue;
-        const dm_box *boxes = dm_boxes_now(m) + (size_t)process * m->options.boxes;
-        for (uint32_t b = 0; b < m->options.boxes; b++)
-            if (!dm_is_empty_box(&boxes[b])) unite(m, &all, &boxes[b]);
-    }
+    dm_box all = no_box();
+    for (int process = first; process < m->size && process < first + width; process++)
+        if (process != m->rank && !(of_peers && m->peer_of[process] < 0)) unite_boxes_of(m, &all, process);
     return all;
 }
 
@@ -124,11 +146,8 @@ static bool find_near(deldrift_mpi *m, bool of_peers, double margin, size_t *cou
     int width = 1;
     if (!reserve_boxes(m, (size_t)m->size * m->options.boxes)) return false;
     while (width * GROUP < m->size) width *= GROUP;
-    dm_box own = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
-    for (uint32_t b = 0; b < m->options.boxes; b++) {
-        const dm_box *box = &dm_boxes_now(m)[(size_t)m->rank * m->options.boxes + b];
-        if (!dm_is_empty_box(box)) unite(m, &own, box);
-    }
+    dm_box own = no_box();
+    unite_boxes_of(m, &own, m->rank);
     *count = 0;
     for (int first = 0; first < m->size; first += width) m->nodes[(*count)++] = first;
     for (;; width /= GROUP) {
@@ -136,10 +155,11 @@ static bool find_near(deldrift_mpi *m, bool of_peers, double margin, size_t *cou
         for (size_t n = 0; n < *count; n++) {
             dm_box box = box_of_group(m, m->nodes[n], width, of_peers);
             if (dm_is_empty_box(&box)) continue;
+            dm_box wider = widened(m, &box, margin);
             if (meet(m, &own, &box))
                 m->nodes[kept++] = m->nodes[n];
             else
-                put_box(m, asked++, &box, margin, m->nodes[n]);
+                put_box(m, asked++, &wider, m->nodes[n], 0);
         }
         if (asked && !search(m, asked)) return false;
         for (size_t b = 0; b < asked; b++)
@@ -150,16 +170,89 @@ static bool find_near(deldrift_mpi *m, bool of_peers, double margin, size_t *cou
     }
 }
 
-// Lists of own vertices in reach of other processes' boxes, widened by `margin` spacings; the lists of one process's
-// follow each other.
+// Outside of this box nothing own is in reach of anything. It is one around own vertices, as far wider as their balls
+// need, and infinite on a side where that is not known. What is told of a half-space holds for all boxes in it.
+static bool find_extent(deldrift_mpi *m, dm_box *extent) {
+    static const double WIDTHS[] = {8, 2}; // spacings
+    enum { TRIES = sizeof WIDTHS / sizeof *WIDTHS };
+    uint32_t d = m->dimension;
+    dm_box own = no_box(), halves[TRIES * 6];
+    size_t asked = 0;
+    if (!reserve_boxes(m, TRIES * 2 * d)) return false;
+    unite_boxes_of(m, &own, m->rank);
+    for (int t = 0; t < TRIES; t++) {
+        for (uint32_t side = 0; side < 2 * d; side++) {
+            dm_box *half = &halves[asked];
+            *half = (dm_box){{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}, 0};
+            if (side % 2)
+                half->low[side / 2] = own.high[side / 2] + WIDTHS[t] * own.spacing;
+            else
+                half->high[side / 2] = own.low[side / 2] - WIDTHS[t] * own.spacing;
+            put_box(m, asked++, half, 0, 0);
+        }
+    }
+    if (!search(m, asked)) return false;
+    *extent = (dm_box){{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}, 0};
+    for (size_t n = 0; n < asked; n++) {
+        uint32_t side = (uint32_t)(n % (2 * d));
+        if (m->offsets[n + 1] > m->offsets[n]) continue;
+        if (side % 2)
+            extent->high[side / 2] = halves[n].low[side / 2];
+        else
+            extent->low[side / 2] = halves[n].high[side / 2];
+    }
+    return true;
+}
+
+static dm_box translated(const deldrift_mpi *m, const dm_box *box, uint32_t period) {
+    dm_box there = *box;
+    dm_translate(m, there.low, box->low, period);
+    dm_translate(m, there.high, box->high, period);
+    return there;
+}
+
+// The boxes of all processes in all periods that meet this one, wider by `margin` spacings. A rounded translation of a
+// box has the translations of all that is in it, as these are not rounded.
+static bool put_periods(deldrift_mpi *m, const dm_box *extent, bool of_peers, double margin, size_t *boxes) {
+    *boxes = 0;
+    for (int process = 0; process < m->size; process++) {
+        dm_box all = no_box();
+        unite_boxes_of(m, &all, process);
+        if (dm_is_empty_box(&all) || (of_peers && m->peer_of[process] < 0)) continue;
+        for (uint32_t period = 0; period < m->lattice.count; period++) {
+            dm_box there = translated(m, &all, period), wider = widened(m, &there, margin);
+            if ((process == m->rank && !period) || !meet(m, extent, &wider)) continue;
+            if (DM_HAS_FAULT(DM_FAULT_NO_PERIOD) && period == m->lattice.unit[0]) continue;
+            const dm_box *each = dm_boxes_now(m) + (size_t)process * m->options.boxes;
+            if (!reserve_boxes(m, *boxes + m->options.boxes)) return false;
+            for (uint32_t b = 0; b < m->options.boxes; b++) {
+                if (dm_is_empty_box(&each[b])) continue;
+                there = translated(m, &each[b], period);
+                wider = widened(m, &there, margin);
+                if (meet(m, extent, &wider)) put_box(m, (*boxes)++, &wider, process, dm_opposite(period));
+            }
+        }
+    }
+    return true;
+}
+
+// Lists of own vertices in reach of other processes' boxes, and of all in other periods, widened by `margin` spacings;
+// the lists of one process's in one period follow each other.
 static bool search_processes(deldrift_mpi *m, bool of_peers, double margin, size_t *boxes) {
     size_t near = 0;
     *boxes = 0;
+    if (m->lattice.rank) {
+        dm_box extent;
+        if (!find_extent(m, &extent) || !put_periods(m, &extent, of_peers, margin, boxes)) return false;
+        return !*boxes || search(m, *boxes);
+    }
     if (!find_near(m, of_peers, margin, &near)) return false;
     for (size_t n = 0; n < near; n++) {
         const dm_box *each = dm_boxes_now(m) + (size_t)m->nodes[n] * m->options.boxes;
-        for (uint32_t b = 0; b < m->options.boxes; b++)
-            if (!dm_is_empty_box(&each[b])) put_box(m, (*boxes)++, &each[b], margin, m->nodes[n]);
+        for (uint32_t b = 0; b < m->options.boxes; b++) {
+            dm_box wider = widened(m, &each[b], margin);
+            if (!dm_is_empty_box(&each[b])) put_box(m, (*boxes)++, &wider, m->nodes[n], 0);
+        }
     }
     return !*boxes || search(m, *boxes);
 }
@@ -172,30 +265,55 @@ static uint32_t fresh_stamp(deldrift_mpi *m) {
     return m->stamped;
 }
 
+// The boxes of one process in one period: those from `first` on, before `end`.
+typedef struct {
+    size_t first, end;
+    int rank;
+    uint32_t period;
+} group;
+
+static group group_from(const deldrift_mpi *m, size_t first, size_t boxes) {
+    group g = {first, first, m->box_ranks[first], m->box_periods[first]};
+    while (g.end < boxes && m->box_ranks[g.end] == g.rank && m->box_periods[g.end] == g.period) g.end++;
+    return g;
+}
+
+// Makes room in the list of a process for so many more. NULL, and a refusal, where there is no memory.
+static dm_list *list_for(deldrift_mpi *m, int rank, size_t more) {
+    dm_peer *peer = dm_peer_of(m, rank);
+    return peer && dm_reserve_list(&m->refusal, &peer->sent, peer->sent.count + more) ? &peer->sent : NULL;
+}
+
+// What the list has in this period gets a stamp, which is told.
+static uint32_t stamp_sent(deldrift_mpi *m, const dm_list *sent, uint32_t period) {
+    uint32_t stamp = fresh_stamp(m);
+    for (size_t k = 0; k < sent->count; k++)
+        if (sent->period[k] == period && !sent->is_leaving[k]) m->stamp[sent->at[k]] = stamp;
+    return stamp;
+}
+
+// Enters a vertex into a list that has room, unless it has the stamp.
+static bool send(deldrift_mpi *m, dm_list *sent, uint32_t vertex, uint32_t period, uint32_t stamp) {
+    if (m->stamp[vertex] == stamp) return false;
+    m->stamp[vertex] = stamp;
+    sent->is_leaving[sent->count] = 0;
+    sent->period[sent->count] = period;
+    sent->at[sent->count++] = vertex;
+    return true;
+}
+
 size_t dm_find_sends(deldrift_mpi *m) {
     size_t boxes, sends = 0;
     if (!search_processes(m, false, 0, &boxes)) return 0;
     for (size_t b = 0; b < boxes;) {
-        int rank = m->box_ranks[b];
-        size_t first = m->offsets[b];
-        while (b < boxes && m->box_ranks[b] == rank) b++;
-        size_t end = m->offsets[b];
+        group g = group_from(m, b, boxes);
+        size_t first = m->offsets[g.first], end = m->offsets[g.end];
+        b = g.end;
         if (first == end) continue;
-        dm_peer *peer = dm_peer_of(m, rank);
-        if (!peer) return 0;
-        dm_list *sent = &peer->sent;
-        if (!dm_reserve_list(&m->refusal, sent, sent->count + (end - first))) return 0;
-        uint32_t stamp = fresh_stamp(m);
-        for (size_t k = 0; k < sent->count; k++)
-            if (!sent->is_leaving[k]) m->stamp[sent->at[k]] = stamp;
-        for (size_t i = first; i < end; i++) {
-            uint32_t v = m->found[i];
-            if (m->stamp[v] == stamp) continue;
-            m->stamp[v] = stamp;
-            sent->is_leaving[sent->count] = 0;
-            sent->at[sent->count++] = v;
-            sends++;
-        }
+        dm_list *sent = list_for(m, g.rank, end - first);
+        if (!sent) return 0;
+        uint32_t stamp = stamp_sent(m, sent, g.period);
+        for (size_t i = first; i < end; i++) sends += send(m, sent, m->found[i], g.period, stamp);
     }
     return sends;
 }
@@ -208,12 +326,59 @@ bool dm_find_drops(deldrift_mpi *m) {
     if (!search_processes(m, true, DROP_MARGIN, &boxes)) return false;
     for (size_t p = 0; p < m->peer_count; p++) {
         dm_list *sent = &m->peers[p].sent;
+        if (sent->count) memset(sent->is_leaving, 1, sent->count);
+    }
+    for (size_t b = 0; b < boxes;) {
+        group g = group_from(m, b, boxes);
+        b = g.end;
+        if (m->peer_of[g.rank] < 0) continue;
+        dm_list *sent = &m->peers[m->peer_of[g.rank]].sent;
         uint32_t stamp = fresh_stamp(m);
-        for (size_t b = 0; b < boxes; b++) {
-            if (m->box_ranks[b] != m->peers[p].rank) continue;
-            for (size_t i = m->offsets[b]; i < m->offsets[b + 1]; i++) m->stamp[m->found[i]] = stamp;
-        }
-        for (size_t k = 0; k < sent->count; k++) sent->is_leaving[k] = m->stamp[sent->at[k]] != stamp;
+        for (size_t i = m->offsets[g.first]; i < m->offsets[g.end]; i++) m->stamp[m->found[i]] = stamp;
+        for (size_t k = 0; k < sent->count; k++)
+            if (sent->period[k] == g.period && m->stamp[sent->at[k]] == stamp) sent->is_leaving[k] = 0;
     }
     return true;
+}
+
+// The mean distance of the vertices of all processes, roughly. Along directions that are open, the box of all counts.
+static double mean_distance(const deldrift_mpi *m) {
+    uint64_t mine = m->next_count, total = 0;
+    MPI_Allreduce(&mine, &total, 1, MPI_UINT64_T, MPI_SUM, m->comm);
+    dm_box all = no_box();
+    for (int process = 0; process < m->size; process++) unite_boxes_of(m, &all, process);
+    double measure = m->lattice.measure, diagonal = 0;
+    for (uint32_t k = 0; k < m->dimension && total; k++) diagonal = hypot(diagonal, all.high[k] - all.low[k]);
+    if (diagonal > 0) measure *= pow(diagonal, (double)(m->dimension - m->lattice.rank));
+    return total ? pow(measure / (double)total, 1.0 / m->dimension) : 0;
+}
+
+void dm_seed(deldrift_mpi *m) {
+    size_t boxes;
+    dm_box own = no_box();
+    double width = SEED_MARGIN * mean_distance(m);
+    m->report.collectives++;
+    if (m->refusal.status != DELDRIFT_OK || !m->next_count) return;
+    unite_boxes_of(m, &own, m->rank);
+    for (uint32_t k = 0; k < m->dimension; k++) {
+        own.low[k] -= width;
+        own.high[k] += width;
+    }
+    if (!put_periods(m, &own, false, 0, &boxes)) return;
+    for (size_t b = 0; b < boxes;) {
+        group g = group_from(m, b, boxes);
+        dm_list *sent = list_for(m, g.rank, m->next_count);
+        if (!sent) return;
+        uint32_t stamp = stamp_sent(m, sent, g.period);
+        for (; b < g.end; b++) {
+            dm_box near = no_box();
+            for (uint32_t k = 0; k < m->dimension; k++) {
+                near.low[k] = m->low[b * m->dimension + k] - width;
+                near.high[k] = m->high[b * m->dimension + k] + width;
+            }
+            for (size_t i = 0; i < m->next_count; i++)
+                if (dm_is_in_box(m, &near, m->points + i * m->dimension))
+                    send(m, sent, m->next_own[i], g.period, stamp);
+        }
+    }
 }

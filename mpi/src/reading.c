@@ -53,12 +53,24 @@ deldrift_status deldrift_mpi_owners(const deldrift_mpi *m, int32_t *owners, size
     return dm_fail(&refusal);
 }
 
-// Whether the corner of least global id of a cell, or facet, is own.
-static bool is_owned(const deldrift_mpi *m, const uint32_t *corners, uint32_t count) {
+static bool is_before(const deldrift_mpi *m, uint32_t v, uint32_t w) {
+    if (m->id_of[v] != m->id_of[w]) return m->id_of[v] < m->id_of[w];
+    const double *p = m->where + (size_t)v * m->dimension, *q = m->where + (size_t)w * m->dimension;
+    for (uint32_t k = 0; k < m->dimension; k++)
+        if (p[k] != q[k]) return p[k] < q[k];
+    return false;
+}
+
+uint32_t dm_least(const deldrift_mpi *m, const uint32_t *corners, uint32_t count) {
     uint32_t least = corners[0];
     for (uint32_t i = 1; i < count; i++)
-        if (m->id_of[corners[i]] < m->id_of[least]) least = corners[i];
-    return m->is_own[least];
+        if (is_before(m, corners[i], least)) least = corners[i];
+    return least;
+}
+
+// Whether the least corner of a cell, or facet, is own, and at home.
+static bool is_owned(const deldrift_mpi *m, const uint32_t *corners, uint32_t count) {
+    return m->is_own[dm_least(m, corners, count)];
 }
 
 deldrift_status deldrift_mpi_cells(const deldrift_mpi *m, uint64_t *ids, uint32_t *cells, size_t capacity,
@@ -87,8 +99,9 @@ deldrift_status deldrift_mpi_hull_facets(const deldrift_mpi *m, uint64_t *ids, u
                                          size_t capacity, size_t *count) {
     dm_refusal refusal = {DELDRIFT_OK, ""};
     if (!is_given(&refusal, m, "m") || !is_given(&refusal, count, "count")) return dm_fail(&refusal);
+    if (m->lattice.rank) dm_refuse(&refusal, DELDRIFT_PERIODIC, "the triangulation is periodic");
     deldrift_cells_view view;
-    if (!dm_took(&refusal, deldrift_cells(m->t, &view))) return dm_fail(&refusal);
+    if (refusal.status != DELDRIFT_OK || !dm_took(&refusal, deldrift_cells(m->t, &view))) return dm_fail(&refusal);
     uint32_t d = m->dimension;
     size_t owned = 0;
     // Twice: to count, and to fill.

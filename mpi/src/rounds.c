@@ -14,14 +14,20 @@ bool dm_insert(deldrift_mpi *m, const double *positions, const uint64_t *ids, si
 }
 
 static void note(deldrift_mpi *m, uint32_t vertex) {
-    m->undo[m->undo_count++] = (dm_undo){vertex, m->owner_of[vertex], m->id_of[vertex], 0};
+    m->undo[m->undo_count++] = (dm_undo){vertex, m->owner_of[vertex], m->period_of[vertex], m->id_of[vertex], 0};
 }
 
-void dm_set_vertex(deldrift_mpi *m, uint32_t vertex, int32_t owner, uint64_t id, const double *position) {
-    note(m, vertex);
+static void bind(deldrift_mpi *m, uint32_t vertex, int32_t owner, uint32_t period, uint64_t id) {
     m->owner_of[vertex] = owner;
+    m->period_of[vertex] = period;
     m->id_of[vertex] = id;
-    m->is_own[vertex] = owner == m->rank;
+    m->is_own[vertex] = owner == m->rank && period == 0;
+}
+
+void dm_set_vertex(deldrift_mpi *m, uint32_t vertex, int32_t owner, uint32_t period, uint64_t id,
+                   const double *position) {
+    note(m, vertex);
+    bind(m, vertex, owner, period, id);
     m->is_leaving[vertex] = 0;
     memcpy(m->where + (size_t)vertex * m->dimension, position, m->dimension * sizeof *position);
 }
@@ -75,7 +81,8 @@ void dm_count_copies(deldrift_mpi *m) {
     m->report.halo = m->report.neighbours = 0;
     for (size_t p = 0; p < m->peer_count; p++) {
         m->report.halo += m->peers[p].received.count;
-        m->report.neighbours += m->peers[p].sent.count || m->peers[p].received.count;
+        m->report.neighbours +=
+            m->peers[p].rank != m->rank && (m->peers[p].sent.count || m->peers[p].received.count);
     }
 }
 
@@ -104,9 +111,7 @@ void dm_restore(deldrift_mpi *m) {
     dm_withdraw(m);
     while (m->undo_count) {
         dm_undo undo = m->undo[--m->undo_count];
-        m->owner_of[undo.vertex] = undo.owner;
-        m->id_of[undo.vertex] = undo.id;
-        m->is_own[undo.vertex] = undo.owner == m->rank;
+        bind(m, undo.vertex, undo.owner, undo.period, undo.id);
     }
     dm_restore_peers(m);
     m->has_next_boxes = m->has_dropped = false;

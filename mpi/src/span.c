@@ -55,22 +55,30 @@ static void find_own_basis(const deldrift_mpi *m, dm_basis *basis) {
         memcpy(candidate.position, m->where + (size_t)candidate.vertex * m->dimension, m->dimension * sizeof(double));
         extend(m->dimension, basis, &candidate);
     }
+    // The vectors of a periodic box span as well.
+    for (uint32_t j = 0; m->next_count && j < m->lattice.rank; j++) {
+        dm_basis_point candidate = basis->points[0];
+        candidate.period = m->lattice.unit[j];
+        dm_translate(m, candidate.position, basis->points[0].position, candidate.period);
+        extend(m->dimension, basis, &candidate);
+    }
 }
 
-static bool is_sent(const dm_list *sent, uint32_t vertex) {
+static bool is_sent(const dm_list *sent, const dm_basis_point *point) {
     for (size_t k = 0; k < sent->count; k++)
-        if (sent->at[k] == vertex && !sent->is_leaving[k]) return true;
+        if (sent->at[k] == point->vertex && sent->period[k] == point->period && !sent->is_leaving[k]) return true;
     return false;
 }
 
 static void send_basis(deldrift_mpi *m, const dm_basis *basis, int to) {
     for (int32_t i = 0; i < basis->count; i++) {
         const dm_basis_point *point = &basis->points[i];
-        if (point->owner != m->rank || to == m->rank) continue;
+        if (point->owner != m->rank || (to == m->rank && !point->period)) continue;
         dm_peer *peer = dm_peer_of(m, to);
         if (!peer || !dm_reserve_list(&m->refusal, &peer->sent, peer->sent.count + 1)) return;
-        if (is_sent(&peer->sent, point->vertex)) continue;
+        if (is_sent(&peer->sent, point)) continue;
         peer->sent.is_leaving[peer->sent.count] = 0;
+        peer->sent.period[peer->sent.count] = point->period;
         peer->sent.at[peer->sent.count++] = point->vertex;
     }
 }

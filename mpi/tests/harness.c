@@ -187,8 +187,7 @@ void sort_sets(uint64_t *rows, size_t count, uint32_t length) {
     qsort(rows, count, length * sizeof *rows, compare_rows);
 }
 
-// Bytes of all processes, one behind the other, on each.
-static void *gather(const void *mine, size_t bytes, size_t *total) {
+void *gather(const void *mine, size_t bytes, size_t *total) {
     int *counts = calloc(2 * (size_t)size, sizeof *counts), *offsets = counts + size, count = (int)bytes;
     MPI_Allgather(&count, 1, MPI_INT, counts, 1, MPI_INT, MPI_COMM_WORLD);
     for (int p = 1; p < size; p++) offsets[p] = offsets[p - 1] + counts[p - 1];

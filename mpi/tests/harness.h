@@ -42,6 +42,9 @@ void free_points(point_set *p);
 // Own positions and ids again, from those of all.
 void collect_own(point_set *p);
 
+// Bytes of all processes, one behind the other, on each.
+void *gather(const void *mine, size_t bytes, size_t *total);
+
 // Sorts rows, and the ids in each.
 void sort_sets(uint64_t *rows, size_t count, uint32_t length);
 

@@ -329,6 +329,8 @@ PROTOTYPES = {
     "create_periodic": (U32, A, N, A, N, POINTER(Options), POINTER(T)),
     "stage_vectors": (T, A, N),
     "vectors": (T, A, N, C),
+    "reduced_vectors": (T, A, A, A, N, C),
+    "wrap_positions": (T, A, A, N, A, A),
     "cell_shifts": (T, A, A, N, C),
     "edge_shifts": (T, A, N, C),
     "voronoi_volumes": (T, A, A, A, N, C),

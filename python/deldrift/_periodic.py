@@ -26,6 +26,8 @@ _vectors = _library.function("vectors")
 _clone = _library.function("clone")
 _star = _library.function("star")
 _get_algorithm = _library.function("get_algorithm")
+_wrap_positions = _library.function("wrap_positions")
+_reduced_vectors = _library.function("reduced_vectors")
 _cell_shifts = _library.function("cell_shifts")
 _locate_in_period = _library.function("locate_in_period")
 _edge_shifts = _library.function("edge_shifts")
@@ -270,6 +272,50 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         with self._reading as t:
             self._check(_vectors(t, address(rows), self.ndim, count))
         return fixed(rows[: count.value])
+
+    def reduced_vectors(self) -> tuple[np.ndarray, np.ndarray]:
+        """The shortest vectors of the lattice of the box.
+
+        Returns
+        -------
+        vectors : ndarray of float
+            A row for each.
+        multiples : ndarray of int
+            The multiples of the vectors of the box of which each is the sum.
+        """
+        count = ctypes.c_size_t()
+        rows, multiples = np.empty((self.ndim, self.ndim), F64), np.empty((self.ndim, self.ndim), I64)
+        with self._reading as t:
+            self._check(_reduced_vectors(t, address(rows), address(multiples), None, self.ndim, count))
+        return rows[: count.value], multiples[: count.value, : count.value]
+
+    def wrap(self, points: Any, previous: Any = None) -> tuple[np.ndarray, np.ndarray]:
+        """Takes points into the box: into the unit cell of the reduced vectors, on the grid of the box.
+
+        Parameters
+        ----------
+        points : array_like
+            Any points, in any period.
+        previous : array_like, optional
+            A row for each: it goes to the period nearest to that, if this is out of the unit cell by a quarter of it at most.
+
+        Returns
+        -------
+        places : ndarray of float
+            Where they are then.
+        shifts : ndarray of int
+            By which multiples of the vectors of the box each point is translated from there.
+        """
+        rows = point_rows("points", points, self.ndim)
+        beside = None if previous is None else point_rows("previous", previous, self.ndim)
+        if beside is not None and len(beside) != len(rows):
+            raise WrongCount(f"there are {len(beside)} rows of previous for {len(rows)} points", "previous", None, len(beside))
+        places, shifts = np.empty(rows.shape, F64), np.empty(rows.shape, I64)
+        other = None if beside is None else address(beside)
+        with self._reading as t:
+            status = _wrap_positions(t, address(rows), other, len(rows), address(places), address(shifts))
+            self._check(status)
+        return places, shifts[:, : len(self.vectors)]
 
     @property
     def simplices(self) -> np.ndarray:

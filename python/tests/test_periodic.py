@@ -75,6 +75,24 @@ def test_what_is_kept_by_the_changes_is_what_there_is(name):
 
 
 @pytest.mark.parametrize("name", BOXES)
+def test_points_are_taken_into_the_box(name):
+    vectors, rng = BOXES[name], np.random.default_rng(3)
+    tri = deldrift.PeriodicDelaunay(np.empty((0, len(vectors))), vectors)
+    shortest, multiples = tri.reduced_vectors()
+    assert (shortest == multiples @ tri.vectors).all() and abs(round(np.linalg.det(multiples))) == 1
+    points = rng.normal(scale=9, size=(50, len(vectors)))
+    places, shifts = tri.wrap(points)
+    assert np.abs(places + shifts @ vectors - points).max() < 1e-12
+    inside = places @ np.linalg.inv(shortest)
+    assert inside.min() > -1e-9 and inside.max() < 1 + 1e-9
+    # Near a side vertices stay where they have been.
+    moved, shifts = tri.wrap(places + 0.1 * shortest[0], previous=places)
+    assert not shifts.any() and np.abs(moved - places - 0.1 * shortest[0]).max() < 1e-12
+    with pytest.raises(deldrift.WrongCount, match="1 rows of previous for 50 points"):
+        tri.wrap(points, previous=points[:1])
+
+
+@pytest.mark.parametrize("name", BOXES)
 def test_cells_are_those_of_copies_when_points_move(name):
     vectors, rng, n = BOXES[name], np.random.default_rng(7), 25
     points = rng.random((n, len(vectors))) @ vectors + rng.integers(-3, 4, (n, len(vectors))) @ vectors

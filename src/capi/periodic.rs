@@ -6,13 +6,13 @@ use std::mem::MaybeUninit;
 use super::guard;
 use super::handle::{Changing, Content, Reading, deldrift_triangulation, hand_out, in_its_period};
 use super::options::{GivenOptions, deldrift_options, invalid};
-use super::pointers::{Buffer, Output, Points, fill_all, given};
+use super::pointers::{Buffer, Output, Points, fill_all, given, write_all};
 use super::status::{Failure, deldrift_status};
-use crate::delaunay::{Plane, Space};
+use crate::delaunay::{Dimension, Plane, Space};
 use crate::error::Error;
 use crate::in_its_dimension;
 use crate::machine::memory;
-use crate::motion::{CoincidencePolicy, MAX_VERTICES, Options};
+use crate::motion::{CoincidencePolicy, MAX_VERTICES, MovingTriangulation, Options, check_position};
 use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 
 /// Creates the Delaunay triangulation of points that repeat: each is in all places to which sums of multiples of the
@@ -171,6 +171,79 @@ pub unsafe extern "C" fn deldrift_vectors(
     })
 }
 
+/// The shortest vectors of the lattice, which deldrift_wrap_positions translates by: a reduced basis of it.
+///
+/// vectors: receives rows of 2 (2D) or 3 (3D) numbers. multiples: receives as many rows of whole numbers, the multiples of the
+/// vectors that were given whose sum each one is. greatest: receives a number for each: where two vertices are at places that
+/// deldrift_wrap_positions tells, and an edge leads from the one to a translation of the other, that is one by this multiple of
+/// the vector at most, and its place is calculated without rounding. All are buffers with room for capacity vectors; one
+/// that is NULL is not filled. count: receives their number, 0 for a triangulation that is not periodic; it is also written
+/// when the buffers are too small. NULL for all with capacity 0 asks for the count alone.
+///
+/// Cost: constant.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_BUFFER_TOO_SMALL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_reduced_vectors(
+    t: *const deldrift_triangulation,
+    vectors: *mut f64,
+    multiples: *mut i64,
+    greatest: *mut u32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    given!(t: Reading, greatest[capacity]: Buffer, count: Output);
+    t.read_any(|t| {
+        if t.dimension() == 2 {
+            let (vectors, multiples) = (vectors.cast(), multiples.cast());
+            given!(vectors[capacity]: Buffer, multiples[capacity]: Buffer);
+            fill_reduced_vectors::<2>(t, vectors, multiples, greatest, capacity, count)
+        } else {
+            let (vectors, multiples) = (vectors.cast(), multiples.cast());
+            given!(vectors[capacity]: Buffer, multiples[capacity]: Buffer);
+            fill_reduced_vectors::<3>(t, vectors, multiples, greatest, capacity, count)
+        }
+    })
+}
+
+/// Takes positions into the box: each to its place in the unit cell of deldrift_reduced_vectors, on the grid of
+/// deldrift_create_periodic, which is where the triangulation would have it.
+///
+/// positions: count points, in any period; they need not be those of vertices, and the triangulation may have none. previous: NULL,
+/// or count points, where the vertices have been: each goes to the period that is nearest to its entry, if that place is
+/// out of the unit cell by a quarter of it at most, so that a vertex at a side does not go to and fro.
+/// places: receives count points. shifts: receives count rows of 2 (2D) or 3 (3D) whole numbers: by which multiples of the
+/// vectors that were given the position is translated from its place, 0 beyond the last of these.
+///
+/// Where the triangulation is not periodic, places are the positions, and shifts 0.
+///
+/// Cost: count.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_wrap_positions(
+    t: *const deldrift_triangulation,
+    positions: *const f64,
+    previous: *const f64,
+    count: usize,
+    places: *mut f64,
+    shifts: *mut i64,
+) -> deldrift_status {
+    given!(t: Reading, positions[count]: Points, previous[count]: Points);
+    t.read_any(|t| {
+        if t.dimension() == 2 {
+            let (places, shifts) = (places.cast(), shifts.cast());
+            given!(places[count]: Buffer, shifts[count]: Buffer);
+            fill_wrapped::<2>(t, positions, previous, count, places, shifts)
+        } else {
+            let (places, shifts) = (places.cast(), shifts.cast());
+            given!(places[count]: Buffer, shifts[count]: Buffer);
+            fill_wrapped::<3>(t, positions, previous, count, places, shifts)
+        }
+    })
+}
+
 /// In which period each corner of each cell is, and each neighbour.
 ///
 /// shifts: receives a row of 2 (2D) or 3 (3D) whole numbers for each of the 3 or 4 corners of each cell, in the order of
@@ -263,6 +336,57 @@ fn vector_count_of(t: &Content) -> usize {
     }
 }
 
+fn fill_reduced_vectors<const D: usize>(
+    t: &Content,
+    vectors: Buffer<'_, [f64; D]>,
+    multiples: Buffer<'_, [i64; D]>,
+    greatest: Buffer<'_, u32>,
+    capacity: usize,
+    count: Output<'_, usize>,
+) -> Result<(), Failure> {
+    let needed = vector_count_of(t);
+    let offers = [vectors.offer(), multiples.offer(), greatest.offer()];
+    fill_all(count, needed, capacity, offers, || {
+        let (vectors, multiples) = (vectors.places_if_any(needed)?, multiples.places_if_any(needed)?);
+        let greatest = greatest.places_if_any(needed)?;
+        if let Content::Periodic(t) = t {
+            in_its_period!(t, t => {
+                write_all(vectors, t.reduced_vectors().map(|(vector, ..)| row_of(vector.as_ref())));
+                write_all(multiples, t.reduced_vectors().map(|(_, row, _)| first_of(row)));
+                write_all(greatest, t.reduced_vectors().map(|(.., greatest)| greatest));
+            });
+        }
+        Ok(())
+    })
+}
+
+fn fill_wrapped<const D: usize>(
+    t: &Content,
+    positions: Points<'_>,
+    previous: Points<'_>,
+    count: usize,
+    places: Buffer<'_, [f64; D]>,
+    shifts: Buffer<'_, [i64; D]>,
+) -> Result<(), Failure> {
+    let (places, shifts) = (places.places(count)?, shifts.places(count)?);
+    match t {
+        Content::Open(t) => in_its_dimension!(t => {
+            let positions = positions.of(t)?;
+            previous.if_any(t)?;
+            check_points_of(t, positions)?;
+            write_all(places, positions.iter().map(|position| row_of(position.as_ref())));
+            write_all(shifts, repeat([0; D]));
+            Ok(())
+        }),
+        Content::Periodic(t) => in_its_period!(t, t => {
+            let wrapped = t.wrap_positions(positions.of(t)?, previous.if_any(t)?)?;
+            write_all(places, wrapped.iter().map(|(place, _)| row_of(place.as_ref())));
+            write_all(shifts, wrapped.iter().map(|&(_, shift)| first_of(shift)));
+            Ok(())
+        }),
+    }
+}
+
 fn fill_cell_shifts<const D: usize, const N: usize>(
     t: &Content,
     shifts: Buffer<'_, [[i64; D]; N]>,
@@ -310,6 +434,17 @@ fn fill_edge_shifts<const D: usize>(
 /// The numbers of a shift along as many vectors as there can be.
 fn first_of<const D: usize>(shift: [i64; 3]) -> [i64; D] {
     std::array::from_fn(|k| shift[k])
+}
+
+/// Checks that points are in the range of coordinates.
+fn check_points_of<G: Dimension>(_t: &MovingTriangulation<G>, points: &[G::Point]) -> Result<(), Failure> {
+    let mut points = points.iter().enumerate();
+    Ok(points.try_for_each(|(index, point)| check_position::<G>("positions", index, point).map(drop))?)
+}
+
+/// The coordinates of a point as a row.
+fn row_of<const D: usize>(point: &[f64]) -> [f64; D] {
+    std::array::from_fn(|axis| point[axis])
 }
 
 /// Writes the shifts of all corners, by cell.

@@ -224,6 +224,11 @@ impl<'a> Points<'a> {
         self.of_kind::<T>()
     }
 
+    /// The points; none if they are not given.
+    pub(super) fn if_any<T: OfPoints>(self, t: &T) -> Result<Option<&'a [T::Point]>, Failure> {
+        if self.0.is_null() { Ok(None) } else { self.of(t).map(Some) }
+    }
+
     /// Those of what is still to be made.
     #[inline(always)]
     pub(super) fn of_kind<T: OfPoints>(self) -> Result<&'a [T::Point], Failure> {

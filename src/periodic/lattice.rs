@@ -437,6 +437,38 @@ impl<G: Shape> Lattice<G> {
         self.place_of_long(argument, index, position, wrap)
     }
 
+    /// A position at home: the period that is nearest to `near`, if that is in the unit cell or near it, and the one in
+    /// the unit cell otherwise; and by how much it was translated to come from there.
+    pub(super) fn at_home(
+        &self,
+        argument: &'static str,
+        index: usize,
+        position: &G::Point,
+        near: Option<&G::Point>,
+    ) -> Result<(G::Point, [i64; 3])> {
+        let is_near = |place: &G::Point, room: f64| {
+            self.multiples(place).iter().all(|x| (-room..=1.0 + room).contains(x))
+        };
+        if let Some(near) = near.filter(|near| is_near(near, 1.0)) {
+            let mut wrap = [0; 3];
+            let place = self.wrapped_near(argument, index, position, near, &mut wrap)?;
+            if is_near(&place, ROOM) {
+                return Ok((place, wrap));
+            }
+        }
+        self.wrapped(argument, index, position)
+    }
+
+    /// The reduced vectors.
+    pub(super) fn reduced(&self) -> &[G::Point] {
+        &self.vectors[..self.rank]
+    }
+
+    /// By vector, the greatest multiples of images that can be needed.
+    pub(super) fn greatest(&self) -> Shift {
+        self.greatest
+    }
+
     /// A position on the grid less multiples of the vectors, whatever its magnitude.
     fn place_of_long(
         &self,

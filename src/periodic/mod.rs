@@ -55,6 +55,8 @@ mod tests;
 mod triangulation;
 mod validate;
 mod voronoi;
+#[cfg(test)]
+mod wrapping;
 
 pub use cells::PeriodicView;
 pub use either::AnyPeriodic;

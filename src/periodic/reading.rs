@@ -36,6 +36,44 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         self.lattice.given()
     }
 
+    /// The vectors of the reduced basis, by whose multiples vertices come home; for each its multiples of the vectors that
+    /// were given, and the greatest multiple by which one corner of a cell is translated from where another one is, where
+    /// both are at places of [`wrap_positions`](Self::wrap_positions).
+    pub fn reduced_vectors(&self) -> impl ExactSizeIterator<Item = (G::Point, [i64; 3], u32)> + '_ {
+        let vectors = self.lattice.reduced().iter().enumerate();
+        vectors.map(|(j, &vector)| {
+            let mut unit = [0; 3];
+            unit[j] = 1;
+            (vector, self.lattice.of_caller(unit), self.lattice.greatest()[j].unsigned_abs())
+        })
+    }
+
+    /// The place of each position in the unit cell of the reduced vectors, on the grid, and by which multiples of the vectors
+    /// that were given the position is translated from there. With `previous`, the period whose place is nearest to the
+    /// entry there, if that is out of the unit cell by a quarter of it at most.
+    ///
+    /// # Errors
+    /// [`Error::WrongCount`] unless there are as many entries of `previous`; [`Error::NotFinite`], [`Error::OutOfRange`],
+    /// [`Error::OutOfMemory`].
+    pub fn wrap_positions(
+        &self,
+        positions: &[G::Point],
+        previous: Option<&[G::Point]>,
+    ) -> Result<Vec<(G::Point, [i64; 3])>> {
+        if let Some(previous) = previous.filter(|previous| previous.len() != positions.len()) {
+            let (given, wanted) = (previous.len(), positions.len());
+            return Err(Error::WrongCount { argument: "the length of previous", given, wanted, coming: 0 });
+        }
+        let mut wrapped = Vec::new();
+        memory::reserve_exact(&mut wrapped, positions.len())?;
+        for (index, position) in positions.iter().enumerate() {
+            let near = previous.map(|previous| &previous[index]);
+            let (place, wrap) = self.lattice.at_home("positions", index, position, near)?;
+            wrapped.push((place, self.lattice.of_caller(wrap)));
+        }
+        Ok(wrapped)
+    }
+
     /// The number of staged moves.
     pub fn staged_count(&self) -> usize {
         self.staged.moves().len()

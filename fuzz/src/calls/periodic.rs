@@ -42,6 +42,7 @@ impl History<'_> {
         assert_eq!(count, n);
         self.is_ok(c!(deldrift_vectors(t, vectors.as_mut_ptr(), rank, &mut count)));
         assert_eq!(count, rank);
+        self.wrap(t, &positions, &vectors, d);
         let anew = created(&Boxed { vectors, positions }, d, n).expect("it has been a box");
         assert_eq!(self.classes(t, d), self.classes(anew, d), "{rank} vectors, {n} vertices");
         self.take_boxed(t, &mut known);
@@ -144,6 +145,21 @@ impl History<'_> {
         assert_eq!(count, 2 * n_edges);
         c!(deldrift_destroy(t));
         other
+    }
+
+    /// Places in the box are where positions are, less the multiples of the vectors that are told, near other places or not.
+    fn wrap(&mut self, t: *const deldrift_triangulation, positions: &[f64], vectors: &[f64], d: usize) {
+        let (n, rank) = (positions.len() / d, vectors.len() / d);
+        let (mut places, mut shifts, mut count) = (vec![0.0; n * d], vec![0i64; n * d], 0);
+        let near = if self.s.below(2) == 0 { null() } else { positions.as_ptr() };
+        let (place, shift) = (places.as_mut_ptr(), shifts.as_mut_ptr());
+        self.is_ok(c!(deldrift_wrap_positions(t, positions.as_ptr(), near, n, place, shift)));
+        self.is_ok(c!(deldrift_reduced_vectors(t, null_mut(), null_mut(), null_mut(), 0, &mut count)));
+        assert_eq!(count, rank);
+        for (k, &position) in positions.iter().enumerate() {
+            let way = (0..rank).map(|j| shifts[k / d * d + j] as f64 * vectors[j * d + k % d]);
+            assert_eq!(places[k] + way.sum::<f64>(), position, "{rank} vectors");
+        }
     }
 
     /// Whole numbers of eighths, so that much ties.
