@@ -44,9 +44,9 @@ fn multiples_of(vector: &[i64; 3], rows: &Rows) -> [i64; 3] {
 /// Vectors that are those of a box, padded so that they span space.
 fn box_of<G: Dimension>(rng: &mut Rng, rank: usize) -> Rows {
     let mut rows = [[16, 0, 0], [0, 16, 0], [0, 0, 16]];
-    for j in 0..rank {
-        for axis in 0..G::D {
-            rows[j][axis] = rng.below(17) as i64 - 8 + if axis == j { 48 } else { 0 };
+    for (j, row) in rows.iter_mut().enumerate().take(rank) {
+        for (axis, entry) in row.iter_mut().enumerate().take(G::D) {
+            *entry = rng.below(17) as i64 - 8 + if axis == j { 48 } else { 0 };
         }
     }
     let skew = rng.below(9) as i64 - 4;
