@@ -852,10 +852,13 @@ impl Faults<'_> {
     }
 }
 
-/// The places in this crate that lead to an allocation, the innermost first.
+/// The places in this crate that lead to an allocation, the innermost first; functions where the build knows no lines.
 fn place(trace: &str) -> String {
-    let places = trace.lines().filter_map(|line| line.trim().strip_prefix("at ./src/"));
-    places.take(4).collect::<Vec<_>>().join(" < ")
+    let lines: Vec<&str> = trace.lines().map(str::trim).collect();
+    let places: Vec<&str> = lines.iter().filter_map(|line| line.strip_prefix("at ./src/")).collect();
+    let functions: Vec<&str> = lines.iter().copied().filter(|line| line.contains("deldrift::")).collect();
+    let known = if places.is_empty() { functions } else { places };
+    known[..known.len().min(4)].join(" < ")
 }
 
 /// A page that forked processes share.

@@ -35,6 +35,8 @@ pub(super) struct Log<G: Dimension> {
     lower: G::Point,
     upper: G::Point,
     sites: Vec<Logged<G>>,
+    /// How many have been set aside with changes that may be taken up again.
+    n_aside: usize,
     /// The cells, where the change has given up all of them.
     cells: Option<Box<Complex<G::Corners>>>,
     /// What stood in for cells, where it has to be put back.
@@ -44,7 +46,7 @@ pub(super) struct Log<G: Dimension> {
 impl<G: Dimension> Default for Log<G> {
     fn default() -> Self {
         let none = G::Point::default();
-        Log { is_on: false, lower: none, upper: none, sites: Vec::new(), cells: None, flat: None }
+        Log { is_on: false, lower: none, upper: none, sites: Vec::new(), n_aside: 0, cells: None, flat: None }
     }
 }
 
@@ -80,6 +82,7 @@ impl<G: Dimension> Delaunay<G> {
         self.n_replaced += self.complex.rows().len();
         let log = &mut self.log;
         log.is_on = false;
+        log.n_aside += log.sites.len();
         KeptChange {
             lower: log.lower,
             upper: log.upper,
@@ -96,7 +99,13 @@ impl<G: Dimension> Delaunay<G> {
         if cells.is_none() {
             self.complex.take_record_up(record);
         }
-        self.log = Log { is_on: true, lower, upper, sites, cells, flat };
+        let n_aside = self.log.n_aside - sites.len();
+        self.log = Log { is_on: true, lower, upper, sites, n_aside, cells, flat };
+    }
+
+    /// No change that has been set aside is taken up any more.
+    pub(crate) fn forget_changes_aside(&mut self) {
+        self.log.n_aside = 0;
     }
 
     /// Begins a change that may be undone.
@@ -132,8 +141,8 @@ impl<G: Dimension> Delaunay<G> {
 
     fn log_as(&mut self, s: SiteId, has_place: bool) -> Result<()> {
         // Room in the list of free sites: this one may be dropped, and sites that have been added are all free again
-        // when they are taken back.
-        memory::reserve(&mut self.free_sites, self.log.sites.len() + 1)?;
+        // when they are taken back, those of changes that were set aside as well.
+        memory::reserve(&mut self.free_sites, self.log.n_aside + self.log.sites.len() + 1)?;
         if !self.log.is_on {
             return Ok(());
         }

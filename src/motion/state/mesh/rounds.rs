@@ -94,6 +94,7 @@ impl<G: Dimension> Mesh<G> {
     /// The rounds stay.
     pub(in crate::motion) fn publish_rounds(&mut self) {
         let Some(rounds) = self.rounds.take() else { return };
+        self.kernel.forget_changes_aside();
         if rounds.has_last {
             self.kernel.end();
             self.transaction.end();
