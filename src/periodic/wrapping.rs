@@ -1,5 +1,4 @@
 //! Positions that are taken into the box, in whole numbers of sixteenths.
-#![expect(clippy::needless_range_loop, reason = "axes and vectors are indices of several arrays at a time")]
 
 use super::*;
 use crate::delaunay::{Dimension, Plane, Space};
