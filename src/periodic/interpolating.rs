@@ -10,8 +10,9 @@ use crate::machine::memory;
 use crate::motion::{Location, VertexValues};
 use crate::periodic::images::Image;
 use crate::periodic::inside::all;
-use crate::periodic::lattice::{HOME, Range, SLACK, Shift};
+use crate::periodic::lattice::{HOME, Range, Shift};
 use crate::periodic::locating::{Placed, Spot};
+use crate::periodic::reduction::SLACK;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
 impl<G: Dimension> PeriodicTriangulation<G> {

@@ -22,7 +22,8 @@
 
 use crate::delaunay::Shape;
 use crate::error::{Error, Result};
-use crate::predicates::MAX_MAGNITUDE;
+use crate::periodic::reduction::{Reduced, SLACK, dot, dual_of, exponent_above};
+use crate::periodic::relation::Relation;
 
 /// Multiples of one vector.
 pub(super) type Range = std::ops::RangeInclusive<i32>;
@@ -36,9 +37,6 @@ pub(super) const HOME: Shift = [0; 3];
 /// Vertices at home are in the unit cell, or outside of it by this share of it at most.
 pub(super) const ROOM: f64 = 0.25;
 
-/// By how much bounds on rounded numbers are widened, relatively.
-pub(super) const SLACK: f64 = 1e-9;
-
 /// Coordinates on the grid, and sums of them, have at most so many bits.
 const GRID_BITS: i32 = 52;
 
@@ -49,13 +47,10 @@ const BITS_OF_OPEN: i32 = 10;
 
 /// Positions at home are so many units of the grid away at most: no translation that is asked for needs more bits than
 /// there are.
-const MOST_UNITS: i128 = 1 << 52;
+pub(super) const MOST_UNITS: i128 = 1 << 52;
 
 /// Translations are so many of the caller's vectors at most: sums of some are numbers of 64 bits.
 const MOST_OF_CALLER: i128 = 1 << 61;
-
-/// Caller's vectors are read with so many bits.
-const LONG_BITS: i32 = 96;
 
 /// The least and the greatest multiples of each vector that vertices at home have.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,15 +80,15 @@ impl Occupied {
 #[derive(Debug)]
 pub(super) struct Lattice<G: Shape> {
     /// The number of vectors: of directions in which the set is periodic.
-    rank: usize,
+    pub(super) rank: usize,
     /// The caller's, as they were given.
     original: [G::Point; 3],
     /// Reduced, on the grid.
-    vectors: [G::Point; 3],
+    pub(super) vectors: [G::Point; 3],
     /// By vector, its multiples of the caller's vectors.
     of_caller: [[i64; 3]; 3],
     /// By axis, the unit of coordinates; 0 where they are as they are given.
-    unit: [f64; 3],
+    pub(super) unit: [f64; 3],
     /// Linear forms, by which a place has its multiples of the vectors, rounded.
     dual: [[f64; 3]; 3],
     /// The lengths of the forms, or a bit more.
@@ -101,7 +96,7 @@ pub(super) struct Lattice<G: Shape> {
     /// By vector, the greatest multiples of images that can be needed.
     greatest: Shift,
     /// A way of that length has no multiple of a vector above a half.
-    short_way: f64,
+    pub(super) short_way: f64,
 }
 
 impl<G: Shape> Lattice<G> {
@@ -295,222 +290,9 @@ impl<G: Shape> Lattice<G> {
         sum
     }
 
-    /// A position in units of the grid; 0 along axes that have none.
-    #[inline(always)]
-    fn units_of(&self, argument: &'static str, index: usize, position: &G::Point) -> Result<[i128; 3]> {
-        let mut units = [0i128; 3];
-        for axis in 0..G::D {
-            let value = position[axis];
-            if !value.is_finite() {
-                return Err(Error::NotFinite { argument, index, axis, value });
-            }
-            let unit = self.unit[axis];
-            let limit = if unit == 0.0 { MAX_MAGNITUDE } else { (unit * FAR).min(MAX_MAGNITUDE) };
-            if value.abs() > limit {
-                return Err(Error::OutOfRange { argument, index, axis, value, limit });
-            }
-            if unit != 0.0 {
-                units[axis] = (value / unit).round_ties_even() as i128;
-            }
-        }
-        Ok(units)
-    }
-
-    /// Checks that a position is one of a vertex.
-    pub(super) fn check(&self, argument: &'static str, index: usize, position: &G::Point) -> Result<()> {
-        self.units_of(argument, index, position).map(drop)
-    }
-
-    /// What multiples of the vectors are along an axis, in units of the grid.
-    fn units_along(&self, axis: usize, multiples: &[i64; 3]) -> i128 {
-        let unit = self.unit[axis];
-        let of = |j: usize| i128::from(multiples[j]) * (self.vectors[j][axis] / unit) as i128;
-        if unit == 0.0 { 0 } else { (0..self.rank).map(of).sum() }
-    }
-
-    /// The place of so many units along axes on the grid; along others that of the position.
-    fn place_of(&self, position: &G::Point, units: &[i128; 3]) -> G::Point {
-        let mut place = *position;
-        for axis in (0..G::D).filter(|&axis| self.unit[axis] != 0.0) {
-            place[axis] = units[axis] as f64 * self.unit[axis];
-        }
-        place
-    }
-
-    /// A position on the grid, in the unit cell but for rounding, and by how much it was translated to come from there.
-    pub(super) fn wrapped(
-        &self,
-        argument: &'static str,
-        index: usize,
-        position: &G::Point,
-    ) -> Result<(G::Point, [i64; 3])> {
-        if let Some(place) = self.place_of_short(position, &[0; 3])
-            && self.multiples(&place).iter().all(|&x| (0.0..1.0).contains(&x))
-        {
-            return Ok((place, [0; 3]));
-        }
-        let mut units = self.units_of(argument, index, position)?;
-        let mut total = [0i64; 3];
-        let mut place = self.place_of(position, &units);
-        // What is far away gets near in a few steps, as multiples of many digits are rounded.
-        for _ in 0..8 {
-            let multiples = self.multiples(&place).map(|x| x.floor() as i64);
-            if multiples == [0; 3] {
-                break;
-            }
-            for axis in 0..G::D {
-                units[axis] -= self.units_along(axis, &multiples);
-            }
-            total = [0, 1, 2].map(|j| total[j] + multiples[j]);
-            place = self.place_of(position, &units);
-        }
-        self.reject_far(argument, index, position, &units)?;
-        Ok((place, total))
-    }
-
-    /// A position on the grid, less the multiples of the vectors in `wrap`, which change to those that take it closest to
-    /// `near`.
-    #[inline(always)]
-    pub(super) fn wrapped_near(
-        &self,
-        argument: &'static str,
-        index: usize,
-        position: &G::Point,
-        near: &G::Point,
-        wrap: &mut [i64; 3],
-    ) -> Result<G::Point> {
-        if let Some(place) = self.place_of_short(position, wrap) {
-            let mut square = 0.0;
-            (0..G::D).for_each(|axis| square += (place[axis] - near[axis]) * (place[axis] - near[axis]));
-            // No multiple of that way is above a half.
-            if square <= self.short_way * self.short_way {
-                return Ok(place);
-            }
-        }
-        self.wrapped_far(argument, index, position, near, wrap)
-    }
-
-    /// A position on the grid, less these multiples of the vectors, if all of that has few enough digits.
-    #[inline(always)]
-    fn place_of_short(&self, position: &G::Point, wrap: &[i64; 3]) -> Option<G::Point> {
-        let mut place = *position;
-        let mut is_short = true;
-        for axis in 0..G::D {
-            let unit = self.unit[axis];
-            if unit != 0.0 {
-                let units = position[axis] / unit;
-                is_short &= units.abs() < SHORT;
-                place[axis] = units.round_ties_even() * unit;
-            } else {
-                is_short &= position[axis].abs() <= MAX_MAGNITUDE;
-            }
-        }
-        if *wrap != [0; 3] {
-            for axis in 0..G::D {
-                let mut greatest = 0.0;
-                for j in 0..self.rank {
-                    let way = wrap[j] as f64 * self.vectors[j][axis];
-                    greatest += way.abs();
-                    place[axis] -= way;
-                }
-                is_short &= self.unit[axis] == 0.0 || greatest < SHORT * self.unit[axis];
-            }
-        }
-        is_short.then_some(place)
-    }
-
-    /// That of a position which is far away, or has come a long way.
-    #[cold]
-    #[inline(never)]
-    fn wrapped_far(
-        &self,
-        argument: &'static str,
-        index: usize,
-        position: &G::Point,
-        near: &G::Point,
-        wrap: &mut [i64; 3],
-    ) -> Result<G::Point> {
-        let (mut way, total) = self.wrapped(argument, index, position)?;
-        (0..G::D).for_each(|axis| way[axis] -= near[axis]);
-        let multiples = self.multiples(&way).map(|x| x.round_ties_even() as i64);
-        *wrap = [0, 1, 2].map(|j| total[j] + multiples[j]);
-        self.place_of_long(argument, index, position, wrap)
-    }
-
-    /// A position at home: the period that is nearest to `near`, if that is in the unit cell or near it, and the one in
-    /// the unit cell otherwise; and by how much it was translated to come from there.
-    pub(super) fn at_home(
-        &self,
-        argument: &'static str,
-        index: usize,
-        position: &G::Point,
-        near: Option<&G::Point>,
-    ) -> Result<(G::Point, [i64; 3])> {
-        let is_near = |place: &G::Point, room: f64| {
-            self.multiples(place).iter().all(|x| (-room..=1.0 + room).contains(x))
-        };
-        if let Some(near) = near.filter(|near| is_near(near, 1.0)) {
-            let mut wrap = [0; 3];
-            let place = self.wrapped_near(argument, index, position, near, &mut wrap)?;
-            if is_near(&place, ROOM) {
-                return Ok((place, wrap));
-            }
-        }
-        self.wrapped(argument, index, position)
-    }
-
-    /// The reduced vectors.
-    pub(super) fn reduced(&self) -> &[G::Point] {
-        &self.vectors[..self.rank]
-    }
-
     /// By vector, the greatest multiples of images that can be needed.
     pub(super) fn greatest(&self) -> Shift {
         self.greatest
-    }
-
-    /// A position on the grid less multiples of the vectors, whatever its magnitude.
-    fn place_of_long(
-        &self,
-        argument: &'static str,
-        index: usize,
-        position: &G::Point,
-        wrap: &[i64; 3],
-    ) -> Result<G::Point> {
-        let mut units = self.units_of(argument, index, position)?;
-        (0..G::D).for_each(|axis| units[axis] -= self.units_along(axis, wrap));
-        self.reject_far(argument, index, position, &units)?;
-        Ok(self.place_of(position, &units))
-    }
-
-    /// An error if a position at home is so far away, in a direction that the vectors do not span, that translations of it are
-    /// rounded.
-    fn reject_far(
-        &self,
-        argument: &'static str,
-        index: usize,
-        position: &G::Point,
-        units: &[i128; 3],
-    ) -> Result<()> {
-        match (0..G::D).find(|&axis| units[axis].abs() > MOST_UNITS) {
-            Some(axis) => {
-                let limit = MOST_UNITS as f64 * self.unit[axis];
-                Err(Error::OutOfRange { argument, index, axis, value: position[axis], limit })
-            }
-            None => Ok(()),
-        }
-    }
-
-    /// The position of which a place at home is the translation.
-    pub(super) fn unwrapped(&self, place: &G::Point, wrap: &[i64; 3]) -> G::Point {
-        if *wrap == [0; 3] {
-            return *place;
-        }
-        let mut units = [0i128; 3];
-        for axis in (0..G::D).filter(|&axis| self.unit[axis] != 0.0) {
-            units[axis] = (place[axis] / self.unit[axis]) as i128 + self.units_along(axis, wrap);
-        }
-        self.place_of(place, &units)
     }
 
     /// The multiples of the vectors that a place has, rounded.
@@ -585,37 +367,6 @@ impl<G: Shape> Lattice<G> {
     }
 }
 
-/// By vector of one lattice, the multiples of the vectors of another one that are nearest to it: each shift of one is told as one
-/// of the other.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Relation {
-    rows: [[i64; 3]; 3],
-}
-
-impl Relation {
-    /// Whether vectors correspond to each other in their order.
-    pub(super) fn is_identity(&self) -> bool {
-        self.rows == [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
-    }
-
-    /// What a shift of the first lattice is in the second one; none of numbers that are too large.
-    pub(super) fn of(&self, shift: [i64; 3]) -> Option<[i64; 3]> {
-        let mut sum = [0i64; 3];
-        for (n, row) in shift.into_iter().zip(&self.rows) {
-            for j in 0..3 {
-                sum[j] = sum[j].checked_add(n.checked_mul(row[j])?)?;
-            }
-        }
-        Some(sum)
-    }
-
-    fn determinant(&self) -> i64 {
-        let [a, b, c] = self.rows;
-        a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
-            + a[2] * (b[0] * c[1] - b[1] * c[0])
-    }
-}
-
 /// Vectors of a reduced basis are at most so many times those of another that takes its place.
 const GREATEST_RELATION: f64 = 8.0;
 
@@ -623,177 +374,8 @@ const GREATEST_RELATION: f64 = 8.0;
 const GREATEST: f64 = 1e50;
 const LEAST: f64 = 1e-50;
 
-/// Positions may be so many units of the grid away.
-const FAR: f64 = (1u64 << 62) as f64 * (1u64 << 32) as f64;
-
-/// Positions of fewer units of the grid are rounded to it without long numbers, and translated by a vector without rounding.
-const SHORT: f64 = (1u64 << 51) as f64;
-
-/// A basis of integers while it is reduced.
-struct Reduced {
-    rank: usize,
-    /// By vector and axis, in units of that axis.
-    rows: [[i128; 3]; 3],
-    /// By axis, the unit.
-    units: [f64; 3],
-    of_caller: [[i64; 3]; 3],
-}
-
-impl Reduced {
-    /// A reduced basis; none if the vectors depend on each other, or nearly so.
-    fn new<P: AsRef<[f64]>>(basis: &[P]) -> Option<Self> {
-        let mut reduced = Reduced {
-            rank: basis.len(),
-            rows: [[0; 3]; 3],
-            units: [1.0; 3],
-            of_caller: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
-        };
-        let n_axes = basis.first().map_or(0, |vector| vector.as_ref().len());
-        for axis in 0..n_axes {
-            let greatest = basis.iter().map(|vector| vector.as_ref()[axis].abs()).fold(0.0, f64::max);
-            if greatest > 0.0 {
-                reduced.units[axis] = 2f64.powi(exponent_above(greatest) - LONG_BITS);
-            }
-        }
-        for (row, vector) in reduced.rows.iter_mut().zip(basis) {
-            for (axis, &x) in vector.as_ref().iter().enumerate() {
-                row[axis] = (x / reduced.units[axis]).round_ties_even() as i128;
-            }
-        }
-        for _ in 0..MAX_STEPS {
-            if !reduced.step()? {
-                return reduced.is_independent().then_some(reduced);
-            }
-        }
-        None
-    }
-
-    fn vectors(&self) -> [[f64; 3]; 3] {
-        self.rows.map(|row| [0, 1, 2].map(|axis| row[axis] as f64 * self.units[axis]))
-    }
-
-    /// Makes one vector shorter by multiples of others; whether that was possible. The vectors are in the order of their
-    /// lengths then. None if numbers are too large.
-    fn step(&mut self) -> Option<bool> {
-        let vectors = self.vectors();
-        let squares = vectors.map(|v| dot(&v, &v));
-        for j in 1..self.rank {
-            if squares[j] < squares[j - 1] {
-                self.rows.swap(j, j - 1);
-                self.of_caller.swap(j, j - 1);
-                return Some(true);
-            }
-        }
-        for j in 1..self.rank {
-            let mut best = (squares[j] * (1.0 - SLACK), [0i64; 2]);
-            for multiples in self.near(&vectors, j) {
-                let candidate = self.minus(j, multiples)?;
-                let v = [0, 1, 2].map(|axis| candidate[axis] as f64 * self.units[axis]);
-                let square = dot(&v, &v);
-                if square < best.0 {
-                    best = (square, multiples);
-                }
-            }
-            if best.1 != [0; 2] {
-                self.rows[j] = self.minus(j, best.1)?;
-                for (i, n) in best.1.into_iter().enumerate() {
-                    for axis in 0..3 {
-                        let product = n.checked_mul(self.of_caller[i][axis])?;
-                        self.of_caller[j][axis] = self.of_caller[j][axis].checked_sub(product)?;
-                    }
-                }
-                return Some(true);
-            }
-        }
-        Some(false)
-    }
-
-    /// Multiples of the vectors before one whose sums are near it.
-    fn near(&self, vectors: &[[f64; 3]; 3], j: usize) -> impl Iterator<Item = [i64; 2]> + use<> {
-        let dual = dual_of(vectors, j);
-        let middle = [0, 1].map(|i| if i < j { dot(&dual[i], &vectors[j]).round() as i64 } else { 0 });
-        let width = [0, 1].map(|i| i64::from(i < j));
-        (-width[0]..=width[0]).flat_map(move |a| {
-            (-width[1]..=width[1]).map(move |b| [middle[0].saturating_add(a), middle[1].saturating_add(b)])
-        })
-    }
-
-    /// A vector less multiples of those before it.
-    fn minus(&self, j: usize, multiples: [i64; 2]) -> Option<[i128; 3]> {
-        let mut row = self.rows[j];
-        for (i, n) in multiples.into_iter().enumerate().take(j) {
-            for axis in 0..3 {
-                let product = self.rows[i][axis].checked_mul(i128::from(n))?;
-                row[axis] = row[axis].checked_sub(product)?;
-            }
-        }
-        Some(row)
-    }
-
-    fn is_independent(&self) -> bool {
-        let vectors = self.vectors();
-        let dual = dual_of(&vectors, self.rank);
-        (0..self.rank).all(|j| {
-            let product = dot(&dual[j], &dual[j]).sqrt() * dot(&vectors[j], &vectors[j]).sqrt();
-            product < GREATEST_DEFECT
-        })
-    }
-}
-
-/// Steps of a reduction: each but a swap makes a vector shorter, mostly by half and more.
-const MAX_STEPS: usize = 2_000;
-
-/// The vectors of a reduced basis are that far from orthogonal at most; rounded, those that depend on each other are farther.
-const GREATEST_DEFECT: f64 = 4.0;
-
-/// Linear forms that are 1 on one vector and 0 on the others, and on what is orthogonal to all.
-fn dual_of(vectors: &[[f64; 3]; 3], rank: usize) -> [[f64; 3]; 3] {
-    let mut dual = [[0.0; 3]; 3];
-    for j in 0..rank {
-        // What a vector has orthogonal to the others.
-        let [one, other] =
-            match [(j + 1) % 3, (j + 2) % 3].map(|i| if i < rank { vectors[i] } else { [0.0; 3] }) {
-                [one, other] if one == [0.0; 3] => [other, one],
-                pair => pair,
-            };
-        let v = vectors[j];
-        let part = if other != [0.0; 3] {
-            let normal = cross(&one, &other);
-            scaled(&normal, dot(&v, &normal) / dot(&normal, &normal))
-        } else if one != [0.0; 3] {
-            let along = dot(&v, &one) / dot(&one, &one);
-            [0, 1, 2].map(|axis| v[axis] - along * one[axis])
-        } else {
-            v
-        };
-        dual[j] = scaled(&part, 1.0 / dot(&part, &part));
-    }
-    dual
-}
-
-fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        a[j] * b[k] - a[k] * b[j]
-    })
-}
-
-fn scaled(a: &[f64; 3], factor: f64) -> [f64; 3] {
-    a.map(|x| x * factor)
-}
-
 fn widened<G: Shape>(point: &G::Point) -> [f64; 3] {
     [0, 1, 2].map(|axis| if axis < G::D { point[axis] } else { 0.0 })
-}
-
-/// The least exponent of a power of two that is not below a positive number; exact, so that grids are those of any machine.
-fn exponent_above(x: f64) -> i32 {
-    let bits = x.to_bits();
-    (bits >> 52) as i32 - 1023 + i32::from(bits << 12 != 0)
 }
 
 /// The nearest multiple of a unit, a power of two.

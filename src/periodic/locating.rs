@@ -26,7 +26,8 @@ use crate::machine::memory;
 use crate::motion::{Location, NO_CELL};
 use crate::periodic::cells::{PeriodicCells, RowHasher};
 use crate::periodic::images::Image;
-use crate::periodic::lattice::{HOME, Lattice, SLACK, Shift};
+use crate::periodic::lattice::{HOME, Lattice, Shift};
+use crate::periodic::reduction::SLACK;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
 /// A cell of the repeating set: one of a class, translated by this shift from where its least vertex is at home.
