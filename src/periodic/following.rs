@@ -64,6 +64,48 @@ struct Joined {
     parents: Vec<VertexId>,
     /// From each to its parent.
     offsets: Vec<Shift>,
+    /// Sets that are joined to themselves in other periods, by the first of one at that time.
+    around: Vec<(VertexId, Periods)>,
+}
+
+/// Of so many sets it is known that they are joined to themselves elsewhere; others count as if they were not.
+const MOST_AROUND: usize = 16;
+
+/// The shifts that are sums of multiples of some, by a basis in echelon form: before its place each has zeros. Some may be missing,
+/// where numbers are too large.
+#[derive(Clone, Copy, Debug)]
+struct Periods([[i64; 3]; 3]);
+
+/// One shift less a multiple of another one.
+fn less(one: [i64; 3], n: i64, other: [i64; 3]) -> Option<[i64; 3]> {
+    let mut difference = one;
+    for (entry, x) in difference.iter_mut().zip(other) {
+        *entry = entry.checked_sub(n.checked_mul(x)?)?;
+    }
+    Some(difference)
+}
+
+impl Periods {
+    const NONE: Self = Periods([[0; 3]; 3]);
+
+    fn enter(&mut self, mut shift: [i64; 3]) {
+        for (j, row) in self.0.iter_mut().enumerate() {
+            // Euclid's algorithm: in the end the entry of the row divides both, and that of the shift is 0.
+            while shift[j] != 0 {
+                let n = row[j] / shift[j];
+                let Some(rest) = less(*row, n, shift) else { return };
+                *row = std::mem::replace(&mut shift, rest);
+            }
+        }
+    }
+
+    fn has(&self, mut shift: [i64; 3]) -> bool {
+        for (j, &row) in self.0.iter().enumerate().filter(|(j, row)| row[*j] != 0) {
+            let Some(rest) = less(shift, shift[j] / row[j], row) else { return false };
+            shift = rest;
+        }
+        shift == [0; 3]
+    }
 }
 
 fn sum(one: Shift, other: Shift) -> Shift {
@@ -75,7 +117,9 @@ impl Joined {
         let (mut parents, mut offsets) = (Vec::new(), Vec::new());
         memory::collect(&mut parents, VertexId::range(0..n))?;
         memory::lengthen(&mut offsets, n, HOME)?;
-        Ok(Joined { parents, offsets })
+        let mut around = Vec::new();
+        memory::reserve_exact(&mut around, MOST_AROUND)?;
+        Ok(Joined { parents, offsets, around })
     }
 
     /// What an image is joined to: one of the first of its set.
@@ -91,15 +135,48 @@ impl Joined {
         Image { vertex: v, shift }
     }
 
-    /// Joins two images, and all of their translations. If their vertices are in one set already, but where these are in
-    /// other periods, that is not noted.
+    /// Joins two images, and all of their translations.
     fn join(&mut self, one: Image, other: Image) {
         let (one, other) = (self.first(one), self.first(other));
         let (from, to) = if one.vertex < other.vertex { (other, one) } else { (one, other) };
+        let way = [0, 1, 2].map(|j| to.shift[j].wrapping_sub(from.shift[j]));
         if from.vertex != to.vertex {
             self.parents[from.vertex] = to.vertex;
-            self.offsets[from.vertex] = [0, 1, 2].map(|j| to.shift[j].wrapping_sub(from.shift[j]));
+            self.offsets[from.vertex] = way;
+        } else if way != HOME {
+            let is_full = self.around.len() == MOST_AROUND;
+            match self.around.iter_mut().find(|(first, _)| *first == to.vertex) {
+                Some((_, periods)) => periods.enter(way.map(i64::from)),
+                None if !is_full => {
+                    let mut periods = Periods::NONE;
+                    periods.enter(way.map(i64::from));
+                    self.around.push((to.vertex, periods));
+                }
+                None => {}
+            }
         }
+    }
+
+    /// Whether some images are all joined.
+    fn are_joined(&mut self, mut images: impl Iterator<Item = Image>) -> bool {
+        let Some(first) = images.next().map(|image| self.first(image)) else { return true };
+        images.all(|image| {
+            let other = self.first(image);
+            let way = [0, 1, 2].map(|j| other.shift[j].wrapping_sub(first.shift[j]));
+            other.vertex == first.vertex && (way == HOME || self.goes_around(first.vertex, way))
+        })
+    }
+
+    /// Whether a set is known to be joined to itself where it is translated by this.
+    fn goes_around(&mut self, first: VertexId, way: Shift) -> bool {
+        let mut all = Periods::NONE;
+        for k in 0..self.around.len() {
+            let (vertex, periods) = self.around[k];
+            if self.first(Image { vertex, shift: HOME }).vertex == first {
+                periods.0.iter().for_each(|&row| all.enter(row));
+            }
+        }
+        all.has(way.map(i64::from))
     }
 }
 
@@ -162,9 +239,8 @@ impl<G: Dimension> Inside<G> {
             return Ok(Some(needed).filter(|needed| !needed.images.is_empty()));
         }
         let are_joined = removed.iter().all(|row| {
-            let mut each = row.as_ref().iter().map(|&v| joined.first(self.images.of(v)));
-            let first = each.next();
-            each.all(|other| Some(other) == first)
+            let images = row.as_ref().iter().map(|&v| self.images.of(v));
+            joined.are_joined(images)
         });
         Ok(are_joined.then_some(needed))
     }
