@@ -450,6 +450,14 @@ impl<G: Dimension> Scene<G> {
         }
         if call == Call::Withdraw {
             t.prepare_timestamp().expect("a prepared timestamp");
+            // More rounds: what they add comes to more than any of them alone has room for.
+            for round in 1..4 {
+                let away = 1e-3 * f64::from(round);
+                let more: Vec<G::Point> =
+                    points[..20].iter().map(|p| point::<G>(|axis| p[axis] + away)).collect();
+                t.stage_insertions(&more).expect("insertions");
+                t.prepare_timestamp().expect("a prepared timestamp");
+            }
         }
         let options = Some(options());
         let (mask, values) = (vec![1; t.cell_count()], (0..t.id_count()).map(|v| v as f64).collect());

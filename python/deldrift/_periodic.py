@@ -144,7 +144,7 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         Returns
         -------
         PeriodicDelaunay
-            As the one that was saved, simplices with their indices included.
+            As the one that was saved. Simplices have their indices, unless `changes` had been called.
         """
         return of_file(cls, path, algorithm, threads, "merge", "ignore", progress, cancel)
 
@@ -170,7 +170,7 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         Returns
         -------
         PeriodicDelaunay
-            As the one that was saved, simplices with their indices included.
+            As the one that was saved. Simplices have their indices, unless `changes` had been called.
         """
         return of_bytes(cls, data, algorithm, threads, "merge", "ignore", progress, cancel)
 

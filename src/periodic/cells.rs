@@ -10,7 +10,7 @@ use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::{CellsView, NO_CELL};
 use crate::periodic::inside::Inside;
-use crate::periodic::lattice::{HOME, Shift};
+use crate::periodic::lattice::{HOME, Shift, minus, plus};
 
 /// The cells, one of each class of translations of each other.
 #[derive(Clone, Copy, Debug)]
@@ -189,10 +189,6 @@ fn row_of<V: AsRef<[VertexId]>>(row: &V) -> Row {
     made
 }
 
-fn minus(one: Shift, other: Shift) -> Shift {
-    [0, 1, 2].map(|j| one[j] - other[j])
-}
-
 /// Finds translations of cells inside.
 struct Finder<'t, G: Dimension> {
     inside: &'t Inside<G>,
@@ -232,7 +228,7 @@ impl<G: Dimension> Finder<'_, G> {
         let least = self.inside.least(&self.cells.corners[beyond])?;
         let home = images.of(self.cells.corners[beyond].as_ref()[least]).shift;
         let chosen = self.translated(beyond, home);
-        Ok(Some((chosen, [0, 1, 2].map(|j| home[j] + shift[j]))))
+        Ok(Some((chosen, plus(home, shift))))
     }
 
     /// Which corner of a translation a corner is.

@@ -381,7 +381,7 @@ impl<G: Dimension> Inside<G> {
         let (before, n_images) = (self.occupied, self.images.len());
         self.occupied = occupied;
         let done = self.t.prepare_timestamp().and_then(|mut report| {
-            self.complete(lattice, Self::missing, |t| {
+            self.complete(lattice, self.missing(lattice)?, Self::missing, |t| {
                 report.add(&t.prepare_timestamp()?);
                 Ok(())
             })?;

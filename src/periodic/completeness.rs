@@ -14,11 +14,12 @@ impl<G: Dimension> Inside<G> {
     ///
     /// Cost: a pass over the cells; a copy and insertions where images are missing by the balls.
     pub(super) fn is_complete(&self, lattice: &Lattice<G>) -> Result<bool> {
-        if Needed::of_all(self, lattice)?.images.is_empty() {
+        let needed = Needed::of_all(self, lattice)?;
+        if needed.images.is_empty() {
             return Ok(true);
         }
         let mut copy = self.copied(None)?;
-        copy.complete(lattice, Needed::of_all, |t| t.commit_timestamp().map(drop))?;
+        copy.complete(lattice, needed, Needed::of_all, |t| t.commit_timestamp().map(drop))?;
         Ok(self.rows_at_home()? == copy.rows_at_home()?)
     }
 

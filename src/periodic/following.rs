@@ -20,7 +20,7 @@ use crate::machine::memory;
 use crate::motion::{CellsView, cells_at};
 use crate::periodic::images::Image;
 use crate::periodic::inside::Inside;
-use crate::periodic::lattice::{HOME, Lattice, Shift};
+use crate::periodic::lattice::{HOME, Lattice, Shift, minus, plus};
 use crate::periodic::needed::Needed;
 
 /// The vertices of a cell in their order, each with its shift from the first; the last is none in the plane.
@@ -65,7 +65,7 @@ struct Joined {
     /// From each to its parent.
     offsets: Vec<Shift>,
     /// Sets that are joined to themselves in other periods, by the first of one at that time.
-    around: Vec<(VertexId, Periods)>,
+    around: Vec<(VertexId, Sublattice)>,
 }
 
 /// Of so many sets it is known that they are joined to themselves elsewhere; others count as if they were not.
@@ -74,7 +74,7 @@ const MOST_AROUND: usize = 16;
 /// The shifts that are sums of multiples of some, by a basis in echelon form: before its place each has zeros. Some may be missing,
 /// where numbers are too large.
 #[derive(Clone, Copy, Debug)]
-struct Periods([[i64; 3]; 3]);
+struct Sublattice([[i64; 3]; 3]);
 
 /// One shift less a multiple of another one.
 fn less(one: [i64; 3], n: i64, other: [i64; 3]) -> Option<[i64; 3]> {
@@ -85,15 +85,16 @@ fn less(one: [i64; 3], n: i64, other: [i64; 3]) -> Option<[i64; 3]> {
     Some(difference)
 }
 
-impl Periods {
-    const NONE: Self = Periods([[0; 3]; 3]);
+impl Sublattice {
+    const NONE: Self = Sublattice([[0; 3]; 3]);
 
     fn enter(&mut self, mut shift: [i64; 3]) {
         for (j, row) in self.0.iter_mut().enumerate() {
             // Euclid's algorithm: in the end the entry of the row divides both, and that of the shift is 0.
             while shift[j] != 0 {
-                let n = row[j] / shift[j];
-                let Some(rest) = less(*row, n, shift) else { return };
+                let Some(rest) = row[j].checked_div(shift[j]).and_then(|n| less(*row, n, shift)) else {
+                    return;
+                };
                 *row = std::mem::replace(&mut shift, rest);
             }
         }
@@ -101,25 +102,29 @@ impl Periods {
 
     fn has(&self, mut shift: [i64; 3]) -> bool {
         for (j, &row) in self.0.iter().enumerate().filter(|(j, row)| row[*j] != 0) {
-            let Some(rest) = less(shift, shift[j] / row[j], row) else { return false };
+            let Some(rest) = shift[j].checked_div(row[j]).and_then(|n| less(shift, n, row)) else {
+                return false;
+            };
             shift = rest;
         }
         shift == [0; 3]
     }
 }
 
-fn sum(one: Shift, other: Shift) -> Shift {
-    [0, 1, 2].map(|j| one[j].wrapping_add(other[j]))
-}
-
 impl Joined {
-    fn none(n: usize) -> Result<Self> {
+    /// None of `n` vertices is joined to another one yet. No value where sums of so many shifts may be too large for numbers.
+    fn none(n: usize, greatest: Shift) -> Result<Option<Self>> {
+        // An offset is a sum of a difference of shifts for each vertex at most, and ways are differences of two.
+        let most = greatest.iter().fold(1, |most, &x| i64::from(x).max(most));
+        if 4 * most * (n as i64 + 1) > i32::MAX.into() {
+            return Ok(None);
+        }
         let (mut parents, mut offsets) = (Vec::new(), Vec::new());
         memory::collect(&mut parents, VertexId::range(0..n))?;
         memory::lengthen(&mut offsets, n, HOME)?;
         let mut around = Vec::new();
         memory::reserve_exact(&mut around, MOST_AROUND)?;
-        Ok(Joined { parents, offsets, around })
+        Ok(Some(Joined { parents, offsets, around }))
     }
 
     /// What an image is joined to: one of the first of its set.
@@ -127,9 +132,9 @@ impl Joined {
         while self.parents[v] != v {
             let parent = self.parents[v];
             // The first of a set is no way from itself.
-            self.offsets[v] = sum(self.offsets[v], self.offsets[parent]);
+            self.offsets[v] = plus(self.offsets[v], self.offsets[parent]);
             self.parents[v] = self.parents[parent];
-            shift = sum(shift, self.offsets[v]);
+            shift = plus(shift, self.offsets[v]);
             v = self.parents[v];
         }
         Image { vertex: v, shift }
@@ -139,18 +144,18 @@ impl Joined {
     fn join(&mut self, one: Image, other: Image) {
         let (one, other) = (self.first(one), self.first(other));
         let (from, to) = if one.vertex < other.vertex { (other, one) } else { (one, other) };
-        let way = [0, 1, 2].map(|j| to.shift[j].wrapping_sub(from.shift[j]));
+        let way = minus(to.shift, from.shift);
         if from.vertex != to.vertex {
             self.parents[from.vertex] = to.vertex;
             self.offsets[from.vertex] = way;
         } else if way != HOME {
             let is_full = self.around.len() == MOST_AROUND;
             match self.around.iter_mut().find(|(first, _)| *first == to.vertex) {
-                Some((_, periods)) => periods.enter(way.map(i64::from)),
+                Some((_, sublattice)) => sublattice.enter(way.map(i64::from)),
                 None if !is_full => {
-                    let mut periods = Periods::NONE;
-                    periods.enter(way.map(i64::from));
-                    self.around.push((to.vertex, periods));
+                    let mut sublattice = Sublattice::NONE;
+                    sublattice.enter(way.map(i64::from));
+                    self.around.push((to.vertex, sublattice));
                 }
                 None => {}
             }
@@ -162,18 +167,18 @@ impl Joined {
         let Some(first) = images.next().map(|image| self.first(image)) else { return true };
         images.all(|image| {
             let other = self.first(image);
-            let way = [0, 1, 2].map(|j| other.shift[j].wrapping_sub(first.shift[j]));
+            let way = minus(other.shift, first.shift);
             other.vertex == first.vertex && (way == HOME || self.goes_around(first.vertex, way))
         })
     }
 
     /// Whether a set is known to be joined to itself where it is translated by this.
     fn goes_around(&mut self, first: VertexId, way: Shift) -> bool {
-        let mut all = Periods::NONE;
+        let mut all = Sublattice::NONE;
         for k in 0..self.around.len() {
-            let (vertex, periods) = self.around[k];
+            let (vertex, sublattice) = self.around[k];
             if self.first(Image { vertex, shift: HOME }).vertex == first {
-                periods.0.iter().for_each(|&row| all.enter(row));
+                sublattice.0.iter().for_each(|&row| all.enter(row));
             }
         }
         all.has(way.map(i64::from))
@@ -195,17 +200,13 @@ impl<G: Dimension> Inside<G> {
         let cells = self.t.cells()?;
         let Some(rows) = self.t.rows_since_taken()? else { return Ok(None) };
         let (mut removed, mut found) = (Vec::new(), Vec::new());
-        let mut joined = Joined::none(self.images.n_vertices())?;
         for (row, created) in rows {
             let corners = row.as_ref();
             let n_home = corners.iter().filter(|v| v.index() < self.n_home).count();
             if n_home == 0 {
                 continue;
             }
-            if created.is_some() {
-                let first = self.images.of(corners[0]);
-                corners[1..].iter().for_each(|&v| joined.join(first, self.images.of(v)));
-            } else {
+            if created.is_none() {
                 memory::push(&mut removed, *row)?;
             }
             if n_home < corners.len() {
@@ -238,11 +239,25 @@ impl<G: Dimension> Inside<G> {
             let needed = needed.each_once();
             return Ok(Some(needed).filter(|needed| !needed.images.is_empty()));
         }
-        let are_joined = removed.iter().all(|row| {
-            let images = row.as_ref().iter().map(|&v| self.images.of(v));
-            joined.are_joined(images)
-        });
-        Ok(are_joined.then_some(needed))
+        Ok(self.are_still_joined(lattice, &removed)?.then_some(needed))
+    }
+
+    /// Whether vertices of cells that have gone are joined by cells that have come.
+    fn are_still_joined(&self, lattice: &Lattice<G>, removed: &[G::Vertices]) -> Result<bool> {
+        if removed.is_empty() {
+            return Ok(true);
+        }
+        let Some(rows) = self.t.rows_since_taken()? else { return Ok(false) };
+        let Some(mut joined) = Joined::none(self.images.n_vertices(), lattice.greatest())? else {
+            return Ok(false);
+        };
+        for corners in rows.filter(|(_, created)| created.is_some()).map(|(row, _)| row.as_ref()) {
+            if corners.iter().any(|v| v.index() < self.n_home) {
+                let first = self.images.of(corners[0]);
+                corners[1..].iter().for_each(|&v| joined.join(first, self.images.of(v)));
+            }
+        }
+        Ok(removed.iter().all(|row| joined.are_joined(row.as_ref().iter().map(|&v| self.images.of(v)))))
     }
 
     /// Enters what the balls of translations of a cell that has gone ask for, as far as they are there.
@@ -272,7 +287,7 @@ impl<G: Dimension> Inside<G> {
         let is_first = |i: usize| images[..i].iter().all(|other| other.shift != images[i].shift);
         let n_places = (0..images.len()).filter(|&i| is_first(i)).count();
         let first = images[0].shift;
-        images.iter_mut().for_each(|image| image.shift = [0, 1, 2].map(|j| image.shift[j] - first[j]));
+        images.iter_mut().for_each(|image| image.shift = minus(image.shift, first));
         (class, n_places)
     }
 
@@ -283,7 +298,7 @@ impl<G: Dimension> Inside<G> {
         let mut translated = *row;
         for (i, &v) in row.as_ref().iter().enumerate() {
             let image = self.images.of(v);
-            let there = self.images.find(image.vertex, [0, 1, 2].map(|j| image.shift[j] - shift[j]));
+            let there = self.images.find(image.vertex, minus(image.shift, shift));
             if there == VertexId::NONE {
                 return None;
             }

@@ -70,15 +70,18 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// # Errors
     /// Those of [`position`](Self::position), and [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn star(&self, vertex: VertexId) -> Result<Vec<CellId>> {
-        let shown = self.coincident_representative(vertex)?;
-        let cells = self.read_cells()?;
         let mut star = Vec::new();
-        for (cell, row) in CellId::range(0..cells.corners.len()).zip(&cells.corners) {
-            for _ in row.as_ref().iter().filter(|&&v| v == shown) {
-                memory::push(&mut star, cell)?;
-            }
-        }
+        self.enter_star(self.coincident_representative(vertex)?, &mut star)?;
+        star.sort_unstable();
         Ok(star)
+    }
+
+    /// Adds the cells around the place of a vertex that no other one hides: those inside at its home, as each of its corners is
+    /// there in one of them.
+    fn enter_star(&self, vertex: VertexId, list: &mut Vec<CellId>) -> Result<()> {
+        let (class_of, mut inside) = (&self.read_cells()?.class_of, Vec::new());
+        self.inside.t.star(self.inside.images.home(vertex), &mut inside)?;
+        memory::collect(list, inside.into_iter().map(|cell| class_of[cell]))
     }
 
     /// The cells of which at least one of these vertices is a corner: ascending, each once. Vertices may be listed more than
@@ -89,19 +92,17 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// [`Error::StagedVertex`](crate::Error::StagedVertex), [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn cells_around(&self, vertices: &[VertexId]) -> Result<Vec<CellId>> {
         let images = &self.inside.images;
-        let mut is_listed = Vec::new();
-        memory::lengthen(&mut is_listed, images.n_vertices(), false)?;
         for (index, &vertex) in vertices.iter().enumerate() {
             images.check(index, vertex, self.staged.insertions().len())?;
-            is_listed[vertex] = true;
         }
-        let cells = self.read_cells()?;
         let mut list = Vec::new();
-        for (cell, row) in CellId::range(0..cells.corners.len()).zip(&cells.corners) {
-            if row.as_ref().iter().any(|&v| is_listed[v]) {
-                memory::push(&mut list, cell)?;
+        for &vertex in vertices {
+            if self.coincident_representative(vertex)? == vertex {
+                self.enter_star(vertex, &mut list)?;
             }
         }
+        list.sort_unstable();
+        list.dedup();
         Ok(list)
     }
 
@@ -111,6 +112,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn hidden_vertices(&self) -> Result<Vec<(VertexId, VertexId)>> {
         let mut hidden = Vec::new();
+        if self.inside.t.hidden_count() == 0 {
+            return Ok(hidden);
+        }
         let vertex = |inner| self.inside.images.of(inner).vertex;
         for (inner, shown) in self.inside.t.hidden_vertices() {
             if inner.index() < self.inside.n_home {

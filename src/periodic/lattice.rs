@@ -34,6 +34,16 @@ pub(super) type Shift = [i32; 3];
 /// No translation.
 pub(super) const HOME: Shift = [0; 3];
 
+/// One translation after another.
+pub(super) fn plus(one: Shift, other: Shift) -> Shift {
+    [0, 1, 2].map(|j| one[j] + other[j])
+}
+
+/// The translation after which another one comes to this.
+pub(super) fn minus(one: Shift, other: Shift) -> Shift {
+    [0, 1, 2].map(|j| one[j] - other[j])
+}
+
 /// Vertices at home are in the unit cell, or outside of it by this share of it at most.
 pub(super) const ROOM: f64 = 0.25;
 

@@ -26,7 +26,7 @@ use crate::machine::memory;
 use crate::motion::{Location, NO_CELL};
 use crate::periodic::cells::{PeriodicCells, RowHasher};
 use crate::periodic::images::Image;
-use crate::periodic::lattice::{HOME, Lattice, Shift};
+use crate::periodic::lattice::{HOME, Lattice, Shift, plus};
 use crate::periodic::reduction::SLACK;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
@@ -334,8 +334,4 @@ fn location_of(spot: Spot) -> Location {
         Spot::Outside((class, _)) => Location::Outside(class),
         Spot::NoCells => Location::NoCells,
     }
-}
-
-pub(super) fn plus(one: Shift, other: Shift) -> Shift {
-    [0, 1, 2].map(|j| one[j] + other[j])
 }

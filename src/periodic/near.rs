@@ -300,15 +300,8 @@ impl<G: Dimension> PeriodicTriangulation<G> {
 
     /// Hidden vertices, in order of what represents them.
     fn hidden_by_shown(&self) -> Result<Vec<(VertexId, VertexId)>> {
-        let mut hidden = Vec::new();
-        if self.inside.t.hidden_count() > 0 {
-            for image in &self.inside.images.as_slice()[..self.inside.n_home] {
-                let shown = self.represented(*image)?.vertex;
-                if shown != image.vertex {
-                    memory::push(&mut hidden, (shown, image.vertex))?;
-                }
-            }
-        }
+        let mut hidden = self.hidden_vertices()?;
+        hidden.iter_mut().for_each(|(vertex, shown)| std::mem::swap(vertex, shown));
         hidden.sort_unstable();
         Ok(hidden)
     }

@@ -141,18 +141,16 @@ pub(super) fn keys_of(images: &[Image]) -> Result<Vec<u64>> {
 }
 
 impl<G: Dimension> Inside<G> {
-    /// Inserts images that are missing, in rounds, until there are none.
+    /// Inserts images that are needed, and in further rounds those that are missing after that, until there are none.
     pub(super) fn complete(
         &mut self,
         lattice: &Lattice<G>,
-        mut needed: impl FnMut(&Self, &Lattice<G>) -> Result<Needed>,
+        mut needed: Needed,
+        after: impl Fn(&Self, &Lattice<G>) -> Result<Needed>,
         mut round: impl FnMut(&mut MovingTriangulation<G>) -> Result<()>,
     ) -> Result<()> {
-        loop {
-            let Needed { images } = needed(self, lattice)?;
-            if images.is_empty() {
-                return Ok(());
-            }
+        while !needed.images.is_empty() {
+            let Needed { images } = needed;
             let mut places = Vec::new();
             memory::reserve(&mut places, images.len())?;
             for image in &images {
@@ -163,6 +161,8 @@ impl<G: Dimension> Inside<G> {
             self.t.stage_insertions_with_keys(&places, &keys_of(&images)?)?;
             round(&mut self.t)?;
             images.iter().for_each(|&image| self.images.push(image));
+            needed = after(self, lattice)?;
         }
+        Ok(())
     }
 }

@@ -78,14 +78,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// Vertices that others hide, ascending.
     fn hidden_now(&self) -> Result<Vec<VertexId>> {
         let mut hidden = Vec::new();
-        if self.inside.t.hidden_count() > 0 {
-            let at_home =
-                self.inside.t.hidden_vertices().map(|(v, _)| v).filter(|v| v.index() < self.inside.n_home);
-            for v in at_home {
-                memory::push(&mut hidden, self.inside.images.of(v).vertex)?;
-            }
-        }
-        hidden.sort_unstable();
+        memory::collect(&mut hidden, self.hidden_vertices()?.into_iter().map(|(vertex, _)| vertex))?;
         Ok(hidden)
     }
 

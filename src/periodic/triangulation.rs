@@ -140,15 +140,8 @@ impl<G: Dimension> Inside<G> {
         self.t.build_first_with_keys(&self.places, &keys_of(self.images.as_slice())?)?;
         // From now on what changes is known.
         self.t.begin_changes()?;
-        let mut is_first = true;
-        let needed = |inside: &Self, lattice: &Lattice<G>| {
-            if std::mem::take(&mut is_first) {
-                Needed::of_all(inside, lattice)
-            } else {
-                Needed::of_new(inside, lattice)
-            }
-        };
-        self.complete(lattice, needed, |t| t.commit_timestamp().map(drop))?;
+        let needed = Needed::of_all(self, lattice)?;
+        self.complete(lattice, needed, Needed::of_new, |t| t.commit_timestamp().map(drop))?;
         self.t.begin_changes()
     }
 

@@ -7,7 +7,7 @@ use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
-use crate::motion::{VoronoiCell, VoronoiFacet};
+use crate::motion::{VoronoiCell, VoronoiFacet, nowhere};
 use crate::periodic::triangulation::PeriodicTriangulation;
 
 impl<G: Dimension> PeriodicTriangulation<G> {
@@ -66,9 +66,8 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             cell.centroid = self.at_position(inside, &cell.centroid);
             tell(vertex, cell);
         })?;
-        let nowhere = filled::<G>(f64::NAN);
         for v in VertexId::range(0..self.id_count()).filter(|&v| is_wanted(v) && !self.is_present(v)) {
-            tell(v, VoronoiCell { volume: f64::NAN, area: f64::NAN, centroid: nowhere });
+            tell(v, VoronoiCell { volume: f64::NAN, area: f64::NAN, centroid: nowhere::<G>() });
         }
         Ok(())
     }
@@ -130,13 +129,6 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let coming = self.staged.insertions().len();
         Err(Error::WrongCount { argument: "mask_count", given, wanted, coming })
     }
-}
-
-/// All coordinates the same.
-fn filled<G: Dimension>(x: f64) -> G::Point {
-    let mut point = G::Point::default();
-    (0..G::D).for_each(|axis| point[axis] = x);
-    point
 }
 
 #[cfg(test)]

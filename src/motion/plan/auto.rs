@@ -247,9 +247,9 @@ impl Auto {
         }
     }
 
-    /// Whether what is kept for commits of all `n` vertices is to follow the relocation of `n_moved` of them: few in all since
-    /// the last such commit, which the next one would otherwise have to compute again.
-    pub(in crate::motion) fn may_follow(&mut self, n_moved: usize, n: usize) -> bool {
+    /// Counts `n_moved` of `n` vertices as relocated by a commit of few; whether what is kept for commits of all is to follow: as long
+    /// as they are few in all since the last such commit, as the next one would have to compute it again otherwise.
+    pub(in crate::motion) fn count_few(&mut self, n_moved: usize, n: usize) -> bool {
         self.n_followed = self.n_followed.saturating_add(n_moved);
         self.n_followed <= n / FOLLOWED_SHARE
     }

@@ -73,7 +73,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if is_of_few {
             return match self.regions.kept_for() {
                 Some(RegionKind::Tolerance) => self.commit_by_tolerance(moves, report),
-                Some(_) if self.auto.may_follow(moves.count(), self.mesh.n_present) => {
+                Some(_) if self.auto.count_few(moves.count(), self.mesh.n_present) => {
                     self.place_or_rebuild_with_regions(moves, report)
                 }
                 _ => self.commit_by_placement_or_rebuilding(moves, report),
@@ -272,6 +272,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 mod tests {
     use super::REPLACED_TO_SORT_FIRST;
     use crate::delaunay::{Level, Space};
+    use crate::ids::VertexId;
     use crate::motion::options::Options;
     use crate::motion::region_kind::RegionKind;
     use crate::motion::triangulation::MovingTriangulation;
@@ -284,6 +285,37 @@ mod tests {
         let options = Options { threads: 1, ..Options::default() };
         let t = MovingTriangulation::new(&points, options).expect("room");
         (points, t)
+    }
+
+    /// What is kept for commits of all stays while few vertices move or come in between, and is still right: the next commit of
+    /// all computes few tolerances, and ends in the triangulation of a build.
+    #[test]
+    fn tolerances_follow_few_vertices() {
+        let rng = &mut Rng::new(3);
+        let (mut now, mut t) = random(2_000, 12.0, rng);
+        for step in 0..40 {
+            now.as_flattened_mut().iter_mut().for_each(|x| *x += 1e-5 * (rng.unit() - 0.5));
+            let report = t.commit_positions(&now).expect("a commit");
+            let kept = t.regions.kept_for();
+            // By then it has found out how little changes.
+            if step > 20 {
+                assert!(kept.is_some(), "step {step}");
+                assert!(report.tolerances < now.len() as u64, "step {step}: {}", report.tolerances);
+            }
+            if step % 2 == 0 {
+                let place = [12.0 * rng.unit(), 12.0 * rng.unit(), 12.0 * rng.unit()];
+                t.stage_insertions(&[place]).expect("room");
+                now.push(place);
+            }
+            let v = VertexId::at(rng.below(2_000));
+            now[v] = [12.0 * rng.unit(), 12.0 * rng.unit(), 12.0 * rng.unit()];
+            t.move_vertices(&[v], &[now[v]]).expect("room");
+            t.commit_timestamp().expect("a commit");
+            assert_eq!(t.regions.kept_for(), kept, "step {step}");
+        }
+        t.validate(Level::Delaunay).expect("a triangulation");
+        let built = MovingTriangulation::<Space>::new(&now, Options::default()).expect("room");
+        assert_eq!(t.cell_count(), built.cell_count());
     }
 
     /// Cells are sorted again as flips, placements and insertions replace them: after repairs, before slacks are

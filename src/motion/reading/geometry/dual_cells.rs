@@ -234,7 +234,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 }
 
 /// No place.
-pub(super) fn nowhere<G: Dimension>() -> G::Point {
+pub(crate) fn nowhere<G: Dimension>() -> G::Point {
     let mut nowhere = G::Point::default();
     (0..G::D).for_each(|axis| nowhere[axis] = f64::NAN);
     nowhere

@@ -59,6 +59,7 @@ mod whole_facets;
 
 pub use boundary::BoundaryFacet;
 pub(crate) use boundary::list_boundary;
+pub(crate) use dual_cells::nowhere;
 pub use dual_cells::{VoronoiCell, VoronoiCells};
 pub use dual_facets::{VoronoiFacet, VoronoiFacets};
 pub use incidence::Rows;
