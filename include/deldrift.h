@@ -3002,10 +3002,10 @@ deldrift_status deldrift_save(const deldrift_triangulation *t,
 /// Makes a triangulation of bytes that deldrift_save has written, to *out, which the caller has to hand to
 /// deldrift_destroy; it is written on success only.
 ///
-/// The triangulation is as the one that was saved, cells with their indices included, and gives the same cells after
-/// the same calls; those cells that are new then may have other indices. It has given no changes yet: the first
-/// deldrift_take_changes lists all cells as created. Like one
-/// whose cells have been read, it keeps the arrays of deldrift_cells.
+/// The triangulation is as the one that was saved, cells with their indices included (but where it is periodic and changes
+/// had been taken of it), and gives the same cells after the same calls; those cells that are new then may have other
+/// indices. It has given no changes yet: the first deldrift_take_changes lists all cells as created. Like one whose cells
+/// have been read, it keeps the arrays of deldrift_cells.
 ///
 /// data: size bytes, with any alignment, read during the call only. options: they are not
 /// saved; NULL stands for the defaults, whatever those of the triangulation that was saved. The callbacks are called.

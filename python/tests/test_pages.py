@@ -37,9 +37,15 @@ def test_pages(page):
     assert tried > 20 and failed == 0
 
 
-def test_the_readme():
-    text = (PYTHON / "README.md").read_text()
-    exec(re.search(r"```python\n(.*?)```", text, re.S)[1], {})
+@pytest.mark.parametrize("page", ["README.md", "../docs/GEOMETRY.md", "../docs/PERIODIC.md"])
+def test_programs_on_pages(page):
+    path = PYTHON / page
+    if not path.exists():
+        pytest.skip("the page is in the sources alone")
+    programs = re.findall(r"```python\n(.*?)```", path.read_text(), re.S)
+    assert programs
+    for program in programs:
+        exec(program, {})
 
 
 @pytest.mark.skipif(importlib.util.find_spec("mypy") is None, reason="mypy is not installed")

@@ -1,15 +1,14 @@
 //! Voronoi cells and facets, clipped by a box, or by half-spaces besides.
 
-use std::mem::MaybeUninit;
+mod parts;
 
 use super::handle::{Content, Reading, deldrift_triangulation, in_its_period};
-use super::pointers::{Array, Buffer, Output, Point, fill_all, given};
-use super::status::{Failure, deldrift_status};
-use crate::delaunay::Dimension;
-use crate::error::Result;
+use super::pointers::{Array, Buffer, Output, Point, given};
+use super::status::deldrift_status;
 use crate::ids::VertexId;
 use crate::in_its_dimension;
-use crate::motion::{MovingTriangulation, VoronoiCell, VoronoiFacet};
+use crate::motion::VoronoiFacet;
+use parts::{OfCells, OfFacets, check_no_box, clip_for, half_space_rows, mask_for, write};
 
 /// The areas (2D) or volumes (3D) of the Voronoi cells of all ids, within a box.
 ///
@@ -444,130 +443,4 @@ pub unsafe extern "C" fn deldrift_voronoi_changed(
             mask.fill(count, t.id_count(), || Ok(t.voronoi_changed(moved)?))
         })
     })
-}
-
-/// Buffers for what there is of Voronoi cells, for so many of these.
-struct OfCells<'a> {
-    volumes: Buffer<'a, f64>,
-    areas: Buffer<'a, f64>,
-    centroids: Buffer<'a, f64>,
-    capacity: usize,
-}
-
-impl OfCells<'_> {
-    /// Writes what `list` tells, if the buffers are large enough, and tells how many entries there are.
-    fn fill<P: AsRef<[f64]> + Default>(
-        self,
-        count: Output<'_, usize>,
-        needed: usize,
-        list: impl FnOnce(&mut dyn FnMut(VertexId, VoronoiCell<P>)) -> Result<()>,
-    ) -> Result<(), Failure> {
-        let OfCells { volumes, areas, centroids, capacity } = self;
-        fill_all(count, needed, capacity, [volumes.offer(), areas.offer(), centroids.offer()], || {
-            let volumes = volumes.places_if_any(needed)?;
-            let areas = areas.places_if_any(needed)?;
-            let centroids = centroids.places_if_any(needed * P::default().as_ref().len())?;
-            list(&mut |v, cell| {
-                write(volumes, v.index(), &[cell.volume]);
-                write(areas, v.index(), &[cell.area]);
-                write(centroids, v.index(), cell.centroid.as_ref());
-            })?;
-            Ok(())
-        })
-    }
-}
-
-/// Buffers for Voronoi facets, for so many of these.
-struct OfFacets<'a> {
-    measures: Buffer<'a, f64>,
-    centroids: Buffer<'a, f64>,
-    derivatives: Buffer<'a, f64>,
-    capacity: usize,
-}
-
-impl OfFacets<'_> {
-    /// Writes what `list` tells, if the buffers are large enough, and tells how many entries there are.
-    fn fill<P: AsRef<[f64]> + Default>(
-        self,
-        count: Output<'_, usize>,
-        needed: usize,
-        list: impl FnOnce(&mut dyn FnMut(usize, VoronoiFacet<P>)) -> Result<()>,
-    ) -> Result<(), Failure> {
-        let OfFacets { measures, centroids, derivatives, capacity } = self;
-        let d = P::default().as_ref().len();
-        fill_all(count, needed, capacity, [measures.offer(), centroids.offer(), derivatives.offer()], || {
-            let measures = measures.places_if_any(needed)?;
-            let centroids = centroids.places_if_any(needed * d)?;
-            let derivatives = derivatives.places_if_any(needed * 2 * d)?;
-            list(&mut |edge, facet| {
-                write(measures, edge, &[facet.area]);
-                write(centroids, edge, facet.centroid.as_ref());
-                write(derivatives, 2 * edge, facet.derivatives[0].as_ref());
-                write(derivatives, 2 * edge + 1, facet.derivatives[1].as_ref());
-            })?;
-            Ok(())
-        })
-    }
-}
-
-/// Rows of a normal and an offset, as numbers.
-///
-/// # Safety
-/// `half_spaces` is NULL, misaligned, or to as many rows of `d` + 1 numbers, for as long as they are used.
-unsafe fn half_space_rows<'a>(
-    d: usize,
-    half_spaces: *const f64,
-    half_space_count: usize,
-) -> Result<&'a [f64], Failure> {
-    if d == 2 {
-        let half_spaces = half_spaces.cast::<[f64; 3]>();
-        given!(half_spaces[half_space_count]: Array);
-        return Ok(half_spaces.get()?.as_flattened());
-    }
-    let half_spaces = half_spaces.cast::<[f64; 4]>();
-    given!(half_spaces[half_space_count]: Array);
-    Ok(half_spaces.get()?.as_flattened())
-}
-
-/// Writes a row of numbers, if there is a buffer for rows.
-fn write(places: &mut [MaybeUninit<f64>], row: usize, numbers: &[f64]) {
-    let first = row * numbers.len();
-    if let Some(places) = places.get_mut(first..first + numbers.len()) {
-        places.iter_mut().zip(numbers).for_each(|(place, &x)| _ = place.write(x));
-    }
-}
-
-/// A mask of vertices, if there is one, with as many entries as `check` wants.
-fn mask_for(
-    mask: Array<'_, u8>,
-    mask_count: usize,
-    check: impl FnOnce(usize) -> Result<()>,
-) -> Result<Option<&[u8]>, Failure> {
-    if mask.is_null() && mask_count == 0 {
-        return Ok(None);
-    }
-    check(mask_count)?;
-    mask.get().map(Some)
-}
-
-/// A failure where a box is given, or half-spaces are, in a triangulation that is periodic.
-fn check_no_box(low: Point<'_>, high: Point<'_>, half_space_count: usize) -> Result<(), Failure> {
-    if !(low.is_null() && high.is_null()) {
-        return Err(Failure::Clipped);
-    }
-    if half_space_count == 0 { Ok(()) } else { Err(Failure::Periodic) }
-}
-
-/// The corners of a box that is a good one, in the dimension of `t`; none if both are NULL.
-fn clip_for<'a, G: Dimension>(
-    t: &MovingTriangulation<G>,
-    low: Point<'a>,
-    high: Point<'a>,
-) -> Result<Option<[&'a G::Point; 2]>, Failure> {
-    if low.is_null() && high.is_null() {
-        return Ok(None);
-    }
-    let clip = [low.of("low", t)?, high.of("high", t)?];
-    t.check_clip(clip)?;
-    Ok(Some(clip))
 }
