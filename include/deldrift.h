@@ -900,7 +900,8 @@ deldrift_status deldrift_commit_positions(deldrift_triangulation *t,
 /// triangulation anew, all that was before. If deldrift_cells is called, so is what it brings up to date: where most cells
 /// have changed, a copy of the arrays.
 ///
-/// Cost: that of deldrift_commit_timestamp, and in later rounds a copy of where vertices were that the last one has moved.
+/// Cost: that of deldrift_commit_timestamp, and in later rounds a copy of where vertices were that the last one has moved. If t is
+/// periodic, in the first round a copy of t, and as much memory; to publish or withdraw it frees one of both.
 ///
 /// Errors: those of deldrift_commit_timestamp, DELDRIFT_OUT_OF_MEMORY among them, except DELDRIFT_PREPARED. Not to be called at the same time as any other call
 /// on t.
@@ -910,7 +911,7 @@ deldrift_status deldrift_prepare_timestamp(deldrift_triangulation *t,
 /// The second phase of a commit: the state that deldrift_prepare_timestamp has prepared is the next timestamp. What has been
 /// staged since the last round stays so. Needs no memory. Ends all views.
 ///
-/// Cost: constant, but where a commit would sort the cells for speed.
+/// Cost: constant, but where a commit would sort the cells for speed, or t is periodic.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_PREPARED. Not to be called at the same time as
 /// any other call on t.
@@ -954,7 +955,8 @@ deldrift_status deldrift_relocate_vertex(deldrift_triangulation *t,
 /// position: 2 or 3 numbers, read during the call only. out_vertex: receives its id, which is one above
 /// the highest ever given, or left by the latest deldrift_compact.
 ///
-/// Cost: that of deldrift_locate, and the cells created and removed; of a periodic triangulation that of creation.
+/// Cost: that of deldrift_locate, and the cells created and removed; of a periodic triangulation that of a commit of one
+/// insertion.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_ON_SEGMENT, DELDRIFT_STAGED_VERTEX (if t
@@ -969,7 +971,7 @@ deldrift_status deldrift_insert_vertex(deldrift_triangulation *t,
 ///
 /// Cost: up to 64 neighbours at most the square of their number, beyond that a build of the neighbours alone. In 3D
 /// that may have as many cells as half the square of their number, as where all points are on the moment curve; each
-/// ten to twenty thousand of them the callbacks are called. Of a periodic triangulation that of creation.
+/// ten to twenty thousand of them the callbacks are called. Of a periodic triangulation that of a commit of one removal.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its
 /// insertion is staged, DELDRIFT_END_REMOVED for an end of a segment in force, DELDRIFT_TOO_MANY_CELLS,
@@ -2751,7 +2753,8 @@ deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
 /// Functions that serve a periodic triangulation are those of this section, deldrift_destroy, deldrift_dimension,
 /// deldrift_set_algorithm, deldrift_get_algorithm, deldrift_move_vertex, deldrift_move_vertices,
 /// deldrift_stage_insertions, deldrift_stage_removals, deldrift_discard_moves, deldrift_commit_timestamp,
-/// deldrift_commit_positions, deldrift_vertex_count, deldrift_id_count, deldrift_cell_count, deldrift_staged_count,
+/// deldrift_commit_positions, deldrift_prepare_timestamp, deldrift_publish_timestamp, deldrift_withdraw_timestamp,
+/// deldrift_vertex_count, deldrift_id_count, deldrift_cell_count, deldrift_staged_count,
 /// deldrift_memory_bytes, deldrift_timestamp, deldrift_statistics, deldrift_is_present, deldrift_position,
 /// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges,
 /// deldrift_take_changes, deldrift_circumcentres, deldrift_volumes, deldrift_mask_by_circumradius with the functions that
@@ -2766,9 +2769,9 @@ deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
 /// by each commit, unless changes are taken.
 ///
 /// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves,
-/// or of other vectors that are near those in force, costs what it costs in an open triangulation of as many, and n + m; one
-/// with insertions or removals, or where a vertex has drifted far out of the box since the last such commit, costs as much as
-/// creation.
+/// or of other vectors that are near those in force, costs what it costs in an open triangulation of as many, and reading the
+/// cells after it n + m; each insertion and removal costs what it changes. One with more of these than a tenth of the vertices,
+/// or where a vertex has drifted far out of the box since the last such commit, costs as much as creation.
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_INVALID_OPTIONS, DELDRIFT_NULL_ARGUMENT,
 /// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,

@@ -476,7 +476,8 @@ static uint8_t *poison(void) {
 static bool serves_periodic(const char *name) {
     static const char *const all[] = {
         "destroy", "dimension", "set_algorithm", "get_algorithm", "move_vertex", "move_vertices", "stage_insertions",
-        "stage_removals", "discard_moves", "commit_timestamp", "commit_positions", "vertex_count", "id_count",
+        "stage_removals", "discard_moves", "commit_timestamp", "commit_positions", "prepare_timestamp",
+        "publish_timestamp", "withdraw_timestamp", "vertex_count", "id_count",
         "cell_count", "staged_count", "memory_bytes", "timestamp", "statistics", "is_present", "position",
         "copy_positions", "coincident_representative", "cells", "copy_cells", "edges", "voronoi_volumes",
         "voronoi_facets", "voronoi_cells", "voronoi_derivatives", "circumcentres", "volumes", "mask_by_circumradius",

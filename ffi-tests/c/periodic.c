@@ -535,6 +535,53 @@ static void vertices_come_and_go(void) {
     deldrift_destroy(t);
 }
 
+// Rounds are seen, and can be taken back, or be the next timestamp.
+static void steps_are_tried(void) {
+    static const double square[] = {1, 0, 0, 1}, sheared[] = {1, 0, 0.25, 1};
+    static unsigned char before[8192], after[8192];
+    deldrift_triangulation *t = NULL;
+    deldrift_commit_report report;
+    uint64_t timestamp = 77;
+    size_t count = 0, size = 0, again = 0;
+    double vectors[4], position[2];
+    uint32_t first = 0;
+    OK(deldrift_create_periodic(2, (double[]){0.5, 0.5, 7.5, -0.25, 2.25, 0.5}, 3, square, 2, NULL, &t));
+    OK(deldrift_save(t, before, sizeof before, &size));
+    OK(deldrift_move_vertex(t, 1, (double[]){7.5, 0}));
+    OK(deldrift_stage_vectors(t, sheared, 2));
+    OK(deldrift_prepare_timestamp(t, &report));
+    CHECK(report.timestamp == 1 && report.moved == 1);
+    OK(deldrift_stage_insertions(t, (double[]){0.125, 0.25}, 1, &first));
+    OK(deldrift_prepare_timestamp(t, &report));
+    OK(deldrift_cell_count(t, &count));
+    OK(deldrift_timestamp(t, &timestamp));
+    OK(deldrift_vectors(t, vectors, 2, &again));
+    CHECK(report.inserted == 1 && first == 3 && count == 8 && timestamp == 0 && vectors[2] == 0.25);
+    CHECK_STATUS(deldrift_commit_timestamp(t, NULL), DELDRIFT_PREPARED);
+    CHECK_MESSAGE("timestamp 1 is prepared, in 2 rounds");
+    CHECK_STATUS(deldrift_save(t, after, sizeof after, &again), DELDRIFT_PREPARED);
+    CHECK_STATUS(deldrift_remove_vertex(t, 0), DELDRIFT_PREPARED);
+    OK(deldrift_stage_removals(t, (uint32_t[]){0}, 1));
+    OK(deldrift_withdraw_timestamp(t));
+    OK(deldrift_save(t, after, sizeof after, &again));
+    CHECK(size == again && memcmp(before, after, size) == 0);
+    CHECK_STATUS(deldrift_publish_timestamp(t), DELDRIFT_NOT_PREPARED);
+    OK(deldrift_move_vertex(t, 1, (double[]){7.5, 0}));
+    OK(deldrift_prepare_timestamp(t, NULL));
+    // A round that fails is taken back alone.
+    OK(deldrift_stage_removals(t, (uint32_t[]){0}, 1));
+    OK(deldrift_stage_vectors(t, (double[]){1e-20, 0, 0, 1e-20}, 2));
+    CHECK_STATUS(deldrift_prepare_timestamp(t, NULL), DELDRIFT_OUT_OF_RANGE);
+    OK(deldrift_discard_moves(t));
+    OK(deldrift_publish_timestamp(t));
+    OK(deldrift_timestamp(t, &timestamp));
+    OK(deldrift_position(t, 1, position));
+    OK(deldrift_vertex_count(t, &count));
+    CHECK(timestamp == 1 && position[1] == 0 && count == 3);
+    OK(deldrift_validate(t, 3));
+    deldrift_destroy(t);
+}
+
 static void what_is_wrong_is_told(void) {
     static const double one[] = {0.5, 0.5, 0.5};
     deldrift_triangulation *t = NULL;
@@ -549,7 +596,7 @@ static void what_is_wrong_is_told(void) {
     CHECK_STATUS(deldrift_create_periodic(2, one, 1, one, 1, &options, &t), DELDRIFT_INVALID_OPTIONS);
     CHECK_MESSAGE("options.coincidence is 1");
     OK(deldrift_create_periodic(3, one, 1, one, 1, NULL, &t));
-    CHECK_STATUS(deldrift_prepare_timestamp(t, NULL), DELDRIFT_PERIODIC);
+    CHECK_STATUS(deldrift_publish_timestamp(t), DELDRIFT_NOT_PREPARED);
     double place[3];
     int64_t shift[3];
     CHECK_STATUS(deldrift_wrap_positions(t, (double[]){0, NAN, 0}, NULL, 1, place, shift), DELDRIFT_NOT_FINITE);
@@ -587,6 +634,7 @@ int main(void) {
         for (size_t n = 1; n <= MOST; n = 3 * n + 1) moves_and_boxes(3, n, rank, seed++);
     }
     vertices_come_and_go();
+    steps_are_tried();
     changes_are_told();
     what_is_wrong_is_told();
     return 0;

@@ -18,6 +18,7 @@ from ._measured import Measured
 from ._meeting import Meeting
 from ._motion import Changes, changes_of
 from ._near import Near
+from ._step import Trial
 from ._writing import Path, Writing
 
 _create_periodic = _library.function("create_periodic")
@@ -36,6 +37,7 @@ _copy_cells = _library.function("copy_cells")
 _copy_positions = _library.function("copy_positions")
 _commit_positions = _library.function("commit_positions")
 _commit_timestamp = _library.function("commit_timestamp")
+_prepare_timestamp = _library.function("prepare_timestamp")
 _take_changes = _library.function("take_changes")
 _discard_moves = _library.function("discard_moves")
 _move_vertices = _library.function("move_vertices")
@@ -530,10 +532,16 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
             if box is not None:
                 status = _stage_vectors(t, address(box), len(box))
             if status == 0 and positions is not None and moving is None:
-                return int(_commit_positions(t, address(positions), len(positions), report))
+                if self._trial is None:
+                    return int(_commit_positions(t, address(positions), len(positions), report))
+                if len(positions) != id_count(t):
+                    raise WrongCount(
+                        f"there are {len(positions)} points for {id_count(t)} ids", "points", None, len(positions)
+                    )
+                status = _move_vertices(t, None, address(positions), len(positions))
             if status == 0 and positions is not None and moving is not None:
                 status = _move_vertices(t, address(moving), address(positions), len(moving))
-            return status or int(_commit_timestamp(t, report))
+            return status or self._commit(t, report)
 
         return self._change(change)
 
@@ -554,7 +562,7 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
 
         def change(t: int, report: Report) -> int:
             status = _stage_insertions(t, address(positions), len(positions), first)
-            return int(status or _commit_timestamp(t, report))
+            return int(status or self._commit(t, report))
 
         self._change(change)
         return np.arange(first.value, first.value + len(positions), dtype=I32)
@@ -574,8 +582,40 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         """
         going = listed_ids("ids", ids)
         return self._change(
-            lambda t, report: int(_stage_removals(t, address(going), len(going)) or _commit_timestamp(t, report))
+            lambda t, report: int(_stage_removals(t, address(going), len(going)) or self._commit(t, report))
         )
+
+    def trial(self) -> Trial:
+        """Steps that are tried: at the end of a `with` block they are one timestamp, or, after an exception, have never been.
+
+        In the block `move`, `insert` and `remove` make what everything that reads sees, and the timestamp stays.
+        `Trial.withdraw` takes all of it back, so that another step can be tried. A step that fails in the block is taken
+        back alone. The first step of the block takes a copy of the triangulation.
+
+        Until the end of the block these raise `Prepared`, once a step has been made: `compact`, `changes`, `copy`, `save`
+        and pickling.
+
+        Returns
+        -------
+        Trial
+            What has `withdraw`.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.PeriodicDelaunay([[0.1, 0.1], [0.6, 0.7], [0.4, 0.9]], vectors=[1, 1])
+        >>> way = 0.5
+        >>> with tri.trial() as trial:
+        ...     while True:
+        ...         _ = tri.move([[0.1 + way, 0.1]], ids=[0])
+        ...         if tri.voronoi_volumes().min() > 0.3:
+        ...             break
+        ...         trial.withdraw()
+        ...         way = way / 2
+        >>> tri.points[0].round(3).tolist(), tri.timestamp
+        ([0.225, 0.1], 1)
+        """
+        return Trial(self)
 
     def changes(self) -> Changes:
         """What has changed since this was last called; the first call lists all simplices as created.
@@ -617,16 +657,24 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
             self._check(_compact(t, address(new_ids), len(new_ids), ctypes.c_size_t()))
         return new_ids
 
+    def _commit(self, t: int, report: Report) -> int:
+        """Makes what is staged the next timestamp, or, in a trial, a round of it."""
+        trial = self._trial
+        status = int(_commit_timestamp(t, report) if trial is None else _prepare_timestamp(t, report))
+        if status == 0 and trial is not None:
+            trial._is_prepared = True
+        return status
+
     def _change(self, change: Callable[[int, Report], int]) -> Report:
         """A change, which has no effect if it fails."""
         report = Report()
         with self._changing as t:
-            status = change(t, report)
-            if status:
-                try:
-                    self._check(status, positions="points", vertices="ids")
-                finally:
-                    check(_discard_moves(t))
+            try:
+                status = change(t, report)
+                self._check(status, positions="points", vertices="ids")
+            except BaseException:
+                check(_discard_moves(t))
+                raise
             self._last_report = report
         return report
 

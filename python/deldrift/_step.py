@@ -15,6 +15,7 @@ from ._library import Report
 from ._segments import Splits
 
 if TYPE_CHECKING:
+    from ._core import Core
     from ._motion import Motion
 
 _stage_insertions = _library.function("stage_insertions_with_keys")
@@ -257,9 +258,9 @@ class Step:
 
 
 class Trial:
-    """Steps that `Delaunay.trial` makes one timestamp of, or takes back."""
+    """Steps that `Delaunay.trial`, or that of a box, makes one timestamp of, or takes back."""
 
-    def __init__(self, owner: "Motion") -> None:
+    def __init__(self, owner: "Core") -> None:
         self._owner = owner
         self._is_open = False
         # Whether there is something to publish or withdraw.

@@ -377,3 +377,33 @@ def test_files_of_other_programs(rng, tmp_path):
     assert (mesh.point_data["heat"].ravel() == heat[mesh.point_data["vertex"].ravel()]).all()
     with pytest.raises(deldrift.WrongCount):
         tri.write_vtu(tmp_path / "a.vtu", {"heat": heat[1:]})
+
+
+def test_steps_are_tried():
+    """What a trial withdraws has never been; what it keeps is one timestamp."""
+    points = np.random.default_rng(3).random((60, 2))
+    tri = deldrift.PeriodicDelaunay(points, [1, 1])
+    before = tri.tobytes()
+    with pytest.raises(RuntimeError):
+        with tri.trial():
+            tri.move(points + 0.01)
+            tri.insert([[0.5, 0.5]])
+            assert tri.nvertices == 61 and tri.timestamp == 0
+            raise RuntimeError
+    assert tri.tobytes() == before
+    with tri.trial() as trial:
+        tri.move(points[:5] + 0.02, ids=range(5), vectors=[[1, 0], [0.25, 1]])
+        trial.withdraw()
+        assert tri.nvertices == 60 and tri.vectors[1, 0] == 0
+        tri.move(points + 0.03)
+        with pytest.raises(deldrift.Prepared):
+            tri.changes()
+        with pytest.raises(deldrift.WrongCount):
+            tri.move(points[:7])
+        with pytest.raises(deldrift.NotFinite):
+            tri.insert([[np.nan, 0]])
+        tri.remove([7])
+    assert tri.timestamp == 1 and tri.nvertices == 59 and np.allclose(tri.points[:7], points[:7] + 0.03)
+    kept = np.delete(points, 7, axis=0) + 0.03
+    assert tri.nsimplex == deldrift.PeriodicDelaunay(kept, [1, 1]).nsimplex
+    assert np.isclose(np.nansum(tri.voronoi_volumes()), 1)

@@ -102,6 +102,9 @@ impl<G: Dimension> BoxHistory<G> {
     /// One commit.
     fn step(&mut self) -> &'static str {
         let size = *self.rng.pick(&[1i64, 1 << 8, 1 << 13, 1 << 16, 1 << 18]);
+        if self.rng.one_in(4) {
+            self.withdraw(size);
+        }
         match self.rng.below(8) {
             0 => {
                 let some: Vec<_> = self.present().into_iter().filter(|_| self.rng.one_in(3)).collect();
@@ -119,7 +122,9 @@ impl<G: Dimension> BoxHistory<G> {
                 let first = self.t.stage_insertions(&places).expect("places");
                 assert_eq!(first.index(), self.now.len(), "{}", self.name);
                 self.tally.insertions += n as u64;
-                let going: Vec<_> = self.present().into_iter().filter(|_| self.rng.one_in(4)).collect();
+                // Few go without a build.
+                let share = *self.rng.pick(&[4, 40]);
+                let going: Vec<_> = self.present().into_iter().filter(|_| self.rng.one_in(share)).collect();
                 self.t.stage_removals(&going).expect("vertices that are there");
                 self.tally.removals += going.len() as u64;
                 self.now.extend(more.into_iter().map(Some));
@@ -169,6 +174,20 @@ impl<G: Dimension> BoxHistory<G> {
         }
     }
 
+    /// Rounds that leave nothing: what comes next is a commit as if they had not been.
+    fn withdraw(&mut self, size: i64) {
+        for _ in 0..1 + self.rng.below(2) {
+            let some: Vec<_> = self.present().into_iter().filter(|_| self.rng.one_in(3)).collect();
+            let goals: Vec<_> = some.iter().map(|&v| self.moved(self.now[v.index()], size)).collect();
+            let places: Vec<_> = goals.iter().map(|p| scaled::<G>(p, self.scale)).collect();
+            self.t.move_vertices(&some, &places).expect("vertices that are there");
+            let more = scaled::<G>(&draw::<G>(self.kind, &self.short, &mut self.rng), self.scale);
+            self.t.stage_insertions(&[more]).expect("a place");
+            self.t.prepare_timestamp().unwrap_or_else(|error| panic!("{}: {error}", self.name));
+        }
+        self.t.withdraw_timestamp();
+    }
+
     /// Where a vertex goes, in the period that it likes.
     fn moved(&mut self, from: Option<G::Point>, size: i64) -> G::Point {
         let from = from.expect("a vertex that is there");
@@ -199,7 +218,14 @@ impl<G: Dimension> BoxHistory<G> {
     }
 
     fn commit(&mut self) {
-        let report = self.t.commit_timestamp().unwrap_or_else(|error| panic!("{}: {error}", self.name));
+        let made = if self.rng.one_in(3) {
+            let made = self.t.prepare_timestamp();
+            self.t.publish_timestamp().unwrap_or_else(|error| panic!("{}: {error}", self.name));
+            made
+        } else {
+            self.t.commit_timestamp()
+        };
+        let report = made.unwrap_or_else(|error| panic!("{}: {error}", self.name));
         self.tally.moves += report.moved;
         self.tally.rebuilds += report.rebuilds;
     }

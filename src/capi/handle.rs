@@ -11,7 +11,6 @@ use super::pointers::{Input, Output};
 use super::status::{Failure, deldrift_status};
 use crate::either::AnyTriangulation;
 use crate::error::Error;
-use crate::in_its_dimension;
 use crate::machine::{environment, memory};
 use crate::periodic::AnyPeriodic;
 
@@ -46,12 +45,10 @@ impl Content {
         }
     }
 
-    /// Refuses what may not be done while a timestamp is prepared, as those of open triangulations may be.
+    /// Refuses what may not be done while a timestamp is prepared.
     pub(super) fn reject_prepared(&self) -> Result<(), Error> {
-        match self {
-            Content::Open(t) => in_its_dimension!(t => t.reject_prepared()),
-            Content::Periodic(_) => Ok(()),
-        }
+        let content = self;
+        in_any!(content => content.reject_prepared())
     }
 
     /// For a function that does not serve periodic triangulations.

@@ -46,7 +46,8 @@ fn relocate_in_guard(t: Changing<'_>, vertex: VertexId, position: Point<'_>) -> 
 /// position: 2 or 3 numbers, read during the call only. out_vertex: receives its id, which is one above
 /// the highest ever given, or left by the latest deldrift_compact.
 ///
-/// Cost: that of deldrift_locate, and the cells created and removed; of a periodic triangulation that of creation.
+/// Cost: that of deldrift_locate, and the cells created and removed; of a periodic triangulation that of a commit of one
+/// insertion.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_ON_SEGMENT, DELDRIFT_STAGED_VERTEX (if t
@@ -71,7 +72,7 @@ pub unsafe extern "C" fn deldrift_insert_vertex(
 ///
 /// Cost: up to 64 neighbours at most the square of their number, beyond that a build of the neighbours alone. In 3D
 /// that may have as many cells as half the square of their number, as where all points are on the moment curve; each
-/// ten to twenty thousand of them the callbacks are called. Of a periodic triangulation that of creation.
+/// ten to twenty thousand of them the callbacks are called. Of a periodic triangulation that of a commit of one removal.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its
 /// insertion is staged, DELDRIFT_END_REMOVED for an end of a segment in force, DELDRIFT_TOO_MANY_CELLS,

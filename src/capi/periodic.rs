@@ -41,7 +41,8 @@ use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 /// Functions that serve a periodic triangulation are those of this section, deldrift_destroy, deldrift_dimension,
 /// deldrift_set_algorithm, deldrift_get_algorithm, deldrift_move_vertex, deldrift_move_vertices,
 /// deldrift_stage_insertions, deldrift_stage_removals, deldrift_discard_moves, deldrift_commit_timestamp,
-/// deldrift_commit_positions, deldrift_vertex_count, deldrift_id_count, deldrift_cell_count, deldrift_staged_count,
+/// deldrift_commit_positions, deldrift_prepare_timestamp, deldrift_publish_timestamp, deldrift_withdraw_timestamp,
+/// deldrift_vertex_count, deldrift_id_count, deldrift_cell_count, deldrift_staged_count,
 /// deldrift_memory_bytes, deldrift_timestamp, deldrift_statistics, deldrift_is_present, deldrift_position,
 /// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges,
 /// deldrift_take_changes, deldrift_circumcentres, deldrift_volumes, deldrift_mask_by_circumradius with the functions that
@@ -56,9 +57,9 @@ use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 /// by each commit, unless changes are taken.
 ///
 /// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves,
-/// or of other vectors that are near those in force, costs what it costs in an open triangulation of as many, and n + m; one
-/// with insertions or removals, or where a vertex has drifted far out of the box since the last such commit, costs as much as
-/// creation.
+/// or of other vectors that are near those in force, costs what it costs in an open triangulation of as many, and reading the
+/// cells after it n + m; each insertion and removal costs what it changes. One with more of these than a tenth of the vertices,
+/// or where a vertex has drifted far out of the box since the last such commit, costs as much as creation.
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_INVALID_OPTIONS, DELDRIFT_NULL_ARGUMENT,
 /// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,

@@ -1,10 +1,9 @@
 //! Commits in two phases.
 
-use super::handle::{Changing, deldrift_triangulation};
+use super::handle::{Changing, deldrift_triangulation, in_any};
 use super::motion::deldrift_commit_report;
 use super::pointers::{Output, given};
 use super::status::deldrift_status;
-use crate::in_its_dimension;
 
 /// The first phase of a commit: brings the triangulation to the staged moves, insertions, removals and segments, as
 /// deldrift_commit_timestamp does, so that every call that reads sees the prepared state. It is not a timestamp yet:
@@ -32,7 +31,8 @@ use crate::in_its_dimension;
 /// triangulation anew, all that was before. If deldrift_cells is called, so is what it brings up to date: where most cells
 /// have changed, a copy of the arrays.
 ///
-/// Cost: that of deldrift_commit_timestamp, and in later rounds a copy of where vertices were that the last one has moved.
+/// Cost: that of deldrift_commit_timestamp, and in later rounds a copy of where vertices were that the last one has moved. If t is
+/// periodic, in the first round a copy of t, and as much memory; to publish or withdraw it frees one of both.
 ///
 /// Errors: those of deldrift_commit_timestamp, DELDRIFT_OUT_OF_MEMORY among them, except DELDRIFT_PREPARED. Not to be called at the same time as any other call
 /// on t.
@@ -42,9 +42,9 @@ pub unsafe extern "C" fn deldrift_prepare_timestamp(
     report: *mut deldrift_commit_report,
 ) -> deldrift_status {
     given!(t: Changing, report: Output);
-    t.change(|t| {
+    t.change_any(|t| {
         let report = report.if_any()?;
-        let done = in_its_dimension!(t => t.prepare_timestamp())?;
+        let done = in_any!(t => t.prepare_timestamp())?;
         if let Some(report) = report {
             report.write(done.into());
         }
@@ -55,15 +55,15 @@ pub unsafe extern "C" fn deldrift_prepare_timestamp(
 /// The second phase of a commit: the state that deldrift_prepare_timestamp has prepared is the next timestamp. What has been
 /// staged since the last round stays so. Needs no memory. Ends all views.
 ///
-/// Cost: constant, but where a commit would sort the cells for speed.
+/// Cost: constant, but where a commit would sort the cells for speed, or t is periodic.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_PREPARED. Not to be called at the same time as
 /// any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_publish_timestamp(t: *mut deldrift_triangulation) -> deldrift_status {
     given!(t: Changing);
-    t.change(|t| {
-        in_its_dimension!(t => t.publish_timestamp())?;
+    t.change_any(|t| {
+        in_any!(t => t.publish_timestamp())?;
         Ok(())
     })
 }
@@ -85,8 +85,8 @@ pub unsafe extern "C" fn deldrift_publish_timestamp(t: *mut deldrift_triangulati
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_withdraw_timestamp(t: *mut deldrift_triangulation) -> deldrift_status {
     given!(t: Changing);
-    t.change(|t| {
-        in_its_dimension!(t => t.withdraw_timestamp());
+    t.change_any(|t| {
+        in_any!(t => t.withdraw_timestamp());
         Ok(())
     })
 }

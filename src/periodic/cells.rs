@@ -115,7 +115,7 @@ impl<G: Dimension> PeriodicCells<G> {
         let mut others = Vec::new();
         let mut straddling = Straddling::default();
         for (cell, row) in cells.corners.iter().enumerate() {
-            let n_home = row.as_ref().iter().filter(|v| v.index() < inside.n_home).count();
+            let n_home = row.as_ref().iter().filter(|v| inside.images.is_home(**v)).count();
             if n_home == 0 {
                 continue;
             }
@@ -247,7 +247,7 @@ impl<G: Dimension> Finder<'_, G> {
 impl<G: Dimension> Inside<G> {
     /// Whether all corners of a cell are at home.
     fn is_at_home(&self, row: &G::Vertices) -> bool {
-        row.as_ref().iter().all(|v| v.index() < self.n_home)
+        row.as_ref().iter().all(|v| self.images.is_home(*v))
     }
 
     /// Which corner of a cell is the least: by vertex, and of several images of one, by position.

@@ -28,8 +28,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory), [`Error::Prepared`](crate::Error::Prepared).
     pub fn try_clone(&self, monitor: Option<Monitor>) -> Result<Self> {
+        self.reject_prepared()?;
         let coming = self.coming.as_ref().map(|lattice| memory::boxed(lattice.copied())).transpose()?;
         Ok(PeriodicTriangulation {
             lattice: memory::boxed(self.lattice.copied())?,
@@ -40,6 +41,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             statistics: self.statistics,
             cells: OnceLock::new(),
             edges: OnceLock::new(),
+            former: None,
             taking: self.taking.as_ref().map(|taking| taking.renumbered(|v| v)).transpose()?,
         })
     }

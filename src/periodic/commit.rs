@@ -7,9 +7,11 @@ use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::{CommitReport, MAX_VERTICES};
+use crate::periodic::editing::Edits;
+use crate::periodic::following::Before;
 use crate::periodic::images::Image;
 use crate::periodic::inside::Inside;
-use crate::periodic::lattice::{Lattice, Occupied};
+use crate::periodic::lattice::{HOME, Lattice, Occupied};
 use crate::periodic::triangulation::PeriodicTriangulation;
 
 /// Where vertices go.
@@ -122,8 +124,13 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a vertex that is too far away for new vectors, [`Error::OutOfMemory`],
-    /// [`Error::TooManyVertices`], [`Error::TooManyCells`], [`Error::Cancelled`].
+    /// [`Error::TooManyVertices`], [`Error::TooManyCells`], [`Error::Cancelled`], [`Error::Prepared`].
     pub fn commit_timestamp(&mut self) -> Result<CommitReport> {
+        self.reject_prepared()?;
+        self.commit_staged()
+    }
+
+    pub(super) fn commit_staged(&mut self) -> Result<CommitReport> {
         self.commit(Goals::Staged)
     }
 
@@ -134,6 +141,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// [`Error::DuplicateMove`] if a move is staged, [`Error::WrongCount`] unless there is an entry for each id,
     /// [`Error::NotFinite`], [`Error::OutOfRange`], and those of [`commit_timestamp`](Self::commit_timestamp).
     pub fn commit_positions(&mut self, positions: &[G::Point]) -> Result<CommitReport> {
+        self.reject_prepared()?;
         if let Some(vertex) = self.staged.first_moving() {
             return Err(Error::DuplicateMove { argument: "positions", index: vertex.index(), vertex });
         }
@@ -146,8 +154,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     fn commit(&mut self, goals: Goals<'_, G>) -> Result<CommitReport> {
-        let moved = if self.staged.are_moves() { self.moved(goals)? } else { None };
-        let mut report = match moved {
+        let mut report = match self.moved(goals)? {
             Some(report) => report,
             None => self.rebuilt(goals)?,
         };
@@ -162,36 +169,49 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         Ok(report)
     }
 
-    /// Moves vertices and images, and inserts those that are missing; none, without a change, if a vertex would be too far
-    /// from the unit cell, or the lattice too different.
+    /// Moves vertices and images, makes the edits, and inserts images that are missing; none, without a change, if a vertex would
+    /// be too far from the unit cell, the lattice too different, or the edits too many.
     fn moved(&mut self, goals: Goals<'_, G>) -> Result<Option<CommitReport>> {
-        match (goals, &self.coming) {
-            (Goals::Staged, None) => self.some_moved(),
-            (Goals::Of(positions), None) => self.all_moved(positions),
-            (Goals::Of(positions), Some(_)) => self.all_moved_in_other(positions),
+        let n = self.inside.images.n_vertices();
+        let lattice = self.coming.as_ref().unwrap_or(&self.lattice);
+        let edits = Edits::of(&self.inside, lattice, &self.staged, |index| match goals {
+            Goals::Of(positions) => positions[n + index],
+            Goals::Staged => self.staged.insertions()[index],
+        });
+        let Some(edits) = edits? else { return Ok(None) };
+        memory::reserve(&mut self.wraps, edits.wraps().len())?;
+        let moved = match (goals, &self.coming) {
+            (Goals::Staged, None) => self.some_moved(&edits),
+            (Goals::Of(positions), None) => self.all_moved(positions, &edits),
+            (Goals::Of(positions), Some(_)) => self.all_moved_in_other(positions, &edits),
             (Goals::Staged, Some(_)) => {
-                let n = self.inside.images.n_vertices();
                 let mut positions = Vec::new();
                 let places = VertexId::range(0..n).map(|v| self.position(v).unwrap_or_default());
                 memory::collect(&mut positions, places)?;
                 self.staged.moves().iter().for_each(|&(vertex, goal)| positions[vertex] = goal);
-                self.all_moved_in_other(&positions)
+                self.all_moved_in_other(&positions, &edits)
             }
-        }
+        };
+        let Some(mut report) = moved? else { return Ok(None) };
+        self.wraps.extend_from_slice(edits.wraps());
+        edits.going().iter().for_each(|&vertex| self.wraps[vertex] = [0; 3]);
+        (report.inserted, report.removed) = (edits.wraps().len() as u64, edits.going().len() as u64);
+        Ok(Some(report))
     }
 
     /// Of those whose moves are staged.
-    fn some_moved(&mut self) -> Result<Option<CommitReport>> {
+    fn some_moved(&mut self, edits: &Edits<G>) -> Result<Option<CommitReport>> {
         let Self { lattice, inside, wraps, staged, .. } = self;
         let (mut new_wraps, mut ids, mut places) = (Vec::new(), Vec::new(), Vec::new());
         let (mut occupied, mut n_moved) = (inside.occupied, 0);
-        for &(vertex, position) in staged.moves() {
+        edits.enter(lattice, &mut occupied);
+        for &(vertex, position) in staged.moves().iter().filter(|&&(vertex, _)| !staged.goes(vertex)) {
             let near = inside.places[inside.images.home(vertex)];
             let mut wrap = wraps[vertex];
             let place = lattice.wrapped_near("positions", vertex.index(), &position, &near, &mut wrap)?;
             occupied.enter(&lattice.multiples(&place));
             n_moved += u64::from(place != near || wrap != wraps[vertex]);
-            memory::push(&mut new_wraps, wrap)?;
+            memory::push(&mut new_wraps, (vertex, wrap))?;
             for inner in inside.images.all_of(vertex) {
                 memory::push(&mut ids, inner)?;
                 memory::push(&mut places, lattice.translated(&place, inside.images.of(inner).shift))?;
@@ -200,22 +220,25 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         if !inside.is_near(lattice, &occupied) {
             return Ok(None);
         }
+        let n_more = (inside.images.len() + edits.len()).saturating_sub(inside.places.len());
+        memory::reserve(&mut inside.places, n_more)?;
         inside.t.move_vertices(&ids, &places)?;
-        let mut report = inside.commit_moves(lattice, occupied)?;
+        let n_before = inside.images.len();
+        let mut report = inside.commit_edits(lattice, occupied, edits)?;
         report.moved = n_moved;
-        for (&(vertex, _), wrap) in staged.moves().iter().zip(new_wraps) {
-            wraps[vertex] = wrap;
-        }
-        for (&inner, &place) in ids.iter().zip(&places).filter(|(inner, _)| inner.index() < inside.n_home) {
+        new_wraps.into_iter().for_each(|(vertex, wrap)| wraps[vertex] = wrap);
+        for (&inner, &place) in ids.iter().zip(&places).filter(|(inner, _)| inside.images.is_home(**inner)) {
             inside.places[inner] = place;
         }
+        inside.settle(edits, n_before);
         Ok(Some(report))
     }
 
     /// Of all, to these positions by id.
-    fn all_moved(&mut self, positions: &[G::Point]) -> Result<Option<CommitReport>> {
+    fn all_moved(&mut self, positions: &[G::Point], edits: &Edits<G>) -> Result<Option<CommitReport>> {
         let Self { lattice, inside, wraps, .. } = self;
-        let Some((report, new_wraps)) = inside.move_all(lattice, positions, |vertex| wraps[vertex])? else {
+        let moved = inside.move_all(lattice, positions, edits, |vertex| wraps[vertex])?;
+        let Some((report, new_wraps)) = moved else {
             return Ok(None);
         };
         new_wraps.into_iter().for_each(|(vertex, wrap)| wraps[vertex] = wrap);
@@ -224,18 +247,25 @@ impl<G: Dimension> PeriodicTriangulation<G> {
 
     /// Of all, to these positions by id, in the lattice that is staged. Vertices go to the place that is nearest, images with
     /// them: each is translated by what is nearest to what it was translated by.
-    fn all_moved_in_other(&mut self, positions: &[G::Point]) -> Result<Option<CommitReport>> {
+    fn all_moved_in_other(
+        &mut self,
+        positions: &[G::Point],
+        edits: &Edits<G>,
+    ) -> Result<Option<CommitReport>> {
         let Some(other) = &self.coming else { return Ok(None) };
         let Some(relation) = self.lattice.relation_to(other) else { return Ok(None) };
         let mut n_moved = 0;
-        for inner in VertexId::range(0..self.inside.n_home) {
-            let vertex = self.inside.images.of(inner).vertex;
+        for (vertex, _) in self.inside.images.homes().filter(|&(vertex, _)| !self.staged.goes(vertex)) {
             n_moved += u64::from(self.position(vertex) != Ok(positions[vertex]));
         }
         let Self { inside, wraps, .. } = self;
         let mut images = Vec::new();
         memory::reserve_exact(&mut images, inside.images.len())?;
-        for image in inside.images.as_slice() {
+        for &image in inside.images.as_slice() {
+            if image == Image::GONE {
+                images.push(image);
+                continue;
+            }
             let shift = relation.of(image.shift.map(i64::from)).and_then(|shift| {
                 let short = shift.map(|n| i32::try_from(n).unwrap_or(i32::MAX));
                 other.may_need(short).then_some(short)
@@ -244,8 +274,8 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             images.push(Image { vertex: image.vertex, shift });
         }
         inside.images.exchange(&mut images);
-        let moved =
-            inside.move_all(other, positions, |vertex| relation.of(wraps[vertex]).unwrap_or(wraps[vertex]));
+        let wrap_of = |vertex| relation.of(wraps[vertex]).unwrap_or(wraps[vertex]);
+        let moved = inside.move_all(other, positions, edits, wrap_of);
         let Ok(Some((mut report, new_wraps))) = moved else {
             inside.images.exchange(&mut images);
             return moved.map(|_| None);
@@ -326,16 +356,20 @@ impl<G: Dimension> Inside<G> {
         &mut self,
         lattice: &Lattice<G>,
         positions: &[G::Point],
+        edits: &Edits<G>,
         wrap_of: impl Fn(VertexId) -> [i64; 3],
     ) -> Result<Option<(CommitReport, Wraps)>> {
         let mut goals = std::mem::take(&mut self.goals);
-        let moved = self.goals_of(lattice, positions, wrap_of, &mut goals);
+        let moved = self.goals_of(lattice, positions, edits, wrap_of, &mut goals);
+        let n_before = self.images.len();
         let done = moved.and_then(|moved| {
             let Some((occupied, n_moved, new_wraps)) = moved else { return Ok(None) };
+            memory::reserve(&mut goals, edits.len())?;
             self.t.move_all(&goals)?;
-            let mut report = self.commit_moves(lattice, occupied)?;
+            let mut report = self.commit_edits(lattice, occupied, edits)?;
             report.moved = n_moved;
             std::mem::swap(&mut self.places, &mut goals);
+            self.settle(edits, n_before);
             Ok(Some((report, new_wraps)))
         });
         self.goals = goals;
@@ -348,51 +382,67 @@ impl<G: Dimension> Inside<G> {
         &self,
         lattice: &Lattice<G>,
         positions: &[G::Point],
+        edits: &Edits<G>,
         wrap_of: impl Fn(VertexId) -> [i64; 3],
         goals: &mut Vec<G::Point>,
     ) -> Result<Option<Coming>> {
         goals.clear();
-        memory::reserve(goals, self.images.len())?;
+        memory::lengthen(goals, self.images.len(), G::Point::default())?;
         let (mut occupied, mut n_moved, mut new_wraps) = (Occupied::NOTHING, 0, Vec::new());
-        let (at_home, images) = self.images.as_slice().split_at(self.n_home);
-        for (image, near) in at_home.iter().zip(&self.places) {
-            let before = wrap_of(image.vertex);
+        edits.enter(lattice, &mut occupied);
+        let mut going = edits.going().iter().peekable();
+        for (vertex, inner) in self.images.homes() {
+            if going.next_if_eq(&&vertex).is_some() {
+                continue;
+            }
+            let (before, near) = (wrap_of(vertex), &self.places[inner]);
             let mut wrap = before;
-            let (index, position) = (image.vertex.index(), &positions[image.vertex]);
+            let (index, position) = (vertex.index(), &positions[vertex]);
             let place = lattice.wrapped_near("positions", index, position, near, &mut wrap)?;
             occupied.enter(&lattice.multiples(&place));
             n_moved += u64::from(place != *near || wrap != before);
-            goals.push(place);
+            goals[inner] = place;
             if wrap != before {
-                memory::push(&mut new_wraps, (image.vertex, wrap))?;
+                memory::push(&mut new_wraps, (vertex, wrap))?;
             }
         }
         if !self.is_near(lattice, &occupied) {
             return Ok(None);
         }
-        for image in images {
-            goals.push(lattice.translated(&goals[self.images.home(image.vertex)], image.shift));
+        for (inner, image) in VertexId::range(0..self.images.len()).zip(self.images.as_slice()) {
+            if image.shift != HOME && *image != Image::GONE {
+                goals[inner] = lattice.translated(&goals[self.images.home(image.vertex)], image.shift);
+            }
         }
         Ok(Some((occupied, n_moved, new_wraps)))
     }
 
-    /// Makes the moves that are staged inside, and inserts images that are missing then: all of it or, on an error, nothing.
-    fn commit_moves(&mut self, lattice: &Lattice<G>, occupied: Occupied) -> Result<CommitReport> {
+    /// Makes the moves that are staged inside, and the edits, and inserts images that are missing then: all of it or, on an error,
+    /// nothing. The edits are to be [settled](Self::settle) then.
+    fn commit_edits(
+        &mut self,
+        lattice: &Lattice<G>,
+        occupied: Occupied,
+        edits: &Edits<G>,
+    ) -> Result<CommitReport> {
         let (before, n_images) = (self.occupied, self.images.len());
+        let since = Before { n_vertices: self.images.n_vertices(), is_plain: self.is_plain(lattice) };
         self.occupied = occupied;
-        let done = self.t.prepare_timestamp().and_then(|mut report| {
-            self.complete(lattice, self.missing(lattice)?, Self::missing, |t| {
+        let missing = |inside: &Self, lattice: &Lattice<G>| inside.missing(lattice, since);
+        let done = self.stage(edits).and_then(|()| {
+            let mut report = self.t.prepare_timestamp()?;
+            self.enter_coming(edits);
+            self.complete(lattice, missing(self, lattice)?, missing, |t| {
                 report.add(&t.prepare_timestamp()?);
                 Ok(())
             })?;
             Ok(report)
         });
         match done {
-            Ok(mut report) => {
+            Ok(report) => {
                 self.t.publish_timestamp()?;
                 // Without the memory for it the next commit looks at what has changed now, too.
                 let _ = self.t.take_changes();
-                report.inserted = 0;
                 Ok(report)
             }
             Err(error) => {

@@ -17,10 +17,11 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// been removed.
     ///
     /// # Errors
-    /// Those of a creation, such as [`Error::OutOfMemory`](crate::Error::OutOfMemory) and
+    /// [`Error::Prepared`](crate::Error::Prepared), and those of a creation, such as [`Error::OutOfMemory`](crate::Error::OutOfMemory) and
     /// [`Error::Cancelled`](crate::Error::Cancelled); nothing has happened then.
     pub fn compact(&mut self) -> Result<Vec<VertexId>> {
-        let (n_ids, n_home) = (self.inside.images.n_vertices(), self.inside.n_home);
+        self.reject_prepared()?;
+        let (n_ids, n_home) = (self.inside.images.n_vertices(), self.vertex_count());
         let mut new_ids = Vec::new();
         memory::reserve_exact(&mut new_ids, self.id_count())?;
         let mut next = 0;
@@ -36,9 +37,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let (mut home, mut wraps) = (Vec::new(), Vec::new());
         memory::reserve_exact(&mut home, n_home)?;
         memory::reserve_exact(&mut wraps, n_home)?;
-        for (image, place) in self.inside.images.as_slice()[..n_home].iter().zip(&self.inside.places) {
-            home.push((new_ids[image.vertex], *place));
-            wraps.push(self.wraps[image.vertex]);
+        for (vertex, inner) in self.inside.images.homes() {
+            home.push((new_ids[vertex], self.inside.places[inner]));
+            wraps.push(self.wraps[vertex]);
         }
         let new_id = |v: VertexId| new_ids.get(v.index()).copied().unwrap_or(NO_VERTEX);
         let taking = self.taking.as_ref().map(|taking| taking.renumbered(new_id)).transpose()?;

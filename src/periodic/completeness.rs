@@ -27,7 +27,7 @@ impl<G: Dimension> Inside<G> {
     fn rows_at_home(&self) -> Result<Vec<G::Vertices>> {
         let mut rows = Vec::new();
         for row in self.t.cells()?.corners {
-            if row.as_ref().iter().any(|v| v.index() < self.n_home) {
+            if row.as_ref().iter().any(|v| self.images.is_home(*v)) {
                 let mut sorted = *row;
                 sorted.as_mut().sort_unstable();
                 memory::push(&mut rows, sorted)?;

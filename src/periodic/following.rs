@@ -11,7 +11,8 @@
 //! both in them, with ties broken alike in all periods: they are the Delaunay cells.
 //!
 //! Where they were so before, only cells that have changed can be otherwise: of a cell that is there in one place and not in
-//! another some places have come or gone, and not all, and vertices that are not connected any more were in one that has gone.
+//! another some places have come or gone, and not all, and vertices that are not connected any more were in one that has gone,
+//! or in several at a vertex that has been removed. Vertices that have been inserted have to be connected to others.
 
 use crate::delaunay::{Dimension, IndexSet};
 use crate::error::Result;
@@ -185,24 +186,44 @@ impl Joined {
     }
 }
 
+/// What was there before a change.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Before {
+    /// Ids that vertices had been given.
+    pub(super) n_vertices: usize,
+    /// Whether the set [was plain](Inside::is_plain).
+    pub(super) is_plain: bool,
+}
+
 impl<G: Dimension> Inside<G> {
-    /// The images that are missing after moves and insertions of images, where before all was as in the repeating set.
-    pub(super) fn missing(&self, lattice: &Lattice<G>) -> Result<Needed> {
-        let is_plain = lattice.rank() == G::D && self.t.cell_count() > 0 && self.t.hidden_count() == 0;
-        if is_plain && let Some(needed) = self.missing_at_changes(lattice)? {
+    /// Whether the set repeats along all axes, and no two of its vertices share a place.
+    pub(super) fn is_plain(&self, lattice: &Lattice<G>) -> bool {
+        lattice.rank() == G::D && self.t.cell_count() > 0 && self.t.hidden_count() == 0
+    }
+
+    /// The images that are missing after changes, where before all was as in the repeating set.
+    pub(super) fn missing(&self, lattice: &Lattice<G>, before: Before) -> Result<Needed> {
+        if before.is_plain
+            && self.is_plain(lattice)
+            && let Some(needed) = self.missing_at_changes(lattice, before.n_vertices)?
+        {
             return Ok(needed);
         }
         Needed::of_all(self, lattice)
     }
 
     /// Those that are missing by the balls of cells which are not consistent; none if that does not tell.
-    fn missing_at_changes(&self, lattice: &Lattice<G>) -> Result<Option<Needed>> {
+    fn missing_at_changes(&self, lattice: &Lattice<G>, n_before: usize) -> Result<Option<Needed>> {
         let cells = self.t.cells()?;
         let Some(rows) = self.t.rows_since_taken()? else { return Ok(None) };
         let (mut removed, mut found) = (Vec::new(), Vec::new());
         for (row, created) in rows {
             let corners = row.as_ref();
-            let n_home = corners.iter().filter(|v| v.index() < self.n_home).count();
+            if corners.iter().any(|&v| self.images.of(v) == Image::GONE) {
+                // A cell of an earlier commit, which could not be taken.
+                return Ok(None);
+            }
+            let n_home = corners.iter().filter(|&&v| self.images.is_home(v)).count();
             if n_home == 0 {
                 continue;
             }
@@ -239,12 +260,18 @@ impl<G: Dimension> Inside<G> {
             let needed = needed.each_once();
             return Ok(Some(needed).filter(|needed| !needed.images.is_empty()));
         }
-        Ok(self.are_still_joined(lattice, &removed)?.then_some(needed))
+        Ok(self.are_still_joined(lattice, &removed, n_before)?.then_some(needed))
     }
 
-    /// Whether vertices of cells that have gone are joined by cells that have come.
-    fn are_still_joined(&self, lattice: &Lattice<G>, removed: &[G::Vertices]) -> Result<bool> {
-        if removed.is_empty() {
+    /// Whether vertices of cells that have gone are joined by cells that have come, and those that have come, the ones from
+    /// `n_before` on, to some that were there.
+    fn are_still_joined(
+        &self,
+        lattice: &Lattice<G>,
+        removed: &[G::Vertices],
+        n_before: usize,
+    ) -> Result<bool> {
+        if removed.is_empty() && n_before == self.images.n_vertices() {
             return Ok(true);
         }
         let Some(rows) = self.t.rows_since_taken()? else { return Ok(false) };
@@ -252,12 +279,35 @@ impl<G: Dimension> Inside<G> {
             return Ok(false);
         };
         for corners in rows.filter(|(_, created)| created.is_some()).map(|(row, _)| row.as_ref()) {
-            if corners.iter().any(|v| v.index() < self.n_home) {
+            if corners.iter().any(|v| self.images.is_home(*v)) {
                 let first = self.images.of(corners[0]);
                 corners[1..].iter().for_each(|&v| joined.join(first, self.images.of(v)));
             }
         }
+        // The first of a set has the lowest id.
+        let mut coming = VertexId::range(n_before..self.images.n_vertices());
+        if !coming.all(|vertex| joined.first(Image { vertex, shift: HOME }).vertex.index() < n_before) {
+            return Ok(false);
+        }
+        self.join_gone(&mut joined, removed)?;
         Ok(removed.iter().all(|row| joined.are_joined(row.as_ref().iter().map(|&v| self.images.of(v)))))
+    }
+
+    /// Joins each vertex that has been removed to one that stays and had a cell with it. So all that had cells with it, and so were
+    /// joined by it, are joined if each is joined to it; and if a removed one is joined to none, that is as well as not joined.
+    fn join_gone(&self, joined: &mut Joined, removed: &[G::Vertices]) -> Result<()> {
+        let mut seen = IndexSet::new();
+        let is_gone = |v: VertexId| !self.t.is_present(v);
+        for corners in removed.iter().map(|row| row.as_ref()) {
+            let Some(&stays) = corners.iter().find(|&&v| !is_gone(v)) else { continue };
+            for &v in corners.iter().filter(|&&v| is_gone(v)) {
+                let image = self.images.of(v);
+                if seen.insert(image.vertex)? {
+                    joined.join(image, self.images.of(stays));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Enters what the balls of translations of a cell that has gone ask for, as far as they are there.
@@ -268,13 +318,20 @@ impl<G: Dimension> Inside<G> {
         row: &G::Vertices,
         needed: &mut Needed,
     ) -> Result<()> {
-        for &v in row.as_ref().iter().filter(|v| v.index() >= self.n_home) {
-            let Some(row) = self.translated_home(row, v) else { continue };
+        for &v in row.as_ref().iter().filter(|v| !self.images.is_home(**v)) {
+            let Some(row) = self.translated_home(row, v).filter(|row| self.are_present(row)) else {
+                continue;
+            };
             if let Some(cell) = stars.find(self.images.home(self.images.of(v).vertex), &row)? {
                 needed.enter_cell(self, lattice, cell)?;
             }
         }
         Ok(())
+    }
+
+    /// Whether none of the corners of a cell that has gone has been removed.
+    fn are_present(&self, row: &G::Vertices) -> bool {
+        row.as_ref().iter().all(|&v| self.t.is_present(v))
     }
 
     /// What all translations of a cell have in common, and in how many places it has a vertex at home.

@@ -12,6 +12,11 @@ pub(super) struct Image {
     pub(super) shift: Shift,
 }
 
+impl Image {
+    /// What an id inside is whose vertex has been removed.
+    pub(super) const GONE: Self = Image { vertex: VertexId::NONE, shift: [i32::MIN; 3] };
+}
+
 /// The images by the ids that they have inside, and those ids by image.
 #[derive(Debug, Default)]
 pub(super) struct Images {
@@ -20,6 +25,12 @@ pub(super) struct Images {
     next: Vec<VertexId>,
     /// By vertex, the id inside of the one at home, where the list of its images begins; none for a removed vertex.
     home: Vec<VertexId>,
+    /// The ids inside that are lower than this are of vertices at home, or of none.
+    n_first: usize,
+    /// The number of vertices that are there.
+    n_present: usize,
+    /// The number of ids inside that are of none.
+    n_gone: usize,
 }
 
 impl Images {
@@ -28,14 +39,37 @@ impl Images {
         self.home.len()
     }
 
+    /// The number of vertices that are there.
+    pub(super) fn n_present(&self) -> usize {
+        self.n_present
+    }
+
+    /// The number of ids inside whose vertices have been removed.
+    pub(super) fn n_gone(&self) -> usize {
+        self.n_gone
+    }
+
     /// The number of ids inside.
     pub(super) fn len(&self) -> usize {
         self.images.len()
     }
 
-    /// All, by the ids inside.
+    /// All, by the ids inside; [`Image::GONE`] where a vertex has been removed.
     pub(super) fn as_slice(&self) -> &[Image] {
         &self.images
+    }
+
+    /// The vertices that are there, in the order of ids, each with its id inside at home. These ids ascend as well.
+    pub(super) fn homes(&self) -> impl Iterator<Item = (VertexId, VertexId)> + Clone + '_ {
+        let homes = VertexId::range(0..self.home.len()).zip(&self.home);
+        homes.filter(|&(_, &inside)| inside != VertexId::NONE).map(|(vertex, &inside)| (vertex, inside))
+    }
+
+    /// Whether a corner of a cell inside is at home.
+    #[inline(always)]
+    pub(super) fn is_home(&self, inside: VertexId) -> bool {
+        // Of those that were there when all was built it is known without a look.
+        inside.index() < self.n_first || self.images[inside].shift == HOME
     }
 
     /// Which one this is inside.
@@ -95,6 +129,8 @@ impl Images {
         let next = if image.shift == HOME {
             debug_assert_eq!(image.vertex.index(), self.home.len());
             self.home.push(inside);
+            self.n_present += 1;
+            self.n_first += usize::from(self.n_first == self.images.len());
             VertexId::NONE
         } else {
             let home = self.home[image.vertex];
@@ -104,12 +140,31 @@ impl Images {
         self.next.push(next);
     }
 
+    /// Enters an id inside whose vertex has been removed; there is room.
+    pub(super) fn push_gone(&mut self) {
+        self.n_first += usize::from(self.n_first == self.images.len());
+        self.images.push(Image::GONE);
+        self.next.push(VertexId::NONE);
+        self.n_gone += 1;
+    }
+
+    /// A vertex that is there is removed, with all of its images.
+    pub(super) fn remove(&mut self, vertex: VertexId) {
+        let mut inside = std::mem::replace(&mut self.home[vertex], VertexId::NONE);
+        self.n_present -= 1;
+        while inside != VertexId::NONE {
+            self.images[inside] = Image::GONE;
+            self.n_gone += 1;
+            inside = std::mem::replace(&mut self.next[inside], VertexId::NONE);
+        }
+    }
+
     /// Has all images with the shifts that another list of them has, which becomes what this has had.
     pub(super) fn exchange(&mut self, images: &mut Vec<Image>) {
         std::mem::swap(&mut self.images, images);
     }
 
-    /// Forgets all images but those with the lowest ids inside.
+    /// Forgets all images but those with the lowest ids inside; none of the others has been removed.
     pub(super) fn truncate(&mut self, n_inside: usize) {
         while self.images.len() > n_inside {
             let inside = VertexId::at(self.images.len() - 1);
@@ -117,6 +172,7 @@ impl Images {
             let mut before = self.home[image.vertex];
             if before == inside {
                 self.home.pop();
+                self.n_present -= 1;
             } else {
                 // Images are entered behind the first one, so the last to come is found soon.
                 while self.next[before] != inside {
@@ -127,11 +183,12 @@ impl Images {
             self.images.pop();
             self.next.pop();
         }
+        self.n_first = self.n_first.min(n_inside);
     }
 
     pub(super) fn copied(&self) -> Result<Self> {
         let (images, next) = (memory::copy_of(&self.images)?, memory::copy_of(&self.next)?);
-        Ok(Images { images, next, home: memory::copy_of(&self.home)? })
+        Ok(Images { images, next, home: memory::copy_of(&self.home)?, ..*self })
     }
 
     pub(super) fn memory_bytes(&self) -> usize {

@@ -17,6 +17,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// [`Error::DuplicateMove`] if a move of the vertex is staged; and those of
     /// [`commit_timestamp`](Self::commit_timestamp).
     pub fn relocate_vertex(&mut self, vertex: VertexId, position: &G::Point) -> Result<()> {
+        self.reject_prepared()?;
         self.position(vertex)?;
         if self.staged.moves().iter().any(|&(moving, _)| moving == vertex) {
             return Err(Error::DuplicateMove { argument: "vertex", index: 0, vertex });
@@ -26,12 +27,13 @@ impl<G: Dimension> PeriodicTriangulation<G> {
 
     /// Inserts a vertex at once; returns its id, which is one above the highest ever given.
     ///
-    /// Cost: that of a creation.
+    /// Cost: that of a commit of one edit: what it changes, and now and then, or in a small box, that of a creation.
     ///
     /// # Errors
     /// [`Error::StagedVertex`] if insertions are staged, which have that id; [`Error::NotFinite`], [`Error::OutOfRange`],
     /// [`Error::TooManyVertices`], and those of [`commit_timestamp`](Self::commit_timestamp).
     pub fn insert_vertex(&mut self, position: &G::Point) -> Result<VertexId> {
+        self.reject_prepared()?;
         if !self.staged.insertions().is_empty() {
             let vertex = VertexId::at(self.inside.images.n_vertices());
             let (argument, index, staged) = ("out_vertex", 0, StagedEdit::Insertion);
@@ -42,12 +44,13 @@ impl<G: Dimension> PeriodicTriangulation<G> {
 
     /// Removes a vertex at once, with the move or the removal staged for it, if any.
     ///
-    /// Cost: that of a creation.
+    /// Cost: that of a commit of one edit: what it changes, and now and then, or in a small box, that of a creation.
     ///
     /// # Errors
     /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`], [`Error::StagedVertex`], and those of
     /// [`commit_timestamp`](Self::commit_timestamp).
     pub fn remove_vertex(&mut self, vertex: VertexId) -> Result<()> {
+        self.reject_prepared()?;
         self.position(vertex)?;
         self.at_once(|t| t.stage_removals(&[vertex]))?;
         self.staged.forget(vertex);

@@ -117,7 +117,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         }
         let vertex = |inner| self.inside.images.of(inner).vertex;
         for (inner, shown) in self.inside.t.hidden_vertices() {
-            if inner.index() < self.inside.n_home {
+            if self.inside.images.is_home(inner) {
                 memory::push(&mut hidden, (vertex(inner), vertex(shown)))?;
             }
         }

@@ -9,10 +9,10 @@ use crate::periodic::lattice::Occupied;
 #[derive(Debug)]
 pub(super) struct Inside<G: Dimension> {
     pub(super) t: MovingTriangulation<G>,
-    /// Those at home have the first ids inside, in the order of vertices.
     pub(super) images: Images,
-    pub(super) n_home: usize,
-    /// By id inside, where each is; not of images that have come since this was written.
+    /// The number of vertices when this was built.
+    pub(super) n_built: usize,
+    /// By id inside, where each vertex at home is; also where images are that were there when this was written.
     pub(super) places: Vec<G::Point>,
     /// Room for where they go.
     pub(super) goals: Vec<G::Point>,

@@ -235,13 +235,12 @@ impl<G: Dimension> PeriodicTriangulation<G> {
 
     /// The image of a vertex at a place in the unit cell, by a look at all vertices; the one of the lowest id.
     fn at_vertex(&self, place: &G::Point) -> Option<Image> {
-        let at_home = &self.inside.images.as_slice()[..self.inside.n_home];
-        at_home.iter().zip(&self.inside.places).find_map(|(image, home)| {
-            let mut way = *place;
+        self.inside.images.homes().find_map(|(vertex, inner)| {
+            let (home, mut way) = (&self.inside.places[inner], *place);
             (0..G::D).for_each(|axis| way[axis] -= home[axis]);
             let shift = self.lattice.multiples(&way).map(|x| x.round() as i32);
             let is_there = self.lattice.translated(home, shift).as_ref() == place.as_ref();
-            is_there.then_some(Image { vertex: image.vertex, shift })
+            is_there.then_some(Image { vertex, shift })
         })
     }
 

@@ -17,7 +17,9 @@ use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::{Location, check_not_negative};
+use crate::periodic::images::Image;
 use crate::periodic::inside::all;
+use crate::periodic::lattice::HOME;
 use crate::periodic::triangulation::PeriodicTriangulation;
 use crate::predicates::{compare_distance, is_within_distance, squared_distance};
 
@@ -187,9 +189,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             || !self.flood_ball(&q, inner, is_in, &mut found)?
         {
             found.clear();
-            for image in &self.inside.images.as_slice()[..self.inside.n_home] {
-                if is_in(&self.nearest_image(&q, image.vertex)) {
-                    memory::push(&mut found, image.vertex)?;
+            for (vertex, _) in self.inside.images.homes() {
+                if is_in(&self.nearest_image(&q, vertex)) {
+                    memory::push(&mut found, vertex)?;
                 }
             }
         }
@@ -221,7 +223,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
                     memory::push(found, other)?;
                 }
             }
-            if next as f64 > MOST_OF_ALL * self.inside.n_home as f64 + 8.0 {
+            if next as f64 > MOST_OF_ALL * self.vertex_count() as f64 + 8.0 {
                 return Ok(false);
             }
         }
@@ -246,9 +248,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let mut nearest = Vec::new();
         // At a vertex there may be no cells around it, as it is on a line with all others.
         let Some(start) = start.filter(|_| self.inside.t.cell_count() > 0) else {
-            for image in &self.inside.images.as_slice()[..self.inside.n_home] {
-                if self.represented(*image)?.vertex == image.vertex {
-                    memory::push(&mut nearest, (image.vertex, self.nearest_image(q, image.vertex)))?;
+            for (vertex, _) in self.inside.images.homes() {
+                if self.represented(Image { vertex, shift: HOME })?.vertex == vertex {
+                    memory::push(&mut nearest, (vertex, self.nearest_image(q, vertex)))?;
                 }
             }
             return Ok(nearest);

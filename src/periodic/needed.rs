@@ -29,8 +29,8 @@ impl Needed {
         let mut needed = Needed::default();
         if inside.t.cell_count() == 0 {
             // All vertices are in a line or plane: only images anywhere can change that.
-            for inner in VertexId::range(0..inside.n_home) {
-                needed.enter(inside, inside.images.of(inner).vertex, lattice.all_shifts())?;
+            for (vertex, _) in inside.images.homes().filter(|&(_, inner)| inside.t.is_present(inner)) {
+                needed.enter(inside, vertex, lattice.all_shifts())?;
             }
             return Ok(needed.each_once());
         }
@@ -52,7 +52,7 @@ impl Needed {
         let mut needed = Needed::default();
         let corners = inside.t.cells()?.corners;
         for (cell, sphere) in CellId::range(range.clone()).zip(inside.t.circumspheres_in(range)?) {
-            if corners[cell].as_ref().iter().any(|v| v.index() < inside.n_home) {
+            if corners[cell].as_ref().iter().any(|v| inside.images.is_home(*v)) {
                 needed.enter_by_ball(inside, lattice, cell, sphere)?;
             }
         }
@@ -66,7 +66,7 @@ impl Needed {
         let mut needed = Needed::default();
         for (row, created) in rows {
             if let Some(cell) = created
-                && row.as_ref().iter().any(|v| v.index() < inside.n_home)
+                && row.as_ref().iter().any(|v| inside.images.is_home(*v))
             {
                 needed.enter_cell(inside, lattice, cell)?;
             }
@@ -104,7 +104,7 @@ impl Needed {
         if ranges.iter().all(|range| *range == (0..=0)) {
             return Ok(());
         }
-        for &v in cells.corners[cell].as_ref().iter().filter(|v| v.index() < inside.n_home) {
+        for &v in cells.corners[cell].as_ref().iter().filter(|v| inside.images.is_home(**v)) {
             self.enter(inside, inside.images.of(v).vertex, ranges.clone())?;
         }
         Ok(())

@@ -8,12 +8,13 @@ use crate::motion::{Algorithm, CommitReport};
 use crate::periodic::cells::{PeriodicCells, PeriodicView};
 use crate::periodic::edges::PeriodicEdges;
 use crate::periodic::lattice::Shift;
+use crate::periodic::preparing::Former;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
 impl<G: Dimension> PeriodicTriangulation<G> {
     /// The number of vertices that are there.
     pub fn vertex_count(&self) -> usize {
-        self.inside.n_home
+        self.inside.images.n_present()
     }
 
     /// The number of ids that have been given, those of staged insertions included.
@@ -23,7 +24,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
 
     /// The number of vertices that are kept in order to know the cells: those that there are, and images of some.
     pub fn image_count(&self) -> usize {
-        self.inside.images.len()
+        self.inside.images.len() - self.inside.images.n_gone()
     }
 
     /// The number of directions in which the set is periodic.
@@ -229,6 +230,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
                 .as_ref()
                 .map_or(0, |taking| taking.base.memory_bytes() + taking.lists.memory_bytes())
             + self.edges.get().map_or(0, |edges| memory::bytes_of(&edges.list))
+            + self.former.as_ref().map_or(0, Former::memory_bytes)
     }
 
     /// The cells, which the first that asks reads; several threads may do that at the same time.

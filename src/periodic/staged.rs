@@ -39,11 +39,6 @@ impl<G: Dimension> Staged<G> {
         &self.removals
     }
 
-    /// Whether nothing but moves is staged.
-    pub(super) fn are_moves(&self) -> bool {
-        self.insertions.is_empty() && self.removals.is_empty()
-    }
-
     pub(super) fn goes(&self, vertex: VertexId) -> bool {
         self.has(vertex, GOES)
     }

@@ -17,8 +17,10 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// The cost is n + m.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory); then nothing has been taken.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory), [`Error::Prepared`](crate::Error::Prepared); then nothing has been
+    /// taken.
     pub fn take_changes(&mut self) -> Result<Changes<'_, G::Vertices>> {
+        self.reject_prepared()?;
         let cells = self.read_cells()?;
         let (lists, base) = (self.list_changes(cells)?, self.base_of(cells)?);
         // From now on, each has been where it is.

@@ -9,11 +9,29 @@ use crate::random::Rng;
 use std::collections::BTreeSet;
 
 mod changes;
+mod editing;
 mod histories;
 mod keeping;
 mod locating;
 mod near;
+mod preparing;
 mod telling;
+
+/// Made anew of those vertices that are there.
+fn anew<G: Dimension>(
+    points: &[G::Point],
+    is_there: &[bool],
+    basis: &[G::Point],
+) -> PeriodicTriangulation<G> {
+    let mut t = PeriodicTriangulation::<G>::new(points, basis, Options::default()).unwrap();
+    let gone: Vec<_> = VertexId::range(0..points.len()).filter(|&v| !is_there[v.index()]).collect();
+    t.stage_removals(&gone).unwrap();
+    // As if there had been many more, so that it is built.
+    t.inside.n_built = usize::MAX / 4;
+    let report = t.commit_timestamp().unwrap();
+    assert_eq!(report.rebuilds, u64::from(!gone.is_empty()));
+    t
+}
 
 type Class = Vec<(u32, [i64; 3])>;
 

@@ -10,14 +10,16 @@ use crate::motion::{CoincidencePolicy, CommitReport, MAX_VERTICES, MovingTriangu
 use crate::periodic::cells::PeriodicCells;
 use crate::periodic::changes::Taking;
 use crate::periodic::edges::PeriodicEdges;
+use crate::periodic::editing::for_images;
 use crate::periodic::images::{Image, Images};
-use crate::periodic::inside::{Inside, all};
+use crate::periodic::inside::Inside;
 use crate::periodic::lattice::{HOME, Lattice, Occupied, ROOM};
 use crate::periodic::needed::{Needed, keys_of};
+use crate::periodic::preparing::Former;
 use crate::periodic::staged::Staged;
 
 /// Images up to so many mean distances of vertices outside of what vertices at home occupy are there from the beginning.
-const MARGIN: f64 = 1.5;
+pub(super) const MARGIN: f64 = 1.5;
 
 /// Vertices may drift so many mean distances out of the unit cell before they are taken back.
 const DRIFT: f64 = 1.0;
@@ -47,6 +49,8 @@ pub struct PeriodicTriangulation<G: Dimension> {
     /// The changes that have been taken last, if they ever were.
     pub(super) taking: Option<Taking<G>>,
     pub(super) edges: OnceLock<PeriodicEdges>,
+    /// What was at the timestamp, while another one is prepared.
+    pub(super) former: Option<Former<G>>,
 }
 
 impl<G: Dimension> PeriodicTriangulation<G> {
@@ -83,6 +87,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             cells: OnceLock::new(),
             edges: OnceLock::new(),
             taking: None,
+            former: None,
         })
     }
 }
@@ -119,19 +124,14 @@ impl<G: Dimension> Inside<G> {
         }
         images.skip_to(VertexId::at(n_ids));
         for &(vertex, place) in home {
-            let [a, b, c] = lattice.shifts_to(&place, MARGIN * spacing, &occupied);
-            for (x, y, z) in all(a, b, c) {
-                // What is occupied, translated by this, meets the ball: what takes it home takes the vertex near home.
-                let shift = [-x, -y, -z];
-                if shift != HOME {
-                    images.reserve(0, 1)?;
-                    images.push(Image { vertex, shift });
-                    memory::push(&mut places, lattice.translated(&place, shift))?;
-                }
-            }
+            for_images(lattice, &place, spacing, &occupied, &mut |shift| {
+                images.reserve(0, 1)?;
+                images.push(Image { vertex, shift });
+                memory::push(&mut places, lattice.translated(&place, shift))
+            })?;
         }
         let t = MovingTriangulation::unbuilt(options);
-        Ok(Inside { t, images, n_home: home.len(), places, goals: Vec::new(), occupied, spacing })
+        Ok(Inside { t, images, n_built: home.len(), places, goals: Vec::new(), occupied, spacing })
     }
 
     /// Triangulates the vertices and images at these places, and inserts images that are missing. After an error it can only
@@ -152,11 +152,10 @@ impl<G: Dimension> Inside<G> {
 
     /// The number of vertices that others hide.
     pub(super) fn coincident(&self) -> usize {
-        let n_home = self.n_home;
         if self.t.hidden_count() == 0 {
             return 0;
         }
-        self.t.hidden_vertices().filter(|(hidden, _)| hidden.index() < n_home).count()
+        self.t.hidden_vertices().filter(|(hidden, _)| self.images.is_home(*hidden)).count()
     }
 
     pub(super) fn memory_bytes(&self) -> usize {

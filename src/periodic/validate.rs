@@ -5,6 +5,7 @@ use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::{Level, NO_CELL, Violation};
+use crate::periodic::images::Image;
 use crate::periodic::inside::Inside;
 use crate::periodic::lattice::{HOME, Lattice};
 use crate::periodic::triangulation::PeriodicTriangulation;
@@ -59,10 +60,18 @@ impl<G: Dimension> Inside<G> {
     /// An image that is not a translation of its vertex at home, or has not its key.
     fn misplaced(&self, lattice: &Lattice<G>) -> Result<Option<VertexId>> {
         for (inner, image) in VertexId::range(0..self.images.len()).zip(self.images.as_slice()) {
-            let (place, home) = (self.t.position(inner)?, self.t.position(self.images.home(image.vertex))?);
-            let is_home_first = (image.shift == HOME) == (inner.index() < self.n_home);
-            let is_there = lattice.translated(&home, image.shift) == place;
-            if !is_home_first || !is_there || self.t.key_of_id(inner) != u64::from(image.vertex.get()) {
+            if *image == Image::GONE {
+                if self.t.is_present(inner) {
+                    return Ok(Some(inner));
+                }
+                continue;
+            }
+            let home = self.images.home(image.vertex);
+            let is_there =
+                lattice.translated(&self.t.position(home)?, image.shift) == self.t.position(inner)?;
+            let is_home =
+                (image.shift == HOME) == (home == inner) && self.images.is_home(inner) == (home == inner);
+            if !is_home || !is_there || self.t.key_of_id(inner) != u64::from(image.vertex.get()) {
                 return Ok(Some(inner));
             }
         }

@@ -57,12 +57,12 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         tell: &mut dyn FnMut(VertexId, VoronoiCell<G::Point>),
     ) -> Result<()> {
         mask.map_or(Ok(()), |mask| self.check_vertex_mask(mask.len()))?;
-        let (images, n_home) = (self.inside.images.as_slice(), self.inside.n_home);
+        let images = &self.inside.images;
         let is_wanted = |v: VertexId| mask.is_none_or(|mask| mask[v.index()] != 0);
-        let wanted = VertexId::range(0..n_home).filter(|&inside| is_wanted(images[inside].vertex));
+        let wanted = images.homes().filter(|&(vertex, _)| is_wanted(vertex)).map(|(_, inside)| inside);
         let size = self.lattice.measure().powf(1.0 / self.lattice.rank() as f64);
         self.inside.t.for_whole_voronoi_cells(wanted, size, monitor, &mut |inside, mut cell| {
-            let vertex = images[inside].vertex;
+            let vertex = images.of(inside).vertex;
             cell.centroid = self.at_position(inside, &cell.centroid);
             tell(vertex, cell);
         })?;

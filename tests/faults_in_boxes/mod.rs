@@ -19,15 +19,20 @@ enum Call {
     StageVectors,
     CommitMoves,
     CommitPositions,
+    /// So many that all is built.
     CommitEdits,
+    CommitFewEdits,
     CommitVectors,
+    Prepare,
+    PrepareAgain,
+    Withdraw,
     Cells,
     Edges,
     VoronoiVolumes,
     TakeChanges,
 }
 
-const CALLS: [Call; 13] = [
+const CALLS: [Call; 17] = [
     Call::New,
     Call::MoveVertices,
     Call::StageInsertions,
@@ -36,7 +41,11 @@ const CALLS: [Call; 13] = [
     Call::CommitMoves,
     Call::CommitPositions,
     Call::CommitEdits,
+    Call::CommitFewEdits,
     Call::CommitVectors,
+    Call::Prepare,
+    Call::PrepareAgain,
+    Call::Withdraw,
     Call::Cells,
     Call::Edges,
     Call::VoronoiVolumes,
@@ -66,8 +75,10 @@ fn bits<P: AsRef<[f64]>>(p: &P) -> Vec<u64> {
 impl<G: Dimension> Scene<G> {
     fn new(call: Call, is_read: bool) -> Self {
         let rng = &mut Rng::new(5);
-        let mut points = cloud::<G>(50, rng);
-        (points[20], points[30]) = (points[10], points[11]);
+        let mut points = cloud::<G>(60, rng);
+        if !matches!(call, Call::CommitFewEdits) {
+            (points[20], points[30]) = (points[10], points[11]);
+        }
         let mut vectors: Vec<G::Point> =
             (0..G::D).map(|j| point::<G>(|k| f64::from(u8::from(j == k)) + 0.125 * k as f64)).collect();
         let options = Options { threads: 1, ..Options::default() };
@@ -87,7 +98,18 @@ impl<G: Dimension> Scene<G> {
                 t.stage_insertions(&goals[..5]).expect("insertions");
                 t.stage_removals(&ids([7, 10, 12])).expect("removals");
             }
+            Call::CommitFewEdits => {
+                t.stage_insertions(&goals[..3]).expect("insertions");
+                t.stage_removals(&ids([7, 12])).expect("removals");
+                t.move_vertices(&ids([3, 4, 5]), &goals[3..6]).expect("moves");
+            }
             Call::CommitVectors => t.stage_vectors(&vectors).expect("vectors"),
+            Call::Prepare => t.move_first(&goals).expect("moves"),
+            Call::PrepareAgain | Call::Withdraw => {
+                t.stage_insertions(&goals[..5]).expect("insertions");
+                t.prepare_timestamp().expect("a round");
+                t.move_vertices(&ids([3, 4, 5]), &goals[3..6]).expect("moves");
+            }
             _ => {}
         }
         Scene { t, goals, vectors }
@@ -110,9 +132,18 @@ impl<G: Dimension> Scene<G> {
             Call::StageRemovals => given(t.stage_removals(&ids([7, 10, 12]))).map(|()| 0)?,
             Call::StageVectors => given(t.stage_vectors(vectors)).map(|()| 0)?,
             Call::CommitPositions => given(t.commit_positions(goals))?.moved,
-            Call::CommitMoves | Call::CommitEdits | Call::CommitVectors => {
+            Call::CommitMoves | Call::CommitEdits | Call::CommitFewEdits | Call::CommitVectors => {
                 let report = given(t.commit_timestamp())?;
                 report.moved + 100 * report.inserted + 10_000 * report.removed
+            }
+            Call::Prepare | Call::PrepareAgain => {
+                let report = given(t.prepare_timestamp())?;
+                report.moved + 100 * report.inserted + 10_000 * report.timestamp
+            }
+            Call::Withdraw => {
+                t.withdraw_timestamp();
+                disarm();
+                t.timestamp()
             }
             Call::TakeChanges => {
                 let changes = given(t.take_changes())?;
@@ -147,6 +178,10 @@ impl<G: Dimension> Scene<G> {
     /// What is to be seen after what is staged as well.
     fn finish(&mut self) -> [State; 2] {
         let now = self.state();
+        match self.t.publish_timestamp() {
+            Ok(_) | Err(Error::NotPrepared) => {}
+            Err(error) => panic!("{error}"),
+        }
         self.t.commit_timestamp().expect("a commit");
         [now, self.state()]
     }
@@ -166,6 +201,9 @@ fn faults_of<G: Dimension>(faults: &mut Faults<'_>, call: Call, is_read: bool) {
         page.requests = REQUESTS.load(Relaxed);
         page.outcome = Outcome::Untouched;
     });
+    if matches!(call, Call::Withdraw) {
+        assert_eq!(faults.page.requests, 0, "{name}: it asks for memory");
+    }
     let stride = faults.page.requests.div_ceil(faults.most).max(1);
     for (round, k) in (0..).step_by(stride).enumerate().take(4 * faults.most) {
         let goes_on = round % 3 == 2;

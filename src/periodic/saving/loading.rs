@@ -86,9 +86,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             shift.iter_mut().zip(&row[1..]).for_each(|(n, bytes)| *n = i32::from_le_bytes(*bytes));
             images.push(Image { vertex: VertexId::new(u32::from_le_bytes(row[0])), shift });
         }
-        let (images, n_home) = images_of(&lattice, &images, header.ids)?;
+        let images = images_of(&lattice, &images, header.ids)?;
         let t = inside_of(&reader.0[..header.inside_bytes], &images, options)?;
-        let inside = placed(&lattice, t, images, n_home)?;
+        let inside = placed(&lattice, t, images)?;
         check_wraps(&lattice, &inside, &wraps)?;
         if !inside.is_complete(&lattice)? {
             return Err(Damage::NoImages.into());
@@ -107,6 +107,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             cells,
             edges,
             taking,
+            former: None,
         };
         t.stage_saved(header, &waiting)?;
         Ok(t)
@@ -166,26 +167,24 @@ fn of_staged(error: Error) -> LoadError {
     }
 }
 
-/// What each vertex inside is, and how many of them are at home: those come first, in the order of vertices.
+/// What each vertex inside is. Those at home are in the order of vertices, and each comes before its images.
 fn images_of<G: Dimension>(
     lattice: &Lattice<G>,
     listed: &[Image],
     n_ids: usize,
-) -> Result<(Images, usize), LoadError> {
-    let n_home = listed.iter().take_while(|image| image.shift == HOME).count();
+) -> Result<Images, LoadError> {
     let mut images = Images::default();
     images.reserve(n_ids, listed.len())?;
     for (index, &image) in listed.iter().enumerate() {
-        if index == n_home {
-            images.skip_to(VertexId::at(n_ids));
-        }
         let Image { vertex, shift } = image;
-        let is_known = vertex.index() < n_ids;
-        let is_right = if index < n_home {
-            is_known && vertex.index() >= images.n_vertices()
+        if vertex == VertexId::NONE && shift == HOME {
+            images.push_gone();
+            continue;
+        }
+        let is_right = if shift == HOME {
+            vertex.index() < n_ids && vertex.index() >= images.n_vertices()
         } else {
-            is_known
-                && shift != HOME
+            vertex.index() < images.n_vertices()
                 && lattice.may_need(shift)
                 && images.home(vertex) != VertexId::NONE
                 && images.find(vertex, shift) == VertexId::NONE
@@ -193,16 +192,17 @@ fn images_of<G: Dimension>(
         if !is_right {
             return Err(Damage::Image { inside: VertexId::at(index), vertex }.into());
         }
-        if index < n_home {
+        if shift == HOME {
             images.skip_to(vertex);
         }
         images.push(image);
     }
     images.skip_to(VertexId::at(n_ids));
-    Ok((images, n_home))
+    Ok(images)
 }
 
-/// What is inside, of its own bytes: the images with the keys of their vertices, and nothing else.
+/// What is inside, of its own bytes: the images with the keys of their vertices, ids of vertices that have been removed, and
+/// nothing else.
 fn inside_of<G: Dimension>(
     data: &[u8],
     images: &Images,
@@ -214,8 +214,12 @@ fn inside_of<G: Dimension>(
     }
     let t = MovingTriangulation::<G>::load(&saved, options)?;
     for (inside, image) in VertexId::range(0..images.len()).zip(images.as_slice()) {
-        let key = u64::from(image.vertex.get());
-        if !t.is_present(inside) || t.key_of_id(inside) != key {
+        let is_right = if *image == Image::GONE {
+            !t.is_present(inside)
+        } else {
+            t.is_present(inside) && t.key_of_id(inside) == u64::from(image.vertex.get())
+        };
+        if !is_right {
             return Err(Damage::Image { inside, vertex: image.vertex }.into());
         }
     }
@@ -227,14 +231,17 @@ fn placed<G: Dimension>(
     lattice: &Lattice<G>,
     mut t: MovingTriangulation<G>,
     images: Images,
-    n_home: usize,
 ) -> Result<Inside<G>, LoadError> {
     let (mut places, mut home, mut occupied) = (Vec::new(), Vec::new(), Occupied::NOTHING);
     memory::reserve_exact(&mut places, images.len())?;
-    memory::reserve_exact(&mut home, n_home)?;
+    memory::reserve_exact(&mut home, images.n_present())?;
     for (inside, image) in VertexId::range(0..images.len()).zip(images.as_slice()) {
+        if *image == Image::GONE {
+            places.push(G::Point::default());
+            continue;
+        }
         let place = t.position(inside)?;
-        let is_right = if inside.index() < n_home {
+        let is_right = if image.shift == HOME {
             home.push((image.vertex, place));
             occupied.enter(&lattice.multiples(&place));
             lattice.has_at_home(&place)
@@ -249,7 +256,7 @@ fn placed<G: Dimension>(
     }
     let spacing = spacing(lattice, &home);
     t.begin_changes()?;
-    Ok(Inside { t, images, n_home, places, goals: Vec::new(), occupied, spacing })
+    Ok(Inside { t, n_built: images.n_present(), images, places, goals: Vec::new(), occupied, spacing })
 }
 
 /// Checks by which translations vertices have come home.

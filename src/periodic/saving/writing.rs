@@ -5,6 +5,8 @@ use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::Chunks;
+use crate::periodic::images::Image;
+use crate::periodic::lattice::HOME;
 use crate::periodic::saving::header::Header;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
@@ -34,8 +36,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// Cost: a pass over what is saved, images included.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`], before the first byte; and those of `put`, with which it ends.
+    /// [`Error::OutOfMemory`] and [`Error::Prepared`], before the first byte; and those of `put`, with which it ends.
     pub fn save<E: From<Error>>(&self, mut put: impl FnMut(&[u8]) -> Result<(), E>) -> Result<(), E> {
+        self.reject_prepared()?;
         // What is inside needs memory for its cells when it is written, unless that has been asked for.
         self.inside.t.cells()?;
         let mut checksum = crc32fast::Hasher::new();
@@ -58,7 +61,8 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         chunks.numbers(VertexId::numbers_of(self.staged.removals()))?;
         for image in self.inside.images.as_slice() {
             chunks.numbers(&[image.vertex.get()])?;
-            image.shift[..rank].iter().try_for_each(|n| chunks.write(n.to_le_bytes()))?;
+            let shift = if *image == Image::GONE { HOME } else { image.shift };
+            shift[..rank].iter().try_for_each(|n| chunks.write(n.to_le_bytes()))?;
         }
         self.inside.t.save(|bytes| chunks.append(bytes))?;
         chunks.end()?;

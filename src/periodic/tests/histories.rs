@@ -73,10 +73,7 @@ fn history<G: Dimension>(seed: u64, basis: &[G::Point], n: usize) {
                 "seed {seed}, step {step}"
             );
         }
-        let mut fresh = PeriodicTriangulation::<G>::new(&points, &basis, Options::default()).unwrap();
-        let gone: Vec<_> = VertexId::range(0..points.len()).filter(|&v| !is_there[v.index()]).collect();
-        fresh.stage_removals(&gone).unwrap();
-        fresh.commit_timestamp().unwrap();
+        let fresh = anew::<G>(&points, &is_there, &basis);
         let expected = classes(&fresh, &points, &basis);
         assert_eq!(classes(&t, &points, &basis), expected, "seed {seed}, step {step}");
         assert_eq!(t.timestamp(), step + 1);

@@ -9,9 +9,9 @@ use crate::periodic::inside::Inside;
 use crate::periodic::lattice::{HOME, Lattice, Occupied};
 use crate::periodic::needed::keys_of;
 
-type Loaded<G> = Result<PeriodicTriangulation<G>, LoadError>;
+pub(super) type Loaded<G> = Result<PeriodicTriangulation<G>, LoadError>;
 
-fn load<G: Dimension>(bytes: &[u8]) -> Loaded<G> {
+pub(super) fn load<G: Dimension>(bytes: &[u8]) -> Loaded<G> {
     PeriodicTriangulation::load(&SavedPeriodic::of(bytes)?, Options::default())
 }
 
@@ -265,7 +265,8 @@ fn what_is_wrong_in_data_is_told() {
     let moves = periods + 16 * t.inside.images.n_vertices();
     let removals = moves + 4 * t.staged_count();
     let images = removals + 4 * t.staged_edits().1;
-    let far = images + 12 * t.inside.n_home;
+    let is_image = |image: &Image| image.shift != HOME && *image != Image::GONE;
+    let far = images + 12 * t.inside.images.as_slice().iter().position(is_image).unwrap();
     let nan = &[0, 0, 0, 0, 0, 0, 0xf8, 0x7f];
     let cases: [Case; 16] = [
         ("version 4", 8, &[3], |d| matches!(d, Damage::Periodic { is_periodic: false })),
@@ -310,8 +311,8 @@ fn with_images(shifts: &[[i32; 2]]) -> PeriodicTriangulation<Plane> {
     occupied.enter(&[0.5, 0.5, 0.0]);
     let keys = keys_of(images.as_slice()).unwrap();
     let inside = MovingTriangulation::with_keys(&places, &keys, Options::default()).unwrap();
-    let (spacing, n_home) = (t.inside.spacing, 1);
-    t.inside = Inside { t: inside, images, n_home, places, goals: Vec::new(), occupied, spacing };
+    let (spacing, n_built) = (t.inside.spacing, 1);
+    t.inside = Inside { t: inside, images, n_built, places, goals: Vec::new(), occupied, spacing };
     t
 }
 

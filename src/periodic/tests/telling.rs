@@ -122,7 +122,7 @@ fn what_is_wrong_is_found() {
     assert!(message(t, Level::Structure).contains("is not where the vectors take it"));
     // One that has gone: nothing inside is wrong.
     let mut t = made();
-    let n = t.inside.n_home;
+    let n = t.vertex_count();
     let home: Vec<[f64; 2]> = t.inside.places[..n].to_vec();
     let keys: Vec<u64> =
         t.inside.images.as_slice()[..n].iter().map(|image| image.vertex.get().into()).collect();

@@ -102,13 +102,13 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// Visits the edges of each vertex of the first `n` ids to vertices of higher ids, with a cell of each, in lexicographic
-    /// order.
-    pub(crate) fn for_edges_of_first(
+    /// Visits the edges of each of these vertices to vertices of higher ids, with a cell of each; those of one vertex in the
+    /// order of ids.
+    pub(crate) fn for_edges_of(
         &self,
-        n: usize,
+        vertices: impl Iterator<Item = VertexId>,
         visit: impl FnMut([VertexId; 2], CellId) -> Result<()>,
     ) -> Result<()> {
-        self.for_edges(VertexId::range(0..n), visit).map(drop)
+        self.for_edges(vertices, visit).map(drop)
     }
 }
