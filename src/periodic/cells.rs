@@ -26,11 +26,11 @@ pub struct PeriodicView<'t, G: Dimension> {
 #[derive(Debug)]
 pub(super) struct PeriodicCells<G: Dimension> {
     pub(super) corners: Vec<G::Vertices>,
-    /// By cell and corner, D + 1 for each cell, the shift of the vertex from home.
-    pub(super) shifts: Vec<Shift>,
+    /// By cell and corner, the shift of the vertex from home.
+    pub(super) shifts: Shifts,
     pub(super) neighbours: Vec<G::Neighbours>,
     /// By cell and corner, the shift of the neighbour from where its least vertex is at home.
-    pub(super) neighbour_shifts: Vec<Shift>,
+    pub(super) neighbour_shifts: Shifts,
     /// Which corner is the least.
     pub(super) least: Vec<u8>,
     /// By cell, the one inside that has its least vertex at home.
@@ -39,6 +39,63 @@ pub(super) struct PeriodicCells<G: Dimension> {
     pub(super) class_of: Vec<CellId>,
     /// By cell, the index that it had when changes were last taken; none where they never were.
     pub(super) origins: Vec<CellId>,
+}
+
+/// Shifts by cell and corner. Most cells are far from the sides, and have none.
+#[derive(Debug, Default)]
+pub(super) struct Shifts {
+    /// By cell, which of the rows it has; [`Shifts::NOWHERE`] where all of it is nothing.
+    row_of: Vec<u32>,
+    /// Of a cell of the plane the last entry is nothing.
+    rows: Vec<[Shift; 4]>,
+}
+
+impl Shifts {
+    const NOWHERE: u32 = u32::MAX;
+
+    /// Those of a cell.
+    #[inline(always)]
+    pub(super) fn of(&self, cell: usize) -> &[Shift; 4] {
+        match self.row_of[cell] {
+            Self::NOWHERE => &[HOME; 4],
+            row => &self.rows[row as usize],
+        }
+    }
+
+    /// Whether all of a cell are nothing.
+    fn are_home(&self, cell: usize) -> bool {
+        self.row_of[cell] == Self::NOWHERE
+    }
+
+    /// Makes room for so many cells.
+    fn reserve(&mut self, n: usize) -> Result<()> {
+        memory::reserve(&mut self.row_of, n)
+    }
+
+    /// The next cell has none.
+    fn push_home(&mut self) -> Result<()> {
+        memory::push(&mut self.row_of, Self::NOWHERE)
+    }
+
+    /// Enters those of the next cell.
+    fn push(&mut self, row: [Shift; 4]) -> Result<()> {
+        if row == [HOME; 4] {
+            return self.push_home();
+        }
+        memory::push(&mut self.row_of, self.rows.len() as u32)?;
+        memory::push(&mut self.rows, row)
+    }
+
+    /// Those of the cells in this order.
+    pub(super) fn reordered(self, order: &[CellId]) -> Result<Self> {
+        let mut row_of = Vec::new();
+        memory::collect(&mut row_of, order.iter().map(|&cell| self.row_of[cell.index()]))?;
+        Ok(Shifts { row_of, rows: self.rows })
+    }
+
+    fn memory_bytes(&self) -> usize {
+        memory::bytes_of(&self.row_of) + memory::bytes_of(&self.rows)
+    }
 }
 
 /// The corners of a cell inside, in order.
@@ -96,9 +153,9 @@ impl<G: Dimension> PeriodicCells<G> {
     pub(super) fn none() -> Self {
         PeriodicCells {
             corners: Vec::new(),
-            shifts: Vec::new(),
+            shifts: Shifts::default(),
             neighbours: Vec::new(),
-            neighbour_shifts: Vec::new(),
+            neighbour_shifts: Shifts::default(),
             least: Vec::new(),
             chosen: Vec::new(),
             class_of: Vec::new(),
@@ -124,48 +181,59 @@ impl<G: Dimension> PeriodicCells<G> {
                 memory::reserve_map(&mut straddling, 1)?;
                 straddling.insert(key_of(row_of(row)), cell);
             }
-            let least = inside.least(row)?;
-            let image = inside.images.of(row.as_ref()[least]);
-            if image.shift == HOME {
+            let is_at_home = n_home > G::D;
+            let least = if is_at_home { first_of(row.as_ref()) } else { inside.least(row)? };
+            let shift = if is_at_home { HOME } else { inside.images.of(row.as_ref()[least]).shift };
+            if shift == HOME {
                 read.class_of[cell] = CellId::at(read.corners.len());
-                read.push(inside, row, least)?;
+                read.push(inside, row, least, is_at_home)?;
                 memory::push(&mut read.chosen, cell)?;
             } else {
-                memory::push(&mut others, (cell, image.shift))?;
+                memory::push(&mut others, (cell, shift))?;
             }
         }
         let finder = Finder { inside, cells, straddling };
-        for (cell, shift) in others {
-            read.class_of[cell] = read.class_of[finder.translated(cell, shift)];
-        }
         memory::reserve_exact(&mut read.neighbours, read.chosen.len())?;
-        memory::reserve_exact(&mut read.neighbour_shifts, read.chosen.len() * (G::D + 1))?;
-        for &cell in &read.chosen {
-            let is_at_home = inside.is_at_home(&cells.corners[cell]);
-            let mut row = G::Neighbours::filled(NO_CELL);
+        read.neighbour_shifts.reserve(read.chosen.len())?;
+        for (index, &cell) in read.chosen.iter().enumerate() {
+            let is_at_home = read.shifts.are_home(index);
+            let (mut row, mut shifts) = (G::Neighbours::filled(NO_CELL), None);
             for i in 0..=G::D {
                 let beside = cells.neighbours[cell].as_ref()[i];
+                // So far those that have been chosen alone have a class.
                 let class = if is_at_home && beside != NO_CELL { read.class_of[beside] } else { NO_CELL };
-                let (class, shift) = if class != NO_CELL && read.chosen[class] == beside {
-                    (class, HOME)
-                } else {
-                    let found = finder.across(cell, i)?;
-                    found.map_or((NO_CELL, HOME), |(cell, shift)| (read.class_of[cell], shift))
-                };
                 row[i] = class;
-                read.neighbour_shifts.push(shift);
+                if class == NO_CELL
+                    && let Some((other, shift)) = finder.across(cell, i)?
+                {
+                    row[i] = read.class_of[other];
+                    shifts.get_or_insert([HOME; 4])[i] = shift;
+                }
             }
             read.neighbours.push(row);
+            match shifts {
+                None => read.neighbour_shifts.push_home()?,
+                Some(shifts) => read.neighbour_shifts.push(shifts)?,
+            }
+        }
+        for (cell, shift) in others {
+            read.class_of[cell] = read.class_of[finder.translated(cell, shift)];
         }
         Ok(read)
     }
 
-    fn push(&mut self, inside: &Inside<G>, row: &G::Vertices, least: usize) -> Result<()> {
+    fn push(&mut self, inside: &Inside<G>, row: &G::Vertices, least: usize, is_at_home: bool) -> Result<()> {
         let mut corners = *row;
         for i in 0..=G::D {
-            let image = inside.images.of(row.as_ref()[i]);
-            corners[i] = image.vertex;
-            memory::push(&mut self.shifts, image.shift)?;
+            corners[i] = inside.images.vertex(row.as_ref()[i]);
+        }
+        if is_at_home {
+            self.shifts.push_home()?;
+        } else {
+            let mut shifts = [HOME; 4];
+            let of_corners = row.as_ref().iter().map(|&inner| inside.images.of(inner).shift);
+            shifts.iter_mut().zip(of_corners).for_each(|(entry, shift)| *entry = shift);
+            self.shifts.push(shifts)?;
         }
         memory::push(&mut self.least, least as u8)?;
         memory::push(&mut self.corners, corners)
@@ -173,9 +241,9 @@ impl<G: Dimension> PeriodicCells<G> {
 
     pub(super) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.corners)
-            + memory::bytes_of(&self.shifts)
+            + self.shifts.memory_bytes()
             + memory::bytes_of(&self.neighbours)
-            + memory::bytes_of(&self.neighbour_shifts)
+            + self.neighbour_shifts.memory_bytes()
             + memory::bytes_of(&self.least)
             + memory::bytes_of(&self.chosen)
             + memory::bytes_of(&self.class_of)
@@ -244,6 +312,12 @@ impl<G: Dimension> Finder<'_, G> {
     }
 }
 
+/// Which corner is the least of a cell with all at home, as vertices there are in the order of their ids inside.
+#[inline(always)]
+fn first_of(row: &[VertexId]) -> usize {
+    (1..row.len()).fold(0, |least, i| if row[i] < row[least] { i } else { least })
+}
+
 impl<G: Dimension> Inside<G> {
     /// Whether all corners of a cell are at home.
     fn is_at_home(&self, row: &G::Vertices) -> bool {
@@ -254,9 +328,7 @@ impl<G: Dimension> Inside<G> {
     pub(super) fn least(&self, row: &G::Vertices) -> Result<usize> {
         let (is_at_home, row) = (self.is_at_home(row), row.as_ref());
         if is_at_home {
-            // Vertices at home are in the order of vertices.
-            let least = (1..row.len()).fold(0, |least, i| if row[i] < row[least] { i } else { least });
-            return Ok(least);
+            return Ok(first_of(row));
         }
         let mut least = 0;
         for i in 1..row.len() {

@@ -140,22 +140,16 @@ impl<G: Dimension> PeriodicCells<G> {
         memory::lengthen(&mut index_of, n, NO_CELL)?;
         CellId::range(0..n).zip(order).for_each(|(index, &cell)| index_of[cell] = index);
         let new = |cell: CellId| if cell == NO_CELL { NO_CELL } else { index_of[cell] };
-        let rows = |of: &Vec<[i32; 3]>| {
-            let mut made = Vec::new();
-            memory::reserve_exact(&mut made, of.len())?;
-            order.iter().for_each(|&cell| made.extend_from_slice(&of[cell.index() * (G::D + 1)..][..=G::D]));
-            Ok(made)
-        };
         let mut made = PeriodicCells::<G>::none();
         memory::collect(&mut made.corners, order.iter().map(|&cell| self.corners[cell]))?;
-        made.shifts = rows(&self.shifts)?;
+        made.shifts = self.shifts.reordered(order)?;
         let neighbours = order.iter().map(|&cell| {
             let mut row = self.neighbours[cell];
             row.as_mut().iter_mut().for_each(|cell| *cell = new(*cell));
             row
         });
         memory::collect(&mut made.neighbours, neighbours)?;
-        made.neighbour_shifts = rows(&self.neighbour_shifts)?;
+        made.neighbour_shifts = self.neighbour_shifts.reordered(order)?;
         memory::collect(&mut made.least, order.iter().map(|&cell| self.least[cell.index()]))?;
         memory::collect(&mut made.chosen, order.iter().map(|&cell| self.chosen[cell]))?;
         memory::collect(&mut made.class_of, self.class_of.iter().map(|&cell| new(cell)))?;

@@ -40,7 +40,7 @@ impl<'t, G: Dimension> Periods<'t, G> {
             let (cell, corner) = (index / n, index % n);
             let row = cells.corners[cell].as_ref();
             let wrap = t.wraps[row[usize::from(cells.least[cell])]];
-            let from_home = [0, 1, 2].map(|j| i64::from(cells.shifts[index][j]) + wrap[j]);
+            let from_home = [0, 1, 2].map(|j| i64::from(cells.shifts.of(cell)[corner][j]) + wrap[j]);
             corners.push(Corner { vertex: row[corner], shift, index, from_home });
         }
         let mut is_corner = Vec::new();

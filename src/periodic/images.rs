@@ -27,6 +27,8 @@ pub(super) struct Images {
     home: Vec<VertexId>,
     /// The ids inside that are lower than this are of vertices at home, or of none.
     n_first: usize,
+    /// The ids inside that are lower than this are those of the vertices themselves, or of none.
+    n_same: usize,
     /// The number of vertices that are there.
     n_present: usize,
     /// The number of ids inside that are of none.
@@ -76,6 +78,12 @@ impl Images {
     #[inline(always)]
     pub(super) fn of(&self, inside: VertexId) -> Image {
         self.images[inside]
+    }
+
+    /// Of which vertex a corner of a cell inside is an image.
+    #[inline(always)]
+    pub(super) fn vertex(&self, inside: VertexId) -> VertexId {
+        if inside.index() < self.n_same { inside } else { self.images[inside].vertex }
     }
 
     /// A vertex at home, as it is known inside; none for a removed vertex.
@@ -130,7 +138,9 @@ impl Images {
             debug_assert_eq!(image.vertex.index(), self.home.len());
             self.home.push(inside);
             self.n_present += 1;
-            self.n_first += usize::from(self.n_first == self.images.len());
+            let n = self.images.len();
+            self.n_first += usize::from(self.n_first == n);
+            self.n_same += usize::from(self.n_same == n && image.vertex.index() == n);
             VertexId::NONE
         } else {
             let home = self.home[image.vertex];
@@ -184,6 +194,7 @@ impl Images {
             self.next.pop();
         }
         self.n_first = self.n_first.min(n_inside);
+        self.n_same = self.n_same.min(n_inside);
     }
 
     pub(super) fn copied(&self) -> Result<Self> {

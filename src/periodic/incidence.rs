@@ -161,11 +161,11 @@ fn mirror<G: Dimension>(cells: &PeriodicCells<G>, cell: usize, corner: usize) ->
         return NO_CORNER;
     }
     let n = G::D + 1;
-    let by = cells.neighbour_shifts[cell * n + corner];
+    let by = cells.neighbour_shifts.of(cell)[corner];
     let (row, others) = (cells.corners[cell].as_ref(), cells.corners[across].as_ref());
     let is_shared = |k: usize| {
-        let shift = [0, 1, 2].map(|j| cells.shifts[across.index() * n + k][j] + by[j]);
-        (0..n).any(|i| i != corner && row[i] == others[k] && cells.shifts[cell * n + i] == shift)
+        let shift = [0, 1, 2].map(|j| cells.shifts.of(across.index())[k][j] + by[j]);
+        (0..n).any(|i| i != corner && row[i] == others[k] && cells.shifts.of(cell)[i] == shift)
     };
     (0..n).find(|&k| !is_shared(k)).map_or(NO_CORNER, |k| k as u8)
 }

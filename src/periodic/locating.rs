@@ -224,7 +224,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// The corners of a cell of the repeating set, and where they are.
     pub(super) fn corners_of(&self, cells: &PeriodicCells<G>, (class, by): Placed) -> [(Image, G::Point); 4] {
         let mut corners = [(Image { vertex: VertexId::NONE, shift: HOME }, G::Point::default()); 4];
-        let shifts = &cells.shifts[class.index() * (G::D + 1)..];
+        let shifts = cells.shifts.of(class.index());
         for (i, &vertex) in cells.corners[class].as_ref().iter().enumerate() {
             let shift = plus(shifts[i], by);
             let home = &self.inside.places[self.inside.images.home(vertex)];
@@ -323,7 +323,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
 /// The cell beyond the facet of one that is opposite a corner; none on the hull.
 fn across<G: Dimension>(cells: &PeriodicCells<G>, (class, by): Placed, i: usize) -> Option<Placed> {
     let next = cells.neighbours[class].as_ref()[i];
-    (next != NO_CELL).then(|| (next, plus(cells.neighbour_shifts[class.index() * (G::D + 1) + i], by)))
+    (next != NO_CELL).then(|| (next, plus(cells.neighbour_shifts.of(class.index())[i], by)))
 }
 
 fn location_of(spot: Spot) -> Location {

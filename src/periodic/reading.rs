@@ -162,10 +162,10 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     pub fn cell_shifts(&self) -> Result<impl ExactSizeIterator<Item = [i64; 3]> + '_> {
         let cells = self.read_cells()?;
         let n = G::D + 1;
-        Ok((0..cells.shifts.len()).map(move |k| {
+        Ok((0..n * cells.corners.len()).map(move |k| {
             let (cell, corner) = (k / n, k % n);
             let vertex = cells.corners[cell].as_ref()[corner];
-            self.given(self.least_of(cells, cell), vertex, cells.shifts[k])
+            self.given(self.least_of(cells, cell), vertex, cells.shifts.of(cell)[corner])
         }))
     }
 
@@ -177,14 +177,14 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     pub fn neighbour_shifts(&self) -> Result<impl ExactSizeIterator<Item = [i64; 3]> + '_> {
         let cells = self.read_cells()?;
         let n = G::D + 1;
-        Ok((0..cells.neighbour_shifts.len()).map(move |k| {
+        Ok((0..n * cells.corners.len()).map(move |k| {
             let (cell, corner) = (k / n, k % n);
             let across = cells.neighbours[cell].as_ref()[corner];
             if across == crate::motion::NO_CELL {
                 return [0; 3];
             }
             let from = self.least_of(cells, cell);
-            self.given(from, self.least_of(cells, across.index()), cells.neighbour_shifts[k])
+            self.given(from, self.least_of(cells, across.index()), cells.neighbour_shifts.of(cell)[corner])
         }))
     }
 

@@ -57,7 +57,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let mut name = [(VertexId::NONE, [0; 3]); 4];
         let row = cells.corners[cell].as_ref();
         for (i, (entry, &v)) in name.iter_mut().zip(row).enumerate() {
-            *entry = (v, self.given(from, v, cells.shifts[cell * (G::D + 1) + i]));
+            *entry = (v, self.given(from, v, cells.shifts.of(cell)[i]));
         }
         let name_of_all = &mut name[..=G::D];
         name_of_all.sort_unstable();

@@ -16,6 +16,7 @@ mod locating;
 mod near;
 mod preparing;
 mod telling;
+mod times;
 
 /// Made anew of those vertices that are there.
 fn anew<G: Dimension>(
@@ -410,59 +411,4 @@ fn a_commit_that_is_cancelled_has_no_effect() {
     left.store(u64::MAX, Relaxed);
     let fresh = PeriodicTriangulation::<Plane>::new(&goals, &basis, Options::default()).unwrap();
     assert!(classes(&t, &goals, &basis) == classes(&fresh, &goals, &basis));
-}
-
-/// What a build and a commit take, beside those of as many vertices in the open.
-#[test]
-#[ignore = "prints times"]
-fn times() {
-    fn go<G: Dimension>(n: usize, basis: &[G::Point]) {
-        use std::time::Instant;
-        let rng = &mut Rng::new(1);
-        let mut points = random_points::<G>(rng, n, basis);
-        let start = Instant::now();
-        let mut open = MovingTriangulation::<G>::new(&points, Options::default()).unwrap();
-        open.cells().unwrap();
-        let open_build = start.elapsed().as_secs_f64();
-        let start = Instant::now();
-        let mut t = PeriodicTriangulation::<G>::new(&points, basis, Options::default()).unwrap();
-        let build = start.elapsed().as_secs_f64();
-        let start = Instant::now();
-        t.cell_count().unwrap();
-        let cells = start.elapsed().as_secs_f64();
-        println!(
-            "{}D, {n}: build {:.1} ms, open {:.1} ms, cells {:.1} ms, {} images, {} cells, open {}",
-            G::D,
-            1e3 * build,
-            1e3 * open_build,
-            1e3 * cells,
-            t.image_count(),
-            t.cell_count().unwrap(),
-            open.cell_count()
-        );
-        let spacing = (n as f64).powf(-1.0 / G::D as f64);
-        for share in [1e-4, 1e-3, 1e-2] {
-            for _ in 0..3 {
-                for p in &mut points {
-                    for axis in 0..G::D {
-                        p[axis] += share * spacing * (rng.below(2001) as f64 / 1000.0 - 1.0);
-                    }
-                }
-                let start = Instant::now();
-                open.commit_positions(&points).unwrap();
-                let open_commit = start.elapsed().as_secs_f64();
-                let start = Instant::now();
-                t.commit_positions(&points).unwrap();
-                println!(
-                    "  {share}: {:.2} ms, open {:.2} ms, {} images",
-                    1e3 * start.elapsed().as_secs_f64(),
-                    1e3 * open_commit,
-                    t.image_count()
-                );
-            }
-        }
-    }
-    go::<Plane>(100_000, &[[1.0, 0.0], [0.0, 1.0]]);
-    go::<Space>(100_000, &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
-    go::<Space>(100_000, &[[1.0, 0.0, 0.0], [0.5, 1.0, 0.0], [0.25, -0.375, 1.0]]);
 }

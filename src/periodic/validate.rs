@@ -50,7 +50,8 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         memory::lengthen(&mut counts, cells.corners.len(), 0usize)?;
         cells.class_of.iter().filter(|&&class| class != NO_CELL).for_each(|&class| counts[class] += 1);
         let n = G::D + 1;
-        Ok(counts.iter().zip(cells.shifts.chunks_exact(n)).position(|(&count, shifts)| {
+        Ok(counts.iter().enumerate().position(|(cell, &count)| {
+            let shifts = cells.shifts.of(cell);
             count != (0..n).filter(|&i| !shifts[..i].contains(&shifts[i])).count()
         }))
     }

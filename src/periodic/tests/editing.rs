@@ -98,39 +98,3 @@ fn vertices_come_and_go_as_in_what_is_made_anew() {
         edited::<Space>(seed, 120, &[[1.0, 0.0, 0.0], [0.5, 1.0, 0.0]]);
     }
 }
-
-/// What edits cost, and commits with edits and moves of all.
-#[test]
-#[ignore = "prints times"]
-fn times_of_edits() {
-    fn go<G: Dimension>(n: usize, basis: &[G::Point]) {
-        use std::time::Instant;
-        let rng = &mut Rng::new(1);
-        let mut points = random_points::<G>(rng, n, basis);
-        let mut t = PeriodicTriangulation::<G>::new(&points, basis, Options::default()).unwrap();
-        let mut open = MovingTriangulation::<G>::new(&points, Options::default()).unwrap();
-        for count in [1, 1, 10, 100, 1000, n / 25, n / 12] {
-            let (coming, n_ids) = (random_points::<G>(rng, count, basis), points.len());
-            points.extend(&coming);
-            // Ids of none may be among these, but no vertex twice.
-            let going: Vec<VertexId> =
-                (0..count).map(|k| VertexId::at(k * (n_ids / count))).filter(|&v| t.is_present(v)).collect();
-            let timed = |commit: &mut dyn FnMut()| {
-                let start = Instant::now();
-                commit();
-                1e3 * start.elapsed().as_secs_f64()
-            };
-            t.stage_insertions(&coming).unwrap();
-            t.stage_removals(&going).unwrap();
-            open.stage_insertions(&coming).unwrap();
-            open.stage_removals(&going).unwrap();
-            let mut report = None;
-            let here = timed(&mut || report = Some(t.commit_timestamp().unwrap()));
-            let there = timed(&mut || drop(open.commit_timestamp().unwrap()));
-            let builds = report.unwrap().rebuilds;
-            println!("{}D, {count} come and go: {here:.2} ms, {builds} builds, open {there:.2} ms", G::D);
-        }
-    }
-    go::<Plane>(100_000, &[[1.0, 0.0], [0.0, 1.0]]);
-    go::<Space>(100_000, &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
-}
