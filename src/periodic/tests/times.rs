@@ -76,9 +76,9 @@ fn of_reading() {
                 read();
                 1e3 * start.elapsed().as_secs_f64()
             };
-            let commit = timed(&mut || drop(t.commit_positions(&points).unwrap()));
-            let cells = timed(&mut || drop(t.cell_count().unwrap()));
-            let edges = timed(&mut || drop(t.edge_count().unwrap()));
+            let commit = timed(&mut || _ = t.commit_positions(&points).unwrap());
+            let cells = timed(&mut || _ = t.cell_count().unwrap());
+            let edges = timed(&mut || _ = t.edge_count().unwrap());
             println!("{}D: commit {commit:.1} ms, cells {cells:.1} ms, edges {edges:.1} ms", G::D);
         }
     }
@@ -112,7 +112,7 @@ fn of_edits() {
             open.stage_removals(&going).unwrap();
             let mut report = None;
             let here = timed(&mut || report = Some(t.commit_timestamp().unwrap()));
-            let there = timed(&mut || drop(open.commit_timestamp().unwrap()));
+            let there = timed(&mut || _ = open.commit_timestamp().unwrap());
             let builds = report.unwrap().rebuilds;
             println!("{}D, {count} come and go: {here:.2} ms, {builds} builds, open {there:.2} ms", G::D);
         }
