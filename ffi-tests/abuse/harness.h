@@ -479,7 +479,7 @@ static bool serves_periodic(const char *name) {
         "stage_removals", "discard_moves", "commit_timestamp", "commit_positions", "vertex_count", "id_count",
         "cell_count", "staged_count", "memory_bytes", "timestamp", "statistics", "is_present", "position",
         "copy_positions", "coincident_representative", "cells", "copy_cells", "edges", "voronoi_volumes",
-        "voronoi_facets", "voronoi_cells", "voronoi_derivatives", "circumcentres", "volumes", "mask_by_circumradius",
+        "voronoi_facets", "voronoi_cells", "voronoi_derivatives", "voronoi_cells_within", "voronoi_derivatives_within", "circumcentres", "volumes", "mask_by_circumradius",
         "mask_boundary", "hull_facets", "update_circumcentres", "update_volumes", "update_mask_by_circumradius",
         "stage_vectors", "vectors", "cell_shifts", "edge_shifts", "take_changes", "locate", "locate_points",
         "locate_in_period", "nearest_vertex", "nearest_vertices", "vertices_in_ball", "barycentric", "interpolate",
@@ -513,10 +513,10 @@ static void periodic_ones_are_refused_or_served(void) {
     CHECK(n_refused > 20);
     before();
     size_t count;
-    CHECK_STATUS(deldrift_voronoi_volumes(made, low, high, out.numbers, ROOM, &count), DELDRIFT_PERIODIC);
-    CHECK_STATUS(deldrift_voronoi_facets(made, low, NULL, out.numbers, ROOM, &count), DELDRIFT_PERIODIC);
-    CHECK_STATUS(deldrift_voronoi_cells(made, NULL, high, NULL, 0, NULL, NULL, NULL, 0, &count), DELDRIFT_PERIODIC);
-    CHECK_STATUS(deldrift_voronoi_derivatives(made, low, high, NULL, 0, NULL, NULL, NULL, 0, &count), DELDRIFT_PERIODIC);
+    CHECK_STATUS(deldrift_voronoi_volumes(made, low, high, out.numbers, ROOM, &count), DELDRIFT_INVALID_VALUE);
+    CHECK_STATUS(deldrift_voronoi_facets(made, low, NULL, out.numbers, ROOM, &count), DELDRIFT_NULL_ARGUMENT);
+    CHECK_STATUS(deldrift_voronoi_cells(made, NULL, high, NULL, 0, NULL, NULL, NULL, 0, &count), DELDRIFT_NULL_ARGUMENT);
+    CHECK_STATUS(deldrift_voronoi_derivatives(made, low, high, NULL, 0, NULL, NULL, NULL, 0, &count), DELDRIFT_INVALID_VALUE);
     OK(deldrift_cells(made, &as_before));
     CHECK(as_before.vertices == view.vertices && as_before.count == view.count);
     deldrift_destroy(made);

@@ -251,6 +251,31 @@ def test_places_at_vertices_and_outside():
         tri.interpolate([1, 2, 3], [0.5, 0.5], method="natural")
 
 
+def test_walls():
+    inf, rng = np.inf, np.random.default_rng(5)
+    points = rng.random((200, 3)) * [1, 1, 0.5]
+    slab = deldrift.PeriodicDelaunay(points, [[1, 0, 0], [0.25, 1, 0]])
+    box = ([-inf, -inf, -0.125], [inf, inf, 0.25])
+    cells = slab.voronoi_cells(box=box)
+    assert abs(cells.volumes.sum() - 0.375) < 1e-12 and (cells.volumes == slab.voronoi_volumes(box)).all()
+    inside = cells.volumes > 0
+    assert (np.abs(cells.centroids[inside, 2] - 0.0625) <= 0.1875).all() and np.isnan(cells.centroids[~inside]).all()
+    planes = [[0, 0, 2, 0.5], [0, 0, -1, 0.125]]
+    assert np.allclose(slab.voronoi_cells(half_spaces=planes).volumes, cells.volumes, rtol=0, atol=1e-12)
+    facets = slab.voronoi_derivatives(box=box)
+    assert (facets.measures == slab.voronoi_facets(box)).all()
+    assert np.allclose(slab.voronoi_derivatives(half_spaces=planes).derivatives, facets.derivatives, rtol=0, atol=1e-10)
+    edges, shifts = slab.edges()
+    lengths = np.linalg.norm(points[edges[:, 1]] + shifts @ slab.vectors - points[edges[:, 0]], axis=1)
+    # Pyramids over facets, and over what cells have of the walls.
+    of_walls = cells.areas.sum() - 2 * facets.measures.sum()
+    assert abs(of_walls - 2) < 1e-10 and (facets.measures * lengths).sum() / 3 < 0.375
+    with pytest.raises(deldrift.InvalidValue, match=r"low\[0\] is 0, but must be -infinity"):
+        slab.voronoi_volumes(([0, -inf, 0], [inf, inf, 1]))
+    with pytest.raises(deldrift.InvalidValue, match=r"half_spaces\[1\] is 0.5, but must be 0"):
+        slab.voronoi_cells(box=box, half_spaces=[[0, 0, 1, 1], [0.5, 0, 1, 1]])
+
+
 def test_one_point_and_a_slab():
     tri = deldrift.PeriodicDelaunay([[0.5, 0.5]], [1, 1])
     assert tri.nsimplex == 2 and tri.voronoi_volumes() == [1]

@@ -32,6 +32,8 @@ mod cloning;
 mod commit;
 mod compaction;
 mod completeness;
+mod container;
+mod cut_voronoi;
 mod edges;
 mod either;
 mod exporting;
