@@ -1655,10 +1655,15 @@ deldrift_status deldrift_vertices_in_ball(const deldrift_triangulation *t,
 /// which is also written when the buffer is too small. NULL with capacity 0 asks for the count alone, which takes as
 /// long.
 ///
-/// Cost: that of deldrift_locate, the cells whose bounding boxes meet the box, the facets of the hull that are seen
-/// from it, and k log k for the k vertices in it; n log n at most but for the first. While there are no cells, n.
+/// In a periodic triangulation a vertex is in the box if any image of it is; each is told once. The box is not rounded, and may be
+/// larger than the period. Where vectors go along several axes, as in a skewed box, one that is thousands of periods long, or
+/// infinite, along some of these has to be as wide as all these vectors together along each, or infinite along all but one.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for NaN,
+/// Cost: that of deldrift_locate, the cells whose bounding boxes meet the box, the facets of the hull that are seen
+/// from it, and k log k for the k vertices in it; n log n at most but for the first. While there are no cells, n. In a
+/// periodic triangulation n, and, where vectors go along several axes, the periods that the box meets, for each vertex.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for NaN, or for a box that is too long,
 /// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_vertices_in_box(const deldrift_triangulation *t,
                                          const double *low,
@@ -1678,11 +1683,15 @@ deldrift_status deldrift_vertices_in_box(const deldrift_triangulation *t,
 /// A position outside the convex hull may be in the circle or sphere of no cell: then the insertion removes none, and
 /// joins the vertex to the facets of the hull that it sees.
 ///
+/// In a periodic triangulation the position may be in any period, and is rounded as for deldrift_locate. A cell is told, once, if a
+/// translation of it is in conflict: it would be removed by the insertion of the vertex with all of its images. A position
+/// outside the convex hull is refused, as facets without an end are seen from there.
+///
 /// Cost: that of deldrift_locate, the cells found, and the facets of the hull that are seen from the position. After a
 /// change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// DELDRIFT_PERIODIC outside the hull of a periodic triangulation, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_conflicts(const deldrift_triangulation *t,
                                    const double *position,
                                    const deldrift_location *hint,
@@ -2724,6 +2733,9 @@ deldrift_status deldrift_voronoi_derivatives_within(const deldrift_triangulation
 /// since the last change or since deldrift_compact, while all vertices are in one hyperplane, and where there are
 /// segments.
 ///
+/// In a periodic triangulation arrays are those of a call without a mask within the errors documented, as copies that the
+/// library keeps may be others; and all are marked where the vectors are others than when changes were taken before.
+///
 /// Cost: a byte for each id; the changes taken, and the cells around the moved vertices, of k cells k log k.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX,
@@ -2767,7 +2779,8 @@ deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
 /// deldrift_take_changes, deldrift_circumcentres, deldrift_volumes, deldrift_mask_by_circumradius with the functions that
 /// update what these give, deldrift_mask_boundary, deldrift_hull_facets, deldrift_locate, deldrift_locate_points,
 /// deldrift_locate_in_period, deldrift_nearest_vertex, deldrift_nearest_vertices, deldrift_vertices_in_ball,
-/// deldrift_barycentric, deldrift_interpolate with DELDRIFT_INTERPOLATION_LINEAR, deldrift_clone, deldrift_save,
+/// deldrift_vertices_in_box, deldrift_conflicts, deldrift_voronoi_changed,
+/// deldrift_barycentric, deldrift_interpolate, deldrift_clone, deldrift_save,
 /// deldrift_load, deldrift_save_file, deldrift_load_file, deldrift_write_vtu, deldrift_write_medit, deldrift_compact,
 /// deldrift_relocate_vertex, deldrift_insert_vertex, deldrift_remove_vertex, deldrift_validate, deldrift_hidden_vertices,
 /// deldrift_star, deldrift_vertex_cells, deldrift_vertex_neighbours, deldrift_cell_of_each_vertex, deldrift_cells_around,
@@ -2923,7 +2936,7 @@ deldrift_status deldrift_edge_shifts(const deldrift_triangulation *t,
 /// takes as long as deldrift_locate_points, and with natural neighbours some microseconds more.
 ///
 /// In a periodic triangulation positions may be in any period, and are rounded as for deldrift_locate. An image of a
-/// vertex has the values of the vertex. Only DELDRIFT_INTERPOLATION_LINEAR is served; the other method is DELDRIFT_PERIODIC.
+/// vertex has the values of the vertex; natural neighbours of a position are images, several of one vertex in a small box.
 ///
 /// Cost: count times that of deldrift_locate and n_values; with natural neighbours also the cells whose circle or
 /// sphere has the position inside. After a change the first call also does what the first deldrift_cells does.

@@ -235,8 +235,11 @@ def test_places_are_in_the_cells_where_they_are_told_to_be(name, rng):
     squares = np.min([((ways + k @ vectors) ** 2).sum(axis=-1) for k in multiples], axis=0)
     assert (tri.nearest_vertices(xi.reshape(-1, tri.ndim), k=20) == np.argsort(squares, axis=1)).all()
     assert (tri.nearest_vertices(xi).ravel() == np.argmin(squares, axis=1)).all()
-    for place, row in zip(xi.reshape(-1, tri.ndim), squares):
+    for place, row, way in zip(xi.reshape(-1, tri.ndim), squares, ways):
         assert tri.vertices_in_ball(place, 0.2).tolist() == np.flatnonzero(row <= 0.2).tolist()
+        there = way + (multiples @ vectors)[:, None]
+        among = ((there >= -0.2) & (there <= 0.3)).all(axis=-1).any(axis=0)
+        assert tri.vertices_in_box(place - 0.3, place + 0.2).tolist() == np.flatnonzero(among).tolist()
 
 
 def test_places_at_vertices_and_outside():
@@ -247,8 +250,34 @@ def test_places_at_vertices_and_outside():
     assert tri.interpolate([1, 2, 3], [7.5, 0.75]) == 2 and tri.barycentric([7.5, 0.75]).max() == 1
     with pytest.raises(deldrift.NotFinite, match=r"xi\[0\], coordinate 1, is NaN"):
         tri.locate([0.5, np.nan])
-    with pytest.raises(deldrift.Error, match="method is 1, but t is periodic"):
-        tri.interpolate([1, 2, 3], [0.5, 0.5], method="natural")
+    assert tri.interpolate([1, 2, 3], [7.5, 0.75], method="natural") == 2
+    assert np.isnan(tri.interpolate([1, 2, 3], [0.5, 2.0], method="natural"))
+    with pytest.raises(deldrift.Error, match="point is outside the convex hull of a triangulation that is periodic"):
+        tri.conflicts([0.5, 2.0])
+    assert tri.conflicts([7.5, 0.75]).tolist() == []
+
+
+def test_natural_neighbours_and_conflicts():
+    rng = np.random.default_rng(9)
+    vectors = np.array([[1.0, 0.0], [0.25, 1.0]])
+    points = rng.random((40, 2)) @ vectors
+    values = rng.random(40)
+    tri = deldrift.PeriodicDelaunay(points, vectors)
+    shifts = np.array([[i, j] for i in range(-2, 3) for j in range(-2, 3)])
+    copies = deldrift.Delaunay((points[None] + (shifts @ vectors)[:, None]).reshape(-1, 2))
+    xi = rng.random((30, 2)) @ vectors
+    expected = copies.interpolate(np.tile(values, len(shifts)), xi, method="natural")
+    assert np.allclose(tri.interpolate(values, xi + [3.25, 1.0], method="natural"), expected, rtol=0, atol=1e-11)
+    for place in xi:
+        found = tri.simplices[tri.conflicts(place - vectors[0])] % 40
+        there = copies.simplices[copies.conflicts(place)] % 40
+        assert sorted(map(sorted, found.tolist())) == sorted(map(sorted, there.tolist()))
+    tri.changes()
+    before = tri.voronoi_cells()
+    tri.move([points[7] + 0.001], ids=[7])
+    tri.changes()
+    changed, after = tri.voronoi_changed([7]), tri.voronoi_cells()
+    assert changed[7] and not changed.all() and np.allclose(before.volumes[~changed], after.volumes[~changed], rtol=0, atol=1e-14)
 
 
 def test_walls():

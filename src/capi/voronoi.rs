@@ -2,7 +2,7 @@
 
 mod parts;
 
-use super::handle::{Content, Reading, deldrift_triangulation, in_its_period};
+use super::handle::{Content, Reading, deldrift_triangulation, in_any, in_its_period};
 use super::pointers::{Array, Buffer, Output, Point, given};
 use super::status::deldrift_status;
 use crate::ids::VertexId;
@@ -442,6 +442,9 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives_within(
 /// since the last change or since deldrift_compact, while all vertices are in one hyperplane, and where there are
 /// segments.
 ///
+/// In a periodic triangulation arrays are those of a call without a mask within the errors documented, as copies that the
+/// library keeps may be others; and all are marked where the vectors are others than when changes were taken before.
+///
 /// Cost: a byte for each id; the changes taken, and the cells around the moved vertices, of k cells k log k.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX,
@@ -456,8 +459,8 @@ pub unsafe extern "C" fn deldrift_voronoi_changed(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, vertices[vertex_count]: Array, mask[capacity]: Buffer, count: Output);
-    t.read(|t| {
-        in_its_dimension!(t => {
+    t.read_any(|t| {
+        in_any!(t => {
             let moved = VertexId::of_numbers(vertices.get()?);
             mask.fill(count, t.id_count(), || Ok(t.voronoi_changed(moved)?))
         })

@@ -351,6 +351,11 @@ impl<G: Shape> Lattice<G> {
         })
     }
 
+    /// The linear form that is 1 on a vector, and 0 on the others and on what is orthogonal to all.
+    pub(super) fn form(&self, j: usize) -> &[f64; 3] {
+        &self.dual[j]
+    }
+
     /// By vector, at most so many multiples of it away from its vertex is a Voronoi cell, which is in no half of space that is nearer to
     /// a translation of the vertex by a vector, one way or the other.
     pub(super) fn reach_of_voronoi_cells(&self) -> [f64; 3] {

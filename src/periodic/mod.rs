@@ -26,6 +26,7 @@
 //! would be too far from the unit cell, vertices come or go, or the lattices are too different, another triangulation is
 //! built beside the present one, and takes its place when it is complete.
 
+mod boxes;
 mod cells;
 mod changes;
 mod cloning;
@@ -62,6 +63,7 @@ mod validate;
 mod voronoi;
 #[cfg(test)]
 mod wrapping;
+mod zone;
 
 pub use cells::PeriodicView;
 pub use either::AnyPeriodic;

@@ -8,12 +8,14 @@ use crate::motion::{Algorithm, MovingTriangulation, NO_CELL, Options};
 use crate::random::Rng;
 use std::collections::BTreeSet;
 
+mod boxes;
 mod changes;
 mod histories;
 mod keeping;
 mod locating;
 mod near;
 mod telling;
+mod zone;
 
 type Class = Vec<(u32, [i64; 3])>;
 
