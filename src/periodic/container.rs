@@ -119,11 +119,12 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             _ => sides_of(&walls, &across),
         };
         let boxed = lattice.box_around(section, [&low, &high]);
+        let is_far = |x: f64| x.is_nan() || x.abs() > MAX_MAGNITUDE;
         // What the caller can bound by the box comes first.
         for is_spanned in [false, true] {
             let axes = || (0..G::D).filter(|&axis| lattice.is_spanned(axis) == is_spanned);
             for ((argument, given), corner) in [("low", &low), ("high", &high)].into_iter().zip(&boxed) {
-                if let Some(index) = axes().find(|&axis| corner[axis].abs() > MAX_MAGNITUDE) {
+                if let Some(index) = axes().find(|&axis| is_far(corner[axis])) {
                     let wanted = "finite, or half-spaces must bound what is across the vectors of the box";
                     return Err(Error::InvalidValue { argument, index, value: given[index], wanted });
                 }
@@ -162,13 +163,14 @@ fn checked_corners<G: Dimension>(
             corner[axis] = check_position::<G>(argument, 0, &only)?[axis];
         }
     }
-    for axis in 0..G::D {
-        if corners[0][axis] >= corners[1][axis] {
-            let value = corners[1][axis];
-            return Err(Error::InvalidValue { argument: "high", index: axis, value, wanted: "above low" });
+    let [low, high] = &corners;
+    match (0..G::D).find(|&axis| low[axis] >= high[axis]) {
+        Some(index) => {
+            let (value, wanted) = (high[index], "above low");
+            Err(Error::InvalidValue { argument: "high", index, value, wanted })
         }
+        None => Ok(corners),
     }
-    Ok(corners)
 }
 
 /// The ends of what walls leave of a line in a direction to which all are perpendicular; none if that is nothing.
@@ -277,11 +279,15 @@ impl<G: Dimension> Lattice<G> {
                 most += ends[0].max(ends[1]);
             }
             let margin = MARGIN * (most - least) + SLACK * (least.abs() + most.abs() + self.short_way());
+            // Of few digits, so that no number is rounded more than the caller's are.
+            let step = f64::from_bits(margin.to_bits() & !((1 << 52) - 1));
             if from[axis].is_infinite() {
-                from[axis] = (least - margin).min(to[axis] - margin - SLACK * to[axis].abs());
+                let bound = (least - margin).min(to[axis] - margin - SLACK * to[axis].abs());
+                from[axis] = (bound / step).floor() * step;
             }
             if to[axis].is_infinite() {
-                to[axis] = (most + margin).max(from[axis] + margin + SLACK * from[axis].abs());
+                let bound = (most + margin).max(from[axis] + margin + SLACK * from[axis].abs());
+                to[axis] = (bound / step).ceil() * step;
             }
         }
         [from, to]
