@@ -1657,10 +1657,15 @@ deldrift_status deldrift_vertices_in_ball(const deldrift_triangulation *t,
 /// which is also written when the buffer is too small. NULL with capacity 0 asks for the count alone, which takes as
 /// long.
 ///
-/// Cost: that of deldrift_locate, the cells whose bounding boxes meet the box, the facets of the hull that are seen
-/// from it, and k log k for the k vertices in it; n log n at most but for the first. While there are no cells, n.
+/// In a periodic triangulation a vertex is in the box if any image of it is; each is told once. The box is not rounded, and may be
+/// larger than the period. Where vectors go along several axes, as in a skewed box, one that is thousands of periods long, or
+/// infinite, along some of these has to be as wide as all these vectors together along each, or infinite along all but one.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for NaN,
+/// Cost: that of deldrift_locate, the cells whose bounding boxes meet the box, the facets of the hull that are seen
+/// from it, and k log k for the k vertices in it; n log n at most but for the first. While there are no cells, n. In a
+/// periodic triangulation n, and, where vectors go along several axes, the periods that the box meets, for each vertex.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for NaN, or for a box that is too long,
 /// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_vertices_in_box(const deldrift_triangulation *t,
                                          const double *low,
@@ -1680,11 +1685,15 @@ deldrift_status deldrift_vertices_in_box(const deldrift_triangulation *t,
 /// A position outside the convex hull may be in the circle or sphere of no cell: then the insertion removes none, and
 /// joins the vertex to the facets of the hull that it sees.
 ///
+/// In a periodic triangulation the position may be in any period, and is rounded as for deldrift_locate. A cell is told, once, if a
+/// translation of it is in conflict: it would be removed by the insertion of the vertex with all of its images. A position
+/// outside the convex hull is refused, as facets without an end are seen from there.
+///
 /// Cost: that of deldrift_locate, the cells found, and the facets of the hull that are seen from the position. After a
 /// change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// DELDRIFT_PERIODIC outside the hull of a periodic triangulation, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_conflicts(const deldrift_triangulation *t,
                                    const double *position,
                                    const deldrift_location *hint,
@@ -2456,8 +2465,8 @@ deldrift_status deldrift_update_mask_by_circumradius(const deldrift_triangulatio
 /// by at most h times its perimeter, however near to each other vertices are. In place of 1e-8 it is some last bits, about 1e-15, unless cells are nearly flat (see
 /// deldrift_circumcentres). Never negative. The volumes of all ids add up to that of the box but for rounding.
 ///
-/// In a periodic triangulation low and high must be NULL. Cells without an end, as there are in a box that is open somewhere,
-/// are infinite; the volumes are those of deldrift_voronoi_cells, to the last bit.
+/// In a periodic triangulation the volumes are those of deldrift_voronoi_cells, to the last bit, and low and high are as they
+/// are there. With NULL for both, cells without an end, as there are where the triangulation is open in some direction, are infinite.
 ///
 /// Takes time in proportion to the number of cells, and of ids; in a box, for Voronoi cells at its boundary, to the
 /// number of corners of their facets as well, a microsecond (2D) or some (3D) for each such cell of ordinary sets.
@@ -2469,8 +2478,9 @@ deldrift_status deldrift_update_mask_by_circumradius(const deldrift_triangulatio
 /// does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT (also if one of low and high is NULL), DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE if high is not above low in every coordinate,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE if high is not above low in every coordinate, or if the
+/// box is not one that repeats, or not bounded across the vectors, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY,
+/// DELDRIFT_CANCELLED.
 deldrift_status deldrift_voronoi_volumes(const deldrift_triangulation *t,
                                          const double *low,
                                          const double *high,
@@ -2498,7 +2508,7 @@ deldrift_status deldrift_voronoi_volumes(const deldrift_triangulation *t,
 /// facets of a vertex whose Voronoi cell is in the box, times the lengths of its edges and divided by 4 (2D) or 6 (3D),
 /// add up to its area or volume but for rounding.
 ///
-/// In a periodic triangulation low and high must be NULL. Of several edges between two vertices each has the facet of its own,
+/// In a periodic triangulation low and high are as deldrift_voronoi_cells has them. Of several edges between two vertices each has the facet of its own,
 /// and one that leads from a vertex to itself has the facet that two periods of its cell share. The measures are those of
 /// deldrift_voronoi_derivatives, to the last bit.
 ///
@@ -2544,8 +2554,13 @@ deldrift_status deldrift_voronoi_facets(const deldrift_triangulation *t,
 /// each), and a centroid, where that is less than d, by that error of the volume times d / V; it is in the box in any
 /// case. The volumes of all ids add up to that of the box but for rounding.
 ///
-/// In a periodic triangulation low and high must be NULL: nothing is cut. A cell without an end, as there are in a box that is
-/// open somewhere, has volume and area infinite, and its centroid is NaN. The h is the one that deldrift_voronoi_volumes has
+/// In a periodic triangulation low and high are walls, which repeat with it: they must be -infinity and infinity along each axis
+/// along which a vector goes, so that both are infinite, or NULL, where vectors span all directions. Along other axes they are
+/// finite, unless half-spaces (deldrift_voronoi_cells_within) bound what is left. Let the box that repeats be the least one
+/// that has all places of the container which are up to 1.5 of each reduced vector away from the unit cell, with low and high
+/// as faces; with the h of this box numbers are off as in the open, and the volumes add up to that of one period of the
+/// container. NULL for low and high cuts nothing: then a cell without an end, as there are where the triangulation is open in
+/// some direction, has volume and area infinite, and its centroid is NaN; h is the one that deldrift_voronoi_volumes has
 /// without a box. A centroid is where the vertex is at its own position, in whatever period that is, and off by the rounding of
 /// its coordinates besides. The numbers do not depend on the periods in which positions are given nor on copies that the library
 /// keeps, but for rounding; with the same cells in the same order they are the same to the last bit.
@@ -2559,8 +2574,8 @@ deldrift_status deldrift_voronoi_facets(const deldrift_triangulation *t,
 /// deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
-/// DELDRIFT_INVALID_VALUE if high is not above low in every coordinate, DELDRIFT_WRONG_COUNT,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+/// DELDRIFT_INVALID_VALUE if high is not above low in every coordinate, or if the box is not one that repeats, or not bounded
+/// across the vectors, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
 deldrift_status deldrift_voronoi_cells(const deldrift_triangulation *t,
                                        const double *low,
                                        const double *high,
@@ -2591,6 +2606,10 @@ deldrift_status deldrift_voronoi_cells(const deldrift_triangulation *t,
 /// neither on the mask nor on the number of threads, to the last bit; without half-spaces they are those of
 /// deldrift_voronoi_cells.
 ///
+/// In a periodic triangulation the product of each normal and each of the vectors that deldrift_vectors tells must be 0,
+/// exactly, so that the half-space repeats as well: along axes along which no vector goes normals may have any entries. What low,
+/// high and half-spaces leave must be bounded across the vectors; NULL for low and high is a box that is infinite along all axes.
+///
 /// A cell that is in all half-spaces takes little longer than in deldrift_voronoi_cells, as circumcentres are
 /// compared with the half-spaces nearby alone. One that is cut takes some microseconds, and some nanoseconds for each
 /// half-space. One thread computes those that are cut. Takes memory for half-spaces, and for lists of those nearby.
@@ -2599,8 +2618,8 @@ deldrift_status deldrift_voronoi_cells(const deldrift_triangulation *t,
 ///
 /// Errors: those of deldrift_voronoi_cells: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
 /// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE (also for a normal or an offset), DELDRIFT_OUT_OF_RANGE,
-/// DELDRIFT_INVALID_VALUE (also if a normal is zero), DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+/// DELDRIFT_INVALID_VALUE (also if a normal is zero, or one of a periodic triangulation has a product with a vector that is not
+/// 0), DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
 deldrift_status deldrift_voronoi_cells_within(const deldrift_triangulation *t,
                                               const double *low,
                                               const double *high,
@@ -2640,8 +2659,8 @@ deldrift_status deldrift_voronoi_cells_within(const deldrift_triangulation *t,
 /// measure is off by at most h P, a centroid by h P d / A, and by d + h where A is less than 4 h P; a derivative by h P
 /// (d + |x - c|) / L, where x is the position by which it is.
 ///
-/// In a periodic triangulation low and high must be NULL; the h is the one that deldrift_voronoi_volumes has without a box, of
-/// the cells around the edge. A facet without an end has an infinite measure, and NaN for the rest. A centroid is where the first
+/// In a periodic triangulation low and high are walls, as deldrift_voronoi_cells has them, with its h; or NULL, with the h that
+/// deldrift_voronoi_volumes has without a box, of the cells around the edge. Then a facet without an end has an infinite measure, and NaN for the rest. A centroid is where the first
 /// vertex of the edge is at its own position, and off by the rounding of its coordinates besides; the second vertex is where
 /// deldrift_edge_shifts has it. The derivatives of an edge are those by the position of one of its ends alone. As all periods of a
 /// vertex move, the derivative of the volume of the cell of i by the position of j is the sum over the edges between i and
@@ -2672,8 +2691,8 @@ deldrift_status deldrift_voronoi_derivatives(const deldrift_triangulation *t,
 /// them within a box.
 ///
 /// low, high, mask, mask_count, measures, centroids, derivatives, capacity, count: as deldrift_voronoi_derivatives has
-/// them. half_spaces, half_space_count: as deldrift_voronoi_cells_within has them. Box and half-spaces stay where they
-/// are when vertices move, so that the sums of derivatives are as in a box.
+/// them. half_spaces, half_space_count: as deldrift_voronoi_cells_within has them, in a periodic triangulation as well. Box and
+/// half-spaces stay where they are when vertices move, so that the sums of derivatives are as in a box.
 ///
 /// Rounded: with the h of deldrift_voronoi_cells_within the errors are those of deldrift_voronoi_derivatives; for a facet that a plane
 /// cuts divided by the sine of the angle between both. A facet that is in a plane, but for h, may be there or not.
@@ -2715,6 +2734,9 @@ deldrift_status deldrift_voronoi_derivatives_within(const deldrift_triangulation
 /// back meanwhile may list their corners in another order. All are marked where nothing is known of single cells: if changes have not been taken
 /// since the last change or since deldrift_compact, while all vertices are in one hyperplane, and where there are
 /// segments.
+///
+/// In a periodic triangulation arrays are those of a call without a mask within the errors documented, as copies that the
+/// library keeps may be others; and all are marked where the vectors are others than when changes were taken before.
 ///
 /// Cost: a byte for each id; the changes taken, and the cells around the moved vertices, of k cells k log k.
 ///
@@ -2760,12 +2782,13 @@ deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
 /// deldrift_take_changes, deldrift_circumcentres, deldrift_volumes, deldrift_mask_by_circumradius with the functions that
 /// update what these give, deldrift_mask_boundary, deldrift_hull_facets, deldrift_locate, deldrift_locate_points,
 /// deldrift_locate_in_period, deldrift_nearest_vertex, deldrift_nearest_vertices, deldrift_vertices_in_ball,
-/// deldrift_barycentric, deldrift_interpolate with DELDRIFT_INTERPOLATION_LINEAR, deldrift_clone, deldrift_save,
+/// deldrift_vertices_in_box, deldrift_conflicts, deldrift_voronoi_changed,
+/// deldrift_barycentric, deldrift_interpolate, deldrift_clone, deldrift_save,
 /// deldrift_load, deldrift_save_file, deldrift_load_file, deldrift_write_vtu, deldrift_write_medit, deldrift_compact,
 /// deldrift_relocate_vertex, deldrift_insert_vertex, deldrift_remove_vertex, deldrift_validate, deldrift_hidden_vertices,
 /// deldrift_star, deldrift_vertex_cells, deldrift_vertex_neighbours, deldrift_cell_of_each_vertex, deldrift_cells_around,
-/// deldrift_mirror_indices, deldrift_mirror_index, and without a box deldrift_voronoi_volumes, deldrift_voronoi_facets,
-/// deldrift_voronoi_cells and deldrift_voronoi_derivatives. All others return DELDRIFT_PERIODIC. Cells are numbered anew
+/// deldrift_mirror_indices, deldrift_mirror_index, deldrift_voronoi_volumes, deldrift_voronoi_facets, deldrift_voronoi_cells,
+/// deldrift_voronoi_cells_within, deldrift_voronoi_derivatives and deldrift_voronoi_derivatives_within. All others return DELDRIFT_PERIODIC. Cells are numbered anew
 /// by each commit, unless changes are taken.
 ///
 /// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves,
@@ -2916,7 +2939,7 @@ deldrift_status deldrift_edge_shifts(const deldrift_triangulation *t,
 /// takes as long as deldrift_locate_points, and with natural neighbours some microseconds more.
 ///
 /// In a periodic triangulation positions may be in any period, and are rounded as for deldrift_locate. An image of a
-/// vertex has the values of the vertex. Only DELDRIFT_INTERPOLATION_LINEAR is served; the other method is DELDRIFT_PERIODIC.
+/// vertex has the values of the vertex; natural neighbours of a position are images, several of one vertex in a small box.
 ///
 /// Cost: count times that of deldrift_locate and n_values; with natural neighbours also the cells whose circle or
 /// sphere has the position inside. After a change the first call also does what the first deldrift_cells does.

@@ -697,13 +697,14 @@ public:
         require_ok(deldrift_voronoi_changed(native(), moved.data(), moved.size(), mask.data(), count, &count));
         return mask;
     }
-    // Of all ids, within the box from low to high, both empty where the triangulation is periodic; with a mask, a byte for each
-    // id, of those where it is not 0 alone, NaN for the others.
+    // Of all ids, within the box from low to high; where the triangulation is periodic, these are infinite along axes along which
+    // vectors go, or empty. With a mask, a byte for each id, of those where it is not 0 alone, NaN for the others.
     VoronoiCells voronoi_cells(span<const double> low = {}, span<const double> high = {},
                                span<const std::uint8_t> mask = {}) const {
         return voronoi_cells_within(low, high, {}, mask);
     }
-    // Also within half-spaces: for each the coordinates of an outward normal, and an offset.
+    // Also within half-spaces: for each the coordinates of an outward normal, which is perpendicular to the vectors where the
+    // triangulation is periodic, and an offset.
     VoronoiCells voronoi_cells_within(span<const double> low, span<const double> high, span<const double> half_spaces,
                                       span<const std::uint8_t> mask = {}) const {
         const std::size_t rows = half_spaces.size() / (dimension_ + 1);

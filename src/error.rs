@@ -98,6 +98,11 @@ pub enum Error {
         /// Which entry of `seeds`.
         index: usize,
     },
+    /// A position is outside the convex hull of a set that repeats and is open somewhere, where the call does not serve it.
+    OutsideOfPeriodic {
+        /// Parameter at fault.
+        argument: &'static str,
+    },
     /// There is no cell of this index.
     NoSuchCell {
         /// Parameter at fault.
@@ -368,6 +373,9 @@ impl fmt::Display for Error {
                 "timestamp {timestamp} is prepared, in {rounds} rounds: it has to be published or withdrawn first"
             ),
             Error::NotPrepared => write!(f, "no timestamp is prepared"),
+            Error::OutsideOfPeriodic { argument } => {
+                write!(f, "{argument} is outside the convex hull of a triangulation that is periodic")
+            }
             Error::InvalidValue { argument, index, value, wanted } => {
                 write!(f, "{argument}[{index}] is {value}, but must be {wanted}")
             }

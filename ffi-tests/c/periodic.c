@@ -333,9 +333,31 @@ static void check_located(const set *s, const deldrift_triangulation *t) {
         OK(deldrift_interpolate(t, DELDRIFT_INTERPOLATION_LINEAR, values, s->n, 1, middles + c * d, 1, NULL, NULL, &given));
         CHECK(fabs(sum - 1) < 1e-12 && fabs(value - given) < 1e-6);
     }
-    CHECK_STATUS(deldrift_interpolate(t, DELDRIFT_INTERPOLATION_NATURAL_NEIGHBOUR, values, s->n, 1, middles, 1, NULL, NULL,
-                                      weights), DELDRIFT_PERIODIC);
-    CHECK_MESSAGE("method is 1, but t is periodic");
+    for (size_t c = 0; c < view.count; c++) {
+        double given, least = values[s->n - 1], most = values[0];
+        OK(deldrift_interpolate(t, DELDRIFT_INTERPOLATION_NATURAL_NEIGHBOUR, values, s->n, 1, middles + c * d, 1, NULL, NULL, &given));
+        CHECK(given > fmin(least, most) - 1e-6 && given < fmax(least, most) + 1e-6);
+        // What is in a cell is in conflict with it.
+        static uint32_t removed[ROOM];
+        size_t n_removed, k = 0;
+        OK(deldrift_conflicts(t, middles + c * d, locations + c, removed, ROOM, &n_removed));
+        while (k < n_removed && removed[k] != cells[c]) k++;
+        CHECK(k < n_removed);
+    }
+    double low[3], high[3];
+    uint32_t all[MOST];
+    for (size_t v = 0; v < s->n; v++) {
+        OK(deldrift_position(t, (uint32_t)v, low));
+        for (size_t i = 0; i < d; i++) high[i] = low[i];
+        OK(deldrift_vertices_in_box(t, low, high, all, MOST, &count));
+        CHECK(count >= 1 && all[0] <= v);
+    }
+    for (size_t i = 0; i < d; i++) low[i] = -INFINITY, high[i] = INFINITY;
+    OK(deldrift_vertices_in_box(t, low, high, all, MOST, &count));
+    CHECK(count == s->n);
+    uint8_t changed[MOST];
+    OK(deldrift_voronoi_changed(t, NULL, 0, changed, MOST, &count));
+    CHECK(count == s->n && changed[0] == 1);
 }
 
 // What is cloned and what is saved and loaded, in memory or in a file, have these cells as well, and the first two the same bytes.
@@ -603,8 +625,27 @@ static void what_is_wrong_is_told(void) {
     CHECK_MESSAGE("positions[0], coordinate 1");
     CHECK_STATUS(deldrift_wrap_positions(t, one, NULL, 1, NULL, shift), DELDRIFT_NULL_ARGUMENT);
     size_t count;
-    CHECK_STATUS(deldrift_voronoi_cells(t, one, one, NULL, 0, NULL, NULL, NULL, 0, &count), DELDRIFT_PERIODIC);
-    CHECK_MESSAGE("low and high are given, but t is periodic");
+    const double low[] = {-INFINITY, 0, 0}, high[] = {INFINITY, 2, 3}, tilted[] = {0, 1, 1, 9, 0.125, 1, 0, 9};
+    double volume;
+    deldrift_triangulation *column = NULL;
+    OK(deldrift_create_periodic(3, one, 1, (double[]){1, 0, 0}, 1, NULL, &column));
+    OK(deldrift_voronoi_volumes(column, low, high, &volume, 1, &count));
+    CHECK(count == 1 && fabs(volume - 6) < 1e-12);
+    OK(deldrift_voronoi_cells_within(column, low, high, tilted, 1, NULL, 0, &volume, NULL, NULL, 1, &count));
+    CHECK(fabs(volume - 6) < 1e-12);
+    CHECK_STATUS(deldrift_voronoi_cells(column, one, one, NULL, 0, NULL, NULL, NULL, 0, &count), DELDRIFT_INVALID_VALUE);
+    CHECK_MESSAGE("low[0] is 0.5, but must be -infinity");
+    CHECK_STATUS(deldrift_voronoi_cells_within(column, low, high, tilted, 2, NULL, 0, NULL, NULL, NULL, 0, &count), DELDRIFT_INVALID_VALUE);
+    CHECK_MESSAGE("half_spaces[1] is 0.125, but must be 0");
+    CHECK_STATUS(deldrift_voronoi_derivatives_within(column, NULL, NULL, tilted, 1, NULL, 0, NULL, NULL, NULL, 0, &count), DELDRIFT_INVALID_VALUE);
+    CHECK_MESSAGE("low[1] is -inf, but must be finite, or half-spaces must bound");
+    CHECK_STATUS(deldrift_voronoi_facets(column, low, NULL, NULL, 0, &count), DELDRIFT_NULL_ARGUMENT);
+    deldrift_triangulation *strip = NULL;
+    OK(deldrift_create_periodic(2, (double[]){0, 0, 0.5, 1}, 2, (double[]){1, 0}, 1, NULL, &strip));
+    CHECK_STATUS(deldrift_conflicts(strip, (double[]){0, 2}, NULL, NULL, 0, &count), DELDRIFT_PERIODIC);
+    CHECK_MESSAGE("position is outside the convex hull of a triangulation that is periodic");
+    deldrift_destroy(strip);
+    deldrift_destroy(column);
     CHECK_STATUS(deldrift_voronoi_cells(t, NULL, NULL, (uint8_t[]){1, 1}, 2, NULL, NULL, NULL, 0, &count), DELDRIFT_WRONG_COUNT);
     CHECK_MESSAGE("mask_count is 2, but must be 1");
     CHECK_STATUS(deldrift_stage_vectors(t, one, 0), DELDRIFT_WRONG_COUNT);

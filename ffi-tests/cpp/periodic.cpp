@@ -60,7 +60,16 @@ int main() {
     double all = 0;
     for (const double volume : t.volumes()) all += volume;
     CHECK(std::fabs(all - 1.5) < 1e-12 && t.hull_facets().cells.empty() && t.circumcentres().squared_radii.size() == 8);
-    CHECK_THROWS(t.voronoi_cells(std::vector<double>{0, 0}, std::vector<double>{1, 1}), DELDRIFT_PERIODIC, "low and high");
+    CHECK_THROWS(t.voronoi_cells(std::vector<double>{0, 0}, std::vector<double>{1, 1}), DELDRIFT_INVALID_VALUE,
+                 "low[0] is 0, but must be -infinity");
+    const double infinite = std::numeric_limits<double>::infinity();
+    const Triangulation strip(2, points, deldrift::Periodic(std::vector<double>{1, 0}));
+    const std::vector<double> low{-infinite, -0.5}, high{infinite, 3};
+    double between = 0, within = 0;
+    for (const double volume : strip.voronoi_volumes(low, high)) between += volume;
+    for (const double volume : strip.voronoi_cells_within({}, {}, std::vector<double>{0, 2, 6, 0, -1, 0.5}).volumes) within += volume;
+    CHECK(std::fabs(between - 3.5) < 1e-12 && std::fabs(within - 3.5) < 1e-12);
+    CHECK(strip.voronoi_derivatives(low, high).measures == strip.voronoi_facets(low, high));
     const Triangulation copy = t.clone(), loaded = Triangulation::load(t.save());
     CHECK(copy.cell_shifts().corners == t.cell_shifts().corners && loaded.edge_shifts() == t.edge_shifts());
     CHECK(loaded.vectors() == t.vectors() && loaded.positions() == t.positions() && loaded.save() == t.save());

@@ -33,8 +33,6 @@ _star = _library.function("star")
 _ordered_star = _library.function("ordered_star")
 _tolerance = _library.function("tolerance")
 _locate_points = _library.function("locate_points")
-_vertices_in_box = _library.function("vertices_in_box")
-_conflicts = _library.function("conflicts")
 _cells_in_reach = _library.function("cells_in_reach")
 _hull_facets_in_reach = _library.function("hull_facets_in_reach")
 _vertices_in_reach = _library.function("vertices_in_reach")
@@ -205,46 +203,6 @@ class Asking(Scipy):
         with self._reading as t:
             self._check(_locate_points(t, address(rows), len(rows), None, address(locations)), positions="xi")
         return Locations(locations[:, 0].reshape(shape), locations[:, 1].reshape(shape))
-
-    def vertices_in_box(self, low: Any, high: Any) -> np.ndarray:
-        """The vertices in a box, boundary included.
-
-        Parameters
-        ----------
-        low, high : array_like
-            Its corners of least and of greatest coordinates, which may be infinite.
-
-        Returns
-        -------
-        ndarray of int
-            Their ids, ascending, hidden ones included.
-        """
-        least, greatest = one_point("low", low, self.ndim), one_point("high", high, self.ndim)
-        with self._reading as t:
-            found, count = np.empty(count_of(_vertex_count, t), I32), ctypes.c_size_t()
-            self._check(_vertices_in_box(t, address(least), address(greatest), address(found), len(found), count))
-        return np.array(found[: count.value])
-
-    def conflicts(self, point: Any) -> np.ndarray:
-        """The simplices that inserting a point would remove: those whose circumsphere has it inside.
-
-        Parameters
-        ----------
-        point : array_like
-            The point.
-
-        Returns
-        -------
-        ndarray of int
-            Their indices, in no particular order.
-        """
-        position = one_point("point", point, self.ndim)
-        with self._reading as t:
-            count = ctypes.c_size_t()
-            self._check(_conflicts(t, address(position), None, None, 0, count), position="point!")
-            cells = np.empty(count.value, I32)
-            self._check(_conflicts(t, address(position), None, address(cells), len(cells), count), position="point!")
-        return cells
 
     def _boxes(self, low: Any, high: Any) -> tuple[np.ndarray, np.ndarray]:
         """The corners of boxes, a row for each."""

@@ -15,7 +15,6 @@ from ._arrays import (
     address_if,
     box_corners,
     half_space_rows,
-    ids,
     mask as mask_of,
     real,
 )
@@ -28,7 +27,6 @@ _mask_without_flat_cells = _library.function("mask_without_flat_cells")
 _edges = _library.function("edges")
 _voronoi_volumes = _library.function("voronoi_volumes")
 _voronoi_facets = _library.function("voronoi_facets")
-_voronoi_changed = _library.function("voronoi_changed")
 _voronoi_cells_within = _library.function("voronoi_cells_within")
 _voronoi_derivatives_within = _library.function("voronoi_derivatives_within")
 
@@ -139,40 +137,6 @@ class Geometry(Measured, Scipy):
             count = ctypes.c_size_t()
             self._check(_voronoi_facets(t, address_if(low), address_if(high), address(measures), len(measures), count))
         return measures
-
-    def voronoi_changed(self, moved: Any) -> np.ndarray:
-        """Which Voronoi cells have changed, or may have, by the changes that were taken last.
-
-        To be called after `changes`, before the next change; otherwise all are. With the mask `voronoi_cells` gives
-        what it gives for all vertices, to the last bit if changes are taken after every commit.
-
-        Parameters
-        ----------
-        moved : array_like of int
-            Ids of the vertices that have moved since changes were taken before.
-
-        Returns
-        -------
-        ndarray of bool
-            For each vertex id.
-
-        Examples
-        --------
-        >>> import deldrift, numpy as np
-        >>> tri = deldrift.Delaunay(np.mgrid[:9, :9].reshape(2, -1).T)
-        >>> changes = tri.changes()
-        >>> report = tri.move([[4.1, 4.2]], ids=[40])
-        >>> changes = tri.changes()
-        >>> changed = tri.voronoi_changed([40])
-        >>> bool(changed[40]), bool(changed[0])
-        (True, False)
-        """
-        listed = ids("moved", moved)
-        with self._reading as t:
-            mask = np.empty(id_count(t), bool)
-            status = _voronoi_changed(t, address(listed), len(listed), address(mask), len(mask), ctypes.c_size_t())
-            self._check(status, vertices="moved", vertex="moved")
-        return mask
 
     def voronoi_cells(self, box: Any, mask: Any = None, *, half_spaces: Any = None) -> VoronoiCells:
         """Areas or volumes, boundaries and centroids of the Voronoi cells of all ids, within a box and half-spaces.

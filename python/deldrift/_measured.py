@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _library
-from ._arrays import F64, I32, address, check_output, mask as mask_of, real, simplex_ids
-from ._core import Core, cell_count
+from ._arrays import F64, I32, address, check_output, ids, mask as mask_of, real, simplex_ids
+from ._core import Core, cell_count, id_count
 from ._errors import WrongCount
 
 _circumcentres = _library.function("circumcentres")
@@ -17,6 +17,7 @@ _volumes = _library.function("volumes")
 _mask_by_circumradius = _library.function("mask_by_circumradius")
 _mask_boundary = _library.function("mask_boundary")
 _hull_facets = _library.function("hull_facets")
+_voronoi_changed = _library.function("voronoi_changed")
 _update_circumcentres = _library.function("update_circumcentres")
 _update_volumes = _library.function("update_volumes")
 _update_mask_by_circumradius = _library.function("update_mask_by_circumradius")
@@ -184,3 +185,38 @@ class Measured(Core):
             check_output("mask", mask, np.dtype(np.bool_), (cell_count(t),))
             status = _update_mask_by_circumradius(t, address(listed), len(listed), limit, address(mask), len(mask))
             self._check(status, cells="simplices", squared_radius="squared_radius!")
+
+    def voronoi_changed(self, moved: Any) -> np.ndarray:
+        """Which Voronoi cells have changed, or may have, by the changes that were taken last.
+
+        To be called after `changes`, before the next change; otherwise all are. With the mask `voronoi_cells` gives
+        what it gives for all vertices, to the last bit if changes are taken after every commit; in a periodic box but for
+        rounding.
+
+        Parameters
+        ----------
+        moved : array_like of int
+            Ids of the vertices that have moved since changes were taken before.
+
+        Returns
+        -------
+        ndarray of bool
+            For each vertex id.
+
+        Examples
+        --------
+        >>> import deldrift, numpy as np
+        >>> tri = deldrift.Delaunay(np.mgrid[:9, :9].reshape(2, -1).T)
+        >>> changes = tri.changes()
+        >>> report = tri.move([[4.1, 4.2]], ids=[40])
+        >>> changes = tri.changes()
+        >>> changed = tri.voronoi_changed([40])
+        >>> bool(changed[40]), bool(changed[0])
+        (True, False)
+        """
+        listed = ids("moved", moved)
+        with self._reading as t:
+            mask = np.empty(id_count(t), bool)
+            status = _voronoi_changed(t, address(listed), len(listed), address(mask), len(mask), ctypes.c_size_t())
+            self._check(status, vertices="moved", vertex="moved")
+        return mask

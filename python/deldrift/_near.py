@@ -15,6 +15,8 @@ from ._errors import InvalidShape, InvalidValue, WrongCount
 _vertex_count = _library.function("vertex_count")
 _nearest_vertices = _library.function("nearest_vertices")
 _vertices_in_ball = _library.function("vertices_in_ball")
+_vertices_in_box = _library.function("vertices_in_box")
+_conflicts = _library.function("conflicts")
 _barycentric = _library.function("barycentric")
 _interpolate = _library.function("interpolate")
 
@@ -86,6 +88,51 @@ class Near(Core):
             self._check(status, squared_radius="squared_radius!", centre="centre!")
         return np.array(found[: count.value])
 
+    def vertices_in_box(self, low: Any, high: Any) -> np.ndarray:
+        """The vertices in a box, boundary included.
+
+        In a periodic box a vertex is listed, once, if any image of it is there.
+
+        Parameters
+        ----------
+        low, high : array_like
+            Its corners of least and of greatest coordinates, which may be infinite.
+
+        Returns
+        -------
+        ndarray of int
+            Their ids, ascending, hidden ones included.
+        """
+        least, greatest = one_point("low", low, self.ndim), one_point("high", high, self.ndim)
+        with self._reading as t:
+            found, count = np.empty(count_of(_vertex_count, t), I32), ctypes.c_size_t()
+            self._check(_vertices_in_box(t, address(least), address(greatest), address(found), len(found), count))
+        return np.array(found[: count.value])
+
+    def conflicts(self, point: Any) -> np.ndarray:
+        """The simplices that inserting a point would remove: those whose circumsphere has it inside.
+
+        In a periodic box they are those that inserting all images of the point would remove, each once; the point must be in the
+        convex hull.
+
+        Parameters
+        ----------
+        point : array_like
+            The point.
+
+        Returns
+        -------
+        ndarray of int
+            Their indices, in no particular order.
+        """
+        position = one_point("point", point, self.ndim)
+        with self._reading as t:
+            count = ctypes.c_size_t()
+            self._check(_conflicts(t, address(position), None, None, 0, count), position="point!")
+            cells = np.empty(count.value, I32)
+            self._check(_conflicts(t, address(position), None, address(cells), len(cells), count), position="point!")
+        return cells
+
     def barycentric(self, xi: Any, simplices: Any = None) -> np.ndarray:
         """The barycentric coordinates of points, each in a simplex.
 
@@ -139,8 +186,8 @@ class Near(Core):
         xi : array_like
             Points; the last axis has the coordinates.
         method : {"linear", "natural"}, optional
-            Linear in each simplex, or by natural neighbours (Laplace's, or non-Sibsonian, interpolation), which there is
-            not yet in a periodic box.
+            Linear in each simplex, or by natural neighbours (Laplace's, or non-Sibsonian, interpolation), which are images
+            in a periodic box.
         fill_value : float or array_like, optional
             What points outside the convex hull get.
 

@@ -8,7 +8,8 @@ from typing import Any, Callable, NamedTuple, Optional
 import numpy as np
 
 from . import _library
-from ._arrays import F64, I32, Handle, address, ids as listed_ids, mask as mask_of, one_id, places, points as point_rows
+from ._arrays import F64, I32, Handle, address, address_if, box_corners, half_space_rows, ids as listed_ids
+from ._arrays import mask as mask_of, one_id, places, points as point_rows
 from ._core import check, count_of, fixed, id_count, make_options
 from ._errors import WrongCount
 from ._geometry import VoronoiCells, VoronoiDerivatives, vertex_mask
@@ -49,8 +50,8 @@ _memory_bytes = _library.function("memory_bytes")
 _timestamp = _library.function("timestamp")
 _voronoi_volumes = _library.function("voronoi_volumes")
 _voronoi_facets = _library.function("voronoi_facets")
-_voronoi_cells = _library.function("voronoi_cells")
-_voronoi_derivatives = _library.function("voronoi_derivatives")
+_voronoi_cells_within = _library.function("voronoi_cells_within")
+_voronoi_derivatives_within = _library.function("voronoi_derivatives_within")
 
 I64 = np.dtype(np.int64)
 
@@ -418,27 +419,40 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
             found[kinds == 0] = simplex_of[indices[kinds == 0]]
         return found
 
-    def voronoi_volumes(self) -> np.ndarray:
+    def voronoi_volumes(self, box: Any = None) -> np.ndarray:
         """By id the area or volume of the Voronoi cell of each vertex.
+
+        Parameters
+        ----------
+        box : (array_like, array_like), optional
+            Where walls are, as for `voronoi_cells`.
 
         Returns
         -------
         ndarray of float
-            Their sum is that of the box. 0 for a vertex at the place of one with a lower id, NaN for removed ones, infinite
-            for cells without an end, of boxes that are open somewhere.
+            Their sum is that of the box, or of what walls leave of it. 0 for a vertex at the place of one with a lower id, NaN for
+            removed ones, infinite for cells without an end, of boxes that are open somewhere and have no walls there.
         """
+        low, high = box_corners(box, self.ndim)
+        walls = address_if(low), address_if(high)
         with self._reading as t:
             volumes = np.empty(id_count(t), F64)
-            self._check(_voronoi_volumes(t, None, None, address(volumes), len(volumes), ctypes.c_size_t()))
+            self._check(_voronoi_volumes(t, *walls, address(volumes), len(volumes), ctypes.c_size_t()))
         return volumes
 
-    def voronoi_cells(self, mask: Any = None) -> VoronoiCells:
+    def voronoi_cells(self, mask: Any = None, *, box: Any = None, half_spaces: Any = None) -> VoronoiCells:
         """Areas or volumes, boundaries and centroids of the Voronoi cells of all ids.
 
         Parameters
         ----------
         mask : array_like of bool, optional
             Whether the cell of each id is asked for; all are by default. The others get NaN.
+        box : (array_like, array_like), optional
+            Where walls are that cut cells: the least and the greatest coordinates, -inf and inf along axes along which vectors
+            go.
+        half_spaces : array_like, (n, ndim + 1), optional
+            Walls of any direction that vectors do not cross, a row each: an outward normal, of which the product with each of the
+            `vectors` is 0, exactly, and an offset. The half-space is where normal · x is at most the offset.
 
         Returns
         -------
@@ -453,30 +467,43 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         >>> cells = tri.voronoi_cells()
         >>> cells.volumes, cells.areas, cells.centroids
         (array([1.]), array([4.]), array([[2.5 , 0.25]]))
+        >>> strip = deldrift.PeriodicDelaunay([[2.5, 0.25]], vectors=[[1, 0]])
+        >>> strip.voronoi_cells(box=([-float("inf"), 0], [float("inf"), 2])).volumes
+        array([2.])
         """
+        low, high = box_corners(box, self.ndim)
+        planes = half_space_rows(half_spaces, self.ndim)
         chosen = None if mask is None else mask_of("mask", mask)
         with self._reading as t:
             n = id_count(t)
             given = vertex_mask(chosen, n)
             cells = VoronoiCells(np.full(n, np.nan), np.full(n, np.nan), np.full((n, self.ndim), np.nan))
             rows = (address(array) for array in cells)
-            self._check(_voronoi_cells(t, None, None, *given, *rows, n, ctypes.c_size_t()))
+            walls = address_if(low), address_if(high), address(planes), len(planes)
+            self._check(_voronoi_cells_within(t, *walls, *given, *rows, n, ctypes.c_size_t()))
         return cells
 
-    def voronoi_facets(self) -> np.ndarray:
+    def voronoi_facets(self, box: Any = None) -> np.ndarray:
         """The lengths or areas of the Voronoi facets of all edges, in the order of `edges`.
+
+        Parameters
+        ----------
+        box : (array_like, array_like), optional
+            Where walls are, as for `voronoi_cells`.
 
         Returns
         -------
         ndarray of float
             A number for each edge, infinite for a facet without an end.
         """
+        low, high = box_corners(box, self.ndim)
+        walls = address_if(low), address_if(high)
         with self._reading as t:
             measures = np.empty(count_of(lambda t, count: _edges(t, None, 0, count), t), F64)
-            self._check(_voronoi_facets(t, None, None, address(measures), len(measures), ctypes.c_size_t()))
+            self._check(_voronoi_facets(t, *walls, address(measures), len(measures), ctypes.c_size_t()))
         return measures
 
-    def voronoi_derivatives(self, mask: Any = None) -> VoronoiDerivatives:
+    def voronoi_derivatives(self, mask: Any = None, *, box: Any = None, half_spaces: Any = None) -> VoronoiDerivatives:
         """The Voronoi facets of all edges, with derivatives of volumes by positions.
 
         The derivative of the volume of a cell by the position of another vertex is the sum over the edges between both. That by
@@ -487,19 +514,26 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         ----------
         mask : array_like of bool, optional
             Edges with an end in it are asked for; all are by default. The others get NaN.
+        box : (array_like, array_like), optional
+            Where walls are, as for `voronoi_cells`; they stay when points move.
+        half_spaces : array_like, (n, ndim + 1), optional
+            Walls, as for `voronoi_cells`.
 
         Returns
         -------
         VoronoiDerivatives
             Measures, centroids and derivatives, in the order of `edges`; centroids are where the first vertex is at its point.
         """
+        low, high = box_corners(box, self.ndim)
+        planes = half_space_rows(half_spaces, self.ndim)
         chosen = None if mask is None else mask_of("mask", mask)
         with self._reading as t:
             given = vertex_mask(chosen, id_count(t))
             n, d = count_of(lambda t, count: _edges(t, None, 0, count), t), self.ndim
             facets = VoronoiDerivatives(np.full(n, np.nan), np.full((n, d), np.nan), np.full((n, 2, d), np.nan))
             rows = (address(array) for array in facets)
-            self._check(_voronoi_derivatives(t, None, None, *given, *rows, n, ctypes.c_size_t()))
+            walls = address_if(low), address_if(high), address(planes), len(planes)
+            self._check(_voronoi_derivatives_within(t, *walls, *given, *rows, n, ctypes.c_size_t()))
         return facets
 
     def move(self, points: Any = None, ids: Any = None, *, vectors: Any = None) -> Report:

@@ -77,13 +77,14 @@ class Frame:
     def __init__(self, lmp):
         low, high, xy, yz, xz, periodicity, _ = lmp.extract_box()
         self.low, self.high = np.array(low), np.array(high)
-        self.vectors = np.diag(self.high - self.low)
-        self.vectors[1, 0], self.vectors[2, 0], self.vectors[2, 1] = xy, xz, yz
+        vectors = np.diag(self.high - self.low)
+        vectors[1, 0], vectors[2, 0], vectors[2, 1] = xy, xz, yz
         self.volume = np.prod(self.high - self.low)
-        self.tilt = xy / self.vectors[0, 0]
-        self.is_periodic = all(periodicity)
-        if not self.is_periodic and any(periodicity):
-            raise ValueError(f"periodicity is {periodicity}: cells of a box that is open on some sides have no end")
+        self.tilt = xy / vectors[0, 0]
+        # Along other axes there are walls, which cut the cells.
+        repeats = np.array(periodicity, bool)
+        self.is_periodic, self.vectors = repeats.any(), vectors[repeats]
+        self.walls = np.where(repeats, -np.inf, self.low), np.where(repeats, np.inf, self.high)
         self.positions = np.ctypeslib.as_array(lmp.gather_atoms("x", 1, 3)).reshape(-1, 3)
 
 
@@ -107,7 +108,7 @@ class Cells:
         return self
 
     def volumes(self, frame):
-        return self.tri.voronoi_volumes() if frame.is_periodic else self.tri.voronoi_volumes((frame.low, frame.high))
+        return self.tri.voronoi_volumes(frame.walls)
 
 
 def lammps_cells(lmp):

@@ -235,8 +235,11 @@ def test_places_are_in_the_cells_where_they_are_told_to_be(name, rng):
     squares = np.min([((ways + k @ vectors) ** 2).sum(axis=-1) for k in multiples], axis=0)
     assert (tri.nearest_vertices(xi.reshape(-1, tri.ndim), k=20) == np.argsort(squares, axis=1)).all()
     assert (tri.nearest_vertices(xi).ravel() == np.argmin(squares, axis=1)).all()
-    for place, row in zip(xi.reshape(-1, tri.ndim), squares):
+    for place, row, way in zip(xi.reshape(-1, tri.ndim), squares, ways):
         assert tri.vertices_in_ball(place, 0.2).tolist() == np.flatnonzero(row <= 0.2).tolist()
+        there = way + (multiples @ vectors)[:, None]
+        among = ((there >= -0.2) & (there <= 0.3)).all(axis=-1).any(axis=0)
+        assert tri.vertices_in_box(place - 0.3, place + 0.2).tolist() == np.flatnonzero(among).tolist()
 
 
 def test_places_at_vertices_and_outside():
@@ -247,8 +250,59 @@ def test_places_at_vertices_and_outside():
     assert tri.interpolate([1, 2, 3], [7.5, 0.75]) == 2 and tri.barycentric([7.5, 0.75]).max() == 1
     with pytest.raises(deldrift.NotFinite, match=r"xi\[0\], coordinate 1, is NaN"):
         tri.locate([0.5, np.nan])
-    with pytest.raises(deldrift.Error, match="method is 1, but t is periodic"):
-        tri.interpolate([1, 2, 3], [0.5, 0.5], method="natural")
+    assert tri.interpolate([1, 2, 3], [7.5, 0.75], method="natural") == 2
+    assert np.isnan(tri.interpolate([1, 2, 3], [0.5, 2.0], method="natural"))
+    with pytest.raises(deldrift.Error, match="point is outside the convex hull of a triangulation that is periodic"):
+        tri.conflicts([0.5, 2.0])
+    assert tri.conflicts([7.5, 0.75]).tolist() == []
+
+
+def test_natural_neighbours_and_conflicts():
+    rng = np.random.default_rng(9)
+    vectors = np.array([[1.0, 0.0], [0.25, 1.0]])
+    points = rng.random((40, 2)) @ vectors
+    values = rng.random(40)
+    tri = deldrift.PeriodicDelaunay(points, vectors)
+    shifts = np.array([[i, j] for i in range(-2, 3) for j in range(-2, 3)])
+    copies = deldrift.Delaunay((points[None] + (shifts @ vectors)[:, None]).reshape(-1, 2))
+    xi = rng.random((30, 2)) @ vectors
+    expected = copies.interpolate(np.tile(values, len(shifts)), xi, method="natural")
+    assert np.allclose(tri.interpolate(values, xi + [3.25, 1.0], method="natural"), expected, rtol=0, atol=1e-11)
+    for place in xi:
+        found = tri.simplices[tri.conflicts(place - vectors[0])] % 40
+        there = copies.simplices[copies.conflicts(place)] % 40
+        assert sorted(map(sorted, found.tolist())) == sorted(map(sorted, there.tolist()))
+    tri.changes()
+    before = tri.voronoi_cells()
+    tri.move([points[7] + 0.001], ids=[7])
+    tri.changes()
+    changed, after = tri.voronoi_changed([7]), tri.voronoi_cells()
+    assert changed[7] and not changed.all() and np.allclose(before.volumes[~changed], after.volumes[~changed], rtol=0, atol=1e-14)
+
+
+def test_walls():
+    inf, rng = np.inf, np.random.default_rng(5)
+    points = rng.random((200, 3)) * [1, 1, 0.5]
+    slab = deldrift.PeriodicDelaunay(points, [[1, 0, 0], [0.25, 1, 0]])
+    box = ([-inf, -inf, -0.125], [inf, inf, 0.25])
+    cells = slab.voronoi_cells(box=box)
+    assert abs(cells.volumes.sum() - 0.375) < 1e-12 and (cells.volumes == slab.voronoi_volumes(box)).all()
+    inside = cells.volumes > 0
+    assert (np.abs(cells.centroids[inside, 2] - 0.0625) <= 0.1875).all() and np.isnan(cells.centroids[~inside]).all()
+    planes = [[0, 0, 2, 0.5], [0, 0, -1, 0.125]]
+    assert np.allclose(slab.voronoi_cells(half_spaces=planes).volumes, cells.volumes, rtol=0, atol=1e-12)
+    facets = slab.voronoi_derivatives(box=box)
+    assert (facets.measures == slab.voronoi_facets(box)).all()
+    assert np.allclose(slab.voronoi_derivatives(half_spaces=planes).derivatives, facets.derivatives, rtol=0, atol=1e-10)
+    edges, shifts = slab.edges()
+    lengths = np.linalg.norm(points[edges[:, 1]] + shifts @ slab.vectors - points[edges[:, 0]], axis=1)
+    # Pyramids over facets, and over what cells have of the walls.
+    of_walls = cells.areas.sum() - 2 * facets.measures.sum()
+    assert abs(of_walls - 2) < 1e-10 and (facets.measures * lengths).sum() / 3 < 0.375
+    with pytest.raises(deldrift.InvalidValue, match=r"low\[0\] is 0, but must be -infinity"):
+        slab.voronoi_volumes(([0, -inf, 0], [inf, inf, 1]))
+    with pytest.raises(deldrift.InvalidValue, match=r"half_spaces\[1\] is 0.5, but must be 0"):
+        slab.voronoi_cells(box=box, half_spaces=[[0, 0, 1, 1], [0.5, 0, 1, 1]])
 
 
 def test_one_point_and_a_slab():

@@ -40,7 +40,7 @@ pub type InterpolationCode = u32;
 /// takes as long as deldrift_locate_points, and with natural neighbours some microseconds more.
 ///
 /// In a periodic triangulation positions may be in any period, and are rounded as for deldrift_locate. An image of a
-/// vertex has the values of the vertex. Only DELDRIFT_INTERPOLATION_LINEAR is served; the other method is DELDRIFT_PERIODIC.
+/// vertex has the values of the vertex; natural neighbours of a position are images, several of one vertex in a small box.
 ///
 /// Cost: count times that of deldrift_locate and n_values; with natural neighbours also the cells whose circle or
 /// sphere has the position inside. After a change the first call also does what the first deldrift_cells does.
@@ -89,11 +89,8 @@ pub unsafe extern "C" fn deldrift_interpolate(
             Content::Open(t) => {
                 in_its_dimension!(t => t.interpolate(method, values, positions.of(t)?, hint, enter))?;
             }
-            Content::Periodic(_) if method != Interpolation::Linear => {
-                return Err(Failure::NaturalOfPeriodic);
-            }
             Content::Periodic(t) => {
-                in_its_period!(t, t => t.interpolate(values, positions.of(t)?, hint, enter))?;
+                in_its_period!(t, t => t.interpolate(method, values, positions.of(t)?, hint, enter))?;
             }
         }
         write_all(places, made);

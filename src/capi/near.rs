@@ -6,7 +6,6 @@ use super::location::{deldrift_location, hint_at};
 use super::pointers::{Buffer, Input, Output, Point, Points, given, write_all};
 use super::status::deldrift_status;
 use crate::ids::{CellId, VertexId};
-use crate::in_its_dimension;
 use crate::machine::memory;
 
 /// The k vertices nearest to each of count positions: rows of k ids, by distance and, at the same distance, by id, or by key
@@ -93,10 +92,15 @@ pub unsafe extern "C" fn deldrift_vertices_in_ball(
 /// which is also written when the buffer is too small. NULL with capacity 0 asks for the count alone, which takes as
 /// long.
 ///
-/// Cost: that of deldrift_locate, the cells whose bounding boxes meet the box, the facets of the hull that are seen
-/// from it, and k log k for the k vertices in it; n log n at most but for the first. While there are no cells, n.
+/// In a periodic triangulation a vertex is in the box if any image of it is; each is told once. The box is not rounded, and may be
+/// larger than the period. Where vectors go along several axes, as in a skewed box, one that is thousands of periods long, or
+/// infinite, along some of these has to be as wide as all these vectors together along each, or infinite along all but one.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for NaN,
+/// Cost: that of deldrift_locate, the cells whose bounding boxes meet the box, the facets of the hull that are seen
+/// from it, and k log k for the k vertices in it; n log n at most but for the first. While there are no cells, n. In a
+/// periodic triangulation n, and, where vectors go along several axes, the periods that the box meets, for each vertex.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for NaN, or for a box that is too long,
 /// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_vertices_in_box(
@@ -108,8 +112,8 @@ pub unsafe extern "C" fn deldrift_vertices_in_box(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, low: Point, high: Point, vertices[capacity]: Buffer, count: Output);
-    t.read(|t| {
-        in_its_dimension!(t => {
+    t.read_any(|t| {
+        in_any!(t => {
             let found = t.vertices_in_box(low.of("low", t)?, high.of("high", t)?)?;
             vertices.fill(count, found.len(), || Ok(found.into_iter().map(VertexId::get)))
         })
@@ -127,11 +131,15 @@ pub unsafe extern "C" fn deldrift_vertices_in_box(
 /// A position outside the convex hull may be in the circle or sphere of no cell: then the insertion removes none, and
 /// joins the vertex to the facets of the hull that it sees.
 ///
+/// In a periodic triangulation the position may be in any period, and is rounded as for deldrift_locate. A cell is told, once, if a
+/// translation of it is in conflict: it would be removed by the insertion of the vertex with all of its images. A position
+/// outside the convex hull is refused, as facets without an end are seen from there.
+///
 /// Cost: that of deldrift_locate, the cells found, and the facets of the hull that are seen from the position. After a
 /// change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// DELDRIFT_PERIODIC outside the hull of a periodic triangulation, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_conflicts(
     t: *const deldrift_triangulation,
@@ -143,8 +151,8 @@ pub unsafe extern "C" fn deldrift_conflicts(
 ) -> deldrift_status {
     let hint = hint.cast();
     given!(t: Reading, position: Point, hint: Input, cells[capacity]: Buffer, count: Output);
-    t.read(|t| {
-        in_its_dimension!(t => {
+    t.read_any(|t| {
+        in_any!(t => {
             let found = t.conflicts(position.of("position", t)?, hint_at(hint)?)?;
             cells.fill(count, found.len(), || Ok(found.into_iter().map(CellId::get)))
         })

@@ -48,12 +48,13 @@ use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 /// deldrift_take_changes, deldrift_circumcentres, deldrift_volumes, deldrift_mask_by_circumradius with the functions that
 /// update what these give, deldrift_mask_boundary, deldrift_hull_facets, deldrift_locate, deldrift_locate_points,
 /// deldrift_locate_in_period, deldrift_nearest_vertex, deldrift_nearest_vertices, deldrift_vertices_in_ball,
-/// deldrift_barycentric, deldrift_interpolate with DELDRIFT_INTERPOLATION_LINEAR, deldrift_clone, deldrift_save,
+/// deldrift_vertices_in_box, deldrift_conflicts, deldrift_voronoi_changed,
+/// deldrift_barycentric, deldrift_interpolate, deldrift_clone, deldrift_save,
 /// deldrift_load, deldrift_save_file, deldrift_load_file, deldrift_write_vtu, deldrift_write_medit, deldrift_compact,
 /// deldrift_relocate_vertex, deldrift_insert_vertex, deldrift_remove_vertex, deldrift_validate, deldrift_hidden_vertices,
 /// deldrift_star, deldrift_vertex_cells, deldrift_vertex_neighbours, deldrift_cell_of_each_vertex, deldrift_cells_around,
-/// deldrift_mirror_indices, deldrift_mirror_index, and without a box deldrift_voronoi_volumes, deldrift_voronoi_facets,
-/// deldrift_voronoi_cells and deldrift_voronoi_derivatives. All others return DELDRIFT_PERIODIC. Cells are numbered anew
+/// deldrift_mirror_indices, deldrift_mirror_index, deldrift_voronoi_volumes, deldrift_voronoi_facets, deldrift_voronoi_cells,
+/// deldrift_voronoi_cells_within, deldrift_voronoi_derivatives and deldrift_voronoi_derivatives_within. All others return DELDRIFT_PERIODIC. Cells are numbered anew
 /// by each commit, unless changes are taken.
 ///
 /// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves,

@@ -244,8 +244,6 @@ pub(super) enum Failure {
     ValuesOfField { argument: &'static str, index: usize, wrong: Wrong },
     NotOfThePlane,
     Periodic,
-    Clipped,
-    NaturalOfPeriodic,
     Option { field: &'static str, value: u64, wanted: &'static str },
     Share { field: &'static str, value: f64 },
     Field { argument: &'static str, index: usize, part: &'static str, wanted: &'static str },
@@ -280,7 +278,7 @@ impl Failure {
         match self {
             Failure::Pointer { wrong, .. } | Failure::ValuesOfField { wrong, .. } => wrong.status(),
             Failure::NotOfThePlane => DELDRIFT_INVALID_DIMENSION,
-            Failure::Periodic | Failure::Clipped | Failure::NaturalOfPeriodic => DELDRIFT_PERIODIC,
+            Failure::Periodic => DELDRIFT_PERIODIC,
             Failure::Option { .. } | Failure::Share { .. } => DELDRIFT_INVALID_OPTIONS,
             Failure::Field { .. } => DELDRIFT_INVALID_FIELD,
             Failure::Level { .. } => DELDRIFT_INVALID_LEVEL,
@@ -314,6 +312,7 @@ impl Failure {
                 Error::WrongCount { .. } => DELDRIFT_WRONG_COUNT,
                 Error::InvalidValue { .. } => DELDRIFT_INVALID_VALUE,
                 Error::DependentVectors { .. } => DELDRIFT_DEPENDENT_VECTORS,
+                Error::OutsideOfPeriodic { .. } => DELDRIFT_PERIODIC,
                 Error::InvalidName { .. } => DELDRIFT_INVALID_FIELD,
                 Error::Coincident { .. } => DELDRIFT_COINCIDENT,
                 Error::TooManyVertices { .. } => DELDRIFT_TOO_MANY_VERTICES,
@@ -334,8 +333,6 @@ impl fmt::Display for Failure {
             }
             Failure::NotOfThePlane => write!(f, "the dimension of t is 3, but must be 2"),
             Failure::Periodic => write!(f, "t is periodic, and this function does not serve such"),
-            Failure::Clipped => write!(f, "low and high are given, but t is periodic"),
-            Failure::NaturalOfPeriodic => write!(f, "method is 1, but t is periodic"),
             Failure::Option { field, value, wanted } => write!(f, "{field} is {value}, but must be {wanted}"),
             Failure::Share { field, value } => {
                 write!(f, "{field} is {value:?}, but must be 0, or above 0 and at most 1")

@@ -2,13 +2,13 @@
 
 mod parts;
 
-use super::handle::{Content, Reading, deldrift_triangulation, in_its_period};
+use super::handle::{Content, Reading, deldrift_triangulation, in_any, in_its_period};
 use super::pointers::{Array, Buffer, Output, Point, given};
 use super::status::deldrift_status;
 use crate::ids::VertexId;
 use crate::in_its_dimension;
 use crate::motion::VoronoiFacet;
-use parts::{OfCells, OfFacets, check_no_box, clip_for, half_space_rows, mask_for, write};
+use parts::{OfCells, OfFacets, box_for, clip_for, half_space_rows, mask_for, write};
 
 /// The areas (2D) or volumes (3D) of the Voronoi cells of all ids, within a box.
 ///
@@ -30,8 +30,8 @@ use parts::{OfCells, OfFacets, check_no_box, clip_for, half_space_rows, mask_for
 /// by at most h times its perimeter, however near to each other vertices are. In place of 1e-8 it is some last bits, about 1e-15, unless cells are nearly flat (see
 /// deldrift_circumcentres). Never negative. The volumes of all ids add up to that of the box but for rounding.
 ///
-/// In a periodic triangulation low and high must be NULL. Cells without an end, as there are in a box that is open somewhere,
-/// are infinite; the volumes are those of deldrift_voronoi_cells, to the last bit.
+/// In a periodic triangulation the volumes are those of deldrift_voronoi_cells, to the last bit, and low and high are as they
+/// are there. With NULL for both, cells without an end, as there are where the triangulation is open in some direction, are infinite.
 ///
 /// Takes time in proportion to the number of cells, and of ids; in a box, for Voronoi cells at its boundary, to the
 /// number of corners of their facets as well, a microsecond (2D) or some (3D) for each such cell of ordinary sets.
@@ -43,8 +43,9 @@ use parts::{OfCells, OfFacets, check_no_box, clip_for, half_space_rows, mask_for
 /// does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT (also if one of low and high is NULL), DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE if high is not above low in every coordinate,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE if high is not above low in every coordinate, or if the
+/// box is not one that repeats, or not bounded across the vectors, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY,
+/// DELDRIFT_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_voronoi_volumes(
     t: *const deldrift_triangulation,
@@ -55,18 +56,16 @@ pub unsafe extern "C" fn deldrift_voronoi_volumes(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, low: Point, high: Point, volumes[capacity]: Buffer, count: Output);
-    t.read_any_watched(|t, monitor| {
-        let t = match t {
-            Content::Open(t) => t,
-            Content::Periodic(t) => {
-                check_no_box(low, high, 0)?;
-                return volumes.fill(count, t.id_count(), || Ok(t.voronoi_volumes(monitor)?));
-            }
-        };
-        in_its_dimension!(t => {
+    t.read_any_watched(|t, monitor| match t {
+        Content::Open(t) => in_its_dimension!(t => {
             let clip = clip_for(t, low, high)?;
             volumes.fill(count, t.id_count(), || Ok(t.voronoi_volumes_monitored(clip, monitor)?))
-        })
+        }),
+        Content::Periodic(t) => in_its_period!(t, t => {
+            let clip = box_for(t, low, high)?;
+            t.container(clip, &[])?;
+            volumes.fill(count, t.id_count(), || Ok(t.voronoi_volumes_within(clip, &[], monitor)?))
+        }),
     })
 }
 
@@ -90,7 +89,7 @@ pub unsafe extern "C" fn deldrift_voronoi_volumes(
 /// facets of a vertex whose Voronoi cell is in the box, times the lengths of its edges and divided by 4 (2D) or 6 (3D),
 /// add up to its area or volume but for rounding.
 ///
-/// In a periodic triangulation low and high must be NULL. Of several edges between two vertices each has the facet of its own,
+/// In a periodic triangulation low and high are as deldrift_voronoi_cells has them. Of several edges between two vertices each has the facet of its own,
 /// and one that leads from a vertex to itself has the facet that two periods of its cell share. The measures are those of
 /// deldrift_voronoi_derivatives, to the last bit.
 ///
@@ -119,10 +118,11 @@ pub unsafe extern "C" fn deldrift_voronoi_facets(
             measures.fill(count, t.edge_count(), || Ok(t.voronoi_facets_monitored(clip, monitor)?))
         }),
         Content::Periodic(t) => in_its_period!(t, t => {
-            check_no_box(low, high, 0)?;
+            let clip = box_for(t, low, high)?;
+            t.container(clip, &[])?;
             measures.fill_by(count, t.edge_count()?, |places| {
                 let tell = &mut |edge, facet: VoronoiFacet<_>| write(places, edge, &[facet.area]);
-                Ok(t.for_voronoi_facets(None, monitor, tell)?)
+                Ok(t.for_voronoi_facets_within(clip, &[], None, monitor, tell)?)
             })
         }),
     })
@@ -154,8 +154,13 @@ pub unsafe extern "C" fn deldrift_voronoi_facets(
 /// each), and a centroid, where that is less than d, by that error of the volume times d / V; it is in the box in any
 /// case. The volumes of all ids add up to that of the box but for rounding.
 ///
-/// In a periodic triangulation low and high must be NULL: nothing is cut. A cell without an end, as there are in a box that is
-/// open somewhere, has volume and area infinite, and its centroid is NaN. The h is the one that deldrift_voronoi_volumes has
+/// In a periodic triangulation low and high are walls, which repeat with it: they must be -infinity and infinity along each axis
+/// along which a vector goes, so that both are infinite, or NULL, where vectors span all directions. Along other axes they are
+/// finite, unless half-spaces (deldrift_voronoi_cells_within) bound what is left. Let the box that repeats be the least one
+/// that has all places of the container which are up to 1.5 of each reduced vector away from the unit cell, with low and high
+/// as faces; with the h of this box numbers are off as in the open, and the volumes add up to that of one period of the
+/// container. NULL for low and high cuts nothing: then a cell without an end, as there are where the triangulation is open in
+/// some direction, has volume and area infinite, and its centroid is NaN; h is the one that deldrift_voronoi_volumes has
 /// without a box. A centroid is where the vertex is at its own position, in whatever period that is, and off by the rounding of
 /// its coordinates besides. The numbers do not depend on the periods in which positions are given nor on copies that the library
 /// keeps, but for rounding; with the same cells in the same order they are the same to the last bit.
@@ -169,8 +174,8 @@ pub unsafe extern "C" fn deldrift_voronoi_facets(
 /// deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
-/// DELDRIFT_INVALID_VALUE if high is not above low in every coordinate, DELDRIFT_WRONG_COUNT,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+/// DELDRIFT_INVALID_VALUE if high is not above low in every coordinate, or if the box is not one that repeats, or not bounded
+/// across the vectors, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_voronoi_cells(
     t: *const deldrift_triangulation,
@@ -222,6 +227,10 @@ pub unsafe extern "C" fn deldrift_voronoi_cells(
 /// neither on the mask nor on the number of threads, to the last bit; without half-spaces they are those of
 /// deldrift_voronoi_cells.
 ///
+/// In a periodic triangulation the product of each normal and each of the vectors that deldrift_vectors tells must be 0,
+/// exactly, so that the half-space repeats as well: along axes along which no vector goes normals may have any entries. What low,
+/// high and half-spaces leave must be bounded across the vectors; NULL for low and high is a box that is infinite along all axes.
+///
 /// A cell that is in all half-spaces takes little longer than in deldrift_voronoi_cells, as circumcentres are
 /// compared with the half-spaces nearby alone. One that is cut takes some microseconds, and some nanoseconds for each
 /// half-space. One thread computes those that are cut. Takes memory for half-spaces, and for lists of those nearby.
@@ -230,8 +239,8 @@ pub unsafe extern "C" fn deldrift_voronoi_cells(
 ///
 /// Errors: those of deldrift_voronoi_cells: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
 /// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE (also for a normal or an offset), DELDRIFT_OUT_OF_RANGE,
-/// DELDRIFT_INVALID_VALUE (also if a normal is zero), DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+/// DELDRIFT_INVALID_VALUE (also if a normal is zero, or one of a periodic triangulation has a product with a vector that is not
+/// 0), DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_voronoi_cells_within(
     t: *const deldrift_triangulation,
@@ -264,9 +273,14 @@ pub unsafe extern "C" fn deldrift_voronoi_cells_within(
                 to.fill(count, t.id_count(), |tell| t.for_voronoi_cells(clip, half_spaces, mask, monitor, tell))
             }),
             Content::Periodic(t) => in_its_period!(t, t => {
-                check_no_box(low, high, half_space_count)?;
+                let clip = box_for(t, low, high)?;
+                // SAFETY: as was promised to this function.
+                let half_spaces = unsafe { half_space_rows(d, half_spaces, half_space_count)? };
+                t.container(clip, half_spaces)?;
                 let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
-                to.fill(count, t.id_count(), |tell| t.for_voronoi_cells(mask, monitor, tell))
+                to.fill(count, t.id_count(), |tell| {
+                    t.for_voronoi_cells_within(clip, half_spaces, mask, monitor, tell)
+                })
             }),
         }
     })
@@ -298,8 +312,8 @@ pub unsafe extern "C" fn deldrift_voronoi_cells_within(
 /// measure is off by at most h P, a centroid by h P d / A, and by d + h where A is less than 4 h P; a derivative by h P
 /// (d + |x - c|) / L, where x is the position by which it is.
 ///
-/// In a periodic triangulation low and high must be NULL; the h is the one that deldrift_voronoi_volumes has without a box, of
-/// the cells around the edge. A facet without an end has an infinite measure, and NaN for the rest. A centroid is where the first
+/// In a periodic triangulation low and high are walls, as deldrift_voronoi_cells has them, with its h; or NULL, with the h that
+/// deldrift_voronoi_volumes has without a box, of the cells around the edge. Then a facet without an end has an infinite measure, and NaN for the rest. A centroid is where the first
 /// vertex of the edge is at its own position, and off by the rounding of its coordinates besides; the second vertex is where
 /// deldrift_edge_shifts has it. The derivatives of an edge are those by the position of one of its ends alone. As all periods of a
 /// vertex move, the derivative of the volume of the cell of i by the position of j is the sum over the edges between i and
@@ -351,8 +365,8 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives(
 /// them within a box.
 ///
 /// low, high, mask, mask_count, measures, centroids, derivatives, capacity, count: as deldrift_voronoi_derivatives has
-/// them. half_spaces, half_space_count: as deldrift_voronoi_cells_within has them. Box and half-spaces stay where they
-/// are when vertices move, so that the sums of derivatives are as in a box.
+/// them. half_spaces, half_space_count: as deldrift_voronoi_cells_within has them, in a periodic triangulation as well. Box and
+/// half-spaces stay where they are when vertices move, so that the sums of derivatives are as in a box.
 ///
 /// Rounded: with the h of deldrift_voronoi_cells_within the errors are those of deldrift_voronoi_derivatives; for a facet that a plane
 /// cuts divided by the sine of the angle between both. A facet that is in a plane, but for h, may be there or not.
@@ -398,9 +412,14 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives_within(
                 to.fill(count, t.edge_count(), |tell| t.for_voronoi_facets(clip, half_spaces, mask, monitor, tell))
             }),
             Content::Periodic(t) => in_its_period!(t, t => {
-                check_no_box(low, high, half_space_count)?;
+                let clip = box_for(t, low, high)?;
+                // SAFETY: as was promised to this function.
+                let half_spaces = unsafe { half_space_rows(d, half_spaces, half_space_count)? };
+                t.container(clip, half_spaces)?;
                 let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
-                to.fill(count, t.edge_count()?, |tell| t.for_voronoi_facets(mask, monitor, tell))
+                to.fill(count, t.edge_count()?, |tell| {
+                    t.for_voronoi_facets_within(clip, half_spaces, mask, monitor, tell)
+                })
             }),
         }
     })
@@ -423,6 +442,9 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives_within(
 /// since the last change or since deldrift_compact, while all vertices are in one hyperplane, and where there are
 /// segments.
 ///
+/// In a periodic triangulation arrays are those of a call without a mask within the errors documented, as copies that the
+/// library keeps may be others; and all are marked where the vectors are others than when changes were taken before.
+///
 /// Cost: a byte for each id; the changes taken, and the cells around the moved vertices, of k cells k log k.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX,
@@ -437,8 +459,8 @@ pub unsafe extern "C" fn deldrift_voronoi_changed(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, vertices[vertex_count]: Array, mask[capacity]: Buffer, count: Output);
-    t.read(|t| {
-        in_its_dimension!(t => {
+    t.read_any(|t| {
+        in_any!(t => {
             let moved = VertexId::of_numbers(vertices.get()?);
             mask.fill(count, t.id_count(), || Ok(t.voronoi_changed(moved)?))
         })

@@ -14,6 +14,7 @@ use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::{Changes, NO_CELL};
 use crate::periodic::cells::{PeriodicCells, RowHasher};
+use crate::periodic::lattice::Lattice;
 
 /// A cell by its vertices in order, each with the period in which it is, where the first is at its position; the last is none
 /// in the plane.
@@ -26,12 +27,14 @@ pub(super) struct Base<G: Dimension> {
     pub(super) index_of: HashMap<Name, CellId, BuildHasherDefault<RowHasher>>,
     /// Vertices that others hid, ascending.
     pub(super) hidden: Vec<VertexId>,
+    /// The lattice, if changes had been taken.
+    pub(super) lattice: Option<Lattice<G>>,
 }
 
 impl<G: Dimension> Base<G> {
     /// That of a box in which no cell has been told yet.
     pub(super) fn none() -> Self {
-        Base { corners: Vec::new(), index_of: HashMap::default(), hidden: Vec::new() }
+        Base { corners: Vec::new(), index_of: HashMap::default(), hidden: Vec::new(), lattice: None }
     }
 
     /// A copy in which vertices have other ids, listed by the old ones; those that have none any more are in no cell of now.
@@ -53,6 +56,7 @@ impl<G: Dimension> Base<G> {
         }
         memory::reserve_exact(&mut base.hidden, self.hidden.len())?;
         base.hidden.extend(self.hidden.iter().map(|&v| new_id(v)).filter(|&v| v != VertexId::NONE));
+        base.lattice = self.lattice.as_ref().map(Lattice::copied);
         Ok(base)
     }
 
@@ -118,12 +122,17 @@ impl<G: Dimension> Lists<G> {
 pub(super) struct Taking<G: Dimension> {
     pub(super) base: Base<G>,
     pub(super) lists: Lists<G>,
+    /// The timestamp at which they were taken, if the lists are still of these ids.
+    pub(super) timestamp: Option<u64>,
+    /// Whether the vectors are others than when changes were taken before.
+    pub(super) is_strained: bool,
 }
 
 impl<G: Dimension> Taking<G> {
     /// What it is for another triangulation with these ids, listed by the old ones; without the lists.
     pub(super) fn renumbered(&self, new_id: impl Fn(VertexId) -> VertexId) -> Result<Self> {
-        Ok(Taking { base: self.base.renumbered(new_id)?, lists: Lists::none() })
+        let base = self.base.renumbered(new_id)?;
+        Ok(Taking { base, lists: Lists::none(), timestamp: None, is_strained: false })
     }
 }
 

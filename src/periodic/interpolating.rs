@@ -7,28 +7,30 @@ use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::CellId;
 use crate::machine::memory;
-use crate::motion::{Location, VertexValues};
+use crate::motion::{Interpolation, Location, Ridges, VertexValues};
 use crate::periodic::images::Image;
 use crate::periodic::inside::all;
 use crate::periodic::lattice::{HOME, Range, Shift};
 use crate::periodic::locating::{Placed, Spot};
 use crate::periodic::reduction::SLACK;
 use crate::periodic::triangulation::PeriodicTriangulation;
+use crate::periodic::zone::Zone;
 
 impl<G: Dimension> PeriodicTriangulation<G> {
-    /// Interpolates values of vertices at positions, rounded to the grid of the lattice, linearly in each cell: those of each are
-    /// told to `found`, or `None` for positions outside the convex hull of a set that is open in some direction. An image of a
+    /// Interpolates values of vertices at positions, rounded to the grid of the lattice: those of each are told to `found`, or `None` for positions outside the convex hull of a set that is open in some direction. An image of a
     /// vertex has its values. Those of hidden and removed vertices are not read. Each position is looked for from the one before,
     /// the first one from `near`, if that is near it.
     ///
     /// ```
-    /// use deldrift::{Plane, motion::{Options, VertexValues}, periodic::PeriodicTriangulation};
+    /// use deldrift::{Plane, motion::{Interpolation, Options, VertexValues}, periodic::PeriodicTriangulation};
     ///
     /// let points = [[0.0, 0.0], [0.5, 0.0]];
     /// let t = PeriodicTriangulation::<Plane>::new(&points, &[[1.0, 0.0], [0.0, 1.0]], Options::default())?;
     /// let heights = VertexValues { values: &[0.0, 1.0], n_values: 1 };
     /// let mut found = Vec::new();
-    /// t.interpolate(heights, &[[0.75, 5.0], [-0.25, 0.5]], None, |values| found.push(values.unwrap()[0]))?;
+    /// t.interpolate(Interpolation::Linear, heights, &[[0.75, 5.0], [-0.25, 0.5]], None, |values| {
+    ///     found.push(values.unwrap()[0]);
+    /// })?;
     /// assert_eq!(found, [0.5, 0.5]);
     /// # Ok::<(), deldrift::Error>(())
     /// ```
@@ -38,6 +40,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// position; [`Error::OutOfMemory`], before or after some have been told.
     pub fn interpolate(
         &self,
+        method: Interpolation,
         given: VertexValues<'_>,
         positions: &[G::Point],
         near: Option<Location>,
@@ -53,10 +56,16 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let spots = self.spots(&asked, near)?;
         let cells = self.read_cells()?;
         let (mut weights, mut result) = (Vec::new(), Vec::new());
+        let (mut of_images, mut zone, mut ridges) = (Vec::new(), Zone::default(), Ridges::default());
         memory::lengthen(&mut result, given.n_values, 0.0)?;
         for (place, spot) in asked.places.iter().zip(spots) {
             match spot {
                 Spot::Vertex(Image { vertex, .. }) => given.combine([(vertex, 1.0)], &mut result),
+                Spot::Cell(placed) if method == Interpolation::NaturalNeighbour => {
+                    self.natural_weights(cells, (placed, place), &mut zone, &mut ridges, &mut of_images)?;
+                    let of_vertices = of_images.iter().map(|&(image, weight)| (image.vertex, weight));
+                    given.combine(of_vertices, &mut result);
+                }
                 Spot::Cell((class, shift)) => {
                     let place = self.lattice.translated(place, shift.map(|n| -n));
                     self.inside.t.linear_weights(cells.chosen[class], &place, &mut weights)?;

@@ -351,6 +351,21 @@ impl<G: Shape> Lattice<G> {
         })
     }
 
+    /// The linear form that is 1 on a vector, and 0 on the others and on what is orthogonal to all.
+    pub(super) fn form(&self, j: usize) -> &[f64; 3] {
+        &self.dual[j]
+    }
+
+    /// By vector, at most so many multiples of it away from its vertex is a Voronoi cell, which is in no half of space that is nearer to
+    /// a translation of the vertex by a vector, one way or the other.
+    pub(super) fn reach_of_voronoi_cells(&self) -> [f64; 3] {
+        let square = |j: usize| dot(&widened::<G>(&self.vectors[j]), &widened::<G>(&self.vectors[j]));
+        [0, 1, 2].map(|i| {
+            let most: f64 = (0..self.rank).map(|j| dot(&self.dual[i], &self.dual[j]).abs() * square(j)).sum();
+            0.5 * most * (1.0 + SLACK)
+        })
+    }
+
     /// A way of that length is nearer to no other vector of the lattice than to none.
     pub(super) fn short_way(&self) -> f64 {
         self.short_way

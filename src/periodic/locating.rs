@@ -321,7 +321,11 @@ impl<G: Dimension> PeriodicTriangulation<G> {
 }
 
 /// The cell beyond the facet of one that is opposite a corner; none on the hull.
-fn across<G: Dimension>(cells: &PeriodicCells<G>, (class, by): Placed, i: usize) -> Option<Placed> {
+pub(super) fn across<G: Dimension>(
+    cells: &PeriodicCells<G>,
+    (class, by): Placed,
+    i: usize,
+) -> Option<Placed> {
     let next = cells.neighbours[class].as_ref()[i];
     (next != NO_CELL).then(|| (next, plus(cells.neighbour_shifts.of(class.index())[i], by)))
 }

@@ -26,12 +26,15 @@
 //! would be too far from the unit cell, vertices come or go, or the lattices are too different, another triangulation is
 //! built beside the present one, and takes its place when it is complete.
 
+mod boxes;
 mod cells;
 mod changes;
 mod cloning;
 mod commit;
 mod compaction;
 mod completeness;
+mod container;
+mod cut_voronoi;
 mod edges;
 mod editing;
 mod either;
@@ -62,6 +65,7 @@ mod validate;
 mod voronoi;
 #[cfg(test)]
 mod wrapping;
+mod zone;
 
 pub use cells::PeriodicView;
 pub use either::AnyPeriodic;

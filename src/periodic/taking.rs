@@ -23,9 +23,43 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         self.reject_prepared()?;
         let cells = self.read_cells()?;
         let (lists, base) = (self.list_changes(cells)?, self.base_of(cells)?);
+        let before = self.taking.as_ref().and_then(|taking| taking.base.lattice.as_ref());
+        let is_strained = before.is_some_and(|lattice| !lattice.is_equal(&self.lattice));
+        let timestamp = Some(self.timestamp());
         // From now on, each has been where it is.
         self.set_origins()?;
-        Ok(self.taking.insert(Taking { base, lists }).lists.changes())
+        Ok(self.taking.insert(Taking { base, lists, timestamp, is_strained }).lists.changes())
+    }
+
+    /// For each id 1 if the Voronoi cell of the vertex has changed, or may have, by the changes that were
+    /// [taken](Self::take_changes) last and as these vertices have moved meanwhile, and for removed ones; 0 for others. Vertices may be
+    /// listed more than once. With such a mask [`for_voronoi_cells`](Self::for_voronoi_cells) tells all that have changed by more than
+    /// rounding.
+    ///
+    /// To be called after changes have been taken, before any others; else all are 1, as they are without cells and after a change of
+    /// the vectors.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex),
+    /// [`Error::StagedVertex`](crate::Error::StagedVertex), [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn voronoi_changed(&self, moved: &[VertexId]) -> Result<Vec<u8>> {
+        let around = self.cells_around(moved)?;
+        let cells = self.read_cells()?;
+        let is_fresh =
+            |taking: &&Taking<G>| taking.timestamp == Some(self.timestamp()) && !taking.is_strained;
+        let taking = self.taking.as_ref().filter(is_fresh).filter(|_| !cells.corners.is_empty());
+        let mut mask = Vec::new();
+        memory::lengthen(&mut mask, self.id_count(), u8::from(taking.is_none()))?;
+        let Some(Taking { lists, .. }) = taking else { return Ok(mask) };
+        let of_cells = around.iter().chain(&lists.renumbered_to).map(|&cell| &cells.corners[cell]);
+        let listed = [moved, &lists.stars, &lists.hidden, &lists.shown];
+        for v in of_cells.flat_map(|row| row.as_ref()).chain(listed.into_iter().flatten()) {
+            mask[v.index()] = 1;
+        }
+        for v in VertexId::range(0..mask.len()).filter(|&v| !self.is_present(v)) {
+            mask[v.index()] = 1;
+        }
+        Ok(mask)
     }
 
     /// Gives cells that were there at the base their indices, as far as there are as many.
@@ -74,6 +108,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             base.index_of.insert(self.name_of(cells, cell.index()), cell);
         }
         base.hidden = self.hidden_now()?;
+        base.lattice = Some(self.lattice.copied());
         Ok(base)
     }
 

@@ -8,6 +8,7 @@ use crate::motion::{Algorithm, MovingTriangulation, NO_CELL, Options};
 use crate::random::Rng;
 use std::collections::BTreeSet;
 
+mod boxes;
 mod changes;
 mod editing;
 mod histories;
@@ -17,6 +18,7 @@ mod near;
 mod preparing;
 mod telling;
 mod times;
+mod zone;
 
 /// Made anew of those vertices that are there.
 fn anew<G: Dimension>(

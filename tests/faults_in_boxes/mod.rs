@@ -3,7 +3,7 @@
 use super::common::{ids, point};
 use super::{Faults, Outcome, Page, REQUESTS, TRACES, arm, cloud, disarm, forked, nudge};
 use crate::common::Rng;
-use deldrift::motion::Options;
+use deldrift::motion::{Interpolation, Options, VertexValues};
 use deldrift::periodic::PeriodicTriangulation;
 use deldrift::{Dimension, Error, Plane, Result, Space, VertexId};
 use std::collections::BTreeSet;
@@ -29,10 +29,16 @@ enum Call {
     Cells,
     Edges,
     VoronoiVolumes,
+    VoronoiCellsWithin,
+    VoronoiFacetsWithin,
+    VoronoiChanged,
+    NaturalNeighbours,
+    Conflicts,
+    VerticesInBox,
     TakeChanges,
 }
 
-const CALLS: [Call; 17] = [
+const CALLS: [Call; 23] = [
     Call::New,
     Call::MoveVertices,
     Call::StageInsertions,
@@ -49,6 +55,12 @@ const CALLS: [Call; 17] = [
     Call::Cells,
     Call::Edges,
     Call::VoronoiVolumes,
+    Call::VoronoiCellsWithin,
+    Call::VoronoiFacetsWithin,
+    Call::VoronoiChanged,
+    Call::NaturalNeighbours,
+    Call::Conflicts,
+    Call::VerticesInBox,
     Call::TakeChanges,
 ];
 
@@ -57,6 +69,8 @@ struct Scene<G: Dimension> {
     t: PeriodicTriangulation<G>,
     goals: Vec<G::Point>,
     vectors: Vec<G::Point>,
+    /// A number for each vertex, and more.
+    heights: Vec<f64>,
 }
 
 /// All that there is to be seen: positions and vectors in bits, numbers, and cells as sets of vertices with shifts.
@@ -81,6 +95,11 @@ impl<G: Dimension> Scene<G> {
         }
         let mut vectors: Vec<G::Point> =
             (0..G::D).map(|j| point::<G>(|k| f64::from(u8::from(j == k)) + 0.125 * k as f64)).collect();
+        if matches!(call, Call::VoronoiCellsWithin | Call::VoronoiFacetsWithin) {
+            // Open across the last axis, between walls there.
+            vectors.pop();
+            vectors.iter_mut().for_each(|vector| vector[G::D - 1] = 0.0);
+        }
         let options = Options { threads: 1, ..Options::default() };
         let mut t = PeriodicTriangulation::new(&points, &vectors, options).expect("a build");
         nudge::<G>(&mut points, 0.02, rng);
@@ -112,12 +131,12 @@ impl<G: Dimension> Scene<G> {
             }
             _ => {}
         }
-        Scene { t, goals, vectors }
+        Scene { t, goals, vectors, heights: (0..100).map(f64::from).collect() }
     }
 
     /// Makes the call, and disarms as soon as it is back; what it gives, as far as that is a number.
     fn call(&mut self, call: Call) -> Result<u64> {
-        let Scene { t, goals, vectors } = self;
+        let Scene { t, goals, vectors, heights } = self;
         fn given<T>(result: Result<T>) -> Result<T> {
             disarm();
             result
@@ -152,6 +171,33 @@ impl<G: Dimension> Scene<G> {
             Call::Cells => given(t.cell_count())? as u64,
             Call::Edges => given(t.edges())?.len() as u64,
             Call::VoronoiVolumes => given(t.voronoi_volumes(&mut |_| true))?.len() as u64,
+            Call::VoronoiCellsWithin | Call::VoronoiFacetsWithin => {
+                let at_wall = |axis: usize, x: f64, y: f64| if axis + 1 == G::D { x } else { y };
+                let low = point::<G>(|axis| at_wall(axis, -0.5, f64::NEG_INFINITY));
+                let high = point::<G>(|axis| at_wall(axis, 2.0, f64::INFINITY));
+                let rows = [&[0.0, 2.0, 1.5][..], &[0.0, 0.0, 2.0, 1.5]];
+                let (clip, row, mut n) = (Some([&low, &high]), rows[G::D - 2], 0);
+                given(if let Call::VoronoiCellsWithin = call {
+                    t.for_voronoi_cells_within(clip, row, None, &mut |_| true, &mut |_, _| n += 1)
+                } else {
+                    t.for_voronoi_facets_within(clip, row, None, &mut |_| true, &mut |_, _| n += 1)
+                })?;
+                n
+            }
+            Call::VoronoiChanged => {
+                given(t.voronoi_changed(&ids([3, 4, 5])))?.iter().map(|&mark| u64::from(mark)).sum()
+            }
+            Call::NaturalNeighbours => {
+                let values = VertexValues { values: &heights[..t.id_count()], n_values: 1 };
+                let (method, mut n) = (Interpolation::NaturalNeighbour, 0);
+                given(t.interpolate(method, values, &goals[..4], None, |row| n += u64::from(row.is_some())))?;
+                n
+            }
+            Call::Conflicts => given(t.conflicts(&goals[0], None))?.len() as u64,
+            Call::VerticesInBox => {
+                let (low, high) = (point::<G>(|_| 0.25), point::<G>(|_| 0.75));
+                given(t.vertices_in_box(&low, &high))?.len() as u64
+            }
         })
     }
 

@@ -8,6 +8,7 @@ use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::motion::{MovingTriangulation, VoronoiCell, VoronoiFacet};
+use crate::periodic::PeriodicTriangulation;
 
 /// Buffers for what there is of Voronoi cells, for so many of these.
 pub(super) struct OfCells<'a> {
@@ -113,12 +114,16 @@ pub(super) fn mask_for(
     mask.get().map(Some)
 }
 
-/// A failure where a box is given, or half-spaces are, in a triangulation that is periodic.
-pub(super) fn check_no_box(low: Point<'_>, high: Point<'_>, half_space_count: usize) -> Result<(), Failure> {
-    if !(low.is_null() && high.is_null()) {
-        return Err(Failure::Clipped);
+/// The corners of a box; none if both are NULL.
+pub(super) fn box_for<'a, G: Dimension>(
+    t: &PeriodicTriangulation<G>,
+    low: Point<'a>,
+    high: Point<'a>,
+) -> Result<Option<[&'a G::Point; 2]>, Failure> {
+    if low.is_null() && high.is_null() {
+        return Ok(None);
     }
-    if half_space_count == 0 { Ok(()) } else { Err(Failure::Periodic) }
+    Ok(Some([low.of("low", t)?, high.of("high", t)?]))
 }
 
 /// The corners of a box that is a good one, in the dimension of `t`; none if both are NULL.

@@ -3,7 +3,7 @@
 use super::locating::{OF_PLANE, OF_SPACE, corners, points_of_kind, position};
 use super::*;
 use crate::ids::CellId;
-use crate::motion::{Location, VertexValues};
+use crate::motion::{Interpolation, Location, VertexValues};
 
 /// All coordinates of these tests are multiples of its inverse.
 const SCALE: f64 = (1u64 << 22) as f64;
@@ -97,7 +97,7 @@ fn check_values<G: Dimension>(
     let mut located = Vec::new();
     t.locate_in_period(positions, None, |location, shift| located.push((location, shift))).unwrap();
     let mut n_told = 0;
-    t.interpolate(given, positions, None, |found| {
+    t.interpolate(Interpolation::Linear, given, positions, None, |found| {
         let (p, (location, shift)) = (&positions[n_told], located[n_told]);
         n_told += 1;
         let (vertices, weights) = match location {
@@ -195,7 +195,7 @@ fn what_cannot_be_asked_is_told() {
     let far = t.nearest_vertices(&[[0.0; 2], [1e99, 0.0]], 1, |_| panic!("nothing is told"));
     assert!(matches!(far, Err(Error::OutOfRange { argument: "positions", index: 1, .. })));
     let given = VertexValues { values: &[1.0; 3], n_values: 1 };
-    let wrong = t.interpolate(given, &[[0.0; 2]], None, |_| panic!("nothing is told"));
+    let wrong = t.interpolate(Interpolation::Linear, given, &[[0.0; 2]], None, |_| panic!("nothing is told"));
     assert!(matches!(wrong, Err(Error::WrongCount { given: 3, wanted: 1, .. })));
     let other = t.barycentric(&[[0.0; 2]], &[CellId::new(2)], |_| panic!("nothing is told"));
     assert!(matches!(other, Err(Error::NoSuchCell { index: 0, cells: 2, .. })));

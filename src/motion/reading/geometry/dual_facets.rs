@@ -280,13 +280,37 @@ impl<G: Dimension> MovingTriangulation<G> {
         let facets = self.facets_of(&wanted, &centres, progress, |voronoi, left, &(edge, _, first)| {
             voronoi.facet_of(&region, left, edge, first)
         })?;
-        for ((area, centroid, derivatives), ([v, _], k, _)) in facets.into_iter().zip(wanted) {
-            let derivatives = derivatives.each_ref().map(of_space::<G>);
-            tell(
-                (offsets[v.index()] + k) as usize,
-                VoronoiFacet { area, centroid: of_space::<G>(&centroid), derivatives },
-            );
+        for (facet, ([v, _], k, _)) in facets.iter().zip(wanted) {
+            tell((offsets[v.index()] + k) as usize, told::<G>(facet));
         }
+        Ok(())
+    }
+
+    /// Tells what a box and half-spaces leave of the Voronoi facets of some edges, each with a cell of it, by their numbers in
+    /// this list. All are computed before. The triangulation has no segments.
+    ///
+    /// # Errors
+    /// Those of [`voronoi_derivatives_within`](Self::voronoi_derivatives_within); then nothing has been told.
+    pub(crate) fn for_cut_voronoi_facets(
+        &self,
+        edges: &[([VertexId; 2], CellId)],
+        clip: [&G::Point; 2],
+        half_spaces: &[f64],
+        monitor: &mut dyn FnMut(f64) -> bool,
+        tell: &mut dyn FnMut(usize, VoronoiFacet<G::Point>),
+    ) -> Result<()> {
+        let region = self.region(clip, half_spaces)?;
+        let progress = &mut Progress::new(monitor, edges.len());
+        let mut firsts = Vec::new();
+        let is_next = |k: &usize| *k == 0 || edges[*k].0[0] != edges[*k - 1].0[0];
+        memory::collect(&mut firsts, (0..edges.len()).filter(is_next).map(|k| edges[k].0[0]))?;
+        let chosen = self.cells_around(&firsts)?;
+        let mut centres = Centres::new(self, self.cell_arrays()?, Some(&region.clip), Some(&chosen))?;
+        region.mark(self, &mut centres);
+        let facets = self.facets_of(edges, &centres, progress, |voronoi, left, &(edge, first)| {
+            voronoi.facet_of(&region, left, edge, first)
+        })?;
+        facets.iter().enumerate().for_each(|(k, facet)| tell(k, told::<G>(facet)));
         Ok(())
     }
 
@@ -369,6 +393,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         Ok((wanted, offsets))
     }
+}
+
+/// A facet as programs know it.
+fn told<G: Dimension>((area, centroid, derivatives): &Facet) -> VoronoiFacet<G::Point> {
+    let derivatives = derivatives.each_ref().map(of_space::<G>);
+    VoronoiFacet { area: *area, centroid: of_space::<G>(centroid), derivatives }
 }
 
 /// The coordinates that a dimension has.

@@ -23,13 +23,17 @@ pub(super) fn list_linear<G: Dimension>(
     q: &G::Point,
     weights: &mut Weights,
 ) -> Result<()> {
-    let points = &kernel.places(cell)[..G::D + 1];
-    let coordinates = match barycentric::<G>(points, q) {
-        Some(coordinates) if coordinates.iter().all(|&x| x >= LEAST_COORDINATE) => coordinates,
-        _ => by_volumes::<G>(points, q),
-    };
+    let coordinates = linear::<G>(&kernel.places(cell)[..G::D + 1], q);
     let corners = kernel.complex().cell(cell).corners;
     memory::collect(weights, corners.as_ref().iter().copied().zip(coordinates))
+}
+
+/// Barycentric coordinates of a place in a cell with these corners.
+pub(super) fn linear<G: Dimension>(points: &[&G::Point], q: &G::Point) -> [f64; 4] {
+    match barycentric::<G>(points, q) {
+        Some(coordinates) if coordinates.iter().all(|&x| x >= LEAST_COORDINATE) => coordinates,
+        _ => by_volumes::<G>(points, q),
+    }
 }
 
 /// Barycentric coordinates, by elimination with pivots; none if a pivot is 0.

@@ -65,4 +65,5 @@ pub use dual_facets::{VoronoiFacet, VoronoiFacets};
 pub use incidence::Rows;
 pub use interpolation::{Interpolation, VertexValues};
 pub(crate) use measures::tell_all;
+pub(crate) use natural::Ridges;
 pub use star::OrderedStar;

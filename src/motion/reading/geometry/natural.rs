@@ -21,24 +21,131 @@ use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::reading::geometry::clipping::{Vector, cross, dot, in_space, minus};
-use crate::motion::reading::geometry::linear::{Weights, barycentric, list_linear};
+use crate::motion::reading::geometry::linear::{Weights, barycentric, linear};
 use crate::predicates::Measures;
 
 /// A ridge of a facet around the place, with the circumcentre of the cell that would join both.
 #[derive(Clone, Copy, Debug)]
-struct Ridge {
-    /// Its vertices, the lower index first; in the plane one and the ghost vertex.
-    ends: [SiteId; 2],
+struct Ridge<K> {
+    /// Its vertices, the lower key first; in the plane the only one twice.
+    ends: [K; 2],
     /// Whether the facet, seen from outside, passes the ridge from the second to the first.
     is_reversed: bool,
     centre: Vector,
+}
+
+/// The ridges of the facets around a place, by keys that tell vertices apart.
+#[derive(Debug)]
+pub(crate) struct Ridges<K> {
+    list: Vec<Ridge<K>>,
+}
+
+impl<K> Default for Ridges<K> {
+    fn default() -> Self {
+        Ridges { list: Vec::new() }
+    }
+}
+
+impl<K: Copy + Ord> Ridges<K> {
+    pub(crate) fn clear(&mut self) {
+        self.list.clear();
+    }
+
+    /// Adds those of a facet around a place: as many vertices as there are dimensions, all facets seen from one side.
+    pub(crate) fn add_facet<G: Dimension>(&mut self, facet: [(K, &G::Point); 3], q: &G::Point) -> Result<()> {
+        let mut points = [q; 4];
+        (0..G::D).for_each(|i| points[i] = facet[i].1);
+        let (centre, _) = G::Point::circumsphere(&points[..=G::D]);
+        let centre = in_space::<G>(&centre);
+        for i in 0..G::D {
+            let from = facet[i].0;
+            let to = if G::D == 2 { from } else { facet[(i + 1) % 3].0 };
+            // In the plane a facet comes to its second vertex, and leaves its first.
+            let is_reversed = if G::D == 2 { i == 1 } else { to < from };
+            let ends = if to < from { [to, from] } else { [from, to] };
+            memory::push(&mut self.list, Ridge { ends, is_reversed, centre })?;
+        }
+        Ok(())
+    }
+
+    /// The weights of the natural neighbours of a place, around which all facets have been added, in a cell with these corners.
+    pub(crate) fn weights<G: Dimension>(
+        &mut self,
+        cell: &[(K, &G::Point)],
+        q: &G::Point,
+        place: impl Fn(K) -> G::Point,
+        weights: &mut Vec<(K, f64)>,
+    ) -> Result<()> {
+        weights.clear();
+        self.weigh::<G>(q, &place, weights)?;
+        let sum: f64 = weights.iter().map(|&(_, weight)| weight).sum();
+        let mut points = [q; 4];
+        points.iter_mut().zip(cell).for_each(|(point, corner)| *point = corner.1);
+        if !(sum.is_finite() && sum > 0.0) {
+            weights.clear();
+            let of_corners = linear::<G>(&points[..=G::D], q);
+            return memory::collect(weights, cell.iter().map(|&(key, _)| key).zip(of_corners));
+        }
+        weights.iter_mut().for_each(|(_, weight)| *weight /= sum);
+        // What makes them reproduce the place.
+        let mut reproduced = *q;
+        for axis in 0..G::D {
+            let off = weights.iter().map(|&(key, weight)| weight * (place(key)[axis] - q[axis]));
+            reproduced[axis] += off.sum::<f64>();
+        }
+        let points = &points[..=G::D];
+        let both = barycentric::<G>(points, q).zip(barycentric::<G>(points, &reproduced));
+        let Some((wanted, given)) = both else { return Ok(()) };
+        for (i, &(key, _)) in cell.iter().enumerate() {
+            memory::push(weights, (key, wanted[i] - given[i]))?;
+        }
+        Ok(())
+    }
+
+    /// Lists the natural neighbours with the measures of Voronoi facets over distances.
+    fn weigh<G: Dimension>(
+        &mut self,
+        q: &G::Point,
+        place: impl Fn(K) -> G::Point,
+        weights: &mut Vec<(K, f64)>,
+    ) -> Result<()> {
+        self.list.sort_unstable_by_key(|ridge| (ridge.ends, ridge.is_reversed));
+        let at = in_space::<G>(q);
+        for pair in self.list.chunks_exact(2) {
+            let [forth, back] = [&pair[0], &pair[1]];
+            debug_assert!(forth.ends == back.ends && !forth.is_reversed && back.is_reversed);
+            if G::D == 2 {
+                let place = in_space::<G>(&place(forth.ends[0]));
+                let (along, to) = (minus(&back.centre, &forth.centre), minus(&place, &at));
+                let weight = (dot(&along, &along) / dot(&to, &to)).sqrt();
+                memory::push(weights, (forth.ends[0], weight))?;
+                continue;
+            }
+            for (key, [left, right]) in forth.ends.into_iter().zip([[forth, back], [back, forth]]) {
+                let place = in_space::<G>(&place(key));
+                let (left, right) = (minus(&left.centre, &place), minus(&right.centre, &place));
+                let to = minus(&place, &at);
+                // Twice the area, signed, times the distance, over its square.
+                memory::push(weights, (key, dot(&cross(&left, &right), &to) / dot(&to, &to)))?;
+            }
+        }
+        weights.sort_unstable_by_key(|&(key, _)| key);
+        weights.dedup_by(|next, kept| {
+            let is_same = next.0 == kept.0;
+            kept.1 += if is_same { next.1 } else { 0.0 };
+            is_same
+        });
+        // All have the same sign but for rounding.
+        weights.iter_mut().for_each(|(_, weight)| *weight = weight.abs());
+        Ok(())
+    }
 }
 
 /// Lists of one place after the other.
 #[derive(Debug, Default)]
 pub(super) struct Natural {
     zone: IndexSet<Slot>,
-    ridges: Vec<Ridge>,
+    ridges: Ridges<SiteId>,
 }
 
 impl Natural {
@@ -51,14 +158,12 @@ impl Natural {
         weights: &mut Weights,
     ) -> Result<()> {
         self.list_ridges(kernel, cell, q)?;
-        self.weigh(kernel, q, weights)?;
-        let sum: f64 = weights.iter().map(|&(_, weight)| weight).sum();
-        if !(sum.is_finite() && sum > 0.0) {
-            weights.clear();
-            return list_linear(kernel, cell, q, weights);
+        let corners = kernel.complex().cell(cell).corners;
+        let mut with_places = [(corners[0], q); 4];
+        for (entry, &s) in with_places.iter_mut().zip(corners.as_ref()) {
+            *entry = (s, kernel.place(s));
         }
-        weights.iter_mut().for_each(|(_, weight)| *weight /= sum);
-        correct(kernel, cell, q, weights)
+        self.ridges.weights::<G>(&with_places[..=G::D], q, |s| *kernel.place(s), weights)
     }
 
     /// Lists the ridges of the facets around the cells whose sphere holds a place.
@@ -76,92 +181,13 @@ impl Natural {
                 // Ties are broken as for a vertex of the highest id.
                 if !is_hull && kernel.is_in_conflict(across, q, VertexId::NONE) {
                     self.zone.insert(across)?;
-                } else {
-                    self.list_facet(kernel, corners.rotated_to_last(i), q)?;
+                    continue;
                 }
+                let turned = corners.rotated_to_last(i);
+                let facet = [0, 1, G::D - 1].map(|k| (turned[k], kernel.place(turned[k])));
+                self.ridges.add_facet::<G>(facet, q)?;
             }
         }
         Ok(())
     }
-
-    /// Lists the ridges of the facet of all corners but the last.
-    fn list_facet<G: Dimension>(
-        &mut self,
-        kernel: &Delaunay<G>,
-        corners: G::Corners,
-        q: &G::Point,
-    ) -> Result<()> {
-        let mut points = [q; 4];
-        (0..G::D).for_each(|i| points[i] = kernel.place(corners[i]));
-        let (centre, _) = G::Point::circumsphere(&points[..=G::D]);
-        let centre = in_space::<G>(&centre);
-        for i in 0..G::D {
-            let (from, to) = (corners[i], if G::D == 2 { SiteId::new(0) } else { corners[(i + 1) % 3] });
-            // In the plane a facet comes to its second vertex, and leaves its first.
-            let is_reversed = if G::D == 2 { i == 1 } else { to < from };
-            let ends = if to < from && G::D == 3 { [to, from] } else { [from, to] };
-            memory::push(&mut self.ridges, Ridge { ends, is_reversed, centre })?;
-        }
-        Ok(())
-    }
-
-    /// Lists the natural neighbours with the measures of Voronoi facets over distances.
-    fn weigh<G: Dimension>(
-        &mut self,
-        kernel: &Delaunay<G>,
-        q: &G::Point,
-        weights: &mut Weights,
-    ) -> Result<()> {
-        self.ridges.sort_unstable_by_key(|ridge| (ridge.ends, ridge.is_reversed));
-        let at = in_space::<G>(q);
-        for pair in self.ridges.chunks_exact(2) {
-            let [forth, back] = [&pair[0], &pair[1]];
-            debug_assert!(forth.ends == back.ends && !forth.is_reversed && back.is_reversed);
-            if G::D == 2 {
-                let place = in_space::<G>(kernel.place(forth.ends[0]));
-                let (along, to) = (minus(&back.centre, &forth.centre), minus(&place, &at));
-                let weight = (dot(&along, &along) / dot(&to, &to)).sqrt();
-                memory::push(weights, (forth.ends[0], weight))?;
-                continue;
-            }
-            for (s, [left, right]) in forth.ends.into_iter().zip([[forth, back], [back, forth]]) {
-                let place = in_space::<G>(kernel.place(s));
-                let (left, right) = (minus(&left.centre, &place), minus(&right.centre, &place));
-                let to = minus(&place, &at);
-                // Twice the area, signed, times the distance, over its square.
-                memory::push(weights, (s, dot(&cross(&left, &right), &to) / dot(&to, &to)))?;
-            }
-        }
-        weights.sort_unstable_by_key(|&(s, _)| s);
-        weights.dedup_by(|next, kept| {
-            let is_same = next.0 == kept.0;
-            kept.1 += if is_same { next.1 } else { 0.0 };
-            is_same
-        });
-        // All have the same sign but for rounding.
-        weights.iter_mut().for_each(|(_, weight)| *weight = weight.abs());
-        Ok(())
-    }
-}
-
-/// Adds to weights what makes them reproduce a place in a cell.
-fn correct<G: Dimension>(
-    kernel: &Delaunay<G>,
-    cell: Slot,
-    q: &G::Point,
-    weights: &mut Weights,
-) -> Result<()> {
-    let mut reproduced = *q;
-    for axis in 0..G::D {
-        let off = weights.iter().map(|&(s, weight)| weight * (kernel.place(s)[axis] - q[axis]));
-        reproduced[axis] += off.sum::<f64>();
-    }
-    let points = &kernel.places(cell)[..G::D + 1];
-    let both = barycentric::<G>(points, q).zip(barycentric::<G>(points, &reproduced));
-    let Some((wanted, given)) = both else { return Ok(()) };
-    let corners = kernel.complex().cell(cell).corners;
-    for (i, &s) in corners.as_ref().iter().enumerate() {
-        memory::push(weights, (s, wanted[i] - given[i]))?;
-    }
-    Ok(())
 }

@@ -39,6 +39,13 @@ fn list_conflicts<G: Dimension>(
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
+    /// Whether the insertion of a vertex at a place, at which there is none, would remove a cell. Ties are broken as for a vertex of
+    /// the highest id.
+    pub(crate) fn is_in_conflict(&self, cell: CellId, q: &G::Point) -> Result<bool> {
+        let (slot, kernel) = (self.cell_arrays()?.slots()[cell], &self.mesh.kernel);
+        Ok(kernel.is_in_conflict_with(&kernel.filter_for(q), slot, q, VertexId::NONE))
+    }
+
     /// The cells that the insertion of a vertex would remove: those whose circle or sphere has `position` inside, with
     /// ties broken as for a vertex of the highest id. None at the place of a vertex, nor while there are no cells. It
     /// is looked for from `near`, if that is near it.
