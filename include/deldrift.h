@@ -1658,12 +1658,13 @@ deldrift_status deldrift_vertices_in_ball(const deldrift_triangulation *t,
 /// long.
 ///
 /// In a periodic triangulation a vertex is in the box if any image of it is; each is told once. The box is not rounded, and may be
-/// larger than the period. Where vectors go along several axes, as in a skewed box, one that is thousands of periods long, or
+/// larger than the period; one that is 10^20 periods away is refused. Where vectors go along several axes, as in a skewed box, one that is thousands of periods long, or
 /// infinite, along some of these has to be as wide as all these vectors together along each, or infinite along all but one.
 ///
 /// Cost: that of deldrift_locate, the cells whose bounding boxes meet the box, the facets of the hull that are seen
 /// from it, and k log k for the k vertices in it; n log n at most but for the first. While there are no cells, n. In a
-/// periodic triangulation n, and, where vectors go along several axes, the periods that the box meets, for each vertex.
+/// periodic triangulation that of deldrift_vertices_in_ball where the box is shorter than half of the shortest vector, else n; and,
+/// where vectors go along several axes, the periods that the box meets, for each vertex.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for NaN, or for a box that is too long,
 /// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.

@@ -8,6 +8,8 @@
 //! parallelepiped of the vectors, and with it one of any place. Otherwise multiples of all vectors but one are tried, of as many as
 //! the box may meet; those of the last one are an interval again. Where all axes but one are without bounds, sums of multiples
 //! along that are the multiples of a greatest common divisor.
+//!
+//! Of a box that is short beside the period only the vertices in a ball around it are looked at.
 
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
@@ -17,7 +19,7 @@ use crate::periodic::lattice::Lattice;
 use crate::periodic::reduction::SLACK;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
-/// Stands for a bound that is infinite, or so far away that no translation of a vertex comes there: in units of the grid.
+/// Stands for a bound that is infinite, or farther away than this: in units of the grid.
 const FAR: i128 = 1 << 120;
 
 /// So many sums of multiples of vectors are tried for a vertex at most.
@@ -77,22 +79,45 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] for NaN, and where vectors go along several axes, for a box that is thousands of periods long, or
+    /// [`Error::InvalidValue`] for NaN, for a box that is 10²⁰ periods away, and where vectors go along several axes, for a box that is thousands of periods long, or
     /// infinite along two axes fewer than these, but not as wide as all vectors of these axes together along each;
     /// [`Error::OutOfMemory`].
     pub fn vertices_in_box(&self, low: &G::Point, high: &G::Point) -> Result<Vec<VertexId>> {
         let bounds = Bounds::new(&self.lattice, low, high)?;
         let mut found = Vec::new();
-        if (0..G::D).any(|axis| low[axis] > high[axis]) {
+        let is_empty = |axis: usize| {
+            low[axis] > high[axis] || low[axis] == f64::INFINITY || high[axis] == f64::NEG_INFINITY
+        };
+        if (0..G::D).any(is_empty) {
             return Ok(found);
         }
-        for vertex in VertexId::range(0..self.inside.images.n_vertices()) {
+        let mut enter = |vertex: VertexId| {
             let home = self.inside.images.home(vertex);
-            if home != VertexId::NONE && bounds.has_image(&self.inside.places[home]) {
-                memory::push(&mut found, vertex)?;
+            let is_in = home != VertexId::NONE && bounds.has_image(&self.inside.places[home]);
+            if is_in { memory::push(&mut found, vertex) } else { Ok(()) }
+        };
+        match self.ball_around(low, high) {
+            Some((centre, square)) => {
+                self.vertices_in_ball(&centre, square)?.into_iter().try_for_each(&mut enter)?;
             }
+            None => VertexId::range(0..self.inside.images.n_vertices()).try_for_each(&mut enter)?,
         }
         Ok(found)
+    }
+
+    /// A ball that certainly has all of a box, whose centre goes to the grid, by the square of its radius; none if the box is so long that
+    /// most vertices may have images in there.
+    fn ball_around(&self, low: &G::Point, high: &G::Point) -> Option<(G::Point, f64)> {
+        let (mut centre, mut square, mut off) = (*low, 0.0, 0.0);
+        for axis in 0..G::D {
+            let half = 0.5 * high[axis] - 0.5 * low[axis];
+            centre[axis] = low[axis] + half;
+            square += half * half;
+            off += self.lattice.unit[axis] + 4.0 * f64::EPSILON * (low[axis].abs() + high[axis].abs());
+        }
+        let radius = square.sqrt() * (1.0 + SLACK) + 2.0 * off;
+        let is_short = radius <= self.lattice.short_way() && self.lattice.wrapped("low", 0, &centre).is_ok();
+        is_short.then_some((centre, radius * radius * (1.0 + SLACK)))
     }
 }
 
@@ -114,7 +139,15 @@ impl<'l, G: Dimension> Bounds<'l, G> {
         };
         for axis in (0..G::D).filter(|&axis| lattice.is_spanned(axis)) {
             let unit = lattice.unit[axis];
-            // Quotients by a power of two are exact, and numbers beyond the range of these as good as infinite.
+            for (argument, corner, sign) in [("low", low, 1.0), ("high", high, -1.0)] {
+                let (value, is_wrong) = (corner[axis], sign * corner[axis] / unit >= FAR as f64);
+                if is_wrong && value.is_finite() {
+                    let wanted = "fewer than 2^120 steps of the grid of positions away";
+                    return Err(Error::InvalidValue { argument, index: axis, value, wanted });
+                }
+            }
+            // Quotients by a power of two are exact. A box that reaches so far has what one without end has: along a line
+            // across the other axes translations repeat sooner.
             bounds.low[axis] = ((low[axis] / unit).ceil() as i128).clamp(-FAR, FAR);
             bounds.high[axis] = ((high[axis] / unit).floor() as i128).clamp(-FAR, FAR);
             for (row, vector) in bounds.rows.iter_mut().zip(lattice.reduced()) {

@@ -95,7 +95,19 @@ fn boxes_may_be_longer_than_periods() {
         Err(Error::InvalidValue { argument: "low", index: 1, .. }) => {}
         other => panic!("{other:?}"),
     }
+    // Far away, where the middle of the box is rounded, and out of the range of positions.
+    let far = f64::from(1 << 30) * f64::from(1 << 18);
+    assert_eq!(among([far + 0.125, far + 0.5], [far + 0.125, far + 0.5]), ids(&[0]));
+    assert_eq!(among([far + 0.5, 0.25], [far + 0.625, 0.25]), ids(&[1]));
+    match t.vertices_in_box(&[1e60, 0.0], &[1e61, 1.0]) {
+        Err(Error::InvalidValue { argument: "low", index: 0, .. }) => {}
+        other => panic!("{other:?}"),
+    }
+    let at_zero =
+        PeriodicTriangulation::<Plane>::new(&[[0.0; 2]], &[[1.0, 0.0], [0.0, 1.0]], Options::default());
+    assert_eq!(at_zero.unwrap().vertices_in_box(&[infinite; 2], &[infinite; 2]), Ok(ids(&[])));
     let strip = with(&[[1.0, 0.0]]);
+    assert_eq!(strip.vertices_in_box(&[0.0, 1e40], &[0.25, 1e40]), Ok(ids(&[])));
     assert_eq!(strip.vertices_in_box(&[-infinite, 0.25], &[infinite, 0.5]), Ok(ids(&[0, 1])));
     assert_eq!(strip.vertices_in_box(&[9.5, 0.0], &[9.75, 0.625]), Ok(ids(&[1])));
 }
