@@ -101,14 +101,12 @@ class Cells:
     def move(self, frame):
         """Takes the triangulation to the positions and the box of an output."""
         if self.tri is not None:
-            # Vectors are handed over where they have changed alone: they make the triangulation anew.
-            has_new_box = not np.array_equal(frame.vectors, self.vectors)
-            self.tri.move(frame.positions, **({"vectors": frame.vectors} if has_new_box else {}))
+            # An open triangulation takes no vectors.
+            self.tri.move(frame.positions, **({"vectors": frame.vectors} if len(frame.vectors) else {}))
         elif len(frame.vectors):
             self.tri = deldrift.PeriodicDelaunay(frame.positions, frame.vectors, threads=self.threads)
         else:
             self.tri = deldrift.Delaunay(frame.positions, threads=self.threads)
-        self.vectors = frame.vectors
         return self
 
     def volumes(self, frame):
