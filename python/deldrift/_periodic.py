@@ -230,7 +230,8 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
     @property
     def nsimplex(self) -> int:
         """The number of simplices that are no translations of each other."""
-        return len(self.simplices)
+        with self._reading as t:
+            return cell_count(t)
 
     @property
     def nbytes(self) -> int:
