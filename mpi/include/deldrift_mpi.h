@@ -46,7 +46,7 @@
  * Ownership, arrays, counts and the floating-point environment are as in deldrift.h. No call on a handle may be made
  * while another one runs, on any thread; MPI_THREAD_SINGLE is enough. Errors of MPI itself end the program, as is MPI's
  * default, whatever the communicator's error handler is: so a process that dies ends all, and none waits for ever,
- * where MPI can tell.
+ * where MPI can tell; docs/MPI.md says where it can.
  */
 
 #ifndef DELDRIFT_MPI_H
@@ -133,20 +133,20 @@ typedef struct deldrift_mpi_changes {
 
 /// Creates the triangulation of the vertices of all processes, at timestamp 0. Collective.
 ///
-/// comm: a communicator, of which a copy is used; an intercommunicator is not legal. dimension: 2 or 3, the same on
-/// all. positions: count points, those that the process owns; NULL if count is 0. ids: a global id for each, any
-/// number, each once in all processes; NULL on all processes stands for 0, 1, ... through all processes in the order of
-/// their ranks. options: NULL for the defaults. Any set is legal: processes without vertices, all on one, fewer than
-/// span the dimension, coincident ones.
+/// comm: a communicator of one group, of which a copy is used. dimension: 2 or 3, the same on all. positions: count
+/// points, those that the process owns; NULL if count is 0. ids: a global id for each, any number, each once in all
+/// processes; NULL on all processes stands for 0, 1, ... through all processes in the order of their ranks. options:
+/// NULL for the defaults. Any set is legal: processes without vertices, all on one, fewer than span the dimension,
+/// coincident ones.
 ///
 /// out: receives the handle, on success only.
 ///
 /// Cost: that of deldrift_create for the own vertices and the halo, a sort of the ids, and some messages:
 /// docs/SCALING.md.
 ///
-/// Errors: those of deldrift_create_with_keys; DELDRIFT_INVALID_VALUE for an id that is given twice;
-/// DELDRIFT_INVALID_DIMENSION also for another dimension than that of process 0, DELDRIFT_INVALID_OPTIONS also for
-/// another number of boxes.
+/// Errors: those of deldrift_create_with_keys; DELDRIFT_NULL_ARGUMENT also for MPI_COMM_NULL, DELDRIFT_INVALID_VALUE
+/// for an intercommunicator and for an id that is given twice; DELDRIFT_INVALID_DIMENSION also for another dimension
+/// than that of process 0, DELDRIFT_INVALID_OPTIONS also for another number of boxes.
 deldrift_status deldrift_mpi_create(MPI_Comm comm, uint32_t dimension, const double *positions, const uint64_t *ids,
                                     size_t count, const deldrift_mpi_options *options, deldrift_mpi **out);
 

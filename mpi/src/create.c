@@ -217,6 +217,16 @@ static deldrift_status check_vectors(MPI_Comm comm, dm_refusal *refusal, uint32_
     return dm_decide(comm, refusal, NULL).status;
 }
 
+// All processes see the same, so that none has to be told.
+static bool check_communicator(dm_refusal *refusal, MPI_Comm comm) {
+    int is_inter = 0;
+    if (comm == MPI_COMM_NULL)
+        dm_refuse(refusal, DELDRIFT_NULL_ARGUMENT, "comm is MPI_COMM_NULL");
+    else if (MPI_Comm_test_inter(comm, &is_inter) != MPI_SUCCESS || is_inter)
+        dm_refuse(refusal, DELDRIFT_INVALID_VALUE, "comm is %s", is_inter ? "an intercommunicator" : "no communicator");
+    return refusal->status == DELDRIFT_OK;
+}
+
 // With the vectors of a box, or NULL where the set is open.
 static deldrift_status create(MPI_Comm comm, uint32_t dimension, const double *positions, const uint64_t *ids,
                               size_t count, const box *given, const deldrift_mpi_options *options,
@@ -225,7 +235,9 @@ static deldrift_status create(MPI_Comm comm, uint32_t dimension, const double *p
     deldrift_mpi_options read;
     deldrift_options local;
     MPI_Comm copy;
-    MPI_Comm_dup(comm, &copy);
+    if (!check_communicator(&refusal, comm)) return dm_fail(&refusal);
+    // All calls on the copy end the program on an error. This one may return, if the program's handler says so.
+    if (MPI_Comm_dup(comm, &copy) != MPI_SUCCESS) MPI_Abort(comm, 1);
     MPI_Comm_set_errhandler(copy, MPI_ERRORS_ARE_FATAL);
     if (!out) dm_refuse(&refusal, DELDRIFT_NULL_ARGUMENT, "out is NULL");
     read_options(&refusal, options, &read, &local);
