@@ -111,8 +111,10 @@ typedef struct deldrift_mpi_report {
 } deldrift_mpi_report;
 
 /// Own cells that have come and gone since the program last took changes: lists that belong to the handle, valid until
-/// the next call of deldrift_mpi_take_changes or a migration. A cell is its set of global ids: one that was own before
-/// and is own now is in neither list, whatever has happened in between.
+/// the next call of deldrift_mpi_take_changes, a migration, or a commit of other vectors. A cell is its set of global
+/// ids, in a periodic box with their shifts from each other: one that was own before and is own now is in neither list,
+/// whatever has happened in between. So in a periodic box a cell is new if the program gives one of its vertices in
+/// another period, or other vectors of the lattice.
 typedef struct deldrift_mpi_changes {
     /// Number of own cells that there were not.
     size_t created_count;
@@ -127,8 +129,15 @@ typedef struct deldrift_mpi_changes {
     /// 1 if all own cells are listed as created, and none as removed: by the first call, and the first one after a
     /// migration, or after memory was refused.
     size_t is_anew;
+    /// In a periodic box a row of 2 (2D) or 3 (3D) whole numbers for each corner of each created cell, in the order of
+    /// created: multiples of the vectors, as deldrift_mpi_cell_shifts has them, but counted from the corner of the
+    /// least id and, of several with that id, of the least row. So a cell is told by the same ids and shifts each time.
+    /// NULL where the triangulation is not periodic.
+    const int64_t *created_shifts;
+    /// Likewise for removed cells: the ids and shifts by which each was told as created.
+    const int64_t *removed_shifts;
     /// Zero; later versions may tell more.
-    size_t reserved[3];
+    size_t reserved[1];
 } deldrift_mpi_changes;
 
 /// Creates the triangulation of the vertices of all processes, at timestamp 0. Collective.
@@ -161,7 +170,7 @@ deldrift_status deldrift_mpi_create(MPI_Comm comm, uint32_t dimension, const dou
 /// the unit cell of deldrift_reduced_vectors, or near it: there its owner has it in deldrift_mpi_local, wherever the
 /// program gives it, and each copy is a translation from there. A vertex that leaves the cell goes on outside of it, by
 /// a quarter of it at most, and then comes in at the other side. deldrift_mpi_periods and deldrift_mpi_cell_shifts tell
-/// periods. deldrift_mpi_hull_facets and deldrift_mpi_take_changes return DELDRIFT_PERIODIC; all else serves.
+/// periods. deldrift_mpi_hull_facets returns DELDRIFT_PERIODIC; all else serves.
 ///
 /// Errors: those of deldrift_mpi_create and deldrift_create_periodic; DELDRIFT_INVALID_VALUE for vectors that are not
 /// those of process 0.
@@ -321,13 +330,15 @@ deldrift_status deldrift_mpi_hull_facets(const deldrift_mpi *m, uint64_t *ids, u
                                          size_t capacity, size_t *count);
 
 /// The own cells that have come and gone since this was last called, to *changes. It concerns the calling process
-/// alone. A program that never calls it pays nothing.
+/// alone; in a periodic box it is collective, as owners tell how vertices were given. A program that never calls it pays
+/// nothing.
 ///
 /// Cost: what has changed in the triangulation of the process, its halo included, and the stars of vertices that have
-/// an id which was another one's; of a list of all, the cells.
+/// an id which was another one's; of a list of all, the cells. In a periodic box always the cells and the halo, and the
+/// memory of a copy of the own cells.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT; DELDRIFT_OUT_OF_MEMORY, then the next list is of all own cells; DELDRIFT_PERIODIC in
-/// a periodic box.
+/// Errors: DELDRIFT_NULL_ARGUMENT; DELDRIFT_OUT_OF_MEMORY, then the next list is of all own cells. In a periodic box, on
+/// any process: then nothing has been taken on any.
 deldrift_status deldrift_mpi_take_changes(deldrift_mpi *m, deldrift_mpi_changes *changes);
 
 /// Brings values of vertices from their owners to all copies. Collective, but messages go between neighbours only.

@@ -334,6 +334,10 @@ deldrift_status deldrift_mpi_commit_vectors(deldrift_mpi *m, const double *posit
     status = dm_decide(m->comm, &refusal, NULL).status;
     if (status == DELDRIFT_OK) status = dm_build(fresh, home, ids, wraps, count);
     if (status == DELDRIFT_OK) {
+        // Cells are known by global ids, so lists of changes go on.
+        fresh->told = m->told;
+        fresh->has_taken = m->has_taken;
+        memset(&m->told, 0, sizeof m->told);
         dm_replace(m, fresh);
         m->report.timestamp = ++m->timestamp;
         if (report) *report = m->report;

@@ -76,6 +76,15 @@ typedef struct {
     int64_t *shifts;  // by translation: multiples of the given vectors
 } dm_lattice;
 
+// Own cells of a periodic box, each by its corners in the order of ids and shifts, the first in the period 0.
+typedef struct {
+    uint64_t *ids;
+    int64_t *shifts;
+    size_t count;
+    uint32_t *table; // by hash: the number of a cell from 1 on, or 0
+    size_t slots;    // a power of two
+} dm_classes;
+
 // The first thing that this process refused in the collective call that runs.
 typedef struct {
     deldrift_status status;
@@ -160,6 +169,10 @@ struct deldrift_mpi {
     uint64_t *created, *removed;
     uint32_t *created_cells;
     size_t created_room, removed_room, created_cell_room;
+    // In a periodic box, in place of notes, own cells as they were then.
+    dm_classes told;
+    int64_t *created_shifts, *removed_shifts;
+    size_t created_shift_room, removed_shift_room;
 
     // Scratch room.
     double *low, *high; // boxes that are asked about
@@ -239,6 +252,8 @@ bool dm_wrap(dm_refusal *refusal, const dm_lattice *lattice, const double *posit
              double *places, int64_t *shifts);
 // Has what a commit is given in m->home, and where each comes from in m->home_wraps; positions become these.
 bool dm_come_home(deldrift_mpi *m, const double **positions);
+// By id the multiples by which a vertex is translated from where its owner has given it, in rows to be freed. Collective.
+deldrift_status dm_read_periods(deldrift_mpi *m, dm_refusal *refusal, int64_t **rows);
 // Own vertices where they are; in a periodic box all in the unit cell.
 bool dm_unit_places(const deldrift_mpi *m, dm_refusal *refusal, double *places);
 
@@ -292,6 +307,11 @@ void dm_restore(deldrift_mpi *m);
 // changes.c
 // What the ids that have been given or taken away in a commit stood for.
 void dm_note_rebound(deldrift_mpi *m);
+
+// classes.c
+// The lists of changes in a periodic box. Collective; where it is refused, nothing has been taken.
+deldrift_status dm_take_classes(deldrift_mpi *m, dm_refusal *refusal);
+void dm_free_classes(dm_classes *classes);
 
 // reading.c
 // The corner of the least global id; of several images of that vertex the first by position.

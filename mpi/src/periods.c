@@ -125,8 +125,7 @@ bool dm_unit_places(const deldrift_mpi *m, dm_refusal *refusal, double *places) 
     return has_them;
 }
 
-// Collective: by id the multiples by which a vertex is translated from where its owner has given it.
-static deldrift_status read_periods(deldrift_mpi *m, dm_refusal *refusal, int64_t **rows) {
+deldrift_status dm_read_periods(deldrift_mpi *m, dm_refusal *refusal, int64_t **rows) {
     uint32_t d = m->dimension;
     *rows = dm_allocate(refusal, m->ids * d, sizeof **rows);
     deldrift_status status = dm_decide(m->comm, refusal, NULL).status;
@@ -155,7 +154,7 @@ deldrift_status deldrift_mpi_periods(deldrift_mpi *m, int64_t *shifts, size_t ca
     dm_refusal refusal = {DELDRIFT_OK, ""};
     int64_t *rows = NULL;
     check_room(&refusal, shifts, capacity, m->ids, count);
-    deldrift_status status = read_periods(m, &refusal, &rows);
+    deldrift_status status = dm_read_periods(m, &refusal, &rows);
     if (status == DELDRIFT_OK && m->ids) memcpy(shifts, rows, m->ids * m->dimension * sizeof *rows);
     free(rows);
     return status;
@@ -173,7 +172,7 @@ deldrift_status deldrift_mpi_cell_shifts(deldrift_mpi *m, int64_t *shifts, size_
             owned += m->is_own[dm_least(m, view.vertices + c * corners, corners)];
         check_room(&refusal, shifts, capacity, owned, count);
     }
-    deldrift_status status = read_periods(m, &refusal, &rows);
+    deldrift_status status = dm_read_periods(m, &refusal, &rows);
     for (size_t c = 0; status == DELDRIFT_OK && c < view.count; c++) {
         const uint32_t *v = view.vertices + c * corners;
         uint32_t least = dm_least(m, v, corners);

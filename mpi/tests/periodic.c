@@ -102,6 +102,7 @@ static void migrate(history *h) {
     h->positions = realloc(h->positions, (h->count + 1) * d * sizeof(double));
     if (h->count) memcpy(h->positions, received, h->count * d * sizeof(double));
     free(targets);
+    h->has_taken = false;
     h->migrations++;
 }
 
@@ -153,16 +154,20 @@ static void run(long number, int steps, history *totals) {
                  h.dimension, set_names[h.kind], box, spread, size);
         is_right(&h, label);
         check_places(&h);
+        // Not after each commit, so that lists are of several.
+        if (random_bits(&h.common) % 2) check_changes(&h);
         h.commits++;
     }
     deldrift_mpi_destroy(h.m);
     free(h.positions);
+    free(h.taken);
     totals->commits += h.commits;
     totals->refusals += h.refusals;
     totals->migrations += h.migrations;
     totals->edits += h.edits;
     totals->strains += h.strains;
     totals->cells += h.cells;
+    totals->changes += h.changes;
 }
 
 // One process is refused memory at its first, second, third, ... request in a commit with edits, until it gets all it
@@ -208,6 +213,39 @@ static void refuse_memory(uint32_t d, long *refused) {
     }
     deldrift_mpi_destroy(h.m);
     free(h.positions);
+}
+
+// One process is refused memory at its first, second, third, ... request while changes are taken: none has taken them,
+// and the list that is given in the end is of all that has changed.
+static void refuse_memory_of_changes(uint32_t d, long *refused) {
+    history h;
+    memset(&h, 0, sizeof h);
+    h.dimension = d;
+    memcpy(h.vectors, boxes[d - 2][1], sizeof h.vectors);
+    h.vector_count = d;
+    h.common = 4;
+    h.state = 18 + (uint64_t)rank;
+    begin(&h, 40, 0, NULL);
+    check_changes(&h);
+    deldrift_status status = DELDRIFT_OUT_OF_MEMORY;
+    for (long allowed = 0; status != DELDRIFT_OK && allowed < 100; allowed++) {
+        deldrift_mpi_changes changes;
+        memset(&changes, 0, sizeof changes);
+        for (size_t i = 0; i < h.count * d; i++) h.positions[i] += 0.2 * random_number(&h.state);
+        OK(deldrift_mpi_commit(h.m, h.positions, h.count, NULL));
+        if (rank == size - 1) deldrift_mpi_allocations_left = allowed;
+        status = deldrift_mpi_take_changes(h.m, &changes);
+        deldrift_mpi_allocations_left = -1;
+        CHECK(status == DELDRIFT_OK || status == DELDRIFT_OUT_OF_MEMORY);
+        if (status == DELDRIFT_OK)
+            follow_changes(&h, &changes);
+        else
+            ++*refused;
+    }
+    CHECK(status == DELDRIFT_OK);
+    deldrift_mpi_destroy(h.m);
+    free(h.positions);
+    free(h.taken);
 }
 
 // What is not sent in one of the periods is missed by the comparison.
@@ -265,7 +303,12 @@ static void check_arguments(void) {
     CHECK(m == NULL);
     OK(deldrift_mpi_create_periodic(MPI_COMM_WORLD, 2, place, &id, 1, box, 2, NULL, &m));
     CHECK(deldrift_mpi_hull_facets(m, NULL, NULL, NULL, 0, &count) == DELDRIFT_PERIODIC);
-    CHECK(deldrift_mpi_take_changes(m, &changes) == DELDRIFT_PERIODIC);
+    CHECK(deldrift_mpi_take_changes(m, rank == size - 1 ? NULL : &changes) == DELDRIFT_NULL_ARGUMENT);
+    CHECK(deldrift_mpi_refusing_process() == size - 1);
+    OK(deldrift_mpi_take_changes(m, &changes));
+    CHECK(changes.is_anew == 1 && !changes.removed_count);
+    OK(deldrift_mpi_take_changes(m, &changes));
+    CHECK(changes.is_anew == 0 && !changes.created_count && !changes.removed_count);
     CHECK(deldrift_mpi_cell_shifts(m, NULL, 0, NULL) == DELDRIFT_NULL_ARGUMENT);
     CHECK(deldrift_mpi_periods(m, NULL, 0, &count) == DELDRIFT_NULL_ARGUMENT && count > 0);
     int64_t shifts[2];
@@ -297,14 +340,17 @@ int main(int argc, char **argv) {
     memset(&totals, 0, sizeof totals);
     for (long number = first; number < first + count; number++) run(number, steps, &totals);
     long refused = 0;
-    for (uint32_t d = 2; d <= 3; d++) refuse_memory(d, &refused);
+    for (uint32_t d = 2; d <= 3; d++) {
+        refuse_memory(d, &refused);
+        refuse_memory_of_changes(d, &refused);
+    }
     plant();
     check_arguments();
     if (rank == 0)
         printf("periodic, P = %d: %ld histories, %ld commits, %ld cells, %ld edits, %ld strains, %ld refusals, "
-               "%ld migrations, %ld failures; memory refused %ld times\n",
+               "%ld migrations, %ld changes of cells here, %ld failures; memory refused %ld times\n",
                size, count, totals.commits, totals.cells, totals.edits, totals.strains, totals.refusals,
-               totals.migrations, failures, refused);
+               totals.migrations, totals.changes, failures, refused);
     MPI_Finalize();
     return failures ? 1 : 0;
 }
