@@ -106,8 +106,11 @@ typedef struct deldrift_mpi_report {
     uint64_t neighbours;
     /// Whether the vertices of all processes span the dimension: if not there are no cells.
     uint64_t is_spanning;
+    /// 1 if the triangulations of the processes were built anew, so that vertices may have other ids in these: by
+    /// creation, by migration, and by a commit of vectors that are not near those before.
+    uint64_t is_rebuilt;
     /// Zero; later versions may count more.
-    uint64_t reserved[5];
+    uint64_t reserved[4];
 } deldrift_mpi_report;
 
 /// Own cells that have come and gone since the program last took changes: lists that belong to the handle, valid until
@@ -225,14 +228,16 @@ deldrift_status deldrift_mpi_discard(deldrift_mpi *m);
 deldrift_status deldrift_mpi_commit(deldrift_mpi *m, const double *positions, size_t count,
                                     deldrift_mpi_report *report);
 
-/// Makes other vectors of a periodic box, and new positions of the own vertices, the next timestamp. Collective. All is
-/// built again: vertices have other ids in the triangulations of the processes, as after deldrift_mpi_migrate.
+/// Makes other vectors of a periodic box, and new positions of the own vertices, the next timestamp. Collective. Where
+/// each reduced vector is near a sum of those before, as in a step of a barostat or of a shear, this is a commit of
+/// moves. Else all is built again: vertices have other ids in the triangulations of the processes, as after
+/// deldrift_mpi_migrate. The report says which: is_rebuilt.
 ///
 /// positions, count, report: as in deldrift_mpi_commit, but for positions, which are to be given. vectors: vector_count
 /// rows, as many as there are, the same on all processes. What is staged has to be committed or discarded before:
 /// DELDRIFT_STAGED_VERTEX.
 ///
-/// Cost: that of deldrift_mpi_create_periodic.
+/// Cost: that of deldrift_mpi_commit in which all move; where all is built, that of deldrift_mpi_create_periodic.
 ///
 /// Errors: those of deldrift_mpi_create_periodic, DELDRIFT_WRONG_COUNT for another number of positions or vectors,
 /// DELDRIFT_STAGED_VERTEX.
@@ -248,7 +253,7 @@ deldrift_status deldrift_mpi_count(const deldrift_mpi *m, size_t *count);
 ///
 /// ids, vertices: buffers with room for capacity entries; one that is NULL is not filled. count: receives their number,
 /// also when the buffers are too small. NULL for both with capacity 0 asks for the count alone. A vertex keeps its id
-/// in the triangulation of the process until deldrift_mpi_migrate.
+/// in the triangulation of the process until a report says is_rebuilt.
 ///
 /// Cost: the own vertices.
 ///
@@ -257,9 +262,9 @@ deldrift_status deldrift_mpi_vertices(const deldrift_mpi *m, uint64_t *ids, uint
                                       size_t *count);
 
 /// The triangulation of the own vertices and the halo, to *t, for all functions that take a const triangulation. It
-/// belongs to m, and is another one after deldrift_mpi_migrate. Cells without an own vertex may not be cells of the
-/// whole. What functions tell of an own vertex and its cells, such as deldrift_star, deldrift_voronoi_volumes and
-/// deldrift_vertex_neighbours, is that of the whole; deldrift_keys gives global ids. Its timestamp counts rounds.
+/// belongs to m, and is another one after a report that says is_rebuilt. Cells without an own vertex may not be cells
+/// of the whole. What functions tell of an own vertex and its cells, such as deldrift_star, deldrift_voronoi_volumes
+/// and deldrift_vertex_neighbours, is that of the whole; deldrift_keys gives global ids. Its timestamp counts rounds.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT.
 deldrift_status deldrift_mpi_local(const deldrift_mpi *m, const deldrift_triangulation **t);
@@ -330,15 +335,15 @@ deldrift_status deldrift_mpi_hull_facets(const deldrift_mpi *m, uint64_t *ids, u
                                          size_t capacity, size_t *count);
 
 /// The own cells that have come and gone since this was last called, to *changes. It concerns the calling process
-/// alone; in a periodic box it is collective, as owners tell how vertices were given. A program that never calls it pays
-/// nothing.
+/// alone; in a periodic box it is collective, as owners tell how vertices were given. A program that never calls it
+/// pays nothing.
 ///
 /// Cost: what has changed in the triangulation of the process, its halo included, and the stars of vertices that have
 /// an id which was another one's; of a list of all, the cells. In a periodic box always the cells and the halo, and the
 /// memory of a copy of the own cells.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT; DELDRIFT_OUT_OF_MEMORY, then the next list is of all own cells. In a periodic box, on
-/// any process: then nothing has been taken on any.
+/// Errors: DELDRIFT_NULL_ARGUMENT; DELDRIFT_OUT_OF_MEMORY, then the next list is of all own cells. In a periodic box,
+/// on any process: then nothing has been taken on any.
 deldrift_status deldrift_mpi_take_changes(deldrift_mpi *m, deldrift_mpi_changes *changes);
 
 /// Brings values of vertices from their owners to all copies. Collective, but messages go between neighbours only.

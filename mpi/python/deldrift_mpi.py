@@ -56,9 +56,9 @@ class Report(ctypes.Structure):
         (name, c_uint64)
         for name in (
             "timestamp", "rounds", "received", "sent", "dropped", "halo", "messages", "bytes", "collectives",
-            "neighbours", "is_spanning",
+            "neighbours", "is_spanning", "is_rebuilt",
         )
-    ] + [("_reserved", c_uint64 * 5)]
+    ] + [("_reserved", c_uint64 * 4)]
 
 
 class Changes(NamedTuple):

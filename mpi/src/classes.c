@@ -1,6 +1,6 @@
 // Own cells that have come and gone in a periodic box. A cell is its vertices with their shifts from each other, as the
-// owners of these give positions. Own cells are read as a whole, and looked up among those of the time when changes were
-// last taken.
+// owners of these give positions. Own cells are read as a whole, and looked up among those of the time when changes
+// were last taken.
 #include <stdlib.h>
 #include <string.h>
 

@@ -17,13 +17,25 @@ static uint32_t period_at(size_t place, size_t count) {
     return (uint32_t)(place > middle ? 2 * (place - middle) - 1 : 2 * (middle - place));
 }
 
+uint32_t dm_period_of(const dm_lattice *lattice, const int64_t multiples[3]) {
+    size_t place = 0, width = 1;
+    for (uint32_t j = 0; j < lattice->rank; j++) {
+        int64_t most = (int64_t)lattice->greatest[j];
+        if (multiples[j] < -most || multiples[j] > most) return DELDRIFT_NONE;
+        place += (size_t)(multiples[j] + most) * width;
+        width *= 2 * (size_t)most + 1;
+    }
+    return period_at(place, lattice->count);
+}
+
 void dm_translate(const deldrift_mpi *m, double *to, const double *from, uint32_t period) {
     const double *way = m->lattice.ways + (size_t)period * m->dimension;
     for (uint32_t k = 0; k < m->dimension; k++) to[k] = period ? from[k] + way[k] : from[k];
 }
 
 static bool make_translations(dm_refusal *refusal, dm_lattice *lattice, uint32_t d, const double *reduced,
-                              const int64_t *multiples, const uint32_t *greatest) {
+                              const int64_t *multiples) {
+    const uint32_t *greatest = lattice->greatest;
     lattice->count = 1;
     for (uint32_t j = 0; j < lattice->rank; j++) {
         lattice->unit[j] = (uint32_t)(2 * lattice->count - 1);
@@ -50,10 +62,10 @@ static bool make_translations(dm_refusal *refusal, dm_lattice *lattice, uint32_t
 bool dm_make_lattice(dm_refusal *refusal, dm_lattice *lattice, uint32_t d, const double *vectors, size_t rank) {
     double reduced[9] = {0};
     int64_t multiples[9] = {0};
-    uint32_t greatest[3] = {0};
     memset(lattice, 0, sizeof *lattice);
     if (rank && (!dm_took(refusal, deldrift_create_periodic(d, NULL, 0, vectors, rank, NULL, &lattice->box)) ||
-                 !dm_took(refusal, deldrift_reduced_vectors(lattice->box, reduced, multiples, greatest, 3, &rank))))
+                 !dm_took(refusal, deldrift_reduced_vectors(lattice->box, reduced, multiples, lattice->greatest, 3,
+                                                            &rank))))
         return false;
     lattice->rank = (uint32_t)rank;
     lattice->measure = 1;
@@ -63,7 +75,7 @@ bool dm_make_lattice(dm_refusal *refusal, dm_lattice *lattice, uint32_t d, const
         lattice->measure *= sqrt(square);
     }
     if (rank) memcpy(lattice->given, vectors, rank * d * sizeof *vectors);
-    return make_translations(refusal, lattice, d, reduced, multiples, greatest);
+    return make_translations(refusal, lattice, d, reduced, multiples);
 }
 
 void dm_free_lattice(dm_lattice *lattice) {
@@ -84,7 +96,7 @@ static void gather_own(const deldrift_mpi *m, double *places) {
         memcpy(places + i * d, m->where + (size_t)m->own[i] * d, d * sizeof *places);
 }
 
-bool dm_come_home(deldrift_mpi *m, const double **positions) {
+bool dm_come_home(deldrift_mpi *m, const dm_lattice *lattice, const double **positions) {
     uint32_t d = m->dimension;
     size_t count = m->own_count, room[3] = {m->home_room, m->home_room, m->home_room};
     dm_refusal *r = &m->refusal;
@@ -107,7 +119,7 @@ bool dm_come_home(deldrift_mpi *m, const double **positions) {
         given = m->coordinates;
     }
     *positions = m->home;
-    return dm_wrap(r, &m->lattice, given, m->home_before, count, m->home, m->home_wraps);
+    return dm_wrap(r, lattice, given, m->home_before, count, m->home, m->home_wraps);
 }
 
 bool dm_unit_places(const deldrift_mpi *m, dm_refusal *refusal, double *places) {

@@ -1,5 +1,5 @@
-// One process dies in the middle of a series of commits, which the others go on making: tests/dying runs this, and looks
-// how the program ends.
+// One process dies in the middle of a series of commits, which the others go on making: tests/dying runs this, and
+// looks how the program ends.
 //     dying HOW FOLDER    each process writes its number in the system to FOLDER/pid.RANK, and what is about to happen
 //                         to FOLDER/died
 #include <signal.h>

@@ -35,7 +35,7 @@ typedef struct {
     uint64_t state;  // differs between processes
     uint64_t common; // is the same on all
     uint64_t next_id;
-    long commits, refusals, migrations, edits, strains, cells;
+    long commits, refusals, migrations, edits, strains, rebuilds, cells;
     cell *taken; // own cells when changes were last taken
     size_t taken_count;
     bool has_taken;
