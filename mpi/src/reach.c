@@ -75,12 +75,23 @@ static void unite_boxes_of(const deldrift_mpi *m, dm_box *all, int process) {
         if (!dm_is_empty_box(&boxes[b])) unite(m, all, &boxes[b]);
 }
 
-// The box around those of some processes, without this one, and without those that have no copies if these are not
-// wanted.
+// Whether a process has a copy of each own vertex, so that nothing is left to be sent: so it is with points on a
+// sphere, of which each cell is in reach of all boxes.
+static bool has_all(const deldrift_mpi *m, int process) {
+    if (m->lattice.rank || m->peer_of[process] < 0) return false;
+    const dm_list *sent = &m->peers[m->peer_of[process]].sent;
+    size_t staying = 0;
+    for (size_t k = 0; sent->count >= m->next_count && k < sent->count; k++) staying += !sent->is_leaving[k];
+    return staying >= m->next_count;
+}
+
+// The box around those of some processes that are asked about: other ones, and only those that have copies, or only
+// those that have not all.
 static dm_box box_of_group(const deldrift_mpi *m, int first, int width, bool of_peers) {
     dm_box all = no_box();
     for (int process = first; process < m->size && process < first + width; process++)
-        if (process != m->rank && !(of_peers && m->peer_of[process] < 0)) unite_boxes_of(m, &all, process);
+        if (process != m->rank && !(of_peers ? m->peer_of[process] < 0 : has_all(m, process)))
+            unite_boxes_of(m, &all, process);
     return all;
 }
 
