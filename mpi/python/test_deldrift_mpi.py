@@ -109,12 +109,13 @@ def in_a_box(dimension):
     vectors = np.eye(dimension) + np.tri(dimension, k=-1) / 4
     given = rng.random((30, dimension)) @ vectors
     tri = Delaunay(comm, given, vectors=vectors)
+    assert tri.report.is_rebuilt == 1
     known = follow(tri, set(), True)
     for step in range(4):
         given += 0.2 * rng.random(given.shape)
         if step == 1:
             vectors = vectors * 1.25 ** (1 / dimension)
-            tri.commit(given, vectors=vectors)
+            assert tri.report.is_rebuilt == 0 and tri.commit(given, vectors=vectors).timestamp == step + 1
         tri.commit(given)
         if step == 2:
             given = tri.migrate(tri.partition(), given)

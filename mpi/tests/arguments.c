@@ -188,6 +188,7 @@ static void rest(deldrift_mpi *m, const double *points) {
     other[0] += 0.125;
     OK(deldrift_mpi_commit(m, other, 4, NULL));
     OK(deldrift_mpi_commit(m, points, 4, &report));
+    CHECK(!report.is_rebuilt);
     uint64_t halo = report.halo;
     CHECK(size == 1 ? halo == 0 : halo > 0);
     OK(deldrift_mpi_timestamp(m, &before));
@@ -214,6 +215,9 @@ int main(int argc, char **argv) {
     if (m) {
         uint64_t ids[4] = {0};
         size_t count = 0;
+        deldrift_mpi_report report;
+        OK(deldrift_mpi_last_report(m, &report));
+        CHECK(report.is_rebuilt == 1 && report.timestamp == 0);
         OK(deldrift_mpi_vertices(m, ids, NULL, 4, &count));
         for (size_t i = 0; i < 4; i++) CHECK(ids[i] == 4 * (size_t)rank + i);
         wrong_commits(m, points);
