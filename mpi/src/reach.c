@@ -13,6 +13,9 @@ static const double DROP_MARGIN = 0.1;
 // then has a cell without an end, whose half-space meets the boxes of nearly all periods.
 static const double SEED_MARGIN = 1.5;
 
+// In a periodic box own vertices are supposed to be in reach of nothing that is so many spacings away from all.
+static const double EXTENT_MARGIN = 8;
+
 // Processes are asked about in groups of this number, and groups of groups, as most are far.
 #ifdef DELDRIFT_MPI_TESTING
 enum { GROUP = 2 }; // so that few processes have groups of groups
@@ -67,6 +70,10 @@ static void unite(const deldrift_mpi *m, dm_box *all, const dm_box *box) {
 
 static dm_box no_box(void) {
     return (dm_box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
+}
+
+static dm_box everywhere(void) {
+    return (dm_box){{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}, 0};
 }
 
 static void unite_boxes_of(const deldrift_mpi *m, dm_box *all, int process) {
@@ -181,36 +188,33 @@ static bool find_near(deldrift_mpi *m, bool of_peers, double margin, size_t *cou
     }
 }
 
-// Outside of this box nothing own is in reach of anything. It is one around own vertices, as far wider as their balls
-// need, and infinite on a side where that is not known. What is told of a half-space holds for all boxes in it.
+// Outside of this box nothing own is in reach of anything. It is one around own vertices, wider by a few spacings, and
+// infinite on a side where that does not suffice. What is told of a half-space holds for all boxes in it.
 static bool find_extent(deldrift_mpi *m, dm_box *extent) {
-    static const double WIDTHS[] = {8, 2}; // spacings
-    enum { TRIES = sizeof WIDTHS / sizeof *WIDTHS };
     uint32_t d = m->dimension;
-    dm_box own = no_box(), halves[TRIES * 6];
-    size_t asked = 0;
-    if (!reserve_boxes(m, TRIES * 2 * d)) return false;
+    dm_box own = no_box();
+    if (!reserve_boxes(m, 2 * d)) return false;
     unite_boxes_of(m, &own, m->rank);
-    for (int t = 0; t < TRIES; t++) {
-        for (uint32_t side = 0; side < 2 * d; side++) {
-            dm_box *half = &halves[asked];
-            *half = (dm_box){{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}, 0};
-            if (side % 2)
-                half->low[side / 2] = own.high[side / 2] + WIDTHS[t] * own.spacing;
-            else
-                half->high[side / 2] = own.low[side / 2] - WIDTHS[t] * own.spacing;
-            put_box(m, asked++, half, 0, 0);
-        }
+    for (uint32_t k = 0; k < d; k++) {
+        own.low[k] -= EXTENT_MARGIN * own.spacing;
+        own.high[k] += EXTENT_MARGIN * own.spacing;
     }
-    if (!search(m, asked)) return false;
-    *extent = (dm_box){{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}, 0};
-    for (size_t n = 0; n < asked; n++) {
-        uint32_t side = (uint32_t)(n % (2 * d));
-        if (m->offsets[n + 1] > m->offsets[n]) continue;
+    for (uint32_t side = 0; side < 2 * d; side++) {
+        dm_box half = everywhere();
         if (side % 2)
-            extent->high[side / 2] = halves[n].low[side / 2];
+            half.low[side / 2] = own.high[side / 2];
         else
-            extent->low[side / 2] = halves[n].high[side / 2];
+            half.high[side / 2] = own.low[side / 2];
+        put_box(m, side, &half, 0, 0);
+    }
+    if (!search(m, 2 * d)) return false;
+    *extent = everywhere();
+    for (uint32_t side = 0; side < 2 * d; side++) {
+        if (m->offsets[side + 1] > m->offsets[side]) continue;
+        if (side % 2)
+            extent->high[side / 2] = own.high[side / 2];
+        else
+            extent->low[side / 2] = own.low[side / 2];
     }
     return true;
 }
