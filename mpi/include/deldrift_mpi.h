@@ -46,7 +46,7 @@
  * Ownership, arrays, counts and the floating-point environment are as in deldrift.h. No call on a handle may be made
  * while another one runs, on any thread; MPI_THREAD_SINGLE is enough. Errors of MPI itself end the program, as is MPI's
  * default, whatever the communicator's error handler is: so a process that dies ends all, and none waits for ever,
- * where MPI can tell.
+ * where MPI can tell; docs/MPI.md says where it can.
  */
 
 #ifndef DELDRIFT_MPI_H
@@ -106,13 +106,18 @@ typedef struct deldrift_mpi_report {
     uint64_t neighbours;
     /// Whether the vertices of all processes span the dimension: if not there are no cells.
     uint64_t is_spanning;
+    /// 1 if the triangulations of the processes were built anew, so that vertices may have other ids in these: by
+    /// creation, by migration, and by a commit of vectors that are not near those before.
+    uint64_t is_rebuilt;
     /// Zero; later versions may count more.
-    uint64_t reserved[5];
+    uint64_t reserved[4];
 } deldrift_mpi_report;
 
 /// Own cells that have come and gone since the program last took changes: lists that belong to the handle, valid until
-/// the next call of deldrift_mpi_take_changes or a migration. A cell is its set of global ids: one that was own before
-/// and is own now is in neither list, whatever has happened in between.
+/// the next call of deldrift_mpi_take_changes, a migration, or a commit of other vectors. A cell is its set of global
+/// ids, in a periodic box with their shifts from each other: one that was own before and is own now is in neither list,
+/// whatever has happened in between. So in a periodic box a cell is new if the program gives one of its vertices in
+/// another period, or other vectors of the lattice.
 typedef struct deldrift_mpi_changes {
     /// Number of own cells that there were not.
     size_t created_count;
@@ -127,26 +132,33 @@ typedef struct deldrift_mpi_changes {
     /// 1 if all own cells are listed as created, and none as removed: by the first call, and the first one after a
     /// migration, or after memory was refused.
     size_t is_anew;
+    /// In a periodic box a row of 2 (2D) or 3 (3D) whole numbers for each corner of each created cell, in the order of
+    /// created: multiples of the vectors, as deldrift_mpi_cell_shifts has them, but counted from the corner of the
+    /// least id and, of several with that id, of the least row. So a cell is told by the same ids and shifts each time.
+    /// NULL where the triangulation is not periodic.
+    const int64_t *created_shifts;
+    /// Likewise for removed cells: the ids and shifts by which each was told as created.
+    const int64_t *removed_shifts;
     /// Zero; later versions may tell more.
-    size_t reserved[3];
+    size_t reserved[1];
 } deldrift_mpi_changes;
 
 /// Creates the triangulation of the vertices of all processes, at timestamp 0. Collective.
 ///
-/// comm: a communicator, of which a copy is used; an intercommunicator is not legal. dimension: 2 or 3, the same on
-/// all. positions: count points, those that the process owns; NULL if count is 0. ids: a global id for each, any
-/// number, each once in all processes; NULL on all processes stands for 0, 1, ... through all processes in the order of
-/// their ranks. options: NULL for the defaults. Any set is legal: processes without vertices, all on one, fewer than
-/// span the dimension, coincident ones.
+/// comm: a communicator of one group, of which a copy is used. dimension: 2 or 3, the same on all. positions: count
+/// points, those that the process owns; NULL if count is 0. ids: a global id for each, any number, each once in all
+/// processes; NULL on all processes stands for 0, 1, ... through all processes in the order of their ranks. options:
+/// NULL for the defaults. Any set is legal: processes without vertices, all on one, fewer than span the dimension,
+/// coincident ones.
 ///
 /// out: receives the handle, on success only.
 ///
 /// Cost: that of deldrift_create for the own vertices and the halo, a sort of the ids, and some messages:
 /// docs/SCALING.md.
 ///
-/// Errors: those of deldrift_create_with_keys; DELDRIFT_INVALID_VALUE for an id that is given twice;
-/// DELDRIFT_INVALID_DIMENSION also for another dimension than that of process 0, DELDRIFT_INVALID_OPTIONS also for
-/// another number of boxes.
+/// Errors: those of deldrift_create_with_keys; DELDRIFT_NULL_ARGUMENT also for MPI_COMM_NULL, DELDRIFT_INVALID_VALUE
+/// for an intercommunicator and for an id that is given twice; DELDRIFT_INVALID_DIMENSION also for another dimension
+/// than that of process 0, DELDRIFT_INVALID_OPTIONS also for another number of boxes.
 deldrift_status deldrift_mpi_create(MPI_Comm comm, uint32_t dimension, const double *positions, const uint64_t *ids,
                                     size_t count, const deldrift_mpi_options *options, deldrift_mpi **out);
 
@@ -161,7 +173,7 @@ deldrift_status deldrift_mpi_create(MPI_Comm comm, uint32_t dimension, const dou
 /// the unit cell of deldrift_reduced_vectors, or near it: there its owner has it in deldrift_mpi_local, wherever the
 /// program gives it, and each copy is a translation from there. A vertex that leaves the cell goes on outside of it, by
 /// a quarter of it at most, and then comes in at the other side. deldrift_mpi_periods and deldrift_mpi_cell_shifts tell
-/// periods. deldrift_mpi_hull_facets and deldrift_mpi_take_changes return DELDRIFT_PERIODIC; all else serves.
+/// periods. deldrift_mpi_hull_facets returns DELDRIFT_PERIODIC; all else serves.
 ///
 /// Errors: those of deldrift_mpi_create and deldrift_create_periodic; DELDRIFT_INVALID_VALUE for vectors that are not
 /// those of process 0.
@@ -216,14 +228,16 @@ deldrift_status deldrift_mpi_discard(deldrift_mpi *m);
 deldrift_status deldrift_mpi_commit(deldrift_mpi *m, const double *positions, size_t count,
                                     deldrift_mpi_report *report);
 
-/// Makes other vectors of a periodic box, and new positions of the own vertices, the next timestamp. Collective. All is
-/// built again: vertices have other ids in the triangulations of the processes, as after deldrift_mpi_migrate.
+/// Makes other vectors of a periodic box, and new positions of the own vertices, the next timestamp. Collective. Where
+/// each reduced vector is near a sum of those before, as in a step of a barostat or of a shear, this is a commit of
+/// moves. Else all is built again: vertices have other ids in the triangulations of the processes, as after
+/// deldrift_mpi_migrate. The report says which: is_rebuilt.
 ///
 /// positions, count, report: as in deldrift_mpi_commit, but for positions, which are to be given. vectors: vector_count
 /// rows, as many as there are, the same on all processes. What is staged has to be committed or discarded before:
 /// DELDRIFT_STAGED_VERTEX.
 ///
-/// Cost: that of deldrift_mpi_create_periodic.
+/// Cost: that of deldrift_mpi_commit in which all move; where all is built, that of deldrift_mpi_create_periodic.
 ///
 /// Errors: those of deldrift_mpi_create_periodic, DELDRIFT_WRONG_COUNT for another number of positions or vectors,
 /// DELDRIFT_STAGED_VERTEX.
@@ -239,7 +253,7 @@ deldrift_status deldrift_mpi_count(const deldrift_mpi *m, size_t *count);
 ///
 /// ids, vertices: buffers with room for capacity entries; one that is NULL is not filled. count: receives their number,
 /// also when the buffers are too small. NULL for both with capacity 0 asks for the count alone. A vertex keeps its id
-/// in the triangulation of the process until deldrift_mpi_migrate.
+/// in the triangulation of the process until a report says is_rebuilt.
 ///
 /// Cost: the own vertices.
 ///
@@ -248,9 +262,9 @@ deldrift_status deldrift_mpi_vertices(const deldrift_mpi *m, uint64_t *ids, uint
                                       size_t *count);
 
 /// The triangulation of the own vertices and the halo, to *t, for all functions that take a const triangulation. It
-/// belongs to m, and is another one after deldrift_mpi_migrate. Cells without an own vertex may not be cells of the
-/// whole. What functions tell of an own vertex and its cells, such as deldrift_star, deldrift_voronoi_volumes and
-/// deldrift_vertex_neighbours, is that of the whole; deldrift_keys gives global ids. Its timestamp counts rounds.
+/// belongs to m, and is another one after a report that says is_rebuilt. Cells without an own vertex may not be cells
+/// of the whole. What functions tell of an own vertex and its cells, such as deldrift_star, deldrift_voronoi_volumes
+/// and deldrift_vertex_neighbours, is that of the whole; deldrift_keys gives global ids. Its timestamp counts rounds.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT.
 deldrift_status deldrift_mpi_local(const deldrift_mpi *m, const deldrift_triangulation **t);
@@ -321,13 +335,15 @@ deldrift_status deldrift_mpi_hull_facets(const deldrift_mpi *m, uint64_t *ids, u
                                          size_t capacity, size_t *count);
 
 /// The own cells that have come and gone since this was last called, to *changes. It concerns the calling process
-/// alone. A program that never calls it pays nothing.
+/// alone; in a periodic box it is collective, as owners tell how vertices were given. A program that never calls it
+/// pays nothing.
 ///
 /// Cost: what has changed in the triangulation of the process, its halo included, and the stars of vertices that have
-/// an id which was another one's; of a list of all, the cells.
+/// an id which was another one's; of a list of all, the cells. In a periodic box always the cells and the halo, and the
+/// memory of a copy of the own cells.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT; DELDRIFT_OUT_OF_MEMORY, then the next list is of all own cells; DELDRIFT_PERIODIC in
-/// a periodic box.
+/// Errors: DELDRIFT_NULL_ARGUMENT; DELDRIFT_OUT_OF_MEMORY, then the next list is of all own cells. In a periodic box,
+/// on any process: then nothing has been taken on any.
 deldrift_status deldrift_mpi_take_changes(deldrift_mpi *m, deldrift_mpi_changes *changes);
 
 /// Brings values of vertices from their owners to all copies. Collective, but messages go between neighbours only.

@@ -16,12 +16,12 @@ from __future__ import annotations
 import ctypes
 import os
 from ctypes import POINTER, byref, c_char_p, c_int, c_size_t, c_uint32, c_uint64, c_void_p
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from mpi4py import MPI
 
-__all__ = ["Delaunay", "DeldriftMpiError", "Report"]
+__all__ = ["Changes", "Delaunay", "DeldriftMpiError", "Report"]
 
 _Comm = c_void_p if MPI._sizeof(MPI.Comm) == ctypes.sizeof(c_void_p) else c_int
 
@@ -56,12 +56,28 @@ class Report(ctypes.Structure):
         (name, c_uint64)
         for name in (
             "timestamp", "rounds", "received", "sent", "dropped", "halo", "messages", "bytes", "collectives",
-            "neighbours", "is_spanning",
+            "neighbours", "is_spanning", "is_rebuilt",
         )
-    ] + [("_reserved", c_uint64 * 5)]
+    ] + [("_reserved", c_uint64 * 4)]
 
 
-class Changes(ctypes.Structure):
+class Changes(NamedTuple):
+    """Own cells that have come and gone."""
+
+    created: np.ndarray
+    """Rows of global ids, positively oriented."""
+    removed: np.ndarray
+    """Rows of global ids, in any order."""
+    is_anew: bool
+    """Whether all own cells are listed as created, and none as removed: at first, and after a migration."""
+    created_shifts: np.ndarray | None
+    """By created cell and corner multiples of the vectors, counted from the corner of the least id, and of several with
+    that id from that of the least multiples; None where the triangulation is not periodic."""
+    removed_shifts: np.ndarray | None
+    """Likewise for removed cells: the ids and shifts by which each was told as created."""
+
+
+class _Changes(ctypes.Structure):
     """deldrift_mpi_changes."""
 
     _fields_ = [
@@ -71,7 +87,9 @@ class Changes(ctypes.Structure):
         ("removed_count", c_size_t),
         ("removed", c_void_p),
         ("is_anew", c_size_t),
-        ("_reserved", c_size_t * 3),
+        ("created_shifts", c_void_p),
+        ("removed_shifts", c_void_p),
+        ("_reserved", c_size_t * 1),
     ]
 
 
@@ -96,7 +114,7 @@ def _load() -> ctypes.CDLL:
         "owners": [pointer, pointer, size, count],
         "cells": [pointer, pointer, pointer, size, count],
         "hull_facets": [pointer, pointer, pointer, pointer, size, count],
-        "take_changes": [pointer, POINTER(Changes)],
+        "take_changes": [pointer, POINTER(_Changes)],
         "exchange": [pointer, pointer, size, size],
         "partition": [pointer, pointer, size, pointer],
         "migrate": [pointer, pointer, size, pointer, size, POINTER(c_void_p), POINTER(Report)],
@@ -163,6 +181,7 @@ class Delaunay:
         drop_percent: int = 0,
     ) -> None:
         self._handle = c_void_p()
+        self._is_periodic = vectors is not None
         # What is wrong with the shape of one is told to all: the dimension 0 is refused.
         points = np.ascontiguousarray(points, dtype=np.float64)
         self.dimension = points.shape[1] if points.ndim == 2 else 0
@@ -331,21 +350,27 @@ class Delaunay:
         )
         return rows
 
-    def take_changes(self) -> tuple[np.ndarray, np.ndarray, bool]:
-        """The own cells that have come and gone since this was last called, as rows of global ids.
+    def take_changes(self) -> Changes:
+        """The own cells that have come and gone since this was last called. Collective in a periodic box."""
+        changes = _Changes()
+        _check(_library.deldrift_mpi_take_changes(self._handle, byref(changes)), self._is_periodic)
 
-        The third is True if all own cells are listed as created, and none as removed: at first, and after a migration.
-        """
-        changes = Changes()
-        _check(_library.deldrift_mpi_take_changes(self._handle, byref(changes)), False)
+        def rows(address: int | None, count: int, shape: tuple[int, ...], kind: type) -> np.ndarray:
+            text = ctypes.string_at(address, 8 * count * int(np.prod(shape))) if count else b""
+            return np.frombuffer(text, kind).reshape(count, *shape).copy()
 
-        def rows(address: int | None, count: int) -> np.ndarray:
-            shape = (count, self.dimension + 1)
-            text = ctypes.string_at(address, 8 * count * shape[1]) if count else b""
-            return np.frombuffer(text, np.uint64).reshape(shape).copy()
+        def ids(address: int | None, count: int) -> np.ndarray:
+            return rows(address, count, (self.dimension + 1,), np.uint64)
 
-        created, removed = rows(changes.created, changes.created_count), rows(changes.removed, changes.removed_count)
-        return created, removed, bool(changes.is_anew)
+        def shifts(address: int | None, count: int) -> np.ndarray | None:
+            shape = self.dimension + 1, self.dimension
+            return rows(address, count, shape, np.int64) if self._is_periodic else None
+
+        created, removed = changes.created_count, changes.removed_count
+        return Changes(
+            ids(changes.created, created), ids(changes.removed, removed), bool(changes.is_anew),
+            shifts(changes.created_shifts, created), shifts(changes.removed_shifts, removed),
+        )
 
     def stage_insertions(self, points: Any, ids: Any) -> None:
         """Stages vertices of new global ids, which the next commit inserts behind the own ones."""

@@ -54,8 +54,8 @@ def history(dimension):
         tri.stage_removals([step, step + 5])
         report = tri.commit(tri.points + 0.01 * rng.random((len(tri), dimension)))
         assert report.timestamp == step + 1 == tri.timestamp and is_serial(tri) and report.is_spanning == 1
-        created, removed, is_anew = tri.take_changes()
-        assert not is_anew
+        created, removed, is_anew, *shifts = tri.take_changes()
+        assert not is_anew and shifts == [None, None]
         known -= {tuple(sorted(row)) for row in removed.tolist()}
         known |= {tuple(sorted(row)) for row in created.tolist()}
         assert known == {tuple(sorted(row)) for row in tri.cells().tolist()}
@@ -81,20 +81,45 @@ def history(dimension):
     tri.destroy()
 
 
+def named(ids, shifts):
+    """Cells by their corners in the order of ids and shifts, the first in period 0."""
+    names = set()
+    for row, multiples in zip(ids.tolist(), shifts.tolist()):
+        corners = sorted(zip(row, map(tuple, multiples)))
+        first = corners[0][1]
+        names.add(tuple((v, tuple(n - m for n, m in zip(shift, first))) for v, shift in corners))
+    assert len(names) == len(ids)
+    return names
+
+
+def follow(tri, known, is_anew):
+    """Own cells before, without those that have gone, and with those that have come, are those now."""
+    changes = tri.take_changes()
+    created, removed = named(changes.created, changes.created_shifts), named(changes.removed, changes.removed_shifts)
+    known = set() if is_anew else known
+    assert changes.is_anew == is_anew and removed <= known and not created & known
+    known = known - removed | created
+    assert known == named(tri.cells(), tri.cell_shifts())
+    return known
+
+
 def in_a_box(dimension):
     """Cells fill the box, as the sum of their volumes says, while vertices leave it."""
     rng = np.random.default_rng(comm.rank)
     vectors = np.eye(dimension) + np.tri(dimension, k=-1) / 4
     given = rng.random((30, dimension)) @ vectors
     tri = Delaunay(comm, given, vectors=vectors)
+    assert tri.report.is_rebuilt == 1
+    known = follow(tri, set(), True)
     for step in range(4):
         given += 0.2 * rng.random(given.shape)
         if step == 1:
             vectors = vectors * 1.25 ** (1 / dimension)
-            tri.commit(given, vectors=vectors)
+            assert tri.report.is_rebuilt == 0 and tri.commit(given, vectors=vectors).timestamp == step + 1
         tri.commit(given)
         if step == 2:
             given = tri.migrate(tri.partition(), given)
+        known = follow(tri, known, step == 2)
         positions = {i: x for part in comm.allgather(list(zip(tri.ids.tolist(), given))) for i, x in part}
         cells, shifts = tri.cells(), tri.cell_shifts()
         corners = np.array([[positions[i] for i in row] for row in cells.tolist()]).reshape(shifts.shape)
@@ -108,7 +133,6 @@ def in_a_box(dimension):
         values[tri.vertices] = given
         values = tri.exchange(values) + tri.periods() @ vectors
         assert np.abs((values - tri.local_points)[tri.owners >= 0]).max() < 1e-9
-    assert refusal(tri.take_changes).process == -1
     tri.destroy()
     assert refusal(lambda: Delaunay(comm, given, vectors=np.ones((2, dimension)))).process == 0
 

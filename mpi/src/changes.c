@@ -13,7 +13,8 @@ static int compare_notes(const void *first, const void *second) {
 }
 
 void dm_note_rebound(deldrift_mpi *m) {
-    if (!m->has_taken) return;
+    // In a periodic box cells are compared with those that there were.
+    if (!m->has_taken || m->lattice.rank) return;
     if (!dm_reserve(&m->refusal, &m->rebound, &m->rebound_room, m->rebound_count + m->undo_count, sizeof *m->rebound)) {
         // The commit stands: all is told anew by the next list.
         memset(&m->refusal, 0, sizeof m->refusal);
@@ -145,20 +146,18 @@ static bool take(deldrift_mpi *m) {
 deldrift_status deldrift_mpi_take_changes(deldrift_mpi *m, deldrift_mpi_changes *changes) {
     if (!m) return dm_no_handle();
     memset(&m->refusal, 0, sizeof m->refusal);
-    if (!changes) {
-        dm_refuse(&m->refusal, DELDRIFT_NULL_ARGUMENT, "changes is NULL");
-        return dm_fail(&m->refusal);
-    }
-    // Ids alone do not tell cells apart.
+    if (!changes) dm_refuse(&m->refusal, DELDRIFT_NULL_ARGUMENT, "changes is NULL");
     if (m->lattice.rank) {
-        dm_refuse(&m->refusal, DELDRIFT_PERIODIC, "the triangulation is periodic");
-        return dm_fail(&m->refusal);
+        deldrift_status status = dm_take_classes(m, &m->refusal);
+        if (status != DELDRIFT_OK) return status;
+    } else {
+        if (!changes) return dm_fail(&m->refusal);
+        memset(&m->changes, 0, sizeof m->changes);
+        // Where memory is refused after the triangulation has told its changes, the next list is of all.
+        m->has_taken = take(m);
+        m->rebound_count = 0;
+        if (!m->has_taken) return dm_fail(&m->refusal);
     }
-    memset(&m->changes, 0, sizeof m->changes);
-    // Where memory is refused after the triangulation has told its changes, the next list is of all.
-    m->has_taken = take(m);
-    m->rebound_count = 0;
-    if (!m->has_taken) return dm_fail(&m->refusal);
     m->changes.created = m->created;
     m->changes.created_cells = m->created_cells;
     m->changes.removed = m->removed;

@@ -207,10 +207,11 @@ static bool is_time_to_drop(const deldrift_mpi *m) {
     return m->options.drop_percent < UINT32_MAX && m->sent_since_drop * 100 > copies * m->options.drop_percent;
 }
 
-// From what all have agreed to do to what all have, or none.
-static deldrift_status advance(deldrift_mpi *m, const double *positions, bool has_new_boxes) {
+// From what all have agreed to do to what all have, or none; with other vectors, or NULL.
+static deldrift_status advance(deldrift_mpi *m, const double *positions, bool has_new_boxes, dm_strain *strain) {
     m->has_dropped = is_time_to_drop(m);
     if (m->has_dropped) dm_find_drops(m);
+    if (strain) dm_strain_copies(m, strain);
     m->moved_count = 0;
     take_positions(m, positions);
     if (has_new_boxes) share_new_boxes(m);
@@ -220,11 +221,44 @@ static deldrift_status advance(deldrift_mpi *m, const double *positions, bool ha
     deldrift_status status = dm_rounds(m);
     if (status != DELDRIFT_OK) {
         dm_restore(m);
+        if (strain) dm_unstrain_copies(m, strain);
         return status;
     }
     dm_settle(m);
     m->insertion_count = m->removal_count = 0;
     return DELDRIFT_OK;
+}
+
+static void finish(deldrift_mpi *m) {
+    if (m->lattice.rank && m->own_count)
+        memcpy(m->wraps, m->next_wraps, m->own_count * m->dimension * sizeof *m->wraps);
+    dm_count_copies(m);
+    m->was_spanning = m->report.is_spanning;
+    m->report.timestamp = ++m->timestamp;
+}
+
+deldrift_status dm_commit_strain(deldrift_mpi *m, const double *positions, const double *vectors, bool *is_done) {
+    memset(&m->refusal, 0, sizeof m->refusal);
+    memset(&m->report, 0, sizeof m->report);
+    *is_done = false;
+    dm_strain strain;
+    int64_t numbers[4] = {0};
+    if (dm_make_strain(&m->refusal, m, vectors, &strain)) {
+        numbers[0] = !dm_can_strain(m, &strain);
+        if (!numbers[0] && dm_come_home(m, &strain.lattice, &positions) && make_next(m, positions) &&
+            dm_make_peers_ready(m))
+            numbers[1] = !fits(m);
+    }
+    dm_vote vote = dm_decide(m->comm, &m->refusal, numbers);
+    m->report.collectives++;
+    deldrift_status status = vote.status;
+    if (status == DELDRIFT_OK && !vote.most[0]) {
+        status = advance(m, positions, vote.most[1], &strain);
+        *is_done = status == DELDRIFT_OK;
+        if (*is_done) finish(m);
+    }
+    dm_free_strain(&strain);
+    return status;
 }
 
 deldrift_status deldrift_mpi_commit(deldrift_mpi *m, const double *positions, size_t count,
@@ -242,7 +276,7 @@ deldrift_status deldrift_mpi_commit(deldrift_mpi *m, const double *positions, si
         is_legal = dm_check_points(&m->refusal, "positions", m->dimension, positions, count,
                                    m->removal_count ? m->is_removal : NULL);
     }
-    if (is_legal && m->lattice.rank) is_legal = dm_come_home(m, &positions);
+    if (is_legal && m->lattice.rank) is_legal = dm_come_home(m, &m->lattice, &positions);
     int64_t numbers[4] = {0};
     if (is_legal && make_next(m, positions) && dm_make_peers_ready(m)) {
         numbers[0] = m->insertion_count || m->removal_count || moves(m, positions);
@@ -251,13 +285,9 @@ deldrift_status deldrift_mpi_commit(deldrift_mpi *m, const double *positions, si
     dm_vote vote = dm_decide(m->comm, &m->refusal, numbers);
     m->report.collectives++;
     deldrift_status status = vote.status;
-    if (status == DELDRIFT_OK && vote.most[0]) status = advance(m, positions, vote.most[1]);
+    if (status == DELDRIFT_OK && vote.most[0]) status = advance(m, positions, vote.most[1], NULL);
     if (status != DELDRIFT_OK) return status;
-    if (m->lattice.rank && m->own_count)
-        memcpy(m->wraps, m->next_wraps, m->own_count * m->dimension * sizeof *m->wraps);
-    dm_count_copies(m);
-    m->was_spanning = m->report.is_spanning;
-    m->report.timestamp = ++m->timestamp;
+    finish(m);
     if (report) *report = m->report;
     return DELDRIFT_OK;
 }

@@ -90,6 +90,7 @@ deldrift_status dm_build(deldrift_mpi *m, const double *points, const uint64_t *
                          size_t count) {
     dm_refusal *refusal = &m->refusal;
     memset(&m->report, 0, sizeof m->report);
+    m->report.is_rebuilt = 1;
     m->next_count = count;
     m->points = points;
     dm_box own[DM_MAX_BOXES];
@@ -217,6 +218,16 @@ static deldrift_status check_vectors(MPI_Comm comm, dm_refusal *refusal, uint32_
     return dm_decide(comm, refusal, NULL).status;
 }
 
+// All processes see the same, so that none has to be told.
+static bool check_communicator(dm_refusal *refusal, MPI_Comm comm) {
+    int is_inter = 0;
+    if (comm == MPI_COMM_NULL)
+        dm_refuse(refusal, DELDRIFT_NULL_ARGUMENT, "comm is MPI_COMM_NULL");
+    else if (MPI_Comm_test_inter(comm, &is_inter) != MPI_SUCCESS || is_inter)
+        dm_refuse(refusal, DELDRIFT_INVALID_VALUE, "comm is %s", is_inter ? "an intercommunicator" : "no communicator");
+    return refusal->status == DELDRIFT_OK;
+}
+
 // With the vectors of a box, or NULL where the set is open.
 static deldrift_status create(MPI_Comm comm, uint32_t dimension, const double *positions, const uint64_t *ids,
                               size_t count, const box *given, const deldrift_mpi_options *options,
@@ -225,7 +236,9 @@ static deldrift_status create(MPI_Comm comm, uint32_t dimension, const double *p
     deldrift_mpi_options read;
     deldrift_options local;
     MPI_Comm copy;
-    MPI_Comm_dup(comm, &copy);
+    if (!check_communicator(&refusal, comm)) return dm_fail(&refusal);
+    // All calls on the copy end the program on an error. This one may return, if the program's handler says so.
+    if (MPI_Comm_dup(comm, &copy) != MPI_SUCCESS) MPI_Abort(comm, 1);
     MPI_Comm_set_errhandler(copy, MPI_ERRORS_ARE_FATAL);
     if (!out) dm_refuse(&refusal, DELDRIFT_NULL_ARGUMENT, "out is NULL");
     read_options(&refusal, options, &read, &local);
@@ -303,14 +316,10 @@ static void check_strain(const deldrift_mpi *m, dm_refusal *refusal, const doubl
                   m->lattice.rank);
 }
 
-deldrift_status deldrift_mpi_commit_vectors(deldrift_mpi *m, const double *positions, size_t count,
-                                            const double *vectors, size_t vector_count, deldrift_mpi_report *report) {
-    if (!m) return dm_no_handle();
+// Builds all again, in a box of other vectors.
+static deldrift_status build_strained(deldrift_mpi *m, const double *positions, size_t count, const double *vectors,
+                                      size_t vector_count) {
     dm_refusal refusal = {DELDRIFT_OK, ""};
-    box given = {vectors, vector_count};
-    check_strain(m, &refusal, positions, count, vector_count);
-    deldrift_status status = check_vectors(m->comm, &refusal, m->dimension, &given);
-    if (status != DELDRIFT_OK) return status;
     uint64_t *ids = dm_allocate(&refusal, count, sizeof *ids);
     double *home = dm_allocate(&refusal, count * m->dimension, sizeof *home);
     int64_t *wraps = dm_allocate(&refusal, count * m->dimension, sizeof *wraps);
@@ -319,12 +328,15 @@ deldrift_status deldrift_mpi_commit_vectors(deldrift_mpi *m, const double *posit
         for (size_t i = 0; i < count; i++) ids[i] = m->id_of[m->own[i]];
         dm_wrap(&refusal, &fresh->lattice, positions, NULL, count, home, wraps);
     }
-    status = dm_decide(m->comm, &refusal, NULL).status;
+    deldrift_status status = dm_decide(m->comm, &refusal, NULL).status;
     if (status == DELDRIFT_OK) status = dm_build(fresh, home, ids, wraps, count);
     if (status == DELDRIFT_OK) {
+        // Cells are known by global ids, so lists of changes go on.
+        fresh->told = m->told;
+        fresh->has_taken = m->has_taken;
+        memset(&m->told, 0, sizeof m->told);
         dm_replace(m, fresh);
         m->report.timestamp = ++m->timestamp;
-        if (report) *report = m->report;
     } else if (fresh) {
         dm_free(fresh);
     }
@@ -332,6 +344,20 @@ deldrift_status deldrift_mpi_commit_vectors(deldrift_mpi *m, const double *posit
     free(ids);
     free(home);
     free(wraps);
+    return status;
+}
+
+deldrift_status deldrift_mpi_commit_vectors(deldrift_mpi *m, const double *positions, size_t count,
+                                            const double *vectors, size_t vector_count, deldrift_mpi_report *report) {
+    if (!m) return dm_no_handle();
+    dm_refusal refusal = {DELDRIFT_OK, ""};
+    box given = {vectors, vector_count};
+    bool is_done;
+    check_strain(m, &refusal, positions, count, vector_count);
+    deldrift_status status = check_vectors(m->comm, &refusal, m->dimension, &given);
+    if (status == DELDRIFT_OK) status = dm_commit_strain(m, positions, vectors, &is_done);
+    if (status == DELDRIFT_OK && !is_done) status = build_strained(m, positions, count, vectors, vector_count);
+    if (status == DELDRIFT_OK && report) *report = m->report;
     return status;
 }
 

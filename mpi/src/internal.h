@@ -71,10 +71,26 @@ typedef struct {
     double given[9];
     double measure;   // product of the lengths of reduced vectors
     size_t count;     // of translations
-    uint32_t unit[3]; // those by one of the reduced vectors
+    uint32_t greatest[3]; // multiples of the reduced vectors
+    uint32_t unit[3];     // translations by one of these
     double *ways;     // by translation: what is added to a position
     int64_t *shifts;  // by translation: multiples of the given vectors
 } dm_lattice;
+
+// Other vectors that take the place of those in force, and what periods become by their numbers.
+typedef struct {
+    dm_lattice lattice;    // the other one; while it is in force, the one that was
+    uint32_t *forth, *back; // DELDRIFT_NONE where there is no such period; NULL where the lattices differ too much
+} dm_strain;
+
+// Own cells of a periodic box, each by its corners in the order of ids and shifts, the first in the period 0.
+typedef struct {
+    uint64_t *ids;
+    int64_t *shifts;
+    size_t count;
+    uint32_t *table; // by hash: the number of a cell from 1 on, or 0
+    size_t slots;    // a power of two
+} dm_classes;
 
 // The first thing that this process refused in the collective call that runs.
 typedef struct {
@@ -160,6 +176,10 @@ struct deldrift_mpi {
     uint64_t *created, *removed;
     uint32_t *created_cells;
     size_t created_room, removed_room, created_cell_room;
+    // In a periodic box, in place of notes, own cells as they were then.
+    dm_classes told;
+    int64_t *created_shifts, *removed_shifts;
+    size_t created_shift_room, removed_shift_room;
 
     // Scratch room.
     double *low, *high; // boxes that are asked about
@@ -234,13 +254,27 @@ void dm_share_boxes(deldrift_mpi *m, dm_box *own);
 bool dm_make_lattice(dm_refusal *refusal, dm_lattice *lattice, uint32_t dimension, const double *vectors, size_t rank);
 void dm_free_lattice(dm_lattice *lattice);
 uint32_t dm_opposite(uint32_t period);
+// The number of a translation by multiples of the reduced vectors; DELDRIFT_NONE if these are too great.
+uint32_t dm_period_of(const dm_lattice *lattice, const int64_t multiples[3]);
 void dm_translate(const deldrift_mpi *m, double *to, const double *from, uint32_t period);
 bool dm_wrap(dm_refusal *refusal, const dm_lattice *lattice, const double *positions, const double *near, size_t count,
              double *places, int64_t *shifts);
 // Has what a commit is given in m->home, and where each comes from in m->home_wraps; positions become these.
-bool dm_come_home(deldrift_mpi *m, const double **positions);
+bool dm_come_home(deldrift_mpi *m, const dm_lattice *lattice, const double **positions);
+// By id the multiples by which a vertex is translated from where its owner has given it, in rows to be freed.
+// Collective.
+deldrift_status dm_read_periods(deldrift_mpi *m, dm_refusal *refusal, int64_t **rows);
 // Own vertices where they are; in a periodic box all in the unit cell.
 bool dm_unit_places(const deldrift_mpi *m, dm_refusal *refusal, double *places);
+
+// strain.c: other vectors by a commit of moves.
+bool dm_make_strain(dm_refusal *refusal, const deldrift_mpi *m, const double *vectors, dm_strain *strain);
+void dm_free_strain(dm_strain *strain);
+// Whether all copies have a period by the other vectors, so that none has to be found anew.
+bool dm_can_strain(const deldrift_mpi *m, const dm_strain *strain);
+// Puts the other vectors in force, and takes that back.
+void dm_strain_copies(deldrift_mpi *m, dm_strain *strain);
+void dm_unstrain_copies(deldrift_mpi *m, dm_strain *strain);
 
 // peers.c
 dm_peer *dm_peer_of(deldrift_mpi *m, int rank);
@@ -276,6 +310,10 @@ bool dm_prepare(deldrift_mpi *m);
 void dm_publish(deldrift_mpi *m);
 void dm_withdraw(deldrift_mpi *m);
 
+// commit.c Makes new positions in a box of other vectors the next timestamp, if the vectors are near those in force.
+// All agree on that. Collective.
+deldrift_status dm_commit_strain(deldrift_mpi *m, const double *positions, const double *vectors, bool *is_done);
+
 // rounds.c
 // Pushes until nobody sends, or a process refuses: all return the status of that.
 deldrift_status dm_rounds(deldrift_mpi *m);
@@ -292,6 +330,11 @@ void dm_restore(deldrift_mpi *m);
 // changes.c
 // What the ids that have been given or taken away in a commit stood for.
 void dm_note_rebound(deldrift_mpi *m);
+
+// classes.c
+// The lists of changes in a periodic box. Collective; where it is refused, nothing has been taken.
+deldrift_status dm_take_classes(deldrift_mpi *m, dm_refusal *refusal);
+void dm_free_classes(dm_classes *classes);
 
 // reading.c
 // The corner of the least global id; of several images of that vertex the first by position.

@@ -17,13 +17,25 @@ static uint32_t period_at(size_t place, size_t count) {
     return (uint32_t)(place > middle ? 2 * (place - middle) - 1 : 2 * (middle - place));
 }
 
+uint32_t dm_period_of(const dm_lattice *lattice, const int64_t multiples[3]) {
+    size_t place = 0, width = 1;
+    for (uint32_t j = 0; j < lattice->rank; j++) {
+        int64_t most = (int64_t)lattice->greatest[j];
+        if (multiples[j] < -most || multiples[j] > most) return DELDRIFT_NONE;
+        place += (size_t)(multiples[j] + most) * width;
+        width *= 2 * (size_t)most + 1;
+    }
+    return period_at(place, lattice->count);
+}
+
 void dm_translate(const deldrift_mpi *m, double *to, const double *from, uint32_t period) {
     const double *way = m->lattice.ways + (size_t)period * m->dimension;
     for (uint32_t k = 0; k < m->dimension; k++) to[k] = period ? from[k] + way[k] : from[k];
 }
 
 static bool make_translations(dm_refusal *refusal, dm_lattice *lattice, uint32_t d, const double *reduced,
-                              const int64_t *multiples, const uint32_t *greatest) {
+                              const int64_t *multiples) {
+    const uint32_t *greatest = lattice->greatest;
     lattice->count = 1;
     for (uint32_t j = 0; j < lattice->rank; j++) {
         lattice->unit[j] = (uint32_t)(2 * lattice->count - 1);
@@ -50,10 +62,10 @@ static bool make_translations(dm_refusal *refusal, dm_lattice *lattice, uint32_t
 bool dm_make_lattice(dm_refusal *refusal, dm_lattice *lattice, uint32_t d, const double *vectors, size_t rank) {
     double reduced[9] = {0};
     int64_t multiples[9] = {0};
-    uint32_t greatest[3] = {0};
     memset(lattice, 0, sizeof *lattice);
     if (rank && (!dm_took(refusal, deldrift_create_periodic(d, NULL, 0, vectors, rank, NULL, &lattice->box)) ||
-                 !dm_took(refusal, deldrift_reduced_vectors(lattice->box, reduced, multiples, greatest, 3, &rank))))
+                 !dm_took(refusal, deldrift_reduced_vectors(lattice->box, reduced, multiples, lattice->greatest, 3,
+                                                            &rank))))
         return false;
     lattice->rank = (uint32_t)rank;
     lattice->measure = 1;
@@ -63,7 +75,7 @@ bool dm_make_lattice(dm_refusal *refusal, dm_lattice *lattice, uint32_t d, const
         lattice->measure *= sqrt(square);
     }
     if (rank) memcpy(lattice->given, vectors, rank * d * sizeof *vectors);
-    return make_translations(refusal, lattice, d, reduced, multiples, greatest);
+    return make_translations(refusal, lattice, d, reduced, multiples);
 }
 
 void dm_free_lattice(dm_lattice *lattice) {
@@ -84,7 +96,7 @@ static void gather_own(const deldrift_mpi *m, double *places) {
         memcpy(places + i * d, m->where + (size_t)m->own[i] * d, d * sizeof *places);
 }
 
-bool dm_come_home(deldrift_mpi *m, const double **positions) {
+bool dm_come_home(deldrift_mpi *m, const dm_lattice *lattice, const double **positions) {
     uint32_t d = m->dimension;
     size_t count = m->own_count, room[3] = {m->home_room, m->home_room, m->home_room};
     dm_refusal *r = &m->refusal;
@@ -107,7 +119,7 @@ bool dm_come_home(deldrift_mpi *m, const double **positions) {
         given = m->coordinates;
     }
     *positions = m->home;
-    return dm_wrap(r, &m->lattice, given, m->home_before, count, m->home, m->home_wraps);
+    return dm_wrap(r, lattice, given, m->home_before, count, m->home, m->home_wraps);
 }
 
 bool dm_unit_places(const deldrift_mpi *m, dm_refusal *refusal, double *places) {
@@ -125,8 +137,7 @@ bool dm_unit_places(const deldrift_mpi *m, dm_refusal *refusal, double *places) 
     return has_them;
 }
 
-// Collective: by id the multiples by which a vertex is translated from where its owner has given it.
-static deldrift_status read_periods(deldrift_mpi *m, dm_refusal *refusal, int64_t **rows) {
+deldrift_status dm_read_periods(deldrift_mpi *m, dm_refusal *refusal, int64_t **rows) {
     uint32_t d = m->dimension;
     *rows = dm_allocate(refusal, m->ids * d, sizeof **rows);
     deldrift_status status = dm_decide(m->comm, refusal, NULL).status;
@@ -155,7 +166,7 @@ deldrift_status deldrift_mpi_periods(deldrift_mpi *m, int64_t *shifts, size_t ca
     dm_refusal refusal = {DELDRIFT_OK, ""};
     int64_t *rows = NULL;
     check_room(&refusal, shifts, capacity, m->ids, count);
-    deldrift_status status = read_periods(m, &refusal, &rows);
+    deldrift_status status = dm_read_periods(m, &refusal, &rows);
     if (status == DELDRIFT_OK && m->ids) memcpy(shifts, rows, m->ids * m->dimension * sizeof *rows);
     free(rows);
     return status;
@@ -173,7 +184,7 @@ deldrift_status deldrift_mpi_cell_shifts(deldrift_mpi *m, int64_t *shifts, size_
             owned += m->is_own[dm_least(m, view.vertices + c * corners, corners)];
         check_room(&refusal, shifts, capacity, owned, count);
     }
-    deldrift_status status = read_periods(m, &refusal, &rows);
+    deldrift_status status = dm_read_periods(m, &refusal, &rows);
     for (size_t c = 0; status == DELDRIFT_OK && c < view.count; c++) {
         const uint32_t *v = view.vertices + c * corners;
         uint32_t least = dm_least(m, v, corners);

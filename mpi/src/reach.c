@@ -13,6 +13,9 @@ static const double DROP_MARGIN = 0.1;
 // then has a cell without an end, whose half-space meets the boxes of nearly all periods.
 static const double SEED_MARGIN = 1.5;
 
+// In a periodic box own vertices are supposed to be in reach of nothing that is so many spacings away from all.
+static const double EXTENT_MARGIN = 8;
+
 // Processes are asked about in groups of this number, and groups of groups, as most are far.
 #ifdef DELDRIFT_MPI_TESTING
 enum { GROUP = 2 }; // so that few processes have groups of groups
@@ -69,18 +72,33 @@ static dm_box no_box(void) {
     return (dm_box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
 }
 
+static dm_box everywhere(void) {
+    return (dm_box){{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}, 0};
+}
+
 static void unite_boxes_of(const deldrift_mpi *m, dm_box *all, int process) {
     const dm_box *boxes = dm_boxes_now(m) + (size_t)process * m->options.boxes;
     for (uint32_t b = 0; b < m->options.boxes; b++)
         if (!dm_is_empty_box(&boxes[b])) unite(m, all, &boxes[b]);
 }
 
-// The box around those of some processes, without this one, and without those that have no copies if these are not
-// wanted.
+// Whether a process has a copy of each own vertex, so that nothing is left to be sent: so it is with points on a
+// sphere, of which each cell is in reach of all boxes.
+static bool has_all(const deldrift_mpi *m, int process) {
+    if (m->lattice.rank || m->peer_of[process] < 0) return false;
+    const dm_list *sent = &m->peers[m->peer_of[process]].sent;
+    size_t staying = 0;
+    for (size_t k = 0; sent->count >= m->next_count && k < sent->count; k++) staying += !sent->is_leaving[k];
+    return staying >= m->next_count;
+}
+
+// The box around those of some processes that are asked about: other ones, and only those that have copies, or only
+// those that have not all.
 static dm_box box_of_group(const deldrift_mpi *m, int first, int width, bool of_peers) {
     dm_box all = no_box();
     for (int process = first; process < m->size && process < first + width; process++)
-        if (process != m->rank && !(of_peers && m->peer_of[process] < 0)) unite_boxes_of(m, &all, process);
+        if (process != m->rank && !(of_peers ? m->peer_of[process] < 0 : has_all(m, process)))
+            unite_boxes_of(m, &all, process);
     return all;
 }
 
@@ -170,36 +188,33 @@ static bool find_near(deldrift_mpi *m, bool of_peers, double margin, size_t *cou
     }
 }
 
-// Outside of this box nothing own is in reach of anything. It is one around own vertices, as far wider as their balls
-// need, and infinite on a side where that is not known. What is told of a half-space holds for all boxes in it.
+// Outside of this box nothing own is in reach of anything. It is one around own vertices, wider by a few spacings, and
+// infinite on a side where that does not suffice. What is told of a half-space holds for all boxes in it.
 static bool find_extent(deldrift_mpi *m, dm_box *extent) {
-    static const double WIDTHS[] = {8, 2}; // spacings
-    enum { TRIES = sizeof WIDTHS / sizeof *WIDTHS };
     uint32_t d = m->dimension;
-    dm_box own = no_box(), halves[TRIES * 6];
-    size_t asked = 0;
-    if (!reserve_boxes(m, TRIES * 2 * d)) return false;
+    dm_box own = no_box();
+    if (!reserve_boxes(m, 2 * d)) return false;
     unite_boxes_of(m, &own, m->rank);
-    for (int t = 0; t < TRIES; t++) {
-        for (uint32_t side = 0; side < 2 * d; side++) {
-            dm_box *half = &halves[asked];
-            *half = (dm_box){{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}, 0};
-            if (side % 2)
-                half->low[side / 2] = own.high[side / 2] + WIDTHS[t] * own.spacing;
-            else
-                half->high[side / 2] = own.low[side / 2] - WIDTHS[t] * own.spacing;
-            put_box(m, asked++, half, 0, 0);
-        }
+    for (uint32_t k = 0; k < d; k++) {
+        own.low[k] -= EXTENT_MARGIN * own.spacing;
+        own.high[k] += EXTENT_MARGIN * own.spacing;
     }
-    if (!search(m, asked)) return false;
-    *extent = (dm_box){{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}, 0};
-    for (size_t n = 0; n < asked; n++) {
-        uint32_t side = (uint32_t)(n % (2 * d));
-        if (m->offsets[n + 1] > m->offsets[n]) continue;
+    for (uint32_t side = 0; side < 2 * d; side++) {
+        dm_box half = everywhere();
         if (side % 2)
-            extent->high[side / 2] = halves[n].low[side / 2];
+            half.low[side / 2] = own.high[side / 2];
         else
-            extent->low[side / 2] = halves[n].high[side / 2];
+            half.high[side / 2] = own.low[side / 2];
+        put_box(m, side, &half, 0, 0);
+    }
+    if (!search(m, 2 * d)) return false;
+    *extent = everywhere();
+    for (uint32_t side = 0; side < 2 * d; side++) {
+        if (m->offsets[side + 1] > m->offsets[side]) continue;
+        if (side % 2)
+            extent->high[side / 2] = own.high[side / 2];
+        else
+            extent->low[side / 2] = own.low[side / 2];
     }
     return true;
 }

@@ -67,6 +67,23 @@ static void wrong_creation(void) {
     deldrift_mpi_destroy(m);
 }
 
+// What is no communicator of one group is refused without a message.
+static void wrong_communicators(void) {
+    deldrift_mpi *m = NULL;
+    CHECK(deldrift_mpi_create(MPI_COMM_NULL, 2, SQUARE, NULL, 4, NULL, &m) == DELDRIFT_NULL_ARGUMENT);
+    CHECK(strstr(deldrift_mpi_last_error(), "comm is MPI_COMM_NULL") != NULL);
+    if (size > 1) {
+        MPI_Comm half, inter;
+        MPI_Comm_split(MPI_COMM_WORLD, rank % 2, rank, &half);
+        MPI_Intercomm_create(half, 0, MPI_COMM_WORLD, 1 - rank % 2, 9, &inter);
+        CHECK(deldrift_mpi_create(inter, 2, SQUARE, NULL, 4, NULL, &m) == DELDRIFT_INVALID_VALUE);
+        CHECK(strstr(deldrift_mpi_last_error(), "intercommunicator") != NULL);
+        MPI_Comm_free(&inter);
+        MPI_Comm_free(&half);
+    }
+    CHECK(m == NULL);
+}
+
 static void wrong_commits(deldrift_mpi *m, double *points) {
     int who = size / 2;
     bool is_wrong = rank == who;
@@ -171,6 +188,7 @@ static void rest(deldrift_mpi *m, const double *points) {
     other[0] += 0.125;
     OK(deldrift_mpi_commit(m, other, 4, NULL));
     OK(deldrift_mpi_commit(m, points, 4, &report));
+    CHECK(!report.is_rebuilt);
     uint64_t halo = report.halo;
     CHECK(size == 1 ? halo == 0 : halo > 0);
     OK(deldrift_mpi_timestamp(m, &before));
@@ -187,6 +205,7 @@ int main(int argc, char **argv) {
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &size);
     CHECK(deldrift_mpi_refusing_process() == -1 && !*deldrift_mpi_last_error());
+    wrong_communicators();
     wrong_creation();
     double points[8];
     memcpy(points, SQUARE, sizeof points);
@@ -196,6 +215,9 @@ int main(int argc, char **argv) {
     if (m) {
         uint64_t ids[4] = {0};
         size_t count = 0;
+        deldrift_mpi_report report;
+        OK(deldrift_mpi_last_report(m, &report));
+        CHECK(report.is_rebuilt == 1 && report.timestamp == 0);
         OK(deldrift_mpi_vertices(m, ids, NULL, 4, &count));
         for (size_t i = 0; i < 4; i++) CHECK(ids[i] == 4 * (size_t)rank + i);
         wrong_commits(m, points);

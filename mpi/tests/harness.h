@@ -16,6 +16,7 @@ extern int rank, size;
 // Counts a failure; the program goes on, so that collective calls stay in step.
 void check(bool holds, const char *text, const char *file, int line);
 extern long failures;
+extern long compared_cells; // of the whole, by is_serial
 
 uint64_t random_bits(uint64_t *state);
 double random_number(uint64_t *state); // from 0 to 1

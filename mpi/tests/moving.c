@@ -281,11 +281,10 @@ int main(int argc, char **argv) {
     memset(&totals, 0, sizeof totals);
     for (long number = first; number < first + count; number++) run(number, steps, &totals);
     if (rank == 0)
-        printf("moving, P = %d: %ld histories, %ld commits, %ld with edits, %ld refusals, %ld migrations, %ld changes "
-               "of cells here, %ld "
-               "failures; %ld commits took more than one round\n",
-               size, count, totals.commits, totals.edits, totals.refusals, totals.migrations, totals.changes, failures,
-               totals.extra_rounds);
+        printf("moving, P = %d: %ld histories, %ld commits, %ld cells, %ld with edits, %ld refusals, %ld migrations, "
+               "%ld changes of cells here, %ld failures; %ld commits took more than one round\n",
+               size, count, totals.commits, compared_cells, totals.edits, totals.refusals, totals.migrations,
+               totals.changes, failures, totals.extra_rounds);
     MPI_Finalize();
     return failures ? 1 : 0;
 }

@@ -102,18 +102,64 @@ static void migrate(history *h) {
     h->positions = realloc(h->positions, (h->count + 1) * d * sizeof(double));
     if (h->count) memcpy(h->positions, received, h->count * d * sizeof(double));
     free(targets);
+    h->has_taken = false;
     h->migrations++;
 }
 
-// Another box, a little longer or shorter, or by eighths where positions are on a lattice.
-static void strain(history *h) {
+// Another box: a little longer or shorter, sheared, the same by other vectors, or twice as long one way. Positions stay
+// as they are given, or are others. Where lengths are to be exact, so are the changes.
+static void change_vectors(history *h) {
     bool is_exact = h->kind == CUBES || h->kind == MEETING;
-    for (size_t k = 0; k < h->vector_count * h->dimension; k++) {
-        double share = 0.2 * random_number(&h->common) - 0.1;
-        if (h->vectors[k] != 0) h->vectors[k] *= is_exact ? 1.125 : 1 + share;
+    uint32_t d = h->dimension;
+    uint64_t choice = random_bits(&h->common);
+    double *first = h->vectors, *last = h->vectors + (h->vector_count - 1) * d;
+    if (choice % 4 == 0) {
+        for (uint32_t k = 0; k < d; k++) first[k] *= choice / 4 % 2 ? 2 : 0.5;
+    } else if (choice % 4 == 1 && h->vector_count > 1) {
+        // Of these steps some make other vectors the shortest ones.
+        for (uint32_t k = 0; k < d; k++) last[k] += (choice / 4 % 2 ? 0.125 : -0.125) * first[k];
+    } else if (choice % 4 == 2 && h->vector_count > 1) {
+        for (uint32_t k = 0; k < d; k++) last[k] += first[k];
+    } else {
+        for (size_t k = 0; k < h->vector_count * d; k++) {
+            double share = 0.2 * random_number(&h->common) - 0.1;
+            if (h->vectors[k] != 0) h->vectors[k] *= is_exact ? 1.125 : 1 + share;
+        }
     }
-    OK(deldrift_mpi_commit_vectors(h->m, h->positions, h->count, h->vectors, h->vector_count, NULL));
+}
+
+static void strain(history *h) {
+    uint32_t d = h->dimension;
+    double before[9];
+    deldrift_mpi_report report;
+    memcpy(before, h->vectors, sizeof before);
+    change_vectors(h);
+    uint64_t choice = random_bits(&h->common);
+    if (choice % 2)
+        for (size_t i = 0; i < h->count * d; i++) h->positions[i] += 0.125 * (double)(random_bits(&h->state) % 2);
+    if (choice / 2 % 3 == 0) {
+        // One process is refused memory, so that all take back what they have done; at which request differs.
+        int who = (int)(choice / 16 % (uint64_t)size);
+        if (rank == who) deldrift_mpi_allocations_left = (long)(choice / 1024 % 40);
+        deldrift_status status =
+            deldrift_mpi_commit_vectors(h->m, h->positions, h->count, h->vectors, h->vector_count, NULL);
+        deldrift_mpi_allocations_left = -1;
+        CHECK(status == DELDRIFT_OK || status == DELDRIFT_OUT_OF_MEMORY);
+        if (status != DELDRIFT_OK) {
+            CHECK(deldrift_mpi_refusing_process() == who);
+            double next[9];
+            memcpy(next, h->vectors, sizeof next);
+            memcpy(h->vectors, before, sizeof before);
+            // To the places that were refused, in the box that there was.
+            OK(deldrift_mpi_commit(h->m, h->positions, h->count, NULL));
+            is_right(h, "after memory was refused for other vectors");
+            memcpy(h->vectors, next, sizeof next);
+            h->refusals++;
+        }
+    }
+    OK(deldrift_mpi_commit_vectors(h->m, h->positions, h->count, h->vectors, h->vector_count, &report));
     h->strains++;
+    h->rebuilds += (long)report.is_rebuilt;
 }
 
 static void run(long number, int steps, history *totals) {
@@ -144,7 +190,13 @@ static void run(long number, int steps, history *totals) {
         if (step && choice % 8 == 0) migrate(&h);
         if (step && choice / 256 % 3 == 0) stage_edits(&h);
         if (choice / 1024 % 5 == 0) refuse_once(&h);
-        if (step && choice / 65536 % 4 == 0) strain(&h);
+        if (step && choice / 65536 % 4 == 0) {
+            strain(&h);
+            snprintf(label, sizeof label, "history %ld, step %d, other vectors: %uD %s, box %zu, spread %d, P = %d",
+                     number, step, h.dimension, set_names[h.kind], box, spread, size);
+            is_right(&h, label);
+            check_places(&h);
+        }
         if (step) {
             move(&h, choice / 8 % 16 < 8 ? (int)(choice / 8 % 16) / 2 : 4);
             OK(deldrift_mpi_commit(h.m, choice / 4096 % 4 || h.count ? h.positions : NULL, h.count, NULL));
@@ -153,16 +205,21 @@ static void run(long number, int steps, history *totals) {
                  h.dimension, set_names[h.kind], box, spread, size);
         is_right(&h, label);
         check_places(&h);
+        // Not after each commit, so that lists are of several.
+        if (random_bits(&h.common) % 2) check_changes(&h);
         h.commits++;
     }
     deldrift_mpi_destroy(h.m);
     free(h.positions);
+    free(h.taken);
     totals->commits += h.commits;
     totals->refusals += h.refusals;
     totals->migrations += h.migrations;
     totals->edits += h.edits;
     totals->strains += h.strains;
+    totals->rebuilds += h.rebuilds;
     totals->cells += h.cells;
+    totals->changes += h.changes;
 }
 
 // One process is refused memory at its first, second, third, ... request in a commit with edits, until it gets all it
@@ -206,6 +263,73 @@ static void refuse_memory(uint32_t d, long *refused) {
         ++*refused;
         OK(deldrift_mpi_discard(h.m));
     }
+    deldrift_mpi_destroy(h.m);
+    free(h.positions);
+}
+
+// One process is refused memory at its first, second, third, ... request while changes are taken: none has taken them,
+// and the list that is given in the end is of all that has changed.
+static void refuse_memory_of_changes(uint32_t d, long *refused) {
+    history h;
+    memset(&h, 0, sizeof h);
+    h.dimension = d;
+    memcpy(h.vectors, boxes[d - 2][1], sizeof h.vectors);
+    h.vector_count = d;
+    h.common = 4;
+    h.state = 18 + (uint64_t)rank;
+    begin(&h, 40, 0, NULL);
+    check_changes(&h);
+    deldrift_status status = DELDRIFT_OUT_OF_MEMORY;
+    for (long allowed = 0; status != DELDRIFT_OK && allowed < 100; allowed++) {
+        deldrift_mpi_changes changes;
+        memset(&changes, 0, sizeof changes);
+        for (size_t i = 0; i < h.count * d; i++) h.positions[i] += 0.2 * random_number(&h.state);
+        OK(deldrift_mpi_commit(h.m, h.positions, h.count, NULL));
+        if (rank == size - 1) deldrift_mpi_allocations_left = allowed;
+        status = deldrift_mpi_take_changes(h.m, &changes);
+        deldrift_mpi_allocations_left = -1;
+        CHECK(status == DELDRIFT_OK || status == DELDRIFT_OUT_OF_MEMORY);
+        if (status == DELDRIFT_OK)
+            follow_changes(&h, &changes);
+        else
+            ++*refused;
+    }
+    CHECK(status == DELDRIFT_OK);
+    deldrift_mpi_destroy(h.m);
+    free(h.positions);
+    free(h.taken);
+}
+
+// Vectors that are near those before are a commit of moves, by which vertices keep their ids; others are a build.
+static void follow_vectors(uint32_t d) {
+    history h;
+    memset(&h, 0, sizeof h);
+    h.dimension = d;
+    memcpy(h.vectors, boxes[d - 2][1], sizeof h.vectors);
+    h.vector_count = d;
+    h.common = 6 + d;
+    begin(&h, 120, 0, NULL);
+    size_t own = h.count;
+    uint32_t *before = calloc(own + 1, sizeof *before), *after = calloc(own + 1, sizeof *after);
+    deldrift_mpi_report report;
+    OK(deldrift_mpi_vertices(h.m, NULL, before, own, &own));
+    for (int step = 0; step < 12; step++) {
+        bool is_far = step == 11;
+        // Stretched along x and sheared along it, vertices with the box, by a thirty-second; at last twice as long.
+        double share = is_far ? 1 : 0.03125;
+        double *rows[2] = {h.positions, h.vectors};
+        for (int r = 0; r < 2; r++)
+            for (size_t i = 0; i < (r ? d : h.count); i++)
+                rows[r][i * d] += share * (rows[r][i * d] + rows[r][i * d + 1]);
+        OK(deldrift_mpi_commit_vectors(h.m, h.positions, h.count, h.vectors, d, &report));
+        CHECK(report.is_rebuilt == is_far && report.timestamp == (uint64_t)step + 1);
+        OK(deldrift_mpi_vertices(h.m, NULL, after, own, &own));
+        if (!is_far) CHECK(!memcmp(before, after, own * sizeof *before));
+        is_right(&h, "vectors that follow each other");
+        check_places(&h);
+    }
+    free(before);
+    free(after);
     deldrift_mpi_destroy(h.m);
     free(h.positions);
 }
@@ -265,7 +389,12 @@ static void check_arguments(void) {
     CHECK(m == NULL);
     OK(deldrift_mpi_create_periodic(MPI_COMM_WORLD, 2, place, &id, 1, box, 2, NULL, &m));
     CHECK(deldrift_mpi_hull_facets(m, NULL, NULL, NULL, 0, &count) == DELDRIFT_PERIODIC);
-    CHECK(deldrift_mpi_take_changes(m, &changes) == DELDRIFT_PERIODIC);
+    CHECK(deldrift_mpi_take_changes(m, rank == size - 1 ? NULL : &changes) == DELDRIFT_NULL_ARGUMENT);
+    CHECK(deldrift_mpi_refusing_process() == size - 1);
+    OK(deldrift_mpi_take_changes(m, &changes));
+    CHECK(changes.is_anew == 1 && !changes.removed_count);
+    OK(deldrift_mpi_take_changes(m, &changes));
+    CHECK(changes.is_anew == 0 && !changes.created_count && !changes.removed_count);
     CHECK(deldrift_mpi_cell_shifts(m, NULL, 0, NULL) == DELDRIFT_NULL_ARGUMENT);
     CHECK(deldrift_mpi_periods(m, NULL, 0, &count) == DELDRIFT_NULL_ARGUMENT && count > 0);
     int64_t shifts[2];
@@ -297,14 +426,19 @@ int main(int argc, char **argv) {
     memset(&totals, 0, sizeof totals);
     for (long number = first; number < first + count; number++) run(number, steps, &totals);
     long refused = 0;
-    for (uint32_t d = 2; d <= 3; d++) refuse_memory(d, &refused);
+    for (uint32_t d = 2; d <= 3; d++) {
+        refuse_memory(d, &refused);
+        refuse_memory_of_changes(d, &refused);
+        follow_vectors(d);
+    }
     plant();
     check_arguments();
     if (rank == 0)
-        printf("periodic, P = %d: %ld histories, %ld commits, %ld cells, %ld edits, %ld strains, %ld refusals, "
-               "%ld migrations, %ld failures; memory refused %ld times\n",
-               size, count, totals.commits, totals.cells, totals.edits, totals.strains, totals.refusals,
-               totals.migrations, failures, refused);
+        printf("periodic, P = %d: %ld histories, %ld commits, %ld cells, %ld edits, %ld other boxes, %ld of them built "
+               "anew, %ld refusals, "
+               "%ld migrations, %ld changes of cells here, %ld failures; memory refused %ld times\n",
+               size, count, totals.commits, totals.cells, totals.edits, totals.strains, totals.rebuilds,
+               totals.refusals, totals.migrations, totals.changes, failures, refused);
     MPI_Finalize();
     return failures ? 1 : 0;
 }

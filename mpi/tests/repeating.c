@@ -35,17 +35,6 @@ void place(const history *h, uint64_t *state, double *x) {
     }
 }
 
-// A cell: its corners in the order of ids and shifts, each with its shift; two of them are swapped where that makes the
-// orientation what it was.
-typedef struct {
-    uint64_t id;
-    int64_t shift[3];
-} corner;
-
-typedef struct {
-    corner corners[4];
-} cell;
-
 static int compare_corners(const void *first, const void *second) {
     const corner *a = first, *b = second;
     if (a->id != b->id) return a->id < b->id ? -1 : 1;
@@ -63,6 +52,7 @@ static int compare_cells(const void *first, const void *second) {
     return 0;
 }
 
+// Two corners are swapped where that makes the orientation what it was.
 static cell cell_of(uint32_t d, const uint64_t *ids, const int64_t *shifts) {
     cell c;
     memset(&c, 0, sizeof c);
@@ -216,6 +206,101 @@ bool is_right(history *h, const char *label) {
     free(parts);
     free(whole);
     return holds;
+}
+
+// A cell without its orientation, the same for all translations of it: two cells with the same corners are one.
+static cell class_of(uint32_t d, const uint64_t *ids, const int64_t *shifts) {
+    cell c;
+    memset(&c, 0, sizeof c);
+    for (uint32_t i = 0; i <= d; i++) {
+        c.corners[i].id = ids[i];
+        memcpy(c.corners[i].shift, shifts + i * d, d * sizeof *shifts);
+    }
+    qsort(c.corners, d + 1, sizeof *c.corners, compare_corners);
+    corner first = c.corners[0];
+    for (uint32_t i = 0; i <= d; i++)
+        for (uint32_t k = 0; k < d; k++) c.corners[i].shift[k] -= first.shift[k];
+    return c;
+}
+
+static cell *classes_of(uint32_t d, const uint64_t *ids, const int64_t *shifts, size_t count) {
+    cell *cells = malloc((count + 1) * sizeof *cells);
+    for (size_t c = 0; c < count; c++) cells[c] = class_of(d, ids + c * (d + 1), shifts + c * (d + 1) * d);
+    qsort(cells, count, sizeof *cells, compare_cells);
+    return cells;
+}
+
+// Created cells are told as deldrift_mpi_cells and deldrift_mpi_cell_shifts do, but for the period of the cell.
+static void check_created(uint32_t d, const deldrift_mpi_changes *changes, const uint64_t *ids, const int64_t *shifts,
+                          const uint32_t *indices, size_t count) {
+    uint32_t corners = d + 1;
+    size_t own = 0;
+    for (size_t k = 0; k < changes->created_count; k++) {
+        while (own < count && indices[own] != changes->created_cells[k]) own++;
+        CHECK(own < count);
+        if (own == count) return;
+        CHECK(!memcmp(ids + own * corners, changes->created + k * corners, corners * sizeof *ids));
+        const int64_t *told = changes->created_shifts + k * corners * d, *row = shifts + own * corners * d;
+        for (uint32_t i = 0; i < corners * d; i++) CHECK(told[i] - told[i % d] == row[i] - row[i % d]);
+        cell c = class_of(d, changes->created + k * corners, told);
+        bool has_origin = false;
+        for (uint32_t i = 0; i < corners; i++) {
+            corner first = {changes->created[k * corners + i], {0, 0, 0}};
+            memcpy(first.shift, told + i * d, d * sizeof *told);
+            has_origin = has_origin || !compare_corners(&first, &c.corners[0]);
+        }
+        CHECK(has_origin);
+    }
+}
+
+void follow_changes(history *h, const deldrift_mpi_changes *given) {
+    uint32_t d = h->dimension, corners = d + 1;
+    size_t count = 0, kept = 0, gone = 0;
+    deldrift_mpi_changes changes = *given;
+    CHECK(changes.is_anew == (size_t)!h->has_taken);
+    OK(deldrift_mpi_cells(h->m, NULL, NULL, 0, &count));
+    uint64_t *ids = malloc((count * corners + 1) * sizeof *ids);
+    uint32_t *indices = malloc((count + 1) * sizeof *indices);
+    int64_t *shifts = malloc((count * corners * d + 1) * sizeof *shifts);
+    OK(deldrift_mpi_cells(h->m, ids, indices, count, &count));
+    OK(deldrift_mpi_cell_shifts(h->m, shifts, count, &count));
+    check_created(d, &changes, ids, shifts, indices, count);
+    size_t before = changes.is_anew ? 0 : h->taken_count;
+    cell *now = classes_of(d, ids, shifts, count);
+    cell *created = classes_of(d, changes.created, changes.created_shifts, changes.created_count);
+    cell *removed = classes_of(d, changes.removed, changes.removed_shifts, changes.removed_count);
+    cell *cells = malloc((before + changes.created_count + 1) * sizeof *cells);
+    for (size_t c = 0; c < before; c++) {
+        // One that is listed as created was not there.
+        CHECK(!bsearch(&h->taken[c], created, changes.created_count, sizeof *created, compare_cells));
+        if (gone < changes.removed_count && !compare_cells(&h->taken[c], &removed[gone]))
+            gone++;
+        else
+            cells[kept++] = h->taken[c];
+    }
+    CHECK(gone == changes.removed_count);
+    if (changes.created_count) memcpy(cells + kept, created, changes.created_count * sizeof *cells);
+    kept += changes.created_count;
+    qsort(cells, kept, sizeof *cells, compare_cells);
+    CHECK(kept == count && !memcmp(cells, now, count * sizeof *now));
+    h->changes += (long)(changes.created_count + changes.removed_count);
+    free(h->taken);
+    h->taken = now;
+    h->taken_count = count;
+    h->has_taken = true;
+    free(ids);
+    free(indices);
+    free(shifts);
+    free(created);
+    free(removed);
+    free(cells);
+}
+
+void check_changes(history *h) {
+    deldrift_mpi_changes changes;
+    memset(&changes, 0, sizeof changes);
+    OK(deldrift_mpi_take_changes(h->m, &changes));
+    follow_changes(h, &changes);
 }
 
 void check_places(const history *h) {

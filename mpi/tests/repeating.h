@@ -13,6 +13,16 @@ enum { BOXES = 6 };
 extern const double boxes[2][BOXES][9];
 extern const size_t vector_counts[2][BOXES];
 
+// A cell: its corners in the order of ids and shifts, each with its shift.
+typedef struct {
+    uint64_t id;
+    int64_t shift[3];
+} corner;
+
+typedef struct {
+    corner corners[4];
+} cell;
+
 typedef struct {
     uint32_t dimension;
     size_t vector_count;
@@ -25,11 +35,20 @@ typedef struct {
     uint64_t state;  // differs between processes
     uint64_t common; // is the same on all
     uint64_t next_id;
-    long commits, refusals, migrations, edits, strains, cells;
+    long commits, refusals, migrations, edits, strains, rebuilds, cells;
+    cell *taken; // own cells when changes were last taken
+    size_t taken_count;
+    bool has_taken;
+    long changes;
 } history;
 
 // A place in the box, in any of some periods.
 void place(const history *h, uint64_t *state, double *x);
+
+// Own cells when changes were last taken, without those that are said to be removed, and with those that are said to be
+// created, are those now. Collective.
+void follow_changes(history *h, const deldrift_mpi_changes *changes);
+void check_changes(history *h); // takes them
 
 // Makes a triangulation of n vertices, of which a part is own: in slabs (0), scattered (1), all of one process.
 void begin(history *h, size_t n, int spread, const deldrift_mpi_options *options);
