@@ -20,11 +20,11 @@
 //!
 //! # A commit
 //!
-//! Vertices and their images move, then images that are missing are inserted, in rounds of the same timestamp; cells that have
-//! changed tell whether any is missing (following.rs). If the lattice changes, too, shifts by its vectors become shifts by
-//! those of the next one that are nearest: cells that were translations of each other stay so. Where a vertex
-//! would be too far from the unit cell, vertices come or go, or the lattices are too different, another triangulation is
-//! built beside the present one, and takes its place when it is complete.
+//! Vertices and their images move, come and go, then images that are missing are inserted, in rounds of the same timestamp; cells
+//! that have changed tell whether any is missing (following.rs). If the lattice changes, too, shifts by its vectors become shifts
+//! by those of the next one that are nearest: cells that were translations of each other stay so. Where a vertex
+//! would be too far from the unit cell, many vertices come or go (editing.rs), or the lattices are too different, another
+//! triangulation is built beside the present one, and takes its place when it is complete.
 
 mod boxes;
 mod cells;
