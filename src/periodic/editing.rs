@@ -16,7 +16,7 @@ use crate::periodic::needed::keys_of;
 use crate::periodic::staged::Staged;
 use crate::periodic::triangulation::MARGIN;
 
-/// To build anew costs less than so many edits, as a share of the vertices.
+/// To build anew costs less than more than one edit and so many, as a share of the vertices.
 const EDITS_AT_MOST: f64 = 0.1;
 
 /// The vertices are at most so many times as many as when all was built, or as few.
@@ -128,7 +128,7 @@ impl<G: Dimension> Inside<G> {
         let n = self.images.n_present();
         let n_after = n + n_coming - n_going;
         n_coming + n_going == 0
-            || (n_coming + n_going) as f64 <= EDITS_AT_MOST * n as f64
+            || (n_coming + n_going) as f64 <= (EDITS_AT_MOST * n as f64).max(1.0)
                 && n_after <= GROWTH * self.n_built
                 && GROWTH * n_after >= self.n_built
                 && self.images.n_gone() <= self.images.len() / 2

@@ -34,6 +34,9 @@ impl History<'_> {
             }
             let status = c!(deldrift_commit_positions(t, next.positions.as_ptr(), n, null_mut()));
             self.is_ok(status);
+            if self.s.below(3) == 0 {
+                self.come_and_go(t, d, n);
+            }
         }
         let t = self.kept(t, d, &mut known);
         let [mut positions, mut vectors] = [vec![0.0; n * d], vec![0.0; rank * d]];
@@ -51,6 +54,33 @@ impl History<'_> {
         self.look_around([t, anew], d, n);
         c!(deldrift_destroy(anew));
         c!(deldrift_destroy(t));
+    }
+
+    /// A vertex comes and goes again, by commits or by rounds, which may be withdrawn.
+    fn come_and_go(&mut self, t: *mut deldrift_triangulation, d: usize, n: usize) {
+        let before = self.classes(t, d);
+        let place = self.boxed(1, 1).positions;
+        let (mut coming, is_tried) = (0, self.s.below(2) == 0);
+        self.is_ok(c!(deldrift_stage_insertions(t, place.as_ptr(), 1, &mut coming)));
+        if is_tried {
+            self.is_ok(c!(deldrift_prepare_timestamp(t, null_mut())));
+            self.is_ok(c!(deldrift_validate(t, 3)));
+            if self.s.below(2) == 0 {
+                self.is_ok(c!(deldrift_withdraw_timestamp(t)));
+                assert_eq!(self.classes(t, d), before);
+                return;
+            }
+            self.is_ok(c!(deldrift_publish_timestamp(t)));
+        } else {
+            self.is_ok(c!(deldrift_commit_timestamp(t, null_mut())));
+            self.is_ok(c!(deldrift_validate(t, 3)));
+        }
+        self.is_ok(c!(deldrift_remove_vertex(t, coming)));
+        self.is_ok(c!(deldrift_validate(t, 3)));
+        assert_eq!(self.classes(t, d), before);
+        let mut count = 0;
+        self.is_ok(c!(deldrift_compact(t, null_mut(), 0, &mut count)));
+        assert_eq!(count, n + 1);
     }
 
     /// Follows the indices of cells by the changes.
