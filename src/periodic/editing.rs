@@ -10,11 +10,10 @@ use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::periodic::images::Image;
-use crate::periodic::inside::{Inside, all};
+use crate::periodic::inside::Inside;
 use crate::periodic::lattice::{HOME, Lattice, Occupied};
-use crate::periodic::needed::keys_of;
+use crate::periodic::needed::{for_images, keys_of};
 use crate::periodic::staged::Staged;
-use crate::periodic::triangulation::MARGIN;
 
 /// To build anew costs less than more than one edit and so many, as a share of the vertices.
 const EDITS_AT_MOST: f64 = 0.1;
@@ -101,25 +100,6 @@ impl<G: Dimension> Edits<G> {
     pub(super) fn len(&self) -> usize {
         self.images.len()
     }
-}
-
-/// Enters the shifts of the images that a vertex at home has from the beginning: where what is occupied, translated, is so near.
-pub(super) fn for_images<G: Dimension>(
-    lattice: &Lattice<G>,
-    place: &G::Point,
-    spacing: f64,
-    occupied: &Occupied,
-    enter: &mut impl FnMut([i32; 3]) -> Result<()>,
-) -> Result<()> {
-    let [a, b, c] = lattice.shifts_to(place, MARGIN * spacing, occupied);
-    for (x, y, z) in all(a, b, c) {
-        // What is occupied, translated by this, meets the ball: what takes it home takes the vertex near home.
-        let shift = [-x, -y, -z];
-        if shift != HOME {
-            enter(shift)?;
-        }
-    }
-    Ok(())
 }
 
 impl<G: Dimension> Inside<G> {

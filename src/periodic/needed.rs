@@ -9,10 +9,13 @@ use crate::machine::{memory, threads};
 use crate::motion::{MovingTriangulation, NO_CELL};
 use crate::periodic::images::Image;
 use crate::periodic::inside::{Inside, all};
-use crate::periodic::lattice::{Lattice, Range};
+use crate::periodic::lattice::{HOME, Lattice, Occupied, Range, Shift};
 
 /// What makes a rounded radius one that certainly is no less than the distance of a corner from a rounded centre.
 const RADIUS: f64 = 1.0 + 1e-8;
+
+/// Images up to so many mean distances of vertices outside of what vertices at home occupy are there from the beginning.
+const MARGIN: f64 = 1.5;
 
 /// A thread more pays for so many cells.
 const CELLS_AT_LEAST: usize = 16_384;
@@ -131,6 +134,25 @@ impl Needed {
         self.images.dedup();
         self
     }
+}
+
+/// Enters the shifts of the images that a vertex at home has from the beginning: where what is occupied, translated, is so near.
+pub(super) fn for_images<G: Dimension>(
+    lattice: &Lattice<G>,
+    place: &G::Point,
+    spacing: f64,
+    occupied: &Occupied,
+    enter: &mut impl FnMut(Shift) -> Result<()>,
+) -> Result<()> {
+    let [a, b, c] = lattice.shifts_to(place, MARGIN * spacing, occupied);
+    for (x, y, z) in all(a, b, c) {
+        // What is occupied, translated by this, meets the ball: what takes it home takes the vertex near home.
+        let shift = [-x, -y, -z];
+        if shift != HOME {
+            enter(shift)?;
+        }
+    }
+    Ok(())
 }
 
 /// Images have the key of their vertex: ties between images of one are broken by position.

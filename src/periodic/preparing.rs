@@ -8,21 +8,7 @@ use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::machine::memory;
 use crate::motion::CommitReport;
-use crate::periodic::triangulation::PeriodicTriangulation;
-
-/// What a triangulation was at its timestamp, while another one is prepared.
-#[derive(Debug)]
-pub(super) struct Former<G: Dimension> {
-    t: Box<PeriodicTriangulation<G>>,
-    /// How many rounds have been made.
-    rounds: usize,
-}
-
-impl<G: Dimension> Former<G> {
-    pub(super) fn memory_bytes(&self) -> usize {
-        size_of::<PeriodicTriangulation<G>>() + self.t.memory_bytes()
-    }
-}
+use crate::periodic::triangulation::{Former, PeriodicTriangulation};
 
 impl<G: Dimension> PeriodicTriangulation<G> {
     /// Brings the triangulation to what is staged, as a commit does, and keeps what it was: all that reads sees the prepared

@@ -8,8 +8,7 @@ use crate::motion::{Algorithm, CommitReport};
 use crate::periodic::cells::{PeriodicCells, PeriodicView};
 use crate::periodic::edges::PeriodicEdges;
 use crate::periodic::lattice::Shift;
-use crate::periodic::preparing::Former;
-use crate::periodic::triangulation::PeriodicTriangulation;
+use crate::periodic::triangulation::{Former, PeriodicTriangulation};
 
 impl<G: Dimension> PeriodicTriangulation<G> {
     /// The number of vertices that are there.

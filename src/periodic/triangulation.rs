@@ -10,16 +10,11 @@ use crate::motion::{CoincidencePolicy, CommitReport, MAX_VERTICES, MovingTriangu
 use crate::periodic::cells::PeriodicCells;
 use crate::periodic::changes::Taking;
 use crate::periodic::edges::PeriodicEdges;
-use crate::periodic::editing::for_images;
 use crate::periodic::images::{Image, Images};
 use crate::periodic::inside::Inside;
 use crate::periodic::lattice::{HOME, Lattice, Occupied, ROOM};
-use crate::periodic::needed::{Needed, keys_of};
-use crate::periodic::preparing::Former;
+use crate::periodic::needed::{Needed, for_images, keys_of};
 use crate::periodic::staged::Staged;
-
-/// Images up to so many mean distances of vertices outside of what vertices at home occupy are there from the beginning.
-pub(super) const MARGIN: f64 = 1.5;
 
 /// Vertices may drift so many mean distances out of the unit cell before they are taken back.
 const DRIFT: f64 = 1.0;
@@ -51,6 +46,20 @@ pub struct PeriodicTriangulation<G: Dimension> {
     pub(super) edges: OnceLock<PeriodicEdges>,
     /// What was at the timestamp, while another one is prepared.
     pub(super) former: Option<Former<G>>,
+}
+
+/// What a triangulation was at its timestamp, while another one is prepared.
+#[derive(Debug)]
+pub(super) struct Former<G: Dimension> {
+    pub(super) t: Box<PeriodicTriangulation<G>>,
+    /// How many rounds have been made.
+    pub(super) rounds: usize,
+}
+
+impl<G: Dimension> Former<G> {
+    pub(super) fn memory_bytes(&self) -> usize {
+        size_of::<PeriodicTriangulation<G>>() + self.t.memory_bytes()
+    }
 }
 
 impl<G: Dimension> PeriodicTriangulation<G> {
