@@ -649,11 +649,11 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         --------
         >>> import deldrift
         >>> tri = deldrift.PeriodicDelaunay([[0.1, 0.1], [0.6, 0.7], [0.4, 0.9]], vectors=[1, 1])
-        >>> way = 0.5
+        >>> way = 0.25
         >>> with tri.trial() as trial:
         ...     while True:
         ...         _ = tri.move([[0.1 + way, 0.1]], ids=[0])
-        ...         if tri.voronoi_volumes().min() > 0.3:
+        ...         if tri.voronoi_volumes().min() > 0.24:
         ...             break
         ...         trial.withdraw()
         ...         way = way / 2
