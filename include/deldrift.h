@@ -888,11 +888,11 @@ deldrift_status deldrift_commit_positions(deldrift_triangulation *t,
 /// counts rounds as they are made. Ends all views.
 ///
 /// While a timestamp is prepared, these calls give DELDRIFT_PREPARED and do nothing: deldrift_commit_timestamp,
-/// deldrift_commit_positions, deldrift_insert_vertex, deldrift_insert_vertex_with_key, deldrift_remove_vertex, deldrift_relocate_vertex, deldrift_compact,
-/// deldrift_refine, deldrift_coarsen, deldrift_take_changes, deldrift_clone, deldrift_save and deldrift_save_file. All
-/// others may be made, those that stage or check what is staged included. Changes are of published states: between two
-/// calls of deldrift_take_changes, rounds count as commits once they are published. deldrift_cells
-/// gives a cell that was there before the index that it had, as after commits.
+/// deldrift_commit_positions, deldrift_insert_vertex, deldrift_insert_vertex_with_key, deldrift_remove_vertex,
+/// deldrift_relocate_vertex, deldrift_compact, deldrift_refine, deldrift_coarsen, deldrift_take_changes, deldrift_clone,
+/// deldrift_save and deldrift_save_file. All others may be made, those that stage or check what is staged included. Changes are
+/// of published states: between two calls of deldrift_take_changes, rounds count as commits once they are published.
+/// deldrift_cells gives a cell that was there before the index that it had, as after commits.
 ///
 /// Passings are looked at round by round, each on the way from where the round before has left the vertices.
 ///
@@ -900,11 +900,11 @@ deldrift_status deldrift_commit_positions(deldrift_triangulation *t,
 /// triangulation anew, all that was before. If deldrift_cells is called, so is what it brings up to date: where most cells
 /// have changed, a copy of the arrays.
 ///
-/// Cost: that of deldrift_commit_timestamp, and in later rounds a copy of where vertices were that the last one has moved. If t is
-/// periodic, in the first round a copy of t, and as much memory; to publish or withdraw it frees one of both.
+/// Cost: that of deldrift_commit_timestamp, and in later rounds a copy of where vertices were that the last one has moved. If t
+/// is periodic, in the first round a copy of t, and as much memory; to publish or withdraw it frees one of both.
 ///
-/// Errors: those of deldrift_commit_timestamp, DELDRIFT_OUT_OF_MEMORY among them, except DELDRIFT_PREPARED. Not to be called at the same time as any other call
-/// on t.
+/// Errors: those of deldrift_commit_timestamp, DELDRIFT_OUT_OF_MEMORY among them, except DELDRIFT_PREPARED. Not to be called at
+/// the same time as any other call on t.
 deldrift_status deldrift_prepare_timestamp(deldrift_triangulation *t,
                                            deldrift_commit_report *report);
 
@@ -918,11 +918,11 @@ deldrift_status deldrift_prepare_timestamp(deldrift_triangulation *t,
 deldrift_status deldrift_publish_timestamp(deldrift_triangulation *t);
 
 /// Takes back what deldrift_prepare_timestamp has prepared, all rounds: the triangulation is as it was at its last timestamp,
-/// with nothing staged. deldrift_save writes the bytes that it would have written then, after deldrift_discard_moves: positions,
-/// cells with their indices and the order of their corners, neighbours, hidden vertices, segments and statistics are those of
-/// that time, and deldrift_take_changes gives what it would have given. What has been staged is forgotten, for the rounds or
-/// since, and ids that were given for it are given again, those of segments included. Without a prepared timestamp nothing is
-/// done, and what is staged stays so.
+/// with nothing staged. deldrift_save writes the bytes that it would have written then, after deldrift_discard_moves:
+/// positions, cells with their indices and the order of their corners, neighbours, hidden vertices, segments and statistics are
+/// those of that time, and deldrift_take_changes gives what it would have given. What has been staged is forgotten, for the
+/// rounds or since, and ids that were given for it are given again, those of segments included. Without a prepared timestamp
+/// nothing is done, and what is staged stays so.
 ///
 /// What algorithms keep between commits may be computed again by the next one; cells that are new after that may have other
 /// indices than without the rounds. Needs no memory, and cannot be refused any. Ends all views.
@@ -945,7 +945,8 @@ deldrift_status deldrift_withdraw_timestamp(deldrift_triangulation *t);
 /// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_DUPLICATE_MOVE if a move of
 /// this vertex is staged, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it),
 /// DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT, DELDRIFT_ENDS_MEET, DELDRIFT_PASSES_SEGMENT (if the options refuse it),
-/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other call on t.
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other call on
+/// t.
 deldrift_status deldrift_relocate_vertex(deldrift_triangulation *t,
                                          uint32_t vertex,
                                          const double *position);
@@ -960,8 +961,8 @@ deldrift_status deldrift_relocate_vertex(deldrift_triangulation *t,
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_ON_SEGMENT, DELDRIFT_STAGED_VERTEX (if t
-/// is periodic and insertions are staged, which have the next ids), DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at
-/// the same time as any other call on t.
+/// is periodic and insertions are staged, which have the next ids), DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other call on t.
 deldrift_status deldrift_insert_vertex(deldrift_triangulation *t,
                                        const double *position,
                                        uint32_t *out_vertex);
@@ -997,7 +998,8 @@ deldrift_status deldrift_remove_vertex(deldrift_triangulation *t,
 /// Cost: n + m; of a periodic triangulation that of creation.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY; if t is periodic, DELDRIFT_CANCELLED, DELDRIFT_TOO_MANY_CELLS. Not to be called at the same time as any other call on t.
+/// DELDRIFT_OUT_OF_MEMORY; if t is periodic, DELDRIFT_CANCELLED, DELDRIFT_TOO_MANY_CELLS. Not to be called at the same time as
+/// any other call on t.
 deldrift_status deldrift_compact(deldrift_triangulation *t,
                                  uint32_t *map,
                                  size_t capacity,
@@ -1115,9 +1117,9 @@ deldrift_status deldrift_keys(const deldrift_triangulation *t,
 /// it goes to the one that represents them. Nothing is looked at before the commit, which is refused, as is
 /// deldrift_check_staged, where segments cross, a vertex is on one, an end is removed, or both ends are at the same place:
 /// see deldrift_segment_conflicts. Only the positions that it leads to count: a vertex may have gone from one side of a
-/// segment to the other, unless the options refuse that: see deldrift_check_passings. Segments that are in force are kept by calls that change one vertex at once, too, which are
-/// refused for the same reasons. deldrift_discard_moves forgets what is staged of segments, too, and the ids of staged
-/// ones are given again. deldrift_staged_count does not count segments.
+/// segment to the other, unless the options refuse that: see deldrift_check_passings. Segments that are in force are kept by
+/// calls that change one vertex at once, too, which are refused for the same reasons. deldrift_discard_moves forgets what is
+/// staged of segments, too, and the ids of staged ones are given again. deldrift_staged_count does not count segments.
 ///
 /// Cost: count.
 ///
@@ -1176,8 +1178,9 @@ deldrift_status deldrift_segments(const deldrift_triangulation *t,
 ///
 /// Errors: those of deldrift_commit_timestamp: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_CROSSING,
 /// DELDRIFT_ON_SEGMENT, DELDRIFT_END_REMOVED and DELDRIFT_ENDS_MEET for conflicts, of which the first is told,
-/// DELDRIFT_PASSES_SEGMENT (if the options refuse it; then conflicts have not been looked for), DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not
-/// to be called at the same time as any other call on t.
+/// DELDRIFT_PASSES_SEGMENT (if the options refuse it; then conflicts have not been looked for), DELDRIFT_COINCIDENT (if the
+/// options reject it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time
+/// as any other call on t.
 deldrift_status deldrift_check_staged(deldrift_triangulation *t);
 
 /// The conflicts for which the latest change, or check, of t was refused: all of them, in ascending order of kind, segment
@@ -1236,8 +1239,8 @@ deldrift_status deldrift_check_passings(deldrift_triangulation *t);
 /// that insert or remove a vertex at once.
 ///
 /// segments: a buffer with room for capacity ids; vertices: for capacity ids; entry k of vertices
-/// passes entry k of segments. One that is NULL is not filled. count: receives their number, which is also written when the buffers are
-/// too small. NULL for both with capacity 0 asks for the count alone.
+/// passes entry k of segments. One that is NULL is not filled. count: receives their number, which is also written when the
+/// buffers are too small. NULL for both with capacity 0 asks for the count alone.
 ///
 /// Cost: their number.
 ///
@@ -1455,8 +1458,8 @@ deldrift_status deldrift_copy_cells(const deldrift_triangulation *t,
 ///
 /// Of a periodic triangulation a cell is there once for each of its corners that is the vertex, in whatever period.
 ///
-/// Cost: the cells of the star; m for a periodic triangulation. After a change the first call also does what the first deldrift_cells does. Where there
-/// are more vertices than a cache holds, stars are read fastest in the order of the ids.
+/// Cost: the cells of the star; m for a periodic triangulation. After a change the first call also does what the first
+/// deldrift_cells does. Where there are more vertices than a cache holds, stars are read fastest in the order of the ids.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX,
 /// DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
@@ -1575,7 +1578,8 @@ deldrift_status deldrift_nearest_vertex(const deldrift_triangulation *t,
                                         uint32_t *vertex);
 
 /// The lowest id among the vertices at the place of this one, or where vertices have keys the one of the lowest key and then
-/// of the lowest id, to *representative: the one that is a corner of cells. It is the vertex itself unless the vertex is hidden.
+/// of the lowest id, to *representative: the one that is a corner of cells. It is the vertex itself unless the vertex is
+/// hidden.
 ///
 /// Cost: constant.
 ///
@@ -1585,8 +1589,8 @@ deldrift_status deldrift_coincident_representative(const deldrift_triangulation 
                                                    uint32_t vertex,
                                                    uint32_t *representative);
 
-/// The vertices that are hidden, ascending, each with the one that represents it. Vertices of a periodic triangulation that share
-/// a place in any period count.
+/// The vertices that are hidden, ascending, each with the one that represents it. Vertices of a periodic triangulation that
+/// share a place in any period count.
 ///
 /// vertices, representatives: buffers with room for capacity ids each. One that is NULL is not filled. count: receives
 /// the number of hidden vertices, which is also written when the buffers are too small. NULL for both with capacity 0
@@ -1657,14 +1661,15 @@ deldrift_status deldrift_vertices_in_ball(const deldrift_triangulation *t,
 /// which is also written when the buffer is too small. NULL with capacity 0 asks for the count alone, which takes as
 /// long.
 ///
-/// In a periodic triangulation a vertex is in the box if any image of it is; each is told once. The box is not rounded, and may be
-/// larger than the period; one that is 10^20 periods away is refused. Where vectors go along several axes, as in a skewed box, one that is thousands of periods long, or
-/// infinite, along some of these has to be as wide as all these vectors together along each, or infinite along all but one.
+/// In a periodic triangulation a vertex is in the box if any image of it is; each is told once. The box is not rounded, and may
+/// be larger than the period; one that is 10^20 periods away is refused. Where vectors go along several axes, as in a skewed
+/// box, one that is thousands of periods long, or infinite, along some of these has to be as wide as all these vectors together
+/// along each, or infinite along all but one.
 ///
 /// Cost: that of deldrift_locate, the cells whose bounding boxes meet the box, the facets of the hull that are seen
 /// from it, and k log k for the k vertices in it; n log n at most but for the first. While there are no cells, n. In a
-/// periodic triangulation that of deldrift_vertices_in_ball where the box is shorter than half of the shortest vector, else n; and,
-/// where vectors go along several axes, the periods that the box meets, for each vertex.
+/// periodic triangulation that of deldrift_vertices_in_ball where the box is shorter than half of the shortest vector, else n;
+/// and, where vectors go along several axes, the periods that the box meets, for each vertex.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for NaN, or for a box that is too long,
 /// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
@@ -1686,8 +1691,8 @@ deldrift_status deldrift_vertices_in_box(const deldrift_triangulation *t,
 /// A position outside the convex hull may be in the circle or sphere of no cell: then the insertion removes none, and
 /// joins the vertex to the facets of the hull that it sees.
 ///
-/// In a periodic triangulation the position may be in any period, and is rounded as for deldrift_locate. A cell is told, once, if a
-/// translation of it is in conflict: it would be removed by the insertion of the vertex with all of its images. A position
+/// In a periodic triangulation the position may be in any period, and is rounded as for deldrift_locate. A cell is told, once,
+/// if a translation of it is in conflict: it would be removed by the insertion of the vertex with all of its images. A position
 /// outside the convex hull is refused, as facets without an end are seen from there.
 ///
 /// Cost: that of deldrift_locate, the cells found, and the facets of the hull that are seen from the position. After a
@@ -2235,8 +2240,8 @@ deldrift_status deldrift_edges(const deldrift_triangulation *t,
 ///
 /// Takes some passes over the cells, and while it runs memory for the lists and for the cells of each vertex.
 ///
-/// Cost: n + m, and d log d for the d neighbours of each vertex; m log m for a periodic triangulation. After a change the first call also does what the first
-/// deldrift_cells does.
+/// Cost: n + m, and d log d for the d neighbours of each vertex; m log m for a periodic triangulation. After a change the first
+/// call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY.
@@ -2260,7 +2265,8 @@ deldrift_status deldrift_vertex_neighbours(const deldrift_triangulation *t,
 ///
 /// Takes two passes over the cells, and memory for the lists while it runs.
 ///
-/// Cost: n + m; m log m for a periodic triangulation. After a change the first call also does what the first deldrift_cells does.
+/// Cost: n + m; m log m for a periodic triangulation. After a change the first call also does what the first deldrift_cells
+/// does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY.
@@ -2364,8 +2370,8 @@ deldrift_status deldrift_ordered_star(const deldrift_triangulation *t,
 /// are all whose shape has changed: with the functions that follow, a program that keeps an array for all cells updates
 /// those entries alone.
 ///
-/// Cost: the cells of the stars, and k log k for the k of them; m at most, and for a periodic triangulation. After a change the first call also does what
-/// the first deldrift_cells does.
+/// Cost: the cells of the stars, and k log k for the k of them; m at most, and for a periodic triangulation. After a change the
+/// first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX,
 /// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
@@ -2463,11 +2469,13 @@ deldrift_status deldrift_update_mask_by_circumradius(const deldrift_triangulatio
 /// greatest magnitude of a coordinate of their circumcentres. A corner of a Voronoi cell is off by at most h, and so,
 /// to first order in h, is a volume by at most h times the area of the cell's surface, or two thirds of that of the
 /// triangles that the vertex makes with its edges if that is more, as it may be for cells with dozens of facets; an area
-/// by at most h times its perimeter, however near to each other vertices are. In place of 1e-8 it is some last bits, about 1e-15, unless cells are nearly flat (see
-/// deldrift_circumcentres). Never negative. The volumes of all ids add up to that of the box but for rounding.
+/// by at most h times its perimeter, however near to each other vertices are. In place of 1e-8 it is some last bits, about
+/// 1e-15, unless cells are nearly flat (see deldrift_circumcentres). Never negative. The volumes of all ids add up to that of
+/// the box but for rounding.
 ///
 /// In a periodic triangulation the volumes are those of deldrift_voronoi_cells, to the last bit, and low and high are as they
-/// are there. With NULL for both, cells without an end, as there are where the triangulation is open in some direction, are infinite.
+/// are there. With NULL for both, cells without an end, as there are where the triangulation is open in some direction, are
+/// infinite.
 ///
 /// Takes time in proportion to the number of cells, and of ids; in a box, for Voronoi cells at its boundary, to the
 /// number of corners of their facets as well, a microsecond (2D) or some (3D) for each such cell of ordinary sets.
@@ -2509,9 +2517,9 @@ deldrift_status deldrift_voronoi_volumes(const deldrift_triangulation *t,
 /// facets of a vertex whose Voronoi cell is in the box, times the lengths of its edges and divided by 4 (2D) or 6 (3D),
 /// add up to its area or volume but for rounding.
 ///
-/// In a periodic triangulation low and high are as deldrift_voronoi_cells has them. Of several edges between two vertices each has the facet of its own,
-/// and one that leads from a vertex to itself has the facet that two periods of its cell share. The measures are those of
-/// deldrift_voronoi_derivatives, to the last bit.
+/// In a periodic triangulation low and high are as deldrift_voronoi_cells has them. Of several edges between two vertices each
+/// has the facet of its own, and one that leads from a vertex to itself has the facet that two periods of its cell share. The
+/// measures are those of deldrift_voronoi_derivatives, to the last bit.
 ///
 /// Takes time in proportion to the number of cells, and memory for circumcentres and for the cells of each vertex while
 /// it runs. What is cut by the box, and is nearly in a face of it, takes as long as in deldrift_voronoi_volumes. Calls
@@ -2539,10 +2547,10 @@ deldrift_status deldrift_voronoi_facets(const deldrift_triangulation *t,
 /// The numbers of a vertex do not depend on the mask, nor on the number of threads that compute them, to the last bit. They
 /// are sums in the order of the cells, which a build on several threads may have in another one.
 ///
-/// volumes: a buffer with room for capacity numbers. areas: a buffer with room for as many; receives the length (2D) or area (3D) of the
-/// boundary of what there is of each cell in the box, with what it has of the faces of the box. centroids: a buffer with
-/// room for capacity rows of 2 or 3 coordinates. One that is NULL is not filled. count: receives the number of ids,
-/// which is also written when the buffers are too small. NULL for all three with capacity 0 asks for the count alone.
+/// volumes: a buffer with room for capacity numbers. areas: a buffer with room for as many; receives the length (2D) or area
+/// (3D) of the boundary of what there is of each cell in the box, with what it has of the faces of the box. centroids: a buffer
+/// with room for capacity rows of 2 or 3 coordinates. One that is NULL is not filled. count: receives the number of ids, which
+/// is also written when the buffers are too small. NULL for all three with capacity 0 asks for the count alone.
 ///
 /// A removed vertex has NaN, a hidden one volume and area 0; a centroid is NaN where the volume is 0, and nothing else
 /// is. Vertices in one hyperplane, a single one included, have cells too, as in deldrift_voronoi_volumes. Segments are
@@ -2555,16 +2563,16 @@ deldrift_status deldrift_voronoi_facets(const deldrift_triangulation *t,
 /// each), and a centroid, where that is less than d, by that error of the volume times d / V; it is in the box in any
 /// case. The volumes of all ids add up to that of the box but for rounding.
 ///
-/// In a periodic triangulation low and high are walls, which repeat with it: they must be -infinity and infinity along each axis
-/// along which a vector goes, so that both are infinite, or NULL, where vectors span all directions. Along other axes they are
-/// finite, unless half-spaces (deldrift_voronoi_cells_within) bound what is left. Let the box that repeats be the least one
+/// In a periodic triangulation low and high are walls, which repeat with it: they must be -infinity and infinity along each
+/// axis along which a vector goes, so that both are infinite, or NULL, where vectors span all directions. Along other axes they
+/// are finite, unless half-spaces (deldrift_voronoi_cells_within) bound what is left. Let the box that repeats be the least one
 /// that has all places of the container which are up to 1.5 of each reduced vector away from the unit cell, with low and high
 /// as faces; with the h of this box numbers are off as in the open, and the volumes add up to that of one period of the
 /// container. NULL for low and high cuts nothing: then a cell without an end, as there are where the triangulation is open in
 /// some direction, has volume and area infinite, and its centroid is NaN; h is the one that deldrift_voronoi_volumes has
 /// without a box. A centroid is where the vertex is at its own position, in whatever period that is, and off by the rounding of
-/// its coordinates besides. The numbers do not depend on the periods in which positions are given nor on copies that the library
-/// keeps, but for rounding; with the same cells in the same order they are the same to the last bit.
+/// its coordinates besides. The numbers do not depend on the periods in which positions are given nor on copies that the
+/// library keeps, but for rounding; with the same cells in the same order they are the same to the last bit.
 ///
 /// Takes memory for circumcentres, for sums, and, where cells are cut by the box, for the cells of each vertex while it
 /// runs. Runs on several threads, as the options allow. Cells that are cut take several times as long as others. Calls
@@ -2608,14 +2616,16 @@ deldrift_status deldrift_voronoi_cells(const deldrift_triangulation *t,
 /// deldrift_voronoi_cells.
 ///
 /// In a periodic triangulation the product of each normal and each of the vectors that deldrift_vectors tells must be 0,
-/// exactly, so that the half-space repeats as well: along axes along which no vector goes normals may have any entries. What low,
-/// high and half-spaces leave must be bounded across the vectors; NULL for low and high is a box that is infinite along all axes.
+/// exactly, so that the half-space repeats as well: along axes along which no vector goes normals may have any entries. What
+/// low, high and half-spaces leave must be bounded across the vectors; NULL for low and high is a box that is infinite along
+/// all axes.
 ///
 /// A cell that is in all half-spaces takes little longer than in deldrift_voronoi_cells, as circumcentres are
 /// compared with the half-spaces nearby alone. One that is cut takes some microseconds, and some nanoseconds for each
 /// half-space. One thread computes those that are cut. Takes memory for half-spaces, and for lists of those nearby.
 ///
-/// Cost: n + m, and half_space_count for each cell that is cut; otherwise that of deldrift_voronoi_cells.
+/// Cost: n + m, and half_space_count for each cell that is cut; otherwise that of deldrift_voronoi_cells. In a periodic
+/// triangulation that is open in two directions also the square of half_space_count.
 ///
 /// Errors: those of deldrift_voronoi_cells: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
 /// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE (also for a normal or an offset), DELDRIFT_OUT_OF_RANGE,
@@ -2661,12 +2671,13 @@ deldrift_status deldrift_voronoi_cells_within(const deldrift_triangulation *t,
 /// (d + |x - c|) / L, where x is the position by which it is.
 ///
 /// In a periodic triangulation low and high are walls, as deldrift_voronoi_cells has them, with its h; or NULL, with the h that
-/// deldrift_voronoi_volumes has without a box, of the cells around the edge. Then a facet without an end has an infinite measure, and NaN for the rest. A centroid is where the first
-/// vertex of the edge is at its own position, and off by the rounding of its coordinates besides; the second vertex is where
-/// deldrift_edge_shifts has it. The derivatives of an edge are those by the position of one of its ends alone. As all periods of a
-/// vertex move, the derivative of the volume of the cell of i by the position of j is the sum over the edges between i and
-/// j, and that by its own position is minus the sum of the derivatives of the other cells by that position, over its edges to
-/// other vertices: an edge from a vertex to itself contributes nothing, as its facet moves along with all of the cell.
+/// deldrift_voronoi_volumes has without a box, of the cells around the edge. Then a facet without an end has an infinite
+/// measure, and NaN for the rest. A centroid is where the first vertex of the edge is at its own position, and off by the
+/// rounding of its coordinates besides; the second vertex is where deldrift_edge_shifts has it. The derivatives of an edge are
+/// those by the position of one of its ends alone. As all periods of a vertex move, the derivative of the volume of the cell of
+/// i by the position of j is the sum over the edges between i and j, and that by its own position is minus the sum of the
+/// derivatives of the other cells by that position, over its edges to other vertices: an edge from a vertex to itself
+/// contributes nothing, as its facet moves along with all of the cell.
 ///
 /// Takes memory for circumcentres, edges and the cells of each vertex while it runs. What is cut by the box, and facets
 /// narrower than 1e-7 of it, take about a microsecond each. Calls the callbacks of the options.
@@ -2695,13 +2706,14 @@ deldrift_status deldrift_voronoi_derivatives(const deldrift_triangulation *t,
 /// them. half_spaces, half_space_count: as deldrift_voronoi_cells_within has them, in a periodic triangulation as well. Box and
 /// half-spaces stay where they are when vertices move, so that the sums of derivatives are as in a box.
 ///
-/// Rounded: with the h of deldrift_voronoi_cells_within the errors are those of deldrift_voronoi_derivatives; for a facet that a plane
-/// cuts divided by the sine of the angle between both. A facet that is in a plane, but for h, may be there or not.
+/// Rounded: with the h of deldrift_voronoi_cells_within the errors are those of deldrift_voronoi_derivatives; for a facet that
+/// a plane cuts divided by the sine of the angle between both. A facet that is in a plane, but for h, may be there or not.
 ///
 /// Takes memory for half-spaces besides, and for lists of those nearby. A facet that is cut takes about a microsecond,
 /// and some nanoseconds for each half-space.
 ///
-/// Cost: n + m, and half_space_count for each facet that is cut; otherwise that of deldrift_voronoi_derivatives.
+/// Cost: n + m, and half_space_count for each facet that is cut; otherwise that of deldrift_voronoi_derivatives. In a periodic
+/// triangulation that is open in two directions also the square of half_space_count.
 ///
 /// Errors: those of deldrift_voronoi_cells_within: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
 /// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_WRONG_COUNT,
@@ -2724,17 +2736,17 @@ deldrift_status deldrift_voronoi_derivatives_within(const deldrift_triangulation
 ///
 /// vertices: vertex_count ids of those that have moved since the deldrift_take_changes before the last one, in any order,
 /// some maybe more than once; NULL if there are none. To be called after deldrift_take_changes, before the next
-/// change. mask: a buffer with room for capacity bytes; receives, for each id, 1 if the vertex has moved, shares a cell with one that has, or is
-/// in the star of the changes that were taken last, hidden, shown, a corner of a renumbered cell, or has been removed; 0 for all others.
-/// count: receives the number of ids, which is also written when the buffer is too small. NULL with capacity 0 asks for
-/// the count alone.
+/// change. mask: a buffer with room for capacity bytes; receives, for each id, 1 if the vertex has moved, shares a cell with
+/// one that has, or is in the star of the changes that were taken last, hidden, shown, a corner of a renumbered cell, or has
+/// been removed; 0 for all others. count: receives the number of ids, which is also written when the buffer is too small. NULL
+/// with capacity 0 asks for the count alone.
 ///
 /// A program keeps arrays of deldrift_voronoi_cells for a box. It moves vertices, commits, takes the changes, and calls
 /// this and then deldrift_voronoi_cells with the mask. If changes are taken after every commit, its arrays are those of a
 /// call without a mask, to the last bit; otherwise they are so within the errors documented, as cells that have come
-/// back meanwhile may list their corners in another order. All are marked where nothing is known of single cells: if changes have not been taken
-/// since the last change or since deldrift_compact, while all vertices are in one hyperplane, and where there are
-/// segments.
+/// back meanwhile may list their corners in another order. All are marked where nothing is known of single cells: if changes
+/// have not been taken since the last change or since deldrift_compact, while all vertices are in one hyperplane, and where
+/// there are segments.
 ///
 /// In a periodic triangulation arrays are those of a call without a mask within the errors documented, as copies that the
 /// library keeps may be others; and all are marked where the vectors are others than when changes were taken before.
@@ -2756,9 +2768,9 @@ deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
 /// dimension: 2 or 3. positions, count: as in deldrift_create; a position may be in any period. vectors: vector_count rows
 /// of dimension numbers, the vectors of the box: 1 to dimension of them. They need not be orthogonal nor short, so that a
 /// triclinic box, or one that is skewed by any number of its lengths, is legal. Directions that they do not span are open.
-/// options: as in deldrift_create, but for coincidence, which must be DELDRIFT_COINCIDENCE_MERGE: vertices that are at the same place
-/// in any period share it, and the one of the lowest id represents it.
-/// out: receives the triangulation, which the caller has to hand to deldrift_destroy.
+/// options: as in deldrift_create, but for coincidence, which must be DELDRIFT_COINCIDENCE_MERGE: vertices that are at the same
+/// place in any period share it, and the one of the lowest id represents it. out: receives the triangulation, which the caller
+/// has to hand to deldrift_destroy.
 ///
 /// The cells are those of all the places at once, of which one of each class of translations of each other is told. Any
 /// number of vertices is legal, one included: a cell may have a vertex in several periods, and be its own neighbour. The
@@ -2789,8 +2801,8 @@ deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
 /// deldrift_relocate_vertex, deldrift_insert_vertex, deldrift_remove_vertex, deldrift_validate, deldrift_hidden_vertices,
 /// deldrift_star, deldrift_vertex_cells, deldrift_vertex_neighbours, deldrift_cell_of_each_vertex, deldrift_cells_around,
 /// deldrift_mirror_indices, deldrift_mirror_index, deldrift_voronoi_volumes, deldrift_voronoi_facets, deldrift_voronoi_cells,
-/// deldrift_voronoi_cells_within, deldrift_voronoi_derivatives and deldrift_voronoi_derivatives_within. All others return DELDRIFT_PERIODIC. Cells are numbered anew
-/// by each commit, unless changes are taken.
+/// deldrift_voronoi_cells_within, deldrift_voronoi_derivatives and deldrift_voronoi_derivatives_within. All others return
+/// DELDRIFT_PERIODIC. Cells are numbered anew by each commit, unless changes are taken.
 ///
 /// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves,
 /// or of other vectors that are near those in force, costs what it costs in an open triangulation of as many, and reading the
@@ -2863,11 +2875,11 @@ deldrift_status deldrift_reduced_vectors(const deldrift_triangulation *t,
 /// Takes positions into the box: each to its place in the unit cell of deldrift_reduced_vectors, on the grid of
 /// deldrift_create_periodic, which is where the triangulation would have it.
 ///
-/// positions: count points, in any period; they need not be those of vertices, and the triangulation may have none. previous: NULL,
-/// or count points, where the vertices have been: each goes to the period that is nearest to its entry, if that place is
-/// out of the unit cell by a quarter of it at most, so that a vertex at a side does not go to and fro.
-/// places: receives count points. shifts: receives count rows of 2 (2D) or 3 (3D) whole numbers: by which multiples of the
-/// vectors that were given the position is translated from its place, 0 beyond the last of these.
+/// positions: count points, in any period; they need not be those of vertices, and the triangulation may have none. previous:
+/// NULL, or count points, where the vertices have been: each goes to the period that is nearest to its entry, if that place is
+/// out of the unit cell by a quarter of it at most, so that a vertex at a side does not go to and fro. places: receives count
+/// points. shifts: receives count rows of 2 (2D) or 3 (3D) whole numbers: by which multiples of the vectors that were given the
+/// position is translated from its place, 0 beyond the last of these.
 ///
 /// Where the triangulation is not periodic, places are the positions, and shifts 0.
 ///
@@ -2992,9 +3004,9 @@ deldrift_status deldrift_barycentric(const deldrift_triangulation *t,
 ///
 /// Positions, ids, segments, cells with their indices, hidden vertices, staged moves, insertions and removals, the timestamp,
 /// statistics, options, the changes that deldrift_take_changes has not given yet, and what the algorithm keeps between
-/// commits are those of t, and so are the vectors of a periodic one, also those that are staged: after the same calls both have the same cells. The callbacks of the options are called for
-/// either, so what user_data points to must live as long as both. Views, and changes that have been taken, belong to t
-/// alone.
+/// commits are those of t, and so are the vectors of a periodic one, also those that are staged: after the same calls both have
+/// the same cells. The callbacks of the options are called for either, so what user_data points to must live as long as both.
+/// Views, and changes that have been taken, belong to t alone.
 ///
 /// Takes a pass over the memory of t, and as much memory again; nothing is triangulated. If deldrift_cells has been
 /// called before, this also does what the next deldrift_cells would do.
@@ -3041,9 +3053,9 @@ deldrift_status deldrift_save(const deldrift_triangulation *t,
 /// times as many bytes. This holds whatever the data are: what is not a Delaunay triangulation, exactly, is refused,
 /// even if the checksum is right.
 ///
-/// Data of a periodic triangulation give one. Its images count as vertices: all that is in the data is checked, and that no image is
-/// missing. Where cells do not tell that at once, as after some commits, it takes a copy of the triangulation, into which
-/// images are inserted: as long as creation, and as much memory, at most, with data of any kind.
+/// Data of a periodic triangulation give one. Its images count as vertices: all that is in the data is checked, and that no
+/// image is missing. Where cells do not tell that at once, as after some commits, it takes a copy of the triangulation, into
+/// which images are inserted: as long as creation, and as much memory, at most, with data of any kind.
 ///
 /// Cost: n log n + m, whatever the data are; of a periodic one that of creation at most.
 ///

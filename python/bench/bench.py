@@ -21,6 +21,7 @@ import numpy as np
 from scipy import spatial
 
 import deldrift
+import pages
 from deldrift import _library
 from step import step
 
@@ -190,10 +191,7 @@ def main():
             writer.writerow(["what", "dimension", "points", "spacings", "seconds or ratio"])
             writer.writerows(records)
     if given.write_page:
-        page = given.write_page.read_text()
-        begin, end = "<!-- bench:begin -->\n", "<!-- bench:end -->"
-        before, rest = page.split(begin)
-        given.write_page.write_text(f"{before}{begin}\n{text}\n{end}{rest.split(end)[1]}")
+        pages.replace(given.write_page, "bench", [text])
 
 
 if __name__ == "__main__":

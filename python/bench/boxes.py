@@ -20,6 +20,7 @@ import peclet.voro
 import pyvoro2
 
 import deldrift
+import pages
 
 LENGTHS = 1e-4, 1e-3, 1e-2
 N_TIMED = 5
@@ -147,11 +148,7 @@ def main():
             if given.csv:
                 write_csv(given.csv, rows)
     if given.write_page:
-        page = given.write_page.read_text()
-        begin, end = "<!-- boxes:begin -->\n", "<!-- boxes:end -->"
-        before, rest = page.split(begin)
-        text = "\n".join([*head(), *(line(*row) for row in rows), ""])
-        given.write_page.write_text(f"{before}{begin}\n{text}\n{end}{rest.split(end)[1]}")
+        pages.replace(given.write_page, "boxes", [*head(), *(line(*row) for row in rows)])
 
 
 if __name__ == "__main__":

@@ -17,6 +17,8 @@ import time
 import freud
 import numpy as np
 
+import pages
+
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "examples"))
 import lammps_voronoi as example  # noqa: E402
 
@@ -133,11 +135,7 @@ def main():
         if given.csv:
             write_csv(given.csv, rows)
     if given.write_page:
-        page = given.write_page.read_text()
-        begin, end = "<!-- lammps:begin -->\n", "<!-- lammps:end -->"
-        before, rest = page.split(begin)
-        text = "\n".join([*table(rows), ""])
-        given.write_page.write_text(f"{before}{begin}\n{text}\n{end}{rest.split(end)[1]}")
+        pages.replace(given.write_page, "lammps", table(rows))
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@ import numpy as np
 from scipy import spatial
 
 import deldrift
+import pages
 
 RATES = 1e-1, 1e-3  # of the spacing of points: of the first update and of the last
 
@@ -89,10 +90,7 @@ def main():
     text = table(given.points, train(given.points, given.updates))
     print(text)
     if given.write_page:
-        page = given.write_page.read_text()
-        begin, end = "<!-- optimiser:begin -->\n", "<!-- optimiser:end -->"
-        before, rest = page.split(begin)
-        given.write_page.write_text(f"{before}{begin}\n{text}\n\n{end}{rest.split(end)[1]}")
+        pages.replace(given.write_page, "optimiser", [text])
 
 
 if __name__ == "__main__":

@@ -17,6 +17,7 @@ import numpy as np
 import triangle
 
 import deldrift
+import pages
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "examples"))
@@ -97,11 +98,7 @@ def main():
             rows.append((amplitude, *measure(count, amplitude, given.steps)))
             print(table(rows)[-1], flush=True)
     if given.write_page:
-        page = given.write_page.read_text()
-        begin, end = "<!-- segments:begin -->\n", "<!-- segments:end -->"
-        before, rest = page.split(begin)
-        text = "\n".join(table(rows))
-        given.write_page.write_text(f"{before}{begin}\n{text}\n\n{end}{rest.split(end)[1]}")
+        pages.replace(given.write_page, "segments", table(rows))
 
 
 if __name__ == "__main__":

@@ -55,8 +55,8 @@ pub unsafe extern "C" fn deldrift_edges(
 ///
 /// Takes some passes over the cells, and while it runs memory for the lists and for the cells of each vertex.
 ///
-/// Cost: n + m, and d log d for the d neighbours of each vertex; m log m for a periodic triangulation. After a change the first call also does what the first
-/// deldrift_cells does.
+/// Cost: n + m, and d log d for the d neighbours of each vertex; m log m for a periodic triangulation. After a change the first
+/// call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY.
@@ -96,7 +96,8 @@ pub unsafe extern "C" fn deldrift_vertex_neighbours(
 ///
 /// Takes two passes over the cells, and memory for the lists while it runs.
 ///
-/// Cost: n + m; m log m for a periodic triangulation. After a change the first call also does what the first deldrift_cells does.
+/// Cost: n + m; m log m for a periodic triangulation. After a change the first call also does what the first deldrift_cells
+/// does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY.
@@ -294,7 +295,8 @@ struct Lists<'a> {
 }
 
 impl Lists<'_> {
-    /// Writes the lists of so many ids, of which some are of staged insertions, with `needed` entries, if the buffers are large enough, and tells that number.
+    /// Writes the lists of so many ids, of which some are of staged insertions, with `needed` entries, if the buffers are large
+    /// enough, and tells that number.
     fn fill<T>(
         self,
         [n_ids, coming]: [usize; 2],

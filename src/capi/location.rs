@@ -191,7 +191,8 @@ pub unsafe extern "C" fn deldrift_nearest_vertex(
 }
 
 /// The lowest id among the vertices at the place of this one, or where vertices have keys the one of the lowest key and then
-/// of the lowest id, to *representative: the one that is a corner of cells. It is the vertex itself unless the vertex is hidden.
+/// of the lowest id, to *representative: the one that is a corner of cells. It is the vertex itself unless the vertex is
+/// hidden.
 ///
 /// Cost: constant.
 ///
@@ -207,8 +208,8 @@ pub unsafe extern "C" fn deldrift_coincident_representative(
     tell_any!(t, representative => t.coincident_representative(VertexId::new(vertex))?.get())
 }
 
-/// The vertices that are hidden, ascending, each with the one that represents it. Vertices of a periodic triangulation that share
-/// a place in any period count.
+/// The vertices that are hidden, ascending, each with the one that represents it. Vertices of a periodic triangulation that
+/// share a place in any period count.
 ///
 /// vertices, representatives: buffers with room for capacity ids each. One that is NULL is not filled. count: receives
 /// the number of hidden vertices, which is also written when the buffers are too small. NULL for both with capacity 0

@@ -92,14 +92,15 @@ pub unsafe extern "C" fn deldrift_vertices_in_ball(
 /// which is also written when the buffer is too small. NULL with capacity 0 asks for the count alone, which takes as
 /// long.
 ///
-/// In a periodic triangulation a vertex is in the box if any image of it is; each is told once. The box is not rounded, and may be
-/// larger than the period; one that is 10^20 periods away is refused. Where vectors go along several axes, as in a skewed box, one that is thousands of periods long, or
-/// infinite, along some of these has to be as wide as all these vectors together along each, or infinite along all but one.
+/// In a periodic triangulation a vertex is in the box if any image of it is; each is told once. The box is not rounded, and may
+/// be larger than the period; one that is 10^20 periods away is refused. Where vectors go along several axes, as in a skewed
+/// box, one that is thousands of periods long, or infinite, along some of these has to be as wide as all these vectors together
+/// along each, or infinite along all but one.
 ///
 /// Cost: that of deldrift_locate, the cells whose bounding boxes meet the box, the facets of the hull that are seen
 /// from it, and k log k for the k vertices in it; n log n at most but for the first. While there are no cells, n. In a
-/// periodic triangulation that of deldrift_vertices_in_ball where the box is shorter than half of the shortest vector, else n; and,
-/// where vectors go along several axes, the periods that the box meets, for each vertex.
+/// periodic triangulation that of deldrift_vertices_in_ball where the box is shorter than half of the shortest vector, else n;
+/// and, where vectors go along several axes, the periods that the box meets, for each vertex.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for NaN, or for a box that is too long,
 /// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
@@ -132,8 +133,8 @@ pub unsafe extern "C" fn deldrift_vertices_in_box(
 /// A position outside the convex hull may be in the circle or sphere of no cell: then the insertion removes none, and
 /// joins the vertex to the facets of the hull that it sees.
 ///
-/// In a periodic triangulation the position may be in any period, and is rounded as for deldrift_locate. A cell is told, once, if a
-/// translation of it is in conflict: it would be removed by the insertion of the vertex with all of its images. A position
+/// In a periodic triangulation the position may be in any period, and is rounded as for deldrift_locate. A cell is told, once,
+/// if a translation of it is in conflict: it would be removed by the insertion of the vertex with all of its images. A position
 /// outside the convex hull is refused, as facets without an end are seen from there.
 ///
 /// Cost: that of deldrift_locate, the cells found, and the facets of the hull that are seen from the position. After a

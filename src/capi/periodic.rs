@@ -21,9 +21,9 @@ use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 /// dimension: 2 or 3. positions, count: as in deldrift_create; a position may be in any period. vectors: vector_count rows
 /// of dimension numbers, the vectors of the box: 1 to dimension of them. They need not be orthogonal nor short, so that a
 /// triclinic box, or one that is skewed by any number of its lengths, is legal. Directions that they do not span are open.
-/// options: as in deldrift_create, but for coincidence, which must be DELDRIFT_COINCIDENCE_MERGE: vertices that are at the same place
-/// in any period share it, and the one of the lowest id represents it.
-/// out: receives the triangulation, which the caller has to hand to deldrift_destroy.
+/// options: as in deldrift_create, but for coincidence, which must be DELDRIFT_COINCIDENCE_MERGE: vertices that are at the same
+/// place in any period share it, and the one of the lowest id represents it. out: receives the triangulation, which the caller
+/// has to hand to deldrift_destroy.
 ///
 /// The cells are those of all the places at once, of which one of each class of translations of each other is told. Any
 /// number of vertices is legal, one included: a cell may have a vertex in several periods, and be its own neighbour. The
@@ -54,8 +54,8 @@ use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 /// deldrift_relocate_vertex, deldrift_insert_vertex, deldrift_remove_vertex, deldrift_validate, deldrift_hidden_vertices,
 /// deldrift_star, deldrift_vertex_cells, deldrift_vertex_neighbours, deldrift_cell_of_each_vertex, deldrift_cells_around,
 /// deldrift_mirror_indices, deldrift_mirror_index, deldrift_voronoi_volumes, deldrift_voronoi_facets, deldrift_voronoi_cells,
-/// deldrift_voronoi_cells_within, deldrift_voronoi_derivatives and deldrift_voronoi_derivatives_within. All others return DELDRIFT_PERIODIC. Cells are numbered anew
-/// by each commit, unless changes are taken.
+/// deldrift_voronoi_cells_within, deldrift_voronoi_derivatives and deldrift_voronoi_derivatives_within. All others return
+/// DELDRIFT_PERIODIC. Cells are numbered anew by each commit, unless changes are taken.
 ///
 /// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves,
 /// or of other vectors that are near those in force, costs what it costs in an open triangulation of as many, and reading the
@@ -211,11 +211,11 @@ pub unsafe extern "C" fn deldrift_reduced_vectors(
 /// Takes positions into the box: each to its place in the unit cell of deldrift_reduced_vectors, on the grid of
 /// deldrift_create_periodic, which is where the triangulation would have it.
 ///
-/// positions: count points, in any period; they need not be those of vertices, and the triangulation may have none. previous: NULL,
-/// or count points, where the vertices have been: each goes to the period that is nearest to its entry, if that place is
-/// out of the unit cell by a quarter of it at most, so that a vertex at a side does not go to and fro.
-/// places: receives count points. shifts: receives count rows of 2 (2D) or 3 (3D) whole numbers: by which multiples of the
-/// vectors that were given the position is translated from its place, 0 beyond the last of these.
+/// positions: count points, in any period; they need not be those of vertices, and the triangulation may have none. previous:
+/// NULL, or count points, where the vertices have been: each goes to the period that is nearest to its entry, if that place is
+/// out of the unit cell by a quarter of it at most, so that a vertex at a side does not go to and fro. places: receives count
+/// points. shifts: receives count rows of 2 (2D) or 3 (3D) whole numbers: by which multiples of the vectors that were given the
+/// position is translated from its place, 0 beyond the last of these.
 ///
 /// Where the triangulation is not periodic, places are the positions, and shifts 0.
 ///

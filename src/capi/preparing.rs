@@ -19,11 +19,11 @@ use super::status::deldrift_status;
 /// counts rounds as they are made. Ends all views.
 ///
 /// While a timestamp is prepared, these calls give DELDRIFT_PREPARED and do nothing: deldrift_commit_timestamp,
-/// deldrift_commit_positions, deldrift_insert_vertex, deldrift_insert_vertex_with_key, deldrift_remove_vertex, deldrift_relocate_vertex, deldrift_compact,
-/// deldrift_refine, deldrift_coarsen, deldrift_take_changes, deldrift_clone, deldrift_save and deldrift_save_file. All
-/// others may be made, those that stage or check what is staged included. Changes are of published states: between two
-/// calls of deldrift_take_changes, rounds count as commits once they are published. deldrift_cells
-/// gives a cell that was there before the index that it had, as after commits.
+/// deldrift_commit_positions, deldrift_insert_vertex, deldrift_insert_vertex_with_key, deldrift_remove_vertex,
+/// deldrift_relocate_vertex, deldrift_compact, deldrift_refine, deldrift_coarsen, deldrift_take_changes, deldrift_clone,
+/// deldrift_save and deldrift_save_file. All others may be made, those that stage or check what is staged included. Changes are
+/// of published states: between two calls of deldrift_take_changes, rounds count as commits once they are published.
+/// deldrift_cells gives a cell that was there before the index that it had, as after commits.
 ///
 /// Passings are looked at round by round, each on the way from where the round before has left the vertices.
 ///
@@ -31,11 +31,11 @@ use super::status::deldrift_status;
 /// triangulation anew, all that was before. If deldrift_cells is called, so is what it brings up to date: where most cells
 /// have changed, a copy of the arrays.
 ///
-/// Cost: that of deldrift_commit_timestamp, and in later rounds a copy of where vertices were that the last one has moved. If t is
-/// periodic, in the first round a copy of t, and as much memory; to publish or withdraw it frees one of both.
+/// Cost: that of deldrift_commit_timestamp, and in later rounds a copy of where vertices were that the last one has moved. If t
+/// is periodic, in the first round a copy of t, and as much memory; to publish or withdraw it frees one of both.
 ///
-/// Errors: those of deldrift_commit_timestamp, DELDRIFT_OUT_OF_MEMORY among them, except DELDRIFT_PREPARED. Not to be called at the same time as any other call
-/// on t.
+/// Errors: those of deldrift_commit_timestamp, DELDRIFT_OUT_OF_MEMORY among them, except DELDRIFT_PREPARED. Not to be called at
+/// the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_prepare_timestamp(
     t: *mut deldrift_triangulation,
@@ -69,11 +69,11 @@ pub unsafe extern "C" fn deldrift_publish_timestamp(t: *mut deldrift_triangulati
 }
 
 /// Takes back what deldrift_prepare_timestamp has prepared, all rounds: the triangulation is as it was at its last timestamp,
-/// with nothing staged. deldrift_save writes the bytes that it would have written then, after deldrift_discard_moves: positions,
-/// cells with their indices and the order of their corners, neighbours, hidden vertices, segments and statistics are those of
-/// that time, and deldrift_take_changes gives what it would have given. What has been staged is forgotten, for the rounds or
-/// since, and ids that were given for it are given again, those of segments included. Without a prepared timestamp nothing is
-/// done, and what is staged stays so.
+/// with nothing staged. deldrift_save writes the bytes that it would have written then, after deldrift_discard_moves:
+/// positions, cells with their indices and the order of their corners, neighbours, hidden vertices, segments and statistics are
+/// those of that time, and deldrift_take_changes gives what it would have given. What has been staged is forgotten, for the
+/// rounds or since, and ids that were given for it are given again, those of segments included. Without a prepared timestamp
+/// nothing is done, and what is staged stays so.
 ///
 /// What algorithms keep between commits may be computed again by the next one; cells that are new after that may have other
 /// indices than without the rounds. Needs no memory, and cannot be refused any. Ends all views.

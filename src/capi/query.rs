@@ -164,8 +164,8 @@ pub unsafe extern "C" fn deldrift_copy_cells(
 ///
 /// Of a periodic triangulation a cell is there once for each of its corners that is the vertex, in whatever period.
 ///
-/// Cost: the cells of the star; m for a periodic triangulation. After a change the first call also does what the first deldrift_cells does. Where there
-/// are more vertices than a cache holds, stars are read fastest in the order of the ids.
+/// Cost: the cells of the star; m for a periodic triangulation. After a change the first call also does what the first
+/// deldrift_cells does. Where there are more vertices than a cache holds, stars are read fastest in the order of the ids.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX,
 /// DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.

@@ -22,9 +22,9 @@ use crate::periodic::{AnyPeriodic, SavedPeriodic};
 ///
 /// Positions, ids, segments, cells with their indices, hidden vertices, staged moves, insertions and removals, the timestamp,
 /// statistics, options, the changes that deldrift_take_changes has not given yet, and what the algorithm keeps between
-/// commits are those of t, and so are the vectors of a periodic one, also those that are staged: after the same calls both have the same cells. The callbacks of the options are called for
-/// either, so what user_data points to must live as long as both. Views, and changes that have been taken, belong to t
-/// alone.
+/// commits are those of t, and so are the vectors of a periodic one, also those that are staged: after the same calls both have
+/// the same cells. The callbacks of the options are called for either, so what user_data points to must live as long as both.
+/// Views, and changes that have been taken, belong to t alone.
 ///
 /// Takes a pass over the memory of t, and as much memory again; nothing is triangulated. If deldrift_cells has been
 /// called before, this also does what the next deldrift_cells would do.
@@ -109,9 +109,9 @@ fn fill_front<'b>(buffer: &'b mut [MaybeUninit<u8>], bytes: &[u8]) -> &'b mut [M
 /// times as many bytes. This holds whatever the data are: what is not a Delaunay triangulation, exactly, is refused,
 /// even if the checksum is right.
 ///
-/// Data of a periodic triangulation give one. Its images count as vertices: all that is in the data is checked, and that no image is
-/// missing. Where cells do not tell that at once, as after some commits, it takes a copy of the triangulation, into which
-/// images are inserted: as long as creation, and as much memory, at most, with data of any kind.
+/// Data of a periodic triangulation give one. Its images count as vertices: all that is in the data is checked, and that no
+/// image is missing. Where cells do not tell that at once, as after some commits, it takes a copy of the triangulation, into
+/// which images are inserted: as long as creation, and as much memory, at most, with data of any kind.
 ///
 /// Cost: n log n + m, whatever the data are; of a periodic one that of creation at most.
 ///

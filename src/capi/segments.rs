@@ -70,9 +70,9 @@ impl From<&Conflict> for deldrift_conflict {
 /// it goes to the one that represents them. Nothing is looked at before the commit, which is refused, as is
 /// deldrift_check_staged, where segments cross, a vertex is on one, an end is removed, or both ends are at the same place:
 /// see deldrift_segment_conflicts. Only the positions that it leads to count: a vertex may have gone from one side of a
-/// segment to the other, unless the options refuse that: see deldrift_check_passings. Segments that are in force are kept by calls that change one vertex at once, too, which are
-/// refused for the same reasons. deldrift_discard_moves forgets what is staged of segments, too, and the ids of staged
-/// ones are given again. deldrift_staged_count does not count segments.
+/// segment to the other, unless the options refuse that: see deldrift_check_passings. Segments that are in force are kept by
+/// calls that change one vertex at once, too, which are refused for the same reasons. deldrift_discard_moves forgets what is
+/// staged of segments, too, and the ids of staged ones are given again. deldrift_staged_count does not count segments.
 ///
 /// Cost: count.
 ///
@@ -178,8 +178,9 @@ pub unsafe extern "C" fn deldrift_segments(
 ///
 /// Errors: those of deldrift_commit_timestamp: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_CROSSING,
 /// DELDRIFT_ON_SEGMENT, DELDRIFT_END_REMOVED and DELDRIFT_ENDS_MEET for conflicts, of which the first is told,
-/// DELDRIFT_PASSES_SEGMENT (if the options refuse it; then conflicts have not been looked for), DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not
-/// to be called at the same time as any other call on t.
+/// DELDRIFT_PASSES_SEGMENT (if the options refuse it; then conflicts have not been looked for), DELDRIFT_COINCIDENT (if the
+/// options reject it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time
+/// as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_check_staged(t: *mut deldrift_triangulation) -> deldrift_status {
     given!(t: Changing);
@@ -259,8 +260,8 @@ pub unsafe extern "C" fn deldrift_check_passings(t: *mut deldrift_triangulation)
 /// that insert or remove a vertex at once.
 ///
 /// segments: a buffer with room for capacity ids; vertices: for capacity ids; entry k of vertices
-/// passes entry k of segments. One that is NULL is not filled. count: receives their number, which is also written when the buffers are
-/// too small. NULL for both with capacity 0 asks for the count alone.
+/// passes entry k of segments. One that is NULL is not filled. count: receives their number, which is also written when the
+/// buffers are too small. NULL for both with capacity 0 asks for the count alone.
 ///
 /// Cost: their number.
 ///

@@ -27,11 +27,13 @@ use parts::{OfCells, OfFacets, box_for, clip_for, half_space_rows, mask_for, wri
 /// greatest magnitude of a coordinate of their circumcentres. A corner of a Voronoi cell is off by at most h, and so,
 /// to first order in h, is a volume by at most h times the area of the cell's surface, or two thirds of that of the
 /// triangles that the vertex makes with its edges if that is more, as it may be for cells with dozens of facets; an area
-/// by at most h times its perimeter, however near to each other vertices are. In place of 1e-8 it is some last bits, about 1e-15, unless cells are nearly flat (see
-/// deldrift_circumcentres). Never negative. The volumes of all ids add up to that of the box but for rounding.
+/// by at most h times its perimeter, however near to each other vertices are. In place of 1e-8 it is some last bits, about
+/// 1e-15, unless cells are nearly flat (see deldrift_circumcentres). Never negative. The volumes of all ids add up to that of
+/// the box but for rounding.
 ///
 /// In a periodic triangulation the volumes are those of deldrift_voronoi_cells, to the last bit, and low and high are as they
-/// are there. With NULL for both, cells without an end, as there are where the triangulation is open in some direction, are infinite.
+/// are there. With NULL for both, cells without an end, as there are where the triangulation is open in some direction, are
+/// infinite.
 ///
 /// Takes time in proportion to the number of cells, and of ids; in a box, for Voronoi cells at its boundary, to the
 /// number of corners of their facets as well, a microsecond (2D) or some (3D) for each such cell of ordinary sets.
@@ -63,8 +65,8 @@ pub unsafe extern "C" fn deldrift_voronoi_volumes(
         }),
         Content::Periodic(t) => in_its_period!(t, t => {
             let clip = box_for(t, low, high)?;
-            t.container(clip, &[])?;
-            volumes.fill(count, t.id_count(), || Ok(t.voronoi_volumes_within(clip, &[], monitor)?))
+            let container = t.container(clip, &[])?;
+            volumes.fill(count, t.id_count(), || Ok(t.voronoi_volumes_in(container.as_ref(), monitor)?))
         }),
     })
 }
@@ -89,9 +91,9 @@ pub unsafe extern "C" fn deldrift_voronoi_volumes(
 /// facets of a vertex whose Voronoi cell is in the box, times the lengths of its edges and divided by 4 (2D) or 6 (3D),
 /// add up to its area or volume but for rounding.
 ///
-/// In a periodic triangulation low and high are as deldrift_voronoi_cells has them. Of several edges between two vertices each has the facet of its own,
-/// and one that leads from a vertex to itself has the facet that two periods of its cell share. The measures are those of
-/// deldrift_voronoi_derivatives, to the last bit.
+/// In a periodic triangulation low and high are as deldrift_voronoi_cells has them. Of several edges between two vertices each
+/// has the facet of its own, and one that leads from a vertex to itself has the facet that two periods of its cell share. The
+/// measures are those of deldrift_voronoi_derivatives, to the last bit.
 ///
 /// Takes time in proportion to the number of cells, and memory for circumcentres and for the cells of each vertex while
 /// it runs. What is cut by the box, and is nearly in a face of it, takes as long as in deldrift_voronoi_volumes. Calls
@@ -119,10 +121,10 @@ pub unsafe extern "C" fn deldrift_voronoi_facets(
         }),
         Content::Periodic(t) => in_its_period!(t, t => {
             let clip = box_for(t, low, high)?;
-            t.container(clip, &[])?;
+            let container = t.container(clip, &[])?;
             measures.fill_by(count, t.edge_count()?, |places| {
                 let tell = &mut |edge, facet: VoronoiFacet<_>| write(places, edge, &[facet.area]);
-                Ok(t.for_voronoi_facets_within(clip, &[], None, monitor, tell)?)
+                Ok(t.for_voronoi_facets_in(container.as_ref(), None, monitor, tell)?)
             })
         }),
     })
@@ -138,10 +140,10 @@ pub unsafe extern "C" fn deldrift_voronoi_facets(
 /// The numbers of a vertex do not depend on the mask, nor on the number of threads that compute them, to the last bit. They
 /// are sums in the order of the cells, which a build on several threads may have in another one.
 ///
-/// volumes: a buffer with room for capacity numbers. areas: a buffer with room for as many; receives the length (2D) or area (3D) of the
-/// boundary of what there is of each cell in the box, with what it has of the faces of the box. centroids: a buffer with
-/// room for capacity rows of 2 or 3 coordinates. One that is NULL is not filled. count: receives the number of ids,
-/// which is also written when the buffers are too small. NULL for all three with capacity 0 asks for the count alone.
+/// volumes: a buffer with room for capacity numbers. areas: a buffer with room for as many; receives the length (2D) or area
+/// (3D) of the boundary of what there is of each cell in the box, with what it has of the faces of the box. centroids: a buffer
+/// with room for capacity rows of 2 or 3 coordinates. One that is NULL is not filled. count: receives the number of ids, which
+/// is also written when the buffers are too small. NULL for all three with capacity 0 asks for the count alone.
 ///
 /// A removed vertex has NaN, a hidden one volume and area 0; a centroid is NaN where the volume is 0, and nothing else
 /// is. Vertices in one hyperplane, a single one included, have cells too, as in deldrift_voronoi_volumes. Segments are
@@ -154,16 +156,16 @@ pub unsafe extern "C" fn deldrift_voronoi_facets(
 /// each), and a centroid, where that is less than d, by that error of the volume times d / V; it is in the box in any
 /// case. The volumes of all ids add up to that of the box but for rounding.
 ///
-/// In a periodic triangulation low and high are walls, which repeat with it: they must be -infinity and infinity along each axis
-/// along which a vector goes, so that both are infinite, or NULL, where vectors span all directions. Along other axes they are
-/// finite, unless half-spaces (deldrift_voronoi_cells_within) bound what is left. Let the box that repeats be the least one
+/// In a periodic triangulation low and high are walls, which repeat with it: they must be -infinity and infinity along each
+/// axis along which a vector goes, so that both are infinite, or NULL, where vectors span all directions. Along other axes they
+/// are finite, unless half-spaces (deldrift_voronoi_cells_within) bound what is left. Let the box that repeats be the least one
 /// that has all places of the container which are up to 1.5 of each reduced vector away from the unit cell, with low and high
 /// as faces; with the h of this box numbers are off as in the open, and the volumes add up to that of one period of the
 /// container. NULL for low and high cuts nothing: then a cell without an end, as there are where the triangulation is open in
 /// some direction, has volume and area infinite, and its centroid is NaN; h is the one that deldrift_voronoi_volumes has
 /// without a box. A centroid is where the vertex is at its own position, in whatever period that is, and off by the rounding of
-/// its coordinates besides. The numbers do not depend on the periods in which positions are given nor on copies that the library
-/// keeps, but for rounding; with the same cells in the same order they are the same to the last bit.
+/// its coordinates besides. The numbers do not depend on the periods in which positions are given nor on copies that the
+/// library keeps, but for rounding; with the same cells in the same order they are the same to the last bit.
 ///
 /// Takes memory for circumcentres, for sums, and, where cells are cut by the box, for the cells of each vertex while it
 /// runs. Runs on several threads, as the options allow. Cells that are cut take several times as long as others. Calls
@@ -228,14 +230,16 @@ pub unsafe extern "C" fn deldrift_voronoi_cells(
 /// deldrift_voronoi_cells.
 ///
 /// In a periodic triangulation the product of each normal and each of the vectors that deldrift_vectors tells must be 0,
-/// exactly, so that the half-space repeats as well: along axes along which no vector goes normals may have any entries. What low,
-/// high and half-spaces leave must be bounded across the vectors; NULL for low and high is a box that is infinite along all axes.
+/// exactly, so that the half-space repeats as well: along axes along which no vector goes normals may have any entries. What
+/// low, high and half-spaces leave must be bounded across the vectors; NULL for low and high is a box that is infinite along
+/// all axes.
 ///
 /// A cell that is in all half-spaces takes little longer than in deldrift_voronoi_cells, as circumcentres are
 /// compared with the half-spaces nearby alone. One that is cut takes some microseconds, and some nanoseconds for each
 /// half-space. One thread computes those that are cut. Takes memory for half-spaces, and for lists of those nearby.
 ///
-/// Cost: n + m, and half_space_count for each cell that is cut; otherwise that of deldrift_voronoi_cells.
+/// Cost: n + m, and half_space_count for each cell that is cut; otherwise that of deldrift_voronoi_cells. In a periodic
+/// triangulation that is open in two directions also the square of half_space_count.
 ///
 /// Errors: those of deldrift_voronoi_cells: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
 /// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE (also for a normal or an offset), DELDRIFT_OUT_OF_RANGE,
@@ -276,10 +280,10 @@ pub unsafe extern "C" fn deldrift_voronoi_cells_within(
                 let clip = box_for(t, low, high)?;
                 // SAFETY: as was promised to this function.
                 let half_spaces = unsafe { half_space_rows(d, half_spaces, half_space_count)? };
-                t.container(clip, half_spaces)?;
+                let container = t.container(clip, half_spaces)?;
                 let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
                 to.fill(count, t.id_count(), |tell| {
-                    t.for_voronoi_cells_within(clip, half_spaces, mask, monitor, tell)
+                    t.for_voronoi_cells_in(container.as_ref(), mask, monitor, tell)
                 })
             }),
         }
@@ -313,12 +317,13 @@ pub unsafe extern "C" fn deldrift_voronoi_cells_within(
 /// (d + |x - c|) / L, where x is the position by which it is.
 ///
 /// In a periodic triangulation low and high are walls, as deldrift_voronoi_cells has them, with its h; or NULL, with the h that
-/// deldrift_voronoi_volumes has without a box, of the cells around the edge. Then a facet without an end has an infinite measure, and NaN for the rest. A centroid is where the first
-/// vertex of the edge is at its own position, and off by the rounding of its coordinates besides; the second vertex is where
-/// deldrift_edge_shifts has it. The derivatives of an edge are those by the position of one of its ends alone. As all periods of a
-/// vertex move, the derivative of the volume of the cell of i by the position of j is the sum over the edges between i and
-/// j, and that by its own position is minus the sum of the derivatives of the other cells by that position, over its edges to
-/// other vertices: an edge from a vertex to itself contributes nothing, as its facet moves along with all of the cell.
+/// deldrift_voronoi_volumes has without a box, of the cells around the edge. Then a facet without an end has an infinite
+/// measure, and NaN for the rest. A centroid is where the first vertex of the edge is at its own position, and off by the
+/// rounding of its coordinates besides; the second vertex is where deldrift_edge_shifts has it. The derivatives of an edge are
+/// those by the position of one of its ends alone. As all periods of a vertex move, the derivative of the volume of the cell of
+/// i by the position of j is the sum over the edges between i and j, and that by its own position is minus the sum of the
+/// derivatives of the other cells by that position, over its edges to other vertices: an edge from a vertex to itself
+/// contributes nothing, as its facet moves along with all of the cell.
 ///
 /// Takes memory for circumcentres, edges and the cells of each vertex while it runs. What is cut by the box, and facets
 /// narrower than 1e-7 of it, take about a microsecond each. Calls the callbacks of the options.
@@ -368,13 +373,14 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives(
 /// them. half_spaces, half_space_count: as deldrift_voronoi_cells_within has them, in a periodic triangulation as well. Box and
 /// half-spaces stay where they are when vertices move, so that the sums of derivatives are as in a box.
 ///
-/// Rounded: with the h of deldrift_voronoi_cells_within the errors are those of deldrift_voronoi_derivatives; for a facet that a plane
-/// cuts divided by the sine of the angle between both. A facet that is in a plane, but for h, may be there or not.
+/// Rounded: with the h of deldrift_voronoi_cells_within the errors are those of deldrift_voronoi_derivatives; for a facet that
+/// a plane cuts divided by the sine of the angle between both. A facet that is in a plane, but for h, may be there or not.
 ///
 /// Takes memory for half-spaces besides, and for lists of those nearby. A facet that is cut takes about a microsecond,
 /// and some nanoseconds for each half-space.
 ///
-/// Cost: n + m, and half_space_count for each facet that is cut; otherwise that of deldrift_voronoi_derivatives.
+/// Cost: n + m, and half_space_count for each facet that is cut; otherwise that of deldrift_voronoi_derivatives. In a periodic
+/// triangulation that is open in two directions also the square of half_space_count.
 ///
 /// Errors: those of deldrift_voronoi_cells_within: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
 /// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_WRONG_COUNT,
@@ -415,10 +421,10 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives_within(
                 let clip = box_for(t, low, high)?;
                 // SAFETY: as was promised to this function.
                 let half_spaces = unsafe { half_space_rows(d, half_spaces, half_space_count)? };
-                t.container(clip, half_spaces)?;
+                let container = t.container(clip, half_spaces)?;
                 let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
                 to.fill(count, t.edge_count()?, |tell| {
-                    t.for_voronoi_facets_within(clip, half_spaces, mask, monitor, tell)
+                    t.for_voronoi_facets_in(container.as_ref(), mask, monitor, tell)
                 })
             }),
         }
@@ -430,17 +436,17 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives_within(
 ///
 /// vertices: vertex_count ids of those that have moved since the deldrift_take_changes before the last one, in any order,
 /// some maybe more than once; NULL if there are none. To be called after deldrift_take_changes, before the next
-/// change. mask: a buffer with room for capacity bytes; receives, for each id, 1 if the vertex has moved, shares a cell with one that has, or is
-/// in the star of the changes that were taken last, hidden, shown, a corner of a renumbered cell, or has been removed; 0 for all others.
-/// count: receives the number of ids, which is also written when the buffer is too small. NULL with capacity 0 asks for
-/// the count alone.
+/// change. mask: a buffer with room for capacity bytes; receives, for each id, 1 if the vertex has moved, shares a cell with
+/// one that has, or is in the star of the changes that were taken last, hidden, shown, a corner of a renumbered cell, or has
+/// been removed; 0 for all others. count: receives the number of ids, which is also written when the buffer is too small. NULL
+/// with capacity 0 asks for the count alone.
 ///
 /// A program keeps arrays of deldrift_voronoi_cells for a box. It moves vertices, commits, takes the changes, and calls
 /// this and then deldrift_voronoi_cells with the mask. If changes are taken after every commit, its arrays are those of a
 /// call without a mask, to the last bit; otherwise they are so within the errors documented, as cells that have come
-/// back meanwhile may list their corners in another order. All are marked where nothing is known of single cells: if changes have not been taken
-/// since the last change or since deldrift_compact, while all vertices are in one hyperplane, and where there are
-/// segments.
+/// back meanwhile may list their corners in another order. All are marked where nothing is known of single cells: if changes
+/// have not been taken since the last change or since deldrift_compact, while all vertices are in one hyperplane, and where
+/// there are segments.
 ///
 /// In a periodic triangulation arrays are those of a call without a mask within the errors documented, as copies that the
 /// library keeps may be others; and all are marked where the vectors are others than when changes were taken before.

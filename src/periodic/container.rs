@@ -67,9 +67,17 @@ impl Extent {
     }
 }
 
+/// What cells of vertices at home are cut by inside: a box, and half-spaces as they were given.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Container<'h, G: Dimension> {
+    pub(super) corners: [G::Point; 2],
+    pub(super) half_spaces: &'h [f64],
+}
+
 impl<G: Dimension> PeriodicTriangulation<G> {
-    /// The corners of a box by which, with half-spaces, cells of vertices at home are to be cut inside; none if nothing
-    /// cuts them.
+    /// What cuts the cells; none if nothing does.
+    ///
+    /// Cost: the number of half-spaces, and its square where the set is open in two directions.
     ///
     /// `clip`: the corners of the box that is given, if any, infinite where it has no face. `half_spaces`: rows of an outward
     /// normal and an offset.
@@ -79,11 +87,11 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// box across an axis along which a vector goes, one that is not above its opposite, a normal that is zero or not
     /// perpendicular to all vectors, or if what is left is not bounded across the vectors; [`Error::WrongCount`] if the
     /// numbers do not make up rows, [`Error::OutOfMemory`].
-    pub(crate) fn container(
+    pub(crate) fn container<'h>(
         &self,
         clip: Option<[&G::Point; 2]>,
-        half_spaces: &[f64],
-    ) -> Result<Option<[G::Point; 2]>> {
+        half_spaces: &'h [f64],
+    ) -> Result<Option<Container<'h, G>>> {
         let lattice = &self.lattice;
         let [low, high] = checked_corners(lattice, clip)?;
         self.inside.t.check_half_spaces(half_spaces)?;
@@ -130,7 +138,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
                 }
             }
         }
-        Ok(Some(boxed))
+        Ok(Some(Container { corners: boxed, half_spaces }))
     }
 }
 

@@ -9,6 +9,7 @@ use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::{VoronoiCell, VoronoiFacet, nowhere};
+use crate::periodic::container::Container;
 use crate::periodic::lattice::HOME;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
@@ -55,7 +56,20 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         tell: &mut dyn FnMut(VertexId, VoronoiCell<G::Point>),
     ) -> Result<()> {
         mask.map_or(Ok(()), |mask| self.check_vertex_mask(mask.len()))?;
-        let Some([low, high]) = self.container(clip, half_spaces)? else {
+        let container = self.container(clip, half_spaces)?;
+        self.for_voronoi_cells_in(container.as_ref(), mask, monitor, tell)
+    }
+
+    /// Tells what a container leaves of Voronoi cells, as [`for_voronoi_cells_within`](Self::for_voronoi_cells_within) does; the
+    /// mask has an entry for each id.
+    pub(crate) fn for_voronoi_cells_in(
+        &self,
+        container: Option<&Container<'_, G>>,
+        mask: Option<&[u8]>,
+        monitor: &mut dyn FnMut(f64) -> bool,
+        tell: &mut dyn FnMut(VertexId, VoronoiCell<G::Point>),
+    ) -> Result<()> {
+        let Some(&Container { corners: [low, high], half_spaces }) = container else {
             return self.for_voronoi_cells(mask, monitor, tell);
         };
         let (images, t) = (self.inside.images.as_slice(), &self.inside.t);
@@ -86,9 +100,19 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         half_spaces: &[f64],
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Vec<f64>> {
+        let container = self.container(clip, half_spaces)?;
+        self.voronoi_volumes_in(container.as_ref(), monitor)
+    }
+
+    /// By vertex id, what a container leaves of the area or volume of its Voronoi cell.
+    pub(crate) fn voronoi_volumes_in(
+        &self,
+        container: Option<&Container<'_, G>>,
+        monitor: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<Vec<f64>> {
         let mut volumes = Vec::new();
         memory::lengthen(&mut volumes, self.id_count(), f64::NAN)?;
-        self.for_voronoi_cells_within(clip, half_spaces, None, monitor, &mut |v, cell| {
+        self.for_voronoi_cells_in(container, None, monitor, &mut |v, cell| {
             volumes[v.index()] = cell.volume;
         })?;
         Ok(volumes)
@@ -115,7 +139,20 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         tell: &mut dyn FnMut(usize, VoronoiFacet<G::Point>),
     ) -> Result<()> {
         mask.map_or(Ok(()), |mask| self.check_vertex_mask(mask.len()))?;
-        let Some([low, high]) = self.container(clip, half_spaces)? else {
+        let container = self.container(clip, half_spaces)?;
+        self.for_voronoi_facets_in(container.as_ref(), mask, monitor, tell)
+    }
+
+    /// Tells what a container leaves of Voronoi facets, as [`for_voronoi_facets_within`](Self::for_voronoi_facets_within) does; the
+    /// mask has an entry for each id.
+    pub(crate) fn for_voronoi_facets_in(
+        &self,
+        container: Option<&Container<'_, G>>,
+        mask: Option<&[u8]>,
+        monitor: &mut dyn FnMut(f64) -> bool,
+        tell: &mut dyn FnMut(usize, VoronoiFacet<G::Point>),
+    ) -> Result<()> {
+        let Some(&Container { corners: [low, high], half_spaces }) = container else {
             return self.for_voronoi_facets(mask, monitor, tell);
         };
         let (all, images) = (&self.read_edges()?.list, &self.inside.images);

@@ -1,8 +1,7 @@
 //! Commits in two phases: a timestamp is prepared, in one round or several, and then published or withdrawn.
 //!
 //! The rounds are commits of a copy. What was before the first one is kept as it is: to withdraw, it takes its place again, so
-//! nothing has to be undone. A copy costs about as much as a commit that moves all vertices, and reading the cells after one
-//! more than that.
+//! nothing has to be undone. A copy costs less than twice what a commit by which all vertices move costs.
 
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};

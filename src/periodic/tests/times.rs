@@ -1,4 +1,4 @@
-//! What commits, edits and reading cost: `cargo test --release --lib -- --ignored --nocapture periodic::tests::times`.
+//! What commits, edits and reading cost: `cargo test --lib -- --ignored --nocapture periodic::tests::times`.
 
 use super::*;
 use std::time::Instant;
@@ -57,7 +57,7 @@ fn of_commits() {
     go::<Space>(100_000, &[[1.0, 0.0, 0.0], [0.5, 1.0, 0.0], [0.25, -0.375, 1.0]]);
 }
 
-/// What reading costs after a commit.
+/// What reading costs after a commit, and what a round costs that changes nothing.
 #[test]
 #[ignore = "prints times"]
 fn of_reading() {
@@ -79,7 +79,12 @@ fn of_reading() {
             let commit = timed(&mut || _ = t.commit_positions(&points).unwrap());
             let cells = timed(&mut || _ = t.cell_count().unwrap());
             let edges = timed(&mut || _ = t.edge_count().unwrap());
-            println!("{}D: commit {commit:.1} ms, cells {cells:.1} ms, edges {edges:.1} ms", G::D);
+            let prepared = timed(&mut || _ = t.prepare_timestamp().unwrap());
+            let withdrawn = timed(&mut || t.withdraw_timestamp());
+            println!(
+                "{}D: commit {commit:.1} ms, cells {cells:.1}, edges {edges:.1}, an empty round {prepared:.1}, withdrawn {withdrawn:.1}",
+                G::D
+            );
         }
     }
     go::<Plane>(100_000, &[[1.0, 0.0], [0.0, 1.0]]);
