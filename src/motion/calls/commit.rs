@@ -37,6 +37,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// looked at first.
     pub fn commit_timestamp(&mut self) -> Result<CommitReport> {
         self.reject_prepared()?;
+        self.mesh.found.begin();
         self.heed_staged_passings()?;
         let mut staging = std::mem::take(&mut self.staging);
         let done = self.commit(&mut staging.moves(self.mesh.n_present));
@@ -94,10 +95,16 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Those of [`commit_timestamp`](Self::commit_timestamp), but [`Error::Prepared`]: what has been prepared is where
     /// the check begins.
     pub fn check_staged(&mut self) -> Result<()> {
+        self.mesh.found.begin();
+        self.heed_staged_passings()?;
+        self.check_conflicts()
+    }
+
+    /// Whether segments would be in the way of a commit of what is staged, whatever passes them.
+    pub(in crate::motion) fn check_conflicts(&mut self) -> Result<()> {
         if self.mesh.segments.is_none() {
             return Ok(());
         }
-        self.heed_staged_passings()?;
         let mut staging = std::mem::take(&mut self.staging);
         let checked = self.check(&mut staging.moves(self.mesh.n_present));
         self.staging = staging;
@@ -151,6 +158,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::DuplicateMove`] if moves are staged; otherwise those of both.
     pub fn commit_positions(&mut self, positions: &[G::Point]) -> Result<CommitReport> {
         self.reject_prepared()?;
+        self.mesh.found.begin();
         if let Some(vertex) = self.staging.first_staged() {
             return Err(Error::DuplicateMove { argument: "positions", index: vertex.index(), vertex });
         }

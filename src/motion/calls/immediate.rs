@@ -42,6 +42,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     #[inline(never)]
     fn relocate_checked(&mut self, vertex: VertexId, position: &G::Point) -> Result<()> {
         self.reject_prepared()?;
+        self.mesh.found.begin();
         let s = self.present_site("vertex", 0, vertex)?;
         let q = check_position::<G>("position", 0, position)?;
         if self.staging.is_staged(vertex) {
@@ -101,6 +102,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     fn insert_coming(&mut self, position: &G::Point, key: Coming<'_>) -> Result<VertexId> {
         self.reject_prepared()?;
+        self.mesh.found.begin();
         let q = check_position::<G>("position", 0, position)?;
         if self.mesh.site_of.len() >= MAX_VERTICES {
             return Err(Error::TooManyVertices { given: self.mesh.site_of.len() + 1, limit: MAX_VERTICES });
@@ -115,7 +117,6 @@ impl<G: Dimension> MovingTriangulation<G> {
         let before = self.mesh.evaluations();
         let mut report = CommitReport { inserted: 1, ..CommitReport::default() };
         let inserted = self.transact(|t| {
-            // In the change, as one that is refused for this has no conflicts.
             t.mesh.reject_occupied(id, &q, t.options.coincidence)?;
             t.insert_at(id, &q, &mut report)
         });
@@ -173,6 +174,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`], [`Error::OutOfMemory`], [`Error::Prepared`].
     pub fn remove_vertex(&mut self, vertex: VertexId) -> Result<()> {
         self.reject_prepared()?;
+        self.mesh.found.begin();
         self.present_site("vertex", 0, vertex)?;
         self.staging.list()?;
         let before = self.mesh.evaluations();

@@ -1,7 +1,7 @@
 //! Vertices that pass segments on their way: asked for, told, or refused.
 
 use crate::delaunay::Dimension;
-use crate::error::{Error, Passing, Result};
+use crate::error::{Passing, Result};
 use crate::motion::options::PassingPolicy;
 use crate::motion::state::passings::{Steps, find};
 use crate::motion::triangulation::MovingTriangulation;
@@ -33,18 +33,19 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::Passing`] if one would, [`Error::OutOfMemory`].
     pub fn check_passings(&mut self) -> Result<()> {
+        self.mesh.found.begin();
         let staging = std::mem::take(&mut self.staging);
         let looked = self.look_for_passings(&Steps::Staged(&staging));
         self.staging = staging;
         looked?;
-        self.refuse_passings()
+        self.mesh.found.refuse_passings()
     }
 
-    /// The vertices that pass segments in the last step that was looked at, ascending by segment and vertex: by
-    /// [`check_passings`](Self::check_passings); or by the last commit, check of what is staged or relocation, which find
-    /// none where the options say that they do not look.
+    /// The vertices that pass segments in the step that the latest call that changes or checks has looked at, ascending by
+    /// segment and vertex: [`check_passings`](Self::check_passings), or a commit, check of what is staged or relocation
+    /// where the options say that they look. Calls that stage, discard, publish, withdraw or ask keep them.
     pub fn passings(&self) -> &[Passing] {
-        self.mesh.segments.as_ref().map_or(&[], |segments| segments.passings())
+        self.mesh.found.passings()
     }
 
     /// Looks at the staged moves as the options say.
@@ -63,28 +64,16 @@ impl<G: Dimension> MovingTriangulation<G> {
     where
         G: 'a,
     {
-        let Some(segments) = &mut self.mesh.segments else { return Ok(()) };
-        if self.options.passing == PassingPolicy::Ignore {
-            segments.set_passings(Vec::new());
+        if self.mesh.segments.is_none() || self.options.passing == PassingPolicy::Ignore {
             return Ok(());
         }
         self.look_for_passings(&steps()?)?;
-        if self.options.passing == PassingPolicy::Refuse { self.refuse_passings() } else { Ok(()) }
+        if self.options.passing == PassingPolicy::Refuse { self.mesh.found.refuse_passings() } else { Ok(()) }
     }
 
     fn look_for_passings(&mut self, steps: &Steps<'_, G>) -> Result<()> {
         let found = find(&self.mesh, &self.edits, steps)?;
-        if let Some(segments) = &mut self.mesh.segments {
-            segments.set_passings(found);
-        }
+        self.mesh.found.tell_passings(found);
         Ok(())
-    }
-
-    /// Tells of the first that passes.
-    fn refuse_passings(&self) -> Result<()> {
-        match self.passings() {
-            [] => Ok(()),
-            [passing, others @ ..] => Err(Error::Passing { passing: *passing, others: others.len() }),
-        }
     }
 }

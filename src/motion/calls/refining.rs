@@ -62,6 +62,7 @@ impl MovingTriangulation<Plane> {
         mask: &[u8],
     ) -> Result<QualityReport> {
         self.reject_prepared()?;
+        self.mesh.found.begin();
         self.check_quality(quality, mask)?;
         let asked = asked(quality)?;
         let question = self.question(&asked, quality, mask);
@@ -158,6 +159,7 @@ impl MovingTriangulation<Plane> {
         mask: &[u8],
     ) -> Result<QualityReport> {
         self.reject_prepared()?;
+        self.mesh.found.begin();
         self.check_quality(quality, mask)?;
         check_coarsening(options)?;
         let mut report = QualityReport::default();

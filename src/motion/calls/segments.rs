@@ -52,9 +52,10 @@ impl MovingTriangulation<Plane> {
         self.mesh.segments.iter().flat_map(|segments| segments.laid())
     }
 
-    /// The conflicts for which the last change of all was refused that had some.
+    /// The conflicts for which the latest call that changes or checks was refused, ascending; none if it was not refused
+    /// for conflicts. Calls that stage, discard, publish, withdraw or ask keep them.
     pub fn conflicts_of_segments(&self) -> &[Conflict] {
-        self.mesh.segments.as_ref().map_or(&[], |segments| segments.conflicts())
+        self.mesh.found.conflicts()
     }
 
     /// Whether some cell is not one of the Delaunay triangulation.

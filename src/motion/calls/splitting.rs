@@ -120,7 +120,9 @@ impl MovingTriangulation<Plane> {
             first_piece: SegmentId::at(self.mesh.segments.as_ref().map_or(0, |segments| segments.n_ids())),
             ..SplitReport::default()
         };
-        match self.check_staged() {
+        self.mesh.found.begin();
+        // A vertex that stops on a segment passes it, and is what it is to be split at.
+        match self.check_conflicts() {
             Ok(()) => return Ok(nothing),
             Err(Error::Conflict { .. }) => {}
             Err(error) => return Err(error),
@@ -142,7 +144,7 @@ impl MovingTriangulation<Plane> {
             staged: memory::copy_of(&segments.all()[segments.n_laid()..])?,
             leaving: memory::copy_of(segments.leaving())?,
             n_insertions,
-            conflicts: memory::copy_of(segments.conflicts())?,
+            conflicts: memory::copy_of(self.mesh.found.conflicts())?,
             first_vertex: nothing.first_vertex,
             first_piece: nothing.first_piece,
         })
@@ -183,7 +185,7 @@ impl MovingTriangulation<Plane> {
             let cuts = self.cuts(&conflicts, &crossed, &vertices)?;
             pieces = self.divided(&pieces, &cuts, before.first_piece)?;
             report.replaced_segments = self.stage_pieces(before, &pieces)?;
-            match self.check_staged() {
+            match self.check_conflicts() {
                 Ok(()) => break,
                 Err(Error::Conflict { .. }) => {}
                 Err(error) => return Err(error),
@@ -351,8 +353,8 @@ impl MovingTriangulation<Plane> {
     fn take_splits_back(&mut self, before: Before, is_refused: bool) {
         if let Some(segments) = &mut self.mesh.segments {
             segments.restore_staged(&before.staged, &before.leaving);
-            segments.tell(if is_refused { before.conflicts } else { Vec::new() });
         }
+        self.mesh.found.tell_conflicts(if is_refused { before.conflicts } else { Vec::new() });
         self.edits.truncate_insertions(before.n_insertions);
         self.mesh.site_of.truncate(before.first_vertex.index());
         self.mesh.kernel.keys_mut().truncate(before.first_vertex.index());

@@ -7,6 +7,7 @@ pub(in crate::motion) mod changes;
 pub(in crate::motion) mod checking;
 pub(in crate::motion) mod edits;
 pub(in crate::motion) mod foreseen;
+pub(in crate::motion) mod found;
 pub(in crate::motion) mod goals;
 pub(in crate::motion) mod hidden;
 pub(in crate::motion) mod looked;

@@ -12,9 +12,10 @@
 //! `replaced` holds those of the Delaunay triangulation that are not among them.
 
 use crate::delaunay::{Crossing, Delaunay, Dimension, InTheWay, Replaced};
-use crate::error::{Conflict, Error, Passing, Result};
+use crate::error::{Conflict, Error, Result};
 use crate::ids::{SegmentId, SiteId, Slot, VertexId};
 use crate::machine::memory;
+use crate::motion::state::found::{Found, refuse_conflicts};
 
 /// A segment between two vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,9 +61,6 @@ pub(in crate::motion) struct Segments<G: Dimension> {
     crossing: Crossing,
     /// The sites of the ends of each segment, the lower one first, with its id; sorted.
     edges: Vec<([SiteId; 2], SegmentId)>,
-    conflicts: Vec<Conflict>,
-    /// The vertices that passed segments in the last step that was looked at.
-    passings: Vec<Passing>,
     /// The edges that a kernel had to have before the change, while it has others.
     before: Option<Vec<[SiteId; 2]>>,
     /// By site: whether it is an end of one of `edges`.
@@ -86,8 +84,6 @@ impl<G: Dimension> Default for Segments<G> {
             next: Replaced::default(),
             crossing: Crossing::default(),
             edges: Vec::new(),
-            conflicts: Vec::new(),
-            passings: Vec::new(),
             before: None,
             is_end: Vec::new(),
             seen: Vec::new(),
@@ -190,11 +186,6 @@ impl<G: Dimension> Segments<G> {
         Ok(taken)
     }
 
-    /// Tells these as the conflicts of the last change.
-    pub(in crate::motion) fn tell(&mut self, conflicts: Vec<Conflict>) {
-        self.conflicts = conflicts;
-    }
-
     /// How many removals are staged.
     pub(in crate::motion) fn n_leaving(&self) -> usize {
         self.leaving.len()
@@ -228,25 +219,16 @@ impl<G: Dimension> Segments<G> {
     /// taken the place of. `site_of` is by vertex id.
     pub(in crate::motion) fn join(&mut self, kernel: &mut Delaunay<G>, site_of: &[SiteId]) -> Result<()> {
         self.aim = Aim::Other;
-        self.conflicts.clear();
-        self.list_edges(site_of)?;
+        let mut conflicts = Vec::new();
+        self.list_edges(site_of, &mut conflicts)?;
         let mut required = self.required()?;
         kernel.exchange_required(&mut required);
         if kernel.has_cells() {
             self.replaced = kernel.find_replaced()?;
         } else {
-            self.look_along_line(kernel)?;
+            self.look_along_line(kernel, &mut conflicts)?;
         }
-        self.refuse_conflicts()
-    }
-
-    /// Tells of the conflicts that have been found.
-    fn refuse_conflicts(&mut self) -> Result<()> {
-        self.conflicts.sort_unstable();
-        match self.conflicts.first() {
-            Some(&conflict) => Err(Error::Conflict { conflict, others: self.conflicts.len() - 1 }),
-            None => Ok(()),
-        }
+        refuse_conflicts(&mut conflicts)
     }
 
     /// The ids that have been given.
@@ -282,26 +264,10 @@ impl<G: Dimension> Segments<G> {
         self.is_checked
     }
 
-    /// The conflicts of the last change that had some.
-    pub(in crate::motion) fn conflicts(&self) -> &[Conflict] {
-        &self.conflicts
-    }
-
-    /// The vertices that passed segments in the last step that was looked at.
-    pub(in crate::motion) fn passings(&self) -> &[Passing] {
-        &self.passings
-    }
-
-    /// A step has been looked at, or has not been, and then there are none.
-    pub(in crate::motion) fn set_passings(&mut self, passings: Vec<Passing>) {
-        self.passings = passings;
-    }
-
     /// A change begins: puts back the cells that segments have taken the place of.
     pub(in crate::motion) fn lift(&mut self, kernel: &mut Delaunay<G>, aim: Aim) -> Result<()> {
         self.next.clear();
         (self.aim, self.is_checked) = (aim, false);
-        self.conflicts.clear();
         if aim == Aim::Rest { Ok(()) } else { kernel.put_back_replaced(&self.replaced) }
     }
 
@@ -318,29 +284,34 @@ impl<G: Dimension> Segments<G> {
 
     /// Enters the segments that are missing in the Delaunay triangulation of a kernel: those in force, or, in a commit,
     /// those that will be. `site_of` is by vertex id.
-    pub(in crate::motion) fn lay(&mut self, kernel: &mut Delaunay<G>, site_of: &[SiteId]) -> Result<()> {
+    pub(in crate::motion) fn lay(
+        &mut self,
+        kernel: &mut Delaunay<G>,
+        site_of: &[SiteId],
+        found: &mut Found,
+    ) -> Result<()> {
         self.next.clear();
-        self.conflicts.clear();
+        let conflicts = found.conflicts_to_fill();
         let is_new = !self.are_listed(site_of);
         if is_new {
-            self.list_edges(site_of)?;
+            self.list_edges(site_of, conflicts)?;
         }
         if kernel.has_cells() {
-            let looked = self.look_along(kernel);
+            let looked = self.look_along(kernel, conflicts);
             kernel.end_looking(&self.next);
             looked?;
-            if !self.conflicts.is_empty() || !self.enter(kernel)? {
-                self.cross_missing(kernel)?;
+            if !conflicts.is_empty() || !self.enter(kernel)? {
+                self.cross_missing(kernel, conflicts)?;
             }
         } else {
-            self.look_along_line(kernel)?;
+            self.look_along_line(kernel, conflicts)?;
         }
         if is_new {
             let mut required = self.required()?;
             kernel.exchange_required(&mut required);
             self.before = Some(required);
         }
-        self.refuse_conflicts()?;
+        refuse_conflicts(conflicts)?;
         if self.aim == Aim::Check {
             self.is_checked = true;
             return Err(Error::Cancelled);
@@ -353,10 +324,11 @@ impl<G: Dimension> Segments<G> {
         &mut self,
         kernel: &mut Delaunay<G>,
         site_of: &[SiteId],
+        found: &mut Found,
     ) -> Result<()> {
         // A new kernel has none yet.
         self.edges.clear();
-        let laid = self.lay(kernel, site_of);
+        let laid = self.lay(kernel, site_of, found);
         self.before = None;
         laid
     }
@@ -373,8 +345,8 @@ impl<G: Dimension> Segments<G> {
     }
 
     /// Lists the edges that have to be there, and the conflicts of ends alone.
-    fn list_edges(&mut self, site_of: &[SiteId]) -> Result<()> {
-        let Segments { all, n_laid, leaving, edges, is_end, seen, conflicts, .. } = self;
+    fn list_edges(&mut self, site_of: &[SiteId], conflicts: &mut Vec<Conflict>) -> Result<()> {
+        let Segments { all, n_laid, leaving, edges, is_end, seen, .. } = self;
         let takes_staged = self.aim.takes_staged();
         edges.clear();
         let n = if takes_staged { all.len() } else { *n_laid };
@@ -405,8 +377,8 @@ impl<G: Dimension> Segments<G> {
     }
 
     /// Looks along all segments that are missing.
-    fn look_along(&mut self, kernel: &mut Delaunay<G>) -> Result<()> {
-        let Segments { edges, is_end, seen, next, crossing, conflicts, missing, .. } = self;
+    fn look_along(&mut self, kernel: &mut Delaunay<G>, conflicts: &mut Vec<Conflict>) -> Result<()> {
+        let Segments { edges, is_end, seen, next, crossing, missing, .. } = self;
         let (edges, is_end) = (&*edges, &*is_end);
         missing.clear();
         for k in 0..edges.len() {
@@ -461,8 +433,8 @@ impl<G: Dimension> Segments<G> {
     }
 
     /// Finds all pairs of missing segments that cross: by a sweep over their ranges along the first axis.
-    fn cross_missing(&mut self, kernel: &Delaunay<G>) -> Result<()> {
-        let Segments { edges, conflicts, missing, .. } = self;
+    fn cross_missing(&mut self, kernel: &Delaunay<G>, conflicts: &mut Vec<Conflict>) -> Result<()> {
+        let Segments { edges, missing, .. } = self;
         let range = |k: usize| {
             let [p, q] = edges[k].0.map(|s| kernel.site(s).point[0]);
             [p.min(q), p.max(q)]
@@ -483,7 +455,7 @@ impl<G: Dimension> Segments<G> {
     }
 
     /// Finds the vertices on segments while all are on one line.
-    fn look_along_line(&mut self, kernel: &Delaunay<G>) -> Result<()> {
+    fn look_along_line(&self, kernel: &Delaunay<G>, conflicts: &mut Vec<Conflict>) -> Result<()> {
         for &([s, t], segment) in &self.edges {
             let [p, q] = [s, t].map(|s| kernel.site(s).point);
             let axis = if p[0] == q[0] { 1 } else { 0 };
@@ -491,7 +463,7 @@ impl<G: Dimension> Segments<G> {
             for other in kernel.live_sites() {
                 let site = kernel.site(other);
                 if low < site.point[axis] && site.point[axis] < high {
-                    memory::push(&mut self.conflicts, Conflict::OnSegment { segment, vertex: site.id })?;
+                    memory::push(conflicts, Conflict::OnSegment { segment, vertex: site.id })?;
                 }
             }
         }
@@ -586,7 +558,7 @@ impl<G: Dimension> Segments<G> {
             segment.ends = segment.ends.map(|v| if v == VertexId::NONE { v } else { ids[v.index()] });
         }
         copy.replaced = Replaced::default();
-        copy.list_edges(site_of)?;
+        copy.list_edges(site_of, &mut Vec::new())?;
         let mut required = copy.required()?;
         kernel.exchange_required(&mut required);
         copy.replaced = kernel.find_replaced()?;
@@ -626,7 +598,5 @@ impl<G: Dimension> Segments<G> {
             + memory::bytes_of(&self.is_end)
             + memory::bytes_of(&self.seen)
             + memory::bytes_of(&self.missing)
-            + memory::bytes_of(&self.conflicts)
-            + memory::bytes_of(&self.passings)
     }
 }
