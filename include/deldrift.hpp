@@ -464,6 +464,16 @@ public:
         require_ok(deldrift_nesting_levels(native(), levels.data(), count, &count));
         return levels;
     }
+    // For each cell the least number of segments on a path to the outside, each of several at one edge: an odd one is what the
+    // even-odd rule fills.
+    //     const std::vector<std::uint32_t> numbers = t.crossing_numbers();
+    //     const auto is_filled = [&](std::size_t cell) { return numbers[cell] % 2 == 1; };
+    std::vector<std::uint32_t> crossing_numbers() const {
+        std::size_t count = cell_count();
+        std::vector<std::uint32_t> numbers(count);
+        require_ok(deldrift_crossing_numbers(native(), numbers.data(), count, &count));
+        return numbers;
+    }
     // For each cell the label of the first seed in its region, or the other one.
     //     const std::vector<std::int32_t> materials = t.label_cells({0.5, 0.5, 3.0, 1.0}, {STEEL, WATER}, AIR);
     std::vector<std::int32_t> label_cells(const Positions &seeds, span<const std::int32_t> labels,

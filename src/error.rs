@@ -242,7 +242,7 @@ pub enum Conflict {
     OnSegment {
         /// The segment.
         segment: SegmentId,
-        /// The vertex, the lowest one at the place.
+        /// The vertex that represents the place.
         vertex: VertexId,
     },
     /// An end of a segment is not there, or is removed.

@@ -7,9 +7,11 @@ mod brute_force;
 mod changes;
 mod common;
 mod editing;
+mod even_odd;
 mod exact_oracle;
 mod exporting;
 mod format;
+mod found;
 mod geometry;
 #[path = "../soak/histories/mod.rs"]
 mod histories;

@@ -220,8 +220,10 @@ fn all_conflicts(
     }
     let mut whole: Vec<(SegmentId, [Grid; 2])> = Vec::new();
     for &(segment, Segment { ends, .. }) in segments {
-        if let Some(&vertex) = ends.iter().find(|&&v| place(v).is_none()) {
-            conflicts.push(Conflict::EndRemoved { segment, vertex });
+        let gone = ends.into_iter().filter(|&v| place(v).is_none());
+        let n_before = conflicts.len();
+        conflicts.extend(gone.map(|vertex| Conflict::EndRemoved { segment, vertex }));
+        if conflicts.len() > n_before {
             continue;
         }
         let [a, b] = ends.map(|v| place(v).expect("present"));
@@ -243,6 +245,7 @@ fn all_conflicts(
         whole.push((segment, [a, b]));
     }
     conflicts.sort();
+    conflicts.dedup();
     conflicts
 }
 

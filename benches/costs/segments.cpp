@@ -156,6 +156,12 @@ std::vector<Call> segment_calls() {
                  return deldrift_nesting_levels(c.t, to, room, count);
              });
          }, 2},
+        {"deldrift_crossing_numbers", "one edge in eight", [](Context &c) {
+             lay(c);
+             fill<1, std::uint32_t>(c, c.cells(), [&](std::uint32_t *to, std::size_t room, std::size_t *count) {
+                 return deldrift_crossing_numbers(c.t, to, room, count);
+             });
+         }, 2},
         {"deldrift_label_cells", "one edge in eight, and a seed within one cell in eight", [](Context &c) {
              lay(c);
              const deldrift_cells_view view = c.view();

@@ -1,5 +1,6 @@
 //! The wrong calls: from the role of a parameter follows what may be wrong with it.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use super::declarations::{Declaration, Parameter, statuses};
@@ -7,7 +8,7 @@ use super::roles::{Role, is_of_bytes, role};
 use super::rows::{ROWS, Row};
 
 /// Functions for triangulations of the plane alone.
-const OF_PLANE: [&str; 19] = [
+const OF_PLANE: [&str; 20] = [
     "deldrift_update_labels",
     "deldrift_ordered_star",
     "deldrift_stage_segments",
@@ -20,6 +21,7 @@ const OF_PLANE: [&str; 19] = [
     "deldrift_segments_of_cells",
     "deldrift_cells_of_segments",
     "deldrift_nesting_levels",
+    "deldrift_crossing_numbers",
     "deldrift_label_cells",
     "deldrift_boundary_chains",
     "deldrift_refine",
@@ -39,6 +41,7 @@ pub fn program(functions: &[Declaration]) -> String {
     let mut text = format!("#define STATUS_NAMES {names}\n#include \"harness.h\"\n\n");
     let mut list = String::from("const function functions[] = {\n");
     let mut calls = String::from("deldrift_status call(size_t k) {\n    switch (k) {\n");
+    let refused = refused_of_periodic(functions);
     for (k, function) in functions.iter().enumerate() {
         let Some(row) = ROWS.iter().find(|row| row.function == function.name) else {
             panic!("{} has no row in ffi-tests/abuse/rows.rs", function.name);
@@ -71,8 +74,10 @@ pub fn program(functions: &[Declaration]) -> String {
         let takes_t = function.takes_t();
         let _ = writeln!(
             list,
-            "    {{\"{0}\", {takes_t}, {is_of_plane}, {1}, {has_count}, of_{0}}},",
-            function.name, row.base
+            "    {{\"{0}\", {takes_t}, {is_of_plane}, {1}, {has_count}, {2}, of_{0}}},",
+            function.name,
+            row.base,
+            refused.contains(&function.name)
         );
         let _ = writeln!(calls, "        case {k}: return {};", call(function, row.arguments));
     }
@@ -82,6 +87,19 @@ pub fn program(functions: &[Declaration]) -> String {
         + &calls
         + "        default: return DELDRIFT_INTERNAL_ERROR;\n    }\n}\n\n\
            int main(void) {\n    try_all();\n    return 0;\n}\n"
+}
+
+/// The functions that the header says do not serve a periodic triangulation; those for comparisons do not either.
+fn refused_of_periodic(functions: &[Declaration]) -> BTreeSet<String> {
+    let create = functions.iter().find(|function| function.name == "deldrift_create_periodic");
+    let documentation = create.expect("it is declared").documentation();
+    let (_, list) = documentation.split_once("which return DELDRIFT_PERIODIC: ").expect("they are listed");
+    let (list, _) = list.split_once(". ").expect("a sentence ends");
+    let listed: BTreeSet<String> = list.split([',', ' ']).filter(|word| word.starts_with("deldrift_")).map(str::to_string).collect();
+    let declared = |name: &&String| functions.iter().all(|function| function.name != **name);
+    assert_eq!(listed.iter().find(declared), None, "it is no function");
+    let of_research = functions.iter().map(|function| function.name.clone());
+    listed.into_iter().chain(of_research.filter(|name| name.starts_with("deldrift_research_"))).collect()
 }
 
 /// A call as an expression that gives a status.
@@ -504,8 +522,7 @@ impl Cases<'_> {
             ),
         ] {
             let is_of_refining = change.starts_with("keeps");
-            let is_of_coarsening = ["margin", "share", "joins"].iter().any(|name| change.starts_with(name));
-            let is_used = if refines { !is_of_coarsening } else { !is_of_refining };
+            let is_used = refines || !is_of_refining;
             let wrong = format!("(bad_quality = *({valid}), bad_quality.{change}, &bad_quality)");
             if status == "OK" || !is_used {
                 self.legal(column, at, given, &wrong);

@@ -40,6 +40,10 @@ impl Declaration {
         self.parameters.iter().any(tells)
     }
 
+    pub fn documentation(&self) -> &str {
+        &self.documentation
+    }
+
     /// The statuses after "Errors:", and those that the first page names for all that take a triangulation.
     pub fn documented_statuses(&self) -> BTreeSet<String> {
         let errors = self.documentation.split_once("Errors:").map_or("", |(_, errors)| errors);

@@ -135,6 +135,7 @@ pub const ROWS: &[Row] = &[
     row("deldrift_segments_of_cells", &["t", "out.ids", "n_cells", "&out.count"]),
     row("deldrift_cells_of_segments", &["t", "out.ids", "N_SEGMENTS", "&out.count"]),
     row("deldrift_nesting_levels", &["t", "out.ids", "n_cells", "&out.count"]),
+    row("deldrift_crossing_numbers", &["t", "out.ids", "n_cells", "&out.count"]),
     row("deldrift_label_cells", &["t", "inside", "wholes", "3", "-1", "out.labels", "n_cells", "&out.count"]),
     row("deldrift_update_labels", &["t", "ids", "3", "-1", "out.labels", "n_cells", "&out.count"]),
     row(

@@ -91,12 +91,15 @@ static size_t conflicts_of(const model *m, deldrift_conflict *found) {
     for (uint32_t k = 0; k < m->n_segments; k++) {
         if (m->will_have_ended[k]) continue;
         const uint32_t *ends = m->ends[k];
-        const int gone = m->will_be_gone[ends[0]] ? 0 : m->will_be_gone[ends[1]] ? 1 : 2;
+        size_t n_gone = 0;
+        for (int i = 0; i < 2; i++) {
+            if (!m->will_be_gone[ends[i]] || (i == 1 && n_gone > 0 && ends[0] == ends[1])) continue;
+            found[n++] = (deldrift_conflict){DELDRIFT_CONFLICT_END_REMOVED, k, ends[i]};
+            n_gone++;
+        }
         for (int i = 0; i < 2; i++) edges[k][i] = shown(m, ends[i], &m->then, m->will_be_gone);
-        has_ends[k] = gone == 2 && edges[k][0] != edges[k][1];
-        if (gone < 2) {
-            found[n++] = (deldrift_conflict){DELDRIFT_CONFLICT_END_REMOVED, k, ends[gone]};
-        } else if (!has_ends[k]) {
+        has_ends[k] = n_gone == 0 && edges[k][0] != edges[k][1];
+        if (n_gone == 0 && !has_ends[k]) {
             found[n++] = (deldrift_conflict){DELDRIFT_CONFLICT_ENDS_MEET, k, DELDRIFT_NONE};
         }
     }

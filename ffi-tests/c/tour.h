@@ -146,6 +146,8 @@ static void ask_about_segments(const deldrift_triangulation *t, const places *p,
     note(tour_out.labels, count * sizeof *tour_out.labels);
     TRY(deldrift_update_labels(t, (const uint32_t[]){0}, n_cells > 0, 8, tour_out.labels, TOUR_ROOM, &count));
     note(tour_out.labels, n_cells * sizeof *tour_out.labels);
+    TRY(deldrift_crossing_numbers(t, ids, TOUR_ROOM, &count));
+    note(ids, count * sizeof *ids);
     TRY(deldrift_nesting_levels(t, ids, TOUR_ROOM, &count));
     note(ids, count * sizeof *ids);
     for (size_t k = 0; k < n_cells; k++) bytes[k] = k % 3 == 0 || (p->dimension == 2 && ids[k] == 1);

@@ -190,6 +190,14 @@ static void domains_are_known() {
         mask.push_back(levels[cell] == 1);
     }
     CHECK(std::abs(area[1] - 14) < 1e-12 && std::abs(area[2] - 2) < 1e-12 && area[0] > 0);
+    CHECK(t.crossing_numbers() == levels);
+    // The sides of the diamond once more: by the even-odd rule it is no hole any more.
+    Triangulation twice = t;
+    twice.stage_segments(std::vector<Ends>(sides.begin() + 4, sides.end()));
+    twice.commit_timestamp();
+    const std::vector<std::uint32_t> numbers = twice.crossing_numbers();
+    CHECK(twice.nesting_levels() == levels && numbers.size() == levels.size());
+    for (std::size_t cell = 0; cell < numbers.size(); cell++) CHECK(numbers[cell] == (levels[cell] == 2 ? 3 : levels[cell]));
 
     const deldrift::Chains chains = t.boundary_chains(mask);
     CHECK(chains.size() == 2 && !chains.empty() && chains.begin() + 2 == chains.end() && chains.begin()->size() == 4);

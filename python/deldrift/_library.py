@@ -314,6 +314,7 @@ PROTOTYPES = {
     "segments_of_cells": (T, A, N, C),
     "cells_of_segments": (T, A, N, C),
     "nesting_levels": (T, A, N, C),
+    "crossing_numbers": (T, A, N, C),
     "label_cells": (T, A, A, N, c_int32, A, N, C),
     "update_labels": (T, A, N, c_int32, A, N, C),
     "boundary_chains": (T, A, N, A, A, A, A, A, N, C),

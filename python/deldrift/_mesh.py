@@ -59,7 +59,13 @@ class Mesh:
         A number of 32 bits to keep with each segment, or one for all; 0 by default.
     holes : array_like, optional
         Rows of 2 coordinates, a place in each hole. The domain is then all within closed chains of segments but the
-        holes; one outside of all chains has no effect. By default the domain is what an odd number of chains encloses.
+        holes; one outside of all chains has no effect. Without it `keep` says what the domain is.
+    keep : {"nesting", "even-odd"}, optional
+        What the domain is without `holes`: the triangles with an odd number of edges that have segments on the way to the
+        outside, at least, which is 1 in an outline and 2 in its holes, however often a segment is given; or those with an
+        odd number of segments on the way, where each of several at one edge counts, as the even-odd rule has it. They
+        differ where chains share sides: a notch that is a chain of its own along a side is part of the domain by
+        "nesting", the default, as segments are walls, and is none by "even-odd".
     regions : array_like, optional
         Rows of 2 coordinates and a label: `labels` has it for all triangles of the region where the place is. Of two in
         one region the first counts, and one outside of all chains has no effect.
@@ -87,6 +93,7 @@ class Mesh:
         holes: Any = None,
         regions: Any = None,
         *,
+        keep: str = "nesting",
         algorithm: str = "auto",
         threads: int = 0,
         coincidence: str = "merge",
@@ -94,6 +101,9 @@ class Mesh:
         progress: Any = None,
         cancel: Optional[Callable[[], bool]] = None,
     ) -> None:
+        if keep not in ("nesting", "even-odd"):
+            raise InvalidValue(f"keep is {keep!r}, and must be one of 'nesting', 'even-odd'", "keep")
+        self._keep = keep
         places = None if holes is None else _rows("holes", holes, 2)
         labelled = _rows("regions", regions, 3)
         self._tri = tri = Delaunay.__new__(Delaunay)
@@ -197,7 +207,7 @@ class Mesh:
     def _domain(self) -> _Domain:
         levels = self._tri.nesting_levels()
         if self._holes is None:
-            mask = levels % 2 == 1
+            mask = (self._tri.crossing_numbers() if self._keep == "even-odd" else levels) % 2 == 1
         else:
             mask = (levels > 0) & (self._reached(self._beside(self._holes)) < 0)
         return _Domain(fixed(mask), fixed(self._reached(self._beside(self._regions))))

@@ -22,6 +22,7 @@ _stage_splits = _library.function("stage_splits")
 _segments_of_cells = _library.function("segments_of_cells")
 _cells_of_segments = _library.function("cells_of_segments")
 _nesting_levels = _library.function("nesting_levels")
+_crossing_numbers = _library.function("crossing_numbers")
 _label_cells = _library.function("label_cells")
 _update_labels = _library.function("update_labels")
 _boundary_chains = _library.function("boundary_chains")
@@ -245,6 +246,29 @@ class Segmented(Core):
             levels = np.empty(cell_count(t), I32)
             self._check(_nesting_levels(t, address(levels), len(levels), ctypes.c_size_t()))
         return levels
+
+    def crossing_numbers(self) -> np.ndarray:
+        """How many segments at least a way crosses from each simplex to the outside, where each of several at one edge counts.
+
+        Returns
+        -------
+        ndarray of int
+            Odd where the even-odd rule fills: of closed chains, all ways cross as many but for an even number. It differs
+            from `nesting_levels` only where an edge has several segments.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> square, sides = [[0, 0], [4, 0], [4, 4], [0, 4]], [[0, 1], [1, 2], [2, 3], [3, 0]]
+        >>> tri = deldrift.Delaunay(square, segments=sides + sides)
+        >>> tri.crossing_numbers().tolist(), tri.nesting_levels().tolist()
+        ([2, 2], [1, 1])
+        """
+        self._check_plane()
+        with self._reading as t:
+            numbers = np.empty(cell_count(t), I32)
+            self._check(_crossing_numbers(t, address(numbers), len(numbers), ctypes.c_size_t()))
+        return numbers
 
     def label_cells(self, seeds: Any, labels: Any, other: int = 0) -> np.ndarray:
         """A label for each simplex: that of the first seed in its region.

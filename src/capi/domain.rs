@@ -75,14 +75,18 @@ pub unsafe extern "C" fn deldrift_cells_of_segments(
     })
 }
 
-/// For each cell how many segments at least a way crosses from it to the outside, in the order of deldrift_cells: its
-/// nesting level.
+/// The nesting level of each cell, in the order of deldrift_cells: the least number of edges with segments on a path from the
+/// cell to the outside.
 ///
 /// Cells outside of all closed chains of segments have 0, those of a domain 1, those of its holes 2, those of islands in
 /// these 3, and so on: the cells of the domain are those with an odd number. A segment with one region on both sides, such
 /// as a slit or an open chain, divides nothing, and several at the same edge count once. No seed is needed, and cells
 /// between the domain and the convex hull have 0. A domain that is divided in parts by further segments needs
 /// deldrift_label_cells: parts that do not touch the outside would have a higher level.
+///
+/// This is the default of deldrift_refine, as a segment is a wall, however often it has been drawn: a side that two parts
+/// share, or an outline that is there twice, bounds what it would bound alone. deldrift_crossing_numbers is for chains that
+/// are meant by the even-odd rule.
 ///
 /// levels: a buffer with room for capacity numbers. count: receives the number of cells, which is also written when the
 /// buffer is too small. NULL with capacity 0 asks for the count alone.
@@ -103,6 +107,38 @@ pub unsafe extern "C" fn deldrift_nesting_levels(
     t.read(|t| {
         let t = of_the_plane(t)?;
         levels.fill(count, t.cell_count(), || Ok(t.nesting_levels()?))
+    })
+}
+
+/// The crossing number of each cell, in the order of deldrift_cells: the least number of segments on a path from the cell to
+/// the outside, where each segment at an edge counts. Cells with an odd number are those that the even-odd rule fills.
+///
+/// If segments form closed chains, so that an even number of them ends at each vertex, all paths from a cell cross as many
+/// but for an even number: the number is odd exactly if a ray from the cell crosses an odd number of segments. So a notch that
+/// is given as a second chain along a side is no part of the domain, and neither is anything if an outline is given twice;
+/// with deldrift_nesting_levels, which differs only where an edge has several segments, both are. The direction in which
+/// segments were given does not matter. Pieces of deldrift_stage_splits and deldrift_refine count each, as the segments do
+/// that they come from. At open chains, as slits and interfaces that divide a domain, the least number decides.
+///
+/// numbers: a buffer with room for capacity numbers. count: receives the number of cells, which is also written when the
+/// buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Exact. Cost: m, s log s for s segments, and for each segment the cells around an end. After a change the first call also
+/// does what the first deldrift_cells does.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_crossing_numbers(
+    t: *const deldrift_triangulation,
+    numbers: *mut u32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    given!(t: Reading, numbers[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        let t = of_the_plane(t)?;
+        numbers.fill(count, t.cell_count(), || Ok(t.crossing_numbers()?))
     })
 }
 
@@ -148,13 +184,15 @@ pub unsafe extern "C" fn deldrift_label_cells(
 /// are not listed. Other entries are not touched.
 ///
 /// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once: the created ones of
-/// deldrift_take_changes, and those that have been turned over. These are no changes, and are known by a row that lists the
-/// corners in the other order: where the end of a segment goes to the other side of two vertices, the cell of the three comes
-/// to be beyond the segment, though no vertex passes one. NULL if cell_count is 0. other: the label of cells that are reached
-/// from the outside of the hull alone, from no cell that is not listed, or from some of different labels. label_of: an array of
-/// capacity numbers, of which those of cells that are not listed are read. capacity: at least deldrift_cell_count. undecided:
-/// receives the number of cells of the last two kinds: if it is not 0, a region has listed cells only, or touches two labels,
-/// and it is time for deldrift_label_cells.
+/// deldrift_take_changes, and those that have been turned over. A cell that was turned over is not in the change list; its
+/// row lists its corners in the opposite order, and it needs a label too: where the end of a segment goes to the other side
+/// of two vertices, the cell of the three comes to be beyond the segment, though no vertex passes one. NULL if cell_count is
+/// 0. other: the label of the cells outside of all closed chains of segments, along the hull: 0 for nesting levels, and for
+/// labels what deldrift_label_cells was given as other, or the label of a seed there. Cells that are reached from the outside
+/// of the hull alone get it, and so do those that are reached from no cell that is not listed, or from some of different
+/// labels. label_of: an array of capacity numbers, of which those of cells that are not listed are read. capacity: at least
+/// deldrift_cell_count. undecided: receives the number of cells of the last two kinds: if it is not 0, a region has listed
+/// cells only, or touches two labels, and it is time for deldrift_label_cells.
 ///
 /// deldrift_update_circumcentres has the steps by which an array for all cells is brought up to date. While segments stay,
 /// and vertices move without passing any, labels stay with their regions: that is what deldrift_label_cells would give for
@@ -208,8 +246,8 @@ pub unsafe extern "C" fn deldrift_update_labels(
 /// small. NULL for all with capacity 0 asks for the count alone.
 ///
 /// No chain crosses another, or itself: where parts of the set touch in a vertex, each part has a chain of its own. Each
-/// chain begins with its least edge, by the ids of the edge's two vertices, and chains are in this order. So vertices,
-/// chains and segments depend only on the set.
+/// chain begins with its least edge, by the id of the vertex where an edge begins and then of that where it ends, and chains
+/// are in the order of these edges. So vertices, chains and segments depend only on the set.
 ///
 /// Exact. Cost: m, e log e for e edges, and for each segment the cells around an end. After a change the first call also
 /// does what the first deldrift_cells does.

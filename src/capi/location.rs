@@ -10,7 +10,7 @@ use crate::ids::{CellId, VertexId};
 use crate::in_its_dimension;
 use crate::motion::Location;
 
-/// How a point lies to what the index of a deldrift_location names.
+/// What the index of a deldrift_location refers to.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum deldrift_location_kind {

@@ -244,7 +244,7 @@ pub unsafe extern "C" fn deldrift_commit_timestamp(
 }
 
 /// Moves all vertices and makes that the next timestamp: deldrift_move_vertices for all ids and
-/// deldrift_commit_timestamp in one, without a copy of the positions where that can be done without.
+/// deldrift_commit_timestamp in one, usually without copying the positions.
 ///
 /// positions: count points, one for each id (count must be deldrift_id_count, those of staged insertions included). A
 /// vertex whose insertion is staged is inserted where its entry says; entries of removed vertices, and of those whose

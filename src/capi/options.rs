@@ -55,16 +55,13 @@ pub type PassingCode = u32;
 /// bytes that the library does not know are zero. A size that is 0, ends inside a field or is beyond
 /// 4096 is DELDRIFT_INVALID_OPTIONS, as is any value that has no meaning.
 ///
-/// The callbacks are called from inside deldrift_create, deldrift_commit_timestamp and deldrift_commit_positions, and
-/// from inside deldrift_relocate_vertex, deldrift_insert_vertex and deldrift_remove_vertex where one of these takes
-/// long, as with a vertex that has thousands of neighbours; on the thread that called these, one at a time, and not
-/// after deldrift_destroy. They must return normally (no exception, no longjmp) and must not use the triangulation that
-/// is being created or changed: such calls are turned away with DELDRIFT_BUSY. Other triangulations may be used. What
-/// user_data points to must live as long as the triangulation.
-///
-/// They are also called from inside deldrift_voronoi_volumes and deldrift_voronoi_facets, by each thread that
-/// makes such a call; then they may read the triangulation, and calls that change it are turned away with
-/// DELDRIFT_BUSY.
+/// The callbacks are called from inside every function that names DELDRIFT_CANCELLED among its errors, where the call takes
+/// long, and from inside no other; on the thread that makes the call, one at a time, and not after deldrift_destroy. They
+/// must return normally (no exception, no longjmp). From inside a call that creates or changes a triangulation they must not
+/// use it: such calls are turned away with DELDRIFT_BUSY. From inside one that takes it as const, as deldrift_voronoi_cells
+/// does, they may read it, and calls that change it are turned away with DELDRIFT_BUSY; such calls may be made on several
+/// threads at once, and each calls them. Other triangulations may be used. What user_data points to must live as long as the
+/// triangulation, and its copies.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct deldrift_options {
@@ -72,8 +69,8 @@ pub struct deldrift_options {
     pub struct_size: usize,
     /// Algorithm of later commits; may be changed by deldrift_set_algorithm. Default DELDRIFT_AUTO.
     pub algorithm: AlgorithmCode,
-    /// Greatest number of threads a call may use, the calling one included; 0, the default, is no limit. As many are
-    /// used as pay, and no more than the system runs at the same time: one for each 5,000 vertices in 2D or 2,500
+    /// Greatest number of threads a call may use, the calling one included; 0, the default, is no limit. The library uses
+    /// as many as make the call faster, at most one per processor: one for each 5,000 vertices in 2D or 2,500
     /// in 3D to build and rebuild, and likewise to move all, check all certificates and flip in repair. All
     /// triangulations of the process share them, and they sleep between calls. The cells do not depend on the number,
     /// their order and the counts in reports may. Callbacks come from the calling thread only.

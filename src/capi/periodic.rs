@@ -38,24 +38,16 @@ use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 /// positions may be some 1e13 L away. Where vectors go along more axes than there are vectors, as one that is along no axis
 /// does, the step is 2^10 times that, and positions may be some 500 L away across the vectors, else they are out of range.
 ///
-/// Functions that serve a periodic triangulation are those of this section, deldrift_destroy, deldrift_dimension,
-/// deldrift_set_algorithm, deldrift_get_algorithm, deldrift_move_vertex, deldrift_move_vertices,
-/// deldrift_stage_insertions, deldrift_stage_removals, deldrift_discard_moves, deldrift_commit_timestamp,
-/// deldrift_commit_positions, deldrift_prepare_timestamp, deldrift_publish_timestamp, deldrift_withdraw_timestamp,
-/// deldrift_vertex_count, deldrift_id_count, deldrift_cell_count, deldrift_staged_count,
-/// deldrift_memory_bytes, deldrift_timestamp, deldrift_statistics, deldrift_is_present, deldrift_position,
-/// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges,
-/// deldrift_take_changes, deldrift_circumcentres, deldrift_volumes, deldrift_mask_by_circumradius with the functions that
-/// update what these give, deldrift_mask_boundary, deldrift_hull_facets, deldrift_locate, deldrift_locate_points,
-/// deldrift_locate_in_period, deldrift_nearest_vertex, deldrift_nearest_vertices, deldrift_vertices_in_ball,
-/// deldrift_vertices_in_box, deldrift_conflicts, deldrift_voronoi_changed,
-/// deldrift_barycentric, deldrift_interpolate, deldrift_clone, deldrift_save,
-/// deldrift_load, deldrift_save_file, deldrift_load_file, deldrift_write_vtu, deldrift_write_medit, deldrift_compact,
-/// deldrift_relocate_vertex, deldrift_insert_vertex, deldrift_remove_vertex, deldrift_validate, deldrift_hidden_vertices,
-/// deldrift_star, deldrift_vertex_cells, deldrift_vertex_neighbours, deldrift_cell_of_each_vertex, deldrift_cells_around,
-/// deldrift_mirror_indices, deldrift_mirror_index, deldrift_voronoi_volumes, deldrift_voronoi_facets, deldrift_voronoi_cells,
-/// deldrift_voronoi_cells_within, deldrift_voronoi_derivatives and deldrift_voronoi_derivatives_within. All others return
-/// DELDRIFT_PERIODIC. Cells are numbered anew by each commit, unless changes are taken.
+/// All functions serve a periodic triangulation but those of segments, refinement, keys, reach, and a few others, which
+/// return DELDRIFT_PERIODIC: deldrift_stage_insertions_with_keys, deldrift_stage_insertions_at_free_ids,
+/// deldrift_insert_vertex_with_key, deldrift_keys, deldrift_stage_segments, deldrift_stage_segment_removals,
+/// deldrift_segments, deldrift_check_staged, deldrift_segment_conflicts, deldrift_check_passings, deldrift_passings,
+/// deldrift_stage_splits, deldrift_release_cells, deldrift_tolerance, deldrift_cells_in_reach,
+/// deldrift_hull_facets_in_reach, deldrift_vertices_in_reach, deldrift_mask_without_flat_cells,
+/// deldrift_segments_of_cells, deldrift_cells_of_segments, deldrift_nesting_levels, deldrift_crossing_numbers,
+/// deldrift_label_cells, deldrift_update_labels, deldrift_boundary_chains, deldrift_refine, deldrift_coarsen,
+/// deldrift_made_vertices, deldrift_original_segments, deldrift_refined_weights, deldrift_find_simplices and
+/// deldrift_ordered_star. Cells are numbered anew by each commit, unless changes are taken.
 ///
 /// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves,
 /// or of other vectors that are near those in force, costs what it costs in an open triangulation of as many, and reading the
@@ -176,9 +168,9 @@ pub unsafe extern "C" fn deldrift_vectors(
 /// The shortest vectors of the lattice, which deldrift_wrap_positions translates by: a reduced basis of it.
 ///
 /// vectors: receives rows of 2 (2D) or 3 (3D) numbers. multiples: receives as many rows of whole numbers, the multiples of the
-/// vectors that were given whose sum each one is. greatest: receives a number for each: where two vertices are at places that
-/// deldrift_wrap_positions tells, and an edge leads from the one to a translation of the other, that is one by this multiple of
-/// the vector at most, and its place is calculated without rounding. All are buffers with room for capacity vectors; one
+/// vectors that were given whose sum each one is. greatest: receives a number for each: where vertices are at positions that
+/// deldrift_wrap_positions gives, no edge spans more than greatest[j] times vector j, and the place to which it leads is
+/// calculated without rounding. All are buffers with room for capacity vectors; one
 /// that is NULL is not filled. count: receives their number, 0 for a triangulation that is not periodic; it is also written
 /// when the buffers are too small. NULL for all with capacity 0 asks for the count alone.
 ///
@@ -212,8 +204,9 @@ pub unsafe extern "C" fn deldrift_reduced_vectors(
 /// deldrift_create_periodic, which is where the triangulation would have it.
 ///
 /// positions: count points, in any period; they need not be those of vertices, and the triangulation may have none. previous:
-/// NULL, or count points, where the vertices have been: each goes to the period that is nearest to its entry, if that place is
-/// out of the unit cell by a quarter of it at most, so that a vertex at a side does not go to and fro. places: receives count
+/// NULL, or count points, where the vertices have been: each keeps its
+/// period, the one that is nearest to its entry, while it is at most a quarter of the unit cell outside of it, so that a vertex
+/// does not flip back and forth at a face. places: receives count
 /// points. shifts: receives count rows of 2 (2D) or 3 (3D) whole numbers: by which multiples of the vectors that were given the
 /// position is translated from its place, 0 beyond the last of these.
 ///

@@ -62,7 +62,8 @@ pub struct deldrift_quality {
     /// How many areas there are.
     pub area_count: usize,
     /// By vertex id the greatest length of edges there: no edge of a cell is longer than the mean at its corners. New
-    /// vertices have what is between. Above 0; entries of removed vertices are not used. NULL, the default, for any.
+    /// vertices have what is between. Above 0, infinity for any; entries of removed vertices are not used. NULL, the default,
+    /// for any.
     pub sizes: *const f64,
     /// How many sizes there are: as many as ids, or 0.
     pub size_count: usize,
@@ -218,7 +219,7 @@ pub unsafe extern "C" fn deldrift_quality_init(quality: *mut deldrift_quality) -
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
 /// DELDRIFT_INVALID_OPTIONS for struct_size and keeps, DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE for a number of quality
-/// that has no meaning and for a mask that does not end at segments, DELDRIFT_STAGED_VERTEX if anything is staged,
+/// that has no meaning, those for deldrift_coarsen included, and for a mask that does not end at segments, DELDRIFT_STAGED_VERTEX if anything is staged,
 /// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED, and
 /// DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING where pieces that are bent by rounding would touch others (see
 /// deldrift_segment_conflicts). Not to be called at the same time as any other call on t.
@@ -232,6 +233,7 @@ pub unsafe extern "C" fn deldrift_refine(
 ) -> deldrift_status {
     given!(t: Changing, quality: Given, mask[mask_count]: Array, report: Output);
     improve(t, quality, mask, mask_count, report, |t, given, quality, mask| {
+        coarsening_of(given).check()?;
         let options = RefineOptions {
             keeps: kept_of(given.keeps)?,
             limit: given.limit,
@@ -245,7 +247,7 @@ pub unsafe extern "C" fn deldrift_refine(
 /// still be of the quality, by a margin. Pieces of a segment are joined again. One commit of its own, all or nothing, of
 /// which deldrift_take_changes tells what it changed.
 ///
-/// Arguments are those of deldrift_refine. keeps, has_weights and limit of the quality are not used.
+/// The arguments are those of deldrift_refine. keeps, has_weights and limit of the quality are not used.
 ///
 /// Around cells that are of lower quality already, those that come may have angles as small: call it before deldrift_refine,
 /// which then has less to insert.
@@ -268,8 +270,7 @@ pub unsafe extern "C" fn deldrift_coarsen(
 ) -> deldrift_status {
     given!(t: Changing, quality: Given, mask[mask_count]: Array, report: Output);
     improve(t, quality, mask, mask_count, report, |t, given, quality, mask| {
-        let options = CoarsenOptions { margin: given.margin, share: given.share, joins: given.joins };
-        Ok(t.coarsen(quality, &options, mask)?)
+        Ok(t.coarsen(quality, &coarsening_of(given), mask)?)
     })
 }
 
@@ -305,8 +306,9 @@ pub unsafe extern "C" fn deldrift_made_vertices(
     })
 }
 
-/// For each segment in force, in the order of deldrift_segments, the id of the segment of which deldrift_refine has made it
-/// a piece, which is not in force any more; its own id if it is whole.
+/// For each segment in force, in the order of deldrift_segments, the id of the segment that the program staged and of which
+/// deldrift_stage_splits or deldrift_refine has made it a piece; its own id if it is whole. That segment is not in force any
+/// more, or, where it was split before it was made, has never been.
 ///
 /// originals: a buffer with room for capacity ids. count: receives the number of segments, which is also written when the
 /// buffer is too small. NULL with capacity 0 asks for the count alone.
@@ -368,6 +370,11 @@ pub unsafe extern "C" fn deldrift_refined_weights(
             Ok(())
         })
     })
+}
+
+/// What coarsening is told by a quality.
+fn coarsening_of(given: &deldrift_quality) -> CoarsenOptions {
+    CoarsenOptions { margin: given.margin, share: given.share, joins: given.joins }
 }
 
 /// Runs a call that improves the cells of a mask.

@@ -17,7 +17,8 @@ use crate::motion::Segment;
 pub enum deldrift_conflict_kind {
     /// Two segments cross at a place that is an end of neither: other is the second one, of the higher id.
     DELDRIFT_CONFLICT_CROSSING = 0,
-    /// A vertex is on the segment, and is not one of its ends: other is the lowest id at the place.
+    /// A vertex is on the segment, and is not one of its ends: other is the one that represents the place: of
+    /// several vertices there the lowest id, or key.
     DELDRIFT_CONFLICT_ON_SEGMENT = 1,
     /// An end of the segment has been removed, or would be: other is the end, DELDRIFT_NONE if deldrift_compact has been
     /// called since.
@@ -166,7 +167,7 @@ pub unsafe extern "C" fn deldrift_segments(
     })
 }
 
-/// Whether segments would stand against a commit of what is staged: moves, insertions, removals and segments. Returns what
+/// Whether a commit of what is staged, moves, insertions, removals and segments, would be refused because of segments. Returns what
 /// deldrift_commit_timestamp would return as far as segments are concerned, and commits nothing: what is staged stays so.
 /// deldrift_segment_conflicts then tells all conflicts, so that a solver can cut its step. Without segments, in force or
 /// staged, nothing is looked at, and in 3D there are none. Ends all views, as a commit does.
@@ -187,15 +188,24 @@ pub unsafe extern "C" fn deldrift_check_staged(t: *mut deldrift_triangulation) -
     t.change(|t| in_its_dimension!(t => Ok(t.check_staged()?)))
 }
 
-/// The conflicts for which the latest change, or check, of t was refused: all of them, in ascending order of kind, segment
-/// and other. None if it was not refused for conflicts. Staging, discarding and questions keep them. Ids of segments and
-/// vertices may be of such as were staged, and have been discarded since.
+/// The conflicts for which the latest call that changes or checks t was refused: all of them, in ascending order of kind,
+/// segment and other. None if it was not refused for conflicts. Ids of segments and vertices may be of such as were staged, and
+/// have been discarded since.
+///
+/// This list and that of deldrift_passings are both of one call, the latest of deldrift_commit_timestamp,
+/// deldrift_commit_positions, deldrift_prepare_timestamp, deldrift_check_staged, deldrift_check_passings,
+/// deldrift_stage_splits, deldrift_relocate_vertex, deldrift_insert_vertex, deldrift_insert_vertex_with_key,
+/// deldrift_remove_vertex, deldrift_refine, deldrift_coarsen and deldrift_compact. Each of them empties both lists when it
+/// begins, whatever comes of it, unless it is turned away with DELDRIFT_PREPARED or DELDRIFT_BUSY, or for a pointer or a
+/// structure that is no good. Calls that stage, discard, publish, withdraw or ask keep them. A copy, and what is loaded, has
+/// none.
 ///
 /// conflicts: a buffer with room for capacity entries. count: receives their number, which is also written when the buffer
 /// is too small. NULL with capacity 0 asks for the count alone.
 ///
-/// A segment of several ids has a conflict for each of them. Those of a segment without two ends, which are of the kinds
-/// DELDRIFT_CONFLICT_END_REMOVED and DELDRIFT_CONFLICT_ENDS_MEET, are all that is told of it.
+/// Where several segments are at one edge, each has conflicts of its own. A segment that loses both ends has a conflict for
+/// each. Those of a segment without two ends, which are of the kinds DELDRIFT_CONFLICT_END_REMOVED and
+/// DELDRIFT_CONFLICT_ENDS_MEET, are all that is told of it.
 ///
 /// Cost: the number of conflicts.
 ///
@@ -253,11 +263,10 @@ pub unsafe extern "C" fn deldrift_check_passings(t: *mut deldrift_triangulation)
     })
 }
 
-/// The vertices that pass segments in the step that was looked at last, by deldrift_check_passings, or by the latest
-/// commit, deldrift_check_staged or deldrift_relocate_vertex: in ascending order of segment and vertex. With
-/// DELDRIFT_PASSING_TELL those that have passed in the latest commit, with DELDRIFT_PASSING_REFUSE those for which it was
-/// refused; with DELDRIFT_PASSING_IGNORE a commit leaves none. Staging, discarding and questions keep them, and so do calls
-/// that insert or remove a vertex at once.
+/// The vertices that pass segments in the step that the latest call has looked at: deldrift_check_passings, or, where the
+/// options say that they look, a commit, deldrift_prepare_timestamp, deldrift_check_staged or deldrift_relocate_vertex; in
+/// ascending order of segment and vertex. With DELDRIFT_PASSING_TELL those that have passed in the latest commit, with
+/// DELDRIFT_PASSING_REFUSE those for which it was refused. deldrift_segment_conflicts says which calls empty the list.
 ///
 /// segments: a buffer with room for capacity ids; vertices: for capacity ids; entry k of vertices
 /// passes entry k of segments. One that is NULL is not filled. count: receives their number, which is also written when the

@@ -64,6 +64,9 @@ impl From<SplitReport> for deldrift_split_report {
 /// discarded as if the program had staged it; what is staged afterwards may be in the way of pieces, which can be split again.
 /// Vertices that were inserted where segments cross stay when segments are removed, as all do.
 ///
+/// Passings are not looked at, whatever the options say of them: a vertex that stops on a segment is where the segment is
+/// split. The commit looks at them, but for those of segments that leave, and of pieces.
+///
 /// Cost: that of deldrift_check_staged for each round and once more; for m crossings that of sorting them, and a search among
 /// them for each vertex.
 ///

@@ -17,7 +17,7 @@ use parts::{OfCells, OfFacets, box_for, clip_for, half_space_rows, mask_for, wri
 /// convex hull are infinite. volumes: a buffer with room for capacity numbers. count: receives the number of ids, which
 /// is also written when the buffer is too small. NULL for volumes with capacity 0 asks for the count alone.
 ///
-/// A removed vertex has NaN, and nothing else has. A hidden vertex has 0: the one of lowest id at its place has the
+/// NaN is for removed vertices only. A hidden vertex has 0: the one of lowest id at its place has the
 /// cell. Vertices in one hyperplane, a single one included, have cells too, though deldrift_cells has none: in a box
 /// what of it is nearest to each; without one these are infinite. What is beyond the range of numbers, or has a corner
 /// there, is infinite.
@@ -82,9 +82,8 @@ pub unsafe extern "C" fn deldrift_voronoi_volumes(
 ///
 /// There is one number for each edge of the triangulation, so vertices in one hyperplane have none; each is the measure
 /// of what both cells share, whichever of the two it is seen from. It is never NaN, and infinite where a corner is
-/// beyond the range of numbers. Of vertices on an empty circle or sphere some share an edge only as ties are broken by
-/// id: their Voronoi facet is a point, or in space may be a segment, and has 0 but for rounding; others, which have no
-/// edge, share no more than that. A facet outside the box has 0. One that is in a face of the box counts as inside.
+/// beyond the range of numbers. Edges that exist only by tie-breaking have a facet of measure 0, up to rounding: of
+/// vertices on an empty circle or sphere; those of them that have no edge share no more than that. A facet outside the box has 0. One that is in a face of the box counts as inside.
 ///
 /// Rounded: with the h that deldrift_voronoi_volumes has, of the cells around the edge, a length is off by at most 2 h,
 /// an area by at most h times the perimeter of the facet, however near to each other vertices are. Never negative. The

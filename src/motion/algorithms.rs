@@ -1,7 +1,7 @@
 //! The algorithms: one row for each.
 //!
 //! The C enumeration, the tests that run over all algorithms, the benchmark's engines and its report follow from the
-//! rows; the tables of README.md and docs/ARCHITECTURE.md and the list of CHANGELOG.md are checked against them
+//! rows; the tables of docs/WHICH_ALGORITHM.md and docs/ARCHITECTURE.md and the list of CHANGELOG.md are checked against them
 //! (ffi-tests/algorithms.rs). So an algorithm needs a file with its commit, a row here, and its documentation.
 
 use crate::motion::region_kind::RegionKind;

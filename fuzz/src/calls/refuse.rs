@@ -342,6 +342,7 @@ impl History<'_> {
         if self.m.d == 3 {
             let wanted = DELDRIFT_INVALID_DIMENSION;
             self.expect(wanted, || c!(deldrift_nesting_levels(t, none, 0, &mut count)));
+            self.expect(wanted, || c!(deldrift_crossing_numbers(t, none, 0, &mut count)));
             self.expect(wanted, || c!(deldrift_check_passings(t)));
             self.expect(wanted, || {
                 c!(deldrift_update_labels(t, none, 0, 8, labels.as_mut_ptr(), cells, &mut count))

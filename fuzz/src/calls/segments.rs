@@ -433,6 +433,10 @@ impl History<'_> {
             }
         }
         assert_eq!(levels, wanted, "levels");
+        // Each segment is crossed at an edge, and each edge crossed has one.
+        let numbers = self.copied(77, 1, |to, room, count| c!(deldrift_crossing_numbers(t, to, room, count)));
+        let agrees = |(&number, &level): (&u32, &u32)| number >= level && (number == 0) == (level == 0);
+        assert!(numbers.len() == levels.len() && numbers.iter().zip(&levels).all(agrees), "crossing numbers");
         let seeds: Vec<Place> = (0..n_seeds).map(|_| self.place()).collect();
         let (numbers, labels) = (flattened(&seeds, 2), [5, -5, i32::MAX]);
         let mut told = vec![77; sides.len()];

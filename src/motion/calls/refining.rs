@@ -20,7 +20,6 @@ use crate::motion::state::mesh::Standing;
 use crate::motion::state::segments::Segment;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::refine::{self, Candidate, Criteria, NONE, Origins, Refined, Room, Tests};
-use checks::check_coarsening;
 use reading::Read;
 use staging::SegmentChanges;
 
@@ -161,7 +160,7 @@ impl MovingTriangulation<Plane> {
         self.reject_prepared()?;
         self.mesh.found.begin();
         self.check_quality(quality, mask)?;
-        check_coarsening(options)?;
+        options.check()?;
         let mut report = QualityReport::default();
         let quality_asked = asked(quality)?;
         let all_asked = asked_with(&quality_asked, options)?;

@@ -93,7 +93,7 @@ impl MovingTriangulation<Plane> {
     ///
     /// Segments that overlap have common pieces, each with an id for each of them. A crossing that is rounded to the place of a
     /// vertex gets that one; where a segment crosses another one so near to an end of this that a place on it is rounded to that
-    /// of the end, it is cut there.
+    /// of the end, it is cut there. Passings are not looked at.
     ///
     /// ```
     /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options, Segment}};

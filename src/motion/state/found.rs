@@ -57,11 +57,13 @@ impl Found {
     }
 }
 
-/// Sorts what has been found, and refuses it, by the first.
-pub(in crate::motion) fn refuse_conflicts(conflicts: &mut [Conflict]) -> Result<()> {
+/// Sorts what has been found, and refuses it, by the first. Ends that have lost their ids, and an end that is both of a
+/// segment, are told once.
+pub(in crate::motion) fn refuse_conflicts(conflicts: &mut Vec<Conflict>) -> Result<()> {
     conflicts.sort_unstable();
-    match conflicts {
+    conflicts.dedup();
+    match conflicts[..] {
         [] => Ok(()),
-        [conflict, others @ ..] => Err(Error::Conflict { conflict: *conflict, others: others.len() }),
+        [conflict, ref others @ ..] => Err(Error::Conflict { conflict, others: others.len() }),
     }
 }

@@ -359,8 +359,10 @@ impl<G: Dimension> Segments<G> {
             }
             // An end that was removed before a compaction has no id any more.
             let sites = segment.ends.map(|v| site_of.get(v.index()).copied().unwrap_or(SiteId::NONE));
-            if let Some(k) = (0..2).find(|&k| sites[k] == SiteId::NONE) {
-                memory::push(conflicts, Conflict::EndRemoved { segment: id, vertex: segment.ends[k] })?;
+            if sites.contains(&SiteId::NONE) {
+                for k in (0..2).filter(|&k| sites[k] == SiteId::NONE) {
+                    memory::push(conflicts, Conflict::EndRemoved { segment: id, vertex: segment.ends[k] })?;
+                }
             } else if sites[0] == sites[1] {
                 memory::push(conflicts, Conflict::EndsMeet { segment: id })?;
             } else {

@@ -55,8 +55,11 @@ fn check_all(
     }
 }
 
-pub(super) fn check_coarsening(options: &CoarsenOptions) -> Result<()> {
-    check_all("margin", &[options.margin], |x| (0.0..=30.0).contains(&x), "from 0 to 30 degrees")?;
-    check_all("share", &[options.share], |x| x > 0.0 && x <= 1.0, "above 0 and up to 1")?;
-    check_all("joins", &[options.joins], |x| (0.0..=1.0).contains(&x), "from 0 to 1")
+impl CoarsenOptions {
+    /// Whether each number has a meaning.
+    pub(crate) fn check(&self) -> Result<()> {
+        check_all("margin", &[self.margin], |x| (0.0..=30.0).contains(&x), "from 0 to 30 degrees")?;
+        check_all("share", &[self.share], |x| x > 0.0 && x <= 1.0, "above 0 and up to 1")?;
+        check_all("joins", &[self.joins], |x| (0.0..=1.0).contains(&x), "from 0 to 1")
+    }
 }

@@ -31,14 +31,23 @@ impl MovingTriangulation<Plane> {
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn segments_of_cells(&self) -> Result<Vec<[SegmentId; 3]>> {
+        self.rows_of_cells(SegmentId::NONE, |entry, id| *entry = id.min(*entry))
+    }
+
+    /// For each cell and each of its corners how many segments there are at the edge opposite it.
+    pub(super) fn segment_counts_of_cells(&self) -> Result<Vec<[u32; 3]>> {
+        self.rows_of_cells(0, |entry, _| *entry += 1)
+    }
+
+    /// A row for each cell, in which each segment enters itself where it is opposite a corner.
+    fn rows_of_cells<T: Copy>(&self, none: T, enter: impl Fn(&mut T, SegmentId)) -> Result<Vec<[T; 3]>> {
         let cells = self.cell_arrays()?;
         let mut rows = Vec::new();
-        memory::lengthen(&mut rows, cells.corners().len(), [SegmentId::NONE; 3])?;
+        memory::lengthen(&mut rows, cells.corners().len(), [none; 3])?;
         for (id, sides) in self.facets_beside_segments()? {
             for facet in sides.into_iter().flatten() {
                 let (cell, corner) = cells.shown(facet);
-                let entry = &mut rows[cell.index()][corner];
-                *entry = id.min(*entry);
+                enter(&mut rows[cell.index()][corner], id);
             }
         }
         Ok(rows)

@@ -1,5 +1,8 @@
 //! Regions: the cells that are reached from each other without crossing a segment.
 
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
 use crate::delaunay::Plane;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, SegmentId};
@@ -19,45 +22,90 @@ fn of_seeds(mut error: Error) -> Error {
     error
 }
 
+/// Cells that are reached at a level later than those that wait for the next one; the first ones on top.
+type Later = BinaryHeap<(Reverse<u32>, CellId)>;
+
+/// Has a cell wait where it is reached, while all levels below `level` are known.
+fn await_at(
+    reached: u32,
+    cell: CellId,
+    (level, here, next, later): (u32, &mut Vec<CellId>, &mut Vec<CellId>, &mut Later),
+) -> Result<()> {
+    match reached - level {
+        0 => memory::push(here, cell),
+        1 => memory::push(next, cell),
+        _ => memory::enter(later, (Reverse(reached), cell)),
+    }
+}
+
 impl MovingTriangulation<Plane> {
     /// How many segments at least a way crosses from each cell to the outside, in the order of [`cells`](Self::cells).
     /// Cells outside of all closed chains of segments have 0, those of a domain 1, those of a hole in it 2. A segment
-    /// with one region on both sides, such as a slit, divides nothing. That is how CGAL marks domains.
+    /// with one region on both sides, such as a slit, divides nothing, and several at one edge count once. That is how CGAL
+    /// marks domains.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`].
     pub fn nesting_levels(&self) -> Result<Vec<u32>> {
+        self.least_crossed(|segments| segments.min(1))
+    }
+
+    /// How many segments at least a way crosses from each cell to the outside, in the order of [`cells`](Self::cells),
+    /// where several at one edge count each. Of closed chains, each way crosses as many but for an even number: an odd one
+    /// is what the even-odd rule fills.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn crossing_numbers(&self) -> Result<Vec<u32>> {
+        self.least_crossed(|segments| segments)
+    }
+
+    /// The least length of a way from each cell to the outside, where an edge with so many segments has this length, which
+    /// is 0 without segments.
+    fn least_crossed(&self, length: impl Fn(u32) -> u32) -> Result<Vec<u32>> {
         let cells = self.cell_arrays()?;
-        let at_edges = self.segments_of_cells()?;
+        let at_edges = self.segment_counts_of_cells()?;
         let mut levels = Vec::new();
         memory::lengthen(&mut levels, at_edges.len(), UNKNOWN)?;
-        let [mut here, mut further] = [Vec::new(), Vec::new()];
+        let mut level = 0;
+        // The cells at this level, at the next one, and at later ones.
+        let [mut here, mut next] = [Vec::new(), Vec::new()];
+        let mut later = Later::new();
         for (cell, neighbours) in CellId::range(0..at_edges.len()).zip(cells.neighbours()) {
             for i in (0..3).filter(|&i| neighbours[i] == NO_CELL) {
-                let is_crossed = at_edges[cell.index()][i] != SegmentId::NONE;
-                memory::push(if is_crossed { &mut further } else { &mut here }, cell)?;
+                let crossed = length(at_edges[cell.index()][i]);
+                await_at(crossed, cell, (level, &mut here, &mut next, &mut later))?;
             }
         }
-        let mut level = 0;
-        while !(here.is_empty() && further.is_empty()) {
+        loop {
             while let Some(cell) = here.pop() {
-                if std::mem::replace(&mut levels[cell.index()], level) != UNKNOWN {
+                if levels[cell.index()] != UNKNOWN {
                     continue;
                 }
-                for (across, segment) in cells.neighbours()[cell].into_iter().zip(at_edges[cell.index()]) {
+                levels[cell.index()] = level;
+                for (across, segments) in cells.neighbours()[cell].into_iter().zip(at_edges[cell.index()]) {
                     if across != NO_CELL && levels[across.index()] == UNKNOWN {
-                        memory::push(
-                            if segment == SegmentId::NONE { &mut here } else { &mut further },
-                            across,
-                        )?;
+                        let reached = level + length(segments);
+                        await_at(reached, across, (level, &mut here, &mut next, &mut later))?;
                     }
                 }
             }
-            level += 1;
-            further.retain(|cell| levels[cell.index()] == UNKNOWN);
-            std::mem::swap(&mut here, &mut further);
+            next.retain(|cell: &CellId| levels[cell.index()] == UNKNOWN);
+            if next.is_empty() {
+                let Some(&(Reverse(reached), _)) = later.peek() else { return Ok(levels) };
+                level = reached;
+            } else {
+                level += 1;
+                std::mem::swap(&mut here, &mut next);
+            }
+            while let Some(&(Reverse(reached), cell)) = later.peek() {
+                if reached > level {
+                    break;
+                }
+                later.pop();
+                memory::push(&mut here, cell)?;
+            }
         }
-        Ok(levels)
     }
 
     /// The number of the region of each cell, in the order of [`cells`](Self::cells).
