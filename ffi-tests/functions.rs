@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::coverage::{declarations, function_name};
-use crate::support::{headers, repository, text_of};
+use crate::support::{Linkage, build, command, fresh_folder, headers, repository, succeed, text_of};
 
 const TABLE: &str = "docs/FUNCTIONS.md";
 
@@ -52,6 +52,28 @@ fn every_function_says_what_it_costs_and_is_measured() {
         assert!(rows.contains(&format!("{{\"{name}\", ")), "no row of benches/costs is about {name}");
         assert!(tables.contains(&format!("| `{name}` |")), "docs/COSTS.md is stale: run make costs");
     }
+}
+
+/// Calls that are short on the sets of a tour, and have their callbacks called where they are long.
+const SHORT: [&str; 0] = [];
+
+/// The header has a rule for it: who may be cancelled says so among its errors. What a tour finds is what follows from that.
+#[test]
+fn callbacks_are_called_from_where_the_header_says() {
+    let folder = fresh_folder("callbacks");
+    let program = build(&repository("ffi-tests/c/callbacks.c"), &folder, Linkage::Shared, &[]);
+    let said = succeed(&mut command(program));
+    let calling: BTreeSet<&str> = said.lines().collect();
+    let functions = functions();
+    let may_cancel = |function: &&Function| {
+        let (_, errors) = function.documentation.split_once("Errors:").unwrap_or_default();
+        errors.contains("DELDRIFT_CANCELLED")
+    };
+    let documented: BTreeSet<&str> = functions.iter().filter(may_cancel).map(|function| function.name.as_str()).collect();
+    let silent: Vec<_> = calling.difference(&documented).collect();
+    assert!(silent.is_empty(), "these call callbacks, and the header does not say so: {silent:?}");
+    let missing: Vec<_> = documented.difference(&calling).copied().collect();
+    assert_eq!(missing, SHORT, "these may be cancelled, the header says, and no callback is called");
 }
 
 #[test]

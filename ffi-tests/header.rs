@@ -110,7 +110,8 @@ impl Header {
         let path = repository(self.configuration);
         let mut config = cbindgen::Config::from_file(path).expect("the configuration is valid");
         let is_main = self.path == MAIN.path;
-        config.header = config.header.map(|page| page.trim().replace("@EXAMPLE@", &example()));
+        let page = |page: String| page.trim().replace("@EXAMPLE@", &example()).replace("@INDEX@", &self.index());
+        config.header = config.header.map(page);
         config.after_includes = is_main.then(version);
         let enumeration = fresh_folder(self.algorithms).join("algorithms.rs");
         fs::write(&enumeration, self.enumeration_of_algorithms()).expect("a source can be written");
@@ -121,7 +122,39 @@ impl Header {
         let mut header = Vec::new();
         builder.generate().expect("the sources are understood").write(&mut header);
         let header = enumerations_in_c(&String::from_utf8(header).expect("the sources are text"));
-        header.lines().map(|line| without_tags(line) + "\n").collect()
+        let header: String = header.lines().map(|line| without_tags(line) + "\n").collect();
+        self.with_headings(&header)
+    }
+
+    /// The heading of each file that has functions, which is its first line, and the first of these.
+    fn headings(&self) -> impl Iterator<Item = (String, String)> {
+        self.sources.iter().filter_map(|source| {
+            let text = text_of(&format!("src/capi/{source}.rs"));
+            let heading = text.lines().next().and_then(|line| line.strip_prefix("//! "));
+            let (_, function) = text.split_once("extern \"C\" fn ")?;
+            let (function, _) = function.split_once('(').expect("a function has parameters");
+            Some((heading.expect("a file says what it is").to_string(), function.to_string()))
+        })
+    }
+
+    /// The headings, each with the function that it is above.
+    fn index(&self) -> String {
+        let lines = self.headings().map(|(heading, function)| format!(" *     {heading}\n *         {function}"));
+        lines.collect::<Vec<_>>().join("\n")
+    }
+
+    /// Puts each heading above the documentation of its first function.
+    fn with_headings(&self, header: &str) -> String {
+        let mut lines: Vec<String> = header.lines().map(str::to_string).collect();
+        for (heading, function) in self.headings() {
+            let call = format!(" {function}(");
+            let is_declared = |line: &String| line.replace('*', " ").contains(&call) && !line.starts_with(['/', ' ']);
+            let at = lines.iter().position(is_declared).unwrap_or_else(|| panic!("{function} is declared"));
+            let start = lines[..at].iter().rposition(|line| !line.starts_with("///")).map_or(0, |line| line + 1);
+            let rule = format!("// {}", "-".repeat(117));
+            lines.splice(start..start, [rule.clone(), format!("// {heading}"), rule, String::new()]);
+        }
+        lines.join("\n") + "\n"
     }
 
     /// The algorithms, as a source. What the enumeration says of itself is said of the type of its numbers.

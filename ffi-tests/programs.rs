@@ -28,7 +28,7 @@ fn cpp_programs_run_with_the_static_library() {
 }
 
 /// Programs that tell what they have tried.
-const REPORTING: [&str; 4] = ["faults.c", "limits.c", "memory_bytes.c", "stack.c"];
+const REPORTING: [&str; 5] = ["callbacks.c", "faults.c", "limits.c", "memory_bytes.c", "stack.c"];
 
 /// Builds and runs the programs of a language. All others are silent.
 fn run_all(language: &str, linkage: Linkage) {

@@ -79,7 +79,7 @@ fn declarations_in(header: &str) -> Vec<Declaration> {
             documentation += text;
         } else if line == "}" {
             is_body = false;
-        } else if !line.starts_with(['#', '}']) && !is_body {
+        } else if !line.starts_with(['#', '}']) && !line.starts_with("// ") && !is_body {
             code = code + line.trim() + " ";
             is_body = line.ends_with('{');
         }

@@ -255,6 +255,35 @@ static void chains_do_not_cross(void) {
     deldrift_destroy(t);
 }
 
+static double area_of_odd(const deldrift_triangulation *t, const uint32_t *numbers) {
+    static double areas[ROOM];
+    size_t n;
+    double sum = 0;
+    OK(deldrift_volumes(t, areas, ROOM, &n));
+    for (size_t c = 0; c < n; c++) sum += numbers[c] % 2 == 1 ? areas[c] : 0;
+    return sum;
+}
+
+// A square with a notch that is a chain of its own along a side, and the square twice: segments count each, or as one wall.
+static void shared_sides_count_each(void) {
+    const double corners[] = {0, 0, 4, 0, 4, 4, 0, 4, 1, 0, 3, 0, 3, 2, 1, 2};
+    const uint32_t square[] = {0, 4, 4, 5, 5, 1, 1, 2, 2, 3, 3, 0}, notch[] = {4, 5, 5, 6, 6, 7, 7, 4};
+    for (int is_notch = 0; is_notch < 2; is_notch++) {
+        deldrift_triangulation *t = create(2, corners, is_notch ? 8 : 6, NULL);
+        static uint32_t numbers[ROOM];
+        uint32_t first;
+        size_t count;
+        OK(deldrift_stage_segments(t, square, NULL, 6, &first));
+        OK(deldrift_stage_segments(t, is_notch ? notch : square, NULL, is_notch ? 4 : 6, &first));
+        OK(deldrift_commit_timestamp(t, NULL));
+        look(t);
+        check_levels();
+        OK(deldrift_crossing_numbers(t, numbers, ROOM, &count));
+        CHECK(count == s.n && area_of_odd(t, s.levels) == 16 && area_of_odd(t, numbers) == (is_notch ? 12 : 0));
+        deldrift_destroy(t);
+    }
+}
+
 static void without_cells_there_is_nothing(void) {
     const double line[] = {0, 0, 1, 1, 2, 2};
     deldrift_triangulation *t = create(2, line, 3, NULL);
@@ -265,6 +294,8 @@ static void without_cells_there_is_nothing(void) {
     OK(deldrift_cells_of_segments(t, cells, 1, &count));
     CHECK(count == 1 && cells[0] == DELDRIFT_NONE && cells[1] == DELDRIFT_NONE);
     OK(deldrift_nesting_levels(t, NULL, 0, &count));
+    CHECK(count == 0);
+    OK(deldrift_crossing_numbers(t, NULL, 0, &count));
     CHECK(count == 0);
     OK(deldrift_label_cells(t, line, (int32_t[]){1}, 1, 0, NULL, 0, &count));
     OK(deldrift_segments_of_cells(t, NULL, 0, &count));
@@ -320,6 +351,7 @@ static void arguments_are_checked(void) {
     CHECK_BUFFER(uint32_t, 4, 3, deldrift_segments_of_cells(t, buffer, capacity, &count));
     CHECK_BUFFER(uint32_t, 2, 2, deldrift_cells_of_segments(t, buffer, capacity, &count));
     CHECK_BUFFER(uint32_t, 4, 1, deldrift_nesting_levels(t, buffer, capacity, &count));
+    CHECK_BUFFER(uint32_t, 4, 1, deldrift_crossing_numbers(t, buffer, capacity, &count));
     CHECK_BUFFER(int32_t, 4, 1, deldrift_label_cells(t, corners + 2, &label, 1, 0, buffer, capacity, &count));
     OK(deldrift_boundary_chains(t, mask, 4, NULL, NULL, NULL, NULL, NULL, 0, &count));
     const size_t n = count;
@@ -341,6 +373,7 @@ static void arguments_are_checked(void) {
     CHECK_STATUS(deldrift_update_labels(t, NULL, 0, 0, told, 0, &count), DELDRIFT_BUFFER_TOO_SMALL);
     CHECK_STATUS(deldrift_update_labels(t, NULL, 0, 0, told, 8, NULL), DELDRIFT_NULL_ARGUMENT);
     CHECK_STATUS(deldrift_nesting_levels(solid, ids, 8, &count), DELDRIFT_INVALID_DIMENSION);
+    CHECK_STATUS(deldrift_crossing_numbers(solid, ids, 8, &count), DELDRIFT_INVALID_DIMENSION);
     CHECK_STATUS(deldrift_segments_of_cells(solid, ids, 2, &count), DELDRIFT_INVALID_DIMENSION);
     CHECK_STATUS(deldrift_cells_of_segments(solid, ids, 4, &count), DELDRIFT_INVALID_DIMENSION);
     CHECK_STATUS(deldrift_boundary_chains(solid, mask, 4, ids, NULL, NULL, NULL, NULL, 8, &count), DELDRIFT_INVALID_DIMENSION);
@@ -352,6 +385,7 @@ int main(void) {
     a_domain_keeps_its_areas_while_its_hole_turns();
     slits_and_islands_have_levels();
     chains_do_not_cross();
+    shared_sides_count_each();
     without_cells_there_is_nothing();
     labels_follow_the_changes();
     arguments_are_checked();

@@ -9,7 +9,16 @@
 
 #include <unistd.h>
 
-enum { TOUR_POINTS = 48, TOUR_STEPS = 360, TOUR_ROOM = 1 << 14, TOUR_FILE = 1 << 18 };
+// How many points there are at most, and room for what calls give; a program that includes this may define another number.
+#ifndef TOUR_SIZE
+#define TOUR_SIZE 48
+#endif
+enum {
+    TOUR_POINTS = TOUR_SIZE,
+    TOUR_STEPS = 360,
+    TOUR_ROOM = TOUR_SIZE <= 48 ? 1 << 14 : TOUR_SIZE << 7,
+    TOUR_FILE = TOUR_SIZE <= 48 ? 1 << 18 : TOUR_SIZE << 12
+};
 
 // What a tour is given.
 typedef struct {

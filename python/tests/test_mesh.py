@@ -117,6 +117,25 @@ def test_odd_levels_without_holes(seed):
             rings = np.split(mesh.points[:count], np.cumsum([len(one) for one in rings])[:-1])
 
 
+def test_shared_sides_count_each_by_even_odd():
+    square = [[0, 0], [4, 0], [4, 4], [0, 4], [1, 0], [3, 0], [3, 2], [1, 2]]
+    sides, notch = [[0, 4], [4, 5], [5, 1], [1, 2], [2, 3], [3, 0]], [[4, 5], [5, 6], [6, 7], [7, 4]]
+    hole = [[6, 7], [7, 4], [4, 6]]
+    for more, nested, filled in (notch, 16, 12), (sides, 16, 0), (sides + sides, 16, 16), (hole, 14, 14):
+        areas = []
+        for keep in "nesting", "even-odd":
+            mesh = deldrift.Mesh(square, sides + more, keep=keep)
+            for made in mesh, mesh.copy():
+                areas.append(made.delaunay.volumes()[made.mask].sum())
+        assert areas == [nested, nested, filled, filled]
+    assert len(deldrift.Mesh(square, sides + notch).triangles) > 0
+    with pytest.raises(deldrift.InvalidValue, match="keep is 'odd', and must be one of 'nesting', 'even-odd'"):
+        deldrift.Mesh(square, sides, keep="odd")
+    mesh = deldrift.Mesh(square, sides + notch, keep="even-odd")
+    mesh.refine(greatest_area=0.25)
+    assert abs(mesh.delaunay.volumes()[mesh.mask].sum() - 12) < 1e-12
+
+
 def corners_of(points, triangles):
     places = exact.fractions_of(points)
     return [[places[v] for v in row] for row in triangles.tolist()]

@@ -34,8 +34,8 @@ use super::status::deldrift_status;
 /// Cost: that of deldrift_commit_timestamp, and in later rounds a copy of where vertices were that the last one has moved. If t
 /// is periodic, in the first round a copy of t, and as much memory; to publish or withdraw it frees one of both.
 ///
-/// Errors: those of deldrift_commit_timestamp, DELDRIFT_OUT_OF_MEMORY among them, except DELDRIFT_PREPARED. Not to be called at
-/// the same time as any other call on t.
+/// Errors: those of deldrift_commit_timestamp, DELDRIFT_OUT_OF_MEMORY and DELDRIFT_CANCELLED among them, except
+/// DELDRIFT_PREPARED. Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_prepare_timestamp(
     t: *mut deldrift_triangulation,

@@ -219,10 +219,10 @@ pub unsafe extern "C" fn deldrift_quality_init(quality: *mut deldrift_quality) -
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
 /// DELDRIFT_INVALID_OPTIONS for struct_size and keeps, DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE for a number of quality
-/// that has no meaning, those for deldrift_coarsen included, and for a mask that does not end at segments, DELDRIFT_STAGED_VERTEX if anything is staged,
-/// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED, and
-/// DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING where pieces that are bent by rounding would touch others (see
-/// deldrift_segment_conflicts). Not to be called at the same time as any other call on t.
+/// that has no meaning, those for deldrift_coarsen included, and for a mask that does not end at segments,
+/// DELDRIFT_STAGED_VERTEX if anything is staged, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY,
+/// DELDRIFT_CANCELLED, and DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING where pieces that are bent by rounding would touch
+/// others (see deldrift_segment_conflicts). Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_refine(
     t: *mut deldrift_triangulation,

@@ -167,10 +167,10 @@ pub unsafe extern "C" fn deldrift_segments(
     })
 }
 
-/// Whether a commit of what is staged, moves, insertions, removals and segments, would be refused because of segments. Returns what
-/// deldrift_commit_timestamp would return as far as segments are concerned, and commits nothing: what is staged stays so.
-/// deldrift_segment_conflicts then tells all conflicts, so that a solver can cut its step. Without segments, in force or
-/// staged, nothing is looked at, and in 3D there are none. Ends all views, as a commit does.
+/// Whether a commit of what is staged, moves, insertions, removals and segments, would be refused because of segments.
+/// Returns what deldrift_commit_timestamp would return as far as segments are concerned, and commits nothing: what is staged
+/// stays so. deldrift_segment_conflicts then tells all conflicts, so that a solver can cut its step. Without segments, in
+/// force or staged, nothing is looked at, and in 3D there are none. Ends all views, as a commit does.
 ///
 /// A program that commits at once where nothing conflicts need not check first: a commit that is refused has no effect, and
 /// tells the conflicts as well.

@@ -83,7 +83,8 @@ pub unsafe extern "C" fn deldrift_voronoi_volumes(
 /// There is one number for each edge of the triangulation, so vertices in one hyperplane have none; each is the measure
 /// of what both cells share, whichever of the two it is seen from. It is never NaN, and infinite where a corner is
 /// beyond the range of numbers. Edges that exist only by tie-breaking have a facet of measure 0, up to rounding: of
-/// vertices on an empty circle or sphere; those of them that have no edge share no more than that. A facet outside the box has 0. One that is in a face of the box counts as inside.
+/// vertices on an empty circle or sphere; those of them that have no edge share no more than that. A facet outside the box
+/// has 0. One that is in a face of the box counts as inside.
 ///
 /// Rounded: with the h that deldrift_voronoi_volumes has, of the cells around the edge, a length is off by at most 2 h,
 /// an area by at most h times the perimeter of the facet, however near to each other vertices are. Never negative. The

@@ -1,6 +1,7 @@
 //! Stores: what a triangulation is at its last commit, what waits for the next one, and what undoes a change.
 //!
-//! Each has private fields, but for the mesh and rounds, and knows nothing of the triangulation or of how it gets from one timestamp to the next.
+//! Each has private fields, but for the mesh and rounds, and knows nothing of the triangulation or of how it gets from one
+//! timestamp to the next.
 
 pub(in crate::motion) mod cells;
 pub(in crate::motion) mod changes;

@@ -3,8 +3,8 @@
 //! A chain goes on at its vertex with the edge that ends the fan of masked cells around it. So at a vertex where two parts
 //! of the set touch, each part keeps its own chain, and no chain crosses another.
 //!
-//! Each chain begins with its least edge, by the id of where an edge begins and then of where it ends, and chains are in the order of these: the list is a
-//! function of the set of cells alone.
+//! Each chain begins with its least edge, by the id of where an edge begins and then of where it ends, and chains are in the
+//! order of these: the list is a function of the set of cells alone.
 
 use crate::delaunay::Plane;
 use crate::error::Result;
