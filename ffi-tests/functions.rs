@@ -69,7 +69,8 @@ fn callbacks_are_called_from_where_the_header_says() {
         let (_, errors) = function.documentation.split_once("Errors:").unwrap_or_default();
         errors.contains("DELDRIFT_CANCELLED")
     };
-    let documented: BTreeSet<&str> = functions.iter().filter(may_cancel).map(|function| function.name.as_str()).collect();
+    let documented: BTreeSet<&str> =
+        functions.iter().filter(may_cancel).map(|function| function.name.as_str()).collect();
     let silent: Vec<_> = calling.difference(&documented).collect();
     assert!(silent.is_empty(), "these call callbacks, and the header does not say so: {silent:?}");
     let missing: Vec<_> = documented.difference(&calling).copied().collect();

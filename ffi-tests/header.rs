@@ -110,7 +110,8 @@ impl Header {
         let path = repository(self.configuration);
         let mut config = cbindgen::Config::from_file(path).expect("the configuration is valid");
         let is_main = self.path == MAIN.path;
-        let page = |page: String| page.trim().replace("@EXAMPLE@", &example()).replace("@INDEX@", &self.index());
+        let page =
+            |page: String| page.trim().replace("@EXAMPLE@", &example()).replace("@INDEX@", &self.index());
         config.header = config.header.map(page);
         config.after_includes = is_main.then(version);
         let enumeration = fresh_folder(self.algorithms).join("algorithms.rs");
@@ -139,7 +140,8 @@ impl Header {
 
     /// The headings, each with the function that it is above.
     fn index(&self) -> String {
-        let lines = self.headings().map(|(heading, function)| format!(" *     {heading}\n *         {function}"));
+        let lines =
+            self.headings().map(|(heading, function)| format!(" *     {heading}\n *         {function}"));
         lines.collect::<Vec<_>>().join("\n")
     }
 
@@ -148,9 +150,11 @@ impl Header {
         let mut lines: Vec<String> = header.lines().map(str::to_string).collect();
         for (heading, function) in self.headings() {
             let call = format!(" {function}(");
-            let is_declared = |line: &String| line.replace('*', " ").contains(&call) && !line.starts_with(['/', ' ']);
+            let is_declared =
+                |line: &String| line.replace('*', " ").contains(&call) && !line.starts_with(['/', ' ']);
             let at = lines.iter().position(is_declared).unwrap_or_else(|| panic!("{function} is declared"));
-            let start = lines[..at].iter().rposition(|line| !line.starts_with("///")).map_or(0, |line| line + 1);
+            let start =
+                lines[..at].iter().rposition(|line| !line.starts_with("///")).map_or(0, |line| line + 1);
             let rule = format!("// {}", "-".repeat(117));
             lines.splice(start..start, [rule.clone(), format!("// {heading}"), rule, String::new()]);
         }

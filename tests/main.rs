@@ -11,12 +11,12 @@ mod even_odd;
 mod exact_oracle;
 mod exporting;
 mod format;
-mod found;
 mod geometry;
 #[path = "../soak/histories/mod.rs"]
 mod histories;
 mod imports;
 mod keys;
+mod last_found;
 mod lasting;
 mod location;
 mod long_runs;

@@ -95,7 +95,8 @@ fn refused_of_periodic(functions: &[Declaration]) -> BTreeSet<String> {
     let documentation = create.expect("it is declared").documentation();
     let (_, list) = documentation.split_once("which return DELDRIFT_PERIODIC: ").expect("they are listed");
     let (list, _) = list.split_once(". ").expect("a sentence ends");
-    let listed: BTreeSet<String> = list.split([',', ' ']).filter(|word| word.starts_with("deldrift_")).map(str::to_string).collect();
+    let listed: BTreeSet<String> =
+        list.split([',', ' ']).filter(|word| word.starts_with("deldrift_")).map(str::to_string).collect();
     let declared = |name: &&String| functions.iter().all(|function| function.name != **name);
     assert_eq!(listed.iter().find(declared), None, "it is no function");
     let of_research = functions.iter().map(|function| function.name.clone());

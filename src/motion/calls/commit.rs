@@ -37,7 +37,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// looked at first.
     pub fn commit_timestamp(&mut self) -> Result<CommitReport> {
         self.reject_prepared()?;
-        self.mesh.found.begin();
+        self.mesh.last_found.begin();
         self.heed_staged_passings()?;
         let mut staging = std::mem::take(&mut self.staging);
         let done = self.commit(&mut staging.moves(self.mesh.n_present));
@@ -95,7 +95,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Those of [`commit_timestamp`](Self::commit_timestamp), but [`Error::Prepared`]: what has been prepared is where
     /// the check begins.
     pub fn check_staged(&mut self) -> Result<()> {
-        self.mesh.found.begin();
+        self.mesh.last_found.begin();
         self.heed_staged_passings()?;
         self.check_conflicts()
     }
@@ -158,7 +158,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::DuplicateMove`] if moves are staged; otherwise those of both.
     pub fn commit_positions(&mut self, positions: &[G::Point]) -> Result<CommitReport> {
         self.reject_prepared()?;
-        self.mesh.found.begin();
+        self.mesh.last_found.begin();
         if let Some(vertex) = self.staging.first_staged() {
             return Err(Error::DuplicateMove { argument: "positions", index: vertex.index(), vertex });
         }

@@ -73,7 +73,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         site_of.resize(n, SiteId::NONE);
         self.note_tolerances_dropped();
         // The ids that are told there are others now.
-        self.mesh.found.begin();
+        self.mesh.last_found.begin();
         (self.mesh.segments, self.made) = (segments, made);
         (self.mesh.site_of, self.staging, self.edits, self.mesh.views) = (site_of, staging, edits, views);
         let stride = kernel.mean_stride();

@@ -42,7 +42,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     #[inline(never)]
     fn relocate_checked(&mut self, vertex: VertexId, position: &G::Point) -> Result<()> {
         self.reject_prepared()?;
-        self.mesh.found.begin();
+        self.mesh.last_found.begin();
         let s = self.present_site("vertex", 0, vertex)?;
         let q = check_position::<G>("position", 0, position)?;
         if self.staging.is_staged(vertex) {
@@ -102,7 +102,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     fn insert_coming(&mut self, position: &G::Point, key: Coming<'_>) -> Result<VertexId> {
         self.reject_prepared()?;
-        self.mesh.found.begin();
+        self.mesh.last_found.begin();
         let q = check_position::<G>("position", 0, position)?;
         if self.mesh.site_of.len() >= MAX_VERTICES {
             return Err(Error::TooManyVertices { given: self.mesh.site_of.len() + 1, limit: MAX_VERTICES });
@@ -174,7 +174,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`], [`Error::OutOfMemory`], [`Error::Prepared`].
     pub fn remove_vertex(&mut self, vertex: VertexId) -> Result<()> {
         self.reject_prepared()?;
-        self.mesh.found.begin();
+        self.mesh.last_found.begin();
         self.present_site("vertex", 0, vertex)?;
         self.staging.list()?;
         let before = self.mesh.evaluations();

@@ -33,19 +33,19 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::Passing`] if one would, [`Error::OutOfMemory`].
     pub fn check_passings(&mut self) -> Result<()> {
-        self.mesh.found.begin();
+        self.mesh.last_found.begin();
         let staging = std::mem::take(&mut self.staging);
         let looked = self.look_for_passings(&Steps::Staged(&staging));
         self.staging = staging;
         looked?;
-        self.mesh.found.refuse_passings()
+        self.mesh.last_found.refuse_passings()
     }
 
     /// The vertices that pass segments in the step that the latest call that changes or checks has looked at, ascending by
     /// segment and vertex: [`check_passings`](Self::check_passings), or a commit, check of what is staged or relocation
     /// where the options say that they look. Calls that stage, discard, publish, withdraw or ask keep them.
     pub fn passings(&self) -> &[Passing] {
-        self.mesh.found.passings()
+        self.mesh.last_found.passings()
     }
 
     /// Looks at the staged moves as the options say.
@@ -68,12 +68,16 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Ok(());
         }
         self.look_for_passings(&steps()?)?;
-        if self.options.passing == PassingPolicy::Refuse { self.mesh.found.refuse_passings() } else { Ok(()) }
+        if self.options.passing == PassingPolicy::Refuse {
+            self.mesh.last_found.refuse_passings()
+        } else {
+            Ok(())
+        }
     }
 
     fn look_for_passings(&mut self, steps: &Steps<'_, G>) -> Result<()> {
         let found = find(&self.mesh, &self.edits, steps)?;
-        self.mesh.found.tell_passings(found);
+        self.mesh.last_found.tell_passings(found);
         Ok(())
     }
 }

@@ -32,7 +32,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Those of [`commit_timestamp`](Self::commit_timestamp). Passings of vertices are looked at on the way of the round,
     /// from where the round before has left the vertices.
     pub fn prepare_timestamp(&mut self) -> Result<CommitReport> {
-        self.mesh.found.begin();
+        self.mesh.last_found.begin();
         self.heed_staged_passings()?;
         if self.mesh.rounds.is_none() {
             let before = self.published();

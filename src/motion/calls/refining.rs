@@ -61,7 +61,7 @@ impl MovingTriangulation<Plane> {
         mask: &[u8],
     ) -> Result<QualityReport> {
         self.reject_prepared()?;
-        self.mesh.found.begin();
+        self.mesh.last_found.begin();
         self.check_quality(quality, mask)?;
         let asked = asked(quality)?;
         let question = self.question(&asked, quality, mask);
@@ -158,7 +158,7 @@ impl MovingTriangulation<Plane> {
         mask: &[u8],
     ) -> Result<QualityReport> {
         self.reject_prepared()?;
-        self.mesh.found.begin();
+        self.mesh.last_found.begin();
         self.check_quality(quality, mask)?;
         options.check()?;
         let mut report = QualityReport::default();

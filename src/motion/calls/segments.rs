@@ -55,7 +55,7 @@ impl MovingTriangulation<Plane> {
     /// The conflicts for which the latest call that changes or checks was refused, ascending; none if it was not refused
     /// for conflicts. Calls that stage, discard, publish, withdraw or ask keep them.
     pub fn conflicts_of_segments(&self) -> &[Conflict] {
-        self.mesh.found.conflicts()
+        self.mesh.last_found.conflicts()
     }
 
     /// Whether some cell is not one of the Delaunay triangulation.

@@ -120,7 +120,7 @@ impl MovingTriangulation<Plane> {
             first_piece: SegmentId::at(self.mesh.segments.as_ref().map_or(0, |segments| segments.n_ids())),
             ..SplitReport::default()
         };
-        self.mesh.found.begin();
+        self.mesh.last_found.begin();
         // A vertex that stops on a segment passes it, and is what it is to be split at.
         match self.check_conflicts() {
             Ok(()) => return Ok(nothing),
@@ -144,7 +144,7 @@ impl MovingTriangulation<Plane> {
             staged: memory::copy_of(&segments.all()[segments.n_laid()..])?,
             leaving: memory::copy_of(segments.leaving())?,
             n_insertions,
-            conflicts: memory::copy_of(self.mesh.found.conflicts())?,
+            conflicts: memory::copy_of(self.mesh.last_found.conflicts())?,
             first_vertex: nothing.first_vertex,
             first_piece: nothing.first_piece,
         })
@@ -354,7 +354,7 @@ impl MovingTriangulation<Plane> {
         if let Some(segments) = &mut self.mesh.segments {
             segments.restore_staged(&before.staged, &before.leaving);
         }
-        self.mesh.found.tell_conflicts(if is_refused { before.conflicts } else { Vec::new() });
+        self.mesh.last_found.tell_conflicts(if is_refused { before.conflicts } else { Vec::new() });
         self.edits.truncate_insertions(before.n_insertions);
         self.mesh.site_of.truncate(before.first_vertex.index());
         self.mesh.kernel.keys_mut().truncate(before.first_vertex.index());

@@ -15,7 +15,7 @@ use crate::delaunay::{Crossing, Delaunay, Dimension, InTheWay, Replaced};
 use crate::error::{Conflict, Error, Result};
 use crate::ids::{SegmentId, SiteId, Slot, VertexId};
 use crate::machine::memory;
-use crate::motion::state::found::{Found, refuse_conflicts};
+use crate::motion::state::last_found::{LastFound, refuse_conflicts};
 
 /// A segment between two vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -288,10 +288,10 @@ impl<G: Dimension> Segments<G> {
         &mut self,
         kernel: &mut Delaunay<G>,
         site_of: &[SiteId],
-        found: &mut Found,
+        last_found: &mut LastFound,
     ) -> Result<()> {
         self.next.clear();
-        let conflicts = found.conflicts_to_fill();
+        let conflicts = last_found.conflicts_to_fill();
         let is_new = !self.are_listed(site_of);
         if is_new {
             self.list_edges(site_of, conflicts)?;
@@ -324,11 +324,11 @@ impl<G: Dimension> Segments<G> {
         &mut self,
         kernel: &mut Delaunay<G>,
         site_of: &[SiteId],
-        found: &mut Found,
+        last_found: &mut LastFound,
     ) -> Result<()> {
         // A new kernel has none yet.
         self.edges.clear();
-        let laid = self.lay(kernel, site_of, found);
+        let laid = self.lay(kernel, site_of, last_found);
         self.before = None;
         laid
     }

@@ -97,7 +97,7 @@ impl<G: Dimension> Mesh<G> {
         if is_unchanged && segments.are_at_rest() && self.kernel.has_cells() {
             return Ok(());
         }
-        segments.lay(&mut self.kernel, &self.site_of, &mut self.found)
+        segments.lay(&mut self.kernel, &self.site_of, &mut self.last_found)
     }
 
     /// Lays the segments in a new kernel that hides these vertices.
@@ -112,7 +112,7 @@ impl<G: Dimension> Mesh<G> {
         for s in next.live_sites() {
             hidden.for_all_at(next.site(s).id, |v| site_of[v.index()] = s);
         }
-        segments.lay_in_new(next, &site_of, &mut self.found)
+        segments.lay_in_new(next, &site_of, &mut self.last_found)
     }
 
     /// Keeps the site of a vertex before it gets one of its own, or loses it.

@@ -15,9 +15,9 @@ use crate::machine::memory;
 use crate::motion::constants::{Constants, TABLE};
 use crate::motion::options::CoincidencePolicy;
 use crate::motion::report::Evaluations;
-use crate::motion::state::found::Found;
 use crate::motion::state::goals::Moves;
 use crate::motion::state::hidden::Hidden;
+use crate::motion::state::last_found::LastFound;
 use crate::motion::state::rounds::Rounds;
 use crate::motion::state::segments::Segments;
 use crate::motion::state::transaction::Transaction;
@@ -45,7 +45,7 @@ pub(in crate::motion) struct Mesh<G: Dimension> {
     /// Segments that have to be edges, once there was one.
     pub(in crate::motion) segments: Option<Box<Segments<G>>>,
     /// What the latest call has found to be in their way.
-    pub(in crate::motion) found: Found,
+    pub(in crate::motion) last_found: LastFound,
     /// Changes that can still all be taken back, while a timestamp is being prepared.
     pub(in crate::motion) rounds: Option<Box<Rounds<G>>>,
     /// By what is decided between two ways to the same cells.
@@ -75,7 +75,7 @@ impl<G: Dimension> Mesh<G> {
             transaction: Transaction::default(),
             views: Views::default(),
             segments: None,
-            found: Found::default(),
+            last_found: LastFound::default(),
             rounds: None,
             constants: TABLE.of::<G>(),
             takes_changes: false,
@@ -97,7 +97,7 @@ impl<G: Dimension> Mesh<G> {
                 Some(segments) => Some(memory::boxed(segments.copied()?)?),
                 None => None,
             },
-            found: Found::default(),
+            last_found: LastFound::default(),
             rounds: None,
             constants: self.constants,
             takes_changes: self.takes_changes,
@@ -170,7 +170,7 @@ impl<G: Dimension> Mesh<G> {
             + self.transaction.memory_bytes()
             + self.views.memory_bytes()
             + self.segments.as_ref().map_or(0, |segments| segments.memory_bytes())
-            + self.found.memory_bytes()
+            + self.last_found.memory_bytes()
             + memory::bytes_of_made(&self.rounds, Rounds::memory_bytes)
     }
 }

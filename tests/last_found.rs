@@ -27,8 +27,17 @@ fn with_policy(passing: PassingPolicy) -> Options {
 
 /// A square with a slit in it, and vertices beside that; 8 is the end of no segment.
 fn base(passing: PassingPolicy) -> Triangulation {
-    let points =
-        [[0.0, 0.0], [8.0, 0.0], [8.0, 8.0], [0.0, 8.0], [4.0, 2.0], [4.0, 6.0], [2.0, 4.0], [6.0, 4.0], [1.0, 1.5]];
+    let points = [
+        [0.0, 0.0],
+        [8.0, 0.0],
+        [8.0, 8.0],
+        [0.0, 8.0],
+        [4.0, 2.0],
+        [4.0, 6.0],
+        [2.0, 4.0],
+        [6.0, 4.0],
+        [1.0, 1.5],
+    ];
     let mut t = Triangulation::new(&points, with_policy(passing)).expect("good points");
     let sides = [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5]];
     t.stage_segments(sides.map(segment).into_iter()).expect("present");
@@ -168,7 +177,8 @@ fn each_call_tells_what_it_has_found_itself() {
                     let mut copy = t.try_clone(None).expect("room");
                     let bytes = t.saved().expect("room");
                     let mut loaded =
-                        Triangulation::load(&Saved::of(&bytes).expect("good"), with_policy(passing)).expect("room");
+                        Triangulation::load(&Saved::of(&bytes).expect("good"), with_policy(passing))
+                            .expect("room");
                     assert_eq!(found(&copy), (vec![], vec![]), "{context}");
                     assert_eq!(found(&loaded), (vec![], vec![]), "{context}");
                     let outcomes = [&mut copy, &mut loaded, &mut t].map(call);
@@ -208,12 +218,15 @@ fn calls_that_find_nothing_keep_what_is_told() {
     // The first segments of all are staged in a round that is withdrawn: what a later round was refused for is told still.
     let points = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [2.0, 1.0]];
     let mut t = Triangulation::new(&points, Options::default()).expect("good points");
-    t.stage_segments([segment([0, 2])].into_iter()).expect("present");
+    t.move_vertices(&[v(4)], &[[2.0, 1.5]]).expect("a good place");
     t.prepare_timestamp().expect("nothing is in the way");
-    t.stage_segments([segment([1, 3])].into_iter()).expect("present");
+    t.stage_segments([segment([0, 2]), segment([1, 3])].into_iter()).expect("present");
     t.prepare_timestamp().expect_err("they cross");
     t.withdraw_timestamp();
-    assert_eq!(t.conflicts_of_segments(), [Conflict::Crossing { segments: [SegmentId::new(0), SegmentId::new(1)] }]);
+    assert_eq!(
+        t.conflicts_of_segments(),
+        [Conflict::Crossing { segments: [SegmentId::new(0), SegmentId::new(1)] }]
+    );
 }
 
 /// A vertex that stops on a segment passes it; where that is refused, the segment can be split there all the same.
@@ -232,7 +245,8 @@ fn segments_are_split_where_a_passing_would_be_refused() {
     fresh.stage_segments(pieces.into_iter().map(segment)).expect("present");
     fresh.commit_timestamp().expect("nothing is in the way");
     let cells = |t: &Triangulation| {
-        let mut rows: Vec<_> = t.cells().expect("room").corners.iter().map(|row| crate::common::sorted(row)).collect();
+        let mut rows: Vec<_> =
+            t.cells().expect("room").corners.iter().map(|row| crate::common::sorted(row)).collect();
         rows.sort();
         rows
     };
@@ -251,13 +265,17 @@ fn both_ends_that_go_are_told() {
     let slit = SegmentId::new(4);
     let gone = |vertex| Conflict::EndRemoved { segment: slit, vertex };
     assert_eq!(t.conflicts_of_segments(), [gone(v(4)), gone(v(5))]);
-    let mut t = Triangulation::new(&[[0.0; 2], [1.0, 0.0], [0.0, 1.0], [3.0, 3.0]], Options::default()).expect("good points");
+    let mut t = Triangulation::new(&[[0.0; 2], [1.0, 0.0], [0.0, 1.0], [3.0, 3.0]], Options::default())
+        .expect("good points");
     t.stage_segments([segment([2, 3])].into_iter()).expect("present");
     t.remove_vertex(v(2)).expect("a segment that is staged does not keep it");
     t.remove_vertex(v(3)).expect("a segment that is staged does not keep it");
     t.compact().expect("room");
     t.check_staged().expect_err("it has no end");
-    assert_eq!(t.conflicts_of_segments(), [Conflict::EndRemoved { segment: SegmentId::new(0), vertex: VertexId::NONE }]);
+    assert_eq!(
+        t.conflicts_of_segments(),
+        [Conflict::EndRemoved { segment: SegmentId::new(0), vertex: VertexId::NONE }]
+    );
 }
 
 /// Of several vertices at a place on a segment the one is told that represents the place: by key, where there are keys.
@@ -274,7 +292,10 @@ fn the_vertex_on_a_segment_is_the_one_that_represents_its_place() {
         assert_eq!(shown, if keys.is_some() { v(4) } else { v(3) });
         t.stage_segments([segment([0, 1])].into_iter()).expect("present");
         t.check_staged().expect_err("a vertex is on it");
-        assert_eq!(t.conflicts_of_segments(), [Conflict::OnSegment { segment: SegmentId::new(0), vertex: shown }]);
+        assert_eq!(
+            t.conflicts_of_segments(),
+            [Conflict::OnSegment { segment: SegmentId::new(0), vertex: shown }]
+        );
     }
 }
 

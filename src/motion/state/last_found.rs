@@ -6,14 +6,14 @@ use crate::machine::memory;
 /// Conflicts and passings, both of one call: each call that may find some [begins](Self::begin), so that what an earlier
 /// one has found is never told of a later one. Calls that stage, discard, publish, withdraw or ask keep them.
 #[derive(Debug, Default)]
-pub(in crate::motion) struct Found {
+pub(in crate::motion) struct LastFound {
     /// Those for which the call was refused, sorted.
     conflicts: Vec<Conflict>,
     /// The vertices that pass segments in the step that the call has looked at.
     passings: Vec<Passing>,
 }
 
-impl Found {
+impl LastFound {
     /// A call begins that may find something.
     pub(in crate::motion) fn begin(&mut self) {
         self.conflicts.clear();
