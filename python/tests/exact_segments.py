@@ -43,7 +43,7 @@ def conflicts_of(places, segments):
     for id, ends in segments.items():
         removed = [v for v in ends if places[v] is None]
         if removed:
-            found.append((kind.END_REMOVED, id, removed[0]))
+            found += [(kind.END_REMOVED, id, v) for v in dict.fromkeys(removed)]
         elif places[ends[0]] == places[ends[1]]:
             found.append((kind.ENDS_MEET, id, -1))
         else:

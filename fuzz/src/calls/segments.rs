@@ -111,8 +111,7 @@ fn conflicts(segments: &[(u32, [u32; 2])], positions: &[Option<Place>]) -> Vec<C
         match ends.map(at) {
             [Some(p), Some(q)] if p == q => _ = found.insert((ends_meet, id, NONE)),
             [Some(p), Some(q)] => edges.push((id, p, q)),
-            [None, _] => _ = found.insert((end_removed, id, ends[0])),
-            [_, None] => _ = found.insert((end_removed, id, ends[1])),
+            _ => found.extend(ends.into_iter().filter(|&v| at(v).is_none()).map(|v| (end_removed, id, v))),
         }
     }
     for (k, (id, a, b)) in edges.iter().enumerate() {
