@@ -315,6 +315,8 @@ static void ask_for_a_domain(void) {
     expect(n_slits == 2, "and it is an edge of two cells");
     check(deldrift_label_cells(t, (double[]){5, 0.5, 5, -0.5}, (int32_t[]){7, 8}, 2, 0, labels, 4, &count));
     expect(count == 4 && labels[beside[8]] == 7 && labels[beside[9]] == 8, "which have labels of their own");
+    check(deldrift_crossing_numbers(t, segments, 4, &count));
+    expect(segments[beside[8]] == 1 && segments[beside[9]] == 1, "and one segment between them and the outside");
     check(deldrift_move_vertex(t, 3, (double[]){5, 0}));
     expect(deldrift_check_staged(t) == DELDRIFT_ON_SEGMENT, "a vertex does not come on a segment");
     check(deldrift_segment_conflicts(t, &conflict, 1, &count));

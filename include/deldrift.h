@@ -7,8 +7,8 @@
  * deldrift_compact gives new ids. Then the points move: stage the moves, commit them as the next
  * timestamp, read the cells. After every commit the cells are exactly those of the Delaunay triangulation
  * of the current positions. Ties (cocircular and cospherical points) are broken by vertex id, so the cells
- * depend only on positions and ids; or by keys that the program gives (deldrift_create_with_keys). In 2D edges can be prescribed: with segments (deldrift_stage_segments) the
- * triangulation is the constrained Delaunay triangulation.
+ * depend only on positions and ids; or by keys that the program gives (deldrift_create_with_keys). In 2D edges can be
+ * prescribed: with segments (deldrift_stage_segments) the triangulation is the constrained Delaunay triangulation.
  *
  *     #include <deldrift.h>
  *     #include <stdio.h>
@@ -43,14 +43,14 @@
  * capacity of 0, to ask for a count alone, may not be NULL with another: that is DELDRIFT_NULL_ARGUMENT.
  *
  * Staging. A vertex whose insertion is staged has an id, but is not present before the commit: functions that take its
- * id return DELDRIFT_STAGED_VERTEX; in arrays by id that functions fill its entry is as that of a removed vertex, but
- * for deldrift_copy_positions; in positions by id that are given its entry is where it will be inserted. A vertex whose
+ * id return DELDRIFT_STAGED_VERTEX; in arrays by id that a call fills, its entry is that of a removed vertex, but in
+ * deldrift_copy_positions; in positions by id that you pass, it is where the vertex will be inserted. A vertex whose
  * removal is staged is present until the commit; it can be neither moved with that nor removed by it twice.
  *
  * Errors. Functions return a deldrift_status, DELDRIFT_OK being 0. A call that fails has no effect: what can be asked
  * about the triangulation is as it was, what is staged included, and outputs are not written (except the count of a
- * buffer that is too small). But views end as if it had not failed, and deldrift_memory_bytes may tell more than before,
- * as room that was made is kept for the next call. deldrift_last_error gives the details. Nothing is printed, and no
+ * buffer that is too small). A failed call still ends views, and may keep the memory it reserved, which
+ * deldrift_memory_bytes tells. deldrift_last_error gives the details. Nothing is printed, and no
  * exception leaves the library.
  *
  * Besides the errors named with each function, every function that takes a triangulation may return
@@ -78,15 +78,66 @@
  *
  * Floating point. Every function does, and gives, what it does in the default floating-point environment, whatever that
  * of the caller is: its rounding, traps, and numbers near zero that count as zero. It leaves the caller's environment as it
- * is, the flags of exceptions included. A callback runs in the environment of the caller, who has in the end what the
- * callback has made of it. This is so on x86-64, by MXCSR, and on 64-bit ARM; on other processors calls must come from the
- * default environment. What is inline in deldrift.hpp and deldrift/cgal.hpp is compiled as a part of the program, and
- * does its arithmetic in the environment of the program.
+ * is, the flags of exceptions included. Callbacks run in the caller's environment; what they change there stays changed. This
+ * is so on x86-64, by MXCSR, and on 64-bit ARM; on other processors calls must come from the default environment. What is
+ * inline in deldrift.hpp and deldrift/cgal.hpp is compiled as a part of the program, and does its arithmetic in the
+ * environment of the program.
  *
  * Stack. A call takes at most 80 KiB of the stack of its thread, however many points there are and whatever their
  * coordinates, if the library is compiled with any optimisation. So a thread that has 128 KiB, as threads of musl do by
  * default, is enough for a call, but for what callbacks take. The library's own threads have 2 MiB each, of address
  * space: what they use of it is memory, and no more than that of a call.
+ *
+ * Index. Types come first; then the functions, under these headings, each with the first function below it:
+ *
+ *     What a call says when it ends: status codes, the message of the last failure, the version.
+ *         deldrift_status_string
+ *     Creation, destruction, and what is chosen for the whole life of a triangulation.
+ *         deldrift_create
+ *     Motion: what is staged, and becomes a timestamp.
+ *         deldrift_move_vertex
+ *     Commits in two phases.
+ *         deldrift_prepare_timestamp
+ *     Changes that take effect at once, one vertex at a time; and new ids.
+ *         deldrift_relocate_vertex
+ *     Keys of vertices, which break ties in place of ids, and ids that are given again.
+ *         deldrift_create_with_keys
+ *     Segments between vertices of the plane, which have to be edges.
+ *         deldrift_stage_segments
+ *     Segments that are split where they are in the way of each other.
+ *         deldrift_stage_splits
+ *     The change list: what a program has to know that keeps something for each cell.
+ *         deldrift_take_changes
+ *     What a triangulation holds: counts, sums, and the positions of vertices.
+ *         deldrift_vertex_count
+ *     Queries: cells, and what is where. None changes the triangulation.
+ *         deldrift_cells
+ *     Where points lie, and which vertices are near.
+ *         deldrift_locate
+ *     What is near a place: the nearest vertices, those in a ball or a box, the cells that a new vertex would remove.
+ *         deldrift_nearest_vertices
+ *     The cells, hull facets and vertices that a vertex in a box could change.
+ *         deldrift_cells_in_reach
+ *     Geometry of the cells: circumspheres, volumes, masks by circumradius, and the facets around a mask.
+ *         deldrift_circumcentres
+ *     What segments divide the plane into: levels, labels, and boundaries in chains.
+ *         deldrift_segments_of_cells
+ *     Refinement and coarsening of the cells of a domain.
+ *         deldrift_quality_init
+ *     What meets what: edges, neighbours and cells of vertices, mirror indices, ordered stars.
+ *         deldrift_edges
+ *     Geometry of some of the cells: those around vertices, and entries of arrays that a program keeps for all cells.
+ *         deldrift_cells_around
+ *     Voronoi cells and facets, clipped by a box, or by half-spaces besides.
+ *         deldrift_voronoi_volumes
+ *     Periodic triangulations: their creation, and what only they have.
+ *         deldrift_create_periodic
+ *     Values between vertices.
+ *         deldrift_interpolate
+ *     A triangulation as bytes, in memory or in a file, and a second one like it.
+ *         deldrift_clone
+ *     Exact signs for points of the caller's own. They need no triangulation.
+ *         deldrift_orientation
  */
 
 #ifndef DELDRIFT_H
@@ -217,7 +268,8 @@ enum
  {
     /// Two segments cross at a place that is an end of neither: other is the second one, of the higher id.
     DELDRIFT_CONFLICT_CROSSING = 0,
-    /// A vertex is on the segment, and is not one of its ends: other is the lowest id at the place.
+    /// A vertex is on the segment, and is not one of its ends: other is the one that represents the place: of
+    /// several vertices there the lowest id, or key.
     DELDRIFT_CONFLICT_ON_SEGMENT = 1,
     /// An end of the segment has been removed, or would be: other is the end, DELDRIFT_NONE if deldrift_compact has been
     /// called since.
@@ -233,7 +285,7 @@ typedef uint32_t deldrift_conflict_kind;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// How a point lies to what the index of a deldrift_location names.
+/// What the index of a deldrift_location refers to.
 enum
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   deldrift_location_kind : uint32_t
@@ -393,23 +445,20 @@ typedef struct deldrift_triangulation deldrift_triangulation;
 /// bytes that the library does not know are zero. A size that is 0, ends inside a field or is beyond
 /// 4096 is DELDRIFT_INVALID_OPTIONS, as is any value that has no meaning.
 ///
-/// The callbacks are called from inside deldrift_create, deldrift_commit_timestamp and deldrift_commit_positions, and
-/// from inside deldrift_relocate_vertex, deldrift_insert_vertex and deldrift_remove_vertex where one of these takes
-/// long, as with a vertex that has thousands of neighbours; on the thread that called these, one at a time, and not
-/// after deldrift_destroy. They must return normally (no exception, no longjmp) and must not use the triangulation that
-/// is being created or changed: such calls are turned away with DELDRIFT_BUSY. Other triangulations may be used. What
-/// user_data points to must live as long as the triangulation.
-///
-/// They are also called from inside deldrift_voronoi_volumes and deldrift_voronoi_facets, by each thread that
-/// makes such a call; then they may read the triangulation, and calls that change it are turned away with
-/// DELDRIFT_BUSY.
+/// The callbacks are called from inside every function that names DELDRIFT_CANCELLED among its errors, where the call takes
+/// long, and from inside no other; on the thread that makes the call, one at a time, and not after deldrift_destroy. They
+/// must return normally (no exception, no longjmp). From inside a call that creates or changes a triangulation they must not
+/// use it: such calls are turned away with DELDRIFT_BUSY. From inside one that takes it as const, as deldrift_voronoi_cells
+/// does, they may read it, and calls that change it are turned away with DELDRIFT_BUSY; such calls may be made on several
+/// threads at once, and each calls them. Other triangulations may be used. What user_data points to must live as long as the
+/// triangulation, and its copies.
 typedef struct deldrift_options {
     /// sizeof(deldrift_options) as the program sees it.
     size_t struct_size;
     /// Algorithm of later commits; may be changed by deldrift_set_algorithm. Default DELDRIFT_AUTO.
     deldrift_algorithm algorithm;
-    /// Greatest number of threads a call may use, the calling one included; 0, the default, is no limit. As many are
-    /// used as pay, and no more than the system runs at the same time: one for each 5,000 vertices in 2D or 2,500
+    /// Greatest number of threads a call may use, the calling one included; 0, the default, is no limit. The library uses
+    /// as many as make the call faster, at most one per processor: one for each 5,000 vertices in 2D or 2,500
     /// in 3D to build and rebuild, and likewise to move all, check all certificates and flip in repair. All
     /// triangulations of the process share them, and they sleep between calls. The cells do not depend on the number,
     /// their order and the counts in reports may. Callbacks come from the calling thread only.
@@ -593,7 +642,8 @@ typedef struct deldrift_quality {
     /// How many areas there are.
     size_t area_count;
     /// By vertex id the greatest length of edges there: no edge of a cell is longer than the mean at its corners. New
-    /// vertices have what is between. Above 0; entries of removed vertices are not used. NULL, the default, for any.
+    /// vertices have what is between. Above 0, infinity for any; entries of removed vertices are not used. NULL, the default,
+    /// for any.
     const double *sizes;
     /// How many sizes there are: as many as ids, or 0.
     size_t size_count;
@@ -668,6 +718,10 @@ typedef struct deldrift_field {
 extern "C" {
 #endif // __cplusplus
 
+// ---------------------------------------------------------------------------------------------------------------------
+// What a call says when it ends: status codes, the message of the last failure, the version.
+// ---------------------------------------------------------------------------------------------------------------------
+
 /// A status in a few words, in English, without a full stop. For a number that is no status of this
 /// version the text says so. The string is static. Never fails; may be called from any thread.
 ///
@@ -689,6 +743,10 @@ const char *deldrift_last_error(void);
 ///
 /// Cost: constant.
 const char *deldrift_version(void);
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Creation, destruction, and what is chosen for the whole life of a triangulation.
+// ---------------------------------------------------------------------------------------------------------------------
 
 /// Creates the Delaunay triangulation of count points in the plane or in space, at timestamp 0.
 ///
@@ -747,6 +805,10 @@ deldrift_status deldrift_set_algorithm(deldrift_triangulation *t,
 /// Errors: DELDRIFT_NULL_ARGUMENT.
 deldrift_status deldrift_get_algorithm(const deldrift_triangulation *t,
                                        deldrift_algorithm *algorithm);
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Motion: what is staged, and becomes a timestamp.
+// ---------------------------------------------------------------------------------------------------------------------
 
 /// Stages the move of one vertex for the next timestamp. Nothing that can be read changes until
 /// deldrift_commit_timestamp.
@@ -854,7 +916,7 @@ deldrift_status deldrift_commit_timestamp(deldrift_triangulation *t,
                                           deldrift_commit_report *report);
 
 /// Moves all vertices and makes that the next timestamp: deldrift_move_vertices for all ids and
-/// deldrift_commit_timestamp in one, without a copy of the positions where that can be done without.
+/// deldrift_commit_timestamp in one, usually without copying the positions.
 ///
 /// positions: count points, one for each id (count must be deldrift_id_count, those of staged insertions included). A
 /// vertex whose insertion is staged is inserted where its entry says; entries of removed vertices, and of those whose
@@ -873,6 +935,10 @@ deldrift_status deldrift_commit_positions(deldrift_triangulation *t,
                                           const double *positions,
                                           size_t count,
                                           deldrift_commit_report *report);
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Commits in two phases.
+// ---------------------------------------------------------------------------------------------------------------------
 
 /// The first phase of a commit: brings the triangulation to the staged moves, insertions, removals and segments, as
 /// deldrift_commit_timestamp does, so that every call that reads sees the prepared state. It is not a timestamp yet:
@@ -903,8 +969,8 @@ deldrift_status deldrift_commit_positions(deldrift_triangulation *t,
 /// Cost: that of deldrift_commit_timestamp, and in later rounds a copy of where vertices were that the last one has moved. If t
 /// is periodic, in the first round a copy of t, and as much memory; to publish or withdraw it frees one of both.
 ///
-/// Errors: those of deldrift_commit_timestamp, DELDRIFT_OUT_OF_MEMORY among them, except DELDRIFT_PREPARED. Not to be called at
-/// the same time as any other call on t.
+/// Errors: those of deldrift_commit_timestamp, DELDRIFT_OUT_OF_MEMORY and DELDRIFT_CANCELLED among them, except
+/// DELDRIFT_PREPARED. Not to be called at the same time as any other call on t.
 deldrift_status deldrift_prepare_timestamp(deldrift_triangulation *t,
                                            deldrift_commit_report *report);
 
@@ -932,6 +998,10 @@ deldrift_status deldrift_publish_timestamp(deldrift_triangulation *t);
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT. Not to be called at the same time as any other call on t.
 deldrift_status deldrift_withdraw_timestamp(deldrift_triangulation *t);
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Changes that take effect at once, one vertex at a time; and new ids.
+// ---------------------------------------------------------------------------------------------------------------------
 
 /// Moves one vertex at once: the triangulation is that of the new position when the call returns. The
 /// timestamp stays, and so do the moves staged for other vertices. Ends all views.
@@ -1004,6 +1074,10 @@ deldrift_status deldrift_compact(deldrift_triangulation *t,
                                  uint32_t *map,
                                  size_t capacity,
                                  size_t *count);
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Keys of vertices, which break ties in place of ids, and ids that are given again.
+// ---------------------------------------------------------------------------------------------------------------------
 
 /// Creates a triangulation, as deldrift_create does, of vertices that have keys.
 ///
@@ -1100,6 +1174,10 @@ deldrift_status deldrift_keys(const deldrift_triangulation *t,
                               size_t capacity,
                               size_t *count);
 
+// ---------------------------------------------------------------------------------------------------------------------
+// Segments between vertices of the plane, which have to be edges.
+// ---------------------------------------------------------------------------------------------------------------------
+
 /// Stages segments between vertices: all of them, or none if it fails. From the next commit on, which makes them together
 /// with the staged moves, insertions and removals, each is an edge, and the cells are the constrained Delaunay
 /// triangulation of vertices and segments: the circle of a cell has no vertex inside that can be seen from the cell's
@@ -1166,10 +1244,10 @@ deldrift_status deldrift_segments(const deldrift_triangulation *t,
                                   size_t capacity,
                                   size_t *count);
 
-/// Whether segments would stand against a commit of what is staged: moves, insertions, removals and segments. Returns what
-/// deldrift_commit_timestamp would return as far as segments are concerned, and commits nothing: what is staged stays so.
-/// deldrift_segment_conflicts then tells all conflicts, so that a solver can cut its step. Without segments, in force or
-/// staged, nothing is looked at, and in 3D there are none. Ends all views, as a commit does.
+/// Whether a commit of what is staged, moves, insertions, removals and segments, would be refused because of segments.
+/// Returns what deldrift_commit_timestamp would return as far as segments are concerned, and commits nothing: what is staged
+/// stays so. deldrift_segment_conflicts then tells all conflicts, so that a solver can cut its step. Without segments, in
+/// force or staged, nothing is looked at, and in 3D there are none. Ends all views, as a commit does.
 ///
 /// A program that commits at once where nothing conflicts need not check first: a commit that is refused has no effect, and
 /// tells the conflicts as well.
@@ -1183,15 +1261,24 @@ deldrift_status deldrift_segments(const deldrift_triangulation *t,
 /// as any other call on t.
 deldrift_status deldrift_check_staged(deldrift_triangulation *t);
 
-/// The conflicts for which the latest change, or check, of t was refused: all of them, in ascending order of kind, segment
-/// and other. None if it was not refused for conflicts. Staging, discarding and questions keep them. Ids of segments and
-/// vertices may be of such as were staged, and have been discarded since.
+/// The conflicts for which the latest call that changes or checks t was refused: all of them, in ascending order of kind,
+/// segment and other. None if it was not refused for conflicts. Ids of segments and vertices may be of such as were staged, and
+/// have been discarded since.
+///
+/// This list and that of deldrift_passings are both of one call, the latest of deldrift_commit_timestamp,
+/// deldrift_commit_positions, deldrift_prepare_timestamp, deldrift_check_staged, deldrift_check_passings,
+/// deldrift_stage_splits, deldrift_relocate_vertex, deldrift_insert_vertex, deldrift_insert_vertex_with_key,
+/// deldrift_remove_vertex, deldrift_refine, deldrift_coarsen and deldrift_compact. Each of them empties both lists when it
+/// begins, whatever comes of it, unless it is turned away with DELDRIFT_PREPARED or DELDRIFT_BUSY, or for a pointer or a
+/// structure that is no good. Calls that stage, discard, publish, withdraw or ask keep them. A copy, and what is loaded, has
+/// none.
 ///
 /// conflicts: a buffer with room for capacity entries. count: receives their number, which is also written when the buffer
 /// is too small. NULL with capacity 0 asks for the count alone.
 ///
-/// A segment of several ids has a conflict for each of them. Those of a segment without two ends, which are of the kinds
-/// DELDRIFT_CONFLICT_END_REMOVED and DELDRIFT_CONFLICT_ENDS_MEET, are all that is told of it.
+/// Where several segments are at one edge, each has conflicts of its own. A segment that loses both ends has a conflict for
+/// each. Those of a segment without two ends, which are of the kinds DELDRIFT_CONFLICT_END_REMOVED and
+/// DELDRIFT_CONFLICT_ENDS_MEET, are all that is told of it.
 ///
 /// Cost: the number of conflicts.
 ///
@@ -1232,11 +1319,10 @@ deldrift_status deldrift_segment_conflicts(const deldrift_triangulation *t,
 /// time as any other call on t.
 deldrift_status deldrift_check_passings(deldrift_triangulation *t);
 
-/// The vertices that pass segments in the step that was looked at last, by deldrift_check_passings, or by the latest
-/// commit, deldrift_check_staged or deldrift_relocate_vertex: in ascending order of segment and vertex. With
-/// DELDRIFT_PASSING_TELL those that have passed in the latest commit, with DELDRIFT_PASSING_REFUSE those for which it was
-/// refused; with DELDRIFT_PASSING_IGNORE a commit leaves none. Staging, discarding and questions keep them, and so do calls
-/// that insert or remove a vertex at once.
+/// The vertices that pass segments in the step that the latest call has looked at: deldrift_check_passings, or, where the
+/// options say that they look, a commit, deldrift_prepare_timestamp, deldrift_check_staged or deldrift_relocate_vertex; in
+/// ascending order of segment and vertex. With DELDRIFT_PASSING_TELL those that have passed in the latest commit, with
+/// DELDRIFT_PASSING_REFUSE those for which it was refused. deldrift_segment_conflicts says which calls empty the list.
 ///
 /// segments: a buffer with room for capacity ids; vertices: for capacity ids; entry k of vertices
 /// passes entry k of segments. One that is NULL is not filled. count: receives their number, which is also written when the
@@ -1251,6 +1337,10 @@ deldrift_status deldrift_passings(const deldrift_triangulation *t,
                                   uint32_t *vertices,
                                   size_t capacity,
                                   size_t *count);
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Segments that are split where they are in the way of each other.
+// ---------------------------------------------------------------------------------------------------------------------
 
 /// Splits segments, staged ones and those in force, for which a commit of what is staged would be refused: to be called
 /// before the commit. A segment with a vertex on it is replaced by pieces between its ends and such vertices, and two that
@@ -1275,6 +1365,9 @@ deldrift_status deldrift_passings(const deldrift_triangulation *t,
 /// discarded as if the program had staged it; what is staged afterwards may be in the way of pieces, which can be split again.
 /// Vertices that were inserted where segments cross stay when segments are removed, as all do.
 ///
+/// Passings are not looked at, whatever the options say of them: a vertex that stops on a segment is where the segment is
+/// split. The commit looks at them, but for those of segments that leave, and of pieces.
+///
 /// Cost: that of deldrift_check_staged for each round and once more; for m crossings that of sorting them, and a search among
 /// them for each vertex.
 ///
@@ -1287,6 +1380,10 @@ deldrift_status deldrift_passings(const deldrift_triangulation *t,
 deldrift_status deldrift_stage_splits(deldrift_triangulation *t,
                                       size_t limit,
                                       deldrift_split_report *report);
+
+// ---------------------------------------------------------------------------------------------------------------------
+// The change list: what a program has to know that keeps something for each cell.
+// ---------------------------------------------------------------------------------------------------------------------
 
 /// Takes what has changed since this was last called, to *changes: commits, immediate calls, insertions and removals
 /// alike. The first call lists all cells as created.
@@ -1305,6 +1402,10 @@ deldrift_status deldrift_stage_splits(deldrift_triangulation *t,
 /// Not to be called at the same time as any other call on t.
 deldrift_status deldrift_take_changes(deldrift_triangulation *t,
                                       deldrift_changes *changes);
+
+// ---------------------------------------------------------------------------------------------------------------------
+// What a triangulation holds: counts, sums, and the positions of vertices.
+// ---------------------------------------------------------------------------------------------------------------------
 
 /// How many vertices are present, hidden ones included and removed ones not, to *count.
 ///
@@ -1397,6 +1498,10 @@ deldrift_status deldrift_copy_positions(const deldrift_triangulation *t,
                                         double *positions,
                                         size_t capacity,
                                         size_t *count);
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Queries: cells, and what is where. None changes the triangulation.
+// ---------------------------------------------------------------------------------------------------------------------
 
 /// The cells, without a copy, to *view.
 ///
@@ -1499,6 +1604,10 @@ deldrift_status deldrift_tolerance(const deldrift_triangulation *t,
 /// deldrift_last_error then gives the first violation; DELDRIFT_OUT_OF_MEMORY if t is periodic.
 deldrift_status deldrift_validate(const deldrift_triangulation *t,
                                   uint32_t level);
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Where points lie, and which vertices are near.
+// ---------------------------------------------------------------------------------------------------------------------
 
 /// Where a point lies, exactly, to *location.
 ///
@@ -1606,6 +1715,10 @@ deldrift_status deldrift_hidden_vertices(const deldrift_triangulation *t,
                                          size_t capacity,
                                          size_t *count);
 
+// ---------------------------------------------------------------------------------------------------------------------
+// What is near a place: the nearest vertices, those in a ball or a box, the cells that a new vertex would remove.
+// ---------------------------------------------------------------------------------------------------------------------
+
 /// The k vertices nearest to each of count positions: rows of k ids, by distance and, at the same distance, by id, or by key
 /// where vertices have keys;
 /// DELDRIFT_NONE where there are fewer vertices than k. Distances are compared exactly. Hidden vertices count like
@@ -1706,6 +1819,10 @@ deldrift_status deldrift_conflicts(const deldrift_triangulation *t,
                                    uint32_t *cells,
                                    size_t capacity,
                                    size_t *count);
+
+// ---------------------------------------------------------------------------------------------------------------------
+// The cells, hull facets and vertices that a vertex in a box could change.
+// ---------------------------------------------------------------------------------------------------------------------
 
 /// The cells that a vertex at a place in one of some boxes could change: with deldrift_hull_facets_in_reach, what a process
 /// has to know of vertices that it does not have, given where they may be.
@@ -1810,6 +1927,10 @@ deldrift_status deldrift_vertices_in_reach(const deldrift_triangulation *t,
                                            size_t *offsets,
                                            size_t capacity,
                                            size_t *count);
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Geometry of the cells: circumspheres, volumes, masks by circumradius, and the facets around a mask.
+// ---------------------------------------------------------------------------------------------------------------------
 
 /// The circumcentres and squared circumradii of all cells, in the order of deldrift_cells.
 ///
@@ -1947,6 +2068,10 @@ deldrift_status deldrift_hull_facets(const deldrift_triangulation *t,
                                      size_t capacity,
                                      size_t *count);
 
+// ---------------------------------------------------------------------------------------------------------------------
+// What segments divide the plane into: levels, labels, and boundaries in chains.
+// ---------------------------------------------------------------------------------------------------------------------
+
 /// For each cell and each of its corners the segment at the edge opposite it, in the order of deldrift_cells: the lowest id
 /// if there are several, DELDRIFT_NONE if there is none. Ids are not places in the lists of deldrift_segments once segments
 /// have been removed.
@@ -1981,14 +2106,18 @@ deldrift_status deldrift_cells_of_segments(const deldrift_triangulation *t,
                                            size_t capacity,
                                            size_t *count);
 
-/// For each cell how many segments at least a way crosses from it to the outside, in the order of deldrift_cells: its
-/// nesting level.
+/// The nesting level of each cell, in the order of deldrift_cells: the least number of edges with segments on a path from the
+/// cell to the outside.
 ///
 /// Cells outside of all closed chains of segments have 0, those of a domain 1, those of its holes 2, those of islands in
 /// these 3, and so on: the cells of the domain are those with an odd number. A segment with one region on both sides, such
 /// as a slit or an open chain, divides nothing, and several at the same edge count once. No seed is needed, and cells
 /// between the domain and the convex hull have 0. A domain that is divided in parts by further segments needs
 /// deldrift_label_cells: parts that do not touch the outside would have a higher level.
+///
+/// This is the default of deldrift_refine, as a segment is a wall, however often it has been drawn: a side that two parts
+/// share, or an outline that is there twice, bounds what it would bound alone. deldrift_crossing_numbers is for chains that
+/// are meant by the even-odd rule.
 ///
 /// levels: a buffer with room for capacity numbers. count: receives the number of cells, which is also written when the
 /// buffer is too small. NULL with capacity 0 asks for the count alone.
@@ -2002,6 +2131,29 @@ deldrift_status deldrift_nesting_levels(const deldrift_triangulation *t,
                                         uint32_t *levels,
                                         size_t capacity,
                                         size_t *count);
+
+/// The crossing number of each cell, in the order of deldrift_cells: the least number of segments on a path from the cell to
+/// the outside, where each segment at an edge counts. Cells with an odd number are those that the even-odd rule fills.
+///
+/// If segments form closed chains, so that an even number of them ends at each vertex, all paths from a cell cross as many
+/// but for an even number: the number is odd exactly if a ray from the cell crosses an odd number of segments. So a notch that
+/// is given as a second chain along a side is no part of the domain, and neither is anything if an outline is given twice;
+/// with deldrift_nesting_levels, which differs only where an edge has several segments, both are. The direction in which
+/// segments were given does not matter. Pieces of deldrift_stage_splits and deldrift_refine count each, as the segments do
+/// that they come from. At open chains, as slits and interfaces that divide a domain, the least number decides.
+///
+/// numbers: a buffer with room for capacity numbers. count: receives the number of cells, which is also written when the
+/// buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Exact. Cost: m, s log s for s segments, and for each segment the cells around an end. After a change the first call also
+/// does what the first deldrift_cells does.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_crossing_numbers(const deldrift_triangulation *t,
+                                          uint32_t *numbers,
+                                          size_t capacity,
+                                          size_t *count);
 
 /// A label for each cell, in the order of deldrift_cells: that of the first seed in its region. A region is a set of cells
 /// that can be reached from each other without crossing a segment.
@@ -2034,13 +2186,15 @@ deldrift_status deldrift_label_cells(const deldrift_triangulation *t,
 /// are not listed. Other entries are not touched.
 ///
 /// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once: the created ones of
-/// deldrift_take_changes, and those that have been turned over. These are no changes, and are known by a row that lists the
-/// corners in the other order: where the end of a segment goes to the other side of two vertices, the cell of the three comes
-/// to be beyond the segment, though no vertex passes one. NULL if cell_count is 0. other: the label of cells that are reached
-/// from the outside of the hull alone, from no cell that is not listed, or from some of different labels. label_of: an array of
-/// capacity numbers, of which those of cells that are not listed are read. capacity: at least deldrift_cell_count. undecided:
-/// receives the number of cells of the last two kinds: if it is not 0, a region has listed cells only, or touches two labels,
-/// and it is time for deldrift_label_cells.
+/// deldrift_take_changes, and those that have been turned over. A cell that was turned over is not in the change list; its
+/// row lists its corners in the opposite order, and it needs a label too: where the end of a segment goes to the other side
+/// of two vertices, the cell of the three comes to be beyond the segment, though no vertex passes one. NULL if cell_count is
+/// 0. other: the label of the cells outside of all closed chains of segments, along the hull: 0 for nesting levels, and for
+/// labels what deldrift_label_cells was given as other, or the label of a seed there. Cells that are reached from the outside
+/// of the hull alone get it, and so do those that are reached from no cell that is not listed, or from some of different
+/// labels. label_of: an array of capacity numbers, of which those of cells that are not listed are read. capacity: at least
+/// deldrift_cell_count. undecided: receives the number of cells of the last two kinds: if it is not 0, a region has listed
+/// cells only, or touches two labels, and it is time for deldrift_label_cells.
 ///
 /// deldrift_update_circumcentres has the steps by which an array for all cells is brought up to date. While segments stay,
 /// and vertices move without passing any, labels stay with their regions: that is what deldrift_label_cells would give for
@@ -2074,8 +2228,8 @@ deldrift_status deldrift_update_labels(const deldrift_triangulation *t,
 /// small. NULL for all with capacity 0 asks for the count alone.
 ///
 /// No chain crosses another, or itself: where parts of the set touch in a vertex, each part has a chain of its own. Each
-/// chain begins with its least edge, by the ids of the edge's two vertices, and chains are in this order. So vertices,
-/// chains and segments depend only on the set.
+/// chain begins with its least edge, by the id of the vertex where an edge begins and then of that where it ends, and chains
+/// are in the order of these edges. So vertices, chains and segments depend only on the set.
 ///
 /// Exact. Cost: m, e log e for e edges, and for each segment the cells around an end. After a change the first call also
 /// does what the first deldrift_cells does.
@@ -2092,6 +2246,10 @@ deldrift_status deldrift_boundary_chains(const deldrift_triangulation *t,
                                          uint8_t *corners,
                                          size_t capacity,
                                          size_t *count);
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Refinement and coarsening of the cells of a domain.
+// ---------------------------------------------------------------------------------------------------------------------
 
 /// Sets a quality to the defaults: no criterion.
 ///
@@ -2122,10 +2280,10 @@ deldrift_status deldrift_quality_init(deldrift_quality *quality);
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
 /// DELDRIFT_INVALID_OPTIONS for struct_size and keeps, DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE for a number of quality
-/// that has no meaning and for a mask that does not end at segments, DELDRIFT_STAGED_VERTEX if anything is staged,
-/// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED, and
-/// DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING where pieces that are bent by rounding would touch others (see
-/// deldrift_segment_conflicts). Not to be called at the same time as any other call on t.
+/// that has no meaning, those for deldrift_coarsen included, and for a mask that does not end at segments,
+/// DELDRIFT_STAGED_VERTEX if anything is staged, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY,
+/// DELDRIFT_CANCELLED, and DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING where pieces that are bent by rounding would touch
+/// others (see deldrift_segment_conflicts). Not to be called at the same time as any other call on t.
 deldrift_status deldrift_refine(deldrift_triangulation *t,
                                 const deldrift_quality *quality,
                                 const uint8_t *mask,
@@ -2136,7 +2294,7 @@ deldrift_status deldrift_refine(deldrift_triangulation *t,
 /// still be of the quality, by a margin. Pieces of a segment are joined again. One commit of its own, all or nothing, of
 /// which deldrift_take_changes tells what it changed.
 ///
-/// Arguments are those of deldrift_refine. keeps, has_weights and limit of the quality are not used.
+/// The arguments are those of deldrift_refine. keeps, has_weights and limit of the quality are not used.
 ///
 /// Around cells that are of lower quality already, those that come may have angles as small: call it before deldrift_refine,
 /// which then has less to insert.
@@ -2172,8 +2330,9 @@ deldrift_status deldrift_made_vertices(const deldrift_triangulation *t,
                                        size_t capacity,
                                        size_t *count);
 
-/// For each segment in force, in the order of deldrift_segments, the id of the segment of which deldrift_refine has made it
-/// a piece, which is not in force any more; its own id if it is whole.
+/// For each segment in force, in the order of deldrift_segments, the id of the segment that the program staged and of which
+/// deldrift_stage_splits or deldrift_refine has made it a piece; its own id if it is whole. That segment is not in force any
+/// more, or, where it was split before it was made, has never been.
 ///
 /// originals: a buffer with room for capacity ids. count: receives the number of segments, which is also written when the
 /// buffer is too small. NULL with capacity 0 asks for the count alone.
@@ -2209,6 +2368,10 @@ deldrift_status deldrift_refined_weights(const deldrift_triangulation *t,
                                          double *weights,
                                          size_t capacity,
                                          size_t *count);
+
+// ---------------------------------------------------------------------------------------------------------------------
+// What meets what: edges, neighbours and cells of vertices, mirror indices, ordered stars.
+// ---------------------------------------------------------------------------------------------------------------------
 
 /// The edges: rows of two vertex ids, the lower one first, each edge once, in lexicographic order. They are a
 /// function of positions and ids alone.
@@ -2358,6 +2521,10 @@ deldrift_status deldrift_ordered_star(const deldrift_triangulation *t,
                                       size_t capacity,
                                       size_t *count);
 
+// ---------------------------------------------------------------------------------------------------------------------
+// Geometry of some of the cells: those around vertices, and entries of arrays that a program keeps for all cells.
+// ---------------------------------------------------------------------------------------------------------------------
+
 /// The cells around some vertices: the indices of those of which at least one of the vertices is a corner, ascending,
 /// each once.
 ///
@@ -2452,6 +2619,10 @@ deldrift_status deldrift_update_mask_by_circumradius(const deldrift_triangulatio
                                                      uint8_t *mask,
                                                      size_t capacity);
 
+// ---------------------------------------------------------------------------------------------------------------------
+// Voronoi cells and facets, clipped by a box, or by half-spaces besides.
+// ---------------------------------------------------------------------------------------------------------------------
+
 /// The areas (2D) or volumes (3D) of the Voronoi cells of all ids, within a box.
 ///
 /// low, high: the corners of the box with the least and the greatest coordinates, 2 or 3 numbers each, read during the
@@ -2459,7 +2630,7 @@ deldrift_status deldrift_update_mask_by_circumradius(const deldrift_triangulatio
 /// convex hull are infinite. volumes: a buffer with room for capacity numbers. count: receives the number of ids, which
 /// is also written when the buffer is too small. NULL for volumes with capacity 0 asks for the count alone.
 ///
-/// A removed vertex has NaN, and nothing else has. A hidden vertex has 0: the one of lowest id at its place has the
+/// NaN is for removed vertices only. A hidden vertex has 0: the one of lowest id at its place has the
 /// cell. Vertices in one hyperplane, a single one included, have cells too, though deldrift_cells has none: in a box
 /// what of it is nearest to each; without one these are infinite. What is beyond the range of numbers, or has a corner
 /// there, is infinite.
@@ -2508,9 +2679,9 @@ deldrift_status deldrift_voronoi_volumes(const deldrift_triangulation *t,
 ///
 /// There is one number for each edge of the triangulation, so vertices in one hyperplane have none; each is the measure
 /// of what both cells share, whichever of the two it is seen from. It is never NaN, and infinite where a corner is
-/// beyond the range of numbers. Of vertices on an empty circle or sphere some share an edge only as ties are broken by
-/// id: their Voronoi facet is a point, or in space may be a segment, and has 0 but for rounding; others, which have no
-/// edge, share no more than that. A facet outside the box has 0. One that is in a face of the box counts as inside.
+/// beyond the range of numbers. Edges that exist only by tie-breaking have a facet of measure 0, up to rounding: of
+/// vertices on an empty circle or sphere; those of them that have no edge share no more than that. A facet outside the box
+/// has 0. One that is in a face of the box counts as inside.
 ///
 /// Rounded: with the h that deldrift_voronoi_volumes has, of the cells around the edge, a length is off by at most 2 h,
 /// an area by at most h times the perimeter of the facet, however near to each other vertices are. Never negative. The
@@ -2762,6 +2933,10 @@ deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
                                          size_t capacity,
                                          size_t *count);
 
+// ---------------------------------------------------------------------------------------------------------------------
+// Periodic triangulations: their creation, and what only they have.
+// ---------------------------------------------------------------------------------------------------------------------
+
 /// Creates the Delaunay triangulation of points that repeat: each is in all places to which sums of multiples of the
 /// vectors take it.
 ///
@@ -2785,24 +2960,16 @@ deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
 /// positions may be some 1e13 L away. Where vectors go along more axes than there are vectors, as one that is along no axis
 /// does, the step is 2^10 times that, and positions may be some 500 L away across the vectors, else they are out of range.
 ///
-/// Functions that serve a periodic triangulation are those of this section, deldrift_destroy, deldrift_dimension,
-/// deldrift_set_algorithm, deldrift_get_algorithm, deldrift_move_vertex, deldrift_move_vertices,
-/// deldrift_stage_insertions, deldrift_stage_removals, deldrift_discard_moves, deldrift_commit_timestamp,
-/// deldrift_commit_positions, deldrift_prepare_timestamp, deldrift_publish_timestamp, deldrift_withdraw_timestamp,
-/// deldrift_vertex_count, deldrift_id_count, deldrift_cell_count, deldrift_staged_count,
-/// deldrift_memory_bytes, deldrift_timestamp, deldrift_statistics, deldrift_is_present, deldrift_position,
-/// deldrift_copy_positions, deldrift_coincident_representative, deldrift_cells, deldrift_copy_cells, deldrift_edges,
-/// deldrift_take_changes, deldrift_circumcentres, deldrift_volumes, deldrift_mask_by_circumradius with the functions that
-/// update what these give, deldrift_mask_boundary, deldrift_hull_facets, deldrift_locate, deldrift_locate_points,
-/// deldrift_locate_in_period, deldrift_nearest_vertex, deldrift_nearest_vertices, deldrift_vertices_in_ball,
-/// deldrift_vertices_in_box, deldrift_conflicts, deldrift_voronoi_changed,
-/// deldrift_barycentric, deldrift_interpolate, deldrift_clone, deldrift_save,
-/// deldrift_load, deldrift_save_file, deldrift_load_file, deldrift_write_vtu, deldrift_write_medit, deldrift_compact,
-/// deldrift_relocate_vertex, deldrift_insert_vertex, deldrift_remove_vertex, deldrift_validate, deldrift_hidden_vertices,
-/// deldrift_star, deldrift_vertex_cells, deldrift_vertex_neighbours, deldrift_cell_of_each_vertex, deldrift_cells_around,
-/// deldrift_mirror_indices, deldrift_mirror_index, deldrift_voronoi_volumes, deldrift_voronoi_facets, deldrift_voronoi_cells,
-/// deldrift_voronoi_cells_within, deldrift_voronoi_derivatives and deldrift_voronoi_derivatives_within. All others return
-/// DELDRIFT_PERIODIC. Cells are numbered anew by each commit, unless changes are taken.
+/// All functions serve a periodic triangulation but those of segments, refinement, keys, reach, and a few others, which
+/// return DELDRIFT_PERIODIC: deldrift_stage_insertions_with_keys, deldrift_stage_insertions_at_free_ids,
+/// deldrift_insert_vertex_with_key, deldrift_keys, deldrift_stage_segments, deldrift_stage_segment_removals,
+/// deldrift_segments, deldrift_check_staged, deldrift_segment_conflicts, deldrift_check_passings, deldrift_passings,
+/// deldrift_stage_splits, deldrift_release_cells, deldrift_tolerance, deldrift_cells_in_reach,
+/// deldrift_hull_facets_in_reach, deldrift_vertices_in_reach, deldrift_mask_without_flat_cells,
+/// deldrift_segments_of_cells, deldrift_cells_of_segments, deldrift_nesting_levels, deldrift_crossing_numbers,
+/// deldrift_label_cells, deldrift_update_labels, deldrift_boundary_chains, deldrift_refine, deldrift_coarsen,
+/// deldrift_made_vertices, deldrift_original_segments, deldrift_refined_weights, deldrift_find_simplices and
+/// deldrift_ordered_star. Cells are numbered anew by each commit, unless changes are taken.
 ///
 /// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves,
 /// or of other vectors that are near those in force, costs what it costs in an open triangulation of as many, and reading the
@@ -2856,9 +3023,9 @@ deldrift_status deldrift_vectors(const deldrift_triangulation *t,
 /// The shortest vectors of the lattice, which deldrift_wrap_positions translates by: a reduced basis of it.
 ///
 /// vectors: receives rows of 2 (2D) or 3 (3D) numbers. multiples: receives as many rows of whole numbers, the multiples of the
-/// vectors that were given whose sum each one is. greatest: receives a number for each: where two vertices are at places that
-/// deldrift_wrap_positions tells, and an edge leads from the one to a translation of the other, that is one by this multiple of
-/// the vector at most, and its place is calculated without rounding. All are buffers with room for capacity vectors; one
+/// vectors that were given whose sum each one is. greatest: receives a number for each: where vertices are at positions that
+/// deldrift_wrap_positions gives, no edge spans more than greatest[j] times vector j, and the place to which it leads is
+/// calculated without rounding. All are buffers with room for capacity vectors; one
 /// that is NULL is not filled. count: receives their number, 0 for a triangulation that is not periodic; it is also written
 /// when the buffers are too small. NULL for all with capacity 0 asks for the count alone.
 ///
@@ -2876,8 +3043,9 @@ deldrift_status deldrift_reduced_vectors(const deldrift_triangulation *t,
 /// deldrift_create_periodic, which is where the triangulation would have it.
 ///
 /// positions: count points, in any period; they need not be those of vertices, and the triangulation may have none. previous:
-/// NULL, or count points, where the vertices have been: each goes to the period that is nearest to its entry, if that place is
-/// out of the unit cell by a quarter of it at most, so that a vertex at a side does not go to and fro. places: receives count
+/// NULL, or count points, where the vertices have been: each keeps its
+/// period, the one that is nearest to its entry, while it is at most a quarter of the unit cell outside of it, so that a vertex
+/// does not flip back and forth at a face. places: receives count
 /// points. shifts: receives count rows of 2 (2D) or 3 (3D) whole numbers: by which multiples of the vectors that were given the
 /// position is translated from its place, 0 beyond the last of these.
 ///
@@ -2936,6 +3104,10 @@ deldrift_status deldrift_edge_shifts(const deldrift_triangulation *t,
                                      int64_t *shifts,
                                      size_t capacity,
                                      size_t *count);
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Values between vertices.
+// ---------------------------------------------------------------------------------------------------------------------
 
 /// Interpolates values of the vertices at count positions.
 ///
@@ -2998,6 +3170,10 @@ deldrift_status deldrift_barycentric(const deldrift_triangulation *t,
                                      const uint32_t *cells,
                                      size_t count,
                                      double *weights);
+
+// ---------------------------------------------------------------------------------------------------------------------
+// A triangulation as bytes, in memory or in a file, and a second one like it.
+// ---------------------------------------------------------------------------------------------------------------------
 
 /// Makes an independent triangulation that is as this one, to *out, which the caller has to hand to
 /// deldrift_destroy; it is written on success only.
@@ -3155,6 +3331,10 @@ deldrift_status deldrift_write_medit(const deldrift_triangulation *t,
                                      const char *path,
                                      const int32_t *references,
                                      size_t reference_count);
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Exact signs for points of the caller's own. They need no triangulation.
+// ---------------------------------------------------------------------------------------------------------------------
 
 /// The orientation of points, exactly, to *sign: 1, -1 or 0.
 ///

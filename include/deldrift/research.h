@@ -81,6 +81,10 @@ typedef struct deldrift_research_options {
 extern "C" {
 #endif // __cplusplus
 
+// ---------------------------------------------------------------------------------------------------------------------
+// What `include/deldrift/research.h` declares: the algorithms of the research report RR-6750 that are there to compare
+// ---------------------------------------------------------------------------------------------------------------------
+
 /// Changes the algorithm of later commits to one of research, until deldrift_set_algorithm chooses another. Staged
 /// moves stay. What the new algorithm needs and the old one did not keep is computed by the next commit.
 ///
