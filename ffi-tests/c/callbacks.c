@@ -26,6 +26,41 @@ static void tell(const char *call) {
     printf("%.*s\n", (int)length_of_name(name), name);
 }
 
+// A box of many vertices, as that of a tour has few: with what builds inside, copies, checks and asks.
+static void in_a_box(const places *p) {
+    static const double box[2][9] = {{1, 0, 0, 1}, {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+    deldrift_options options;
+    deldrift_options_init(&options);
+    options.cancel = tour_cancel;
+    options.progress = tour_progress;
+    deldrift_triangulation *t = NULL, *copy = NULL;
+    deldrift_changes changes;
+    size_t count = 0;
+    uint32_t vertex = 0;
+    tour_record->count = 0;
+    GO(deldrift_create_periodic(p->dimension, p->at, p->n, box[p->dimension - 2], p->dimension, &options, &t));
+    GO(deldrift_take_changes(t, &changes));
+    GO(deldrift_move_vertices(t, NULL, p->then, p->n));
+    GO(deldrift_prepare_timestamp(t, NULL));
+    GO(deldrift_withdraw_timestamp(t));
+    GO(deldrift_commit_positions(t, p->then, p->n, NULL));
+    GO(deldrift_remove_vertex(t, 5));
+    GO(deldrift_compact(t, tour_out.ids, TOUR_ROOM, &count));
+    GO(deldrift_relocate_vertex(t, 5, p->later));
+    GO(deldrift_insert_vertex(t, p->later + 30, &vertex));
+    GO(deldrift_validate(t, 3));
+    GO(deldrift_clone(t, &copy));
+    DO(deldrift_destroy(copy));
+    GO(deldrift_edges(t, NULL, 0, &count));
+    GO(deldrift_voronoi_cells(t, NULL, NULL, NULL, 0, tour_out.numbers, NULL, NULL, TOUR_ROOM, &count));
+    GO(deldrift_voronoi_derivatives(t, NULL, NULL, NULL, 0, tour_out.numbers, NULL, NULL, TOUR_ROOM, &count));
+    GO(deldrift_save_file(t, tour_path()));
+    GO(deldrift_load_file(tour_path(), &options, &copy));
+    DO(deldrift_destroy(copy));
+    DO(deldrift_destroy(t));
+    CHECK(unlink(tour_path()) == 0);
+}
+
 int main(void) {
     static places p;
     static record made;
@@ -36,6 +71,7 @@ int main(void) {
             p = places_of(ROUNDED, dimension, algorithms[k], k + 1);
             make_tour(&p, &made);
         }
+        in_a_box(&p);
     }
     return 0;
 }

@@ -192,7 +192,7 @@ static void domains_are_known() {
     CHECK(std::abs(area[1] - 14) < 1e-12 && std::abs(area[2] - 2) < 1e-12 && area[0] > 0);
     CHECK(t.crossing_numbers() == levels);
     // The sides of the diamond once more: by the even-odd rule it is no hole any more.
-    Triangulation twice = t;
+    Triangulation twice = t.clone();
     twice.stage_segments(std::vector<Ends>(sides.begin() + 4, sides.end()));
     twice.commit_timestamp();
     const std::vector<std::uint32_t> numbers = twice.crossing_numbers();
