@@ -84,6 +84,37 @@ fn callbacks_are_called_from_where_the_header_says() {
     assert_eq!(missing, SHORT, "these may be cancelled, the header says, and no callback is called");
 }
 
+/// docs/PERIODIC.md has in a table what the header lists, some of it as ranges in the order of the header. That boxes refuse
+/// these and no others is tried by ffi-tests/abuse.rs.
+#[test]
+fn page_on_boxes_has_what_the_header_says_that_they_refuse() {
+    let functions = functions();
+    let at = |name: &str| {
+        functions.iter().position(|function| function.name == name).unwrap_or_else(|| panic!("{name}"))
+    };
+    let create = &functions[at("deldrift_create_periodic")].documentation;
+    let (_, list) = create.split_once("which return DELDRIFT_PERIODIC: ").expect("they are listed");
+    let (list, _) = list.split_once(". ").expect("a sentence ends");
+    let listed: BTreeSet<&str> =
+        list.split([',', ' ']).filter(|word| word.starts_with("deldrift_")).collect();
+    let page = text_of("docs/PERIODIC.md");
+    let (_, table) = page.split_once("refused with `DELDRIFT_PERIODIC`").expect("the page has a table");
+    let rows =
+        table.lines().skip_while(|line| !line.starts_with('|')).take_while(|line| line.starts_with('|'));
+    let mut on_page = BTreeSet::new();
+    for name_or_range in rows.filter_map(|row| cells(row).get(1).copied()).flat_map(|names| names.split(", "))
+    {
+        let mut ends = name_or_range.split('`').filter(|word| word.starts_with("deldrift_")).map(at);
+        let Some(first) = ends.next() else { continue };
+        on_page.extend(
+            functions[first..=ends.next().unwrap_or(first)].iter().map(|function| function.name.as_str()),
+        );
+    }
+    // That one serves boxes, but for some places.
+    assert!(on_page.remove("deldrift_conflicts"));
+    assert_eq!(on_page, listed);
+}
+
 #[test]
 fn every_status_has_a_cause_and_a_remedy() {
     let header = text_of("include/deldrift.h");
