@@ -7,8 +7,58 @@ use super::pointers::{Array, Buffer, Output, Point, given};
 use super::status::deldrift_status;
 use crate::ids::VertexId;
 use crate::in_its_dimension;
-use crate::motion::VoronoiFacet;
-use parts::{OfCells, OfFacets, box_for, clip_for, half_space_rows, mask_for, write};
+use parts::{CellArrays, FacetArrays, box_for, clip_for, fill, half_space_rows, mask_for};
+
+/// Rows of half-spaces and a mask that are not given: pointers and counts.
+const NO_ROWS: (*const f64, usize) = (std::ptr::null(), 0);
+const NO_MASK: (*const u8, usize) = (std::ptr::null(), 0);
+
+/// Computes Voronoi cells and facets in one pass, whatever is asked for.
+///
+/// # Safety
+/// What the header says of the arguments of deldrift_voronoi_cells_and_facets.
+unsafe fn pass(
+    t: *const deldrift_triangulation,
+    [low, high]: [*const f64; 2],
+    (half_spaces, half_space_count): (*const f64, usize),
+    (mask, mask_count): (*const u8, usize),
+    cells: Option<CellArrays>,
+    facets: Option<FacetArrays>,
+) -> deldrift_status {
+    given!(t: Reading, low: Point, high: Point, mask[mask_count]: Array);
+    t.read_any_watched(|t, monitor| {
+        let d = t.dimension() as usize;
+        let are_both = cells.is_some() && facets.is_some();
+        // SAFETY: as was promised to this function, here and below.
+        let rows = || unsafe { half_space_rows(d, half_spaces, half_space_count) };
+        let cell_rows = |n: usize| cells.map(|cells| unsafe { cells.rows(d, n) });
+        let facet_rows = |n: usize| facets.map(|facets| unsafe { facets.rows(d, n, are_both) });
+        match t {
+            Content::Open(t) => in_its_dimension!(t => {
+                let clip = clip_for(t, low, high, half_space_count > 0)?;
+                let half_spaces = rows()?;
+                t.check_half_spaces(half_spaces)?;
+                let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
+                // Both tell how many entries there are before one is refused.
+                let (cells, facets) = (cell_rows(t.id_count()), facet_rows(t.edge_count()));
+                fill(cells.transpose()?, facets.transpose()?, |cells, facets| {
+                    t.for_voronoi(clip, half_spaces, mask, monitor, cells, facets)
+                })
+            }),
+            Content::Periodic(t) => in_its_period!(t, t => {
+                let clip = box_for(t, low, high)?;
+                let half_spaces = rows()?;
+                let container = t.container(clip, half_spaces)?;
+                let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
+                let n_edges = if facets.is_some() { t.edge_count()? } else { 0 };
+                let (cells, facets) = (cell_rows(t.id_count()), facet_rows(n_edges));
+                fill(cells.transpose()?, facets.transpose()?, |cells, facets| {
+                    t.for_voronoi_in(container.as_ref(), mask, monitor, cells, facets)
+                })
+            }),
+        }
+    })
+}
 
 /// The areas (2D) or volumes (3D) of the Voronoi cells of all ids, within a box.
 ///
@@ -57,18 +107,10 @@ pub unsafe extern "C" fn deldrift_voronoi_volumes(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    given!(t: Reading, low: Point, high: Point, volumes[capacity]: Buffer, count: Output);
-    t.read_any_watched(|t, monitor| match t {
-        Content::Open(t) => in_its_dimension!(t => {
-            let clip = clip_for(t, low, high)?;
-            volumes.fill(count, t.id_count(), || Ok(t.voronoi_volumes_monitored(clip, monitor)?))
-        }),
-        Content::Periodic(t) => in_its_period!(t, t => {
-            let clip = box_for(t, low, high)?;
-            let container = t.container(clip, &[])?;
-            volumes.fill(count, t.id_count(), || Ok(t.voronoi_volumes_in(container.as_ref(), monitor)?))
-        }),
-    })
+    let none = std::ptr::null_mut();
+    let cells = CellArrays { volumes, areas: none, centroids: none, capacity, count };
+    // SAFETY: what the caller promises here is what is to be promised there; there are neither half-spaces nor a mask.
+    unsafe { pass(t, [low, high], NO_ROWS, NO_MASK, Some(cells), None) }
 }
 
 /// The lengths (2D) or areas (3D) of the Voronoi facets of all edges, in the order of deldrift_edges, within a box.
@@ -113,21 +155,9 @@ pub unsafe extern "C" fn deldrift_voronoi_facets(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    given!(t: Reading, low: Point, high: Point, measures[capacity]: Buffer, count: Output);
-    t.read_any_watched(|t, monitor| match t {
-        Content::Open(t) => in_its_dimension!(t => {
-            let clip = clip_for(t, low, high)?;
-            measures.fill(count, t.edge_count(), || Ok(t.voronoi_facets_monitored(clip, monitor)?))
-        }),
-        Content::Periodic(t) => in_its_period!(t, t => {
-            let clip = box_for(t, low, high)?;
-            let container = t.container(clip, &[])?;
-            measures.fill_by(count, t.edge_count()?, |places| {
-                let tell = &mut |edge, facet: VoronoiFacet<_>| write(places, edge, &[facet.area]);
-                Ok(t.for_voronoi_facets_in(container.as_ref(), None, monitor, tell)?)
-            })
-        }),
-    })
+    let facets = FacetArrays::of_measures(measures, capacity, count);
+    // SAFETY: what the caller promises here is what is to be promised there; there are neither half-spaces nor a mask.
+    unsafe { pass(t, [low, high], NO_ROWS, NO_MASK, None, Some(facets)) }
 }
 
 /// The Voronoi cells of all ids within a box, for programs that need them at every step: areas (2D) or volumes (3D),
@@ -191,23 +221,9 @@ pub unsafe extern "C" fn deldrift_voronoi_cells(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
+    let cells = CellArrays { volumes, areas, centroids, capacity, count };
     // SAFETY: what the caller promises here is what is to be promised there; there are no half-spaces.
-    unsafe {
-        deldrift_voronoi_cells_within(
-            t,
-            low,
-            high,
-            std::ptr::null(),
-            0,
-            mask,
-            mask_count,
-            volumes,
-            areas,
-            centroids,
-            capacity,
-            count,
-        )
-    }
+    unsafe { pass(t, [low, high], NO_ROWS, (mask, mask_count), Some(cells), None) }
 }
 
 /// The Voronoi cells of all ids within a box and half-spaces, as deldrift_voronoi_cells has them within a box: for
@@ -260,34 +276,10 @@ pub unsafe extern "C" fn deldrift_voronoi_cells_within(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    given!(t: Reading, low: Point, high: Point, mask[mask_count]: Array, volumes[capacity]: Buffer,
-        areas[capacity]: Buffer, count: Output);
-    t.read_any_watched(|t, monitor| {
-        let d = t.dimension() as usize;
-        given!(centroids[capacity.saturating_mul(d)]: Buffer);
-        let to = OfCells { volumes, areas, centroids, capacity };
-        match t {
-            Content::Open(t) => in_its_dimension!(t => {
-                let clip = [low.of("low", t)?, high.of("high", t)?];
-                t.check_clip(clip)?;
-                // SAFETY: as was promised to this function.
-                let half_spaces = unsafe { half_space_rows(d, half_spaces, half_space_count)? };
-                t.check_half_spaces(half_spaces)?;
-                let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
-                to.fill(count, t.id_count(), |tell| t.for_voronoi_cells(clip, half_spaces, mask, monitor, tell))
-            }),
-            Content::Periodic(t) => in_its_period!(t, t => {
-                let clip = box_for(t, low, high)?;
-                // SAFETY: as was promised to this function.
-                let half_spaces = unsafe { half_space_rows(d, half_spaces, half_space_count)? };
-                let container = t.container(clip, half_spaces)?;
-                let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
-                to.fill(count, t.id_count(), |tell| {
-                    t.for_voronoi_cells_in(container.as_ref(), mask, monitor, tell)
-                })
-            }),
-        }
-    })
+    let cells = CellArrays { volumes, areas, centroids, capacity, count };
+    let half_spaces = (half_spaces, half_space_count);
+    // SAFETY: what the caller promises here is what is to be promised there.
+    unsafe { pass(t, [low, high], half_spaces, (mask, mask_count), Some(cells), None) }
 }
 
 /// The Voronoi facets of all edges within a box, in the order of deldrift_edges: lengths (2D) or areas (3D), centroids,
@@ -347,23 +339,9 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
+    let facets = FacetArrays { measures, centroids, derivatives, capacity, count };
     // SAFETY: what the caller promises here is what is to be promised there; there are no half-spaces.
-    unsafe {
-        deldrift_voronoi_derivatives_within(
-            t,
-            low,
-            high,
-            std::ptr::null(),
-            0,
-            mask,
-            mask_count,
-            measures,
-            centroids,
-            derivatives,
-            capacity,
-            count,
-        )
-    }
+    unsafe { pass(t, [low, high], NO_ROWS, (mask, mask_count), None, Some(facets)) }
 }
 
 /// The Voronoi facets of all edges within a box and half-spaces, with derivatives, as deldrift_voronoi_derivatives has
@@ -400,35 +378,10 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives_within(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    given!(t: Reading, low: Point, high: Point, mask[mask_count]: Array, measures[capacity]: Buffer,
-        count: Output);
-    t.read_any_watched(|t, monitor| {
-        let d = t.dimension() as usize;
-        given!(centroids[capacity.saturating_mul(d)]: Buffer);
-        given!(derivatives[capacity.saturating_mul(2 * d)]: Buffer);
-        let to = OfFacets { measures, centroids, derivatives, capacity };
-        match t {
-            Content::Open(t) => in_its_dimension!(t => {
-                let clip = [low.of("low", t)?, high.of("high", t)?];
-                t.check_clip(clip)?;
-                // SAFETY: as was promised to this function.
-                let half_spaces = unsafe { half_space_rows(d, half_spaces, half_space_count)? };
-                t.check_half_spaces(half_spaces)?;
-                let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
-                to.fill(count, t.edge_count(), |tell| t.for_voronoi_facets(clip, half_spaces, mask, monitor, tell))
-            }),
-            Content::Periodic(t) => in_its_period!(t, t => {
-                let clip = box_for(t, low, high)?;
-                // SAFETY: as was promised to this function.
-                let half_spaces = unsafe { half_space_rows(d, half_spaces, half_space_count)? };
-                let container = t.container(clip, half_spaces)?;
-                let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
-                to.fill(count, t.edge_count()?, |tell| {
-                    t.for_voronoi_facets_in(container.as_ref(), mask, monitor, tell)
-                })
-            }),
-        }
-    })
+    let facets = FacetArrays { measures, centroids, derivatives, capacity, count };
+    let half_spaces = (half_spaces, half_space_count);
+    // SAFETY: what the caller promises here is what is to be promised there.
+    unsafe { pass(t, [low, high], half_spaces, (mask, mask_count), None, Some(facets)) }
 }
 
 /// Marks the vertices whose Voronoi cell has changed, or may have: a mask for deldrift_voronoi_cells, so that a step costs
