@@ -26,7 +26,7 @@ typedef enum { WITH_EDITS, WITHOUT_EDITS, REFINED, PREPARED, N_BASES } base;
 typedef struct {
     deldrift_triangulation *handle;
     deldrift_released_cells *owner;
-    size_t count;
+    size_t count, edge_count;
     uint64_t timestamp;
     uint32_t number;
     int32_t sign;
@@ -37,6 +37,7 @@ typedef struct {
     deldrift_cells_view cells;
     deldrift_location location, locations[8];
     double numbers[ROOM], more_numbers[ROOM], rows[ROOM], few_numbers[8];
+    double facets[ROOM], more_facets[ROOM], facet_rows[ROOM];
     size_t offsets[8];
     uint32_t ids[ROOM], more_ids[ROOM], few_ids[ROOM / 8], fewer_ids[ROOM / 8];
     int32_t labels[ROOM];
@@ -480,7 +481,7 @@ static bool serves_periodic(const char *name) {
         "publish_timestamp", "withdraw_timestamp", "vertex_count", "id_count",
         "cell_count", "staged_count", "memory_bytes", "timestamp", "statistics", "is_present", "position",
         "copy_positions", "coincident_representative", "cells", "copy_cells", "edges", "voronoi_volumes",
-        "voronoi_facets", "voronoi_cells", "voronoi_derivatives", "voronoi_cells_within", "voronoi_derivatives_within", "circumcentres", "volumes", "mask_by_circumradius",
+        "voronoi_facets", "voronoi_cells", "voronoi_derivatives", "voronoi_cells_within", "voronoi_derivatives_within", "voronoi_cells_and_facets", "circumcentres", "volumes", "mask_by_circumradius",
         "mask_boundary", "hull_facets", "update_circumcentres", "update_volumes", "update_mask_by_circumradius",
         "stage_vectors", "vectors", "cell_shifts", "edge_shifts", "take_changes", "locate", "locate_points",
         "locate_in_period", "nearest_vertex", "nearest_vertices", "vertices_in_ball", "barycentric", "interpolate",
