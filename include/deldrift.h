@@ -2731,6 +2731,23 @@ deldrift_status deldrift_voronoi_derivatives_within(const deldrift_triangulation
                                                     size_t capacity,
                                                     size_t *count);
 
+/// Voronoi cells and facets in one call, any of their numbers: those of deldrift_voronoi_cells_within and
+/// deldrift_voronoi_derivatives_within, to the last bit, with circumcentres computed and compared with box and half-spaces once.
+///
+/// low, high, half_spaces, half_space_count, mask, mask_count: as these functions have them; NULL for low and high is no box.
+/// volumes, areas, centroids, capacity, count: as deldrift_voronoi_cells has them. measures, facet_centroids, derivatives,
+/// edge_capacity, edge_count: as deldrift_voronoi_derivatives has them. One that is NULL is neither filled nor computed: with
+/// NULL for measures, facet_centroids and derivatives, and edge_capacity 0, this takes as long as deldrift_voronoi_cells_within,
+/// and with NULL for volumes, areas and centroids, and capacity 0, as long as deldrift_voronoi_derivatives_within. count and
+/// edge_count receive the numbers of ids and of edges in any case, also when buffers of either kind are too small.
+///
+/// Cost: that of both functions, without the circumcentres of one of them.
+///
+/// Errors: those of deldrift_voronoi_cells_within: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_WRONG_COUNT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+deldrift_status deldrift_voronoi_cells_and_facets(const deldrift_triangulation *t, const double *low, const double *high, const double *half_spaces, size_t half_space_count, const uint8_t *mask, size_t mask_count, double *volumes, double *areas, double *centroids, size_t capacity, size_t *count, double *measures, double *facet_centroids, double *derivatives, size_t edge_capacity, size_t *edge_count);
+
 /// Marks the vertices whose Voronoi cell has changed, or may have: a mask for deldrift_voronoi_cells, so that a step costs
 /// what has changed.
 ///

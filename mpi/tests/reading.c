@@ -128,7 +128,7 @@ static facet *serial_facets(const history *h, const reading *r, size_t *count) {
             facet f = facet_of(r, d, e, end, anchor);
             f.from = v;
             f.to = w;
-            for (uint32_t j = 0; j < d; j++) f.shift[j] = end ? -shifts[e * d + j] : shifts[e * d + j];
+            for (size_t j = 0; j < h->vector_count; j++) f.shift[j] = end ? -shifts[e * d + j] : shifts[e * d + j];
             facets[2 * e + (size_t)end] = f;
         }
     }
@@ -169,13 +169,13 @@ static void compare_locations(const history *h, const reading *local, const read
             compared_places++;
         }
         deldrift_location here, there;
-        OK(deldrift_locate(local->t, x, NULL, &here));
+        OK(deldrift_locate(local->t, x, &here));
         if (here.kind != DELDRIFT_LOCATION_CELL) continue;
         const uint32_t *corners = view.vertices + (size_t)here.index * (d + 1);
         bool has_own = false;
         for (uint32_t k = 0; k <= d; k++) has_own = has_own || is_own[corners[k]];
         if (!has_own) continue;
-        OK(deldrift_locate(serial->t, x, NULL, &there));
+        OK(deldrift_locate(serial->t, x, &there));
         CHECK(there.kind == DELDRIFT_LOCATION_CELL);
         const uint32_t *row = all.vertices + (size_t)there.index * (d + 1);
         for (uint32_t k = 0; k <= d; k++) {
@@ -240,7 +240,7 @@ static void compare(const history *h, const vertex *all, size_t n, const double 
             facet f = facet_of(&local, d, e, end, local.positions + v * d);
             f.from = rank_of[v];
             f.to = rank_of[w];
-            for (uint32_t j = 0; j < d; j++) f.shift[j] = periods[w * d + j] - periods[v * d + j];
+            for (size_t j = 0; j < h->vector_count; j++) f.shift[j] = periods[w * d + j] - periods[v * d + j];
             const facet *wanted = bsearch(&f, facets, count, sizeof *facets, compare_facets);
             CHECK(wanted && is_same_facet(d, &f, wanted));
             found++;

@@ -167,7 +167,7 @@ def test_voronoi_cells_and_facets_come_together(tri):
     whole = tri.voronoi_cells()
     assert np.array_equal(whole.volumes, tri.voronoi_volumes(), equal_nan=True)
     assert np.isinf(whole.volumes).any() and np.isnan(whole.centroids[np.isinf(whole.volumes)]).all()
-    with pytest.raises(deldrift.DeldriftError):
+    with pytest.raises(deldrift.Error):
         tri.voronoi_cells(half_spaces=[row])
 
 
