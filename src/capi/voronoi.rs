@@ -165,12 +165,12 @@ pub unsafe extern "C" fn deldrift_voronoi_facets(
 /// boundaries and centroids, in one pass over the cells, however many vertices have moved. A program that needs their facets
 /// as well gets both from deldrift_voronoi_cells_and_facets for less.
 ///
-/// low, high: the corners of the box with the least and the greatest coordinates, 2 or 3 numbers each, read during the
-/// call only; vertices may be outside of it. NULL for both is no box. mask, mask_count: a byte for each id, mask_count of them, which must be
-/// deldrift_id_count; only entries of vertices of which the byte is not 0 are computed and written, and the others are
-/// left as they are. NULL and 0 for all vertices. deldrift_voronoi_changed makes a mask of the cells that have changed.
-/// The numbers of a vertex do not depend on the mask, nor on the number of threads that compute them, to the last bit. They
-/// are sums in the order of the cells, which a build on several threads may have in another one.
+/// low, high: the corners of the box with the least and the greatest coordinates, 2 or 3 numbers each, read during the call
+/// only; vertices may be outside of it. NULL for both is no box. mask, mask_count: a byte for each id, mask_count of them,
+/// which must be deldrift_id_count; only entries of vertices of which the byte is not 0 are computed and written, and the
+/// others are left as they are. NULL and 0 for all vertices. deldrift_voronoi_changed makes a mask of the cells that have
+/// changed. The numbers of a vertex do not depend on the mask, nor on the number of threads that compute them, to the last
+/// bit. They are sums in the order of the cells, which a build on several threads may have in another one.
 ///
 /// volumes: a buffer with room for capacity numbers. areas: a buffer with room for as many; receives the length (2D) or area
 /// (3D) of the boundary of what there is of each cell in the box, with what it has of the faces of the box. centroids: a buffer
@@ -181,12 +181,13 @@ pub unsafe extern "C" fn deldrift_voronoi_facets(
 /// else is. Vertices in one hyperplane, a single one included, have cells too, as in deldrift_voronoi_volumes. Without a box
 /// the cells of vertices on the convex hull have volume and area infinite. Segments are not looked at.
 ///
-/// Rounded: let h be what deldrift_voronoi_volumes has for a box, or without one, and S, T, V and d the area of a cell's surface, that of
-/// the triangles that the vertex makes with its edges, its volume and its diameter. To first order in h, a volume is off
-/// by at most h times the greater of S and 2/3 T, which is less unless a cell has dozens of facets (2D: h
-/// times the length of the boundary), an area by h times the sum of the perimeters of the cell's faces (2D: 2 h for
-/// each), and a centroid, where that is less than d, by that error of the volume times d / V, and
-/// without a box by the rounding of its coordinates besides; it is in the box in any case. The volumes of all ids add up to that of the box but for rounding.
+/// Rounded: let h be what deldrift_voronoi_volumes has for a box, or without one, and S, T, V and d the area of a cell's
+/// surface, that of the triangles that the vertex makes with its edges, its volume and its diameter. To first order in h, a
+/// volume is off by at most h times the greater of S and 2/3 T, which is less unless a cell has dozens of facets (2D: h
+/// times the length of the boundary), an area by h times the sum of the perimeters of the cell's faces (2D: 2 h for each),
+/// and a centroid, where that is less than d, by that error of the volume times d / V, and without a box by the rounding of
+/// its coordinates besides; it is in the box in any case. The volumes of all ids add up to that of the box but for
+/// rounding.
 ///
 /// In a periodic triangulation low and high are walls, which repeat with it: they must be -infinity and infinity along each
 /// axis along which a vector goes, so that both are infinite, or NULL, where vectors span all directions. Along other axes they
@@ -310,9 +311,9 @@ pub unsafe extern "C" fn deldrift_voronoi_cells_within(
 /// Without a box, facets of edges on the convex hull have an infinite measure, and NaN for the rest; so have others of which a
 /// corner is beyond the range of numbers.
 ///
-/// Rounded: let h be what deldrift_voronoi_volumes has for a box, or without one, P the perimeter of a facet (2D: 2), d its diameter. A
-/// measure is off by at most h P, a centroid by h P d / A, and by d + h where A is less than 4 h P; a derivative by h P
-/// (d + |x - c|) / L, where x is the position by which it is.
+/// Rounded: let h be what deldrift_voronoi_volumes has for a box, or without one, P the perimeter of a facet (2D: 2), d its
+/// diameter. A measure is off by at most h P, a centroid by h P d / A, and by d + h where A is less than 4 h P; a
+/// derivative by h P (d + |x - c|) / L, where x is the position by which it is.
 ///
 /// In a periodic triangulation low and high are walls, as deldrift_voronoi_cells has them, with its h; or NULL, with the h that
 /// deldrift_voronoi_volumes has without a box, of the cells around the edge. Then a facet without an end has an infinite

@@ -13,11 +13,11 @@ use crate::periodic::container::Container;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
 impl<G: Dimension> PeriodicTriangulation<G> {
-    /// Tells Voronoi cells, facets, or both, of all ids and edges, or of ids of which `mask` has an entry that is not 0 and of edges
-    /// that have such an end, in any order, when all are computed: what a box and half-spaces leave of them. Cells are told as
-    /// [`for_voronoi_cells`](Self::for_voronoi_cells) does, facets as [`for_voronoi_facets`](Self::for_voronoi_facets) does, by their
-    /// numbers in the order of [`edges`](Self::edges), and by these where nothing cuts. The numbers are the same, to the last
-    /// bit, whatever else is told.
+    /// Tells Voronoi cells, facets, or both, of all ids and edges, or of ids of which `mask` has an entry that is not 0 and
+    /// of edges that have such an end, in any order, when all are computed: what a box and half-spaces leave of them. Cells
+    /// are told as [`for_voronoi_cells`](Self::for_voronoi_cells) does, facets as
+    /// [`for_voronoi_facets`](Self::for_voronoi_facets) does, by their numbers in the order of [`edges`](Self::edges), and
+    /// by these where nothing cuts. The numbers are the same, to the last bit, whatever else is told.
     ///
     /// `clip`: the corners of the box of the least and the greatest coordinates, infinite along axes along which a vector of
     /// the lattice goes, and where it has no face otherwise; none if there is no box. `half_spaces`: rows of an outward normal n
@@ -44,12 +44,12 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// # Ok::<(), deldrift::Error>(())
     /// ```
     ///
-    /// # Errors
-    /// [`Error::NotFinite`](crate::Error::NotFinite) and [`Error::OutOfRange`](crate::Error::OutOfRange) for a corner of the box, a
-    /// normal or an offset; [`Error::InvalidValue`](crate::Error::InvalidValue) for a face of the box across an axis along which a
-    /// vector goes, one that is not above its opposite, a normal that is zero or has a product with a vector that is not 0, or if
-    /// what is left is not bounded across the vectors; [`Error::WrongCount`](crate::Error::WrongCount) for a mask or rows;
-    /// [`Error::Cancelled`](crate::Error::Cancelled), [`Error::OutOfMemory`](crate::Error::OutOfMemory). Then nothing has been told.
+    /// # Errors [`Error::NotFinite`](crate::Error::NotFinite) and [`Error::OutOfRange`](crate::Error::OutOfRange) for a
+    /// corner of the box, a normal or an offset; [`Error::InvalidValue`](crate::Error::InvalidValue) for a face of the box
+    /// across an axis along which a vector goes, one that is not above its opposite, a normal that is zero or has a product
+    /// with a vector that is not 0, or if what is left is not bounded across the vectors;
+    /// [`Error::WrongCount`](crate::Error::WrongCount) for a mask or rows; [`Error::Cancelled`](crate::Error::Cancelled),
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory). Then nothing has been told.
     pub fn for_voronoi(
         &self,
         clip: Option<[&G::Point; 2]>,
@@ -108,7 +108,10 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         if let Some(tell) = tell_cell {
             for inner in homes() {
                 let cell = t.found_cell(&found, region.as_ref(), inner);
-                tell(images.of(inner).vertex, VoronoiCell { centroid: placed(inner, &cell.centroid), ..cell });
+                tell(
+                    images.of(inner).vertex,
+                    VoronoiCell { centroid: placed(inner, &cell.centroid), ..cell },
+                );
             }
             let none = VoronoiCell { volume: f64::NAN, area: f64::NAN, centroid: nowhere::<G>() };
             let gone = VertexId::range(0..self.id_count()).filter(|&v| is_wanted(v) && !self.is_present(v));

@@ -383,7 +383,10 @@ impl History<'_> {
         let bits = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(&again), bits(&volumes));
         assert_eq!(bits(&cells), bits(&volumes));
-        assert!(bits(&measures) == bits(&facets) && bits(&sides) == bits(&facets), "{measures:?}, not {facets:?}");
+        assert!(
+            bits(&measures) == bits(&facets) && bits(&sides) == bits(&facets),
+            "{measures:?}, not {facets:?}"
+        );
         if is_boxed {
             self.voronoi_halves(&again);
         }

@@ -31,7 +31,8 @@ fn translated<G: Dimension>(p: &G::Point, basis: &[G::Point], shift: [i64; 3]) -
 fn cells<G: Dimension>(t: &PeriodicTriangulation<G>, case: &Case<G>) -> Vec<VoronoiCell<G::Point>> {
     let mut told = vec![None; t.id_count()];
     let clip = case.clip.as_ref().map(|clip| clip.each_ref());
-    let tell = &mut |v: VertexId, cell| assert!(told[v.index()].replace(cell).is_none(), "{v:?} is told once");
+    let tell =
+        &mut |v: VertexId, cell| assert!(told[v.index()].replace(cell).is_none(), "{v:?} is told once");
     t.for_voronoi(clip, &case.half_spaces, None, &mut |_| true, Some(tell), None).unwrap();
     told.into_iter().map(Option::unwrap).collect()
 }
@@ -130,7 +131,8 @@ fn check<G: Dimension>(seed: u64, n: usize, step: f64, case: &Case<G>) {
             of_edges.insert((first, second), facet);
         }
     };
-    open.for_voronoi(Some(corners.each_ref()), &case.half_spaces, None, &mut |_| true, None, Some(&mut tell)).unwrap();
+    open.for_voronoi(Some(corners.each_ref()), &case.half_spaces, None, &mut |_| true, None, Some(&mut tell))
+        .unwrap();
     for (([v, w], shift), facet) in t.edges().unwrap().zip(facets(&t, case)) {
         let (v, w) = (v.index(), w.index());
         let shift =

@@ -111,11 +111,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Sums for vertices in one hyperplane, whose cells have no end where nothing cuts them.
-    fn targets_without_cells(
-        &self,
-        region: Option<&Region>,
-        progress: &mut Progress,
-    ) -> Result<Vec<Target>> {
+    fn targets_without_cells(&self, region: Option<&Region>, progress: &mut Progress) -> Result<Vec<Target>> {
         let Some(region) = region else {
             let mut targets = Vec::new();
             memory::lengthen(&mut targets, self.mesh.kernel.sites().len(), Target::ENDLESS)?;

@@ -259,12 +259,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// What cells are clipped by, if anything, and if it is good.
     pub(crate) fn region(&self, clip: Option<[&G::Point; 2]>, half_spaces: &[f64]) -> Result<Option<Region>> {
         let Some(clip) = clip else {
-            let none = Error::WrongCount {
-                argument: "half_spaces",
-                given: half_spaces.len(),
-                wanted: 0,
-                coming: 0,
-            };
+            let none =
+                Error::WrongCount { argument: "half_spaces", given: half_spaces.len(), wanted: 0, coming: 0 };
             return if half_spaces.is_empty() { Ok(None) } else { Err(none) };
         };
         let clip = checked::<G>(clip)?;
