@@ -235,6 +235,13 @@ static void ask_for_geometry(const deldrift_triangulation *t) {
     check(deldrift_voronoi_derivatives_within(t, (double[]){0, 0}, (double[]){1, 1}, below_diagonal, 1, NULL, 0, lengths,
                                               NULL, NULL, MOST, &count));
     expect(count == n_edges && lengths[0] >= 0, "a half-plane cuts Voronoi edges, too");
+    static double same_areas[MOST], same_lengths[MOST];
+    size_t n_lengths;
+    check(deldrift_voronoi_cells_and_facets(t, (double[]){0, 0}, (double[]){1, 1}, below_diagonal, 1, NULL, 0, same_areas,
+                                            NULL, NULL, MOST, &count, same_lengths, NULL, NULL, MOST, &n_lengths));
+    expect(memcmp(same_areas, areas, count * sizeof *areas) == 0 &&
+               memcmp(same_lengths, lengths, n_lengths * sizeof *lengths) == 0,
+           "both come from one call, too");
 }
 
 // Whether two triangulations have the same cells under the same indices.

@@ -2644,15 +2644,16 @@ deldrift_status deldrift_update_mask_by_circumradius(const deldrift_triangulatio
 /// 1e-15, unless cells are nearly flat (see deldrift_circumcentres). Never negative. The volumes of all ids add up to that of
 /// the box but for rounding.
 ///
-/// In a periodic triangulation the volumes are those of deldrift_voronoi_cells, to the last bit, and low and high are as they
-/// are there. With NULL for both, cells without an end, as there are where the triangulation is open in some direction, are
+/// The volumes are those of deldrift_voronoi_cells, to the last bit. In a periodic triangulation low and high are as they are
+/// there. With NULL for both, cells without an end, as there are where the triangulation is open in some direction, are
 /// infinite.
 ///
 /// Takes time in proportion to the number of cells, and of ids; in a box, for Voronoi cells at its boundary, to the
 /// number of corners of their facets as well, a microsecond (2D) or some (3D) for each such cell of ordinary sets.
 /// Where a circumcentre nearly is in a face of the box, microseconds for each, as that is decided exactly. Takes memory
-/// for circumcentres and for the cells of each vertex while it runs. For vertices in one hyperplane, in a box, it takes
-/// the time and the memory of creating a triangulation of these. Calls the callbacks of the options.
+/// for circumcentres and sums, and for the cells of each vertex that is cut, while it runs. For vertices in one hyperplane,
+/// in a box, it takes the time and the memory of creating a triangulation of these. Runs on several threads, as the options
+/// allow. Calls the callbacks of the options.
 ///
 /// Cost: n + m; in a box, for vertices in one hyperplane, that of deldrift_create. After a change the first call also
 /// does what the first deldrift_cells does.
@@ -2688,13 +2689,13 @@ deldrift_status deldrift_voronoi_volumes(const deldrift_triangulation *t,
 /// facets of a vertex whose Voronoi cell is in the box, times the lengths of its edges and divided by 4 (2D) or 6 (3D),
 /// add up to its area or volume but for rounding.
 ///
-/// In a periodic triangulation low and high are as deldrift_voronoi_cells has them. Of several edges between two vertices each
-/// has the facet of its own, and one that leads from a vertex to itself has the facet that two periods of its cell share. The
-/// measures are those of deldrift_voronoi_derivatives, to the last bit.
+/// The measures are those of deldrift_voronoi_derivatives, to the last bit. In a periodic triangulation low and high are as
+/// deldrift_voronoi_cells has them. Of several edges between two vertices each has the facet of its own, and one that leads from
+/// a vertex to itself has the facet that two periods of its cell share.
 ///
-/// Takes time in proportion to the number of cells, and memory for circumcentres and for the cells of each vertex while
-/// it runs. What is cut by the box, and is nearly in a face of it, takes as long as in deldrift_voronoi_volumes. Calls
-/// the callbacks of the options.
+/// Takes time in proportion to the number of cells, and memory for circumcentres, facets and the cells of each vertex while
+/// it runs. What is cut by the box, and is nearly in a face of it, takes as long as in deldrift_voronoi_volumes. Runs on
+/// several threads, as the options allow. Calls the callbacks of the options.
 ///
 /// Cost: n + m.
 ///
@@ -2709,30 +2710,32 @@ deldrift_status deldrift_voronoi_facets(const deldrift_triangulation *t,
                                         size_t *count);
 
 /// The Voronoi cells of all ids within a box, for programs that need them at every step: areas (2D) or volumes (3D),
-/// boundaries and centroids, in one pass over the cells, however many vertices have moved.
+/// boundaries and centroids, in one pass over the cells, however many vertices have moved. A program that needs their facets
+/// as well gets both from deldrift_voronoi_cells_and_facets for less.
 ///
-/// low, high: the corners of the box with the least and the greatest coordinates, 2 or 3 numbers each, read during the
-/// call only; vertices may be outside of it. mask, mask_count: a byte for each id, mask_count of them, which must be
-/// deldrift_id_count; only entries of vertices of which the byte is not 0 are computed and written, and the others are
-/// left as they are. NULL and 0 for all vertices. deldrift_voronoi_changed makes a mask of the cells that have changed.
-/// The numbers of a vertex do not depend on the mask, nor on the number of threads that compute them, to the last bit. They
-/// are sums in the order of the cells, which a build on several threads may have in another one.
+/// low, high: the corners of the box with the least and the greatest coordinates, 2 or 3 numbers each, read during the call
+/// only; vertices may be outside of it. NULL for both is no box. mask, mask_count: a byte for each id, mask_count of them,
+/// which must be deldrift_id_count; only entries of vertices of which the byte is not 0 are computed and written, and the
+/// others are left as they are. NULL and 0 for all vertices. deldrift_voronoi_changed makes a mask of the cells that have
+/// changed. The numbers of a vertex do not depend on the mask, nor on the number of threads that compute them, to the last
+/// bit. They are sums in the order of the cells, which a build on several threads may have in another one.
 ///
 /// volumes: a buffer with room for capacity numbers. areas: a buffer with room for as many; receives the length (2D) or area
 /// (3D) of the boundary of what there is of each cell in the box, with what it has of the faces of the box. centroids: a buffer
 /// with room for capacity rows of 2 or 3 coordinates. One that is NULL is not filled. count: receives the number of ids, which
 /// is also written when the buffers are too small. NULL for all three with capacity 0 asks for the count alone.
 ///
-/// A removed vertex has NaN, a hidden one volume and area 0; a centroid is NaN where the volume is 0, and nothing else
-/// is. Vertices in one hyperplane, a single one included, have cells too, as in deldrift_voronoi_volumes. Segments are
-/// not looked at.
+/// A removed vertex has NaN, a hidden one volume and area 0; a centroid is NaN where the volume is 0 or infinite, and nothing
+/// else is. Vertices in one hyperplane, a single one included, have cells too, as in deldrift_voronoi_volumes. Without a box
+/// the cells of vertices on the convex hull have volume and area infinite. Segments are not looked at.
 ///
-/// Rounded: let h be what deldrift_voronoi_volumes has for a box, and S, T, V and d the area of a cell's surface, that of
-/// the triangles that the vertex makes with its edges, its volume and its diameter. To first order in h, a volume is off
-/// by at most h times the greater of S and 2/3 T, which is less unless a cell has dozens of facets (2D: h
-/// times the length of the boundary), an area by h times the sum of the perimeters of the cell's faces (2D: 2 h for
-/// each), and a centroid, where that is less than d, by that error of the volume times d / V; it is in the box in any
-/// case. The volumes of all ids add up to that of the box but for rounding.
+/// Rounded: let h be what deldrift_voronoi_volumes has for a box, or without one, and S, T, V and d the area of a cell's
+/// surface, that of the triangles that the vertex makes with its edges, its volume and its diameter. To first order in h, a
+/// volume is off by at most h times the greater of S and 2/3 T, which is less unless a cell has dozens of facets (2D: h
+/// times the length of the boundary), an area by h times the sum of the perimeters of the cell's faces (2D: 2 h for each),
+/// and a centroid, where that is less than d, by that error of the volume times d / V, and without a box by the rounding of
+/// its coordinates besides; it is in the box in any case. The volumes of all ids add up to that of the box but for
+/// rounding.
 ///
 /// In a periodic triangulation low and high are walls, which repeat with it: they must be -infinity and infinity along each
 /// axis along which a vector goes, so that both are infinite, or NULL, where vectors span all directions. Along other axes they
@@ -2773,7 +2776,8 @@ deldrift_status deldrift_voronoi_cells(const deldrift_triangulation *t,
 /// low, high, mask, mask_count, volumes, areas, centroids, capacity, count: as deldrift_voronoi_cells has them.
 /// half_spaces: half_space_count rows of 3 (2D) or 4 (3D) numbers, read during the call only: an outward normal, of any
 /// length, and an offset. The half-space is the set of the places x with normal · x at most the offset. NULL if there are
-/// none. The box is needed besides; one around the container does. Vertices may be outside of box and half-spaces.
+/// none. The box is needed besides, unless there are none; one around the container does. Vertices may be outside of box and
+/// half-spaces.
 ///
 /// What there is of a cell in the box and all half-spaces is convex. Areas include what it has of the faces of the
 /// box and of the planes. Where nothing of a cell is left, or of the box, volume and area are 0 and the centroid is NaN.
@@ -2837,9 +2841,12 @@ deldrift_status deldrift_voronoi_cells_within(const deldrift_triangulation *t,
 /// Derivatives are infinite where the quotient is beyond the range of numbers. There is one entry for each edge of the
 /// triangulation, as in deldrift_voronoi_facets, and none for vertices in one hyperplane.
 ///
-/// Rounded: let h be what deldrift_voronoi_volumes has for a box, P the perimeter of a facet (2D: 2), d its diameter. A
-/// measure is off by at most h P, a centroid by h P d / A, and by d + h where A is less than 4 h P; a derivative by h P
-/// (d + |x - c|) / L, where x is the position by which it is.
+/// Without a box, facets of edges on the convex hull have an infinite measure, and NaN for the rest; so have others of which a
+/// corner is beyond the range of numbers.
+///
+/// Rounded: let h be what deldrift_voronoi_volumes has for a box, or without one, P the perimeter of a facet (2D: 2), d its
+/// diameter. A measure is off by at most h P, a centroid by h P d / A, and by d + h where A is less than 4 h P; a
+/// derivative by h P (d + |x - c|) / L, where x is the position by which it is.
 ///
 /// In a periodic triangulation low and high are walls, as deldrift_voronoi_cells has them, with its h; or NULL, with the h that
 /// deldrift_voronoi_volumes has without a box, of the cells around the edge. Then a facet without an end has an infinite
@@ -2901,6 +2908,39 @@ deldrift_status deldrift_voronoi_derivatives_within(const deldrift_triangulation
                                                     double *derivatives,
                                                     size_t capacity,
                                                     size_t *count);
+
+/// Voronoi cells and facets in one call, any of their numbers: those of deldrift_voronoi_cells_within and
+/// deldrift_voronoi_derivatives_within, to the last bit, with circumcentres computed and compared with box and half-spaces once.
+///
+/// low, high, half_spaces, half_space_count, mask, mask_count: as these functions have them; NULL for low and high is no box.
+/// volumes, areas, centroids, capacity, count: as deldrift_voronoi_cells has them. measures, facet_centroids, derivatives,
+/// edge_capacity, edge_count: as deldrift_voronoi_derivatives has them. One that is NULL is neither filled nor computed: with
+/// NULL for measures, facet_centroids and derivatives, and edge_capacity 0, this takes as long as deldrift_voronoi_cells_within,
+/// and with NULL for volumes, areas and centroids, and capacity 0, as long as deldrift_voronoi_derivatives_within. count and
+/// edge_count receive the numbers of ids and of edges in any case, also when buffers of either kind are too small.
+///
+/// Cost: that of both functions, without the circumcentres of one of them.
+///
+/// Errors: those of deldrift_voronoi_cells_within: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_WRONG_COUNT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+deldrift_status deldrift_voronoi_cells_and_facets(const deldrift_triangulation *t,
+                                                  const double *low,
+                                                  const double *high,
+                                                  const double *half_spaces,
+                                                  size_t half_space_count,
+                                                  const uint8_t *mask,
+                                                  size_t mask_count,
+                                                  double *volumes,
+                                                  double *areas,
+                                                  double *centroids,
+                                                  size_t capacity,
+                                                  size_t *count,
+                                                  double *measures,
+                                                  double *facet_centroids,
+                                                  double *derivatives,
+                                                  size_t edge_capacity,
+                                                  size_t *edge_count);
 
 /// Marks the vertices whose Voronoi cell has changed, or may have: a mask for deldrift_voronoi_cells, so that a step costs
 /// what has changed.

@@ -751,6 +751,27 @@ public:
                                                        facets.derivatives.data(), count, &count));
         return facets;
     }
+    // Both, in one pass, for less than one after the other.
+    std::pair<VoronoiCells, VoronoiDerivatives> voronoi_cells_and_facets(span<const double> low = {},
+                                                                         span<const double> high = {},
+                                                                         span<const double> half_spaces = {},
+                                                                         span<const std::uint8_t> mask = {}) const {
+        const std::size_t rows = half_spaces.size() / (dimension_ + 1);
+        expect("half_spaces", half_spaces.size(), rows * (dimension_ + 1));
+        std::size_t count = id_count(), edges = 0;
+        require_ok(deldrift_edges(native(), nullptr, 0, &edges));
+        const double nan = std::numeric_limits<double>::quiet_NaN();
+        VoronoiCells cells{std::vector<double>(count, nan), std::vector<double>(count, nan),
+                           std::vector<double>(count * dimension_, nan)};
+        VoronoiDerivatives facets{std::vector<double>(edges, nan), std::vector<double>(edges * dimension_, nan),
+                                  std::vector<double>(edges * 2 * dimension_, nan)};
+        require_ok(deldrift_voronoi_cells_and_facets(
+            native(), corner("low", low), corner("high", high), half_spaces.data(), rows,
+            mask.empty() ? nullptr : mask.data(), mask.size(), cells.volumes.data(), cells.areas.data(),
+            cells.centroids.data(), count, &count, facets.measures.data(), facets.centroids.data(),
+            facets.derivatives.data(), edges, &edges));
+        return {std::move(cells), std::move(facets)};
+    }
     // values: n_values numbers for each id. outside: those of positions outside the hull, NaN if there are none.
     std::vector<double> interpolate(deldrift_interpolation method, span<const double> values, std::size_t n_values,
                                     span<const double> positions, span<const double> outside = {},

@@ -142,6 +142,19 @@ void voronoi_derivatives_within(Context &c) {
                     });
 }
 
+template <int percent>
+void voronoi_cells_and_facets(Context &c) {
+    const auto [low, high] = c.box(percent / 100.0);
+    std::vector<double> volumes(c.n), areas(c.n), centroids(c.n * c.dimension);
+    std::size_t n_ids;
+    counted<double>(c, 2 * c.dimension,
+                    [&, low = low.data(), high = high.data()](double *to, std::size_t room, std::size_t *count) {
+                        return deldrift_voronoi_cells_and_facets(c.t, low, high, nullptr, 0, nullptr, 0, volumes.data(),
+                                                                 areas.data(), centroids.data(), c.n, &n_ids, nullptr,
+                                                                 nullptr, to, room, count);
+                    });
+}
+
 /// A place with natural neighbours costs what a vertex there would change: counted for some, by inserting it in a copy.
 void count_natural_neighbours(Context &c, const Points &places) {
     const std::size_t count = places.size() / c.dimension, counted = std::min<std::size_t>(count, 16);
@@ -393,6 +406,7 @@ std::vector<Call> geometry_calls() {
          }},
         {"deldrift_voronoi_derivatives", "in a box around all", voronoi_derivatives<10>},
         {"deldrift_voronoi_derivatives", "in a box inside", voronoi_derivatives<-20>},
+        {"deldrift_voronoi_cells_and_facets", "in a box around all", voronoi_cells_and_facets<10>},
         {"deldrift_interpolate", "linear, anywhere, as many places as vertices", [](Context &c) {
              interpolate(c, DELDRIFT_INTERPOLATION_LINEAR, c.many(c.n, &Context::anywhere));
          }},

@@ -785,12 +785,16 @@ impl Cases<'_> {
                 self.legal(column, at, given, value);
                 continue;
             }
-            let message = format!("\"capacity is {value}, but \"");
+            let message = format!("\"{} is {value}, but \"", self.function.parameters[at].name);
             self.refused(column, at, given, value, "BUFFER_TOO_SMALL", &message);
         }
         self.legal("huge", at, "SIZE_MAX", "SIZE_MAX");
         let roles = self.roles();
-        let buffers = (0..roles.len()).filter(|&k| roles[k] == Role::Buffer);
+        // Where there are several capacities, each one's buffers are before it.
+        let is_one = roles.iter().filter(|&&role| role == Role::Capacity).count() == 1;
+        let first = (0..at).rfind(|&k| roles[k] == Role::Capacity).map_or(0, |before| before + 1);
+        let own = if is_one { 0..roles.len() } else { first..at };
+        let buffers = own.filter(|&k| roles[k] == Role::Buffer);
         let nowhere: Vec<(usize, String)> = buffers.map(|k| (k, "NULL".to_string())).collect();
         let mut without = vec![(at, "0".to_string())];
         without.extend(nowhere.iter().cloned());

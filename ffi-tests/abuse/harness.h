@@ -26,7 +26,7 @@ typedef enum { WITH_EDITS, WITHOUT_EDITS, REFINED, PREPARED, N_BASES } base;
 typedef struct {
     deldrift_triangulation *handle;
     deldrift_released_cells *owner;
-    size_t count;
+    size_t count, edge_count;
     uint64_t timestamp;
     uint32_t number;
     int32_t sign;
@@ -37,6 +37,7 @@ typedef struct {
     deldrift_cells_view cells;
     deldrift_location location, locations[8];
     double numbers[ROOM], more_numbers[ROOM], rows[ROOM], few_numbers[8];
+    double facets[ROOM], more_facets[ROOM], facet_rows[ROOM];
     size_t offsets[8];
     uint32_t ids[ROOM], more_ids[ROOM], few_ids[ROOM / 8], fewer_ids[ROOM / 8];
     int32_t labels[ROOM];

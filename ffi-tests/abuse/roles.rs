@@ -143,13 +143,14 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("size_t", "value_count" | "mask_count" | "offset_count" | "reference_count") => Role::FixedCount,
         ("size_t", "n_values" | "k") => Role::CountOfEach,
         ("size_t", "size") => Role::Size,
-        ("size_t", "capacity") => Role::Capacity,
+        ("size_t", "capacity" | "edge_capacity") => Role::Capacity,
         ("size_t", "limit") => Role::Limit,
         ("deldrift_split_report *", "report") => Role::OutputIfAny,
         ("size_t *", "undecided") => Role::Output,
         (c_type, "report") if is_commit && c_type.ends_with('*') => Role::OutputIfAny,
         (c_type, name) if c_type.ends_with('*') && !c_type.starts_with("const") => {
-            if function.has("capacity") && name != "count" { Role::Buffer } else { Role::Output }
+            let is_buffer = function.has("capacity") && name != "count" && name != "edge_count";
+            if is_buffer { Role::Buffer } else { Role::Output }
         }
         (c_type, name) => panic!("{}: what can be wrong with {c_type} {name}?", function.name),
     }

@@ -352,6 +352,11 @@ static void voronoi_cells_can_be_cancelled(void) {
     volumes[0] = 77;
     CHECK_STATUS(deldrift_voronoi_volumes(t, low, high, volumes, N, &count), DELDRIFT_CANCELLED);
     CHECK_STATUS(deldrift_voronoi_cells(t, low, high, NULL, 0, volumes, NULL, NULL, N, &count), DELDRIFT_CANCELLED);
+    CHECK_STATUS(deldrift_voronoi_cells(t, NULL, NULL, NULL, 0, volumes, NULL, NULL, N, &count), DELDRIFT_CANCELLED);
+    size_t n_edges;
+    CHECK_STATUS(deldrift_voronoi_cells_and_facets(t, NULL, NULL, NULL, 0, NULL, 0, volumes, NULL, NULL, N, &count, NULL, NULL,
+                                                   NULL, 0, &n_edges),
+                 DELDRIFT_CANCELLED);
     CHECK_STATUS(deldrift_voronoi_facets(t, NULL, NULL, NULL, 0, &count), DELDRIFT_OK);
     CHECK(volumes[0] == 77);
     OK(deldrift_move_vertex(t, 0, low));
@@ -389,7 +394,56 @@ static void voronoi_cells_have_centroids(void) {
     }
     CHECK_STATUS(deldrift_voronoi_cells(t, low, high, mask, 4, volumes, NULL, NULL, 5, &count), DELDRIFT_WRONG_COUNT);
     CHECK_MESSAGE("mask_count");
-    CHECK_STATUS(deldrift_voronoi_cells(t, NULL, NULL, NULL, 0, volumes, NULL, NULL, 5, &count), DELDRIFT_NULL_ARGUMENT);
+    CHECK_STATUS(deldrift_voronoi_cells(t, low, NULL, NULL, 0, volumes, NULL, NULL, 5, &count), DELDRIFT_NULL_ARGUMENT);
+    CHECK_STATUS(deldrift_voronoi_cells(t, NULL, high, NULL, 0, volumes, NULL, NULL, 5, &count), DELDRIFT_NULL_ARGUMENT);
+    deldrift_destroy(t);
+}
+
+// Of a square with a vertex in its middle, without a box: that vertex has a cell and four facets that end, and nothing else has.
+static void voronoi_cells_without_a_box(void) {
+    static const double places[] = {5, 0, 7, 0, 5, 2, 7, 2, 6, 1}, far[] = {1, 1, 100};
+    deldrift_triangulation *t = create(2, places, 5, NULL);
+    double volumes[5], areas[5], centroids[10], measures[8], middles[16], derivatives[32];
+    size_t count, n_edges;
+    OK(deldrift_voronoi_cells(t, NULL, NULL, NULL, 0, volumes, areas, centroids, 5, &count));
+    CHECK(count == 5 && volumes[4] == 2 && fabs(areas[4] - 4 * sqrt(2)) < 1e-12);
+    CHECK(centroids[8] == 6 && centroids[9] == 1);
+    for (int v = 0; v < 4; v++) CHECK(isinf(volumes[v]) && isinf(areas[v]) && isnan(centroids[2 * v]));
+    OK(deldrift_voronoi_derivatives(t, NULL, NULL, NULL, 0, measures, middles, derivatives, 8, &n_edges));
+    uint32_t edges[16];
+    OK(deldrift_edges(t, edges, 8, &count));
+    for (size_t e = 0; e < 8; e++) {
+        const bool ends = edges[2 * e + 1] == 4;
+        const double *x = &places[2 * edges[2 * e]];
+        CHECK(ends ? fabs(measures[e] - sqrt(2)) < 1e-12 : isinf(measures[e]) && isnan(middles[2 * e]));
+        for (int k = 0; k < 2 && ends; k++) CHECK(fabs(middles[2 * e + k] - 0.5 * (x[k] + places[8 + k])) < 1e-12);
+        CHECK(ends || isnan(derivatives[4 * e]));
+    }
+    // One call has all of them, to the last bit, and any of them.
+    double all[5], other_areas[5], rows[10], lengths[8], other_middles[16], by[32];
+    OK(deldrift_voronoi_cells_and_facets(t, NULL, NULL, NULL, 0, NULL, 0, all, other_areas, rows, 5, &count, lengths,
+                                         other_middles, by, 8, &n_edges));
+    CHECK(count == 5 && n_edges == 8);
+    CHECK(!memcmp(all, volumes, sizeof all) && !memcmp(other_areas, areas, sizeof areas));
+    CHECK(!memcmp(&rows[8], &centroids[8], 2 * sizeof *rows) && !memcmp(lengths, measures, sizeof measures));
+    for (int k = 0; k < 16; k++) CHECK(middles[k] == other_middles[k] || isnan(middles[k]));
+    for (int k = 0; k < 32; k++) CHECK(derivatives[k] == by[k] || isnan(derivatives[k]));
+    count = n_edges = 77;
+    OK(deldrift_voronoi_cells_and_facets(t, NULL, NULL, NULL, 0, NULL, 0, NULL, NULL, NULL, 0, &count, NULL, NULL, NULL, 0,
+                                         &n_edges));
+    CHECK(count == 5 && n_edges == 8);
+    count = n_edges = lengths[0] = 77;
+    CHECK_STATUS(deldrift_voronoi_cells_and_facets(t, NULL, NULL, NULL, 0, NULL, 0, all, NULL, NULL, 4, &count, lengths, NULL,
+                                                   NULL, 7, &n_edges),
+                 DELDRIFT_BUFFER_TOO_SMALL);
+    CHECK(count == 5 && n_edges == 8 && lengths[0] == 77);
+    CHECK_STATUS(deldrift_voronoi_cells_and_facets(t, NULL, NULL, NULL, 0, NULL, 0, all, NULL, NULL, 5, &count, lengths, NULL,
+                                                   NULL, 7, &n_edges),
+                 DELDRIFT_BUFFER_TOO_SMALL);
+    CHECK_MESSAGE("edge_capacity is 7");
+    // Half-spaces alone need not bound anything.
+    CHECK_STATUS(deldrift_voronoi_cells_within(t, NULL, NULL, far, 1, NULL, 0, volumes, NULL, NULL, 5, &count),
+                 DELDRIFT_NULL_ARGUMENT);
     deldrift_destroy(t);
 }
 
@@ -532,6 +586,7 @@ static void values_are_interpolated(void) {
 int main(void) {
     voronoi_cells_fill_the_box();
     voronoi_cells_have_centroids();
+    voronoi_cells_without_a_box();
     voronoi_cells_in_half_spaces();
     voronoi_cells_that_have_changed();
     voronoi_cells_of_few_vertices();

@@ -423,6 +423,10 @@ static void ask_about(const deldrift_triangulation *t, const places *p) {
         TRY(deldrift_voronoi_derivatives_within(t, p->low, p->high, (double[]){1, 2, 3, 4, -1, 1, 1, 4}, 2, mask,
                                                 mask_count, numbers, NULL, NULL, TOUR_ROOM, &count));
         note(numbers, n_ids * sizeof *numbers);
+        size_t n_edges;
+        TRY(deldrift_voronoi_cells_and_facets(t, p->low, p->high, NULL, 0, mask, mask_count, numbers, NULL, NULL, TOUR_ROOM,
+                                              &count, more, NULL, NULL, TOUR_ROOM, &n_edges));
+        note(numbers, n_ids * sizeof *numbers);
     }
     for (uint32_t method = 0; method < 2; method++) {
         TRY(deldrift_interpolate(t, method, p->then, n_ids, 1, p->later, p->n, NULL, NULL, numbers));

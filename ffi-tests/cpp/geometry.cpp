@@ -129,6 +129,15 @@ static void voronoi_cells_fill_a_box() {
     CHECK(std::fabs(std::accumulate(half.volumes.begin(), half.volumes.end(), 0.0) - 20) < 1e-12);
     const deldrift::VoronoiDerivatives left = t.voronoi_derivatives_within({-1.0, -2.0}, {7.0, 3.0}, {2.0, 0.0, 6.0});
     for (std::size_t e = 0; e < 8; ++e) CHECK(left.measures[e] <= facets.measures[e] + 1e-12);
+    const auto both = t.voronoi_cells_and_facets({-1.0, -2.0}, {7.0, 3.0});
+    CHECK(both.first.volumes == cells.volumes && both.first.areas == cells.areas && both.first.centroids == cells.centroids);
+    CHECK(both.second.measures == facets.measures && both.second.derivatives == facets.derivatives);
+    for (std::size_t i = 0; i < facets.centroids.size(); ++i) {
+        const double middle = facets.centroids[i];
+        CHECK(both.second.centroids[i] == middle || (std::isnan(both.second.centroids[i]) && std::isnan(middle)));
+    }
+    const auto open = t.voronoi_cells_and_facets();
+    CHECK(open.first.volumes == t.voronoi_volumes() && open.second.measures == t.voronoi_facets());
     CHECK(t.voronoi_changed({4}) == std::vector<std::uint8_t>(5, 1));
     CHECK(std::isnan(one.volumes[0]) && one.volumes[4] == cells.volumes[4] && one.areas[4] == cells.areas[4]);
     bool thrown = false;

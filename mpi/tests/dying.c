@@ -53,6 +53,7 @@ static void die(const char *how, const deldrift_mpi *m) {
     }
     write_number("died", FATAL_STEP);
     if (!strcmp(how, "exit")) _exit(0);
+    if (!strcmp(how, "fail")) _exit(3);
     if (!strcmp(how, "kill")) raise(SIGKILL);
     if (!strcmp(how, "abort")) MPI_Abort(MPI_COMM_WORLD, 7);
     if (!strcmp(how, "error")) {
@@ -89,6 +90,8 @@ int main(int argc, char **argv) {
     place(points, &state);
     OK(deldrift_mpi_create(MPI_COMM_WORLD, 2, points, NULL, OWN, &options, &m));
     for (int step = 1; step <= STEPS; step++) {
+        // What has been told before is written by then, however soon the launcher ends the others.
+        if (step == FATAL_STEP) MPI_Barrier(MPI_COMM_WORLD);
         if (step == FATAL_STEP && rank == size - 1) die(how, m);
         place(points, &state);
         OK(deldrift_mpi_commit(m, points, OWN, NULL));

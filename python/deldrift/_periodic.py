@@ -12,7 +12,7 @@ from ._arrays import F64, I32, Handle, address, address_if, box_corners, half_sp
 from ._arrays import mask as mask_of, one_id, places, points as point_rows
 from ._core import cell_count, check, count_of, fixed, id_count, make_options
 from ._errors import WrongCount
-from ._geometry import VoronoiCells, VoronoiDerivatives, vertex_mask
+from ._geometry import VoronoiCells, VoronoiDerivatives, cells_and_facets, vertex_mask
 from ._library import Report
 from ._loading import given_callbacks, made, of_bytes, of_file
 from ._measured import Measured
@@ -546,6 +546,32 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
             walls = address_if(low), address_if(high), address(planes), len(planes)
             self._check(_voronoi_derivatives_within(t, *walls, *given, *rows, n, ctypes.c_size_t()))
         return facets
+
+    def voronoi_cells_and_facets(
+        self, mask: Any = None, *, box: Any = None, half_spaces: Any = None
+    ) -> tuple[VoronoiCells, VoronoiDerivatives]:
+        """What `voronoi_cells` and `voronoi_derivatives` give, in one pass, which takes less time than both.
+
+        Parameters
+        ----------
+        mask : array_like of bool, optional
+            Ids of which the cells are asked for, and the facets of edges with an end there; all are by default.
+        box : (array_like, array_like), optional
+            Where walls are, as for `voronoi_cells`.
+        half_spaces : array_like, (n, ndim + 1), optional
+            Walls, as for `voronoi_cells`.
+
+        Returns
+        -------
+        (VoronoiCells, VoronoiDerivatives)
+            Those, to the last bit.
+        """
+        low, high = box_corners(box, self.ndim)
+        planes = half_space_rows(half_spaces, self.ndim)
+        chosen = None if mask is None else mask_of("mask", mask)
+        with self._reading as t:
+            walls = address_if(low), address_if(high), address(planes), len(planes)
+            return cells_and_facets(self._check, t, self.ndim, walls, chosen)
 
     def move(self, points: Any = None, ids: Any = None, *, vectors: Any = None) -> Report:
         """Moves vertices, changes the box, or both, and makes that the next timestamp.

@@ -155,6 +155,22 @@ def test_voronoi_derivatives_are_those_of_volumes(tri, rng):
     np.testing.assert_array_equal(np.isnan(of_some.measures), ~mask[edges].any(axis=1))
 
 
+def test_voronoi_cells_and_facets_come_together(tri):
+    low, high = tri.points.min(axis=0), tri.points.max(axis=0)
+    row = np.append(np.ones(tri.ndim), 0.5 * (low + high).sum())
+    mask = np.arange(len(tri.points)) % 3 == 0
+    for box, planes, some in [((low, high), None, None), ((low, high), [row], mask), (None, None, None), (None, None, mask)]:
+        cells, facets = tri.voronoi_cells_and_facets(box, some, half_spaces=planes)
+        for told, wanted in [(cells, tri.voronoi_cells(box, some, half_spaces=planes)),
+                             (facets, tri.voronoi_derivatives(box, some, half_spaces=planes))]:
+            assert all(np.array_equal(a, b, equal_nan=True) for a, b in zip(told, wanted))
+    whole = tri.voronoi_cells()
+    assert np.array_equal(whole.volumes, tri.voronoi_volumes(), equal_nan=True)
+    assert np.isinf(whole.volumes).any() and np.isnan(whole.centroids[np.isinf(whole.volumes)]).all()
+    with pytest.raises(deldrift.Error):
+        tri.voronoi_cells(half_spaces=[row])
+
+
 def test_half_spaces_clip_voronoi_cells(tri):
     low, high = np.full(tri.ndim, -0.5), np.full(tri.ndim, 1.5)
     wholes = tri.voronoi_cells((low, high))

@@ -177,6 +177,10 @@ def test_facets_close_cells_and_derivatives_are_those_of_differences(rng):
             moved.append(deldrift.PeriodicDelaunay(there, vectors).voronoi_volumes())
         assert np.abs((moved[1] - moved[0]) / (2 * step) - by[:, j, axis]).max() < 1e-4
     mask = np.arange(n) == 2
+    for some in (None, mask):
+        both = tri.voronoi_cells_and_facets(some)
+        for told, wanted in zip(both, (tri.voronoi_cells(some), tri.voronoi_derivatives(some))):
+            assert all(np.array_equal(a, b, equal_nan=True) for a, b in zip(told, wanted))
     masked = tri.voronoi_derivatives(mask)
     assert (np.isfinite(masked.measures) == (edges == 2).any(axis=1)).all()
     assert (np.isnan(tri.voronoi_cells(mask).volumes) == ~mask).all()

@@ -354,7 +354,7 @@ pub(super) fn fill_all<const N: usize>(
 pub(super) struct Fitting<'a> {
     count: &'a mut MaybeUninit<usize>,
     needed: usize,
-    are_any: bool,
+    pub(super) are_any: bool,
 }
 
 impl Fitting<'_> {

@@ -7,8 +7,58 @@ use super::pointers::{Array, Buffer, Output, Point, given};
 use super::status::deldrift_status;
 use crate::ids::VertexId;
 use crate::in_its_dimension;
-use crate::motion::VoronoiFacet;
-use parts::{OfCells, OfFacets, box_for, clip_for, half_space_rows, mask_for, write};
+use parts::{CellArrays, FacetArrays, box_for, clip_for, fill, half_space_rows, mask_for};
+
+/// Rows of half-spaces and a mask that are not given: pointers and counts.
+const NO_ROWS: (*const f64, usize) = (std::ptr::null(), 0);
+const NO_MASK: (*const u8, usize) = (std::ptr::null(), 0);
+
+/// Computes Voronoi cells and facets in one pass, whatever is asked for.
+///
+/// # Safety
+/// What the header says of the arguments of deldrift_voronoi_cells_and_facets.
+unsafe fn pass(
+    t: *const deldrift_triangulation,
+    [low, high]: [*const f64; 2],
+    (half_spaces, half_space_count): (*const f64, usize),
+    (mask, mask_count): (*const u8, usize),
+    cells: Option<CellArrays>,
+    facets: Option<FacetArrays>,
+) -> deldrift_status {
+    given!(t: Reading, low: Point, high: Point, mask[mask_count]: Array);
+    t.read_any_watched(|t, monitor| {
+        let d = t.dimension() as usize;
+        let are_both = cells.is_some() && facets.is_some();
+        // SAFETY: as was promised to this function, here and below.
+        let rows = || unsafe { half_space_rows(d, half_spaces, half_space_count) };
+        let cell_rows = |n: usize| cells.map(|cells| unsafe { cells.rows(d, n) });
+        let facet_rows = |n: usize| facets.map(|facets| unsafe { facets.rows(d, n, are_both) });
+        match t {
+            Content::Open(t) => in_its_dimension!(t => {
+                let clip = clip_for(t, low, high, half_space_count > 0)?;
+                let half_spaces = rows()?;
+                t.check_half_spaces(half_spaces)?;
+                let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
+                // Both tell how many entries there are before one is refused.
+                let (cells, facets) = (cell_rows(t.id_count()), facet_rows(t.edge_count()));
+                fill(cells.transpose()?, facets.transpose()?, |cells, facets| {
+                    t.for_voronoi(clip, half_spaces, mask, monitor, cells, facets)
+                })
+            }),
+            Content::Periodic(t) => in_its_period!(t, t => {
+                let clip = box_for(t, low, high)?;
+                let half_spaces = rows()?;
+                let container = t.container(clip, half_spaces)?;
+                let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
+                let n_edges = if facets.is_some() { t.edge_count()? } else { 0 };
+                let (cells, facets) = (cell_rows(t.id_count()), facet_rows(n_edges));
+                fill(cells.transpose()?, facets.transpose()?, |cells, facets| {
+                    t.for_voronoi_in(container.as_ref(), mask, monitor, cells, facets)
+                })
+            }),
+        }
+    })
+}
 
 /// The areas (2D) or volumes (3D) of the Voronoi cells of all ids, within a box.
 ///
@@ -31,15 +81,16 @@ use parts::{OfCells, OfFacets, box_for, clip_for, half_space_rows, mask_for, wri
 /// 1e-15, unless cells are nearly flat (see deldrift_circumcentres). Never negative. The volumes of all ids add up to that of
 /// the box but for rounding.
 ///
-/// In a periodic triangulation the volumes are those of deldrift_voronoi_cells, to the last bit, and low and high are as they
-/// are there. With NULL for both, cells without an end, as there are where the triangulation is open in some direction, are
+/// The volumes are those of deldrift_voronoi_cells, to the last bit. In a periodic triangulation low and high are as they are
+/// there. With NULL for both, cells without an end, as there are where the triangulation is open in some direction, are
 /// infinite.
 ///
 /// Takes time in proportion to the number of cells, and of ids; in a box, for Voronoi cells at its boundary, to the
 /// number of corners of their facets as well, a microsecond (2D) or some (3D) for each such cell of ordinary sets.
 /// Where a circumcentre nearly is in a face of the box, microseconds for each, as that is decided exactly. Takes memory
-/// for circumcentres and for the cells of each vertex while it runs. For vertices in one hyperplane, in a box, it takes
-/// the time and the memory of creating a triangulation of these. Calls the callbacks of the options.
+/// for circumcentres and sums, and for the cells of each vertex that is cut, while it runs. For vertices in one hyperplane,
+/// in a box, it takes the time and the memory of creating a triangulation of these. Runs on several threads, as the options
+/// allow. Calls the callbacks of the options.
 ///
 /// Cost: n + m; in a box, for vertices in one hyperplane, that of deldrift_create. After a change the first call also
 /// does what the first deldrift_cells does.
@@ -57,18 +108,10 @@ pub unsafe extern "C" fn deldrift_voronoi_volumes(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    given!(t: Reading, low: Point, high: Point, volumes[capacity]: Buffer, count: Output);
-    t.read_any_watched(|t, monitor| match t {
-        Content::Open(t) => in_its_dimension!(t => {
-            let clip = clip_for(t, low, high)?;
-            volumes.fill(count, t.id_count(), || Ok(t.voronoi_volumes_monitored(clip, monitor)?))
-        }),
-        Content::Periodic(t) => in_its_period!(t, t => {
-            let clip = box_for(t, low, high)?;
-            let container = t.container(clip, &[])?;
-            volumes.fill(count, t.id_count(), || Ok(t.voronoi_volumes_in(container.as_ref(), monitor)?))
-        }),
-    })
+    let none = std::ptr::null_mut();
+    let cells = CellArrays { volumes, areas: none, centroids: none, capacity, count };
+    // SAFETY: what the caller promises here is what is to be promised there; there are neither half-spaces nor a mask.
+    unsafe { pass(t, [low, high], NO_ROWS, NO_MASK, Some(cells), None) }
 }
 
 /// The lengths (2D) or areas (3D) of the Voronoi facets of all edges, in the order of deldrift_edges, within a box.
@@ -91,13 +134,13 @@ pub unsafe extern "C" fn deldrift_voronoi_volumes(
 /// facets of a vertex whose Voronoi cell is in the box, times the lengths of its edges and divided by 4 (2D) or 6 (3D),
 /// add up to its area or volume but for rounding.
 ///
-/// In a periodic triangulation low and high are as deldrift_voronoi_cells has them. Of several edges between two vertices each
-/// has the facet of its own, and one that leads from a vertex to itself has the facet that two periods of its cell share. The
-/// measures are those of deldrift_voronoi_derivatives, to the last bit.
+/// The measures are those of deldrift_voronoi_derivatives, to the last bit. In a periodic triangulation low and high are as
+/// deldrift_voronoi_cells has them. Of several edges between two vertices each has the facet of its own, and one that leads from
+/// a vertex to itself has the facet that two periods of its cell share.
 ///
-/// Takes time in proportion to the number of cells, and memory for circumcentres and for the cells of each vertex while
-/// it runs. What is cut by the box, and is nearly in a face of it, takes as long as in deldrift_voronoi_volumes. Calls
-/// the callbacks of the options.
+/// Takes time in proportion to the number of cells, and memory for circumcentres, facets and the cells of each vertex while
+/// it runs. What is cut by the box, and is nearly in a face of it, takes as long as in deldrift_voronoi_volumes. Runs on
+/// several threads, as the options allow. Calls the callbacks of the options.
 ///
 /// Cost: n + m.
 ///
@@ -113,48 +156,38 @@ pub unsafe extern "C" fn deldrift_voronoi_facets(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    given!(t: Reading, low: Point, high: Point, measures[capacity]: Buffer, count: Output);
-    t.read_any_watched(|t, monitor| match t {
-        Content::Open(t) => in_its_dimension!(t => {
-            let clip = clip_for(t, low, high)?;
-            measures.fill(count, t.edge_count(), || Ok(t.voronoi_facets_monitored(clip, monitor)?))
-        }),
-        Content::Periodic(t) => in_its_period!(t, t => {
-            let clip = box_for(t, low, high)?;
-            let container = t.container(clip, &[])?;
-            measures.fill_by(count, t.edge_count()?, |places| {
-                let tell = &mut |edge, facet: VoronoiFacet<_>| write(places, edge, &[facet.area]);
-                Ok(t.for_voronoi_facets_in(container.as_ref(), None, monitor, tell)?)
-            })
-        }),
-    })
+    let facets = FacetArrays::of_measures(measures, capacity, count);
+    // SAFETY: what the caller promises here is what is to be promised there; there are neither half-spaces nor a mask.
+    unsafe { pass(t, [low, high], NO_ROWS, NO_MASK, None, Some(facets)) }
 }
 
 /// The Voronoi cells of all ids within a box, for programs that need them at every step: areas (2D) or volumes (3D),
-/// boundaries and centroids, in one pass over the cells, however many vertices have moved.
+/// boundaries and centroids, in one pass over the cells, however many vertices have moved. A program that needs their facets
+/// as well gets both from deldrift_voronoi_cells_and_facets for less.
 ///
-/// low, high: the corners of the box with the least and the greatest coordinates, 2 or 3 numbers each, read during the
-/// call only; vertices may be outside of it. mask, mask_count: a byte for each id, mask_count of them, which must be
-/// deldrift_id_count; only entries of vertices of which the byte is not 0 are computed and written, and the others are
-/// left as they are. NULL and 0 for all vertices. deldrift_voronoi_changed makes a mask of the cells that have changed.
-/// The numbers of a vertex do not depend on the mask, nor on the number of threads that compute them, to the last bit. They
-/// are sums in the order of the cells, which a build on several threads may have in another one.
+/// low, high: the corners of the box with the least and the greatest coordinates, 2 or 3 numbers each, read during the call
+/// only; vertices may be outside of it. NULL for both is no box. mask, mask_count: a byte for each id, mask_count of them,
+/// which must be deldrift_id_count; only entries of vertices of which the byte is not 0 are computed and written, and the
+/// others are left as they are. NULL and 0 for all vertices. deldrift_voronoi_changed makes a mask of the cells that have
+/// changed. The numbers of a vertex do not depend on the mask, nor on the number of threads that compute them, to the last
+/// bit. They are sums in the order of the cells, which a build on several threads may have in another one.
 ///
 /// volumes: a buffer with room for capacity numbers. areas: a buffer with room for as many; receives the length (2D) or area
 /// (3D) of the boundary of what there is of each cell in the box, with what it has of the faces of the box. centroids: a buffer
 /// with room for capacity rows of 2 or 3 coordinates. One that is NULL is not filled. count: receives the number of ids, which
 /// is also written when the buffers are too small. NULL for all three with capacity 0 asks for the count alone.
 ///
-/// A removed vertex has NaN, a hidden one volume and area 0; a centroid is NaN where the volume is 0, and nothing else
-/// is. Vertices in one hyperplane, a single one included, have cells too, as in deldrift_voronoi_volumes. Segments are
-/// not looked at.
+/// A removed vertex has NaN, a hidden one volume and area 0; a centroid is NaN where the volume is 0 or infinite, and nothing
+/// else is. Vertices in one hyperplane, a single one included, have cells too, as in deldrift_voronoi_volumes. Without a box
+/// the cells of vertices on the convex hull have volume and area infinite. Segments are not looked at.
 ///
-/// Rounded: let h be what deldrift_voronoi_volumes has for a box, and S, T, V and d the area of a cell's surface, that of
-/// the triangles that the vertex makes with its edges, its volume and its diameter. To first order in h, a volume is off
-/// by at most h times the greater of S and 2/3 T, which is less unless a cell has dozens of facets (2D: h
-/// times the length of the boundary), an area by h times the sum of the perimeters of the cell's faces (2D: 2 h for
-/// each), and a centroid, where that is less than d, by that error of the volume times d / V; it is in the box in any
-/// case. The volumes of all ids add up to that of the box but for rounding.
+/// Rounded: let h be what deldrift_voronoi_volumes has for a box, or without one, and S, T, V and d the area of a cell's
+/// surface, that of the triangles that the vertex makes with its edges, its volume and its diameter. To first order in h, a
+/// volume is off by at most h times the greater of S and 2/3 T, which is less unless a cell has dozens of facets (2D: h
+/// times the length of the boundary), an area by h times the sum of the perimeters of the cell's faces (2D: 2 h for each),
+/// and a centroid, where that is less than d, by that error of the volume times d / V, and without a box by the rounding of
+/// its coordinates besides; it is in the box in any case. The volumes of all ids add up to that of the box but for
+/// rounding.
 ///
 /// In a periodic triangulation low and high are walls, which repeat with it: they must be -infinity and infinity along each
 /// axis along which a vector goes, so that both are infinite, or NULL, where vectors span all directions. Along other axes they
@@ -191,23 +224,9 @@ pub unsafe extern "C" fn deldrift_voronoi_cells(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
+    let cells = CellArrays { volumes, areas, centroids, capacity, count };
     // SAFETY: what the caller promises here is what is to be promised there; there are no half-spaces.
-    unsafe {
-        deldrift_voronoi_cells_within(
-            t,
-            low,
-            high,
-            std::ptr::null(),
-            0,
-            mask,
-            mask_count,
-            volumes,
-            areas,
-            centroids,
-            capacity,
-            count,
-        )
-    }
+    unsafe { pass(t, [low, high], NO_ROWS, (mask, mask_count), Some(cells), None) }
 }
 
 /// The Voronoi cells of all ids within a box and half-spaces, as deldrift_voronoi_cells has them within a box: for
@@ -216,7 +235,8 @@ pub unsafe extern "C" fn deldrift_voronoi_cells(
 /// low, high, mask, mask_count, volumes, areas, centroids, capacity, count: as deldrift_voronoi_cells has them.
 /// half_spaces: half_space_count rows of 3 (2D) or 4 (3D) numbers, read during the call only: an outward normal, of any
 /// length, and an offset. The half-space is the set of the places x with normal · x at most the offset. NULL if there are
-/// none. The box is needed besides; one around the container does. Vertices may be outside of box and half-spaces.
+/// none. The box is needed besides, unless there are none; one around the container does. Vertices may be outside of box and
+/// half-spaces.
 ///
 /// What there is of a cell in the box and all half-spaces is convex. Areas include what it has of the faces of the
 /// box and of the planes. Where nothing of a cell is left, or of the box, volume and area are 0 and the centroid is NaN.
@@ -260,34 +280,10 @@ pub unsafe extern "C" fn deldrift_voronoi_cells_within(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    given!(t: Reading, low: Point, high: Point, mask[mask_count]: Array, volumes[capacity]: Buffer,
-        areas[capacity]: Buffer, count: Output);
-    t.read_any_watched(|t, monitor| {
-        let d = t.dimension() as usize;
-        given!(centroids[capacity.saturating_mul(d)]: Buffer);
-        let to = OfCells { volumes, areas, centroids, capacity };
-        match t {
-            Content::Open(t) => in_its_dimension!(t => {
-                let clip = [low.of("low", t)?, high.of("high", t)?];
-                t.check_clip(clip)?;
-                // SAFETY: as was promised to this function.
-                let half_spaces = unsafe { half_space_rows(d, half_spaces, half_space_count)? };
-                t.check_half_spaces(half_spaces)?;
-                let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
-                to.fill(count, t.id_count(), |tell| t.for_voronoi_cells(clip, half_spaces, mask, monitor, tell))
-            }),
-            Content::Periodic(t) => in_its_period!(t, t => {
-                let clip = box_for(t, low, high)?;
-                // SAFETY: as was promised to this function.
-                let half_spaces = unsafe { half_space_rows(d, half_spaces, half_space_count)? };
-                let container = t.container(clip, half_spaces)?;
-                let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
-                to.fill(count, t.id_count(), |tell| {
-                    t.for_voronoi_cells_in(container.as_ref(), mask, monitor, tell)
-                })
-            }),
-        }
-    })
+    let cells = CellArrays { volumes, areas, centroids, capacity, count };
+    let half_spaces = (half_spaces, half_space_count);
+    // SAFETY: what the caller promises here is what is to be promised there.
+    unsafe { pass(t, [low, high], half_spaces, (mask, mask_count), Some(cells), None) }
 }
 
 /// The Voronoi facets of all edges within a box, in the order of deldrift_edges: lengths (2D) or areas (3D), centroids,
@@ -312,9 +308,12 @@ pub unsafe extern "C" fn deldrift_voronoi_cells_within(
 /// Derivatives are infinite where the quotient is beyond the range of numbers. There is one entry for each edge of the
 /// triangulation, as in deldrift_voronoi_facets, and none for vertices in one hyperplane.
 ///
-/// Rounded: let h be what deldrift_voronoi_volumes has for a box, P the perimeter of a facet (2D: 2), d its diameter. A
-/// measure is off by at most h P, a centroid by h P d / A, and by d + h where A is less than 4 h P; a derivative by h P
-/// (d + |x - c|) / L, where x is the position by which it is.
+/// Without a box, facets of edges on the convex hull have an infinite measure, and NaN for the rest; so have others of which a
+/// corner is beyond the range of numbers.
+///
+/// Rounded: let h be what deldrift_voronoi_volumes has for a box, or without one, P the perimeter of a facet (2D: 2), d its
+/// diameter. A measure is off by at most h P, a centroid by h P d / A, and by d + h where A is less than 4 h P; a
+/// derivative by h P (d + |x - c|) / L, where x is the position by which it is.
 ///
 /// In a periodic triangulation low and high are walls, as deldrift_voronoi_cells has them, with its h; or NULL, with the h that
 /// deldrift_voronoi_volumes has without a box, of the cells around the edge. Then a facet without an end has an infinite
@@ -347,23 +346,9 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
+    let facets = FacetArrays { measures, centroids, derivatives, capacity, count };
     // SAFETY: what the caller promises here is what is to be promised there; there are no half-spaces.
-    unsafe {
-        deldrift_voronoi_derivatives_within(
-            t,
-            low,
-            high,
-            std::ptr::null(),
-            0,
-            mask,
-            mask_count,
-            measures,
-            centroids,
-            derivatives,
-            capacity,
-            count,
-        )
-    }
+    unsafe { pass(t, [low, high], NO_ROWS, (mask, mask_count), None, Some(facets)) }
 }
 
 /// The Voronoi facets of all edges within a box and half-spaces, with derivatives, as deldrift_voronoi_derivatives has
@@ -400,35 +385,58 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives_within(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    given!(t: Reading, low: Point, high: Point, mask[mask_count]: Array, measures[capacity]: Buffer,
-        count: Output);
-    t.read_any_watched(|t, monitor| {
-        let d = t.dimension() as usize;
-        given!(centroids[capacity.saturating_mul(d)]: Buffer);
-        given!(derivatives[capacity.saturating_mul(2 * d)]: Buffer);
-        let to = OfFacets { measures, centroids, derivatives, capacity };
-        match t {
-            Content::Open(t) => in_its_dimension!(t => {
-                let clip = [low.of("low", t)?, high.of("high", t)?];
-                t.check_clip(clip)?;
-                // SAFETY: as was promised to this function.
-                let half_spaces = unsafe { half_space_rows(d, half_spaces, half_space_count)? };
-                t.check_half_spaces(half_spaces)?;
-                let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
-                to.fill(count, t.edge_count(), |tell| t.for_voronoi_facets(clip, half_spaces, mask, monitor, tell))
-            }),
-            Content::Periodic(t) => in_its_period!(t, t => {
-                let clip = box_for(t, low, high)?;
-                // SAFETY: as was promised to this function.
-                let half_spaces = unsafe { half_space_rows(d, half_spaces, half_space_count)? };
-                let container = t.container(clip, half_spaces)?;
-                let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
-                to.fill(count, t.edge_count()?, |tell| {
-                    t.for_voronoi_facets_in(container.as_ref(), mask, monitor, tell)
-                })
-            }),
-        }
-    })
+    let facets = FacetArrays { measures, centroids, derivatives, capacity, count };
+    let half_spaces = (half_spaces, half_space_count);
+    // SAFETY: what the caller promises here is what is to be promised there.
+    unsafe { pass(t, [low, high], half_spaces, (mask, mask_count), None, Some(facets)) }
+}
+
+/// Voronoi cells and facets in one call, any of their numbers: those of deldrift_voronoi_cells_within and
+/// deldrift_voronoi_derivatives_within, to the last bit, with circumcentres computed and compared with box and half-spaces once.
+///
+/// low, high, half_spaces, half_space_count, mask, mask_count: as these functions have them; NULL for low and high is no box.
+/// volumes, areas, centroids, capacity, count: as deldrift_voronoi_cells has them. measures, facet_centroids, derivatives,
+/// edge_capacity, edge_count: as deldrift_voronoi_derivatives has them. One that is NULL is neither filled nor computed: with
+/// NULL for measures, facet_centroids and derivatives, and edge_capacity 0, this takes as long as deldrift_voronoi_cells_within,
+/// and with NULL for volumes, areas and centroids, and capacity 0, as long as deldrift_voronoi_derivatives_within. count and
+/// edge_count receive the numbers of ids and of edges in any case, also when buffers of either kind are too small.
+///
+/// Cost: that of both functions, without the circumcentres of one of them.
+///
+/// Errors: those of deldrift_voronoi_cells_within: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_WRONG_COUNT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_voronoi_cells_and_facets(
+    t: *const deldrift_triangulation,
+    low: *const f64,
+    high: *const f64,
+    half_spaces: *const f64,
+    half_space_count: usize,
+    mask: *const u8,
+    mask_count: usize,
+    volumes: *mut f64,
+    areas: *mut f64,
+    centroids: *mut f64,
+    capacity: usize,
+    count: *mut usize,
+    measures: *mut f64,
+    facet_centroids: *mut f64,
+    derivatives: *mut f64,
+    edge_capacity: usize,
+    edge_count: *mut usize,
+) -> deldrift_status {
+    let cells = CellArrays { volumes, areas, centroids, capacity, count };
+    let facets = FacetArrays {
+        measures,
+        centroids: facet_centroids,
+        derivatives,
+        capacity: edge_capacity,
+        count: edge_count,
+    };
+    let half_spaces = (half_spaces, half_space_count);
+    // SAFETY: what the caller promises here is what is to be promised there.
+    unsafe { pass(t, [low, high], half_spaces, (mask, mask_count), Some(cells), Some(facets)) }
 }
 
 /// Marks the vertices whose Voronoi cell has changed, or may have: a mask for deldrift_voronoi_cells, so that a step costs

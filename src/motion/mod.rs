@@ -48,11 +48,11 @@ pub(crate) use reading::chunks::Chunks;
 pub use reading::domain::ChainEdge;
 pub use reading::exporting::Field;
 pub(crate) use reading::exporting::{Drawn, check_references};
+pub(crate) use reading::geometry::{Asked, Edge, Progress, Ridges, list_boundary, nowhere, tell_all};
 pub use reading::geometry::{
-    BoundaryFacet, Interpolation, OrderedStar, Rows, VertexValues, VoronoiCell, VoronoiCells, VoronoiFacet,
-    VoronoiFacets,
+    BoundaryFacet, Interpolation, OrderedStar, Rows, TellCell, TellFacet, VertexValues, VoronoiCell,
+    VoronoiCells, VoronoiFacet, VoronoiFacets,
 };
-pub(crate) use reading::geometry::{Ridges, list_boundary, nowhere, tell_all};
 pub use reading::near::{InReach, VerticesInReach};
 pub use reading::query::Location;
 pub(crate) use reading::query::cells_at;

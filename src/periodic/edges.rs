@@ -21,7 +21,7 @@ impl PeriodicEdges {
         let images = &inside.images;
         let mut list: Vec<([VertexId; 2], CellId)> = Vec::new();
         let mut begin = 0;
-        inside.t.for_edges_of(images.homes().map(|(_, inner)| inner), |[v, w], cell| {
+        inside.t.for_edges(images.homes().map(|(_, inner)| inner), |[v, w], cell| {
             let (from, to) = (images.of(v), images.of(w));
             if list.get(begin).is_some_and(|edge| edge.0[0] != v) {
                 list[begin..].sort_unstable_by_key(|edge| images.of(edge.0[1]));

@@ -7,7 +7,7 @@ use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
-use crate::motion::{VoronoiCell, VoronoiFacet, nowhere};
+use crate::motion::{VoronoiCell, VoronoiFacet};
 use crate::periodic::triangulation::PeriodicTriangulation;
 
 impl<G: Dimension> PeriodicTriangulation<G> {
@@ -56,20 +56,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         monitor: &mut dyn FnMut(f64) -> bool,
         tell: &mut dyn FnMut(VertexId, VoronoiCell<G::Point>),
     ) -> Result<()> {
-        mask.map_or(Ok(()), |mask| self.check_vertex_mask(mask.len()))?;
-        let images = &self.inside.images;
-        let is_wanted = |v: VertexId| mask.is_none_or(|mask| mask[v.index()] != 0);
-        let wanted = images.homes().filter(|&(vertex, _)| is_wanted(vertex)).map(|(_, inside)| inside);
-        let size = self.lattice.measure().powf(1.0 / self.lattice.rank() as f64);
-        self.inside.t.for_whole_voronoi_cells(wanted, size, monitor, &mut |inside, mut cell| {
-            let vertex = images.of(inside).vertex;
-            cell.centroid = self.at_position(inside, &cell.centroid);
-            tell(vertex, cell);
-        })?;
-        for v in VertexId::range(0..self.id_count()).filter(|&v| is_wanted(v) && !self.is_present(v)) {
-            tell(v, VoronoiCell { volume: f64::NAN, area: f64::NAN, centroid: nowhere::<G>() });
-        }
-        Ok(())
+        self.for_voronoi(None, &[], mask, monitor, Some(tell), None)
     }
 
     /// Tells the Voronoi facet of each edge, or of those that have an end of which `mask` has an entry that is not 0: the
@@ -95,22 +82,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         monitor: &mut dyn FnMut(f64) -> bool,
         tell: &mut dyn FnMut(usize, VoronoiFacet<G::Point>),
     ) -> Result<()> {
-        mask.map_or(Ok(()), |mask| self.check_vertex_mask(mask.len()))?;
-        let (all, images) = (&self.read_edges()?.list, &self.inside.images);
-        let (mut chosen, mut numbers) = (Vec::new(), Vec::new());
-        if let Some(mask) = mask {
-            for (number, edge) in all.iter().enumerate() {
-                if edge.0.iter().any(|&inside| mask[images.of(inside).vertex.index()] != 0) {
-                    memory::push(&mut chosen, *edge)?;
-                    memory::push(&mut numbers, number)?;
-                }
-            }
-        }
-        let edges = if mask.is_some() { &chosen } else { all };
-        self.inside.t.for_whole_voronoi_facets(edges, monitor, &mut |k, mut facet| {
-            facet.centroid = self.at_position(edges[k].0[0], &facet.centroid);
-            tell(if mask.is_some() { numbers[k] } else { k }, facet);
-        })
+        self.for_voronoi(None, &[], mask, monitor, None, Some(tell))
     }
 
     /// What is seen from a vertex at home, seen from its position.

@@ -178,9 +178,9 @@ impl<G: Dimension> Scene<G> {
                 let rows = [&[0.0, 2.0, 1.5][..], &[0.0, 0.0, 2.0, 1.5]];
                 let (clip, row, mut n) = (Some([&low, &high]), rows[G::D - 2], 0);
                 given(if let Call::VoronoiCellsWithin = call {
-                    t.for_voronoi_cells_within(clip, row, None, &mut |_| true, &mut |_, _| n += 1)
+                    t.for_voronoi(clip, row, None, &mut |_| true, Some(&mut |_, _| n += 1), None)
                 } else {
-                    t.for_voronoi_facets_within(clip, row, None, &mut |_| true, &mut |_, _| n += 1)
+                    t.for_voronoi(clip, row, None, &mut |_| true, None, Some(&mut |_, _| n += 1))
                 })?;
                 n
             }

@@ -347,19 +347,48 @@ impl History<'_> {
             .copied(-7.0, 1, |to, room, count| c!(deldrift_voronoi_facets(t, low, high, to, room, count)));
         assert_eq!(facets.len(), self.wanted_edges().len());
         assert!(facets.iter().all(|&measure| measure >= 0.0), "{facets:?}");
+        let (none, nowhere) = (null(), null_mut());
+        let again = self.copied(-7.0, 1, |to, room, count| {
+            c!(deldrift_voronoi_cells(t, low, high, none, 0, to, nowhere, nowhere, room, count))
+        });
+        let measures = self.copied(-7.0, 1, |to, room, count| {
+            c!(deldrift_voronoi_derivatives(t, low, high, none, 0, to, nowhere, nowhere, room, count))
+        });
+        let [mut cells, mut sides] = [vec![0.0; again.len()], vec![0.0; measures.len() + 1]];
+        let (mut count, mut n_edges) = (0, 0);
+        self.ok(|| {
+            let (to, room) = (cells.as_mut_ptr(), cells.len());
+            let (to_sides, of_sides) = (sides.as_mut_ptr(), sides.len());
+            c!(deldrift_voronoi_cells_and_facets(
+                t,
+                low,
+                high,
+                null(),
+                0,
+                null(),
+                0,
+                to,
+                nowhere,
+                nowhere,
+                room,
+                &mut count,
+                to_sides,
+                nowhere,
+                nowhere,
+                of_sides,
+                &mut n_edges
+            ))
+        });
+        sides.truncate(n_edges);
+        let bits = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        assert_eq!(bits(&again), bits(&volumes));
+        assert_eq!(bits(&cells), bits(&volumes));
+        assert!(
+            bits(&measures) == bits(&facets) && bits(&sides) == bits(&facets),
+            "{measures:?}, not {facets:?}"
+        );
         if is_boxed {
-            let (none, nowhere) = (null(), null_mut());
-            let again = self.copied(-7.0, 1, |to, room, count| {
-                c!(deldrift_voronoi_cells(t, low, high, none, 0, to, nowhere, nowhere, room, count))
-            });
-            let most = 1e-6 * 7f64.powi(d as i32);
-            let is_near = |(a, b): (&f64, &f64)| a.is_nan() && b.is_nan() || (a - b).abs() < most;
-            assert!(again.iter().zip(&volumes).all(is_near), "{again:?}, not {volumes:?}");
             self.voronoi_halves(&again);
-            let measures = self.copied(-7.0, 1, |to, room, count| {
-                c!(deldrift_voronoi_derivatives(t, low, high, none, 0, to, nowhere, nowhere, room, count))
-            });
-            assert!(measures.len() == facets.len() && measures.iter().all(|&measure| measure >= 0.0));
         }
     }
 

@@ -2,76 +2,137 @@
 
 use std::mem::MaybeUninit;
 
-use crate::capi::pointers::{Array, Buffer, Output, Point, fill_all, given};
+use crate::capi::pointers::{Array, Buffer, Fitting, Output, Point, fit, given};
 use crate::capi::status::Failure;
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::VertexId;
-use crate::motion::{MovingTriangulation, VoronoiCell, VoronoiFacet};
+use crate::motion::{MovingTriangulation, TellCell, TellFacet, VoronoiCell, VoronoiFacet};
 use crate::periodic::PeriodicTriangulation;
 
-/// Buffers for what there is of Voronoi cells, for so many of these.
-pub(super) struct OfCells<'a> {
-    pub(super) volumes: Buffer<'a, f64>,
-    pub(super) areas: Buffer<'a, f64>,
-    pub(super) centroids: Buffer<'a, f64>,
+/// Where Voronoi cells are written to.
+#[derive(Clone, Copy)]
+pub(super) struct CellArrays {
+    pub(super) volumes: *mut f64,
+    pub(super) areas: *mut f64,
+    pub(super) centroids: *mut f64,
     pub(super) capacity: usize,
+    pub(super) count: *mut usize,
 }
 
-impl OfCells<'_> {
-    /// Writes what `list` tells, if the buffers are large enough, and tells how many entries there are.
-    pub(super) fn fill<P: AsRef<[f64]> + Default>(
-        self,
-        count: Output<'_, usize>,
-        needed: usize,
-        list: impl FnOnce(&mut dyn FnMut(VertexId, VoronoiCell<P>)) -> Result<()>,
-    ) -> Result<(), Failure> {
-        let OfCells { volumes, areas, centroids, capacity } = self;
-        fill_all(count, needed, capacity, [volumes.offer(), areas.offer(), centroids.offer()], || {
-            let volumes = volumes.places_if_any(needed)?;
-            let areas = areas.places_if_any(needed)?;
-            let centroids = centroids.places_if_any(needed * P::default().as_ref().len())?;
-            list(&mut |v, cell| {
-                write(volumes, v.index(), &[cell.volume]);
-                write(areas, v.index(), &[cell.area]);
-                write(centroids, v.index(), cell.centroid.as_ref());
-            })?;
-            Ok(())
-        })
+/// Where Voronoi facets are written to.
+#[derive(Clone, Copy)]
+pub(super) struct FacetArrays {
+    pub(super) measures: *mut f64,
+    pub(super) centroids: *mut f64,
+    pub(super) derivatives: *mut f64,
+    pub(super) capacity: usize,
+    pub(super) count: *mut usize,
+}
+
+impl FacetArrays {
+    /// For measures alone.
+    pub(super) fn of_measures(measures: *mut f64, capacity: usize, count: *mut usize) -> Self {
+        let none = std::ptr::null_mut();
+        FacetArrays { measures, centroids: none, derivatives: none, capacity, count }
     }
 }
 
-/// Buffers for Voronoi facets, for so many of these.
-pub(super) struct OfFacets<'a> {
-    pub(super) measures: Buffer<'a, f64>,
-    pub(super) centroids: Buffer<'a, f64>,
-    pub(super) derivatives: Buffer<'a, f64>,
-    pub(super) capacity: usize,
+/// Three buffers that have room for rows, or are not there.
+pub(super) struct Rows<'a> {
+    columns: [&'a mut [MaybeUninit<f64>]; 3],
+    fitting: Fitting<'a>,
 }
 
-impl OfFacets<'_> {
-    /// Writes what `list` tells, if the buffers are large enough, and tells how many entries there are.
-    pub(super) fn fill<P: AsRef<[f64]> + Default>(
-        self,
-        count: Output<'_, usize>,
-        needed: usize,
-        list: impl FnOnce(&mut dyn FnMut(usize, VoronoiFacet<P>)) -> Result<()>,
-    ) -> Result<(), Failure> {
-        let OfFacets { measures, centroids, derivatives, capacity } = self;
-        let d = P::default().as_ref().len();
-        fill_all(count, needed, capacity, [measures.offer(), centroids.offer(), derivatives.offer()], || {
-            let measures = measures.places_if_any(needed)?;
-            let centroids = centroids.places_if_any(needed * d)?;
-            let derivatives = derivatives.places_if_any(needed * 2 * d)?;
-            list(&mut |edge, facet| {
-                write(measures, edge, &[facet.area]);
-                write(centroids, edge, facet.centroid.as_ref());
-                write(derivatives, 2 * edge, facet.derivatives[0].as_ref());
-                write(derivatives, 2 * edge + 1, facet.derivatives[1].as_ref());
-            })?;
-            Ok(())
-        })
+impl CellArrays {
+    /// Buffers for so many cells in a dimension, if they are large enough.
+    ///
+    /// # Safety
+    /// Each pointer is NULL, misaligned, or to as much room as the header says, for as long as the rows are used.
+    pub(super) unsafe fn rows<'a>(self, d: usize, needed: usize) -> Result<Rows<'a>, Failure> {
+        let CellArrays { volumes, areas, centroids, capacity, count } = self;
+        given!(volumes[capacity]: Buffer, areas[capacity]: Buffer, count: Output);
+        given!(centroids[capacity.saturating_mul(d)]: Buffer);
+        let offers = [volumes.offer(), areas.offer(), centroids.offer()];
+        let fitting = fit(count, needed, capacity, &offers)?;
+        let columns = [
+            volumes.places_if_any(needed)?,
+            areas.places_if_any(needed)?,
+            centroids.places_if_any(needed * d)?,
+        ];
+        Ok(Rows { columns, fitting })
     }
+}
+
+impl FacetArrays {
+    /// Buffers for so many facets in a dimension, if they are large enough; under other names beside those of cells.
+    ///
+    /// # Safety
+    /// Each pointer is NULL, misaligned, or to as much room as the header says, for as long as the rows are used.
+    pub(super) unsafe fn rows<'a>(
+        self,
+        d: usize,
+        needed: usize,
+        is_beside_cells: bool,
+    ) -> Result<Rows<'a>, Failure> {
+        let FacetArrays { measures, centroids, derivatives, capacity, count } = self;
+        let (facet_centroids, edge_count, n) = (centroids, count, capacity.saturating_mul(d));
+        given!(measures[capacity]: Buffer, derivatives[n.saturating_mul(2)]: Buffer);
+        let (centroids, count) = if is_beside_cells {
+            given!(facet_centroids[n]: Buffer, edge_count: Output);
+            (facet_centroids, edge_count)
+        } else {
+            given!(centroids[n]: Buffer, count: Output);
+            (centroids, count)
+        };
+        let offers = [measures.offer(), centroids.offer(), derivatives.offer()];
+        let fitting = fit(count, needed, capacity, &offers).map_err(|failure| match failure {
+            Failure::BufferTooSmall { capacity, needed, .. } if is_beside_cells => {
+                Failure::BufferTooSmall { argument: "edge_capacity", capacity, needed }
+            }
+            other => other,
+        })?;
+        let columns = [
+            measures.places_if_any(needed)?,
+            centroids.places_if_any(needed * d)?,
+            derivatives.places_if_any(needed * 2 * d)?,
+        ];
+        Ok(Rows { columns, fitting })
+    }
+}
+
+/// Writes what `list` tells of cells and of facets, as far as there are buffers, and tells how many entries there are.
+pub(super) fn fill<P: AsRef<[f64]>>(
+    mut cells: Option<Rows<'_>>,
+    mut facets: Option<Rows<'_>>,
+    list: impl FnOnce(TellCell<'_, P>, TellFacet<'_, P>) -> Result<()>,
+) -> Result<(), Failure> {
+    let are_any = |rows: &&mut Rows<'_>| rows.fitting.are_any;
+    let mut tell_cell = cells.as_mut().filter(are_any).map(|rows| {
+        let [volumes, areas, centroids] = &mut rows.columns;
+        |v: VertexId, cell: VoronoiCell<P>| {
+            write(volumes, v.index(), &[cell.volume]);
+            write(areas, v.index(), &[cell.area]);
+            write(centroids, v.index(), cell.centroid.as_ref());
+        }
+    });
+    let mut tell_facet = facets.as_mut().filter(are_any).map(|rows| {
+        let [measures, centroids, derivatives] = &mut rows.columns;
+        |edge: usize, facet: VoronoiFacet<P>| {
+            write(measures, edge, &[facet.area]);
+            write(centroids, edge, facet.centroid.as_ref());
+            write(derivatives, 2 * edge, facet.derivatives[0].as_ref());
+            write(derivatives, 2 * edge + 1, facet.derivatives[1].as_ref());
+        }
+    });
+    if tell_cell.is_some() || tell_facet.is_some() {
+        list(
+            tell_cell.as_mut().map(|tell| tell as &mut dyn FnMut(_, _)),
+            tell_facet.as_mut().map(|tell| tell as &mut dyn FnMut(_, _)),
+        )?;
+    }
+    cells.into_iter().chain(facets).for_each(|rows| rows.fitting.tell());
+    Ok(())
 }
 
 /// Rows of a normal and an offset, as numbers.
@@ -94,7 +155,7 @@ pub(super) unsafe fn half_space_rows<'a>(
 }
 
 /// Writes a row of numbers, if there is a buffer for rows.
-pub(super) fn write(places: &mut [MaybeUninit<f64>], row: usize, numbers: &[f64]) {
+fn write(places: &mut [MaybeUninit<f64>], row: usize, numbers: &[f64]) {
     let first = row * numbers.len();
     if let Some(places) = places.get_mut(first..first + numbers.len()) {
         places.iter_mut().zip(numbers).for_each(|(place, &x)| _ = place.write(x));
@@ -126,13 +187,14 @@ pub(super) fn box_for<'a, G: Dimension>(
     Ok(Some([low.of("low", t)?, high.of("high", t)?]))
 }
 
-/// The corners of a box that is a good one, in the dimension of `t`; none if both are NULL.
+/// The corners of a box that is a good one, in the dimension of `t`; none if both are NULL and none is needed.
 pub(super) fn clip_for<'a, G: Dimension>(
     t: &MovingTriangulation<G>,
     low: Point<'a>,
     high: Point<'a>,
+    is_needed: bool,
 ) -> Result<Option<[&'a G::Point; 2]>, Failure> {
-    if low.is_null() && high.is_null() {
+    if low.is_null() && high.is_null() && !is_needed {
         return Ok(None);
     }
     let clip = [low.of("low", t)?, high.of("high", t)?];

@@ -31,21 +31,29 @@ fn translated<G: Dimension>(p: &G::Point, basis: &[G::Point], shift: [i64; 3]) -
 fn cells<G: Dimension>(t: &PeriodicTriangulation<G>, case: &Case<G>) -> Vec<VoronoiCell<G::Point>> {
     let mut told = vec![None; t.id_count()];
     let clip = case.clip.as_ref().map(|clip| clip.each_ref());
-    t.for_voronoi_cells_within(clip, &case.half_spaces, None, &mut |_| true, &mut |v, cell| {
-        assert!(told[v.index()].replace(cell).is_none(), "{v:?} is told once");
-    })
-    .unwrap();
+    let tell =
+        &mut |v: VertexId, cell| assert!(told[v.index()].replace(cell).is_none(), "{v:?} is told once");
+    t.for_voronoi(clip, &case.half_spaces, None, &mut |_| true, Some(tell), None).unwrap();
     told.into_iter().map(Option::unwrap).collect()
 }
 
 fn facets<G: Dimension>(t: &PeriodicTriangulation<G>, case: &Case<G>) -> Vec<VoronoiFacet<G::Point>> {
     let mut told = vec![None; t.edge_count().unwrap()];
     let clip = case.clip.as_ref().map(|clip| clip.each_ref());
-    t.for_voronoi_facets_within(clip, &case.half_spaces, None, &mut |_| true, &mut |k, facet| {
-        assert!(told[k].replace(facet).is_none(), "{k} is told once");
-    })
-    .unwrap();
+    let tell = &mut |k: usize, facet| assert!(told[k].replace(facet).is_none(), "{k} is told once");
+    t.for_voronoi(clip, &case.half_spaces, None, &mut |_| true, None, Some(tell)).unwrap();
     told.into_iter().map(Option::unwrap).collect()
+}
+
+fn volumes_within<G: Dimension>(
+    t: &PeriodicTriangulation<G>,
+    clip: Option<[&G::Point; 2]>,
+    rows: &[f64],
+) -> Result<Vec<f64>, Error> {
+    let mut volumes = vec![f64::NAN; t.id_count()];
+    let tell = &mut |v: VertexId, cell: VoronoiCell<G::Point>| volumes[v.index()] = cell.volume;
+    t.for_voronoi(clip, rows, None, &mut |_| true, Some(tell), None)?;
+    Ok(volumes)
 }
 
 fn is_close(x: f64, y: f64, scale: f64) -> bool {
@@ -113,7 +121,7 @@ fn check<G: Dimension>(seed: u64, n: usize, step: f64, case: &Case<G>) {
     }
     let mut of_edges = BTreeMap::new();
     let edges = open.edges().unwrap();
-    open.for_voronoi_facets(corners.each_ref(), &case.half_spaces, None, &mut |_| true, &mut |k, facet| {
+    let mut tell = |k: usize, facet: VoronoiFacet<G::Point>| {
         let [v, w] = edges[k].map(|v| of[v.index()]);
         for (first, second, is_turned) in [(v, w, false), (w, v, true)] {
             let mut facet = facet;
@@ -122,8 +130,9 @@ fn check<G: Dimension>(seed: u64, n: usize, step: f64, case: &Case<G>) {
             }
             of_edges.insert((first, second), facet);
         }
-    })
-    .unwrap();
+    };
+    open.for_voronoi(Some(corners.each_ref()), &case.half_spaces, None, &mut |_| true, None, Some(&mut tell))
+        .unwrap();
     for (([v, w], shift), facet) in t.edges().unwrap().zip(facets(&t, case)) {
         let (v, w) = (v.index(), w.index());
         let shift =
@@ -298,19 +307,19 @@ fn masks_change_no_bit() {
         let clip = case.clip.as_ref().map(|clip| clip.each_ref());
         let mask: Vec<u8> = (0..300).map(|v| u8::from(v % 7 == 5)).collect();
         let mut n_told = 0;
-        t.for_voronoi_cells_within(clip, &case.half_spaces, Some(&mask), &mut |_| true, &mut |v, cell| {
+        let tell = &mut |v: VertexId, cell| {
             assert!(mask[v.index()] != 0 && format!("{cell:?}") == format!("{:?}", all[v.index()]));
             n_told += 1;
-        })
-        .unwrap();
+        };
+        t.for_voronoi(clip, &case.half_spaces, Some(&mask), &mut |_| true, Some(tell), None).unwrap();
         assert_eq!(n_told, mask.iter().filter(|&&x| x != 0).count());
         let edges: Vec<_> = t.edges().unwrap().collect();
         let mut n_told = 0;
-        t.for_voronoi_facets_within(clip, &case.half_spaces, Some(&mask), &mut |_| true, &mut |k, facet| {
+        let tell = &mut |k: usize, facet| {
             assert_eq!(format!("{facet:?}"), format!("{:?}", at_edges[k]));
             n_told += 1;
-        })
-        .unwrap();
+        };
+        t.for_voronoi(clip, &case.half_spaces, Some(&mask), &mut |_| true, None, Some(tell)).unwrap();
         let is_told = |([v, w], _): &&([VertexId; 2], [i64; 3])| mask[v.index()] + mask[w.index()] != 0;
         assert_eq!(n_told, edges.iter().filter(is_told).count());
     }
@@ -323,7 +332,7 @@ fn containers_that_do_not_repeat_are_refused() {
     let [x, y] = [0, 1].map(|axis| t.vectors().next().unwrap()[axis]);
     let volumes = |clip: Option<[[f64; 3]; 2]>, rows: &[[f64; 4]]| {
         let clip = clip.as_ref().map(|clip| clip.each_ref());
-        t.voronoi_volumes_within(clip, rows.as_flattened(), &mut |_| true)
+        volumes_within(&t, clip, rows.as_flattened())
     };
     let high = Some([[-INFINITE, -INFINITE, 0.0], [INFINITE, INFINITE, 1.0]]);
     let walls = [[-y, x, 0.0, 1.0], [y, -x, 0.0, 1.0]];
@@ -360,7 +369,7 @@ fn containers_that_do_not_repeat_are_refused() {
         PeriodicTriangulation::<Plane>::new(&[[0.0; 2]], &[[1.0, 0.0], [0.5, 1.0]], Options::default());
     let full = full.unwrap();
     let all = Some([&[-INFINITE; 2], &[INFINITE; 2]]);
-    assert_eq!(full.voronoi_volumes_within(all, &[], &mut |_| true), Ok(vec![1.0]));
-    let refused = full.voronoi_volumes_within(None, &[0.0, 1.0, 3.0], &mut |_| true).unwrap_err();
+    assert_eq!(volumes_within(&full, all, &[]), Ok(vec![1.0]));
+    let refused = volumes_within(&full, None, &[0.0, 1.0, 3.0]).unwrap_err();
     assert!(matches!(refused, Error::InvalidValue { argument: "half_spaces", index: 0, .. }), "{refused}");
 }

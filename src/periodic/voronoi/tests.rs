@@ -94,20 +94,19 @@ impl<G: Dimension> Copies<G> {
         let (low, high) = far_corners::<G>();
         let edges = self.t.edges().unwrap();
         let mut found = BTreeMap::new();
-        self.t
-            .for_voronoi_facets([&low, &high], &[], None, &mut |_| true, &mut |k, facet| {
-                let [v, w] = edges[k].map(|v| self.of[v.index()]);
-                for (first, second, is_turned) in [(v, w, false), (w, v, true)] {
-                    if first.1 == [0; 3] {
-                        let mut facet = facet;
-                        if is_turned {
-                            facet.derivatives.swap(0, 1);
-                        }
-                        found.insert((first.0, second.0, second.1), (whole[k], facet));
+        let tell = &mut |k: usize, facet: VoronoiFacet<G::Point>| {
+            let [v, w] = edges[k].map(|v| self.of[v.index()]);
+            for (first, second, is_turned) in [(v, w, false), (w, v, true)] {
+                if first.1 == [0; 3] {
+                    let mut facet = facet;
+                    if is_turned {
+                        facet.derivatives.swap(0, 1);
                     }
+                    found.insert((first.0, second.0, second.1), (whole[k], facet));
                 }
-            })
-            .unwrap();
+            }
+        };
+        self.t.for_voronoi(Some([&low, &high]), &[], None, &mut |_| true, None, Some(tell)).unwrap();
         found
     }
 }
@@ -378,14 +377,13 @@ fn times() {
     };
     time("cells", &|| t.for_voronoi_cells(None, &mut |_| true, &mut |_, _| ()).unwrap());
     let clip = [&[0.0; 3], &[1.0; 3]];
-    time("open cells", &|| open.for_voronoi_cells(clip, &[], None, &mut |_| true, &mut |_, _| ()).unwrap());
+    time("open cells", &|| drop(open.voronoi_cells(clip, None, &mut |_| true).unwrap()));
     let home: Vec<u8> = (0..t.image_count()).map(|v| u8::from(v < n)).collect();
     let far = [&[-9.0; 3], &[9.0; 3]];
-    let masked = || t.inside.t.for_voronoi_cells(far, &[], Some(&home), &mut |_| true, &mut |_, _| ());
-    time("inside, masked", &|| masked().unwrap());
+    time("inside, masked", &|| drop(t.inside.t.voronoi_cells(far, Some(&home), &mut |_| true).unwrap()));
     time("edges", &|| assert!(super::super::edges::PeriodicEdges::of(&t.inside).unwrap().list.len() > n));
     time("edges again", &|| assert!(t.edges().unwrap().all(|(edge, _)| edge[0] <= edge[1])));
     time("open edges", &|| assert!(open.edges().unwrap().len() > n));
     time("facets", &|| t.for_voronoi_facets(None, &mut |_| true, &mut |_, _| ()).unwrap());
-    time("open facets", &|| open.for_voronoi_facets(clip, &[], None, &mut |_| true, &mut |_, _| ()).unwrap());
+    time("open facets", &|| drop(open.voronoi_derivatives(clip, None, &mut |_| true).unwrap()));
 }

@@ -29,17 +29,12 @@ use crate::motion::triangulation::MovingTriangulation;
 const SPACES_PER_CELL: usize = 32;
 
 /// What Voronoi cells are clipped by.
-pub(super) struct Region {
+pub(crate) struct Region {
     pub(super) clip: Clip,
     pub(super) half_spaces: HalfSpaces,
 }
 
 impl Region {
-    /// A box alone.
-    pub(super) fn of(clip: Clip) -> Self {
-        Region { clip, half_spaces: HalfSpaces::default() }
-    }
-
     /// The offset of a place from the box's corner of least coordinates, in the box's unit.
     pub(super) fn offset(&self, place: &Vector) -> Vector {
         let low = self.clip.low();

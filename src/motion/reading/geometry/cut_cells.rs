@@ -24,7 +24,7 @@ use crate::motion::reading::geometry::clipping::{Clip, Face, Vector, cross, dot,
 use crate::motion::reading::geometry::incidence::Neighbours;
 use crate::motion::reading::geometry::progress::Progress;
 use crate::motion::reading::geometry::sums::{LEAST_SQUARE, Sums};
-use crate::motion::reading::geometry::voronoi::{Part, Voronoi};
+use crate::motion::reading::geometry::voronoi::Voronoi;
 use crate::motion::reading::query::cells_at;
 use crate::predicates::compare_distance;
 
@@ -126,7 +126,7 @@ impl<G: Dimension> Voronoi<'_, G> {
             let mut sums = Sums::default();
             for &(w, first) in &list {
                 self.ring.go_around(self.cells, [v, w], first)?;
-                let is_whole = is_inside && matches!(self.part(), Part::All);
+                let is_whole = is_inside && self.is_whole();
                 let is_added = is_whole && self.add_whole([v, w], clip.unit, &mut sums);
                 if !is_added && !self.is_outside() {
                     self.cut([v, w], clip)?;

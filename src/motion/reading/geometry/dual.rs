@@ -74,6 +74,12 @@ pub(super) struct Target {
 }
 
 impl Target {
+    /// That of a cell without an end.
+    pub(super) const ENDLESS: Self = Target {
+        sums: Sums { volume: f64::INFINITY, facets: f64::INFINITY, wall: 0.0, moment: [0.0; 3] },
+        is_cut: true,
+    };
+
     /// By what to multiply sums of volumes, facets and moments.
     pub(super) fn factors<G: Dimension>(&self) -> [f64; 3] {
         match (self.is_cut, G::D) {

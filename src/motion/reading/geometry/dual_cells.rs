@@ -4,15 +4,9 @@ use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
-use crate::motion::reading::geometry::cells_within::Region;
-use crate::motion::reading::geometry::centres::{All, Centres, Numbering, Ranks};
 use crate::motion::reading::geometry::clipping::{Clip, in_space};
-use crate::motion::reading::geometry::dual::{Target, Targets};
-use crate::motion::reading::geometry::half_spaces::{HalfSpaces, checked_row};
-use crate::motion::reading::geometry::progress::Progress;
-use crate::motion::reading::geometry::voronoi::Voronoi;
-use crate::motion::reading::geometry::voronoi_cells::checked;
-use crate::motion::state::mesh::Standing;
+use crate::motion::reading::geometry::dual::Target;
+use crate::motion::reading::geometry::half_spaces::checked_row;
 use crate::motion::triangulation::MovingTriangulation;
 
 /// What there is of the Voronoi cells of all ids in a box. A removed vertex, and one that is left out, has NaN in all
@@ -113,61 +107,13 @@ impl<G: Dimension> MovingTriangulation<G> {
         memory::lengthen(&mut volumes, n_ids, f64::NAN)?;
         memory::lengthen(&mut areas, n_ids, f64::NAN)?;
         memory::lengthen(&mut centroids, n_ids, nowhere::<G>())?;
-        self.for_voronoi_cells(clip, half_spaces, mask, monitor, &mut |v, cell| {
+        let tell = &mut |v: VertexId, cell: VoronoiCell<G::Point>| {
             volumes[v.index()] = cell.volume;
             areas[v.index()] = cell.area;
             centroids[v.index()] = cell.centroid;
-        })?;
-        Ok(VoronoiCells { volumes, areas, centroids })
-    }
-
-    /// Tells the [`voronoi_cells_within`](Self::voronoi_cells_within) of all ids, or of those of which `mask` has an entry that is not
-    /// 0, one after the other in ascending order, when all are computed.
-    ///
-    /// # Errors
-    /// Those of [`voronoi_cells_within`](Self::voronoi_cells_within); then nothing has been told.
-    pub fn for_voronoi_cells(
-        &self,
-        clip: [&G::Point; 2],
-        half_spaces: &[f64],
-        mask: Option<&[u8]>,
-        monitor: &mut dyn FnMut(f64) -> bool,
-        tell: &mut dyn FnMut(VertexId, VoronoiCell<G::Point>),
-    ) -> Result<()> {
-        mask.map_or(Ok(()), |mask| self.check_vertex_mask(mask.len()))?;
-        if self.mesh.kernel.is_constrained() {
-            return self.without_segments()?.for_voronoi_cells(clip, half_spaces, mask, monitor, tell);
-        }
-        let region = self.region(clip, half_spaces)?;
-        let is_wanted = |v: &VertexId| mask.is_none_or(|mask| mask[v.index()] != 0);
-        let wanted = VertexId::range(0..self.id_count()).filter(is_wanted);
-        if self.cell_count() == 0 {
-            let targets = self.flat_targets(&region, monitor)?;
-            self.tell_cells(&region.clip, wanted, targets, tell);
-            return Ok(());
-        }
-        let (cells, n_sites) = (self.cell_arrays()?, self.mesh.kernel.sites().len());
-        let Some(mask) = mask else {
-            let mut vertices = Vec::new();
-            memory::reserve_exact(&mut vertices, self.vertex_count())?;
-            vertices.extend(self.mesh.kernel.live_sites().map(|s| self.mesh.kernel.site(s).id));
-            let mut centres = Centres::new(self, cells, Some(&region.clip), None)?;
-            region.mark(self, &mut centres);
-            let targets = Targets::new(All, n_sites)?;
-            let targets = self.targets_of(&region, (&centres, All), &vertices, targets, monitor)?;
-            self.tell_cells(&region.clip, wanted, targets, tell);
-            return Ok(());
         };
-        let vertices = self.shown_in(mask)?;
-        let chosen = self.cells_around(&vertices)?;
-        let mut centres = Centres::new(self, cells, Some(&region.clip), Some(&chosen))?;
-        region.mark(self, &mut centres);
-        let (_, ranks) = centres.chosen.as_ref().expect("cells are chosen");
-        let numbers = Ranks::of(n_sites, vertices.iter().map(|&v| self.mesh.site_of[v].index()))?;
-        let targets = Targets::new(&numbers, vertices.len())?;
-        let targets = self.targets_of(&region, (&centres, ranks), &vertices, targets, monitor)?;
-        self.tell_cells(&region.clip, wanted, targets, tell);
-        Ok(())
+        self.for_voronoi(Some(clip), half_spaces, mask, monitor, Some(tell), None)?;
+        Ok(VoronoiCells { volumes, areas, centroids })
     }
 
     /// Whether numbers are rows of normals and offsets.
@@ -177,59 +123,6 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Err(Error::WrongCount { argument: "half_spaces", given, wanted, coming: 0 });
         }
         rows.chunks(G::D + 1).enumerate().try_for_each(|(index, row)| checked_row::<G>(index, row))
-    }
-
-    /// What cells are clipped by, if it is good.
-    pub(super) fn region(&self, clip: [&G::Point; 2], half_spaces: &[f64]) -> Result<Region> {
-        let clip = checked::<G>(clip)?;
-        self.check_half_spaces(half_spaces)?;
-        let half_spaces = HalfSpaces::new::<G>(half_spaces, &clip, self.cell_count())?;
-        Ok(Region { clip, half_spaces })
-    }
-
-    /// Sums for vertices in one hyperplane.
-    fn flat_targets(&self, region: &Region, monitor: &mut dyn FnMut(f64) -> bool) -> Result<Targets<All>> {
-        let mut targets = Targets::new(All, self.mesh.kernel.sites().len())?;
-        targets.list.iter_mut().for_each(|target| target.is_cut = true);
-        self.flat_cells(region, &mut Progress::new(monitor, 1), |v, part| {
-            targets.of(self.mesh.site_of[v]).sums.join(part);
-        })?;
-        Ok(targets)
-    }
-
-    /// Sums for some vertices, which have targets, by the centres of all cells around these, which are numbered.
-    fn targets_of<S: Numbering>(
-        &self,
-        region: &Region,
-        (centres, numbers): (&Centres<G::Point>, impl Numbering),
-        vertices: &[VertexId],
-        mut targets: Targets<S>,
-        monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Targets<S>> {
-        let mut voronoi = Voronoi::new(self, self.cell_arrays()?, centres);
-        let progress = &mut Progress::new(monitor, 2 * centres.list.len());
-        voronoi.add_all(region.clip.unit, numbers, progress, &mut targets)?;
-        voronoi.cut_all(region, vertices, progress, &mut targets)?;
-        Ok(targets)
-    }
-
-    /// Tells what is known of vertices.
-    fn tell_cells(
-        &self,
-        clip: &Clip,
-        wanted: impl Iterator<Item = VertexId>,
-        mut targets: Targets<impl Numbering>,
-        tell: &mut dyn FnMut(VertexId, VoronoiCell<G::Point>),
-    ) {
-        for v in wanted {
-            let none = |x| VoronoiCell { volume: x, area: x, centroid: nowhere::<G>() };
-            let cell = match self.mesh.standing(v) {
-                Standing::Gone => none(f64::NAN),
-                Standing::Hidden(_) => none(0.0),
-                Standing::Shown(s) => cell_of::<G>(clip, self.mesh.kernel.place(s), targets.of(s)),
-            };
-            tell(v, cell);
-        }
     }
 }
 
@@ -241,7 +134,7 @@ pub(crate) fn nowhere<G: Dimension>() -> G::Point {
 }
 
 /// What the sums of a vertex at this place say.
-fn cell_of<G: Dimension>(clip: &Clip, place: &G::Point, target: &Target) -> VoronoiCell<G::Point> {
+pub(super) fn cell_of<G: Dimension>(clip: &Clip, place: &G::Point, target: &Target) -> VoronoiCell<G::Point> {
     let sums = &target.sums;
     let [of_volume, of_facets, of_moment] = target.factors::<G>();
     let volume = of_volume * sums.volume;

@@ -30,10 +30,11 @@ use crate::motion::reading::geometry::centres::{Centres, SHARED_AT_LEAST};
 use crate::motion::reading::geometry::clipping::{
     Clip, Vector, cross, dot, in_space, length_by, minus, times,
 };
+use crate::motion::reading::geometry::pass::Edge;
 use crate::motion::reading::geometry::polytopes::Polytope;
 use crate::motion::reading::geometry::progress::Progress;
 use crate::motion::reading::geometry::sums::LEAST_SQUARE;
-use crate::motion::reading::geometry::voronoi::{Part, Voronoi};
+use crate::motion::reading::geometry::voronoi::Voronoi;
 use crate::motion::triangulation::MovingTriangulation;
 
 /// The Voronoi facets of edges in a box.
@@ -61,10 +62,6 @@ pub struct VoronoiFacet<P> {
     /// and of that of the second one by the position of the first.
     pub derivatives: [P; 2],
 }
-
-/// A facet that is computed: the edge, the vertex of lower id first, its number among those of that vertex, and a cell
-/// of it.
-type Wanted = ([VertexId; 2], u32, CellId);
 
 /// A facet: measure, centroid, derivatives.
 pub(super) type Facet = (f64, Vector, [Vector; 2]);
@@ -164,7 +161,7 @@ impl<G: Dimension> Voronoi<'_, G> {
         let clip = &region.clip;
         let ends = edge.map(|v| self.place(v));
         self.ring.go_around(self.cells, edge, first)?;
-        if let Part::All = self.part()
+        if self.is_whole()
             && let Some(facet) = self.whole(clip, &ends)
         {
             return Ok(facet);
@@ -245,82 +242,23 @@ impl<G: Dimension> MovingTriangulation<G> {
         memory::lengthen(&mut areas, self.edge_count(), f64::NAN)?;
         memory::lengthen(&mut centroids, self.edge_count(), nowhere)?;
         memory::lengthen(&mut derivatives, self.edge_count(), [nowhere; 2])?;
-        self.for_voronoi_facets(clip, half_spaces, mask, monitor, &mut |edge, facet| {
+        let edges = self.edges()?;
+        let tell = &mut |edge: usize, facet: VoronoiFacet<G::Point>| {
             areas[edge] = facet.area;
             centroids[edge] = facet.centroid;
             derivatives[edge] = facet.derivatives;
-        })?;
-        Ok(VoronoiFacets { edges: self.edges()?, areas, centroids, derivatives })
+        };
+        self.for_voronoi(Some(clip), half_spaces, mask, monitor, None, Some(tell))?;
+        Ok(VoronoiFacets { edges, areas, centroids, derivatives })
     }
 
-    /// Tells the [`voronoi_derivatives_within`](Self::voronoi_derivatives_within) of all edges, or of those that have an end of which
-    /// `mask` has an entry that is not 0, in any order: the number of the edge in the order of
-    /// [`edges`](Self::edges), and the facet. All are computed before.
-    ///
-    /// # Errors
-    /// Those of [`voronoi_derivatives_within`](Self::voronoi_derivatives_within); then nothing has been told.
-    pub fn for_voronoi_facets(
+    /// The facets of edges in a region, or without one, each by itself; on several threads where that pays.
+    pub(super) fn facets_of(
         &self,
-        clip: [&G::Point; 2],
-        half_spaces: &[f64],
-        mask: Option<&[u8]>,
-        monitor: &mut dyn FnMut(f64) -> bool,
-        tell: &mut dyn FnMut(usize, VoronoiFacet<G::Point>),
-    ) -> Result<()> {
-        mask.map_or(Ok(()), |mask| self.check_vertex_mask(mask.len()))?;
-        if self.mesh.kernel.is_constrained() {
-            return self.facets_at_own_edges(clip, half_spaces, mask, monitor, tell);
-        }
-        let region = self.region(clip, half_spaces)?;
-        let progress = &mut Progress::new(monitor, 2 * self.edge_count());
-        let (wanted, offsets) = self.wanted_edges(mask, progress)?;
-        let chosen = mask.map(|mask| self.cells_around(&self.shown_in(mask)?)).transpose()?;
-        let mut centres = Centres::new(self, self.cell_arrays()?, Some(&region.clip), chosen.as_deref())?;
-        region.mark(self, &mut centres);
-        let facets = self.facets_of(&wanted, &centres, progress, |voronoi, left, &(edge, _, first)| {
-            voronoi.facet_of(&region, left, edge, first)
-        })?;
-        for (facet, ([v, _], k, _)) in facets.iter().zip(wanted) {
-            tell((offsets[v.index()] + k) as usize, told::<G>(facet));
-        }
-        Ok(())
-    }
-
-    /// Tells what a box and half-spaces leave of the Voronoi facets of some edges, each with a cell of it, by their numbers in
-    /// this list. All are computed before. The triangulation has no segments.
-    ///
-    /// # Errors
-    /// Those of [`voronoi_derivatives_within`](Self::voronoi_derivatives_within); then nothing has been told.
-    pub(crate) fn for_cut_voronoi_facets(
-        &self,
-        edges: &[([VertexId; 2], CellId)],
-        clip: [&G::Point; 2],
-        half_spaces: &[f64],
-        monitor: &mut dyn FnMut(f64) -> bool,
-        tell: &mut dyn FnMut(usize, VoronoiFacet<G::Point>),
-    ) -> Result<()> {
-        let region = self.region(clip, half_spaces)?;
-        let progress = &mut Progress::new(monitor, edges.len());
-        let mut firsts = Vec::new();
-        let is_next = |k: &usize| *k == 0 || edges[*k].0[0] != edges[*k - 1].0[0];
-        memory::collect(&mut firsts, (0..edges.len()).filter(is_next).map(|k| edges[k].0[0]))?;
-        let chosen = self.cells_around(&firsts)?;
-        let mut centres = Centres::new(self, self.cell_arrays()?, Some(&region.clip), Some(&chosen))?;
-        region.mark(self, &mut centres);
-        let facets = self.facets_of(edges, &centres, progress, |voronoi, left, &(edge, first)| {
-            voronoi.facet_of(&region, left, edge, first)
-        })?;
-        facets.iter().enumerate().for_each(|(k, facet)| tell(k, told::<G>(facet)));
-        Ok(())
-    }
-
-    /// The facets of edges, each by itself; on several threads where that pays.
-    pub(super) fn facets_of<E: Sync>(
-        &self,
-        edges: &[E],
+        edges: &[Edge],
+        region: Option<&Region>,
         centres: &Centres<'_, G::Point>,
         progress: &mut Progress,
-        facet_of: impl Fn(&mut Voronoi<'_, G>, &mut Polytope, &E) -> Result<Facet> + Sync,
     ) -> Result<Vec<Facet>> {
         let cells = self.cell_arrays()?;
         let mut facets = Vec::new();
@@ -331,8 +269,11 @@ impl<G: Dimension> MovingTriangulation<G> {
                 let mut voronoi = Voronoi::new(self, cells, centres);
                 let (mut facets, mut left): (Vec<Facet>, _) = (Vec::new(), Polytope::default());
                 memory::reserve_exact(&mut facets, range.len())?;
-                for edge in &some[range] {
-                    facets.push(facet_of(&mut voronoi, &mut left, edge)?);
+                for &(edge, first) in &some[range] {
+                    facets.push(match region {
+                        Some(region) => voronoi.facet_of(region, &mut left, edge, first)?,
+                        None => voronoi.facet_without_box(edge, first)?,
+                    });
                 }
                 Ok(facets)
             })?;
@@ -343,62 +284,6 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         Ok(facets)
     }
-
-    /// Tells the facets of the own edges of a constrained triangulation: there is none where the Voronoi cells of the
-    /// ends do not meet.
-    fn facets_at_own_edges(
-        &self,
-        clip: [&G::Point; 2],
-        half_spaces: &[f64],
-        mask: Option<&[u8]>,
-        monitor: &mut dyn FnMut(f64) -> bool,
-        tell: &mut dyn FnMut(usize, VoronoiFacet<G::Point>),
-    ) -> Result<()> {
-        let nothing = |x| {
-            let row = of_space::<G>(&[x; 3]);
-            VoronoiFacet { area: x, centroid: of_space::<G>(&[f64::NAN; 3]), derivatives: [row; 2] }
-        };
-        let plain = self.without_segments()?;
-        let (there, own) = (plain.edges()?, self.edges()?);
-        let mut facets = Vec::new();
-        memory::lengthen(&mut facets, there.len(), nothing(f64::NAN))?;
-        plain
-            .for_voronoi_facets(clip, half_spaces, mask, monitor, &mut |edge, facet| facets[edge] = facet)?;
-        for (k, edge) in own.iter().enumerate() {
-            if mask.is_none_or(|mask| edge.iter().any(|v| mask[v.index()] != 0)) {
-                tell(k, there.binary_search(edge).map_or(nothing(0.0), |at| facets[at]));
-            }
-        }
-        Ok(())
-    }
-
-    /// The edges that have an end in a mask, if there is one, in the order of storage of the vertices; and how many edges
-    /// have a vertex of lower id as their first one, by id.
-    fn wanted_edges(&self, mask: Option<&[u8]>, progress: &mut Progress) -> Result<(Vec<Wanted>, Vec<u32>)> {
-        let (mut wanted, mut offsets) = (Vec::new(), Vec::new());
-        memory::reserve_exact(&mut wanted, if mask.is_none() { self.edge_count() } else { 0 })?;
-        memory::lengthen(&mut offsets, self.id_count() + 1, 0)?;
-        let vertices = self.mesh.kernel.live_sites().map(|s| self.mesh.kernel.site(s).id);
-        self.for_edges(vertices, |edge, first| {
-            progress.advance(1)?;
-            let n = &mut offsets[edge[0].index() + 1];
-            *n += 1;
-            if mask.is_some_and(|mask| edge.iter().all(|v| mask[v.index()] == 0)) {
-                return Ok(());
-            }
-            memory::push(&mut wanted, (edge, *n - 1, first))
-        })?;
-        for k in 1..offsets.len() {
-            offsets[k] += offsets[k - 1];
-        }
-        Ok((wanted, offsets))
-    }
-}
-
-/// A facet as programs know it.
-fn told<G: Dimension>((area, centroid, derivatives): &Facet) -> VoronoiFacet<G::Point> {
-    let derivatives = derivatives.each_ref().map(of_space::<G>);
-    VoronoiFacet { area: *area, centroid: of_space::<G>(centroid), derivatives }
 }
 
 /// The coordinates that a dimension has.

@@ -86,7 +86,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         mut tell: impl FnMut(VertexId, &Sums),
     ) -> Result<()> {
         let (cells, clip) = (self.cell_arrays()?, &region.clip);
-        progress.expect(2 * cells.corners().len());
+        progress.expect_more(2 * cells.corners().len());
         let mut neighbours = Neighbours::new(cells, self.id_count())?;
         let corners = self.corners_of_first(n, clip, &mut neighbours)?;
         let is_cut = !region.half_spaces.is_empty();

@@ -11,11 +11,11 @@
 //! | `simplices` | cells that have given vertices as corners |
 //! | `star` | stars in circulation order |
 //! | `rings` | what is around an edge, in order |
-//! | `voronoi`, `voronoi_cells`, `progress` | Voronoi cells and facets |
+//! | `voronoi_cells`, `pass`, `voronoi`, `progress` | Voronoi cells and facets: what programs ask, what is computed together |
 //! | `voronoi_changes` | which Voronoi cells have changed |
 //! | `centres` | circumcentres for these, of all cells or of chosen ones |
 //! | `dual`, `dual_cells`, `dual_facets`, `sums` | volumes, boundaries and centroids of Voronoi cells; their facets, with derivatives |
-//! | `whole_cells`, `whole_facets` | those of some vertices, and of some edges, that no box cuts |
+//! | `whole_cells`, `whole_facets` | those that no box cuts |
 //! | `clipping`, `cut_facets`, `facet_measures`, `cut_cells` | those that are cut by a box |
 //! | `half_spaces`, `polytopes`, `cells_within` | those that are cut by half-spaces besides |
 //! | `flat_cells` | Voronoi cells of vertices in one hyperplane |
@@ -44,6 +44,7 @@ mod interpolation;
 mod linear;
 mod measures;
 mod natural;
+mod pass;
 mod polytopes;
 mod progress;
 mod rings;
@@ -66,4 +67,7 @@ pub use incidence::Rows;
 pub use interpolation::{Interpolation, VertexValues};
 pub(crate) use measures::tell_all;
 pub(crate) use natural::Ridges;
+pub(crate) use pass::{Asked, Edge};
+pub(crate) use progress::Progress;
 pub use star::OrderedStar;
+pub use voronoi_cells::{TellCell, TellFacet};

@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 const WORK: usize = 1 << 15;
 
 /// Tells a monitor how far the work is.
-pub(super) struct Progress<'m> {
+pub(crate) struct Progress<'m> {
     monitor: &'m mut dyn FnMut(f64) -> bool,
     done: usize,
     asked_at: usize,
@@ -14,13 +14,13 @@ pub(super) struct Progress<'m> {
 }
 
 impl<'m> Progress<'m> {
-    pub(super) fn new(monitor: &'m mut dyn FnMut(f64) -> bool, expected: usize) -> Self {
+    pub(crate) fn new(monitor: &'m mut dyn FnMut(f64) -> bool, expected: usize) -> Self {
         Progress { monitor, done: 0, asked_at: 0, expected }
     }
 
-    /// Expects another amount of work in all.
-    pub(super) fn expect(&mut self, expected: usize) {
-        self.expected = expected.max(1);
+    /// Expects so much work besides what is done.
+    pub(super) fn expect_more(&mut self, more: usize) {
+        self.expected = (self.done + more).max(1);
     }
 
     /// Some more has been done.

@@ -8,65 +8,20 @@ use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
-use crate::motion::reading::geometry::centres::{Centres, Numbering, Ranks};
-use crate::motion::reading::geometry::clipping::{Vector, dot, length_by, minus, unit_of, without_unit};
+use crate::motion::reading::geometry::centres::Numbering;
+use crate::motion::reading::geometry::clipping::{Vector, dot, length_by, minus, without_unit};
 use crate::motion::reading::geometry::dual::{Target, Targets};
 use crate::motion::reading::geometry::dual_cells::{VoronoiCell, nowhere};
 use crate::motion::reading::geometry::dual_facets::of_space;
 use crate::motion::reading::geometry::incidence::Neighbours;
 use crate::motion::reading::geometry::progress::Progress;
 use crate::motion::reading::geometry::sums::Sums;
-use crate::motion::reading::geometry::voronoi::{Voronoi, pyramid};
-use crate::motion::state::mesh::Standing;
-use crate::motion::triangulation::MovingTriangulation;
-
-impl<G: Dimension> MovingTriangulation<G> {
-    /// Tells the Voronoi cells of some vertices, which are ascending, one after the other, when all are computed; their
-    /// centroids as seen from the vertex. `size` is about that of the cells, or some thousand times as much. One without an
-    /// end is infinite, and so are all while there are no cells; removed vertices have NaN, hidden ones 0. The triangulation
-    /// has no segments.
-    ///
-    /// # Errors
-    /// [`Cancelled`](crate::Error::Cancelled) if `monitor` returns `false`, [`OutOfMemory`](crate::Error::OutOfMemory);
-    /// then nothing has been told.
-    pub(crate) fn for_whole_voronoi_cells(
-        &self,
-        wanted: impl Iterator<Item = VertexId> + Clone,
-        size: f64,
-        monitor: &mut dyn FnMut(f64) -> bool,
-        tell: &mut dyn FnMut(VertexId, VoronoiCell<G::Point>),
-    ) -> Result<()> {
-        let mut shown = Vec::new();
-        let is_shown = |v: &VertexId| matches!(self.mesh.standing(*v), Standing::Shown(_));
-        memory::collect(&mut shown, wanted.clone().filter(is_shown))?;
-        let (cells, n_sites) = (self.cell_arrays()?, self.mesh.kernel.sites().len());
-        let chosen = self.cells_around(&shown)?;
-        let centres = Centres::new(self, cells, None, Some(&chosen))?;
-        let (_, ranks) = centres.chosen.as_ref().expect("cells are chosen");
-        let numbers = Ranks::of(n_sites, shown.iter().map(|&v| self.mesh.site_of[v].index()))?;
-        let mut targets = Targets::new(&numbers, shown.len())?;
-        let mut voronoi = Voronoi::new(self, cells, &centres);
-        let (unit, progress) = (unit_of(size), &mut Progress::new(monitor, 2 * chosen.len()));
-        voronoi.add_all(unit, ranks, progress, &mut targets)?;
-        voronoi.by_facets(&shown, progress, &mut targets)?;
-        for v in wanted {
-            let none = |x| VoronoiCell { volume: x, area: x, centroid: nowhere::<G>() };
-            let cell = match self.mesh.standing(v) {
-                Standing::Gone => none(f64::NAN),
-                Standing::Hidden(_) => none(0.0),
-                Standing::Shown(_) if chosen.is_empty() => none(f64::INFINITY),
-                Standing::Shown(s) => whole_cell::<G>(unit, targets.of(s)),
-            };
-            tell(v, cell);
-        }
-        Ok(())
-    }
-}
+use crate::motion::reading::geometry::voronoi::Voronoi;
 
 impl<G: Dimension> Voronoi<'_, G> {
     /// Puts the cells of those of some vertices together from facets of which pieces do not tell all. Their sums are the
     /// numbers themselves, with the centroid for the moment.
-    fn by_facets(
+    pub(super) fn by_facets(
         &mut self,
         vertices: &[VertexId],
         progress: &mut Progress,
@@ -95,12 +50,18 @@ impl<G: Dimension> Voronoi<'_, G> {
             pyramids.clear();
             for &(w, cell) in &list {
                 let (measure, centroid, _) = self.facet_without_box([v, w], cell)?;
+                progress.advance(self.ring.cells.len())?;
+                if measure == f64::INFINITY {
+                    // Whatever there is besides.
+                    (sums.volume, sums.facets) = (measure, measure);
+                    break;
+                }
                 let way = minus(&self.place(w), &self.place(v));
-                let volume = pyramid::<G>([measure, length_by(dot(&way, &way), &way)]);
+                // Half of the least length is zero.
+                let volume = 0.5 * length_by(dot(&way, &way), &way) * measure / G::D as f64;
                 sums.volume += volume;
                 sums.facets += measure;
                 memory::push(&mut pyramids, (volume, centroid))?;
-                progress.advance(self.ring.cells.len())?;
             }
             sums.moment = mean_of::<G>(&pyramids, sums.volume);
             targets.of(t.mesh.site_of[v]).sums = sums;
@@ -120,7 +81,7 @@ fn mean_of<G: Dimension>(pyramids: &[(f64, Vector)], total: f64) -> Vector {
 }
 
 /// What the sums of a vertex say.
-fn whole_cell<G: Dimension>(unit: f64, target: &Target) -> VoronoiCell<G::Point> {
+pub(super) fn whole_cell<G: Dimension>(unit: f64, target: &Target) -> VoronoiCell<G::Point> {
     let (sums, [of_volume, of_facets, of_moment]) = (&target.sums, target.factors::<G>());
     if target.is_cut {
         let centroid = if sums.volume > 0.0 && sums.volume < f64::INFINITY {

@@ -13,15 +13,11 @@
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
-use crate::machine::memory;
-use crate::motion::reading::geometry::centres::Centres;
 use crate::motion::reading::geometry::clipping::{
     dot, greatest, in_space, length_by, minus, normalised, times, unit_of, without_unit,
 };
-use crate::motion::reading::geometry::dual_facets::{Facet, VoronoiFacet, of_space};
-use crate::motion::reading::geometry::progress::Progress;
+use crate::motion::reading::geometry::dual_facets::Facet;
 use crate::motion::reading::geometry::voronoi::Voronoi;
-use crate::motion::triangulation::MovingTriangulation;
 
 /// What corners are off in the unit of a facet, in which no coordinate of a way from its vertex to one of them is above 2, and
 /// so no circumradius above 3.5.
@@ -70,45 +66,5 @@ impl<G: Dimension> Voronoi<'_, G> {
             derivatives[1][axis] = without_unit(unit, G::D - 1, -middle - from_middle);
         }
         Ok((without_unit(unit, G::D - 1, measure), centroid, derivatives))
-    }
-}
-
-impl<G: Dimension> MovingTriangulation<G> {
-    /// Tells the Voronoi facets of some edges, each with a cell of it, by their numbers in this list: centroids are as seen
-    /// from the first vertex. All are computed before. The triangulation has no segments.
-    ///
-    /// # Errors
-    /// [`Cancelled`](crate::Error::Cancelled) if `monitor` returns `false`, [`OutOfMemory`](crate::Error::OutOfMemory);
-    /// then nothing has been told.
-    pub(crate) fn for_whole_voronoi_facets(
-        &self,
-        edges: &[([VertexId; 2], CellId)],
-        monitor: &mut dyn FnMut(f64) -> bool,
-        tell: &mut dyn FnMut(usize, VoronoiFacet<G::Point>),
-    ) -> Result<()> {
-        let progress = &mut Progress::new(monitor, edges.len());
-        let mut firsts = Vec::new();
-        let is_next = |k: &usize| *k == 0 || edges[*k].0[0] != edges[*k - 1].0[0];
-        memory::collect(&mut firsts, (0..edges.len()).filter(is_next).map(|k| edges[k].0[0]))?;
-        let chosen = self.cells_around(&firsts)?;
-        let centres = Centres::new(self, self.cell_arrays()?, None, Some(&chosen))?;
-        let facets = self.facets_of(edges, &centres, progress, |voronoi, _, &(edge, first)| {
-            voronoi.facet_without_box(edge, first)
-        })?;
-        for (k, (area, centroid, derivatives)) in facets.into_iter().enumerate() {
-            let derivatives = derivatives.each_ref().map(of_space::<G>);
-            tell(k, VoronoiFacet { area, centroid: of_space::<G>(&centroid), derivatives });
-        }
-        Ok(())
-    }
-
-    /// Visits the edges of each of these vertices to vertices of higher ids, with a cell of each; those of one vertex in the
-    /// order of ids.
-    pub(crate) fn for_edges_of(
-        &self,
-        vertices: impl Iterator<Item = VertexId>,
-        visit: impl FnMut([VertexId; 2], CellId) -> Result<()>,
-    ) -> Result<()> {
-        self.for_edges(vertices, visit).map(drop)
     }
 }
