@@ -656,7 +656,9 @@ impl Cases<'_> {
             Role::Algorithm => {
                 self.refused("value", at, "999", "999", "INVALID_OPTIONS", "\"algorithm is 999\"")
             }
-            Role::Method => self.refused("value", at, "2", "2", "INVALID_VALUE", "\"method[0] is 2\""),
+            Role::Method => {
+                self.refused("value", at, "2", "2", "INVALID_VALUE", &format!("\"{name}[0] is 2\""))
+            }
             Role::Status => self.legal("value", at, "UINT32_MAX", "(deldrift_status)UINT32_MAX"),
             Role::Magnitude => {
                 for (column, given, said) in [("nan", "NAN", "NaN"), ("value", "-1", "-1")] {

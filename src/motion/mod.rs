@@ -53,7 +53,8 @@ pub use reading::geometry::{
     VoronoiFacets,
 };
 pub(crate) use reading::geometry::{Ridges, list_boundary, nowhere, tell_all};
-pub use reading::near::{InReach, VerticesInReach};
+pub(crate) use reading::near::{Entry, Lists, Placed, Search, Tree};
+pub use reading::near::{InReach, ListsOf, NeighbourLists, VerticesInReach};
 pub use reading::query::Location;
 pub(crate) use reading::query::cells_at;
 pub use reading::saving::Saved;
