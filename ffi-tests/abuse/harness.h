@@ -37,7 +37,7 @@ typedef struct {
     deldrift_cells_view cells;
     deldrift_location location, locations[8];
     double numbers[ROOM], more_numbers[ROOM], rows[ROOM], few_numbers[8];
-    size_t offsets[8];
+    size_t offsets[ROOM];
     uint32_t ids[ROOM], more_ids[ROOM], few_ids[ROOM / 8], fewer_ids[ROOM / 8];
     int32_t labels[ROOM];
     uint64_t keys[ROOM];
@@ -483,7 +483,7 @@ static bool serves_periodic(const char *name) {
         "voronoi_facets", "voronoi_cells", "voronoi_derivatives", "voronoi_cells_within", "voronoi_derivatives_within", "circumcentres", "volumes", "mask_by_circumradius",
         "mask_boundary", "hull_facets", "update_circumcentres", "update_volumes", "update_mask_by_circumradius",
         "stage_vectors", "vectors", "cell_shifts", "edge_shifts", "take_changes", "locate", "locate_points",
-        "locate_in_period", "nearest_vertex", "nearest_vertices", "vertices_in_ball", "barycentric", "interpolate",
+        "locate_in_period", "nearest_vertex", "nearest_vertices", "vertices_in_ball", "neighbour_lists", "barycentric", "interpolate",
         "clone", "save", "save_file", "write_vtu", "write_medit", "compact", "relocate_vertex", "insert_vertex",
         "remove_vertex", "validate", "hidden_vertices", "star", "vertex_cells", "vertex_neighbours",
         "cell_of_each_vertex", "cells_around", "vertices_in_box", "conflicts", "voronoi_changed", "mirror_indices", "mirror_index", "reduced_vectors", "wrap_positions"};

@@ -276,3 +276,70 @@ fn square_between<G: Dimension>(one: [&G::Point; 2], other: [&G::Point; 2]) -> f
     }
     square * (1.0 - MARGIN)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::delaunay::Plane;
+
+    /// How many places are looked at, or may be, and how many entries there are.
+    fn counts(places: &[[f64; 2]], squared_radius: impl Fn(usize) -> f64) -> [usize; 2] {
+        let placed = places.iter().enumerate().map(|(k, &place)| Placed {
+            place,
+            squared_radius: squared_radius(k),
+            vertex: VertexId::at(k),
+        });
+        let search = Search::<Plane> {
+            tree: Tree::new(placed.collect()).expect("memory"),
+            translations: &[[0.0; 2]],
+            nowhere: 0,
+            is_half: false,
+            is_kept: false,
+        };
+        let mut beside = Beside::<Plane, u32> { rows: Vec::new(), segments: Vec::new(), found: Vec::new() };
+        let mut n_looked_at = 0;
+        for &leaf in &search.tree.leaves {
+            let node = &search.tree.nodes[leaf as usize];
+            search.gather(node, &mut beside).expect("memory");
+            n_looked_at += LANES * beside.rows.len() * (node.end - node.first) as usize;
+        }
+        let part = search.lists::<u32>(0..places.len()).expect("memory");
+        [n_looked_at, part.lengths.iter().sum()]
+    }
+
+    /// However unevenly places are spread, what is looked at is in proportion to their number and to what is found.
+    #[test]
+    fn no_set_takes_all_pairs() {
+        let n = 4000;
+        let of = |place: &dyn Fn(f64) -> [f64; 2]| -> Vec<[f64; 2]> {
+            (0..n).map(|k| place(f64::from(k) / f64::from(n))).collect()
+        };
+        let noise = |x: f64, factor: f64| (x * factor).fract();
+        let line = of(&|x| [x, 2.0 * x]);
+        let along_axis = of(&|x| [x, 0.5]);
+        let clusters = of(&|x| [(8.0 * x).floor() + 1e-9 * noise(x, 7919.3), 1e-9 * noise(x, 104_729.7)]);
+        let powers = of(&|x| [(-600.0 * x).exp2(), (-500.0 * x).exp2()]);
+        let comb = of(&|x| [(64.0 * x).floor() / 64.0, 1e-6 * noise(64.0 * x, 1.0)]);
+        // Half of them around the middle, the others on a circle that is just beyond the radius of each of these.
+        let circle = of(&|x| match x {
+            x if x < 0.5 => [1e-7 * noise(x, 7919.3), 1e-7 * noise(x, 104_729.7)],
+            x => [(13.0 * x).cos() * 1.000_001, (13.0 * x).sin() * 1.000_001],
+        });
+        for (name, places) in [
+            ("line", &line),
+            ("along_axis", &along_axis),
+            ("clusters", &clusters),
+            ("powers", &powers),
+            ("comb", &comb),
+            ("circle", &circle),
+        ] {
+            for radius in [1e-15, 1e-9, 1e-7, 1e-5, 1e-3, 0.03, 1.0] {
+                let [n_looked_at, n_found] = counts(places, |_| radius * radius);
+                assert!(n_looked_at <= 60 * (places.len() + n_found), "{name} {radius}: {n_looked_at} {n_found}");
+            }
+            // Each its own, from far less than what is between them to far more.
+            let [n_looked_at, n_found] = counts(places, |k| 4f64.powi(-((k * 7919 % 40) as i32)));
+            assert!(n_looked_at <= 60 * (places.len() + n_found), "{name}: {n_looked_at} {n_found}");
+        }
+    }
+}
