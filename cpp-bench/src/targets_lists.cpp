@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lists of all vertices within a radius, beside a grid of linked cells, and beside nanoflann's tree where that is installed.
 #include "library.hpp"
-#include "measure.hpp"
 #include "random.hpp"
+#include "replay.hpp"
 #include "targets.hpp"
+#include "verify.hpp"
 
 #include <fmt/format.h>
 

@@ -207,7 +207,8 @@ impl Into<'_> {
         let fitting = fit(count, needed, capacity, &[neighbours.offer(), shifts.offer()])?;
         let offsets = offsets.places_if_any(lists.offsets.len())?;
         let (neighbours, shifts) = (neighbours.places_if_any(needed)?, shifts.places_if_any(needed * d)?);
-        lists.for_each(|vertex, begin, list| {
+        let is_asked = !(neighbours.is_empty() && shifts.is_empty());
+        let mut write = |vertex: VertexId, begin: usize, list: &[E]| {
             let those = || list.iter().map(|&entry| told(vertex, entry));
             if let Some(places) = neighbours.get_mut(begin..begin + list.len()) {
                 write_all(places, those().map(|(other, _)| other.get()));
@@ -215,7 +216,11 @@ impl Into<'_> {
             if let Some(places) = shifts.get_mut(d * begin..d * (begin + list.len())) {
                 write_all(places, those().flat_map(|(_, shift)| shift.into_iter().take(d)));
             }
-        });
+        };
+        // Otherwise lengths are known alone.
+        if is_asked {
+            lists.for_each(&mut write);
+        }
         write_all(offsets, lists.offsets.iter().copied());
         fitting.tell();
         Ok(())

@@ -48,6 +48,7 @@ use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 /// deldrift_take_changes, deldrift_circumcentres, deldrift_volumes, deldrift_mask_by_circumradius with the functions that
 /// update what these give, deldrift_mask_boundary, deldrift_hull_facets, deldrift_locate, deldrift_locate_points,
 /// deldrift_locate_in_period, deldrift_nearest_vertex, deldrift_nearest_vertices, deldrift_vertices_in_ball,
+/// deldrift_neighbour_lists,
 /// deldrift_vertices_in_box, deldrift_conflicts, deldrift_voronoi_changed,
 /// deldrift_barycentric, deldrift_interpolate, deldrift_clone, deldrift_save,
 /// deldrift_load, deldrift_save_file, deldrift_load_file, deldrift_write_vtu, deldrift_write_medit, deldrift_compact,
