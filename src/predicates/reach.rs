@@ -54,6 +54,7 @@ use super::plane::orient2d;
 use super::space::orient3d;
 use super::sphere::{circle, sphere};
 use super::vectors::{cross, dot, minus, plus};
+use crate::machine::tally;
 use crate::simd::Real;
 
 /// What the square of a distance must differ by from that of a rounded radius, relatively, to be certainly less or
@@ -274,6 +275,7 @@ fn is_met<T: Signed, const D: usize>(
 #[cold]
 #[inline(never)]
 fn is_exactly_met_2d([a, b, c]: [&[f64; 2]; 3], sides: [&[f64; 2]; 2], binding: Binding<2>) -> bool {
+    tally::count();
     let [low, high] = counting(a, sides, binding);
     let points = [b, c, &low, &high];
     if let Some([u, v, low, high]) = short(a, points) {
@@ -287,6 +289,7 @@ fn is_exactly_met_2d([a, b, c]: [&[f64; 2]; 3], sides: [&[f64; 2]; 2], binding: 
 #[cold]
 #[inline(never)]
 fn is_exactly_met_3d([a, b, c, d]: [&[f64; 3]; 4], sides: [&[f64; 3]; 2], binding: Binding<3>) -> bool {
+    tally::count();
     let [low, high] = counting(a, sides, binding);
     let points = [b, c, d, &low, &high];
     if let Some([u, v, w, low, high]) = short(a, points) {
