@@ -14,7 +14,7 @@ SECONDS ?= 60
 HOURS ?= 1
 
 # Debian packages that the benchmark is built with.
-BENCHMARK_NEEDS := cmake g++ libcgal-dev libcli11-dev libfmt-dev doctest-dev voro++-dev
+BENCHMARK_NEEDS := cmake g++ libcgal-dev libcli11-dev libfmt-dev doctest-dev voro++-dev libnanoflann-dev
 
 # ... and the examples.
 EXAMPLE_NEEDS := cmake g++ libeigen3-dev

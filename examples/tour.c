@@ -99,6 +99,18 @@ static void ask_what_is_near(deldrift_triangulation *t) {
     const double radius = hypot(farthest[0] - place[0], farthest[1] - place[1]);
     check(deldrift_vertices_in_ball(t, place, 1.000001 * radius * radius, found, MOST, &count));
     expect(near[0] == nearest && count == 6, "the six nearest vertices are those in the circle to the sixth");
+    // The neighbours of all vertices in a radius, each pair once.
+    static size_t begins[VERTICES + 1];
+    static uint32_t neighbours[8 * VERTICES];
+    const double squared_radius = 1.5 / (SIDE * SIDE);
+    check(deldrift_neighbour_lists(t, &squared_radius, 1, NULL, 0, DELDRIFT_PAIRS_HALF, begins, VERTICES + 1, neighbours, NULL,
+                                   8 * VERTICES, &count));
+    for (size_t v = 0; v < VERTICES; v++) {
+        for (size_t i = begins[v]; i < begins[v + 1]; i++) {
+            const double *p = positions + 2 * v, *q = positions + 2 * neighbours[i];
+            expect(neighbours[i] > v && hypot(p[0] - q[0], p[1] - q[1]) < 1.3 / SIDE, "neighbours are near");
+        }
+    }
     for (size_t v = 0; v < VERTICES; v++) n_between += low[0] <= positions[2 * v] && positions[2 * v] <= high[0];
     check(deldrift_vertices_in_box(t, low, high, found, MOST, &count));
     expect(count == n_between && count > SIDE, "a strip is a box without an end");

@@ -388,6 +388,25 @@ typedef uint32_t deldrift_interpolation;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+/// In how many lists of deldrift_neighbour_lists a pair of vertices is.
+enum
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  deldrift_pairs : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /// In the list of each of the two in whose ball the other one is: full lists.
+    DELDRIFT_PAIRS_FULL = 0,
+    /// Each pair of which the full lists have one vertex or both, once: half lists.
+    DELDRIFT_PAIRS_HALF = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum deldrift_pairs deldrift_pairs;
+#else
+typedef uint32_t deldrift_pairs;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
 /// Which segments deldrift_refine keeps whole.
 enum
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -1765,6 +1784,57 @@ deldrift_status deldrift_vertices_in_ball(const deldrift_triangulation *t,
                                           uint32_t *vertices,
                                           size_t capacity,
                                           size_t *count);
+
+/// For each vertex the others that are near it, all in one call: the neighbour lists of particle codes.
+///
+/// The list of a vertex has the vertices of which the squared distance from it is at most that of its radius, exactly: those that
+/// deldrift_vertices_in_ball finds around it, hidden ones included, but not the vertex itself. Hidden vertices have lists, too;
+/// those of removed ones are empty, as they are of vertices that are staged. Each list ascends by id.
+///
+/// squared_radii: one number, the square of the radius of all lists, radius_count being 1; or one for each id, radius_count being
+/// deldrift_id_count. Each is 0 or more, and infinity is all vertices. Entries of vertices without a list are not looked at.
+/// mask: an entry for each vertex id; only vertices whose entry is not 0 have a list, in which others may be all the same. NULL for
+/// all. mask_count: deldrift_id_count; without a mask it is not looked at.
+/// pairs: DELDRIFT_PAIRS_FULL, or DELDRIFT_PAIRS_HALF for each pair once. Where radii differ, the one vertex may be in the ball of the
+/// other and not the other way round; half lists have each pair that full lists have one way or both, so that two vertices with
+/// lists are a pair if their distance is at most the greater one of their radii. It is in the list of the lower id, or, if only one of
+/// the two has a list, in that.
+///
+/// offsets: a buffer for offset_count numbers, which must be deldrift_id_count + 1: the list of vertex v is in neighbours from the
+/// index that is entry v of offsets on, and ends before entry v + 1. neighbours: a buffer with room for capacity ids. shifts: one
+/// with room for as many rows of 2 (2D) or 3 (3D) whole numbers: in which period each neighbour is, as deldrift_edge_shifts has them.
+/// One that is NULL is not filled. count: receives the number of entries, which is also written when neighbours or shifts are too
+/// small; then nothing else is. NULL for both with capacity 0 asks for offsets and the count alone, for which nothing is kept. A program
+/// that asks again and again, as in each step, keeps its buffers, with some room to spare, and so asks once.
+///
+/// In a periodic triangulation a list has every image that is near, each with its shift, ascending by id and by shift: several of one
+/// vertex, and of the vertex itself those in other periods, where the radius is large beside the box. Half lists have one of the two
+/// ways between two images: of those from a vertex to itself the one whose shift has a first number that is not 0 above 0. Radii are
+/// refused that are so large that places of images would be rounded: up to eight times the least distance between opposite sides of
+/// the reduced box is always possible. Where the triangulation is not periodic, shifts are 0.
+///
+/// Uses the threads of the options, and calls their callbacks. The lists do not depend on how many threads there are. Takes memory for
+/// the places and for all lists while it runs, and writes nothing until all are known.
+///
+/// Cost: n log n, the entries, and k log k for the k of each list. With one radius for all, that is so for every set, however unevenly
+/// it is spread: what is looked at besides is at most a constant times n and the entries, and mostly some five times these. Where radii
+/// differ by powers of two of many sizes, what is looked at for each size is at most n times the root of the number of entries.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE
+/// for a squared radius that is negative or NaN, or too large for a periodic triangulation, and for other pairs,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+deldrift_status deldrift_neighbour_lists(const deldrift_triangulation *t,
+                                         const double *squared_radii,
+                                         size_t radius_count,
+                                         const uint8_t *mask,
+                                         size_t mask_count,
+                                         deldrift_pairs pairs,
+                                         size_t *offsets,
+                                         size_t offset_count,
+                                         uint32_t *neighbours,
+                                         int64_t *shifts,
+                                         size_t capacity,
+                                         size_t *count);
 
 /// The vertices in a closed box, ascending by id, hidden ones included: those of which each coordinate is at least that
 /// of low and at most that of high.

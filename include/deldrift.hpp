@@ -839,6 +839,39 @@ public:
             return deldrift_vertices_in_ball(native(), centre.data(), squared_radius, vertices, capacity, count);
         });
     }
+    // For each vertex those near it, ascending: within the square of a radius, one for all or one for each id. A mask has an entry
+    // for each id, and an empty one is none.
+    NeighbourLists neighbour_lists(span<const double> squared_radii, deldrift_pairs pairs = DELDRIFT_PAIRS_FULL,
+                                   span<const std::uint8_t> mask = {}) const {
+        NeighbourLists lists;
+        neighbour_lists(squared_radii, lists, pairs, mask);
+        return lists;
+    }
+    // That, in the memory of lists that have been filled before: so a step takes one search.
+    void neighbour_lists(span<const double> squared_radii, NeighbourLists &lists,
+                         deldrift_pairs pairs = DELDRIFT_PAIRS_FULL, span<const std::uint8_t> mask = {}) const {
+        const std::uint8_t *const chosen = mask.size() == 0 ? nullptr : mask.data();
+        const std::size_t of_each = vectors().empty() ? 0 : dimension_;
+        lists.offsets.resize(id_count() + 1);
+        lists.neighbours.resize(lists.neighbours.capacity());
+        for (std::size_t count = 0;;) {
+            const std::size_t room = lists.neighbours.size();
+            lists.shifts.resize(of_each * room);
+            const deldrift_status status = deldrift_neighbour_lists(
+                native(), squared_radii.data(), squared_radii.size(), chosen, mask.size(), pairs, lists.offsets.data(),
+                lists.offsets.size(), room == 0 ? nullptr : lists.neighbours.data(),
+                room == 0 || of_each == 0 ? nullptr : lists.shifts.data(), room, &count);
+            if (status == DELDRIFT_BUFFER_TOO_SMALL || (status == DELDRIFT_OK && count > room)) {
+                lists.neighbours.resize(count + count / 16);
+                continue;
+            }
+            if (status != DELDRIFT_OK) lists = NeighbourLists{};
+            require_ok(status);
+            lists.neighbours.resize(count);
+            lists.shifts.resize(of_each * count);
+            return;
+        }
+    }
     // In ascending order, hidden vertices included; sides of the box may be infinite.
     std::vector<std::uint32_t> vertices_in_box(span<const double> low, span<const double> high) const {
         expect("low", low.size(), dimension_);

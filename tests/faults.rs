@@ -14,7 +14,7 @@ mod faults_in_boxes;
 use common::carried::{Carried, List};
 use common::history::Snapshot;
 use common::{Rng, ids, point, seeds, sorted, vertex};
-use deldrift::motion::{Algorithm, CommitReport, Interpolation, Level, Location, Monitor};
+use deldrift::motion::{Algorithm, CommitReport, Interpolation, Level, ListsOf, Location, Monitor};
 use deldrift::motion::{MovingTriangulation, Options, Rows, Saved, VertexValues};
 use deldrift::{CellId, Dimension, Plane, Space, VertexId};
 use deldrift::{Error, LoadError, Result};
@@ -261,6 +261,7 @@ enum Call {
     Interpolate(Interpolation),
     NearestVertices,
     VerticesInBall,
+    NeighbourLists,
     VerticesInBox,
     Conflicts(Goal),
     CellsInReach,
@@ -302,7 +303,7 @@ impl Call {
         ]);
         calls.extend([Interpolation::Linear, Interpolation::NaturalNeighbour].map(Call::Interpolate));
         calls.extend([Call::CellsAround(false), Call::CellsAround(true)]);
-        calls.extend([Call::NearestVertices, Call::VerticesInBall, Call::VerticesInBox]);
+        calls.extend([Call::NearestVertices, Call::VerticesInBall, Call::NeighbourLists, Call::VerticesInBox]);
         calls.extend([Call::CellsInReach, Call::VerticesInReach]);
         calls.extend([Goal::Near, Goal::Far, Goal::Shared].map(Call::Conflicts));
         calls.extend([Call::FindSimplices(false), Call::FindSimplices(true)]);
@@ -655,6 +656,10 @@ impl<G: Dimension> Scene<G> {
                 Given::Numbers(vec![sum])
             }
             Call::VerticesInBall => Given::Ids(given(t.vertices_in_ball(&points[12], 0.09))?),
+            Call::NeighbourLists => {
+                let wanted = ListsOf { squared_radii: &[0.01], mask: None, is_half: false };
+                Given::Ids(given(t.neighbour_lists(&wanted))?.neighbours)
+            }
             Call::VerticesInBox => {
                 let (low, high) = (point::<G>(|_| 0.3), point::<G>(|axis| 0.6 + axis as f64));
                 Given::Ids(given(t.vertices_in_box(&low, &high))?)

@@ -3,6 +3,7 @@
 mod exact_cells;
 mod flat_sides;
 mod listed;
+mod lists;
 mod near;
 mod voronoi;
 mod voronoi_exact;

@@ -22,6 +22,25 @@ void fill(Context &c, std::size_t length, double units, One one) {
     c.meter.count(units);
 }
 
+/// Lists within a radius for which each vertex has so many neighbours, or within that of each.
+void neighbour_lists(Context &c, double squared_radius) {
+    Points own;
+    for (std::uint32_t v = 0; v < c.n; ++v) own.push_back(c.spacing[v] * c.spacing[v]);
+    const bool is_each = squared_radius < 0;
+    std::vector<std::size_t> offsets(c.n + 1);
+    std::size_t count = 0;
+    const auto list = [&](Ids &into) {
+        return deldrift_neighbour_lists(c.t, is_each ? own.data() : &squared_radius, is_each ? c.n : 1, nullptr, 0,
+                                        DELDRIFT_PAIRS_FULL, offsets.data(), offsets.size(),
+                                        into.empty() ? nullptr : into.data(), nullptr, into.size(), &count);
+    };
+    Ids found;
+    must(list(found));
+    found.resize(count);
+    c.meter.time([&] { must(list(found)); });
+    c.meter.count(double(c.n + count));
+}
+
 /// All changed by the same: one vertex after the other relocated, and `read` timed after each.
 template <typename Read>
 void after_relocations(Context &c, Read read) {
@@ -288,6 +307,10 @@ std::vector<Call> reading_calls() {
              in_parts(c, [&](std::uint32_t v, std::uint32_t *to, std::size_t *count) {
                  return deldrift_vertices_in_ball(c.t, c.place(v), c.spacing[v] * c.spacing[v], to, c.n, count);
              });
+         }},
+        {"deldrift_neighbour_lists", "to the next vertex, each its own", [](Context &c) { neighbour_lists(c, -1); }},
+        {"deldrift_neighbour_lists", "to the next vertex of the first", [](Context &c) {
+             neighbour_lists(c, c.spacing[0] * c.spacing[0]);
          }},
         {"deldrift_vertices_in_ball", "around all", [](Context &c) {
              fill<std::uint32_t>(c, c.n, double(c.n), [&](std::uint32_t *to, std::size_t *count) {

@@ -260,6 +260,7 @@ const std::vector<std::string> &target_names() {
         "threads_swept",  "leap_1",      "leap_10",         "threads_build", "step_0",
         "step_1e-5",      "step_1e-4",   "step_1e-3",       "step_1e-2",     "loop",
         "grown_cells",    "grown_star",  "grown_relocate_vertex", "grown_commit_one",
+        "lists",          "lists_lattice", "lists_cluster",
         "locate_path",    "locate",      "insert",          "drift_0.03",    "drift_0.1",
         "drift_0.3",      "staged_1",    "staged_10",       "staged_100",    "staged_1000",
         "staged_5%",      "staged_20%",  "tenth_grid",      "tenth_face_centred", "tenth_layers",

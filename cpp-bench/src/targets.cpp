@@ -255,6 +255,7 @@ public:
             if (sizes_.has("loop")) append(loop_targets(dimension, sizes_, seed_, checks_, progress_));
             append(growth_targets(dimension, sizes_, seed_, progress_));
             append(location_targets(dimension, sizes_, seed_, progress_));
+            append(list_targets(dimension, sizes_, seed_, progress_));
             append(staged_targets(dimension, sizes_, seed_, progress_));
             append(phase_targets(dimension, sizes_, seed_, progress_));
         }

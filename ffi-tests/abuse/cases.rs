@@ -184,7 +184,8 @@ impl Cases<'_> {
     fn null(&mut self, at: usize, role: Role, parameter: &Parameter) {
         let name = &parameter.name;
         let n_buffers = self.roles().iter().filter(|&&role| role == Role::Buffer).count();
-        // Lists have offsets, which may be left out, and entries, which may only be left out with their capacity.
+        // Lists have offsets, which may be left out, and entries, which may only be left out with their capacity, unless
+        // there are several arrays of them.
         let is_list = self.function.has("offsets");
         let is_legal = match role {
             // Of a triangulation that is not periodic there are none.
@@ -201,7 +202,7 @@ impl Cases<'_> {
             | Role::KeysIfAny => true,
             Role::Ids => self.function.name == "deldrift_move_vertices",
             Role::Buffer => {
-                self.function.name != "deldrift_compact" && n_buffers > 1 && (!is_list || name == "offsets")
+                self.function.name != "deldrift_compact" && n_buffers > 1 && (!is_list || name == "offsets" || n_buffers > 2)
             }
             _ => false,
         };
@@ -299,6 +300,15 @@ impl Cases<'_> {
             Role::Numbers | Role::NumbersIfAny => {
                 self.legal("nan", at, "NaN", &format!("bad({valid}, 0, NAN)"));
                 self.legal("infinite", at, "infinity", &format!("bad({valid}, 0, INFINITY)"));
+            }
+            Role::Magnitudes => {
+                for (column, value, said) in [("nan", "NAN", "NaN"), ("value", "-1", "-1")] {
+                    let message = format!("\"{name}[1] is {said}\"");
+                    let given = format!("bad({valid}, 1, {value})");
+                    self.refused(column, at, said, &given, "INVALID_VALUE", &message);
+                }
+                self.legal("infinite", at, "infinity", &format!("bad({valid}, 1, INFINITY)"));
+                self.legal("zero", at, "0", &format!("bad({valid}, 1, 0)"));
             }
             Role::Ids => self.ids(at),
             Role::Ends => self.ends(at),
@@ -674,7 +684,9 @@ impl Cases<'_> {
             Role::Algorithm => {
                 self.refused("value", at, "999", "999", "INVALID_OPTIONS", "\"algorithm is 999\"")
             }
-            Role::Method => self.refused("value", at, "2", "2", "INVALID_VALUE", "\"method[0] is 2\""),
+            Role::Method => {
+                self.refused("value", at, "2", "2", "INVALID_VALUE", &format!("\"{name}[0] is 2\""))
+            }
             Role::Status => self.legal("value", at, "UINT32_MAX", "(deldrift_status)UINT32_MAX"),
             Role::Magnitude => {
                 for (column, given, said) in [("nan", "NAN", "NaN"), ("value", "-1", "-1")] {

@@ -38,7 +38,7 @@ typedef struct {
     deldrift_location location, locations[8];
     double numbers[ROOM], more_numbers[ROOM], rows[ROOM], few_numbers[8];
     double facets[ROOM], more_facets[ROOM], facet_rows[ROOM];
-    size_t offsets[8];
+    size_t offsets[ROOM];
     uint32_t ids[ROOM], more_ids[ROOM], few_ids[ROOM / 8], fewer_ids[ROOM / 8];
     int32_t labels[ROOM];
     uint64_t keys[ROOM];

@@ -60,8 +60,9 @@ pub enum Role {
     Algorithm,
     Method,
     Status,
-    /// A number that is not negative, and may be infinite.
+    /// A number that is not negative, and may be infinite; an array of them.
     Magnitude,
+    Magnitudes,
     /// How much may be made at most: any number.
     Limit,
     /// How many corners each of several simplices has.
@@ -103,6 +104,7 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("const double *", "low" | "high") if function.has("box_count") => Role::OpenBoxCorner,
         ("const double *", "low" | "high") => Role::BoxCorner,
         ("const double *", "values") => Role::Numbers,
+        ("const double *", "squared_radii") => Role::Magnitudes,
         ("const double *", "outside" | "previous") => Role::NumbersIfAny,
         ("const uint32_t *", "vertices") => Role::Ids,
         ("const uint32_t *", "ends") => Role::Ends,
@@ -114,7 +116,7 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("uint64_t", "key") => Role::Key,
         ("const uint32_t *", "cells") if function.name == "deldrift_barycentric" => Role::CellIdsIfAny,
         ("const uint32_t *", "cells") => Role::CellIds,
-        ("const uint8_t *", "mask") if function.has("box_count") => Role::MaskIfAny,
+        ("const uint8_t *", "mask") if function.has("box_count") || function.has("radius_count") => Role::MaskIfAny,
         ("const uint8_t *", "mask") => Role::Mask,
         ("const deldrift_location *", "hint") => Role::Hint,
         ("const deldrift_options *" | "deldrift_options *", "options") => Role::Options,
@@ -130,7 +132,7 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("uint32_t", "corner") => Role::Corner,
         ("uint32_t", "level") => Role::Level,
         ("deldrift_algorithm" | "deldrift_research_algorithm", _) => Role::Algorithm,
-        ("deldrift_interpolation", _) => Role::Method,
+        ("deldrift_interpolation" | "deldrift_pairs", _) => Role::Method,
         ("deldrift_status", _) => Role::Status,
         ("uint32_t", "corners_per_simplex") => Role::Corners,
         ("double", "squared_radius" | "tolerance") => Role::Magnitude,
@@ -140,7 +142,7 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
             "count" | "vertex_count" | "cell_count" | "seed_count" | "box_count" | "half_space_count",
         ) => Role::Count,
         ("size_t", "vertex_field_count" | "cell_field_count") => Role::Count,
-        ("size_t", "value_count" | "mask_count" | "offset_count" | "reference_count") => Role::FixedCount,
+        ("size_t", "value_count" | "radius_count" | "mask_count" | "offset_count" | "reference_count") => Role::FixedCount,
         ("size_t", "n_values" | "k") => Role::CountOfEach,
         ("size_t", "size") => Role::Size,
         ("size_t", "capacity" | "edge_capacity") => Role::Capacity,

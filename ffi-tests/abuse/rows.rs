@@ -94,6 +94,23 @@ pub const ROWS: &[Row] = &[
     row("deldrift_hidden_vertices", &["t", "out.ids", "out.more_ids", "2", "&out.count"]),
     row("deldrift_nearest_vertices", &["t", "moved", "3", "2", "out.ids"]),
     row("deldrift_vertices_in_ball", &["t", "moved", "2", "out.ids", "n_ids", "&out.count"]),
+    row(
+        "deldrift_neighbour_lists",
+        &[
+            "t",
+            "sizes",
+            "n_ids",
+            "mask",
+            "n_ids",
+            "DELDRIFT_PAIRS_FULL",
+            "out.offsets",
+            "n_ids + 1",
+            "out.ids",
+            "out.shifts",
+            "ROOM / 3",
+            "&out.count",
+        ],
+    ),
     row("deldrift_vertices_in_box", &["t", "low", "high", "out.ids", "n_ids", "&out.count"]),
     row("deldrift_conflicts", &["t", "inside", "near_by", "out.ids", "n_cells", "&out.count"]),
     row(

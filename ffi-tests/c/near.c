@@ -323,6 +323,124 @@ static void buffers_are_as_large_as_they_say(uint32_t d) {
     deldrift_destroy(t);
 }
 
+// Lists of what is near each vertex are balls around it, without it; half lists have each pair once.
+static void lists_are_balls(uint32_t dimension, bool is_flat) {
+    lattice l = make_lattice(dimension, is_flat);
+    static size_t offsets[COUNT + 1], half_offsets[COUNT + 1];
+    static uint32_t neighbours[COUNT * COUNT], half[COUNT * COUNT], ball[COUNT];
+    static int64_t shifts[3 * COUNT * COUNT];
+    static uint8_t mask[COUNT];
+    static double radii[COUNT];
+    for (size_t v = 0; v < COUNT; v++) mask[v] = v % 3 != 1;
+    for (int k = 0; k < 6; k++) {
+        const double one[] = {0, 1, 4, nextafter(4, 0), 9.5, INFINITY};
+        const bool is_each = k % 2 == 1, is_masked = k > 2;
+        size_t count = 0, half_count = 0, asked = 0;
+        for (size_t v = 0; v < COUNT; v++) radii[v] = is_each ? (double)(v % 5) : one[k];
+        const size_t n_radii = is_each ? COUNT : 1, n_mask = is_masked ? COUNT : 0;
+        const uint8_t *of = is_masked ? mask : NULL;
+        OK(deldrift_neighbour_lists(l.t, radii, n_radii, of, n_mask, DELDRIFT_PAIRS_FULL, NULL, 0, NULL, NULL, 0, &asked));
+        OK(deldrift_neighbour_lists(l.t, radii, n_radii, of, n_mask, DELDRIFT_PAIRS_FULL, offsets, COUNT + 1, neighbours,
+                                    shifts, COUNT * COUNT, &count));
+        CHECK(asked == count && offsets[0] == 0 && offsets[COUNT] == count);
+        for (size_t s = 0; s < dimension * count; s++) CHECK(shifts[s] == 0);
+        for (uint32_t v = 0; v < COUNT; v++) {
+            size_t n = 0, at = offsets[v];
+            if (l.is_there[v] && !(is_masked && !mask[v])) {
+                OK(deldrift_vertices_in_ball(l.t, l.positions + v * dimension, radii[v], ball, COUNT, &n));
+            }
+            for (size_t i = 0; i < n; i++) CHECK(ball[i] == v || neighbours[at++] == ball[i]);
+            CHECK(at == offsets[v + 1]);
+        }
+        OK(deldrift_neighbour_lists(l.t, radii, n_radii, of, n_mask, DELDRIFT_PAIRS_HALF, half_offsets, COUNT + 1, half, NULL,
+                                    COUNT * COUNT, &half_count));
+        // Each entry of full lists is in one of the half lists, one way or the other.
+        static uint8_t times[COUNT][COUNT];
+        memset(times, 0, sizeof times);
+        for (uint32_t v = 0; v < COUNT; v++) {
+            for (size_t i = half_offsets[v]; i < half_offsets[v + 1]; i++) {
+                CHECK(times[v][half[i]]++ == 0 && times[half[i]][v]++ == 0);
+                CHECK(v < half[i] || (is_masked && !mask[half[i]]));
+            }
+        }
+        size_t pairs = 0;
+        for (uint32_t v = 0; v < COUNT; v++) {
+            for (size_t i = offsets[v]; i < offsets[v + 1]; i++) pairs += times[v][neighbours[i]]++ == 1 ? 1 : 0;
+            for (size_t i = offsets[v]; i < offsets[v + 1]; i++) times[neighbours[i]][v] = 2;
+        }
+        CHECK(pairs == half_count);
+    }
+    deldrift_destroy(l.t);
+}
+
+// A program may stop the search, and gets nothing then.
+static bool is_stopped(void *stops) { return *(bool *)stops; }
+
+static void lists_can_be_cancelled(void) {
+    bool stops = false;
+    deldrift_options options;
+    deldrift_options_init(&options);
+    static const double radius = 100;
+    size_t offsets[SQUARE_COUNT + 1], count = 777;
+    uint32_t neighbours[SQUARE_COUNT * SQUARE_COUNT];
+    memset(offsets, 0x77, sizeof offsets);
+    memset(neighbours, 0x77, sizeof neighbours);
+    options.user_data = &stops;
+    options.cancel = is_stopped;
+    deldrift_triangulation *t = create(2, SQUARE, SQUARE_COUNT, &options);
+    stops = true;
+    const size_t n = SQUARE_COUNT;
+    CHECK_STATUS(deldrift_neighbour_lists(t, &radius, 1, NULL, 0, DELDRIFT_PAIRS_FULL, offsets, n + 1, neighbours, NULL,
+                                          n * n, &count), DELDRIFT_CANCELLED);
+    CHECK(is_untouched(offsets, sizeof offsets) && is_untouched(neighbours, sizeof neighbours) && count == 777);
+    stops = false;
+    OK(deldrift_neighbour_lists(t, &radius, 1, NULL, 0, DELDRIFT_PAIRS_FULL, offsets, n + 1, neighbours, NULL, n * n, &count));
+    CHECK(count == n * (n - 1));
+    deldrift_destroy(t);
+}
+
+static void bad_lists(void) {
+    deldrift_triangulation *t = create(2, SQUARE, SQUARE_COUNT, NULL);
+    static const double good[SQUARE_COUNT] = {2, 1, 1, 1}, bad[] = {-1, NAN, -INFINITY, -5e-324};
+    static const uint8_t mask[SQUARE_COUNT + 1] = {1, 1, 1};
+    size_t offsets[SQUARE_COUNT + 2], count = 777;
+    uint32_t rows[8];
+    int64_t shifts[16];
+    memset(rows, 0x77, sizeof rows);
+    memset(offsets, 0x77, sizeof offsets);
+    memset(shifts, 0x77, sizeof shifts);
+    const size_t n = SQUARE_COUNT;
+    for (int k = 0; k < 4; k++) {
+        CHECK_STATUS(deldrift_neighbour_lists(t, bad + k, 1, NULL, 0, DELDRIFT_PAIRS_FULL, offsets, n + 1, rows, shifts, 8,
+                                              &count), DELDRIFT_INVALID_VALUE);
+        CHECK_MESSAGE("squared_radii[0] is ");
+    }
+    CHECK_STATUS(deldrift_neighbour_lists(t, good, 1, NULL, 0, (deldrift_pairs)7, offsets, n + 1, rows, shifts, 8, &count),
+                 DELDRIFT_INVALID_VALUE);
+    CHECK_MESSAGE("pairs[0] is 7");
+    CHECK_STATUS(deldrift_neighbour_lists(t, good, 2, NULL, 0, DELDRIFT_PAIRS_FULL, offsets, n + 1, rows, shifts, 8, &count),
+                 DELDRIFT_WRONG_COUNT);
+    CHECK_MESSAGE("radius_count is 2, but must be ");
+    CHECK_STATUS(deldrift_neighbour_lists(t, good, 1, mask, n + 1, DELDRIFT_PAIRS_FULL, offsets, n + 1, rows, shifts, 8,
+                                          &count), DELDRIFT_WRONG_COUNT);
+    CHECK_MESSAGE("mask_count is ");
+    CHECK_STATUS(deldrift_neighbour_lists(t, good, 1, mask, n, DELDRIFT_PAIRS_FULL, offsets, n, rows, shifts, 8, &count),
+                 DELDRIFT_WRONG_COUNT);
+    CHECK_MESSAGE("offset_count is ");
+    CHECK_STATUS(deldrift_neighbour_lists(t, NULL, 1, mask, n, DELDRIFT_PAIRS_FULL, offsets, n + 1, rows, shifts, 8, &count),
+                 DELDRIFT_NULL_ARGUMENT);
+    CHECK_MESSAGE("squared_radii is NULL");
+    CHECK_STATUS(deldrift_neighbour_lists(t, good, 1, NULL, 0, DELDRIFT_PAIRS_FULL, offsets, n + 1, rows, shifts, 8, NULL),
+                 DELDRIFT_NULL_ARGUMENT);
+    CHECK(count == 777 && is_untouched(shifts, sizeof shifts));
+    const double all = INFINITY;
+    CHECK_STATUS(deldrift_neighbour_lists(t, &all, 1, NULL, 0, DELDRIFT_PAIRS_FULL, offsets, n + 1, rows, shifts, 8, &count),
+                 DELDRIFT_BUFFER_TOO_SMALL);
+    CHECK(count == n * (n - 1) && is_untouched(rows, sizeof rows) && is_untouched(offsets, sizeof offsets));
+    CHECK(is_untouched(shifts, sizeof shifts));
+    deldrift_destroy(t);
+}
+
 static void bad_places(void) {
     deldrift_triangulation *t = create(2, SQUARE, SQUARE_COUNT, NULL);
     static const double good[] = {2, 1, 1, 1}, nowhere[] = {2, 1, NAN, 0}, endless[] = {INFINITY, 0};
@@ -388,6 +506,7 @@ int main(void) {
         for (int is_flat = 0; is_flat < 2; is_flat++) {
             nearest_are_those_of_all(dimension, is_flat);
             balls_have_those_of_all(dimension, is_flat);
+            lists_are_balls(dimension, is_flat);
             boxes_have_those_of_all(dimension, is_flat);
             conflicts_are_what_an_insertion_removes(dimension, is_flat);
         }
@@ -395,6 +514,8 @@ int main(void) {
     }
     those_of_the_square();
     conflicts_from_outside();
+    lists_can_be_cancelled();
+    bad_lists();
     bad_places();
     return 0;
 }

@@ -62,13 +62,13 @@ typedef enum { CREATE, CREATE_WITH_KEYS, CREATE_PERIODIC, RELOCATE, INSERT, INSE
     CELLS_AROUND, CELLS_AROUND_ALL, UPDATE_CIRCUMCENTRES, UPDATE_VOLUMES, UPDATE_MASK,
     VORONOI_VOLUMES, VORONOI_FACETS, VORONOI_CELLS, VORONOI_CELLS_WITHIN, VORONOI_DERIVATIVES,
     VORONOI_DERIVATIVES_WITHIN, VORONOI_BOTH, VORONOI_CHANGED, INTERPOLATE, INTERPOLATE_NATURAL,
-    NEAREST_VERTICES, VERTICES_IN_BALL, VERTICES_IN_BOX, CONFLICTS,
+    NEAREST_VERTICES, VERTICES_IN_BALL, NEIGHBOUR_LISTS, VERTICES_IN_BOX, CONFLICTS,
     CELLS_IN_REACH, HULL_FACETS_IN_REACH, VERTICES_IN_REACH, FIND_SIMPLICES, FIND_SIMPLICES_ALL,
     CELL_OF_EACH_VERTEX, BARYCENTRIC, MASK_WITHOUT_FLAT_CELLS, SEGMENTS_OF_CELLS, CELLS_OF_SEGMENTS, NESTING_LEVELS,
     CROSSING_NUMBERS,
     LABEL_CELLS, UPDATE_LABELS, BOUNDARY_CHAINS, REFINE, COARSEN, RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT,
     PERIODIC_POSITIONS, STAGE_VECTORS, CELL_SHIFTS, EDGE_SHIFTS, PERIODIC_CELLS, PERIODIC_FACETS, PERIODIC_CENTRES,
-    LOCATE_IN_PERIOD, PERIODIC_NEAREST, PERIODIC_BALL, PERIODIC_LINEAR, PERIODIC_WEIGHTS, PERIODIC_CLONE, PERIODIC_LOAD,
+    LOCATE_IN_PERIOD, PERIODIC_NEAREST, PERIODIC_BALL, PERIODIC_LISTS, PERIODIC_LINEAR, PERIODIC_WEIGHTS, PERIODIC_CLONE, PERIODIC_LOAD,
     PERIODIC_VTU, PERIODIC_NEIGHBOURS, PERIODIC_CHECK, PERIODIC_COMPACT, PERIODIC_HIDDEN, WRAP_POSITIONS, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
@@ -91,7 +91,7 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_voronoi_volumes", "deldrift_voronoi_facets", "deldrift_voronoi_cells",
     "deldrift_voronoi_cells_within", "deldrift_voronoi_derivatives", "deldrift_voronoi_derivatives_within",
     "deldrift_voronoi_cells_and_facets", "deldrift_voronoi_changed", "deldrift_interpolate", "deldrift_interpolate, natural",
-    "deldrift_nearest_vertices", "deldrift_vertices_in_ball", "deldrift_vertices_in_box", "deldrift_conflicts",
+    "deldrift_nearest_vertices", "deldrift_vertices_in_ball", "deldrift_neighbour_lists", "deldrift_vertices_in_box", "deldrift_conflicts",
     "deldrift_cells_in_reach", "deldrift_hull_facets_in_reach", "deldrift_vertices_in_reach",
     "deldrift_find_simplices", "deldrift_find_simplices, all", "deldrift_cell_of_each_vertex", "deldrift_barycentric",
     "deldrift_mask_without_flat_cells", "deldrift_segments_of_cells", "deldrift_cells_of_segments",
@@ -101,7 +101,7 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_load_file", "deldrift_write_vtu", "deldrift_write_medit",
     "deldrift_commit_positions, periodic", "deldrift_stage_vectors", "deldrift_cell_shifts", "deldrift_edge_shifts", "deldrift_voronoi_cells, periodic",
     "deldrift_voronoi_derivatives, periodic", "deldrift_circumcentres, periodic",
-    "deldrift_locate_in_period", "deldrift_nearest_vertices, periodic", "deldrift_vertices_in_ball, periodic",
+    "deldrift_locate_in_period", "deldrift_nearest_vertices, periodic", "deldrift_vertices_in_ball, periodic", "deldrift_neighbour_lists, periodic",
     "deldrift_interpolate, periodic", "deldrift_barycentric, periodic",
     "deldrift_clone, periodic", "deldrift_load, periodic", "deldrift_write_vtu, periodic",
     "deldrift_vertex_neighbours, periodic", "deldrift_validate, periodic", "deldrift_compact, periodic", "deldrift_hidden_vertices, periodic",
@@ -472,6 +472,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     bytes_out[0] = 77;
     numbers_out[0] = 77;
     static const double low[] = {0.2, 0.3, 0.1}, high[] = {0.9, 0.7, 2}, at[] = {0.51, 0.5, 0.49};
+    static const double squared = 0.004;
     const uint8_t *mask = all_cells();
     size_t n_cells = cell_count(s->t), id_count = 0;
     OK(deldrift_id_count(s->t, &id_count));
@@ -529,6 +530,10 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             break;
         case PERIODIC_NEAREST: status = deldrift_nearest_vertices(s->periodic, to, 1, 9, ids_out); break;
         case PERIODIC_BALL: status = deldrift_vertices_in_ball(s->periodic, at, 0.09, ids_out, ROOM, &count); break;
+        case PERIODIC_LISTS:
+            status = deldrift_neighbour_lists(s->periodic, &squared, 1, NULL, 0, DELDRIFT_PAIRS_FULL, NULL, 0, ids_out,
+                                              shifts_out, ROOM / 3, &count);
+            break;
         case PERIODIC_LINEAR:
             status = deldrift_interpolate(s->periodic, DELDRIFT_INTERPOLATION_LINEAR, s->points, s->n, 1, at, 1, NULL, NULL,
                                           numbers_out);
@@ -648,6 +653,10 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             break;
         case NEAREST_VERTICES: status = deldrift_nearest_vertices(s->t, to, 1, 9, ids_out); break;
         case VERTICES_IN_BALL: status = deldrift_vertices_in_ball(s->t, at, 0.09, ids_out, ROOM, &count); break;
+        case NEIGHBOUR_LISTS:
+            status = deldrift_neighbour_lists(s->t, &squared, 1, NULL, 0, DELDRIFT_PAIRS_HALF, NULL, 0, ids_out, NULL, ROOM,
+                                              &count);
+            break;
         case VERTICES_IN_BOX: status = deldrift_vertices_in_box(s->t, low, high, ids_out, ROOM, &count); break;
         case CONFLICTS: status = deldrift_conflicts(s->t, to, NULL, ids_out, ROOM, &count); break;
         case CELLS_IN_REACH:
@@ -816,6 +825,8 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case PERIODIC_NEAREST:
         case NEAREST_VERTICES: *given = digest_of(ids_out, 9 * sizeof *ids_out); break;
         case PERIODIC_BALL:
+        case PERIODIC_LISTS:
+        case NEIGHBOUR_LISTS:
         case VERTICES_IN_BALL:
         case VERTICES_IN_REACH:
         case VERTICES_IN_BOX: *given = digest_of(ids_out, count * sizeof *ids_out); break;

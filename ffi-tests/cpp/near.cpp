@@ -59,6 +59,25 @@ static void vertices_are_found() {
     CHECK(std::equal(order.begin(), order.end(), nearest.begin()) && nearest[n] == DELDRIFT_NONE);
     CHECK(std::equal(order.begin(), order.end(), nearest.begin() + n + 1) && nearest.back() == DELDRIFT_NONE);
 
+    deldrift::NeighbourLists lists = t.neighbour_lists({2.25});
+    CHECK(lists.offsets.size() == n + 1 && lists.offsets.back() == lists.neighbours.size() && lists.shifts.empty());
+    for (std::uint32_t v = 0; v < n; v++) {
+        Ids ball = t.vertices_in_ball(t.position(v), 2.25);
+        ball.erase(std::find(ball.begin(), ball.end(), v));
+        CHECK(ball == Ids(lists.of_vertex(v).begin(), lists.of_vertex(v).end()));
+    }
+    const std::size_t full = lists.neighbours.size();
+    t.neighbour_lists({2.25}, lists, DELDRIFT_PAIRS_HALF);
+    CHECK(full > 0 && 2 * lists.neighbours.size() == full);
+    std::vector<double> radii(n, 0.0);
+    radii[1] = 1e9;
+    std::vector<std::uint8_t> first(n, 0);
+    first[1] = 1;
+    t.neighbour_lists(radii, lists, DELDRIFT_PAIRS_FULL, first);
+    CHECK(lists.neighbours.size() == n - 1 && lists.of_vertex(1).size() == n - 1);
+    CHECK_THROWS(t.neighbour_lists({-1.0}), DELDRIFT_INVALID_VALUE, "squared_radii[0] is -1");
+    CHECK_THROWS(t.neighbour_lists({1.0, 2.0}), DELDRIFT_WRONG_COUNT, "radius_count is 2");
+
     CHECK_THROWS(t.vertices_in_ball({5.0}, 1), DELDRIFT_WRONG_COUNT, "centre has 1 numbers");
     CHECK_THROWS(t.vertices_in_ball({5.0, 5.0}, -1), DELDRIFT_INVALID_VALUE, "squared_radius[0] is -1");
     CHECK_THROWS(t.vertices_in_box({5.0, NAN}, {6.0, 6.0}), DELDRIFT_INVALID_VALUE, "low[1] is NaN");

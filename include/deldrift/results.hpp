@@ -108,6 +108,17 @@ struct BoxLists {
     }
 };
 
+// For each vertex id the vertices that are near it, one list after the other. Of a triangulation that is periodic each has a row of
+// shifts: in which period it is.
+struct NeighbourLists {
+    std::vector<std::size_t> offsets{};
+    std::vector<std::uint32_t> neighbours{};
+    std::vector<std::int64_t> shifts{};
+    span<const std::uint32_t> of_vertex(std::size_t vertex) const noexcept {
+        return {neighbours.data() + offsets[vertex], offsets[vertex + 1] - offsets[vertex]};
+    }
+};
+
 // Numbers for each vertex id, or for each cell, that are written along with a mesh: components for each.
 struct Field {
     std::string name;

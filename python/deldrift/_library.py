@@ -282,6 +282,7 @@ PROTOTYPES = {
     "nearest_vertices": (T, A, N, N, A),
     "vertices_in_ball": (T, A, F64, A, N, C),
     "vertices_in_box": (T, A, A, A, N, C),
+    "neighbour_lists": (T, A, N, A, N, U32, A, N, A, A, N, C),
     "conflicts": (T, A, A, A, N, C),
     "cells_in_reach": (T, A, A, N, A, N, A, A, A, N, C),
     "hull_facets_in_reach": (T, A, A, N, A, N, A, A, N, C),

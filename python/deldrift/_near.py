@@ -8,7 +8,8 @@ from typing import Any, Optional
 import numpy as np
 
 from . import _library
-from ._arrays import F64, I32, address, choice, contiguous, floats, one_point, places, real, simplex_ids, whole
+from ._arrays import F64, I32, address, address_if, choice, contiguous, floats, mask as mask_of, one_point, places, real
+from ._arrays import simplex_ids, whole
 from ._core import Core, count_of, id_count
 from ._errors import InvalidShape, InvalidValue, WrongCount
 
@@ -16,6 +17,7 @@ _vertex_count = _library.function("vertex_count")
 _nearest_vertices = _library.function("nearest_vertices")
 _vertices_in_ball = _library.function("vertices_in_ball")
 _vertices_in_box = _library.function("vertices_in_box")
+_neighbour_lists = _library.function("neighbour_lists")
 _conflicts = _library.function("conflicts")
 _barycentric = _library.function("barycentric")
 _interpolate = _library.function("interpolate")
@@ -87,6 +89,57 @@ class Near(Core):
             status = _vertices_in_ball(t, address(position), limit, address(found), len(found), count)
             self._check(status, squared_radius="squared_radius!", centre="centre!")
         return np.array(found[: count.value])
+
+    def neighbor_lists(self, squared_radius: Any, half: bool = False, mask: Any = None) -> tuple[np.ndarray, np.ndarray]:
+        """For each vertex the others whose squared distance from it is at most a given one, exactly, in one call.
+
+        Parameters
+        ----------
+        squared_radius : float or array_like of float
+            The square of the radius of all lists, or of that of each id.
+        half : bool, optional
+            Whether each pair comes once, in the list of the lower id: two vertices are a pair if either is in the full list of
+            the other.
+        mask : array_like of bool, optional
+            By id, which vertices have lists; all by default. A half list has all vertices that are near and have none.
+
+        Returns
+        -------
+        indptr, indices : ndarray of int
+            The neighbours of vertex k are ``indices[indptr[k]:indptr[k + 1]]``, ascending, hidden ones included.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [0, 4], [4, 4]])
+        >>> indptr, indices = tri.neighbor_lists(16)
+        >>> indptr, indices
+        (array([0, 2, 4, 6, 8]), array([1, 2, 0, 3, 0, 3, 1, 2], dtype=int32))
+        >>> tri.neighbor_lists(16, half=True)[1]
+        array([1, 2, 3, 3], dtype=int32)
+        """
+        return self._lists(squared_radius, half, mask, 0)[:2]
+
+    def _lists(self, squared_radius: Any, half: bool, mask: Any, width: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Lists of neighbours, with rows of so many numbers that say in which period they are."""
+        radii = np.atleast_1d(floats("squared_radius", squared_radius))
+        if radii.ndim != 1:
+            raise InvalidShape(f"squared_radius has the shape {radii.shape}, and must be one number, or one for each id")
+        chosen = None if mask is None else mask_of("mask", mask)
+        given = (address(radii), len(radii), address_if(chosen), 0 if chosen is None else len(chosen), int(bool(half)))
+        with self._reading as t:
+            indptr, count = np.empty(id_count(t) + 1, np.intp), ctypes.c_size_t()
+            # Memory that is not written to is none.
+            room = 32 * count_of(_vertex_count, t) + 32
+            while True:
+                indices, shifts = np.empty(room, I32), np.empty((room, width), np.int64)
+                to = (address(indptr), len(indptr), address(indices), address(shifts) if width else None, room)
+                status = _neighbour_lists(t, *given, *to, count)
+                if not status or count.value <= room:
+                    break
+                room = count.value
+            self._check(status, squared_radii="squared_radius", radius_count="squared_radius", mask_count="mask")
+        return indptr, indices[: count.value], shifts[: count.value]
 
     def vertices_in_box(self, low: Any, high: Any) -> np.ndarray:
         """The vertices in a box, boundary included.

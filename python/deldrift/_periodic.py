@@ -392,6 +392,37 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
             self._check(_edge_shifts(t, address(shifts), n, count))
         return edges, shifts[:, : len(self.vectors)]
 
+    def neighbor_lists(  # type: ignore[override]
+        self, squared_radius: Any, half: bool = False, mask: Any = None
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """For each vertex the images whose squared distance from it is at most a given one, exactly, in one call.
+
+        Parameters
+        ----------
+        squared_radius : float or array_like of float
+            The square of the radius of all lists, or of that of each id. It may be larger than the box.
+        half : bool, optional
+            Whether each pair comes once, in the list of the lower id.
+        mask : array_like of bool, optional
+            By id, which vertices have lists; all by default.
+
+        Returns
+        -------
+        indptr, indices, shifts : ndarray of int
+            The neighbours of vertex k are ``indices[indptr[k]:indptr[k + 1]]``, ascending. Each is at its point and the multiples
+            of the vectors that are in its row of `shifts`; the vertex itself comes in other periods.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.PeriodicDelaunay([[0.125, 0.5], [0.875, 0.5]], vectors=[1, 1])
+        >>> tri.neighbor_lists(0.0625)
+        (array([0, 1, 2]), array([1, 0], dtype=int32), array([[-1,  0],
+               [ 1,  0]]))
+        """
+        indptr, indices, shifts = self._lists(squared_radius, half, mask, self.ndim)
+        return indptr, indices, shifts[:, : len(self.vectors)]
+
     def locate(self, xi: Any) -> PeriodicLocations:
         """Where points lie, exactly, once they are rounded to the grid of the box as vertices are.
 

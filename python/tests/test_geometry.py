@@ -227,6 +227,35 @@ def test_places_and_near_vertices(tri, rng):
         np.testing.assert_array_equal(tri.vertices_in_box(place, place + 0.5), np.flatnonzero(is_in))
 
 
+def test_neighbor_lists(tri, rng):
+    squares = ((tri.points - tri.points[:, None]) ** 2).sum(axis=2)
+    n = len(squares)
+    limit = np.sort(squares[0])[n // 3]
+    near = squares <= limit
+    np.fill_diagonal(near, False)
+    indptr, indices = tri.neighbor_lists(limit)
+    for k in range(n):
+        np.testing.assert_array_equal(indices[indptr[k] : indptr[k + 1]], np.flatnonzero(near[k]))
+    # Each its own radius, for some, once.
+    radii, mask = rng.random(n) * limit, rng.random(n) < 0.7
+    own = (squares <= radii[:, None]) & mask[:, None]
+    np.fill_diagonal(own, False)
+    pairs = own | own.T
+    in_row = np.where(mask[:, None] & mask, np.triu(pairs), own & ~mask)
+    indptr, indices = tri.neighbor_lists(radii, half=True, mask=mask)
+    np.testing.assert_array_equal(np.diff(indptr), in_row.sum(axis=1))
+    np.testing.assert_array_equal(indices, np.nonzero(in_row)[1])
+    # More than there is room for at first.
+    indptr, indices = tri.neighbor_lists(np.inf)
+    assert len(indices) == n * (n - 1) == indptr[-1]
+    with pytest.raises(deldrift.InvalidValue, match="squared_radius"):
+        tri.neighbor_lists(-1)
+    with pytest.raises(deldrift.WrongCount, match="squared_radius"):
+        tri.neighbor_lists([1.0, 2.0])
+    with pytest.raises(deldrift.WrongCount, match="mask"):
+        tri.neighbor_lists(1, mask=[True])
+
+
 def test_what_is_in_reach_of_boxes(tri, rng):
     low = rng.random((12, tri.ndim)) * 1.6 - 0.3
     high = low + rng.random((12, 1)) * 0.5

@@ -246,6 +246,27 @@ def test_places_are_in_the_cells_where_they_are_told_to_be(name, rng):
         assert tri.vertices_in_box(place - 0.3, place + 0.2).tolist() == np.flatnonzero(among).tolist()
 
 
+def test_neighbor_lists():
+    rng = np.random.default_rng(5)
+    vectors = np.array([[1, 0, 0], [0.5, 1, 0], [0.25, -0.25, 1]])
+    tri = deldrift.PeriodicDelaunay(rng.random((12, 3)), vectors)
+    points = tri.points
+    multiples = np.array(list(itertools.product(range(-4, 5), repeat=3)))
+    for limit in (0.05, 1.5):
+        indptr, indices, shifts = tri.neighbor_lists(limit)
+        half = tri.neighbor_lists(limit, half=True)
+        assert 2 * len(half[1]) == len(indices)
+        for k in range(12):
+            ways = points[:, None] + multiples @ vectors - points[k]
+            near = (ways**2).sum(axis=2) <= limit
+            near[k, len(multiples) // 2] = False
+            wanted = {(w, *multiples[m]) for w, m in zip(*np.nonzero(near))}
+            row = slice(indptr[k], indptr[k + 1])
+            assert sorted(wanted) == [(w, *s) for w, s in zip(indices[row], shifts[row])]
+    with pytest.raises(deldrift.InvalidValue, match="squared_radius"):
+        tri.neighbor_lists(np.inf)
+
+
 def test_places_at_vertices_and_outside():
     tri = deldrift.PeriodicDelaunay([[0.25, 0.5], [0.5, 0.75], [0.75, 0.5]], [[1.0, 0.0]])
     kinds, indices, shifts = tri.locate([[-2.75, 0.5], [7.5, 0.75], [0.5, 2.0]])

@@ -1,12 +1,15 @@
 //! What is near a place: the nearest vertices, those in a ball or a box, the cells that a new vertex would remove.
 
-use super::handle::{Reading, deldrift_triangulation, in_any};
+use super::handle::{Content, Reading, deldrift_triangulation, in_any, in_its_period};
 use super::interpolation::check_product;
 use super::location::{deldrift_location, hint_at};
-use super::pointers::{Buffer, Input, Output, Point, Points, given, write_all};
-use super::status::deldrift_status;
+use super::pointers::{Array, Buffer, Input, Output, Point, Points, fit, given, write_all};
+use super::status::{Failure, deldrift_status};
+use crate::error::Error;
 use crate::ids::{CellId, VertexId};
+use crate::in_its_dimension;
 use crate::machine::memory;
+use crate::motion::{Entry, Lists, ListsOf};
 
 /// The k vertices nearest to each of count positions: rows of k ids, by distance and, at the same distance, by id, or by key
 /// where vertices have keys;
@@ -82,6 +85,162 @@ pub unsafe extern "C" fn deldrift_vertices_in_ball(
             vertices.fill(count, found.len(), || Ok(found.into_iter().map(VertexId::get)))
         })
     })
+}
+
+/// In how many lists of deldrift_neighbour_lists a pair of vertices is.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum deldrift_pairs {
+    /// In the list of each of the two in whose ball the other one is: full lists.
+    DELDRIFT_PAIRS_FULL = 0,
+    /// Each pair of which the full lists have one vertex or both, once: half lists.
+    DELDRIFT_PAIRS_HALF = 1,
+}
+
+/// What pairs are asked for as it arrives from C, where any number may be passed.
+pub type PairsCode = u32;
+
+/// For each vertex the others that are near it, all in one call: the neighbour lists of particle codes.
+///
+/// The list of a vertex has the vertices of which the squared distance from it is at most that of its radius, exactly: those that
+/// deldrift_vertices_in_ball finds around it, hidden ones included, but not the vertex itself. Hidden vertices have lists, too;
+/// those of removed ones are empty, as they are of vertices that are staged. Each list ascends by id.
+///
+/// squared_radii: one number, the square of the radius of all lists, radius_count being 1; or one for each id, radius_count being
+/// deldrift_id_count. Each is 0 or more, and infinity is all vertices. Entries of vertices without a list are not looked at.
+/// mask: an entry for each vertex id; only vertices whose entry is not 0 have a list, in which others may be all the same. NULL for
+/// all. mask_count: deldrift_id_count; without a mask it is not looked at.
+/// pairs: DELDRIFT_PAIRS_FULL, or DELDRIFT_PAIRS_HALF for each pair once. Where radii differ, the one vertex may be in the ball of the
+/// other and not the other way round; half lists have each pair that full lists have one way or both, so that two vertices with
+/// lists are a pair if their distance is at most the greater one of their radii. It is in the list of the lower id, or, if only one of
+/// the two has a list, in that.
+///
+/// offsets: a buffer for offset_count numbers, which must be deldrift_id_count + 1: the list of vertex v is in neighbours from the
+/// index that is entry v of offsets on, and ends before entry v + 1. neighbours: a buffer with room for capacity ids. shifts: one
+/// with room for as many rows of 2 (2D) or 3 (3D) whole numbers: in which period each neighbour is, as deldrift_edge_shifts has them.
+/// One that is NULL is not filled. count: receives the number of entries, which is also written when neighbours or shifts are too
+/// small; then nothing else is. NULL for both with capacity 0 asks for offsets and the count alone, for which nothing is kept. A program
+/// that asks again and again, as in each step, keeps its buffers, with some room to spare, and so asks once.
+///
+/// In a periodic triangulation a list has every image that is near, each with its shift, ascending by id and by shift: several of one
+/// vertex, and of the vertex itself those in other periods, where the radius is large beside the box. Half lists have one of the two
+/// ways between two images: of those from a vertex to itself the one whose shift has a first number that is not 0 above 0. Radii are
+/// refused that are so large that places of images would be rounded: up to eight times the least distance between opposite sides of
+/// the reduced box is always possible. Where the triangulation is not periodic, shifts are 0.
+///
+/// Uses the threads of the options, and calls their callbacks. The lists do not depend on how many threads there are. Takes memory for
+/// the places and for all lists while it runs, and writes nothing until all are known.
+///
+/// Cost: n log n, the entries, and k log k for the k of each list. With one radius for all, that is so for every set, however unevenly
+/// it is spread: what is looked at besides is at most a constant times n and the entries, and mostly some five times these. Where radii
+/// differ by powers of two of many sizes, what is looked at for each size is at most n times the root of the number of entries.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE
+/// for a squared radius that is negative or NaN, or too large for a periodic triangulation, and for other pairs,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_neighbour_lists(
+    t: *const deldrift_triangulation,
+    squared_radii: *const f64,
+    radius_count: usize,
+    mask: *const u8,
+    mask_count: usize,
+    pairs: PairsCode,
+    offsets: *mut usize,
+    offset_count: usize,
+    neighbours: *mut u32,
+    shifts: *mut i64,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    given!(t: Reading, squared_radii[radius_count]: Array, mask[mask_count]: Array, offsets[offset_count]: Buffer);
+    given!(neighbours[capacity]: Buffer, count: Output);
+    t.read_any_watched(|t, monitor| {
+        let (n_ids, d) = (in_any!(t => t.id_count()), t.dimension() as usize);
+        let room = capacity.saturating_mul(d);
+        given!(shifts[room]: Buffer);
+        if !offsets.is_null() && offset_count != n_ids + 1 {
+            return Err(wrong_count("offset_count", offset_count, n_ids + 1));
+        }
+        if radius_count != 1 && radius_count != n_ids {
+            return Err(wrong_count("radius_count", radius_count, n_ids));
+        }
+        if !mask.is_null() && mask_count != n_ids {
+            return Err(wrong_count("mask_count", mask_count, n_ids));
+        }
+        let mask = if mask.is_null() { None } else { Some(mask.get()?) };
+        let wanted = ListsOf { squared_radii: squared_radii.get()?, mask, is_half: is_half(pairs)? };
+        let is_kept = !(neighbours.is_null() && shifts.is_null());
+        let into = Into { offsets, neighbours, shifts, capacity, d };
+        match t {
+            Content::Open(t) => in_its_dimension!(t => {
+                let found = t.lists_of(&wanted, is_kept, monitor)?;
+                into.fill(count, &found, |_, entry| (entry.parts().0, [0; 3]))
+            }),
+            Content::Periodic(t) => in_its_period!(t, t => {
+                let found = t.lists_of(&wanted, is_kept, monitor)?;
+                into.fill(count, &found.lists, |vertex, entry| t.told(&found, vertex, entry))
+            }),
+        }
+    })
+}
+
+/// The buffers for lists.
+struct Into<'a> {
+    offsets: Buffer<'a, usize>,
+    neighbours: Buffer<'a, u32>,
+    shifts: Buffer<'a, i64>,
+    capacity: usize,
+    d: usize,
+}
+
+impl Into<'_> {
+    /// Fills those that are there; `told` is what an entry in the list of a vertex is.
+    fn fill<E: Entry>(
+        self,
+        count: Output<'_, usize>,
+        lists: &Lists<E>,
+        told: impl Fn(VertexId, E) -> (VertexId, [i64; 3]),
+    ) -> Result<(), Failure> {
+        let Into { offsets, neighbours, shifts, capacity, d } = self;
+        let needed = lists.n_entries();
+        let fitting = fit(count, needed, capacity, &[neighbours.offer(), shifts.offer()])?;
+        let offsets = offsets.places_if_any(lists.offsets.len())?;
+        let (neighbours, shifts) = (neighbours.places_if_any(needed)?, shifts.places_if_any(needed * d)?);
+        let is_asked = !(neighbours.is_empty() && shifts.is_empty());
+        let mut write = |vertex: VertexId, begin: usize, list: &[E]| {
+            let those = || list.iter().map(|&entry| told(vertex, entry));
+            if let Some(places) = neighbours.get_mut(begin..begin + list.len()) {
+                write_all(places, those().map(|(other, _)| other.get()));
+            }
+            if let Some(places) = shifts.get_mut(d * begin..d * (begin + list.len())) {
+                write_all(places, those().flat_map(|(_, shift)| shift.into_iter().take(d)));
+            }
+        };
+        // Otherwise lengths are known alone.
+        if is_asked {
+            lists.for_each(&mut write);
+        }
+        write_all(offsets, lists.offsets.iter().copied());
+        fitting.tell();
+        Ok(())
+    }
+}
+
+fn wrong_count(argument: &'static str, given: usize, wanted: usize) -> Failure {
+    Error::WrongCount { argument, given, wanted, coming: 0 }.into()
+}
+
+/// Whether each pair is wanted once.
+fn is_half(code: PairsCode) -> Result<bool, Failure> {
+    match code {
+        _ if code == deldrift_pairs::DELDRIFT_PAIRS_FULL as u32 => Ok(false),
+        _ if code == deldrift_pairs::DELDRIFT_PAIRS_HALF as u32 => Ok(true),
+        _ => {
+            let (argument, wanted) = ("pairs", "0 or 1");
+            Err(Error::InvalidValue { argument, index: 0, value: f64::from(code), wanted }.into())
+        }
+    }
 }
 
 /// The vertices in a closed box, ascending by id, hidden ones included: those of which each coordinate is at least that

@@ -53,7 +53,8 @@ pub use reading::geometry::{
     BoundaryFacet, Interpolation, OrderedStar, Rows, TellCell, TellFacet, VertexValues, VoronoiCell,
     VoronoiCells, VoronoiFacet, VoronoiFacets,
 };
-pub use reading::near::{InReach, VerticesInReach};
+pub(crate) use reading::near::{Entry, Lists, Placed, Search, Tree};
+pub use reading::near::{InReach, ListsOf, NeighbourLists, VerticesInReach};
 pub use reading::query::Location;
 pub(crate) use reading::query::cells_at;
 pub use reading::saving::Saved;

@@ -80,6 +80,11 @@ impl Occupied {
         self.high.iter_mut().zip(multiples).for_each(|(high, &x)| *high = high.max(x));
     }
 
+    /// How many multiples of a vector vertices at home are apart at most.
+    pub(super) fn width(&self, j: usize) -> f64 {
+        self.high[j] - self.low[j]
+    }
+
     /// Whether no vertex is farther outside of the unit cell than some share of it.
     pub(super) fn is_within(&self, room: &[f64; 3]) -> bool {
         (0..3).all(|j| -room[j] <= self.low[j] && self.high[j] <= 1.0 + room[j])

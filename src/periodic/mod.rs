@@ -48,6 +48,7 @@ mod incidence;
 mod inside;
 mod interpolating;
 mod lattice;
+mod lists;
 mod locating;
 mod near;
 mod needed;

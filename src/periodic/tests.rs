@@ -13,6 +13,7 @@ mod changes;
 mod editing;
 mod histories;
 mod keeping;
+mod lists;
 mod locating;
 mod near;
 mod preparing;

@@ -4,12 +4,12 @@ use super::*;
 use deldrift::motion::Location;
 
 /// The square of a distance between places, in units of the quantum.
-fn square(p: &Grid, q: &Grid) -> i128 {
+pub(super) fn square(p: &Grid, q: &Grid) -> i128 {
     p.iter().zip(q).map(|(&x, &y)| (i128::from(x) - i128::from(y)).pow(2)).sum()
 }
 
 /// All vertices that are present, with their places.
-fn present<G: Dimension>(t: &MovingTriangulation<G>) -> Vec<(VertexId, Grid)> {
+pub(super) fn present<G: Dimension>(t: &MovingTriangulation<G>) -> Vec<(VertexId, Grid)> {
     VertexId::range(0..t.id_count()).filter(|&v| t.is_present(v)).map(|v| (v, grid(t, v))).collect()
 }
 
@@ -71,7 +71,7 @@ fn radii(vertices: &[(VertexId, Grid)], q: &Grid, rng: &mut Rng) -> Vec<f64> {
 }
 
 /// Whether a square in units of the quantum is at most a number.
-fn is_at_most(square: i128, number: f64) -> bool {
+pub(super) fn is_at_most(square: i128, number: f64) -> bool {
     let quanta = number / QUANTUM / QUANTUM;
     quanta >= 2f64.powi(120) || square <= quanta.floor() as i128
 }

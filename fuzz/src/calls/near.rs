@@ -39,7 +39,7 @@ fn is_within(p: &Place, q: &Place, squared: f64, d: usize) -> bool {
 
 impl History<'_> {
     pub(super) fn read_near(&mut self) {
-        match self.s.below(11) {
+        match self.s.below(12) {
             0 => self.nearest_vertices(),
             1 => self.ball(),
             2 => self.vertices_in_box(),
@@ -50,6 +50,7 @@ impl History<'_> {
             7 => self.weights(),
             8 => self.flat_cells(),
             9 => self.reach(),
+            10 => self.lists(),
             _ => self.in_sphere(),
         }
     }
@@ -91,6 +92,58 @@ impl History<'_> {
         let is_in = |v: &u32| is_within(&self.m.at(*v).expect("present"), &centre, squared, d);
         let wanted: Vec<u32> = self.m.present().filter(is_in).collect();
         assert_eq!(found, wanted, "within {squared:e} of {centre:?}");
+    }
+
+    /// Lists of all vertices, or of some, each pair both ways or once: with one radius, or each its own.
+    fn lists(&mut self) {
+        let (t, d) = (self.t, self.m.d);
+        let mut n_ids = 0;
+        self.ok(|| c!(deldrift_id_count(t, &mut n_ids)));
+        let present: Vec<(u32, Place)> = self.m.present().map(|v| (v, self.m.at(v).expect("present"))).collect();
+        let n_radii = if self.s.below(2) == 0 { 1 } else { n_ids };
+        let mut radii = Vec::new();
+        for _ in 0..n_radii {
+            let (v, w) = (self.some(), self.some());
+            radii.push(match (self.s.below(5), v.zip(w)) {
+                (0, _) => self.s.pick(&[0.0, f64::INFINITY, f64::MAX, f64::from_bits(1)]),
+                (_, None) => 1.0,
+                (_, Some((v, w))) => {
+                    let [p, q] = [v, w].map(|v| self.m.at(v).expect("present"));
+                    let square = (0..d).map(|k| (p[k] - q[k]) * (p[k] - q[k])).sum::<f64>();
+                    nudged(square, self.s.within(2)).max(0.0)
+                }
+            });
+        }
+        let mask: Vec<u8> = (0..n_ids).map(|_| u8::from(self.s.below(3) != 0)).collect();
+        let is_masked = self.s.below(2) == 0;
+        let (of, n_of) = if is_masked { (mask.as_ptr(), n_ids) } else { (null(), 0) };
+        let of_list = |v: u32| (!is_masked || mask[v as usize] != 0).then(|| radii[if n_radii == 1 { 0 } else { v as usize }]);
+        for pairs in [0, 1] {
+            let mut offsets = vec![77; n_ids + 1];
+            let starts = offsets.as_mut_ptr();
+            let found = self.copied(77, 1, |to, room, count| {
+                let radii = radii.as_ptr();
+                c!(deldrift_neighbour_lists(
+                    t, radii, n_radii, of, n_of, pairs, starts, n_ids + 1, to, null_mut(), room, count
+                ))
+            });
+            let mut wanted = Vec::new();
+            for v in 0..n_ids as u32 {
+                assert_eq!(offsets[v as usize], wanted.len(), "where the list of {v} begins");
+                let Some((_, p)) = present.iter().find(|&&(w, _)| w == v) else { continue };
+                let Some(own) = of_list(v) else { continue };
+                wanted.extend(present.iter().filter(|&&(w, q)| {
+                    let is_near = |squared| is_within(&q, p, squared, d);
+                    w != v
+                        && match of_list(w) {
+                            Some(other) if pairs == 1 => v < w && (is_near(own) || is_near(other)),
+                            _ => is_near(own),
+                        }
+                }).map(|&(w, _)| w));
+            }
+            assert_eq!(offsets[n_ids], wanted.len());
+            assert_eq!(found, wanted, "within {radii:?}");
+        }
     }
 
     /// A box whose corners are places, so that vertices are on its faces, or infinite.

@@ -7,9 +7,10 @@
 //! | `boxes` | the vertices in a box |
 //! | `by_cells` | sites in order of distance where the cells are not Delaunay |
 //! | `conflicts` | the cells that a new vertex would remove |
+//! | `lists` | for each vertex those that are near it |
 //! | `reach` | the cells and hull facets that a new vertex in a box could change, and their vertices |
 //!
-//! All is found by floods from a located cell, from neighbour to neighbour, at about the cost of what is found, and
+//! All but lists is found by floods from a located cell, from neighbour to neighbour, at about the cost of what is found, and
 //! decided by exact signs. A flood that has looked at as many cells as would pay for a pass over all vertices is given
 //! up for that pass.
 
@@ -17,9 +18,12 @@ mod ball;
 mod boxes;
 mod by_cells;
 mod conflicts;
+mod lists;
 mod nearest;
 mod reach;
 
+pub use lists::{ListsOf, NeighbourLists};
+pub(crate) use lists::{Entry, Lists, Placed, Search, Tree};
 pub use reach::{InReach, VerticesInReach};
 
 use crate::complex::INFINITE;
