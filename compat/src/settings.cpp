@@ -40,11 +40,6 @@ bool leaves_refinement() {
     return asked;
 }
 
-bool copies_lists() {
-    static const bool asked = is_set("DELDRIFT_COMPAT_TRIANGLE", "cytriangle");
-    return asked;
-}
-
 void complain(const char *function, const char *format, ...) {
     char message[640];
     const PlainLocale plain;
