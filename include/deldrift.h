@@ -690,6 +690,22 @@ const char *deldrift_last_error(void);
 /// Cost: constant.
 const char *deldrift_version(void);
 
+/// Sets struct_size and the default of every other option. NULL is legal and does nothing.
+///
+/// C and C++ programs have it from this header, so that it fills the structure of the header, whichever later version
+/// they run with. Other languages have a function of this name in the library. In every version that one fills the
+/// structure as it is here, and says so in struct_size; a program that knows more fields sets them to zero, which is the
+/// default of all, and struct_size to the size of its structure.
+///
+/// Cost: constant.
+static inline void deldrift_options_init(deldrift_options *options) {
+    static deldrift_options zeros;
+    if (options) {
+        *options = zeros;
+        options->struct_size = sizeof *options;
+    }
+}
+
 /// Creates the Delaunay triangulation of count points in the plane or in space, at timestamp 0.
 ///
 /// dimension: 2 or 3. positions: count points one after the other, dimension numbers each (x, y or
@@ -3192,19 +3208,5 @@ deldrift_status deldrift_in_sphere(uint32_t dimension,
 #ifdef __cplusplus
 }  // extern "C"
 #endif  // __cplusplus
-
-/// Sets struct_size and the default of every other option. NULL is legal and does nothing.
-///
-/// Defined here and not in the library, so that it fills the structure of this header, whichever later
-/// version the program runs with. Other languages do the same: all zero but struct_size.
-///
-/// Cost: constant.
-static inline void deldrift_options_init(deldrift_options *options) {
-    static deldrift_options zeros;
-    if (options) {
-        *options = zeros;
-        options->struct_size = sizeof *options;
-    }
-}
 
 #endif // DELDRIFT_H

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <initializer_list>
 #include <mutex>
 #include <new>
@@ -292,3 +293,8 @@ extern "C" [[gnu::visibility("default")]] int triangulate_of_cxx(char *switches,
                                                                   triangulateio *out, triangulateio *vorout) {
     return compat::handle({MANGLED, switches, in, out, vorout, __builtin_return_address(0)});
 }
+
+// Lists come from malloc, here and in Triangle.
+extern "C" [[gnu::visibility("default")]] void trifree(void *list) { std::free(list); }
+extern "C" void trifree_of_cxx(void *) __asm__("_Z7trifreePv");
+extern "C" [[gnu::visibility("default")]] void trifree_of_cxx(void *list) { std::free(list); }
