@@ -35,12 +35,17 @@ fn what_is_installed_can_be_removed() {
     let build = build_for_installation(&folder, prefix);
     let uninstall = || {
         let mut command = command("cmake");
-        command.arg(format!("-DBUILD={}", build.display())).arg("-P").arg(repository("cmake/uninstall.cmake"));
+        command
+            .arg(format!("-DBUILD={}", build.display()))
+            .arg("-P")
+            .arg(repository("cmake/uninstall.cmake"));
         command.env("DESTDIR", &staging);
         command
     };
     let refused = uninstall().output().expect("CMake runs");
-    assert!(!refused.status.success() && String::from_utf8_lossy(&refused.stderr).contains("install_manifest"));
+    assert!(
+        !refused.status.success() && String::from_utf8_lossy(&refused.stderr).contains("install_manifest")
+    );
     let mut install = command("cmake");
     succeed(install.arg("--install").arg(&build).env("DESTDIR", &staging));
     let other = library_files(&staging.join("opt/prefix")).join("libother.so");
@@ -71,7 +76,11 @@ fn components_are_installed_alone() {
     let (runtime, compat_runtime) = (files_of("deldrift_runtime"), files_of("deldrift_compat_runtime"));
     // What programs run with: the file, the name for the loader, and whose it is.
     for (files, name) in [(&runtime, "libdeldrift"), (&compat_runtime, "libdeldrift_triangle_tetgen")] {
-        assert_eq!(files.iter().filter(|file| file.contains(&format!("/{name}.so.0"))).count(), 2, "{files:?}");
+        assert_eq!(
+            files.iter().filter(|file| file.contains(&format!("/{name}.so.0"))).count(),
+            2,
+            "{files:?}"
+        );
         assert!(files.len() == 3 && files.iter().any(|file| file.ends_with("/copyright")), "{files:?}");
     }
     for file in &runtime {
@@ -105,6 +114,9 @@ fn component_for_several_processes_is_found() {
     let found = succeed(command("find").arg(".").args(["!", "-type", "d"]).current_dir(&prefix));
     let is_of_mpi = |file: &&str| file.contains("mpi") || file.contains("Mpi") || file.contains("MPI");
     assert_eq!(found.lines().filter(is_of_mpi).count(), 9, "{found}");
+    // For other languages, which cannot call what the header defines.
+    let library = library_files(&prefix).join("libdeldrift_mpi.so");
+    assert!(exported_symbols(&library, Some("-D")).contains("deldrift_mpi_options_init"));
     let build = folder.join("consumer");
     let mut configure = command("cmake");
     configure.arg("-S").arg(repository("ffi-tests/consumers/mpi")).arg("-B").arg(&build);
@@ -242,7 +254,11 @@ fn package_for_debian_is_whole() {
         (library, library, vec!["Depends: libc6".to_string(), "libgcc-s1".to_string()]),
         ("libdeldrift-dev", "deldrift", vec![of_this_version(library)]),
         (compat, compat, vec!["libstdc++6".to_string()]),
-        ("libdeldrift-compat-dev", "deldrift-compat", vec![of_this_version(compat), of_this_version("libdeldrift-dev")]),
+        (
+            "libdeldrift-compat-dev",
+            "deldrift-compat",
+            vec![of_this_version(compat), of_this_version("libdeldrift-dev")],
+        ),
     ];
     // Where the originals are installed.
     for (name, needed) in [("libdeldrift-qhull0.1", "libstdc++6"), ("libdeldrift-getfem0.1", "libgetfem")] {
@@ -388,7 +404,10 @@ fn commands_of_the_page_find_it(folder: &Path, libraries: &Path) {
             // Where nothing is shared, not even what unwinds the stack.
             let line = line.replacen("cc ", "cc -static ", 1);
             let mut shell = command("sh");
-            shell.args(["-ec", &line]).current_dir(folder).env("PKG_CONFIG_PATH", libraries.join("pkgconfig"));
+            shell
+                .args(["-ec", &line])
+                .current_dir(folder)
+                .env("PKG_CONFIG_PATH", libraries.join("pkgconfig"));
             succeed(&mut shell);
             assert!(succeed(&mut command(&solver)).contains("triangle"));
         }

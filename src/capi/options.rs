@@ -114,7 +114,9 @@ pub unsafe extern "C" fn deldrift_options_init(options: *mut deldrift_options) {
 
 /// The last field that `deldrift_options_init` fills. Once there are more fields it must go on to fill these alone: the
 /// structure of a program that calls it may end here.
-const _: () = assert!(offset_of!(deldrift_options, user_data) + size_of::<*mut c_void>() == size_of::<deldrift_options>());
+const _: () = assert!(
+    offset_of!(deldrift_options, user_data) + size_of::<*mut c_void>() == size_of::<deldrift_options>()
+);
 
 /// Greatest `struct_size` that is taken for a size: anything above it is more likely to be garbage, and
 /// would have its tail looked at far beyond any structure.
