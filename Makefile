@@ -31,7 +31,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help quick test counts soak bench report memory large targets calibrate costs table records sizes lint header doc picture install
+.PHONY: help quick test counts soak bench report memory large targets calibrate costs table records sizes lint header doc picture install uninstall
 .PHONY: examples cgal-examples
 .PHONY: compat demo deb dist packages wheel library benchmark clean faults tsan miri fuzz mutants coverage
 
@@ -179,8 +179,13 @@ install: ## library, headers, compat, mpi where there is one, CMake and pkg-conf
 	cmake --build build/install
 	DESTDIR="$(DESTDIR)" cmake --install build/install
 
-deb: ## packages for Debian, libdeldrift-dev, libdeldrift-compat-dev and libdeldrift-mpi-dev, in build/packages
+uninstall: ## remove what make install has installed, below DESTDIR
+	cmake -DBUILD=build/install -P cmake/uninstall.cmake
+
+deb: ## packages for Debian in build/packages: libraries, and -dev for what programs are built with
 	@.ci/packages cmake dpkg-dev g++ libopenmpi-dev
+	-@.ci/packages libqhull-dev
+	-@.ci/packages libgetfem-dev
 	cmake -S . -B build/deb -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_INSTALL_DOCDIR=share/doc/libdeldrift-dev \
 	    -DDELDRIFT_COMPAT_DOCDIR=share/doc/libdeldrift-compat-dev -DDELDRIFT_MPI_DOCDIR=share/doc/libdeldrift-mpi-dev
 	cmake --build build/deb

@@ -1,5 +1,6 @@
-# The calling conventions of Triangle and TetGen, in a component of their own: libdeldrift_triangle_tetgen, shared and
-# static, headers for programs that have none, and files for CMake and pkg-config.
+# The calling conventions of Triangle and TetGen: libdeldrift_triangle_tetgen, shared (component deldrift_compat_runtime) and
+# static, headers for programs that have none, and files for CMake and pkg-config (deldrift_compat). Those of qhull and
+# GetFEM, where these are installed, are the components deldrift_qhull and deldrift_getfem.
 if(is_top_level AND NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()

@@ -1,4 +1,5 @@
-# What is installed, and what `cpack` puts into packages: headers, stripped libraries, files for CMake and pkg-config.
+# What is installed, and what `cpack` puts into packages: headers, stripped libraries, files for CMake and pkg-config. The
+# shared library, which programs run with, is the component deldrift_runtime; what they are built with is deldrift.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -43,13 +44,16 @@ set(kind_of_file PROGRAMS)
 if(CMAKE_INSTALL_SO_NO_EXE)
   set(kind_of_file FILES)
 endif()
-install(${kind_of_file} "${stripped}/libdeldrift.so" DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT deldrift
-  RENAME "${DELDRIFT_FILE}")
+install(${kind_of_file} "${stripped}/libdeldrift.so" DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+  COMPONENT deldrift_runtime RENAME "${DELDRIFT_FILE}")
+# The loader looks for the first name, the linker for the other one.
 file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/links")
 foreach(link IN ITEMS "${DELDRIFT_SONAME}" libdeldrift.so)
   file(CREATE_LINK "${DELDRIFT_FILE}" "${PROJECT_BINARY_DIR}/links/${link}" SYMBOLIC)
-  install(FILES "${PROJECT_BINARY_DIR}/links/${link}" DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT deldrift)
 endforeach()
+install(FILES "${PROJECT_BINARY_DIR}/links/${DELDRIFT_SONAME}" DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+  COMPONENT deldrift_runtime)
+install(FILES "${PROJECT_BINARY_DIR}/links/libdeldrift.so" DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT deldrift)
 install(FILES "${PROJECT_BINARY_DIR}/deldriftConfig.cmake" "${PROJECT_BINARY_DIR}/deldriftConfigVersion.cmake"
   DESTINATION "${package_dir}" COMPONENT deldrift)
 install(FILES LICENSE-MIT LICENSE-APACHE cmake/copyright DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT deldrift)

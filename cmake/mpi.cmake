@@ -1,5 +1,5 @@
-# deldrift on several processes, in a component of its own: libdeldrift_mpi, shared and static, its header, and files
-# for CMake and pkg-config.
+# deldrift on several processes: libdeldrift_mpi, shared (component deldrift_mpi_runtime) and static, its header, and files
+# for CMake and pkg-config (deldrift_mpi).
 if(is_top_level AND NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()

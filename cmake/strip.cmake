@@ -8,11 +8,12 @@ function(run)
   endif()
 endfunction()
 
-# The functions that a header declares at the beginning of a line; those that it defines are static.
+# The functions that a header declares or defines at the beginning of a line: those that it defines are in the library as
+# well, for other languages.
 set(functions "")
 foreach(header IN ITEMS deldrift.h deldrift/research.h)
   file(READ "${HEADERS}/${header}" text)
-  string(REGEX MATCHALL "\n(const )?[a-z0-9_]+ [*]?deldrift_[a-z0-9_]+[(]" declared "${text}")
+  string(REGEX MATCHALL "\n(static inline |const )?[a-z0-9_]+ [*]?deldrift_[a-z0-9_]+[(]" declared "${text}")
   list(LENGTH declared n_declared)
   if(n_declared EQUAL 0)
     message(FATAL_ERROR "No functions in ${HEADERS}/${header}")

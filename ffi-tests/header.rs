@@ -100,6 +100,22 @@ fn headers_compile_alone_as_c11_cpp17_and_cpp20() {
     }
 }
 
+/// Some compilers have C++14 by default. What is wrong is said once.
+#[test]
+fn headers_ask_for_cpp17() {
+    let folder = fresh_folder("cpp14");
+    for header in ["deldrift.hpp", "deldrift/cgal.hpp"] {
+        let source = folder.join("cpp14.cpp");
+        let text = format!("#include <{header}>\nint main() {{ return 0; }}\n");
+        fs::write(&source, text).expect("a source can be written");
+        let mut compile = compiler(&source);
+        let outcome = compile.args(["-fsyntax-only", "-std=c++14"]).arg(&source).output().expect("it runs");
+        let said = String::from_utf8_lossy(&outcome.stderr);
+        let errors: Vec<&str> = said.lines().filter(|line| line.contains("error: ")).collect();
+        assert!(!outcome.status.success() && errors.len() == 1 && errors[0].contains("C++17"), "{said}");
+    }
+}
+
 #[test]
 fn readme_shows_the_example_that_is_compiled() {
     assert!(text_of("README.md").contains(&text_of("ffi-tests/c/readme_example.c")));
@@ -123,7 +139,7 @@ impl Header {
         let mut header = Vec::new();
         builder.generate().expect("the sources are understood").write(&mut header);
         let header = enumerations_in_c(&String::from_utf8(header).expect("the sources are text"));
-        let header: String = header.lines().map(|line| without_tags(line) + "\n").collect();
+        let header: String = header.lines().map(|line| with_body(&without_tags(line)) + "\n").collect();
         self.with_headings(&header)
     }
 
@@ -206,6 +222,29 @@ fn without_tags(line: &str) -> String {
     } else {
         line.replace("struct deldrift_", "deldrift_")
     }
+}
+
+/// A function that sets options to their defaults is defined in the header, so that it fills the structure of that: all
+/// is zero but the size.
+fn with_body(line: &str) -> String {
+    let Some((name, parameter)) = line.strip_prefix("void ").and_then(|line| line.split_once('(')) else {
+        return line.to_string();
+    };
+    let Some((kind, options)) = parameter.trim_end_matches(");").split_once(" *") else {
+        return line.to_string();
+    };
+    if !name.ends_with("_options_init") {
+        return line.to_string();
+    }
+    format!(
+        "static inline void {name}({kind} *{options}) {{
+    static {kind} zeros;
+    if ({options}) {{
+        *{options} = zeros;
+        {options}->struct_size = sizeof *{options};
+    }}
+}}"
+    )
 }
 
 /// The example of the README, for the first page.

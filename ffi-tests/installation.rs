@@ -25,6 +25,39 @@ fn installed_library_is_found() {
     compat_is_found(&folder, &libraries);
 }
 
+/// All files and all folders of deldrift's own, and none of others'; and there is a list to go by, or it is said.
+#[test]
+#[ignore = "needs CMake"]
+fn what_is_installed_can_be_removed() {
+    let folder = fresh_folder("uninstall");
+    let staging = folder.join("staging");
+    let prefix = Path::new("/opt/prefix");
+    let build = build_for_installation(&folder, prefix);
+    let uninstall = || {
+        let mut command = command("cmake");
+        command
+            .arg(format!("-DBUILD={}", build.display()))
+            .arg("-P")
+            .arg(repository("cmake/uninstall.cmake"));
+        command.env("DESTDIR", &staging);
+        command
+    };
+    let refused = uninstall().output().expect("CMake runs");
+    assert!(
+        !refused.status.success() && String::from_utf8_lossy(&refused.stderr).contains("install_manifest")
+    );
+    let mut install = command("cmake");
+    succeed(install.arg("--install").arg(&build).env("DESTDIR", &staging));
+    let other = library_files(&staging.join("opt/prefix")).join("libother.so");
+    fs::write(&other, "").expect("a file can be written");
+    succeed(&mut uninstall());
+    let left = succeed(command("find").arg(&staging).args(["!", "-type", "d"]));
+    assert_eq!(left.trim_end(), other.display().to_string());
+    let named = succeed(command("find").arg(&staging).args(["-name", "*deldrift*"]));
+    assert_eq!(named, "", "folders that are empty");
+    assert!(!uninstall().output().expect("CMake runs").status.success(), "there is nothing left to remove");
+}
+
 /// By a component that is asked for, and by none.
 #[test]
 #[ignore = "needs CMake"]
@@ -40,10 +73,26 @@ fn components_are_installed_alone() {
         found.lines().map(str::to_string).collect::<BTreeSet<_>>()
     };
     let (library, compat) = (files_of("deldrift"), files_of("deldrift_compat"));
+    let (runtime, compat_runtime) = (files_of("deldrift_runtime"), files_of("deldrift_compat_runtime"));
+    // What programs run with: the file, the name for the loader, and whose it is.
+    for (files, name) in [(&runtime, "libdeldrift"), (&compat_runtime, "libdeldrift_triangle_tetgen")] {
+        assert_eq!(
+            files.iter().filter(|file| file.contains(&format!("/{name}.so.0"))).count(),
+            2,
+            "{files:?}"
+        );
+        assert!(files.len() == 3 && files.iter().any(|file| file.ends_with("/copyright")), "{files:?}");
+    }
+    for file in &runtime {
+        let to = folder.join("deldrift").join(file);
+        fs::create_dir_all(to.parent().expect("a file is in a folder")).expect("a folder can be made");
+        let from = folder.join("deldrift_runtime").join(file);
+        succeed(command("cp").arg("-a").arg(from).arg(to));
+    }
     let is_of_compat =
         |file: &String| ["triangle", "tetgen", "compat", "Compat"].iter().any(|word| file.contains(word));
     assert!(library.len() > 15 && !library.iter().any(is_of_compat), "{library:?}");
-    assert!(compat.len() == 10 && compat.iter().all(is_of_compat), "{compat:?}");
+    assert!(compat.len() == 8 && compat.iter().all(is_of_compat), "{compat:?}");
     // One that is not there is missed only by those who ask for it.
     let prefix = format!("-DCMAKE_PREFIX_PATH={}", folder.join("deldrift").display());
     succeed(configure_consumers(&folder.join("without"), None).arg(&prefix));
@@ -65,6 +114,9 @@ fn component_for_several_processes_is_found() {
     let found = succeed(command("find").arg(".").args(["!", "-type", "d"]).current_dir(&prefix));
     let is_of_mpi = |file: &&str| file.contains("mpi") || file.contains("Mpi") || file.contains("MPI");
     assert_eq!(found.lines().filter(is_of_mpi).count(), 9, "{found}");
+    // For other languages, which cannot call what the header defines.
+    let library = library_files(&prefix).join("libdeldrift_mpi.so");
+    assert!(exported_symbols(&library, Some("-D")).contains("deldrift_mpi_options_init"));
     let build = folder.join("consumer");
     let mut configure = command("cmake");
     configure.arg("-S").arg(repository("ffi-tests/consumers/mpi")).arg("-B").arg(&build);
@@ -195,17 +247,31 @@ fn package_for_debian_is_whole() {
     let folder = fresh_folder("package");
     let build = build_for_installation(&folder, Path::new("/usr"));
     succeed(command("cpack").args(["-G", "DEB", "-B"]).arg(&folder).current_dir(&build));
-    let of_this_version = concat!("libdeldrift-dev (= ", env!("CARGO_PKG_VERSION"), ")");
+    let of_this_version = |name: &str| format!("{name} (= {})", env!("CARGO_PKG_VERSION"));
     let root = folder.join("root");
-    for (name, documents, needed) in [
-        ("libdeldrift-dev", "deldrift", "Depends: libc6"),
-        ("libdeldrift-compat-dev", "deldrift-compat", of_this_version),
-    ] {
+    let (library, compat) = ("libdeldrift0.1", "libdeldrift-triangle-tetgen0.1");
+    let mut expected = vec![
+        (library, library, vec!["Depends: libc6".to_string(), "libgcc-s1".to_string()]),
+        ("libdeldrift-dev", "deldrift", vec![of_this_version(library)]),
+        (compat, compat, vec!["libstdc++6".to_string()]),
+        (
+            "libdeldrift-compat-dev",
+            "deldrift-compat",
+            vec![of_this_version(compat), of_this_version("libdeldrift-dev")],
+        ),
+    ];
+    // Where the originals are installed.
+    for (name, needed) in [("libdeldrift-qhull0.1", "libstdc++6"), ("libdeldrift-getfem0.1", "libgetfem")] {
+        if has_package(&folder, name) {
+            expected.push((name, name, vec![needed.to_string()]));
+        }
+    }
+    for (name, documents, needed) in expected {
         let package = package(&folder, name);
         let fields = succeed(command("dpkg-deb").arg("--field").arg(&package));
         let (name, version) = (format!("Package: {name}\n"), concat!("Version: ", env!("CARGO_PKG_VERSION")));
-        for field in [&name, version, needed, "libgcc-s1"] {
-            assert!(fields.contains(field), "{field}: {fields}");
+        for field in [name, version.to_string()].into_iter().chain(needed) {
+            assert!(fields.contains(&field), "{field}: {fields}");
         }
         succeed(command("dpkg-deb").arg("--extract").arg(&package).arg(&root));
         assert!(root.join("usr/share/doc").join(documents).join("copyright").is_file());
@@ -218,10 +284,18 @@ fn package_for_debian_is_whole() {
 
 /// The file of a package of this version.
 fn package(folder: &Path, name: &str) -> PathBuf {
+    find_package(folder, name).unwrap_or_else(|| panic!("{name} is not made"))
+}
+
+fn has_package(folder: &Path, name: &str) -> bool {
+    find_package(folder, name).is_some()
+}
+
+fn find_package(folder: &Path, name: &str) -> Option<PathBuf> {
     let begin = format!("{name}_{}_", env!("CARGO_PKG_VERSION"));
     let files = fs::read_dir(folder).expect("the folder is there");
     let mut files = files.map(|entry| entry.expect("so is this").file_name().into_string().expect("ASCII"));
-    folder.join(files.find(|file| file.starts_with(&begin) && file.ends_with(".deb")).expect("it is made"))
+    Some(folder.join(files.find(|file| file.starts_with(&begin) && file.ends_with(".deb"))?))
 }
 
 /// Triangle's function, with the shared library of compat and with the static one, by pkg-config.
@@ -241,7 +315,7 @@ fn compat_is_found(folder: &Path, libraries: &Path) {
         assert_eq!(succeed(&mut program), "2 triangles\n", "{line}");
     }
     let preloaded = libraries.join("libdeldrift_triangle_tetgen.so");
-    assert_eq!(exported_symbols(&preloaded, Some("-D")).len(), 3);
+    assert_eq!(exported_symbols(&preloaded, Some("-D")).len(), 6);
 }
 
 /// What `make install` does, with the libraries that this test was built with; the prefix.
@@ -326,6 +400,17 @@ fn commands_of_the_page_find_it(folder: &Path, libraries: &Path) {
         assert!(succeed(&mut program).contains("triangle"));
         let needed = succeed(command("readelf").arg("-d").arg(&solver));
         assert_eq!(needed.contains("libdeldrift"), !is_static, "{line}");
+        if is_static {
+            // Where nothing is shared, not even what unwinds the stack.
+            let line = line.replacen("cc ", "cc -static ", 1);
+            let mut shell = command("sh");
+            shell
+                .args(["-ec", &line])
+                .current_dir(folder)
+                .env("PKG_CONFIG_PATH", libraries.join("pkgconfig"));
+            succeed(&mut shell);
+            assert!(succeed(&mut command(&solver)).contains("triangle"));
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use std::env;
 use std::path::Path;
 
 use crate::support::{
-    Linkage, build, command, compiler, fresh_folder, repository, sees_requests, sources, succeed,
+    Linkage, build, command, compiler, fresh_folder, repository, sees_requests, skipped, sources, succeed,
 };
 
 #[test]
@@ -76,6 +76,23 @@ fn cpp_programs_are_cpp20_too() {
         let program = build(&source, &folder, Linkage::Shared, &["-std=c++20"]);
         assert_eq!(succeed(&mut command(program)), "");
     }
+}
+
+/// Files, messages and what is read have points in their numbers where the program's locale has commas. The locale is made
+/// here, so that none needs to be installed.
+#[test]
+fn numbers_have_points_in_any_locale() {
+    let folder = fresh_folder("locale");
+    let name = "de_DE.UTF-8";
+    let mut make = command("localedef");
+    let made = make.args(["-i", "de_DE", "-f", "UTF-8"]).arg(folder.join(name)).output();
+    if !made.is_ok_and(|outcome| outcome.status.success()) {
+        skipped("numbers under another locale", "localedef, or its source of de_DE, is missing");
+        return;
+    }
+    let program = build(&repository("ffi-tests/cpp/locale.cpp"), &folder, Linkage::Shared, &[]);
+    let mut program = command(program);
+    succeed(program.env("LOCPATH", &folder).env("DELDRIFT_TEST_LOCALE", name).env_remove("LC_ALL"));
 }
 
 /// Programs for CGAL write the same with deldrift in its place.

@@ -11,7 +11,7 @@ use crate::algorithms;
 pub use crate::files::{repository, text_of};
 
 /// What the static library needs of the system, as `rustc --print native-static-libs` says.
-pub const SYSTEM_LIBRARIES: [&str; 6] = ["-lgcc_s", "-lutil", "-lrt", "-lpthread", "-lm", "-ldl"];
+pub const SYSTEM_LIBRARIES: [&str; 5] = ["-lutil", "-lrt", "-lpthread", "-lm", "-ldl"];
 
 /// The headers for C.
 pub const HEADERS: [&str; 2] = ["include/deldrift.h", "include/deldrift/research.h"];

@@ -3483,18 +3483,4 @@ deldrift_status deldrift_in_sphere(uint32_t dimension,
 }  // extern "C"
 #endif  // __cplusplus
 
-/// Sets struct_size and the default of every other option. NULL is legal and does nothing.
-///
-/// Defined here and not in the library, so that it fills the structure of this header, whichever later
-/// version the program runs with. Other languages do the same: all zero but struct_size.
-///
-/// Cost: constant.
-static inline void deldrift_options_init(deldrift_options *options) {
-    static deldrift_options zeros;
-    if (options) {
-        *options = zeros;
-        options->struct_size = sizeof *options;
-    }
-}
-
 #endif // DELDRIFT_H

@@ -21,7 +21,9 @@
 #ifndef DELDRIFT_HPP
 #define DELDRIFT_HPP
 
-#ifndef __cpp_exceptions
+#if __cplusplus < 201703L
+#error "deldrift.hpp is for C++17 and later: compile with -std=c++17, or use deldrift.h"
+#elif !defined __cpp_exceptions
 #error "deldrift.hpp throws exceptions, which are disabled here: use deldrift.h, whose functions return a status"
 #else
 
@@ -87,8 +89,10 @@ public:
         : dimension_(dimension) {
         deldrift_triangulation *t = nullptr;
         const span<const double> numbers = gathered(positions);
+        std::vector<double> room;
+        const span<const double> vectors = box.vectors.numbers("vectors", dimension_, room);
         require_ok(deldrift_create_periodic(dimension, numbers.data(), count_of("positions", numbers),
-                                            box.vectors.data(), count_of("vectors", box.vectors), &options, &t));
+                                            vectors.data(), count_of("vectors", vectors), &options, &t));
         t_.reset(t);
     }
     // Takes over what deldrift_create has made.
@@ -199,8 +203,9 @@ public:
         return report;
     }
     // Other vectors for the box of a periodic triangulation, as many as there are, from the next commit on.
-    void stage_vectors(span<const double> vectors) {
-        require_ok(deldrift_stage_vectors(native(), vectors.data(), count_of("vectors", vectors)));
+    void stage_vectors(const Positions &vectors) {
+        const span<const double> numbers = vectors.numbers("vectors", dimension_, room_);
+        require_ok(deldrift_stage_vectors(native(), numbers.data(), count_of("vectors", numbers)));
     }
     void discard_moves() { require_ok(deldrift_discard_moves(native())); }
     deldrift_commit_report commit_timestamp() {
@@ -601,11 +606,14 @@ public:
     }
     // Positions in the unit cell of the reduced vectors, or in the period that is nearest to an entry of previous, if given,
     // and by which multiples of the vectors of the box they are translated from there.
-    WrappedPositions wrap_positions(span<const double> positions, span<const double> previous = {}) const {
-        const std::size_t count = count_of("positions", positions);
-        if (previous.size() != 0) expect("previous", previous.size(), positions.size());
-        WrappedPositions wrapped{std::vector<double>(positions.size()), std::vector<std::int64_t>(positions.size())};
-        require_ok(deldrift_wrap_positions(native(), positions.data(), previous.size() != 0 ? previous.data() : nullptr, count,
+    WrappedPositions wrap_positions(const Positions &positions, const Positions &previous = {}) const {
+        std::vector<double> room, room_of_previous;
+        const span<const double> numbers = positions.numbers("positions", dimension_, room);
+        const span<const double> near = previous.numbers("previous", dimension_, room_of_previous);
+        const std::size_t count = count_of("positions", numbers);
+        if (!near.empty()) expect("previous", near.size(), numbers.size());
+        WrappedPositions wrapped{std::vector<double>(numbers.size()), std::vector<std::int64_t>(numbers.size())};
+        require_ok(deldrift_wrap_positions(native(), numbers.data(), near.empty() ? nullptr : near.data(), count,
                                            wrapped.places.data(), wrapped.shifts.data()));
         return wrapped;
     }
@@ -715,15 +723,17 @@ public:
     }
     // Also within half-spaces: for each the coordinates of an outward normal, which is perpendicular to the vectors where the
     // triangulation is periodic, and an offset.
-    VoronoiCells voronoi_cells_within(span<const double> low, span<const double> high, span<const double> half_spaces,
+    VoronoiCells voronoi_cells_within(span<const double> low, span<const double> high, const Positions &half_spaces,
                                       span<const std::uint8_t> mask = {}) const {
-        const std::size_t rows = half_spaces.size() / (dimension_ + 1);
-        expect("half_spaces", half_spaces.size(), rows * (dimension_ + 1));
+        std::vector<double> room;
+        const span<const double> numbers = half_spaces.rows("half_spaces", dimension_ + 1, room);
+        const std::size_t rows = numbers.size() / (dimension_ + 1);
+        expect("half_spaces", numbers.size(), rows * (dimension_ + 1));
         std::size_t count = id_count();
         const double nan = std::numeric_limits<double>::quiet_NaN();
         VoronoiCells cells{std::vector<double>(count, nan), std::vector<double>(count, nan),
                            std::vector<double>(count * dimension_, nan)};
-        require_ok(deldrift_voronoi_cells_within(native(), corner("low", low), corner("high", high), half_spaces.data(),
+        require_ok(deldrift_voronoi_cells_within(native(), corner("low", low), corner("high", high), numbers.data(),
                                                  rows, mask.empty() ? nullptr : mask.data(), mask.size(),
                                                  cells.volumes.data(), cells.areas.data(), cells.centroids.data(), count,
                                                  &count));
@@ -736,17 +746,19 @@ public:
     }
     // Also within half-spaces: for each the coordinates of an outward normal, and an offset.
     VoronoiDerivatives voronoi_derivatives_within(span<const double> low, span<const double> high,
-                                                  span<const double> half_spaces,
+                                                  const Positions &half_spaces,
                                                   span<const std::uint8_t> mask = {}) const {
-        const std::size_t rows = half_spaces.size() / (dimension_ + 1);
-        expect("half_spaces", half_spaces.size(), rows * (dimension_ + 1));
+        std::vector<double> room;
+        const span<const double> numbers = half_spaces.rows("half_spaces", dimension_ + 1, room);
+        const std::size_t rows = numbers.size() / (dimension_ + 1);
+        expect("half_spaces", numbers.size(), rows * (dimension_ + 1));
         std::size_t count = 0;
         require_ok(deldrift_edges(native(), nullptr, 0, &count));
         const double nan = std::numeric_limits<double>::quiet_NaN();
         VoronoiDerivatives facets{std::vector<double>(count, nan), std::vector<double>(count * dimension_, nan),
                                   std::vector<double>(count * 2 * dimension_, nan)};
         require_ok(deldrift_voronoi_derivatives_within(native(), corner("low", low), corner("high", high),
-                                                       half_spaces.data(), rows, mask.empty() ? nullptr : mask.data(),
+                                                       numbers.data(), rows, mask.empty() ? nullptr : mask.data(),
                                                        mask.size(), facets.measures.data(), facets.centroids.data(),
                                                        facets.derivatives.data(), count, &count));
         return facets;
@@ -774,13 +786,15 @@ public:
     }
     // values: n_values numbers for each id. outside: those of positions outside the hull, NaN if there are none.
     std::vector<double> interpolate(deldrift_interpolation method, span<const double> values, std::size_t n_values,
-                                    span<const double> positions, span<const double> outside = {},
+                                    const Positions &positions, span<const double> outside = {},
                                     const deldrift_location *hint = nullptr) const {
-        const std::size_t ids = id_count(), count = count_of("positions", positions);
+        std::vector<double> room;
+        const span<const double> numbers = positions.numbers("positions", dimension_, room);
+        const std::size_t ids = id_count(), count = count_of("positions", numbers);
         expect("values", values.size(), ids * n_values);
         if (!outside.empty()) expect("outside", outside.size(), n_values);
         std::vector<double> results(count * n_values);
-        require_ok(deldrift_interpolate(native(), method, values.data(), ids, n_values, positions.data(), count, hint,
+        require_ok(deldrift_interpolate(native(), method, values.data(), ids, n_values, numbers.data(), count, hint,
                                         outside.empty() ? nullptr : outside.data(), results.data()));
         return results;
     }
@@ -882,44 +896,44 @@ public:
     }
     // The cells that a vertex at a place in a box could change, with balls that certainly cover their discs or balls. Corners
     // of boxes come one after the other, and may be infinite; a mask has an entry for each id, and an empty one is none.
-    InReach cells_in_reach(span<const double> low, span<const double> high, span<const std::uint8_t> mask = {}) const {
-        const std::size_t boxes = boxes_of(low, high);
+    InReach cells_in_reach(const Positions &low, const Positions &high, span<const std::uint8_t> mask = {}) const {
+        const Boxes boxes(low, high, dimension_);
         const std::uint8_t *const chosen = mask.size() == 0 ? nullptr : mask.data();
         InReach reach;
         reach.cells = found([&](std::uint32_t *cells, std::size_t capacity, std::size_t *count) {
             reach.centres.resize(capacity * dimension_);
             reach.radii.resize(capacity);
-            return deldrift_cells_in_reach(native(), low.data(), high.data(), boxes, chosen, mask.size(), cells,
-                                           reach.centres.data(), reach.radii.data(), capacity, count);
+            return deldrift_cells_in_reach(native(), boxes.low.data(), boxes.high.data(), boxes.count, chosen,
+                                           mask.size(), cells, reach.centres.data(), reach.radii.data(), capacity, count);
         });
         reach.centres.resize(reach.cells.size() * dimension_);
         reach.radii.resize(reach.cells.size());
         return reach;
     }
     // The facets of the convex hull that a place in a box is strictly beyond, without their vertices.
-    Facets hull_facets_in_reach(span<const double> low, span<const double> high,
+    Facets hull_facets_in_reach(const Positions &low, const Positions &high,
                                 span<const std::uint8_t> mask = {}) const {
-        const std::size_t boxes = boxes_of(low, high);
+        const Boxes boxes(low, high, dimension_);
         const std::uint8_t *const chosen = mask.size() == 0 ? nullptr : mask.data();
         Facets facets{};
         facets.cells = found([&](std::uint32_t *cells, std::size_t capacity, std::size_t *count) {
             facets.corners.resize(capacity);
-            return deldrift_hull_facets_in_reach(native(), low.data(), high.data(), boxes, chosen, mask.size(), cells,
-                                                 facets.corners.data(), capacity, count);
+            return deldrift_hull_facets_in_reach(native(), boxes.low.data(), boxes.high.data(), boxes.count, chosen,
+                                                 mask.size(), cells, facets.corners.data(), capacity, count);
         });
         facets.corners.resize(facets.cells.size());
         return facets;
     }
     // For each box the vertices of the cells and hull facets in its reach, in ascending order, hidden vertices included.
-    BoxLists vertices_in_reach(span<const double> low, span<const double> high,
+    BoxLists vertices_in_reach(const Positions &low, const Positions &high,
                                span<const std::uint8_t> mask = {}) const {
-        const std::size_t boxes = boxes_of(low, high);
+        const Boxes boxes(low, high, dimension_);
         const std::uint8_t *const chosen = mask.size() == 0 ? nullptr : mask.data();
         BoxLists lists;
-        lists.offsets.resize(boxes + 1);
+        lists.offsets.resize(boxes.count + 1);
         lists.vertices = found([&](std::uint32_t *vertices, std::size_t capacity, std::size_t *count) {
-            return deldrift_vertices_in_reach(native(), low.data(), high.data(), boxes, chosen, mask.size(), vertices,
-                                              lists.offsets.data(), capacity, count);
+            return deldrift_vertices_in_reach(native(), boxes.low.data(), boxes.high.data(), boxes.count, chosen,
+                                              mask.size(), vertices, lists.offsets.data(), capacity, count);
         });
         return lists;
     }
@@ -1042,17 +1056,27 @@ private:
         expect("position", position.size(), dimension_);
         return position.data();
     }
-    // How many boxes have these corners.
-    std::size_t boxes_of(span<const double> low, span<const double> high) const {
-        const std::size_t boxes = count_of("low", low);
-        expect("high", high.size(), low.size());
-        return boxes;
-    }
     std::size_t count_of(const char *argument, span<const double> positions) const {
-        const std::size_t count = positions.size() / (dimension_ == 0 ? 1 : dimension_);
-        expect(argument, positions.size(), count * dimension_);
+        return count_of(argument, positions, dimension_);
+    }
+    static std::size_t count_of(const char *argument, span<const double> positions, std::uint32_t dimension) {
+        const std::size_t count = positions.size() / (dimension == 0 ? 1 : dimension);
+        expect(argument, positions.size(), count * dimension);
         return count;
     }
+    // Corners of boxes, one after the other.
+    struct Boxes {
+        Boxes(const Positions &lows, const Positions &highs, std::uint32_t dimension)
+            : low(lows.numbers("low", dimension, room_of_low)), high(highs.numbers("high", dimension, room_of_high)),
+              count(count_of("low", low, dimension)) {
+            expect("high", high.size(), low.size());
+        }
+        Boxes(const Boxes &) = delete;
+        Boxes &operator=(const Boxes &) = delete;
+        std::vector<double> room_of_low{}, room_of_high{};
+        span<const double> low, high;
+        std::size_t count;
+    };
 
     std::unique_ptr<deldrift_triangulation, Destroy> t_{};
     std::uint32_t dimension_ = 0;

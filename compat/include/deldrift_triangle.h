@@ -49,6 +49,9 @@ struct triangulateio {
  */
 int triangulate(char *switches, struct triangulateio *in, struct triangulateio *out, struct triangulateio *vorout);
 
+/* Frees a list of the output: it is free(), which programs may call as well. */
+void trifree(void *list);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,7 +1,6 @@
 #include "qhull_options.hpp"
 
 #include <cstring>
-#include <sstream>
 #include <string>
 
 namespace compat {
@@ -15,12 +14,13 @@ static bool has_no_influence(const std::string &option) {
 
 bool read_qhull_command(const char *command, QhullOptions &options) {
     if (command == nullptr) return false;
-    std::istringstream words(command);
-    std::string word;
-    if (std::strncmp(command, "qhull ", 6) != 0 || !(words >> word)) return false;
+    if (std::strncmp(command, "qhull ", 6) != 0) return false;
+    static constexpr char spaces[] = " \t\n\v\f\r";
     QhullOptions read;
     bool is_delaunay = false, is_triangulated = false;
-    while (words >> word) {
+    for (const char *next = command + 6; *(next += std::strspn(next, spaces)) != '\0';) {
+        const std::string word(next, std::strcspn(next, spaces));
+        next += word.size();
         if (word == "d") is_delaunay = true;
         else if (word == "Qt") is_triangulated = true;
         else if (word == "Qz") read.has_infinity = true;

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <ctime>
 
+#include "plain_locale.hpp"
+
 namespace compat {
 
 static Mode read_mode() {
@@ -38,13 +40,9 @@ bool leaves_refinement() {
     return asked;
 }
 
-bool copies_lists() {
-    static const bool asked = is_set("DELDRIFT_COMPAT_TRIANGLE", "cytriangle");
-    return asked;
-}
-
 void complain(const char *function, const char *format, ...) {
     char message[640];
+    const PlainLocale plain;
     va_list arguments;
     va_start(arguments, format);
     std::vsnprintf(message, sizeof message, format, arguments);
@@ -99,6 +97,7 @@ Tally::~Tally() {
         complain(function_, "the report cannot be written to %s", path);
         return;
     }
+    const PlainLocale plain;
     const auto number = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
     std::fprintf(file, "function=%s calls=%llu built=%llu moved=%llu edited=%llu points=%llu cells=%llu seconds=%.6f",
                  function_, number(own_.calls), number(built_), number(moved_), number(edited_), number(own_.points),

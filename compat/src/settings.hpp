@@ -23,10 +23,6 @@ bool sorted();
 // were.
 bool leaves_refinement();
 
-// DELDRIFT_COMPAT_TRIANGLE=cytriangle: lists of holes and regions in Triangle's output are copies, which the caller
-// frees, as in cytriangle's Triangle. In Triangle 1.6 they are the lists of the input.
-bool copies_lists();
-
 // One line on stderr.
 [[gnu::format(printf, 2, 3)]] void complain(const char *function, const char *format, ...);
 

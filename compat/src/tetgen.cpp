@@ -15,6 +15,7 @@
 #include "original.hpp"
 #include "representatives.hpp"
 #include "settings.hpp"
+#include "tetgen_behavior.hpp"
 #include "tetgen_layout.hpp"
 #include "tetgen_switches.hpp"
 #include "tetgen_writer.hpp"
@@ -24,8 +25,10 @@ namespace compat {
 namespace {
 
 constexpr char name[] = "tetrahedralize";
-constexpr char mangled[] = "_Z14tetrahedralizePcP8tetgenioS1_S1_S1_";
-using Function = void (*)(char *, tetgenio *, tetgenio *, tetgenio *, tetgenio *);
+constexpr char by_switches[] = "_Z14tetrahedralizePcP8tetgenioS1_S1_S1_";
+constexpr char by_behavior[] = "_Z14tetrahedralizeP14tetgenbehaviorP8tetgenioS2_S2_S2_";
+// The first argument is the switches, or what has them.
+using Function = void (*)(void *, tetgenio *, tetgenio *, tetgenio *, tetgenio *);
 Tally tally(name);
 
 // What TetGen throws.
@@ -37,9 +40,33 @@ enum Failure { out_of_memory = 1, defect = 2, bad_input = 10 };
 }
 
 struct Call {
-    char *switches;
+    const char *symbol; // that the function was called by
+    void *first;
     tetgenio *in, *out, *addin, *bgmin;
+    const void *caller;
+    bool has_behavior() const { return symbol == by_behavior; }
+    Function original(const char *of) const { return reinterpret_cast<Function>(original_of(of, caller)); }
 };
+
+// While it lives, this thread is inside the original. Of TetGen's two functions the one that takes switches calls the other
+// one by its name, which is this library's: such a call is passed straight on.
+class Inside {
+public:
+    Inside() { depth_++; }
+    Inside(const Inside &) = delete;
+    Inside &operator=(const Inside &) = delete;
+    ~Inside() { depth_--; }
+    static bool is_inside() { return depth_ > 0; }
+
+private:
+    static thread_local int depth_;
+};
+thread_local int Inside::depth_ = 0;
+
+void call_original(Function original, const Call &call) {
+    const Inside inside;
+    original(call.first, call.in, call.out, call.addin, call.bgmin);
+}
 
 template <class Io>
 void check(const Io &in) {
@@ -64,6 +91,7 @@ public:
         lent.io.pointlist = in.pointlist;
         lent.io.numberofpoints = in.numberofpoints;
         std::string plain = switches.for_cells();
+        const Inside inside;
         const double start = processor_time();
         function(plain.data(), reinterpret_cast<tetgenio *>(&lent.io), reinterpret_cast<tetgenio *>(&out_), nullptr,
                  nullptr);
@@ -153,7 +181,7 @@ void serve_by_original(const Call &call, const TetgenSwitches &switches, Io &in,
         write(switches, original.cells(), in, out, representatives_in(original.cells(), in.numberofpoints));
     } else {
         const double start = processor_time();
-        function(call.switches, call.in, call.out, call.addin, call.bgmin);
+        call_original(function, call);
         seconds = processor_time() - start;
     }
     tally.original_served(seconds, static_cast<std::size_t>(in.numberofpoints),
@@ -163,7 +191,7 @@ void serve_by_original(const Call &call, const TetgenSwitches &switches, Io &in,
 void pass_on(const Call &call, const char *why, Function original) {
     if (original == nullptr) fail(bad_input, why);
     tally.passed_on();
-    original(call.switches, call.in, call.out, call.addin, call.bgmin);
+    call_original(original, call);
 }
 
 template <class Io>
@@ -173,18 +201,27 @@ void serve_by_either(const Call &call, const TetgenSwitches &switches, Function 
     else serve(switches, in, out, original);
 }
 
-void dispatch(const Call &call, const void *caller) {
-    if (call.switches == nullptr) fail(bad_input, "switches is NULL");
+void dispatch(const Call &call) {
+    if (call.has_behavior() && Inside::is_inside()) {
+        const Function original = call.original(by_behavior);
+        if (original != nullptr) return original(call.first, call.in, call.out, call.addin, call.bgmin);
+    }
+    if (call.first == nullptr) fail(bad_input, call.has_behavior() ? "b is NULL" : "switches is NULL");
     if (call.in == nullptr) fail(bad_input, "in is NULL");
     if (call.out == nullptr) fail(bad_input, "out is NULL");
-    const TetgenSwitches switches(call.switches);
     Layout layout = layout_of(call.out);
+    // A tetgenbehavior is of the version that the tetgenio is of.
+    if (call.has_behavior() && layout != Layout::v1_5_0)
+        return pass_on(call, "b is not the tetgenbehavior of TetGen 1.5.0, and there is no TetGen to pass the call to",
+                       call.original(by_behavior));
+    const TetgenSwitches switches(call.has_behavior() ? switches_of_behavior(call.first).c_str()
+                                                      : static_cast<const char *>(call.first));
     // Where no list is asked for that has another place, one of the two is as good as the other.
     if (layout == Layout::v1_5_1_or_1_6 && !switches.lists_faces()) layout = Layout::v1_6;
     const bool is_known = layout != Layout::unknown && layout != Layout::v1_5_1_or_1_6;
     Function original = nullptr;
     if (switches.unserved != '\0' || !is_known || mode() != Mode::deldrift)
-        original = reinterpret_cast<Function>(original_of(mangled, caller));
+        original = call.original(call.symbol);
     if (layout == Layout::v1_5_1_or_1_6) layout = told_apart(reinterpret_cast<const void *>(original));
     if (switches.unserved != '\0') {
         char why[] = "switch ? is not served by deldrift, and there is no TetGen to pass the call to";
@@ -200,10 +237,21 @@ void dispatch(const Call &call, const void *caller) {
         static std::once_flag once;
         std::call_once(once, complain, name, "DELDRIFT_COMPAT asks for TetGen, and there is none; deldrift serves");
     }
-    const Function asked = mode() == Mode::deldrift ? nullptr : original;
+    Function asked = mode() == Mode::deldrift ? nullptr : original;
+    // To compare, the original is called with switches of its own. To be put into order, too.
+    const bool has_own_switches = mode() == Mode::compare || sorted();
+    if (asked != nullptr && call.has_behavior() && has_own_switches) asked = call.original(by_switches);
     if (layout == Layout::v1_5_0) serve_by_either<TetgenIo150>(call, switches, asked);
     else if (layout == Layout::v1_5_1) serve_by_either<TetgenIo151>(call, switches, asked);
     else serve_by_either<TetgenIo16>(call, switches, asked);
+}
+
+void handle(const Call &call) {
+    try {
+        dispatch(call);
+    } catch (const std::bad_alloc &) {
+        fail(out_of_memory, "not enough memory");
+    }
 }
 
 } // namespace
@@ -212,10 +260,13 @@ void dispatch(const Call &call, const void *caller) {
 
 [[gnu::visibility("default")]] void tetrahedralize(char *switches, tetgenio *in, tetgenio *out, tetgenio *addin,
                                                    tetgenio *bgmin) {
-    try {
-        compat::dispatch({switches, in, out, addin, bgmin}, __builtin_return_address(0));
-    } catch (const std::bad_alloc &) {
-        compat::complain(compat::name, "not enough memory");
-        throw static_cast<int>(compat::out_of_memory);
-    }
+    compat::handle({compat::by_switches, switches, in, out, addin, bgmin, __builtin_return_address(0)});
+}
+
+// TetGen's class, which programs have from TetGen's header.
+class tetgenbehavior;
+[[gnu::visibility("default")]] void tetrahedralize(tetgenbehavior *b, tetgenio *in, tetgenio *out, tetgenio *addin,
+                                                   tetgenio *bgmin);
+void tetrahedralize(tetgenbehavior *b, tetgenio *in, tetgenio *out, tetgenio *addin, tetgenio *bgmin) {
+    compat::handle({compat::by_behavior, b, in, out, addin, bgmin, __builtin_return_address(0)});
 }

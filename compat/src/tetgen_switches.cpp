@@ -1,6 +1,5 @@
 #include "tetgen_switches.hpp"
 
-#include <cctype>
 #include <cstring>
 
 namespace compat {
@@ -8,9 +7,11 @@ namespace compat {
 // Messages (Q, V), and exact arithmetic (X).
 static constexpr char without_effect[] = "QVX";
 
-// Dashes, braces and spaces are passed over by the original as well.
+// Dashes, braces and spaces are passed over by the original as well. Letters are those of ASCII in any locale.
 static bool is_without_effect(char which) {
-    return std::strchr(without_effect, which) != nullptr || std::isalnum(static_cast<unsigned char>(which)) == 0;
+    const bool is_letter = ('A' <= which && which <= 'Z') || ('a' <= which && which <= 'z');
+    const bool is_digit = '0' <= which && which <= '9';
+    return std::strchr(without_effect, which) != nullptr || !(is_letter || is_digit);
 }
 
 TetgenSwitches::TetgenSwitches(const char *switches) {

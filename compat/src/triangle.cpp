@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <initializer_list>
 #include <mutex>
 #include <new>
@@ -43,7 +44,19 @@ struct Call {
     const char *symbol; // that the function was called by
     char *switches;
     triangulateio *in, *out, *vorout;
+    const void *caller;
 };
+
+// Triangle itself, as far as the call would have come to it without this library; null if there is none.
+Function original_for(const Call &call) { return reinterpret_cast<Function>(original_of(call.symbol, call.caller)); }
+
+// Who frees the lists of holes and regions, if there are any, is for the Triangle to say that the program was made for.
+bool wants_copies(const Call &call, const TriangleSwitches &switches) {
+    const bool has_lists = call.in->holelist != nullptr || call.in->regionlist != nullptr;
+    if (!has_lists || !switches.planar_graph || !switches.lists_segments()) return false;
+    const Function original = original_for(call);
+    return original != nullptr && copies_lists(original);
+}
 
 // A result without triangles, for callers that take no notice of what is returned.
 int give_nothing(const Call &call) {
@@ -80,8 +93,9 @@ bool is_valid(const Call &call, const TriangleSwitches &switches) {
 // Writes the mesh, sorted if that was asked for. The seconds that writing took.
 double write(const Call &call, const TriangleSwitches &switches, Mesh mesh) {
     if (sorted()) sort(mesh);
+    const bool copies = wants_copies(call, switches);
     const double start = processor_time();
-    write_triangulation(switches, mesh, *call.in, *call.out, call.vorout);
+    write_triangulation(switches, mesh, *call.in, copies, *call.out, call.vorout);
     return processor_time() - start;
 }
 
@@ -233,12 +247,12 @@ std::string what_is_unserved(const TriangleSwitches &switches, const triangulate
     return of_input != nullptr ? of_input : "";
 }
 
-int dispatch(const Call &call, const void *caller) {
+int dispatch(const Call &call) {
     const TriangleSwitches switches(call.switches);
     const std::string unserved = what_is_unserved(switches, call.in);
     Function original = nullptr;
     if (!unserved.empty() || mode() != Mode::deldrift || (switches.refines && leaves_refinement()))
-        original = reinterpret_cast<Function>(original_of(call.symbol, caller));
+        original = original_for(call);
     if (!unserved.empty()) return pass_on(call, unserved, original);
     if (mode() != Mode::deldrift && original == nullptr) {
         static std::once_flag once;
@@ -250,13 +264,13 @@ int dispatch(const Call &call, const void *caller) {
     return is_valid(call, switches) ? serve(call, switches, original) : give_nothing(call);
 }
 
-int handle(const Call &call, const void *caller) {
+int handle(const Call &call) {
     if (call.switches == nullptr) {
         complain(name, "switches is NULL");
         return give_nothing(call);
     }
     try {
-        return dispatch(call, caller);
+        return dispatch(call);
     } catch (const std::bad_alloc &) {
         complain(name, "not enough memory");
         return give_nothing(call);
@@ -269,7 +283,7 @@ int handle(const Call &call, const void *caller) {
 
 extern "C" [[gnu::visibility("default")]] int triangulate(char *switches, triangulateio *in, triangulateio *out,
                                                            triangulateio *vorout) {
-    return compat::handle({compat::name, switches, in, out, vorout}, __builtin_return_address(0));
+    return compat::handle({compat::name, switches, in, out, vorout, __builtin_return_address(0)});
 }
 
 // The function by the name that it has where Triangle is compiled as C++, as libigl does.
@@ -277,5 +291,10 @@ extern "C" [[gnu::visibility("default")]] int triangulate(char *switches, triang
 extern "C" int triangulate_of_cxx(char *, triangulateio *, triangulateio *, triangulateio *) __asm__(MANGLED);
 extern "C" [[gnu::visibility("default")]] int triangulate_of_cxx(char *switches, triangulateio *in,
                                                                   triangulateio *out, triangulateio *vorout) {
-    return compat::handle({MANGLED, switches, in, out, vorout}, __builtin_return_address(0));
+    return compat::handle({MANGLED, switches, in, out, vorout, __builtin_return_address(0)});
 }
+
+// Lists come from malloc, here and in Triangle.
+extern "C" [[gnu::visibility("default")]] void trifree(void *list) { std::free(list); }
+extern "C" void trifree_of_cxx(void *) __asm__("_Z7trifreePv");
+extern "C" [[gnu::visibility("default")]] void trifree_of_cxx(void *list) { std::free(list); }

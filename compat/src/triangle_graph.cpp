@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "plain_locale.hpp"
 #include "representatives.hpp"
 #include "settings.hpp"
 #include "triangle_crossing.hpp"
@@ -57,6 +58,7 @@ std::string what_is_wrong_with_places(const char *list, const double *places, in
             const int index = i * width + axis;
             if (std::abs(places[index]) <= 1e57) continue;
             char text[160];
+            const PlainLocale plain;
             std::snprintf(text, sizeof text, "in->%s[%d] is %g: a finite number was expected, at most 1e57 in size",
                           list, index, places[index]);
             return text;

@@ -8,8 +8,37 @@
 
 namespace compat {
 
+// Of an output, but for lists that are those of the input.
+static void free_lists(const triangulateio &io, const double *holes, const double *regions) {
+    for (double *array : {io.pointlist, io.pointattributelist, io.triangleattributelist, io.normlist})
+        std::free(array);
+    for (int *array : {io.pointmarkerlist, io.trianglelist, io.neighborlist, io.edgelist, io.edgemarkerlist,
+                       io.segmentlist, io.segmentmarkerlist})
+        std::free(array);
+    if (io.holelist != holes) std::free(io.holelist);
+    if (io.regionlist != regions) std::free(io.regionlist);
+}
+
+bool copies_lists(TriangleFunction function) {
+    double points[] = {0, 0, 1, 0, 1, 1, 0, 1}, hole[] = {2, 2}, region[] = {0.5, 0.5, 1, 1};
+    int segments[] = {0, 1, 1, 2, 2, 3, 3, 0};
+    char switches[] = "Qzp";
+    triangulateio in{}, out{}, vorout{};
+    in.pointlist = points;
+    in.segmentlist = segments;
+    in.numberofpoints = in.numberofsegments = 4;
+    in.holelist = hole;
+    in.regionlist = region;
+    in.numberofholes = in.numberofregions = 1;
+    function(switches, &in, &out, &vorout);
+    const bool are_copies = out.holelist != nullptr && out.holelist != hole;
+    free_lists(out, hole, region);
+    free_lists(vorout, nullptr, nullptr);
+    return are_copies;
+}
+
 TriangleOriginal::TriangleOriginal(TriangleFunction function, const TriangleSwitches &switches, const triangulateio &in)
-    : switches_(switches) {
+    : switches_(switches), holes_(in.holelist), regions_(in.regionlist) {
     triangulateio given{};
     given.pointlist = in.pointlist;
     given.numberofpoints = in.numberofpoints;
@@ -36,15 +65,9 @@ TriangleOriginal::TriangleOriginal(TriangleFunction function, const TriangleSwit
     seconds_ = processor_time() - start;
 }
 
-// Lists of holes and regions are those of the input.
 TriangleOriginal::~TriangleOriginal() {
-    for (triangulateio *each : {&out_, &vorout_}) {
-        for (double *array : {each->pointlist, each->pointattributelist, each->triangleattributelist, each->normlist})
-            std::free(array);
-        for (int *array : {each->pointmarkerlist, each->trianglelist, each->neighborlist, each->edgelist})
-            std::free(array);
-        for (int *array : {each->edgemarkerlist, each->segmentlist, each->segmentmarkerlist}) std::free(array);
-    }
+    free_lists(out_, holes_, regions_);
+    free_lists(vorout_, nullptr, nullptr);
 }
 
 // int and uint32_t may be used for the same object, and -1 is no_cell.

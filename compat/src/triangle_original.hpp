@@ -11,6 +11,10 @@ namespace compat {
 // Where the original returns nothing, its caller expects nothing, so what it leaves may be handed on.
 using TriangleFunction = int (*)(char *, triangulateio *, triangulateio *, triangulateio *);
 
+// Whether lists of holes and regions in the output of a Triangle are copies, which its callers free, as in cytriangle's, and
+// not the lists of the input, as in Triangle 1.6. It is called with a square of its own to tell.
+bool copies_lists(TriangleFunction function);
+
 class TriangleOriginal {
 public:
     // Calls the function for what is in; what it is asked for are the cells and what belongs to them.
@@ -27,6 +31,7 @@ public:
 
 private:
     const TriangleSwitches &switches_;
+    const double *holes_, *regions_;
     triangulateio out_{}, vorout_{};
     int returned_ = 1;
     double seconds_ = 0;

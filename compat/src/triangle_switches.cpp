@@ -1,9 +1,10 @@
 #include "triangle_switches.hpp"
 
-#include <cctype>
 #include <cstdlib>
 #include <cstring>
 #include <utility>
+
+#include "plain_locale.hpp"
 
 namespace compat {
 
@@ -12,9 +13,10 @@ namespace compat {
 static constexpr char without_effect[] = "QVChHIgiFlX";
 static constexpr double default_angle = 20, greatest_angle = 34;
 
-// Digits, dashes, braces and spaces are passed over by the original as well.
+// Digits, dashes, braces and spaces are passed over by the original as well. Letters are those of ASCII in any locale.
 static bool is_without_effect(char which) {
-    return std::strchr(without_effect, which) != nullptr || std::isalpha(static_cast<unsigned char>(which)) == 0;
+    const bool is_letter = ('A' <= which && which <= 'Z') || ('a' <= which && which <= 'z');
+    return std::strchr(without_effect, which) != nullptr || !is_letter;
 }
 
 // The number behind a switch, which each is at; empty if there is none.
@@ -23,9 +25,14 @@ static std::string number_behind(const char *each) {
     return std::string(each + 1, length);
 }
 
+static double value_of(const std::string &number) {
+    const PlainLocale plain;
+    return std::strtod(number.c_str(), nullptr);
+}
+
 void TriangleSwitches::read_angle(const std::string &number) {
     refines = true;
-    least_angle = number.empty() ? default_angle : std::strtod(number.c_str(), nullptr);
+    least_angle = number.empty() ? default_angle : value_of(number);
     if (!(least_angle <= greatest_angle) && unserved.empty())
         unserved = "switch q" + number + " (angles above 34 degrees)";
 }
@@ -33,7 +40,7 @@ void TriangleSwitches::read_angle(const std::string &number) {
 void TriangleSwitches::read_area(const std::string &number) {
     refines = true;
     if (number.empty()) has_region_areas = true;
-    else greatest_area = std::strtod(number.c_str(), nullptr);
+    else greatest_area = value_of(number);
     if (!number.empty() && !(greatest_area > 0)) wrong = "switch a" + number + ": an area above 0 was expected";
 }
 

@@ -6,7 +6,6 @@
 
 #include "array.hpp"
 #include "circumcentre.hpp"
-#include "settings.hpp"
 
 namespace compat {
 
@@ -14,8 +13,8 @@ namespace {
 
 class Writer {
 public:
-    Writer(const TriangleSwitches &switches, const Mesh &mesh, const triangulateio &in)
-        : switches_(switches), mesh_(mesh), cells_(mesh.cells), in_(in), first_(switches.zero_based ? 0 : 1),
+    Writer(const TriangleSwitches &switches, const Mesh &mesh, const triangulateio &in, bool copies_lists)
+        : switches_(switches), mesh_(mesh), cells_(mesh.cells), in_(in), copies_lists_(copies_lists), first_(switches.zero_based ? 0 : 1),
           n_points_(mesh.n_points), n_attributes_(mesh.n_attributes) {
         std::size_t n_hull = 0;
         for (std::size_t i = 0; i < 3 * cells_.count; i++) n_hull += cells_.neighbours[i] == no_cell;
@@ -42,7 +41,7 @@ public:
             segments_.allocate(out.segmentlist, 2 * n_segments_);
             if (switches_.markers) segment_markers_.allocate(out.segmentmarkerlist, n_segments_);
         }
-        if (copies_lists() && switches_.lists_segments() && switches_.planar_graph) {
+        if (copies_lists_ && switches_.lists_segments() && switches_.planar_graph) {
             holes_.allocate(nullptr, 2 * mesh_.n_holes);
             regions_.allocate(nullptr, 4 * mesh_.n_regions);
         }
@@ -302,6 +301,7 @@ private:
     const Mesh &mesh_;
     const Cells &cells_;
     const triangulateio &in_;
+    bool copies_lists_;
     int first_;
     std::size_t n_points_, n_attributes_, n_segments_ = 0, n_edges_ = 0, n_shown_ = 0, n_middles_ = 0;
     static constexpr int left_out = -1;
@@ -315,10 +315,10 @@ private:
 } // namespace
 
 void write_triangulation(const TriangleSwitches &switches, const Mesh &mesh, const triangulateio &in,
-                         triangulateio &out, triangulateio *vorout) {
+                         bool copies_lists, triangulateio &out, triangulateio *vorout) {
     // The caller may pass one structure as in and out.
     const triangulateio given = in;
-    Writer writer(switches, mesh, given);
+    Writer writer(switches, mesh, given, copies_lists);
     writer.allocate(out, vorout);
     writer.fill();
     writer.hand_over(out, vorout);

@@ -22,7 +22,7 @@ using Tetrahedralize = void (*)(char *, tetgenio *, tetgenio *);
 void call_directly(char *switches, tetgenio *in, tetgenio *out) { tetrahedralize(switches, in, out); }
 
 struct Original {
-    int *calls, *cxx_calls, *is_wrong, *returns;
+    int *calls, *cxx_calls, *is_wrong, *returns, *copies_lists;
     Triangulate call_triangulate, call_triangulate_of_cxx;
     Tetrahedralize call_tetrahedralize;
 };
@@ -37,7 +37,7 @@ Original find(const char *module) {
     };
     const auto number = [&symbol](const char *name) { return static_cast<int *>(symbol(name)); };
     Original original{number("original_calls"), number("original_cxx_calls"), number("original_is_wrong"),
-                      number("original_returns"), &triangulate, &triangulate_of_cxx, &call_directly};
+                      number("original_returns"), number("original_copies_lists"), &triangulate, &triangulate_of_cxx, &call_directly};
     if (module == nullptr) return original;
     original.call_triangulate = reinterpret_cast<Triangulate>(symbol("call_triangulate"));
     original.call_triangulate_of_cxx = reinterpret_cast<Triangulate>(symbol("call_triangulate_of_cxx"));
@@ -104,13 +104,59 @@ void check_lists_of_graph(const Original &original, const Points &points) {
                 std::string text(switches);
                 triangulateio out{};
                 original.call_triangulate(text.data(), &in, &out, nullptr);
+                // What is served asks the original who frees the lists: one call as well.
+                CHECK(*original.calls == before + 1);
                 const bool is_passed_on = in.numberofsegments == 1 && text.find('s') != std::string::npos;
-                CHECK(*original.calls == before + is_passed_on);
+                CHECK((out.neighborlist != nullptr) == is_passed_on);
                 for (int *array : {out.trianglelist, out.neighborlist, out.segmentlist}) std::free(array);
                 std::free(out.triangleattributelist);
             }
         }
         in.*count = 0;
+    }
+}
+
+// Lists of holes and regions in the output are whose the program takes them for: one that was made for Triangle 1.6 frees
+// those of the input alone, one for a Triangle that copies them frees both. As the program is never told, each has what its
+// own Triangle would have given it.
+void check_who_frees_lists(const Original &original) {
+    // A square in a square.
+    Points points{0, 0, 4, 0, 4, 4, 0, 4, 1, 1, 3, 1, 3, 3, 1, 3};
+    std::vector<int> segments{0, 1, 1, 2, 2, 3, 3, 0, 4, 5, 5, 6, 6, 7, 7, 4};
+    for (const int copies : {0, 1, 0}) {
+        *original.copies_lists = copies;
+        for (const char *switches : {"Qzp", "Qzpq", "QzpA", "Qzpc", "Qzpj"}) {
+            for (const int counts : {0, 1, 2, 3}) {
+                triangulateio in{}, out{};
+                in.pointlist = points.data();
+                in.numberofpoints = in.numberofsegments = 8;
+                in.segmentlist = segments.data();
+                in.numberofholes = counts & 1;
+                in.numberofregions = counts >> 1;
+                // Of callers that have lists without entries, too.
+                in.holelist = static_cast<double *>(std::malloc(2 * sizeof(double)));
+                in.regionlist = static_cast<double *>(std::malloc(4 * sizeof(double)));
+                const double hole[] = {2, 2}, region[] = {0.5, 0.5, 7, 0.25};
+                std::copy_n(hole, 2, in.holelist);
+                std::copy_n(region, 4, in.regionlist);
+                std::string text(switches);
+                CHECK(original.call_triangulate(text.data(), &in, &out, nullptr) == 0);
+                CHECK(out.numberofholes == in.numberofholes && out.numberofregions == in.numberofregions);
+                CHECK((out.holelist != in.holelist) == (copies == 1));
+                CHECK((out.regionlist != in.regionlist) == (copies == 1));
+                CHECK(std::equal(hole, hole + 2 * out.numberofholes, out.holelist));
+                CHECK(std::equal(region, region + 4 * out.numberofregions, out.regionlist));
+                for (double *list : {out.pointlist, out.pointattributelist, out.triangleattributelist}) std::free(list);
+                for (int *list : {out.trianglelist, out.segmentlist, out.segmentmarkerlist, out.pointmarkerlist})
+                    std::free(list);
+                if (copies == 1) {
+                    std::free(out.holelist);
+                    std::free(out.regionlist);
+                }
+                std::free(in.holelist);
+                std::free(in.regionlist);
+            }
+        }
     }
 }
 
@@ -136,6 +182,8 @@ int main(int count, char **arguments) {
     if (is_default) {
         check_name_of_cxx(original, points);
         check_lists_of_graph(original, points);
+        *original.is_wrong = *original.returns = 0;
+        check_who_frees_lists(original);
     }
 
     Points space = random_points(3, 50, 2);

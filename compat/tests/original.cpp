@@ -15,12 +15,25 @@ int original_calls = 0;
 int original_cxx_calls = 0; // of them, those by the name that Triangle has where it is compiled as C++
 int original_is_wrong = 0;
 int original_returns = 0;
+int original_copies_lists = 0; // those of holes and regions, as cytriangle's Triangle does; Triangle 1.6 gives the input's
 }
 
-static int *copy_of(const std::uint32_t *numbers, std::size_t count) {
-    int *copy = static_cast<int *>(std::malloc(count * sizeof(int)));
-    std::memcpy(copy, numbers, count * sizeof(int));
+template <class To, class From>
+static To *copy_of(const From *numbers, std::size_t count) {
+    static_assert(sizeof(To) == sizeof(From));
+    To *copy = static_cast<To *>(std::malloc(count * sizeof(To)));
+    if (count > 0) std::memcpy(copy, numbers, count * sizeof(To));
     return copy;
+}
+
+static void give_lists(const triangulateio &in, triangulateio &out) {
+    out.numberofholes = in.numberofholes;
+    out.numberofregions = in.numberofregions;
+    out.holelist = in.holelist;
+    out.regionlist = in.regionlist;
+    if (original_copies_lists == 0) return;
+    out.holelist = copy_of<double>(in.holelist, std::size_t{2} * static_cast<std::size_t>(in.numberofholes));
+    out.regionlist = copy_of<double>(in.regionlist, std::size_t{4} * static_cast<std::size_t>(in.numberofregions));
 }
 
 // The diagonal of triangle 0 and a neighbour, exchanged.
@@ -37,16 +50,17 @@ static void flip_an_edge(int *triangles, const int *neighbours) {
     std::memcpy(second, flipped[1], sizeof flipped[1]);
 }
 
-extern "C" int triangulate(char *, triangulateio *in, triangulateio *out, triangulateio *) {
+extern "C" int triangulate(char *switches, triangulateio *in, triangulateio *out, triangulateio *) {
     original_calls++;
     deldrift_triangulation *t = nullptr;
     deldrift_cells_view view{};
     deldrift_create(2, in->pointlist, static_cast<std::size_t>(in->numberofpoints), nullptr, &t);
     deldrift_cells(t, &view);
-    out->trianglelist = copy_of(view.vertices, 3 * view.count);
-    out->neighborlist = copy_of(view.neighbours, 3 * view.count);
+    out->trianglelist = copy_of<int>(view.vertices, 3 * view.count);
+    out->neighborlist = copy_of<int>(view.neighbours, 3 * view.count);
     out->numberoftriangles = static_cast<int>(view.count);
     deldrift_destroy(t);
+    if (std::strchr(switches, 'p') != nullptr) give_lists(*in, *out);
     if (original_is_wrong != 0) flip_an_edge(out->trianglelist, out->neighborlist);
     return original_returns;
 }

@@ -243,6 +243,29 @@ bool makes_voronoi_diagrams(Function original) {
 
 } // namespace
 
+// What the library reads of a tetgenbehavior of 1.5.0 by its place, set by name: the tetrahedra are those of the switches.
+void by_behavior() {
+    if (sizeof(tetgenio) != 392) return;
+    Points points = random_points(3, 60, 9);
+    const auto call = [&points](tetgenbehavior *b, char *switches) {
+        tetgenio in, out;
+        in.pointlist = points.data();
+        in.numberofpoints = 60;
+        if (b != nullptr) tetrahedralize(b, &in, &out);
+        else tetrahedralize(switches, &in, &out);
+        in.pointlist = nullptr;
+        CHECK(out.numberoftetrahedra > 0 && out.neighborlist != nullptr && out.pointmarkerlist == nullptr);
+        CHECK(out.vpointlist != nullptr && out.edgelist != nullptr && out.trifacelist != nullptr);
+        const std::set<std::set<std::array<double, 3>>> places = places_of(out);
+        CHECK(*std::min_element(out.tetrahedronlist, out.tetrahedronlist + 4 * out.numberoftetrahedra) == 0);
+        return places;
+    };
+    tetgenbehavior b;
+    b.zeroindex = b.neighout = b.facesout = b.edgesout = b.voroout = b.nobound = b.quiet = 1;
+    char switches[] = "znfevBQ";
+    CHECK(call(&b, nullptr) == call(nullptr, switches));
+}
+
 int main() {
     void *handle = dlopen(TETGEN, RTLD_LAZY | RTLD_LOCAL);
     CHECK(handle != nullptr);
@@ -258,4 +281,5 @@ int main() {
                 (has_voronoi || std::strchr(switches, 'v') == nullptr))
                 call_both(original, switches, firstnumber);
     coincident_points(original);
+    by_behavior();
 }

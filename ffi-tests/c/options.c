@@ -1,5 +1,12 @@
 // Options: sizes of other versions, values, algorithms, callbacks.
+//
+// The header defines deldrift_options_init, and the library has it for other languages: here that of the library has the
+// name, and that of the header another one.
+#define deldrift_options_init init_of_header
 #include "check.h"
+#undef deldrift_options_init
+
+extern void deldrift_options_init(deldrift_options *options);
 
 typedef struct {
     deldrift_options known;
@@ -24,6 +31,21 @@ static void defaults_are_zero(void) {
     CHECK(memcmp(&options, &zero, sizeof zero) == 0);
     OK(try_options(&options));
     OK(try_options(NULL));
+}
+
+static void library_and_header_have_the_same_defaults(void) {
+    struct {
+        deldrift_options options;
+        unsigned char beyond[64];
+    } given, of_library, of_header;
+    memset(&given, 255, sizeof given);
+    of_library = of_header = given;
+    deldrift_options_init(&of_library.options);
+    init_of_header(&of_header.options);
+    CHECK(memcmp(&of_library, &of_header, sizeof given) == 0);
+    OK(try_options(&of_library.options));
+    deldrift_options_init(NULL);
+    init_of_header(NULL);
 }
 
 static void structures_of_earlier_versions_are_accepted(void) {
@@ -218,6 +240,7 @@ static void a_cancelled_commit_has_no_effect(deldrift_algorithm algorithm) {
 
 int main(void) {
     defaults_are_zero();
+    library_and_header_have_the_same_defaults();
     structures_of_earlier_versions_are_accepted();
     structures_of_later_versions_are_accepted_if_unused();
     unknown_values_are_refused_by_name();

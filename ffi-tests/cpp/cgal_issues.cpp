@@ -314,7 +314,24 @@ static void through_nearly_one_place() {
     check(t);
 }
 
+// Constraints that are none, as docs/FROM_CGAL.md says: CGAL inserts no points then, and has them as a precondition.
+static void without_length() {
+    Cdt cdt;
+    const std::vector<Point> points{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+    std::vector<std::pair<int, int>> pairs;
+    CHECK(cdt.insert_constraints(points.begin(), points.end(), pairs.begin(), pairs.end()) == 4);
+    CHECK(cdt.number_of_vertices() == 4 && cdt.number_of_faces() == 2);
+    pairs = {{1, 1}, {0, 1}};
+    CHECK(cdt.insert_constraints(points.begin(), points.end(), pairs.begin(), pairs.end()) == 0);
+    const auto v = cdt.insert({1, 2});
+    cdt.insert_constraint(v, v);
+    cdt.insert_constraint(Point(1, 2), Point(1, 2));
+    CHECK(cdt.triangulation().segments().size() == 1 && !cdt.are_there_incident_constraints(v));
+    check(cdt);
+}
+
 int main() {
+    without_length();
     through_nearly_one_place();
     inserted_twice();
     restored();

@@ -179,6 +179,51 @@ static void positions_as_arrays() {
     CHECK(Triangulation(2, {}).positions<2>().empty());
 }
 
+// What is given as numbers one after the other, in rows: the same answers.
+template <std::size_t N>
+static std::vector<std::array<double, N>> in_rows(const std::vector<double> &numbers) {
+    std::vector<std::array<double, N>> rows(numbers.size() / N);
+    for (std::size_t i = 0; i < N * rows.size(); i++) rows[i / N][i % N] = numbers[i];
+    return rows;
+}
+
+static void rows_go_wherever_numbers_do() {
+    const Triangulation t(3, flat);
+    const std::vector<double> values(20, 1.5), at{0.5, 0.25, 0.5, 0.25, 0.5, 0.5};
+    const std::vector<float> floats(at.begin(), at.end());
+    const std::vector<double> interpolated = t.interpolate(DELDRIFT_INTERPOLATION_LINEAR, values, 1, at, {7.0});
+    CHECK(t.interpolate(DELDRIFT_INTERPOLATION_LINEAR, values, 1, in_rows<3>(at), {7.0}) == interpolated);
+    CHECK(t.interpolate(DELDRIFT_INTERPOLATION_LINEAR, values, 1, floats, {7.0}) == interpolated);
+    CHECK_THROWS(t.interpolate(DELDRIFT_INTERPOLATION_LINEAR, values, 1, in_rows<2>(at)), DELDRIFT_WRONG_COUNT,
+                 "positions have 2 coordinates each");
+    const std::vector<double> low{0, 0, 0, 0.5, 0.5, 0.5}, high{0.5, 0.5, 0.5, 2, 2, 2};
+    CHECK(t.cells_in_reach(in_rows<3>(low), in_rows<3>(high)).cells == t.cells_in_reach(low, high).cells);
+    CHECK(t.vertices_in_reach(in_rows<3>(low), high).vertices == t.vertices_in_reach(low, high).vertices);
+    CHECK(t.hull_facets_in_reach(low, in_rows<3>(high)).cells == t.hull_facets_in_reach(low, high).cells);
+    const std::vector<double> walls{1, 0, 0, 0.75, 0, -1, 0, 0};
+    const auto within = [&](const Positions &half_spaces) {
+        return t.voronoi_cells_within({-9, -9, -9}, {9, 9, 9}, half_spaces).volumes;
+    };
+    CHECK(within(in_rows<4>(walls)) == within(walls) && within(walls) != within({}));
+    CHECK(t.voronoi_derivatives_within({-9, -9, -9}, {9, 9, 9}, in_rows<4>(walls)).measures ==
+          t.voronoi_derivatives_within({-9, -9, -9}, {9, 9, 9}, walls).measures);
+    CHECK_THROWS(within(in_rows<2>(walls)), DELDRIFT_WRONG_COUNT, "half_spaces have 2 coordinates each, but must have 4");
+    const std::vector<std::array<double, 2>> corners{{0, 0}, {1, 0}, {0, 1}, {0.25, 0.25}};
+    CHECK(deldrift::in_sphere(2, corners) == 1);
+    CHECK(deldrift::orientation(2, std::vector<std::array<double, 2>>{{0, 0}, {0, 1}, {1, 0}}) == -1);
+    const std::vector<std::array<double, 2>> box{{2, 0}, {0.5, 2}}, later{{3, 0}, {0, 2}};
+    const std::vector<double> flat_near{2.125, 0, 1, 0, 0, 1, 0.25, 0.25};
+    const std::vector<std::array<double, 2>> near = in_rows<2>(flat_near);
+    Triangulation p(2, corners, deldrift::Periodic(box));
+    CHECK(p.vectors() == std::vector<double>({2, 0, 0.5, 2}));
+    CHECK(p.wrap_positions(corners).places == p.wrap_positions(std::vector<double>{0, 0, 1, 0, 0, 1, 0.25, 0.25}).places);
+    CHECK(p.wrap_positions(corners, near).shifts == p.wrap_positions(corners, flat_near).shifts);
+    CHECK(p.wrap_positions(corners, near).shifts != p.wrap_positions(corners).shifts);
+    p.stage_vectors(later);
+    p.commit_timestamp();
+    CHECK(p.vectors() == std::vector<double>({3, 0, 0, 2}));
+}
+
 // ----------------------------------------------------------------------------------------------------- cells
 
 static void cells_with_algorithms() {
@@ -314,6 +359,7 @@ int main() {
     single_precision_is_exact();
     wrong_positions_are_refused();
     positions_as_arrays();
+    rows_go_wherever_numbers_do();
     cells_with_algorithms();
     facets_are_each_there_once(2);
     facets_are_each_there_once(3);

@@ -26,7 +26,9 @@
 #ifndef DELDRIFT_CGAL_HPP
 #define DELDRIFT_CGAL_HPP
 
-#ifndef __cpp_exceptions
+#if __cplusplus < 201703L
+#error "deldrift/cgal.hpp is for C++17 and later: compile with -std=c++17"
+#elif !defined __cpp_exceptions
 #error "deldrift/cgal.hpp throws exceptions, which are disabled: use deldrift.h, whose functions return a status"
 #else
 

@@ -98,11 +98,15 @@ public:
             throw Error(DELDRIFT_INVALID_DIMENSION,
                         "dimension is " + std::to_string(dimension) + ", but must be 2 or 3");
         }
-        if (coordinates_ > 0 && coordinates_ != dimension) {
+        return rows(argument, dimension, room);
+    }
+    // What has `width` numbers in a row, 4 at most, as half-spaces do.
+    span<const double> rows(const char *argument, std::uint32_t width, std::vector<double> &room) const {
+        if (coordinates_ > 0 && coordinates_ != width) {
             throw Error(DELDRIFT_WRONG_COUNT, argument + (" have " + std::to_string(coordinates_)) +
-                                                  " coordinates each, but must have " + std::to_string(dimension));
+                                                  " coordinates each, but must have " + std::to_string(width));
         }
-        const std::size_t n_axes = kind_ == Kind::numbers ? 1 : dimension;
+        const std::size_t n_axes = kind_ == Kind::numbers ? 1 : width;
         if (is_in_place(n_axes)) return {reinterpret_cast<const double *>(axes_[0]), count_ * n_axes};
         if (axes_[0] == nullptr && count_ > 0) throw Error(DELDRIFT_NULL_ARGUMENT, argument + std::string(" is NULL"));
         room.resize(count_ * n_axes);
@@ -117,7 +121,7 @@ private:
     Positions(const S *first, std::size_t count, std::ptrdiff_t n_bytes, Kind kind) noexcept
         : stride_(n_bytes), count_(count), kind_(kind), is_float_(std::is_same_v<S, float>) {
         static_assert(std::is_same_v<S, double> || std::is_same_v<S, float>, "coordinates are double or float");
-        for (std::size_t k = 0; first != nullptr && k < 3; k++) {
+        for (std::size_t k = 0; first != nullptr && k < 4; k++) {
             axes_[k] = reinterpret_cast<const unsigned char *>(first) + k * sizeof(S);
         }
     }
@@ -162,7 +166,7 @@ private:
     }
 
     // Where each coordinate of the first point is, and how many bytes further that of the next one.
-    const unsigned char *axes_[3] = {nullptr, nullptr, nullptr};
+    const unsigned char *axes_[4] = {nullptr, nullptr, nullptr, nullptr};
     std::ptrdiff_t stride_ = sizeof(double);
     // Of points, or of numbers one after the other.
     std::size_t count_ = 0;

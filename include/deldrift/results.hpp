@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "positions.hpp"
 #include "span.hpp"
 
 namespace deldrift {
@@ -61,8 +62,8 @@ struct VoronoiDerivatives {
 
 // The vectors of a periodic box, one after the other; see deldrift_create_periodic.
 struct Periodic {
-    explicit Periodic(span<const double> of) : vectors(of) {}
-    span<const double> vectors;
+    explicit Periodic(const Positions &of) noexcept : vectors(of) {}
+    Positions vectors;
 };
 
 // Rows of as many multiples of vectors as the dimension says, one for each corner of each cell; see deldrift_cell_shifts.

@@ -1,4 +1,5 @@
 // How processes agree: one reduction tells all of them whether one has refused, and the greatest of some numbers.
+#include <locale.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -14,10 +15,14 @@ static const double LARGEST = 1e57; // of coordinates, as deldrift.h has it
 void dm_refuse(dm_refusal *refusal, deldrift_status status, const char *format, ...) {
     if (refusal->status != DELDRIFT_OK) return;
     refusal->status = status;
+    // Numbers with a point, whatever the locale of the program.
+    locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(refusal->message, sizeof refusal->message, format, arguments);
     va_end(arguments);
+    uselocale(before);
+    if (plain) freelocale(plain);
 }
 
 bool dm_took(dm_refusal *refusal, deldrift_status status) {

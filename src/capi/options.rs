@@ -6,7 +6,7 @@ use std::mem::{MaybeUninit, offset_of};
 use std::ptr;
 
 use super::guard;
-use super::pointers::{Array, Input};
+use super::pointers::{Array, Input, Output, given};
 use super::status::Failure;
 use crate::error::Error;
 use crate::machine::memory;
@@ -92,6 +92,28 @@ pub struct deldrift_options {
     /// Handed to the callbacks as it is.
     pub user_data: *mut c_void,
 }
+
+/// Sets struct_size and the default of every other option. NULL is legal and does nothing.
+///
+/// C and C++ programs have it from this header, so that it fills the structure of the header, whichever later version
+/// they run with. Other languages have a function of this name in the library. In every version that one fills the
+/// structure as it is here, and says so in struct_size; a program that knows more fields sets them to zero, which is the
+/// default of all, and struct_size to the size of its structure.
+///
+/// Cost: constant.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_options_init(options: *mut deldrift_options) {
+    given!(options: Output);
+    if let Ok(Some(place)) = options.if_any() {
+        place.write(deldrift_options::DEFAULT);
+    }
+}
+
+/// The last field that `deldrift_options_init` fills. Once there are more fields it must go on to fill these alone: the
+/// structure of a program that calls it may end here.
+const _: () = assert!(
+    offset_of!(deldrift_options, user_data) + size_of::<*mut c_void>() == size_of::<deldrift_options>()
+);
 
 /// Greatest `struct_size` that is taken for a size: anything above it is more likely to be garbage, and
 /// would have its tail looked at far beyond any structure.

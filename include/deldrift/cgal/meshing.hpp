@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <list>
+#include <locale>
+#include <sstream>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -57,8 +59,10 @@ double size_bound_of(const Delaunay_mesh_size_criteria_2<Tr> &criteria) noexcept
 }
 
 inline Error no_bound(const char *name, double bound, const std::string &range) {
-    const std::string what = std::string("the ") + name + " bound is " + std::to_string(bound);
-    return Error(DELDRIFT_INVALID_VALUE, what + ", and must be " + range);
+    std::ostringstream what;
+    what.imbue(std::locale::classic());
+    what << "the " << name << " bound is " << bound << ", and must be " << range;
+    return Error(DELDRIFT_INVALID_VALUE, what.str());
 }
 // For a triangulation with so many ids.
 template <class Criteria>
