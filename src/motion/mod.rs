@@ -52,7 +52,7 @@ pub use reading::geometry::{
     BoundaryFacet, Interpolation, OrderedStar, Rows, VertexValues, VoronoiCell, VoronoiCells, VoronoiFacet,
     VoronoiFacets,
 };
-pub(crate) use reading::geometry::{Ridges, list_boundary, nowhere, tell_all};
+pub(crate) use reading::geometry::{Ridges, first_cells, list_boundary, nowhere, tell_all};
 pub use reading::near::{InReach, VerticesInReach};
 pub use reading::query::Location;
 pub(crate) use reading::query::cells_at;
