@@ -8,7 +8,7 @@
 
 #include <unistd.h>
 
-enum { ROOM = 256, BYTES = 28672, PLACES = 30, N_SEGMENTS = ROOM / 3 };
+enum { ROOM = 256, BYTES = 40960, PLACES = 30, N_SEGMENTS = ROOM / 3 };
 
 #include "words.h"
 

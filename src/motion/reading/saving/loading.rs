@@ -86,12 +86,11 @@ impl Reader<'_> {
             }
             all.push(is_there.then_some(segment));
         }
-        let leaving = self.numbers::<SegmentId>(removals)?;
-        let mut sorted = memory::copy_of(&leaving)?;
-        sorted.sort_unstable();
+        let mut leaving = self.numbers::<SegmentId>(removals)?;
+        leaving.sort_unstable();
         let is_bad = |&&id: &&SegmentId| id.index() >= laid || all[id.index()].is_none();
-        let twice = sorted.windows(2).find(|pair| pair[0] == pair[1]).map(|pair| &pair[0]);
-        if let Some(&segment) = sorted.iter().find(is_bad).or(twice) {
+        let twice = leaving.windows(2).find(|pair| pair[0] == pair[1]).map(|pair| &pair[0]);
+        if let Some(&segment) = leaving.iter().find(is_bad).or(twice) {
             return Err(Damage::Segment { segment }.into());
         }
         let segments = memory::boxed(Segments::of_saved(all, laid, leaving))?;
