@@ -305,7 +305,11 @@ static void *from_a_thread_during_a_call(void *unused) {
     return unused;
 }
 
+// The path of the first thread, for others.
+static char first_path[300];
+
 static void *from_a_thread(void *unused) {
+    memcpy(path, first_path, sizeof path);
     for (size_t k = 0; k < n_functions; k++) {
         const function *f = &functions[k];
         if (f->of_plane && dimension == 3) continue;
@@ -536,6 +540,7 @@ static void try_all(void) {
     memset(&untouched, 0x4d, sizeof untouched);
     const char *folder = getenv("TMPDIR");
     snprintf(path, sizeof path, "%s/deldrift-abuse-%d", folder == NULL ? "/tmp" : folder, (int)getpid());
+    memcpy(first_path, path, sizeof path);
     snprintf(path_saved, sizeof path_saved, "%s-saved", path);
     for (dimension = 2; dimension <= 3; dimension++) {
         make_bases();

@@ -6,48 +6,53 @@
 #include "states.h"
 
 #include <pthread.h>
-#include <sched.h>
 #include <stdatomic.h>
 
 // COPIES stands for a copy that tells its cells and changes, and NOBODY for the end.
-enum { N_THREADS = 3, MANY = 700, ROUNDS = 4, COPIES = 1000, NOBODY = 1001 };
+enum { N_THREADS = 3, MANY = 8000, ROUNDS = 2, COPIES = 1000, NOBODY = 1001 };
 
-// Of a round: what each thread calls, and what has come of it. A thread begins when the number of the round has grown.
+// Of a round: what each thread calls, and what has come of it. All begin together, and end together.
 static struct {
     size_t call;
     answer given;
 } turns[N_THREADS];
 
-static atomic_size_t round_number, n_ready, n_done;
+static pthread_barrier_t begins, ends_all;
+static atomic_size_t n_ready;
 static size_t n_meetings, n_wrong;
 
-static void wait_for(atomic_size_t *number, size_t value) {
-    while (atomic_load(number) < value) sched_yield();
+static void wait_at(pthread_barrier_t *barrier) {
+    const int waited = pthread_barrier_wait(barrier);
+    CHECK(waited == 0 || waited == PTHREAD_BARRIER_SERIAL_THREAD);
 }
 
 static uint64_t told_by(deldrift_triangulation *of);
 
-static uint64_t told_by_copy(void) {
-    deldrift_triangulation *const copy = spare();
-    const uint64_t sum = told_by(copy);
-    deldrift_destroy(copy);
+// Several are made, while cells are brought up to date; what all tell, or nothing if they differ.
+static uint64_t told_by_copies(void) {
+    deldrift_triangulation *copies[4];
+    uint64_t sum = 0;
+    for (size_t k = 0; k < 4; k++) copies[k] = spare();
+    for (size_t k = 0; k < 4; k++) {
+        const uint64_t told_by_one = told_by(copies[k]);
+        sum = k == 0 || sum == told_by_one ? told_by_one : 0;
+        deldrift_destroy(copies[k]);
+    }
     return sum;
 }
 
-static void meet(size_t thread, size_t this_round) {
-    // So that they begin as nearly at once as can be.
-    atomic_fetch_add(&n_ready, 1);
-    for (size_t spins = 0; atomic_load(&n_ready) < N_THREADS * this_round; spins++) {
-        if (spins > 1000) sched_yield();
-    }
+static void meet(size_t thread) {
+    // So that they begin as nearly at once as can be, if all are running.
+    const size_t round_ends = (atomic_fetch_add(&n_ready, 1) / N_THREADS + 1) * N_THREADS;
+    for (size_t spins = 0; spins < 3000 && atomic_load(&n_ready) < round_ends; spins++) continue;
     answer *const given = &turns[thread].given;
     if (turns[thread].call == COPIES) {
-        given->more = told_by_copy();
+        given->more = told_by_copies();
     } else {
         given->status = ask(turns[thread].call, &given->more);
         given->out = out;
     }
-    atomic_fetch_add(&n_done, 1);
+    wait_at(&ends_all);
 }
 
 // Each writes files of its own.
@@ -58,42 +63,39 @@ static void name_path(size_t thread) {
 
 static void *attend(void *number) {
     name_path(*(size_t *)number);
-    for (size_t this_round = 1;; this_round++) {
-        wait_for(&round_number, this_round);
+    for (;;) {
+        wait_at(&begins);
         if (turns[0].call == NOBODY) {
             unlink(path);
             return NULL;
         }
-        meet(*(size_t *)number, this_round);
+        meet(*(size_t *)number);
     }
 }
 
 // One round, on the triangulation in use.
 static void hold(size_t x, size_t y) {
-    const size_t this_round = atomic_load(&round_number) + 1;
     turns[0].call = turns[2].call = x;
     turns[1].call = y;
-    atomic_store(&round_number, this_round);
-    meet(0, this_round);
-    wait_for(&n_done, N_THREADS * this_round);
+    wait_at(&begins);
+    meet(0);
     n_meetings++;
 }
 
 static void wrong(const char *where, size_t change, size_t k) {
     if (n_wrong++ < 50) {
+        const size_t other = turns[1].call;
         printf("%uD, %s, %s: %s beside %s or %s: another answer\n", dimension, where, calls[change].text,
-               calls[turns[k].call].text, calls[turns[0].call].text, calls[turns[1].call].text);
+               calls[turns[k].call].text, calls[turns[0].call].text, other < n_calls ? calls[other].text : "a copy");
     }
 }
 
 static bool tells_room(size_t k) { return strcmp(calls[k].function, "deldrift_memory_bytes") == 0; }
 
-static void compare(const answer *wanted, const char *where, size_t change) {
-    for (size_t k = 0; k < N_THREADS; k++) {
-        const answer *const is = &turns[k].given, *const alone = &wanted[turns[k].call];
-        const bool is_same = is->more == alone->more && memcmp(&is->out, &alone->out, sizeof is->out) == 0;
-        if (is->status != alone->status || !(is_same || tells_room(turns[k].call))) wrong(where, change, k);
-    }
+static void compare(const answer *alone, const char *where, size_t change, size_t thread) {
+    const answer *const is = &turns[thread].given;
+    const bool is_same = is->more == alone->more && memcmp(&is->out, &alone->out, sizeof is->out) == 0;
+    if (is->status != alone->status || !(is_same || tells_room(turns[thread].call))) wrong(where, change, thread);
 }
 
 static deldrift_triangulation *changed(const state *from, size_t change, counts *then) {
@@ -131,7 +133,7 @@ static void meet_in(const state *from) {
             t = changed(from, changers[c], &then);
             use_counts(&then);
             hold(x, y);
-            compare(wanted, from->name, changers[c]);
+            for (size_t k = 0; k < N_THREADS; k++) compare(&wanted[turns[k].call], from->name, changers[c], k);
             deldrift_destroy(t);
         }
     }
@@ -154,14 +156,19 @@ static void meet_with_many(void) {
     told_by(of);
     for (size_t other = 0; other < n_calls * ROUNDS; other++) {
         const size_t k = other % n_calls;
-        // The bytes of all have no room either, by which copies are compared elsewhere.
-        if (calls[k].changes || strcmp(calls[k].function, "deldrift_clone") == 0) continue;
+        // Fields for files are of few; copies are compared by their bytes elsewhere, for which there is no room here.
+        if (calls[k].changes || calls[k].writes || strcmp(calls[k].function, "deldrift_clone") == 0) continue;
         for (size_t i = 0; i < MANY * dimension; i++) to[i] = next_random(&seed);
         OK(deldrift_commit_positions(of, to, MANY, NULL));
         t = of;
         // There is no room for what is told of all.
-        use_counts(&(counts){ROOM - 1, ROOM - 1, 0});
+        const counts few = {ROOM - 1, ROOM - 1, 0};
+        use_counts(&few);
         hold(k, COPIES);
+        static answer alone;
+        ask_for(k, of, &few, &alone);
+        compare(&alone, "many", k, 0);
+        compare(&alone, "many", k, 2);
         const uint64_t by_copy = turns[1].given.more;
         if (by_copy != told_by(of) && n_wrong++ < 50) printf("%uD: a copy beside %s tells other changes\n", dimension, calls[k].text);
     }
@@ -175,6 +182,7 @@ int main(int argc, char **argv) {
     name_path(0);
     make_all_arguments(dimension);
     pthread_t threads[N_THREADS];
+    CHECK(pthread_barrier_init(&begins, NULL, N_THREADS) == 0 && pthread_barrier_init(&ends_all, NULL, N_THREADS) == 0);
     size_t numbers_of_threads[N_THREADS], n_states = 0;
     for (size_t k = 1; k < N_THREADS; k++) {
         numbers_of_threads[k] = k;
@@ -188,7 +196,7 @@ int main(int argc, char **argv) {
         meet_in(from);
     }
     turns[0].call = NOBODY;
-    atomic_fetch_add(&round_number, 1);
+    wait_at(&begins);
     for (size_t k = 1; k < N_THREADS; k++) CHECK(pthread_join(threads[k], NULL) == 0);
     unlink(path);
     if (n_wrong > 0) {

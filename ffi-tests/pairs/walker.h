@@ -3,7 +3,7 @@
 #ifndef WALKER_H
 #define WALKER_H
 
-#include "fresh.h"
+#include "known.h"
 #include "states.h"
 
 enum { MOST_CALLS = 256 };
@@ -12,42 +12,6 @@ enum { MOST_CALLS = 256 };
 #ifndef MOST_TOLD
 #define MOST_TOLD 100
 #endif
-
-static bool is_periodic(const deldrift_triangulation *at) {
-    size_t count;
-    OK(deldrift_vectors(at, NULL, 0, &count));
-    return count > 0;
-}
-
-static uint64_t number_at(const uint8_t *bytes, size_t at) {
-    uint64_t number;
-    memcpy(&number, bytes + at, sizeof number);
-    return number;
-}
-
-// What is in the bytes but the indices of cells, and counts of what algorithms have done; of what repeats, what is known by its
-// vertices. That is what a loaded copy has in common with the original from the next change of cells on.
-static void look_at_sets(const deldrift_triangulation *at, look *l) {
-    look_at(at, l);
-    if (l->saving == DELDRIFT_POISONED) return;
-    l->arrays = set_of_cells(at, NULL);
-    // What algorithms choose by is not saved, nor are options.
-    l->algorithm = 0;
-    if (l->saving != DELDRIFT_OK) return;
-    if (is_periodic(at)) {
-        memset(l->saved, 0, sizeof l->saved);
-        l->size = 0;
-        return;
-    }
-    uint8_t *const bytes = l->saved;
-    const uint64_t n = number_at(bytes, 24), m = number_at(bytes, 32);
-    const uint64_t moving = number_at(bytes, 40), coming = number_at(bytes, 48);
-    const size_t rows = 168 + (n + moving + coming) * dimension * 8 + n * 4;
-    memset(bytes + rows, 0, m * (dimension + 1) * 8);
-    // Vertices moved, inserted and removed are counted by all alike.
-    memset(bytes + 80, 0, 9 * 8);
-    memset(bytes + l->size - 4, 0, 4);
-}
 
 static const state *from;
 // Whether its cells are read before the first call.
@@ -81,19 +45,8 @@ static const char *last_message(void) {
     return kept_message;
 }
 
-static bool is_of(size_t k, const char *function) { return strcmp(calls[k].function, function) == 0; }
-
-// What is known to be wrong, and why it is not mended here.
-static bool is_known(size_t b) {
-    const char *const said = last_message();
-    // Lists of what the latest refusal found: some refusals leave those of earlier ones, and clones have none.
-    if (b < n_calls && (is_of(b, "deldrift_segment_conflicts") || is_of(b, "deldrift_passings"))) return true;
-    // The marks of what is staged in boxes are too short after an insertion.
-    return strstr(said, "src/periodic/staged.rs") != NULL || strstr(said, "t is unusable") != NULL;
-}
-
 static void wrong(size_t a, size_t b, const char *where, const char *what) {
-    if (is_known(b)) return;
+    if (is_known(b, last_message())) return;
     const char *const second = b < n_calls ? calls[b].text : "";
     if (n_wrong++ < MOST_TOLD) {
         printf("%uD, %s: %s; %s: %s: %s (%s)\n", dimension, from->name, calls[a].text, second, where, what, last_message());
@@ -122,13 +75,12 @@ static deldrift_triangulation *copy_of(const look *saved_one) {
     return made;
 }
 
-static const char *name_of_end(deldrift_status status) { return name_of(status); }
-
 // A status that the header names, and none that tells of a defect.
 static void check_status_of(size_t a, size_t b, size_t k, deldrift_status status) {
+    if (is_known_status(k, status)) return;
     if (status >= 64 || (calls[k].documented >> status & 1) == 0 || status == DELDRIFT_INTERNAL_ERROR ||
         status == DELDRIFT_POISONED || status == DELDRIFT_BUSY) {
-        wrong(a, b, "status", name_of_end(status));
+        wrong(a, b, "status", name_of(status));
     }
 }
 
@@ -143,25 +95,13 @@ static void check_end(size_t a, size_t b, const deldrift_triangulation *of, cons
 // Answers that tell of more than what there is: room that has been made.
 static bool tells_room(size_t k) { return is_of(k, "deldrift_memory_bytes"); }
 
-// Answers of what a saved triangulation does not have with it.
-static bool is_not_saved(size_t k) {
-    return is_of(k, "deldrift_take_changes") || is_of(k, "deldrift_clone") || is_of(k, "deldrift_segment_conflicts") ||
-           is_of(k, "deldrift_passings") || is_of(k, "deldrift_refined_weights");
-}
-
-static void compare_answers(size_t a, size_t b, const char *where, const answer *is, const answer *should_be);
-
-// What is rounded in an order that follows from slots of the kernel, which are not saved.
-static bool is_rounded_by_slots(size_t k) {
-    static const char *const all[] = {"circumcentres",  "volumes",   "cells_in_reach",  "tolerance",  "interpolate",
-                                      "voronoi_volumes", "voronoi_facets", "voronoi_cells", "voronoi_derivatives",
-                                      "voronoi_cells_within", "voronoi_derivatives_within", "annulus_widths",
-                                      "standard_delimiter"};
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        const char *const at = strstr(calls[k].function, all[i]);
-        if (at != NULL && strlen(at) == strlen(all[i])) return true;
+static void compare_answers(size_t a, size_t b, const char *where, const answer *is, const answer *should_be) {
+    if (is->status != should_be->status) {
+        wrong(a, b, where, name_of(is->status));
+    } else if (!tells_room(b) &&
+               (is->more != should_be->more || memcmp(&is->out, &should_be->out, sizeof is->out) != 0)) {
+        wrong(a, b, where, "another answer");
     }
-    return false;
 }
 
 // Compares what a copy that was loaded gives.
@@ -179,18 +119,9 @@ static void compare_with_loaded(size_t a, size_t b, answer *is, const answer *wa
     compare_answers(a, b, "loaded copy", is, &should_be);
 }
 
-static void compare_answers(size_t a, size_t b, const char *where, const answer *is, const answer *should_be) {
-    if (is->status != should_be->status) {
-        wrong(a, b, where, name_of_end(is->status));
-    } else if (!tells_room(b) &&
-               (is->more != should_be->more || memcmp(&is->out, &should_be->out, sizeof is->out) != 0)) {
-        wrong(a, b, where, "another answer");
-    }
-}
-
 // Of answers that may tell other indices.
 static void compare_statuses(size_t a, size_t b, const char *where, const answer *is, const answer *should_be) {
-    if (is->status != should_be->status) wrong(a, b, where, name_of_end(is->status));
+    if (is->status != should_be->status) wrong(a, b, where, name_of(is->status));
     if (is->out.number != should_be->out.number) wrong(a, b, where, "another id");
 }
 
