@@ -25,7 +25,7 @@ static answer first_answers[MOST_CALLS], second_answers[MOST_CALLS];
 static look *first_ends, *first_end_sets;
 
 // States that have been compared with fresh builds.
-static uint64_t seen[1 << 16];
+static uint64_t seen[1 << 18];
 
 static bool is_new(uint64_t digest) {
     size_t at = digest % (sizeof seen / sizeof *seen);
