@@ -26,7 +26,6 @@ static void look_at_sets(const deldrift_triangulation *at, look *l) {
     l->algorithm = 0;
     if (l->saving != DELDRIFT_OK) return;
     if (is_periodic(at)) {
-        memset(l->saved, 0, sizeof l->saved);
         l->size = 0;
         return;
     }

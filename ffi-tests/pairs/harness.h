@@ -8,7 +8,7 @@
 
 #include <unistd.h>
 
-enum { ROOM = 256, BYTES = 40960, PLACES = 30, N_SEGMENTS = ROOM / 3 };
+enum { ROOM = 256, BYTES = 16384, MOST_SAVED = 6 * BYTES, PLACES = 30, N_SEGMENTS = ROOM / 3 };
 
 #include "words.h"
 
@@ -114,15 +114,17 @@ typedef struct {
     size_t size, ids, vertices, staged;
     uint64_t timestamp, arrays, positions;
     deldrift_algorithm algorithm;
-    uint8_t saved[BYTES];
+    // As many bytes as the size says.
+    uint8_t saved[MOST_SAVED];
 } look;
 
 static void look_at(const deldrift_triangulation *at, look *l) {
-    memset(l, 0, sizeof *l);
+    memset(l, 0, offsetof(look, saved));
     deldrift_cells_view view;
     double places[ROOM * 3];
     size_t count;
-    l->saving = deldrift_save(at, l->saved, BYTES, &l->size);
+    l->saving = deldrift_save(at, l->saved, MOST_SAVED, &l->size);
+    if (l->saving != DELDRIFT_OK) l->size = 0;
     // Nothing can be told of one that is unusable.
     if (l->saving == DELDRIFT_POISONED) return;
     CHECK(l->saving == DELDRIFT_OK || l->saving == DELDRIFT_PREPARED);
@@ -169,7 +171,7 @@ static uint64_t settle_outputs(void) {
         deldrift_changes changes;
         look_at(out.handle, &made);
         OK(deldrift_take_changes(out.handle, &changes));
-        sum = mixed(digest_of(&made, sizeof made), digest_of_changes(&changes));
+        sum = mixed(digest_of(&made, offsetof(look, saved) + made.size), digest_of_changes(&changes));
     }
     end_outputs();
     out.handle = untouched.handle;

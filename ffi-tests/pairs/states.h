@@ -150,7 +150,7 @@ static deldrift_triangulation *withdrawn(deldrift_triangulation *of) {
 }
 
 static deldrift_triangulation *loaded(deldrift_triangulation *of) {
-    static uint8_t bytes[BYTES];
+    static uint8_t bytes[MOST_SAVED];
     size_t size;
     deldrift_algorithm algorithm;
     OK(deldrift_save(of, bytes, sizeof bytes, &size));
