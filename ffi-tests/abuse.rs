@@ -8,15 +8,15 @@
 //! docs/ABUSE.md shows what has been tried.
 
 #[path = "abuse/cases.rs"]
-mod cases;
+pub mod cases;
 #[path = "abuse/declarations.rs"]
-mod declarations;
+pub mod declarations;
 #[path = "abuse/page.rs"]
 mod page;
 #[path = "abuse/roles.rs"]
 mod roles;
 #[path = "abuse/rows.rs"]
-mod rows;
+pub mod rows;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

@@ -5,6 +5,7 @@
 //! |---|---|
 //! | `header.rs` | the committed header is what the sources say, and compiles as C11 and C++17 |
 //! | `abuse.rs` | every function with wrong arguments, from callbacks and other threads, poisoned: docs/ABUSE.md |
+//! | `pairs.rs` | every two calls, one after the other, in many states, and every two that read at the same time |
 //! | `algorithms.rs` | what is said of algorithms elsewhere is what their rows say |
 //! | `programs.rs` | every program under `c/` and `cpp/`, with the shared and with the static library |
 //! | `cgal/both.cpp`, `cgal/constrained.cpp` | programs for CGAL, which write the same with deldrift in its place (`--include-ignored`) |
@@ -34,6 +35,7 @@ mod header;
 mod installation;
 mod memory;
 mod pages;
+mod pairs;
 mod programs;
 mod support;
 mod warnings;

@@ -947,8 +947,8 @@ deldrift_status deldrift_commit_timestamp(deldrift_triangulation *t,
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
 /// DELDRIFT_WRONG_COUNT if there are fewer or more, DELDRIFT_DUPLICATE_MOVE if a move is staged, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT,
-/// DELDRIFT_END_REMOVED, DELDRIFT_ENDS_MEET, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the
-/// triangulation stays at its timestamp, no move is staged, and insertions, removals and segments are staged as before.
+/// DELDRIFT_END_REMOVED, DELDRIFT_ENDS_MEET, DELDRIFT_PASSES_SEGMENT (if the options refuse it), DELDRIFT_TOO_MANY_CELLS,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation stays at its timestamp, no move is staged, and insertions, removals and segments are staged as before.
 /// Not to be called at the same time as any other call on t.
 deldrift_status deldrift_commit_positions(deldrift_triangulation *t,
                                           const double *positions,
@@ -2510,13 +2510,13 @@ deldrift_status deldrift_vertex_cells(const deldrift_triangulation *t,
                                       size_t capacity,
                                       size_t *count);
 
-/// A cell of each vertex, to cells: for each id the index of a cell of which the vertex is a corner, any of them;
+/// A cell of each vertex, to cells: for each id the index of the first cell of which the vertex is a corner;
 /// DELDRIFT_NONE for those that are hidden or removed, whose insertion is staged, and while there are no cells.
 ///
 /// cells: a buffer with room for capacity indices. count: receives deldrift_id_count, which is also written when the
 /// buffer is too small. NULL with capacity 0 asks for the count alone.
 ///
-/// Cost: n. After a change the first call also does what the first deldrift_cells does.
+/// Cost: n + m. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_cell_of_each_vertex(const deldrift_triangulation *t,
@@ -3306,8 +3306,9 @@ deldrift_status deldrift_clone(const deldrift_triangulation *t,
 /// Saves the triangulation: writes bytes from which deldrift_load makes one like it, on this machine or any other.
 ///
 /// Saved are positions, ids, segments, removed and hidden vertices, cells with their indices, staged moves, insertions and
-/// removals, the timestamp and statistics. Not saved are the options, what the algorithm keeps between commits, and
-/// which changes have been taken. docs/FORMAT.md describes the bytes. Of a periodic triangulation the vectors as they were
+/// removals, the timestamp and statistics. Not saved are the options, what the algorithm keeps between commits,
+/// which changes have been taken, the weights of deldrift_refined_weights, and what deldrift_segment_conflicts and
+/// deldrift_passings tell. docs/FORMAT.md describes the bytes. Of a periodic triangulation the vectors as they were
 /// given, those that are staged, and the periods of vertices are saved, too, and all images with their cells.
 ///
 /// buffer: room for capacity bytes, with any alignment. count: receives the number of bytes, which is also written

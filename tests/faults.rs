@@ -689,7 +689,8 @@ impl<G: Dimension> Scene<G> {
             }
             Call::CellOfEachVertex => {
                 let n = given(
-                    t.cell_of_each_vertex().map(|cells| cells.filter(|&cell| cell != CellId::NONE).count()),
+                    t.cell_of_each_vertex()
+                        .map(|cells| cells.iter().filter(|&&cell| cell != CellId::NONE).count()),
                 )?;
                 Given::Numbers(vec![n as u64])
             }

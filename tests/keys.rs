@@ -507,6 +507,76 @@ fn wrong_keys_are_not_loaded() {
     assert_eq!(Saved::of(&shorter).err(), Some(Damage::Counts));
 }
 
+/// Ten places in the plane.
+fn ten() -> Vec<[f64; 2]> {
+    let mut rng = Rng::new(59);
+    (0..10).map(|_| [rng.unit(), rng.unit()]).collect()
+}
+
+/// What is there once insertions have been discarded is what was there before they were staged: also in a copy that is loaded in
+/// between, whose next vertex has the same id and the same key.
+#[test]
+fn loaded_copies_forget_insertions_as_the_original_does() {
+    type Staging = fn(&mut MovingTriangulation<Plane>) -> Result<(), Error>;
+    // Keys come with the insertions; the highest id is given again; a higher one has been given, and compacted away.
+    let stagings: [(u8, Staging); 4] = [
+        (6, |t| t.stage_insertions_with_keys(&[[0.5, 0.5], [0.25, 0.5]], &[9, 9]).map(drop)),
+        (5, |t| {
+            t.remove_vertex(VertexId::new(9))?;
+            t.stage_insertions_at_free_ids(&[[0.5, 0.5]], None, drop)
+        }),
+        (5, |t| {
+            t.stage_insertions(&[[0.5, 0.5]])?;
+            let higher = t.insert_vertex(&[0.25, 0.5])?;
+            t.remove_vertex(higher)?;
+            t.compact().map(drop)
+        }),
+        (1, |t| t.stage_insertions(&[[0.5, 0.5]]).map(drop)),
+    ];
+    for (k, (version, stage)) in stagings.into_iter().enumerate() {
+        let mut t = MovingTriangulation::<Plane>::new(&ten(), Options::default()).expect("a build");
+        stage(&mut t).expect("room");
+        let bytes = t.saved().expect("room");
+        assert_eq!(bytes[8], version, "{k}");
+        let saved = Saved::of(&bytes).expect("saved");
+        let mut copy = MovingTriangulation::<Plane>::load(&saved, Options::default()).expect("saved");
+        let mut clone = t.try_clone(None).expect("room");
+        assert_eq!(copy.saved().expect("room"), bytes, "{k}");
+        let ends = [&mut t, &mut clone, &mut copy].map(|t| {
+            t.discard_moves();
+            let discarded = t.saved().expect("room");
+            let vertex = t.insert_vertex(&[0.125, 0.375]).expect("room");
+            (discarded, vertex, t.key(vertex).expect("present"), t.has_keys())
+        });
+        assert_eq!(ends[0], ends[1], "{k}");
+        assert_eq!(ends[0], ends[2], "{k}");
+    }
+}
+
+/// Data that tell of what was before the staged insertions tell what can have been, and nothing that follows from the rest.
+#[test]
+fn what_was_before_insertions_is_checked() {
+    let mut t = MovingTriangulation::<Plane>::new(&ten(), Options::default()).expect("a build");
+    t.stage_insertions_with_keys(&[[0.5, 0.5], [0.25, 0.5]], &[9, 9]).expect("room");
+    let bytes = t.saved().expect("room");
+    let at = bytes.len() - 4 - 16;
+    let with = |n_known: u64, had_keys: u64| {
+        let mut changed = bytes.clone();
+        changed[at..at + 8].copy_from_slice(&n_known.to_le_bytes());
+        changed[at + 8..at + 16].copy_from_slice(&had_keys.to_le_bytes());
+        seal(&mut changed);
+        let saved = Saved::of(&changed).expect("the right checksum");
+        MovingTriangulation::<Plane>::load(&saved, Options::default()).map(drop)
+    };
+    for (n_known, had_keys) in [(10, 0), (11, 0), (12, 1), (11, 1)] {
+        with(n_known, had_keys).unwrap_or_else(|error| panic!("{n_known} {had_keys}: {error}"));
+    }
+    // Below the ids that are not staged; above all; what version 3 says; neither 0 nor 1; of no size.
+    for (n_known, had_keys) in [(9, 0), (13, 0), (10, 1), (10, 2), (u64::MAX, 0)] {
+        assert_eq!(with(n_known, had_keys), Err(LoadError::Data(Damage::Counts)), "{n_known} {had_keys}");
+    }
+}
+
 /// Whether an id is given again: not one that is staged, nor where segments may still know it.
 #[test]
 fn ids_are_given_again_where_nothing_knows_them() {

@@ -104,7 +104,7 @@ fn refused_of_periodic(functions: &[Declaration]) -> BTreeSet<String> {
 }
 
 /// A call as an expression that gives a status.
-fn call<T: AsRef<str>>(function: &Declaration, arguments: &[T]) -> String {
+pub fn call<T: AsRef<str>>(function: &Declaration, arguments: &[T]) -> String {
     let arguments: Vec<&str> = arguments.iter().map(AsRef::as_ref).collect();
     let arguments = arguments.join(", ");
     match (function.returns.as_str(), function.name.as_str()) {

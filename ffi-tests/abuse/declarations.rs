@@ -44,14 +44,24 @@ impl Declaration {
         &self.documentation
     }
 
+    /// What the documentation says after "Errors:".
+    pub fn errors(&self) -> &str {
+        self.documentation.split_once("Errors:").map_or("", |(_, errors)| errors)
+    }
+
+    /// The functions that give DELDRIFT_PREPARED, if the documentation lists them.
+    pub fn refused_while_prepared(&self) -> Option<&str> {
+        let (_, list) = self.documentation.split_once("these calls give DELDRIFT_PREPARED")?;
+        list.split_once("All others").map(|(list, _)| list)
+    }
+
     /// The statuses after "Errors:", and those that the first page names for all that take a triangulation.
     pub fn documented_statuses(&self) -> BTreeSet<String> {
-        let errors = self.documentation.split_once("Errors:").map_or("", |(_, errors)| errors);
         let common =
             ["NULL_ARGUMENT", "MISALIGNED_ARGUMENT", "BUSY", "POISONED", "INTERNAL_ERROR", "PERIODIC"];
         let common = common.iter().filter(|_| self.takes_t()).map(|name| format!("DELDRIFT_{name}"));
         let known = statuses();
-        let named = errors.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').map(str::to_string);
+        let named = self.errors().split(|c: char| !c.is_ascii_alphanumeric() && c != '_').map(str::to_string);
         named.filter(|word| known.contains(word)).chain(common).collect()
     }
 }

@@ -4,7 +4,6 @@
 #define HARNESS_H
 
 #define _POSIX_C_SOURCE 200809L
-#include "research_options.h"
 #include "state.h"
 
 #include <malloc.h>
@@ -16,62 +15,28 @@
 // and one that is staged.
 enum { N_SEGMENTS = 4, LEAVING_SEGMENT = 3, REMOVED_SEGMENT = 4, COMING_SEGMENT = 5, N_SEGMENT_IDS = 6 };
 
-enum { COUNT = 13, REMOVED = 5, HIDDEN = 12, STAGED = 7, LEAVING = 6, COMING = COUNT, ROOM = 1024, BYTES = 16384 };
+enum { STAGED = 7, LEAVING = 6, COMING = 13 };
+
+// How many entries buffers have, how many bytes, and how many points are given at most.
+enum { ROOM = 1024, BYTES = 16384, PLACES = 15 };
+
+#include "words.h"
 
 // The triangulations that calls are made on: with moves, insertions and removals staged; without; and that, with the cell
 // within the fence refined.
 typedef enum { WITH_EDITS, WITHOUT_EDITS, REFINED, PREPARED, N_BASES } base;
 
-// All that calls write to.
-typedef struct {
-    deldrift_triangulation *handle;
-    deldrift_released_cells *owner;
-    size_t count, edge_count;
-    uint64_t timestamp;
-    uint32_t number;
-    int32_t sign;
-    bool flag;
-    deldrift_commit_report report;
-    deldrift_split_report split;
-    deldrift_changes changes;
-    deldrift_cells_view cells;
-    deldrift_location location, locations[8];
-    double numbers[ROOM], more_numbers[ROOM], rows[ROOM], few_numbers[8];
-    double facets[ROOM], more_facets[ROOM], facet_rows[ROOM];
-    size_t offsets[ROOM];
-    uint32_t ids[ROOM], more_ids[ROOM], few_ids[ROOM / 8], fewer_ids[ROOM / 8];
-    int32_t labels[ROOM];
-    uint64_t keys[ROOM];
-    int64_t shifts[ROOM], more_shifts[ROOM];
-    deldrift_conflict conflicts[8];
-    deldrift_quality quality;
-    deldrift_quality_report quality_report;
-    uint8_t bytes[BYTES];
-} outputs;
+// The bases.
+static deldrift_triangulation *bases[N_BASES];
+static uint32_t fence[3];
 
-static outputs out, untouched;
-
-// The bases; the one in use; what is in it.
-static uint32_t dimension;
-static deldrift_triangulation *bases[N_BASES], *t;
-static size_t n_ids, n_cells, n_edges;
-static uint32_t inner_cell, inner_corner, fence[3];
-
-// Arguments, which are made again before each call.
-static double points[(COUNT + 2) * 3], moved[(COUNT + 2) * 3], values[(COUNT + 2) * 3], inside[(COUNT + 2) * 3];
-static double outside[ROOM], low[ROOM], high[ROOM], vectors[(COUNT + 2) * 3], half_spaces[(COUNT + 2) * 3];
-static const double one_direction[9] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
-static uint32_t ids[3], ends[6], segments[2];
-static int32_t wholes[ROOM];
-static uint64_t keys[COUNT], greatest_keys[COUNT];
-static uint8_t mask[ROOM], fenced[ROOM], saved[BYTES];
+// One that has been saved.
+static uint8_t saved[BYTES];
 static size_t saved_size;
-static deldrift_options options;
-static deldrift_quality finer, coarser;
-static double sizes[ROOM];
-static deldrift_location near_by[8];
-static deldrift_field field;
-static char path[300], path_saved[320];
+static char path_saved[320];
+
+static const double one_direction[9] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
+static uint64_t greatest_keys[COUNT];
 static void *odd;
 
 static size_t n_tried, n_wrong;
@@ -112,7 +77,7 @@ static const char *text(const char *format, ...) {
 
 // A copy of an array of coordinates, with another number at this place.
 static double *bad(const double *from, size_t at, double value) {
-    static double made[(COUNT + 2) * 3];
+    static double made[PLACES * 3];
     memcpy(made, from, sizeof made);
     made[at] = value;
     return made;
@@ -149,7 +114,7 @@ static int32_t *bad_wholes(size_t at, int32_t value) {
 
 // Seeds of which the first is at a corner of the fence.
 static double *on_fence(void) {
-    static double made[(COUNT + 2) * 3];
+    static double made[PLACES * 3];
     memcpy(made, inside, sizeof made);
     memcpy(made, points + fence[0] * dimension, dimension * sizeof *made);
     return made;
@@ -198,25 +163,6 @@ static void *shifted(const void *data, size_t size) {
     return memcpy((char *)made + 1, data, size);
 }
 
-// Functions that give no status: what they do as one.
-static deldrift_status told(const char *said) {
-    return said != NULL && strlen(said) < 512 ? DELDRIFT_OK : DELDRIFT_INTERNAL_ERROR;
-}
-
-static deldrift_status destroyed(deldrift_triangulation *which) {
-    int32_t sign;
-    CHECK_STATUS(deldrift_orientation(9, points, &sign), DELDRIFT_INVALID_DIMENSION);
-    deldrift_destroy(which);
-    const char *said = deldrift_last_error();
-    if (strncmp(said, "dimension is 9", 14) == 0) return DELDRIFT_OK;
-    return strncmp(said, "t is in use", 11) == 0 ? DELDRIFT_BUSY : DELDRIFT_MISALIGNED_ARGUMENT;
-}
-
-static deldrift_status initialised(deldrift_options *given) {
-    deldrift_options_init(given);
-    return DELDRIFT_OK;
-}
-
 static deldrift_triangulation *spare(void) {
     deldrift_triangulation *made = NULL;
     OK(deldrift_clone(bases[0], &made));
@@ -232,54 +178,10 @@ static deldrift_released_cells *spare_cells(void) {
     return owner;
 }
 
-static deldrift_status freed(deldrift_released_cells *owner) {
-    deldrift_free_cells(owner);
-    return DELDRIFT_OK;
-}
-
 // Arguments and outputs as they are before every call.
 static void before(void) {
-    uint64_t seed = 3;
-    for (size_t i = 0; i < sizeof points / sizeof *points; i++) points[i] = next_random(&seed);
-    memcpy(points + HIDDEN * dimension, points + 3 * dimension, dimension * sizeof *points);
-    for (size_t i = 0; i < sizeof points / sizeof *points; i++) moved[i] = points[i] + 0.01 * next_random(&seed);
-    for (size_t i = 0; i < sizeof values / sizeof *values; i++) values[i] = (double)i;
-    for (size_t i = 0; i < sizeof inside / sizeof *inside; i++) inside[i] = 0.5;
-    // Its rows are the axes, each with a bit of the one before.
-    for (size_t i = 0; i < dimension * dimension; i++) {
-        vectors[i] = i % (dimension + 1) == 0 ? 1 : i % (dimension + 1) == dimension ? 0.25 : 0;
-    }
-    // Two: x is at most 0.5, and at least 0.25.
-    memset(half_spaces, 0, sizeof half_spaces);
-    half_spaces[0] = 2, half_spaces[dimension] = 1;
-    half_spaces[dimension + 1] = -1, half_spaces[2 * dimension + 1] = -0.25;
-    for (size_t i = 0; i < 3; i++) {
-        low[i] = -1;
-        high[i] = 2;
-        ids[i] = (uint32_t[]){0, 1, 4}[i];
-    }
-    for (size_t i = 0; i < ROOM; i++) wholes[i] = -5 * (int32_t)i;
-    for (size_t i = 0; i < COUNT; i++) {
-        keys[i] = 7 * i % 5;
-        greatest_keys[i] = UINT64_MAX;
-    }
-    for (size_t i = 0; i < 6; i++) ends[i] = (uint32_t[]){0, 1, 4, 2, 8, 11}[i];
-    for (size_t i = 0; i < 2; i++) segments[i] = (uint32_t)(2 - 2 * i);
-    for (size_t i = 0; i < ROOM; i++) sizes[i] = 1;
-    OK(deldrift_quality_init(&finer));
-    coarser = finer;
-    finer.greatest_area = 0.001;
-    outside[0] = outside[1] = 7;
-    memset(mask, 1, sizeof mask);
-    mask[0] = 0;
-    near_by[0] = (deldrift_location){DELDRIFT_LOCATION_VERTEX, 1};
-    field = (deldrift_field){"field", out.more_numbers, 1};
+    make_arguments();
     memset(&out, 0x4d, sizeof out);
-}
-
-static const char *name_of(deldrift_status status) {
-    static const char *const names[] = {STATUS_NAMES};
-    return status < sizeof names / sizeof *names ? names[status] : "an unknown status";
 }
 
 static void wrong(const char *function, const char *argument, const char *given, const char *what) {
@@ -324,12 +226,6 @@ static void use_base(base which) {
     OK(deldrift_id_count(t, &n_ids));
     OK(deldrift_cell_count(t, &n_cells));
     if (dimension == 2) mask_fence(t);
-}
-
-// Ends what a call has handed out.
-static void end_outputs(void) {
-    if (out.handle != untouched.handle) deldrift_destroy(out.handle);
-    if (out.owner != untouched.owner) deldrift_free_cells(out.owner);
 }
 
 // After a call: `message` is what has to be said, NULL if the call is legal.
@@ -409,7 +305,11 @@ static void *from_a_thread_during_a_call(void *unused) {
     return unused;
 }
 
+// The path of the first thread, for others.
+static char first_path[300];
+
 static void *from_a_thread(void *unused) {
+    memcpy(path, first_path, sizeof path);
     for (size_t k = 0; k < n_functions; k++) {
         const function *f = &functions[k];
         if (f->of_plane && dimension == 3) continue;
@@ -621,10 +521,12 @@ static void nothing_is_lost(void) {
 
 static void try_all(void) {
     static double somewhere[8];
+    memset(greatest_keys, 255, sizeof greatest_keys);
     odd = (char *)somewhere + 1;
     memset(&untouched, 0x4d, sizeof untouched);
     const char *folder = getenv("TMPDIR");
     snprintf(path, sizeof path, "%s/deldrift-abuse-%d", folder == NULL ? "/tmp" : folder, (int)getpid());
+    memcpy(first_path, path, sizeof path);
     snprintf(path_saved, sizeof path_saved, "%s-saved", path);
     for (dimension = 2; dimension <= 3; dimension++) {
         make_bases();

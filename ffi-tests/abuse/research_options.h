@@ -6,7 +6,7 @@
 
 static const deldrift_research_options research = {.struct_size = sizeof research};
 
-static deldrift_research_options *bad_research(size_t size, double share) {
+static inline deldrift_research_options *bad_research(size_t size, double share) {
     static deldrift_research_options made;
     made = (deldrift_research_options){.struct_size = size, .switch_share = share};
     return &made;

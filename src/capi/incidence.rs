@@ -124,13 +124,13 @@ pub unsafe extern "C" fn deldrift_vertex_cells(
     })
 }
 
-/// A cell of each vertex, to cells: for each id the index of a cell of which the vertex is a corner, any of them;
+/// A cell of each vertex, to cells: for each id the index of the first cell of which the vertex is a corner;
 /// DELDRIFT_NONE for those that are hidden or removed, whose insertion is staged, and while there are no cells.
 ///
 /// cells: a buffer with room for capacity indices. count: receives deldrift_id_count, which is also written when the
 /// buffer is too small. NULL with capacity 0 asks for the count alone.
 ///
-/// Cost: n. After a change the first call also does what the first deldrift_cells does.
+/// Cost: n + m. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
@@ -141,14 +141,11 @@ pub unsafe extern "C" fn deldrift_cell_of_each_vertex(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, cells[capacity]: Buffer, count: Output);
-    t.read_any(|t| match t {
-        Content::Open(t) => in_its_dimension!(t => {
-            cells.fill(count, t.id_count(), || Ok(t.cell_of_each_vertex()?.map(CellId::get)))
-        }),
-        Content::Periodic(t) => in_its_period!(t, t => {
+    t.read_any(|t| {
+        in_any!(t => {
             let first = || Ok(t.cell_of_each_vertex()?.into_iter().map(CellId::get));
             cells.fill(count, t.id_count(), first)
-        }),
+        })
     })
 }
 

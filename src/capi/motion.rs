@@ -256,8 +256,8 @@ pub unsafe extern "C" fn deldrift_commit_timestamp(
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
 /// DELDRIFT_WRONG_COUNT if there are fewer or more, DELDRIFT_DUPLICATE_MOVE if a move is staged, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT,
-/// DELDRIFT_END_REMOVED, DELDRIFT_ENDS_MEET, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the
-/// triangulation stays at its timestamp, no move is staged, and insertions, removals and segments are staged as before.
+/// DELDRIFT_END_REMOVED, DELDRIFT_ENDS_MEET, DELDRIFT_PASSES_SEGMENT (if the options refuse it), DELDRIFT_TOO_MANY_CELLS,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation stays at its timestamp, no move is staged, and insertions, removals and segments are staged as before.
 /// Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_commit_positions(

@@ -51,8 +51,9 @@ pub unsafe extern "C" fn deldrift_clone(
 /// Saves the triangulation: writes bytes from which deldrift_load makes one like it, on this machine or any other.
 ///
 /// Saved are positions, ids, segments, removed and hidden vertices, cells with their indices, staged moves, insertions and
-/// removals, the timestamp and statistics. Not saved are the options, what the algorithm keeps between commits, and
-/// which changes have been taken. docs/FORMAT.md describes the bytes. Of a periodic triangulation the vectors as they were
+/// removals, the timestamp and statistics. Not saved are the options, what the algorithm keeps between commits,
+/// which changes have been taken, the weights of deldrift_refined_weights, and what deldrift_segment_conflicts and
+/// deldrift_passings tell. docs/FORMAT.md describes the bytes. Of a periodic triangulation the vectors as they were
 /// given, those that are staged, and the periods of vertices are saved, too, and all images with their cells.
 ///
 /// buffer: room for capacity bytes, with any alignment. count: receives the number of bytes, which is also written

@@ -7,7 +7,7 @@ use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
-use crate::motion::{NO_CELL, NO_CORNER, Rows};
+use crate::motion::{NO_CELL, NO_CORNER, Rows, first_cells};
 use crate::periodic::cells::PeriodicCells;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
@@ -56,13 +56,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn cell_of_each_vertex(&self) -> Result<Vec<CellId>> {
-        let cells = self.read_cells()?;
-        let mut first = Vec::new();
-        memory::lengthen(&mut first, self.id_count(), NO_CELL)?;
-        for (cell, row) in CellId::range(0..cells.corners.len()).zip(&cells.corners) {
-            row.as_ref().iter().for_each(|&v| first[v] = first[v].min(cell));
-        }
-        Ok(first)
+        first_cells::<G>(&self.read_cells()?.corners, self.id_count())
     }
 
     /// The cells around the place of a vertex, ascending: one for each corner that is the vertex.

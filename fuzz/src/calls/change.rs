@@ -391,6 +391,9 @@ impl History<'_> {
             // What is loaded from is not in use by that call.
             self.callback.calls_back.set(false);
             let (options, chosen) = options(&mut self.s, &self.callback);
+            if let Some(with) = self.with {
+                return self.go_on_with(with);
+            }
             let hides = options.coincidence == 1 && !self.m.hidden().is_empty();
             let wanted = if hides { DELDRIFT_COINCIDENT } else { DELDRIFT_OK };
             if way == 1 {
@@ -410,11 +413,15 @@ impl History<'_> {
             self.is_ok(chosen.choose(other));
             (self.options, self.chosen) = (options, chosen);
             self.carried = Carried::default();
-            // What is saved does not tell which ids of staged insertions had been given before.
-            self.m.n_known = 0;
         }
         let (kept, gone) = if way == 0 && self.s.below(2) == 0 { (t, other) } else { (other, t) };
         self.t = kept;
+        self.end_other(gone);
+        self.check();
+    }
+
+    /// Destroys one whose cells outlive it.
+    pub(super) fn end_other(&self, gone: *mut deldrift_triangulation) {
         let (mut view, mut owner) = (MaybeUninit::uninit(), null_mut());
         self.is_ok(c!(deldrift_release_cells(gone, view.as_mut_ptr(), &mut owner)));
         // SAFETY: it has been written.
@@ -428,7 +435,6 @@ impl History<'_> {
         c!(deldrift_destroy(gone));
         assert_eq!(numbers(), before, "cells that have been handed over");
         c!(deldrift_free_cells(owner));
-        self.check();
     }
 
     /// The bytes that are saved.

@@ -1,5 +1,6 @@
 //! Bytes as a sequence of calls of the functions of the header, compared after each with a model and a fresh build.
 
+mod beside;
 pub mod called;
 mod change;
 pub mod check;
@@ -28,18 +29,28 @@ use std::ffi::{CStr, c_void};
 use std::ptr::{null, null_mut};
 use std::sync::Once;
 
-/// A history: a triangulation is created, changed, read and destroyed.
+/// A history: a triangulation is created, changed, read and destroyed. Some go on with copies as with the original.
 pub fn run(data: &[u8]) {
     static ONCE: Once = Once::new();
     // So that small triangulations are worked on by several threads.
     ONCE.call_once(deldrift::internals::use_all_threads);
-    let mut history = History::new(data);
+    live(data, None);
+    if data.iter().fold(0, |sum: u8, &byte| sum.wrapping_add(byte)) % 4 == 0 {
+        beside::compare(data);
+    }
+}
+
+/// Makes all calls; with what goes on where there are copies, or as the bytes say.
+fn live(data: &[u8], with: Option<beside::With>) -> Vec<beside::Seen> {
+    let mut history = History::new(data, with);
     let mut most = 60;
     while !history.s.is_done() && most > 0 {
         history.step();
+        history.note_seen();
         most -= 1;
     }
     history.end();
+    history.seen
 }
 
 /// What the callbacks of a triangulation are told, and tell.
@@ -117,6 +128,9 @@ struct History<'a> {
     has_segments: bool,
     /// The key of the next vertex, if vertices have keys. They ascend with ids, so that the model need not know them.
     next_key: Option<u64>,
+    /// What goes on where there are copies; as the bytes say, if nothing is given.
+    with: Option<beside::With>,
+    seen: Vec<beside::Seen>,
 }
 
 /// The numbers of places, for C.
@@ -190,7 +204,7 @@ fn options(s: &mut Source, callback: &Callback) -> (deldrift_options, Chosen) {
 }
 
 impl<'a> History<'a> {
-    fn new(data: &'a [u8]) -> Self {
+    fn new(data: &'a [u8], with: Option<beside::With>) -> Self {
         tally::HISTORIES.add(1);
         let mut s = Source::new(data);
         let flags = s.byte();
@@ -220,6 +234,8 @@ impl<'a> History<'a> {
             proves: flags & 0x3e == 0 && n < 60,
             has_segments: d == 2 && flags & 0x40 != 0,
             next_key: (flags & 0xc0 == 0x80).then_some(7),
+            with,
+            seen: Vec::new(),
         };
         for _ in 0..n {
             let p = history.place();
@@ -250,6 +266,10 @@ impl<'a> History<'a> {
         if choice & 0xe0 == 0x80 {
             self.cancel_after = Some(u32::from(self.s.byte() % 8));
             self.callback.calls_back.set(choice & 0x10 == 0);
+        }
+        if self.with.is_some() {
+            // What befalls calls does so at other places in copies, and calls that are taken back leave other hints.
+            (self.fault, self.cancel_after) = (None, None);
         }
         if self.has_segments && choice & 0x28 == 0x20 {
             self.change_segments();

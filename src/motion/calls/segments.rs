@@ -31,7 +31,6 @@ impl MovingTriangulation<Plane> {
     /// [`Error::NoSuchSegment`], [`Error::OutOfMemory`]; then none is staged.
     pub fn stage_segment_removals(&mut self, removals: &[SegmentId]) -> Result<()> {
         let segments = memory::made(&mut self.mesh.segments)?;
-        let before = segments.n_leaving();
         for (index, &segment) in removals.iter().enumerate() {
             let staged = match segments.get(segment) {
                 Some(_) if !segments.is_leaving(segment) => segments.stage_removal(segment),
@@ -40,7 +39,7 @@ impl MovingTriangulation<Plane> {
                 }
             };
             if let Err(error) = staged {
-                segments.truncate_removals(before);
+                segments.forget_removals(&removals[..index]);
                 return Err(error);
             }
         }

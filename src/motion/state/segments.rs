@@ -144,25 +144,33 @@ impl<G: Dimension> Segments<G> {
         Ok(first)
     }
 
-    /// Stages the removal of a segment that is in force.
+    /// Stages the removal of a segment that is in force, if it is not.
     pub(in crate::motion) fn stage_removal(&mut self, segment: SegmentId) -> Result<()> {
-        memory::push(&mut self.leaving, segment)
+        if let Err(at) = self.leaving.binary_search(&segment) {
+            memory::reserve(&mut self.leaving, 1)?;
+            self.leaving.insert(at, segment);
+        }
+        Ok(())
+    }
+
+    /// Forgets that removals are staged.
+    pub(in crate::motion) fn forget_removals(&mut self, segments: &[SegmentId]) {
+        for segment in segments {
+            if let Ok(at) = self.leaving.binary_search(segment) {
+                self.leaving.remove(at);
+            }
+        }
     }
 
     /// Whether the removal of a segment is staged.
     pub(in crate::motion) fn is_leaving(&self, segment: SegmentId) -> bool {
-        self.leaving.contains(&segment)
+        self.leaving.binary_search(&segment).is_ok()
     }
 
     /// Forgets what is staged.
     pub(in crate::motion) fn discard(&mut self) {
         self.all.truncate(self.n_laid);
         self.leaving.clear();
-    }
-
-    /// Takes the last removals out of what is staged, but for so many.
-    pub(in crate::motion) fn truncate_removals(&mut self, n: usize) {
-        self.leaving.truncate(n);
     }
 
     /// Puts what is staged back to what it was once.
@@ -176,12 +184,11 @@ impl<G: Dimension> Segments<G> {
 
     /// Takes a segment out of those that will be in force, and returns it: one that is staged is not there any more.
     pub(in crate::motion) fn take_out(&mut self, segment: SegmentId) -> Result<Segment> {
-        let entry = &mut self.all[segment];
-        let taken = entry.expect("a segment that is to be in force");
+        let taken = self.all[segment].expect("a segment that is to be in force");
         if segment.index() < self.n_laid {
-            memory::push(&mut self.leaving, segment)?;
+            self.stage_removal(segment)?;
         } else {
-            *entry = None;
+            self.all[segment] = None;
         }
         Ok(taken)
     }
@@ -351,7 +358,6 @@ impl<G: Dimension> Segments<G> {
         edges.clear();
         let n = if takes_staged { all.len() } else { *n_laid };
         memory::reserve(edges, n)?;
-        leaving.sort_unstable();
         for (id, segment) in SegmentId::range(0..n).zip(&*all) {
             let Some(segment) = segment else { continue };
             if takes_staged && leaving.binary_search(&id).is_ok() {

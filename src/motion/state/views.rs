@@ -290,7 +290,11 @@ impl<G: Dimension> Views<G> {
     /// A copy, of arrays that are brought up to date for it if there are any.
     pub(in crate::motion) fn copied(&self, kernel: &Delaunay<G>) -> Result<Self> {
         let visibilities = self.visibilities.copied()?;
-        let exist = self.current.get().is_some() || self.lock().cells.is_some();
+        // Asked under the lock, as another thread may be bringing them up to date: then they are in neither place.
+        let exist = {
+            let behind = self.lock();
+            self.current.get().is_some() || behind.cells.is_some()
+        };
         let mut views = Views { visibilities, ..Views::default() };
         if exist {
             views.show(self.cells(kernel)?.copied()?)?;

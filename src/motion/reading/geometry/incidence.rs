@@ -40,6 +40,16 @@ impl<T> Rows<T> {
     }
 }
 
+/// For each of `n_ids` vertices the first of these cells that has it as a corner; [`CellId::NONE`] where there is none.
+pub(crate) fn first_cells<G: Dimension>(corners: &[G::Vertices], n_ids: usize) -> Result<Vec<CellId>> {
+    let mut first = Vec::new();
+    memory::lengthen(&mut first, n_ids, CellId::NONE)?;
+    for (cell, row) in CellId::range(0..corners.len()).zip(corners).rev() {
+        row.as_ref().iter().for_each(|&v| first[v] = cell);
+    }
+    Ok(first)
+}
+
 /// The vertices that share a cell with a vertex.
 pub(super) struct Neighbours<'t, G: Dimension> {
     corners: &'t [G::Vertices],

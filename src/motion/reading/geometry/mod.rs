@@ -64,6 +64,7 @@ pub(crate) use dual_cells::nowhere;
 pub use dual_cells::{VoronoiCell, VoronoiCells};
 pub use dual_facets::{VoronoiFacet, VoronoiFacets};
 pub use incidence::Rows;
+pub(crate) use incidence::first_cells;
 pub use interpolation::{Interpolation, VertexValues};
 pub(crate) use measures::tell_all;
 pub(crate) use natural::Ridges;

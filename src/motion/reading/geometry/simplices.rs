@@ -8,8 +8,7 @@ use crate::complex::Corners;
 use crate::delaunay::{Delaunay, Dimension, IndexSet};
 use crate::error::{Error, Result};
 use crate::ids::{CellId, SiteId, Slot, VertexId};
-use crate::motion::reading::geometry::incidence::stars;
-use crate::motion::state::mesh::Standing;
+use crate::motion::reading::geometry::incidence::{first_cells, stars};
 use crate::motion::triangulation::MovingTriangulation;
 
 /// From so many simplices for each vertex on, listing the cells of all vertices is faster.
@@ -109,29 +108,18 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// For each id a cell of which the vertex is a corner; [`CellId::NONE`] for those that are hidden or removed, and
+    /// For each id the first cell of which the vertex is a corner; [`CellId::NONE`] for those that are hidden or removed, and
     /// where there are no cells.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`].
-    pub fn cell_of_each_vertex(&self) -> Result<impl Iterator<Item = CellId> + '_> {
-        let index_of = self.cell_arrays()?.index_of();
-        let kernel = &self.mesh.kernel;
-        Ok(self.mesh.standings().map(move |(_, standing)| match standing {
-            Standing::Shown(s) if kernel.has_cells() => index_of[finite_cell(kernel, kernel.site(s).cell)],
-            _ => CellId::NONE,
-        }))
+    pub fn cell_of_each_vertex(&self) -> Result<Vec<CellId>> {
+        first_cells::<G>(self.cells()?.corners, self.id_count())
     }
 }
 
 fn are_different(sites: &[SiteId]) -> bool {
     (1..sites.len()).all(|k| !sites[..k].contains(&sites[k]))
-}
-
-/// A cell, or the finite cell behind a ghost cell.
-fn finite_cell<G: Dimension>(kernel: &Delaunay<G>, slot: Slot) -> Slot {
-    let cell = kernel.complex().cell(slot);
-    if cell.is_ghost() { cell.neighbour(G::D).cell() } else { slot }
 }
 
 /// The slot of a finite cell that has all these sites as corners; none if there are no sites.

@@ -9,11 +9,15 @@ use crate::motion::state::segments::Segment;
 /// on its way.
 const MAGIC: [u8; 8] = *b"\x89DLD\r\n\x1a\n";
 
-/// The version of the format, without segments and keys, with segments, with keys, and of what repeats.
+/// The version of the format, without segments and keys, with segments, with keys, and of what repeats; and without keys and
+/// with some where the [staged insertions](StagedSince) have a history.
 const VERSION: u32 = 1;
 const WITH_SEGMENTS: u32 = 2;
 const WITH_KEYS: u32 = 3;
 const PERIODIC: u32 = 4;
+const SINCE: u32 = 5;
+const SINCE_WITH_KEYS: u32 = 6;
+const LATEST: u32 = SINCE_WITH_KEYS;
 
 /// Bytes of a key.
 const KEY: usize = 8;
@@ -34,6 +38,9 @@ const MADE_VERTEX: usize = 8;
 
 /// Bytes of a piece of a segment: its id, that of the segment, and the ends of that.
 const PIECE: usize = 16;
+
+/// Bytes about what was before insertions were staged.
+const SINCE_BYTES: usize = 16;
 
 /// Bytes of the header.
 pub(super) const SIZE: usize = 72 + 8 * N_SUMS;
@@ -94,8 +101,8 @@ impl Beginning {
             return Err(Damage::NoHeader { given: data.len(), wanted: SIZE });
         }
         let version = word(data, 8);
-        if !matches!(version, VERSION..=PERIODIC) {
-            return Err(Damage::Version { given: version, latest: PERIODIC });
+        if !matches!(version, VERSION..=LATEST) {
+            return Err(Damage::Version { given: version, latest: LATEST });
         }
         let size = number(data, 16);
         if size != given {
@@ -131,6 +138,28 @@ impl Beginning {
     }
 }
 
+/// What was before insertions were staged, and is again when they are discarded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct StagedSince {
+    /// How many ids had been given, which are not given again.
+    pub(super) n_known: usize,
+    /// Whether vertices had keys.
+    pub(super) had_keys: bool,
+}
+
+impl StagedSince {
+    /// In the order in which they are saved.
+    pub(super) fn numbers(&self) -> [u64; 2] {
+        [self.n_known as u64, u64::from(self.had_keys)]
+    }
+
+    /// Those of two numbers.
+    pub(super) fn of([n_known, had_keys]: [u64; 2]) -> Result<Self, Damage> {
+        let n_known = usize::try_from(n_known).map_err(|_| Damage::Counts)?;
+        if had_keys > 1 { Err(Damage::Counts) } else { Ok(StagedSince { n_known, had_keys: had_keys == 1 }) }
+    }
+}
+
 /// How much there is of everything.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Header {
@@ -142,6 +171,8 @@ pub(super) struct Header {
     pub(super) removals: usize,
     /// Whether vertices have keys of the program's.
     pub(super) has_keys: bool,
+    /// Whether the data tell what was before insertions were staged, as it does not follow from these.
+    pub(super) tells_since: bool,
     /// Bytes about segments, 0 without any.
     pub(super) segment_bytes: usize,
     /// All but the number of hidden vertices.
@@ -158,6 +189,7 @@ impl Header {
             + 8 * d * sum(&places)
             + 4 * (sum(&numbers) + 2 * (d + 1) * self.cells as u128)
             + if self.has_keys { KEY as u128 * self.ids as u128 } else { 0 }
+            + if self.tells_since { SINCE_BYTES as u128 } else { 0 }
             + self.segment_bytes as u128
             + CHECKSUM as u128;
         u64::try_from(bytes).ok()
@@ -165,10 +197,12 @@ impl Header {
 
     /// Its bytes.
     pub(super) fn bytes(&self) -> [u8; SIZE] {
-        let version = match (self.has_keys, self.segment_bytes > 0) {
-            (true, _) => WITH_KEYS,
-            (false, true) => WITH_SEGMENTS,
-            (false, false) => VERSION,
+        let version = match (self.tells_since, self.has_keys, self.segment_bytes > 0) {
+            (true, true, _) => SINCE_WITH_KEYS,
+            (true, false, _) => SINCE,
+            (false, true, _) => WITH_KEYS,
+            (false, false, true) => WITH_SEGMENTS,
+            (false, false, false) => VERSION,
         };
         let size = self.size().expect("what is in memory has a size");
         let counts = [self.ids, self.cells, self.moves, self.insertions, self.removals];
@@ -183,9 +217,10 @@ impl Header {
             return Err(Damage::Periodic { is_periodic: true });
         }
         let [ids, cells, moves, insertions, removals] = counts;
-        let has_keys = version == WITH_KEYS;
-        let mut header =
-            Header { dimension, ids, cells, moves, insertions, removals, has_keys, ..Header::default() };
+        let has_keys = matches!(version, WITH_KEYS | SINCE_WITH_KEYS);
+        let tells_since = matches!(version, SINCE | SINCE_WITH_KEYS);
+        let counts = Header { dimension, ids, cells, moves, insertions, removals, ..Header::default() };
+        let mut header = Header { has_keys, tells_since, ..counts };
         if version != VERSION {
             // All that is left is about segments; how much that has to be is told there.
             let left = header.size().and_then(|known| size.checked_sub(known)).ok_or(Damage::Counts)?;

@@ -9,7 +9,7 @@ use crate::machine::memory;
 use crate::machine::threads::Threads;
 use crate::motion::options::Options;
 use crate::motion::reading::saving::Saved;
-use crate::motion::reading::saving::header::{GIVEN_UP, Header, SIZE, SegmentCounts};
+use crate::motion::reading::saving::header::{GIVEN_UP, Header, SIZE, SegmentCounts, StagedSince};
 use crate::motion::reading::saving::reader::Reader;
 use crate::motion::state::cells::Cells;
 use crate::motion::state::checking::check_position;
@@ -29,6 +29,15 @@ impl Reader<'_> {
         memory::reserve_exact(&mut keys, header.ids)?;
         keys.extend(self.entries(header.ids).iter().map(|&bytes| u64::from_le_bytes(bytes)));
         Keys::of_list(keys)
+    }
+
+    /// What was before insertions were staged, if the data tell it.
+    fn since(&mut self, header: &Header) -> Result<Option<StagedSince>, Damage> {
+        if !header.tells_since {
+            return Ok(None);
+        }
+        let numbers = self.entries::<8>(2);
+        StagedSince::of([0, 1].map(|k| u64::from_le_bytes(numbers[k]))).map(Some)
     }
 
     fn rows<I: Id, C: Corners<I>>(&mut self, n: usize) -> Result<Vec<C>> {
@@ -77,12 +86,11 @@ impl Reader<'_> {
             }
             all.push(is_there.then_some(segment));
         }
-        let leaving = self.numbers::<SegmentId>(removals)?;
-        let mut sorted = memory::copy_of(&leaving)?;
-        sorted.sort_unstable();
+        let mut leaving = self.numbers::<SegmentId>(removals)?;
+        leaving.sort_unstable();
         let is_bad = |&&id: &&SegmentId| id.index() >= laid || all[id.index()].is_none();
-        let twice = sorted.windows(2).find(|pair| pair[0] == pair[1]).map(|pair| &pair[0]);
-        if let Some(&segment) = sorted.iter().find(is_bad).or(twice) {
+        let twice = leaving.windows(2).find(|pair| pair[0] == pair[1]).map(|pair| &pair[0]);
+        if let Some(&segment) = leaving.iter().find(is_bad).or(twice) {
             return Err(Damage::Segment { segment }.into());
         }
         let segments = memory::boxed(Segments::of_saved(all, laid, leaving))?;
@@ -233,6 +241,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut later = Reader(&reader.0[4 * (header.moves + header.insertions + header.removals)..]);
         let keys = later.keys(header)?;
         let n_present = check_vertices::<G>(&positions, &representatives, &keys)?;
+        let since = later.since(header)?;
         let (segments, made) = later.segments::<G>(header)?.unzip();
         let made = made.flatten();
         if let Some(&(vertex, _)) =
@@ -276,7 +285,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         t.statistics = header.statistics;
         t.statistics.coincident = t.mesh.hidden.count() as u64;
-        t.stage_saved(header, &mut reader, &moved, &coming)?;
+        t.stage_saved(header, &mut reader, (&moved, &coming), since)?;
         Ok(t)
     }
 
@@ -285,8 +294,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         &mut self,
         header: &Header,
         reader: &mut Reader<'_>,
-        moved: &[G::Point],
-        coming: &[G::Point],
+        (moved, coming): (&[G::Point], &[G::Point]),
+        since: Option<StagedSince>,
     ) -> Result<(), LoadError> {
         let moves = reader.numbers::<VertexId>(header.moves)?;
         let insertions = reader.numbers::<VertexId>(header.insertions)?;
@@ -303,11 +312,14 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.edits.insert(vertex, position);
             last = Some(vertex);
         }
-        let n_ids = self.mesh.site_of.len();
-        let n_last =
-            insertions.iter().rev().zip(1..=n_ids).take_while(|&(v, k)| v.index() == n_ids - k).count();
-        // Data do not tell whether keys came with the insertions.
-        self.edits.know(n_ids - n_last, self.has_keys());
+        let usual = self.usual_since();
+        let StagedSince { n_known, had_keys } = since.unwrap_or(usual);
+        let is_known = (usual.n_known..=self.mesh.site_of.len()).contains(&n_known);
+        let may_be_told = self.edits.has_insertions() && since != Some(usual);
+        if since.is_some() && !(may_be_told && is_known && had_keys <= self.has_keys()) {
+            return Err(Damage::Counts.into());
+        }
+        self.edits.know(n_known, had_keys);
         if let Some(vertex) = self.first_key_of_none() {
             return Err(Damage::Key { vertex, given: self.mesh.kernel.keys().of(vertex) }.into());
         }

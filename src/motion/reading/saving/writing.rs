@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::ids::{CellId, SegmentId, VertexId};
 use crate::machine::memory;
 use crate::motion::reading::chunks::Chunks;
-use crate::motion::reading::saving::header::{GIVEN_UP, Header, SegmentCounts};
+use crate::motion::reading::saving::header::{GIVEN_UP, Header, SegmentCounts, StagedSince};
 use crate::motion::state::made::Origin;
 use crate::motion::state::segments::{Segment, Segments};
 use crate::motion::state::views::CellsView;
@@ -40,6 +40,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             insertions,
             removals,
             has_keys: !self.mesh.kernel.keys().are_ids(),
+            tells_since: self.since_to_save().is_some(),
             segment_bytes: self.segments_to_save().map_or(0, |segments| self.counts_of(segments).bytes()),
             statistics: self.statistics(),
         }
@@ -105,6 +106,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         insertions.iter().try_for_each(|(id, _)| chunks.numbers(&[id.get()]))?;
         chunks.numbers(VertexId::numbers_of(self.edits.removals()))?;
         self.save_keys(chunks)?;
+        for number in self.since_to_save().iter().flat_map(StagedSince::numbers) {
+            chunks.numbers(&[number as u32, (number >> 32) as u32])?;
+        }
         let Some(segments) = self.segments_to_save() else { return Ok(()) };
         save_segments(segments, self.counts_of(segments), chunks)?;
         for (vertex, segment) in self.made_vertices() {
@@ -125,6 +129,21 @@ impl<G: Dimension> MovingTriangulation<G> {
             let key = self.key_of_id(v);
             chunks.numbers(&[key as u32, (key >> 32) as u32])
         })
+    }
+
+    /// What was before insertions were staged, as far as ids and keys tell: no id is known that only they have, and there were
+    /// keys if there are.
+    pub(super) fn usual_since(&self) -> StagedSince {
+        let n_ids = self.id_count();
+        let last = self.edits.insertions().iter().rev().zip(1..=n_ids);
+        let n_last = last.take_while(|&(&(v, _), k)| v.index() == n_ids - k).count();
+        StagedSince { n_known: n_ids - n_last, had_keys: self.has_keys() }
+    }
+
+    /// What was before insertions were staged, if it is to be saved.
+    fn since_to_save(&self) -> Option<StagedSince> {
+        let since = StagedSince { n_known: self.edits.n_known(), had_keys: self.edits.had_keys() };
+        (self.edits.has_insertions() && since != self.usual_since()).then_some(since)
     }
 
     /// How many segments there are to be saved.

@@ -1,0 +1,76 @@
+//! Copies beside the original: the same history goes on with the original, with clones, and with what has been saved and loaded,
+//! and must be the same one.
+
+use super::called::c;
+use super::model::{Row, sorted};
+use super::{Carried, History, live};
+use deldrift::capi::*;
+use std::ptr::null_mut;
+
+/// What goes on where there is a copy. The original has been read as the copies are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum With {
+    Original,
+    Clones,
+    Loaded,
+}
+
+/// What can be seen after a step: all bytes; and what has no order of cells, which a loaded copy may have another one of.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Seen {
+    bytes: Vec<u8>,
+    cells: Vec<Row>,
+    n_ids: usize,
+    n_staged: usize,
+}
+
+/// Compares the histories step by step.
+pub fn compare(data: &[u8]) {
+    let original = live(data, Some(With::Original));
+    assert_eq!(original, live(data, Some(With::Clones)), "clones go on in another way");
+    let loaded = live(data, Some(With::Loaded));
+    assert_eq!(original.len(), loaded.len());
+    for (k, (one, other)) in original.iter().zip(&loaded).enumerate() {
+        let is_same = one.cells == other.cells
+            && one.bytes.len() == other.bytes.len()
+            && (one.n_ids, one.n_staged) == (other.n_ids, other.n_staged);
+        assert!(is_same, "what was loaded goes on in another way, at step {k}");
+    }
+}
+
+impl History<'_> {
+    /// Goes on with the original or a copy.
+    pub(super) fn go_on_with(&mut self, with: With) {
+        let (t, data) = (self.t, self.saved());
+        let (mut other, options) = (null_mut(), self.options);
+        match with {
+            With::Original => return self.check(),
+            With::Clones => self.ok(|| c!(deldrift_clone(t, &mut other))),
+            With::Loaded => {
+                let (start, size) = (data.as_ptr().cast(), data.len());
+                self.ok(|| c!(deldrift_load(start, size, &options, &mut other)));
+                self.is_ok(self.chosen.choose(other));
+                self.carried = Carried::default();
+            }
+        }
+        self.t = other;
+        self.end_other(t);
+        assert_eq!(self.saved(), data, "a copy has other bytes");
+        self.check();
+    }
+
+    /// Notes what can be seen after a step, if histories are compared.
+    pub(super) fn note_seen(&mut self) {
+        if self.with.is_none() {
+            return;
+        }
+        let bytes = self.saved();
+        let (rows, _) = self.cells();
+        let mut cells: Vec<Row> = rows.iter().map(|&row| sorted(row)).collect();
+        cells.sort_unstable();
+        let [mut n_ids, mut n_staged] = [0; 2];
+        self.is_ok(c!(deldrift_id_count(self.t, &mut n_ids)));
+        self.is_ok(c!(deldrift_staged_count(self.t, &mut n_staged)));
+        self.seen.push(Seen { bytes, cells, n_ids, n_staged });
+    }
+}
