@@ -37,38 +37,47 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let (n, n_coming) = (images.n_vertices(), self.staged.insertions().len());
         let lattice = self.coming.as_ref().unwrap_or(&self.lattice);
         let moves = vertices.iter().zip(positions).enumerate().map(|(index, (&vertex, position))| {
-            images.check(index, vertex, n_coming)?;
-            lattice.check("positions", index, position)?;
-            Ok((vertex, *position))
+            let checked = images.check(index, vertex, n_coming).and_then(|_| {
+                lattice.check("positions", index, position)?;
+                Ok((vertex, *position))
+            });
+            (index, checked)
         });
         self.staged.move_vertices(n, moves)
     }
 
-    /// Stages moves of the vertices with the first ids: vertex `i` goes to `positions[i]`. Entries of removed vertices are
-    /// not read, nor are those of vertices whose removal is staged.
+    /// Stages moves of the vertices with the first ids: vertex `i` goes to `positions[i]`. One whose insertion is staged will be
+    /// inserted there. Entries of removed vertices are not read, nor are those of vertices whose removal is staged.
     ///
     /// # Errors
     /// Those of [`move_vertices`](Self::move_vertices), and [`Error::WrongCount`] if there are more than ids.
     pub fn move_first(&mut self, positions: &[G::Point]) -> Result<()> {
+        let (given, wanted) = (positions.len(), self.id_count());
+        if given > wanted {
+            let coming = self.staged.insertions().len();
+            return Err(Error::WrongCount { argument: "count", given, wanted, coming });
+        }
         let images = &self.inside.images;
         let n = images.n_vertices();
-        if positions.len() > n {
-            let (given, coming) = (positions.len(), self.staged.insertions().len());
-            return Err(Error::WrongCount { argument: "count", given, wanted: n, coming });
-        }
         let mut going = Vec::new();
-        memory::lengthen(&mut going, positions.len(), false)?;
-        for &vertex in self.staged.removals().iter().filter(|v| v.index() < positions.len()) {
+        memory::lengthen(&mut going, given, false)?;
+        for &vertex in self.staged.removals().iter().filter(|v| v.index() < given) {
             going[vertex] = true;
         }
         let lattice = self.coming.as_ref().unwrap_or(&self.lattice);
-        let moves = positions.iter().enumerate().map(|(index, position)| (VertexId::at(index), position));
-        let moves = moves.filter(|&(v, _)| images.home(v) != VertexId::NONE && !going[v]);
-        let moves = moves.map(|(vertex, position)| {
-            lattice.check("positions", vertex.index(), position)?;
-            Ok((vertex, *position))
+        let moves = positions.iter().enumerate().filter_map(|(index, position)| {
+            let vertex = VertexId::at(index);
+            if index < n && (images.home(vertex) == VertexId::NONE || going[index]) {
+                return None;
+            }
+            match lattice.check("positions", index, position) {
+                Ok(()) if index >= n => None,
+                checked => Some((index, checked.map(|()| (vertex, *position)))),
+            }
         });
-        self.staged.move_vertices(n, moves)
+        self.staged.move_vertices(n, moves)?;
+        self.staged.place_insertions(&positions[n.min(given)..]);
+        Ok(())
     }
 
     /// Stages the insertion of vertices; returns the id of the first, which the others follow.

@@ -4,7 +4,9 @@
 
 use crate::delaunay::Shape;
 use crate::error::{Error, Result};
+use crate::periodic::grid::exact;
 use crate::periodic::lattice::{Lattice, MOST_UNITS, ROOM};
+use crate::periodic::reduction::Reduced;
 use crate::predicates::MAX_MAGNITUDE;
 
 /// Positions may be so many units of the grid away.
@@ -12,6 +14,28 @@ const FAR: f64 = (1u64 << 62) as f64 * (1u64 << 32) as f64;
 
 /// Positions of fewer units of the grid are rounded to it without long numbers, and translated by a vector without rounding.
 const SHORT: f64 = (1u64 << 51) as f64;
+
+/// Translations that take a position home are so many of each vector at most, of the reduced ones and of the caller's: sums of a few
+/// of them are numbers of 64 bits.
+const MOST_PERIODS: f64 = (1u64 << 58) as f64;
+
+/// By axis, how far away positions may be, which is farther than vertices at home are; none where translations may be too many.
+pub(super) fn limits(reduced: &Reduced, unit: &[f64; 3], dual: &[[f64; 3]; 3]) -> Option<[f64; 3]> {
+    let mut limits = [MAX_MAGNITUDE; 3];
+    for axis in (0..3).filter(|&axis| unit[axis] != 0.0) {
+        // How many periods a position is away for each unit of length along this axis.
+        let of_reduced = (0..reduced.rank).map(|j| dual[j][axis].abs()).fold(0.0, f64::max);
+        let of_caller = |k: usize| -> f64 {
+            (0..reduced.rank).map(|j| dual[j][axis].abs() * reduced.of_caller[j][k].unsigned_abs() as f64).sum()
+        };
+        let periods = (0..reduced.rank).map(of_caller).fold(of_reduced, f64::max);
+        limits[axis] = (unit[axis] * FAR).min(MAX_MAGNITUDE).min(MOST_PERIODS / (3.0 * periods));
+        if limits[axis] < unit[axis] * MOST_UNITS as f64 {
+            return None;
+        }
+    }
+    Some(limits)
+}
 
 impl<G: Shape> Lattice<G> {
     /// A position in units of the grid; 0 along axes that have none.
@@ -28,8 +52,7 @@ impl<G: Shape> Lattice<G> {
             if !value.is_finite() {
                 return Err(Error::NotFinite { argument, index, axis, value });
             }
-            let unit = self.unit[axis];
-            let limit = if unit == 0.0 { MAX_MAGNITUDE } else { (unit * FAR).min(MAX_MAGNITUDE) };
+            let (unit, limit) = (self.unit[axis], self.limit[axis]);
             if value.abs() > limit {
                 return Err(Error::OutOfRange { argument, index, axis, value, limit });
             }
@@ -220,6 +243,21 @@ impl<G: Shape> Lattice<G> {
         }
     }
 
+    /// Whether a vertex at home may have come there by this translation: its position is a number that has not been rounded, and
+    /// not too far away.
+    pub(super) fn may_come_by(&self, place: &G::Point, wrap: &[i64; 3]) -> bool {
+        let is_exact = |axis: usize| {
+            let units = self.units_from(place, wrap, axis);
+            self.unit[axis] == 0.0 || exact(units).is_some()
+        };
+        (0..G::D).all(is_exact) && self.check("positions", 0, &self.unwrapped(place, wrap)).is_ok()
+    }
+
+    /// How many units along an axis the position of which a place at home is the translation has.
+    fn units_from(&self, place: &G::Point, wrap: &[i64; 3], axis: usize) -> i128 {
+        (place[axis] / self.unit[axis]) as i128 + self.units_along(axis, wrap)
+    }
+
     /// The position of which a place at home is the translation.
     pub(super) fn unwrapped(&self, place: &G::Point, wrap: &[i64; 3]) -> G::Point {
         if *wrap == [0; 3] {
@@ -227,7 +265,7 @@ impl<G: Shape> Lattice<G> {
         }
         let mut units = [0i128; 3];
         for axis in (0..G::D).filter(|&axis| self.unit[axis] != 0.0) {
-            units[axis] = (place[axis] / self.unit[axis]) as i128 + self.units_along(axis, wrap);
+            units[axis] = self.units_from(place, wrap, axis);
         }
         self.place_of(place, &units)
     }

@@ -41,6 +41,7 @@ mod either;
 mod exporting;
 mod following;
 mod geometry;
+mod grid;
 mod homes;
 mod images;
 mod immediate;

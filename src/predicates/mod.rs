@@ -114,6 +114,7 @@ pub use crate::machine::tally::exact_calls;
 pub use crate::simd::LANES;
 pub use array::Array;
 pub use bicells::BiCellTolerances;
+pub use big::compare_lengths;
 pub(crate) use bicells::{
     bicells_hold_for_their_size2d, bicells_hold_for_their_size3d, bicells_surely_hold2d,
     bicells_surely_hold3d,
