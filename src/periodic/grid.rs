@@ -97,8 +97,7 @@ fn unit_of(reduced: &Reduced) -> [f64; 3] {
     reduced.for_short_bases(|rows| {
         let greatest = greatest_of(rows, &dual_of(rows, rank), rank);
         for axis in 0..3 {
-            let span: f64 =
-                (0..rank).map(|j| (f64::from(greatest[j]) + 2.0) * rows[j][axis].abs()).sum();
+            let span: f64 = (0..rank).map(|j| (f64::from(greatest[j]) + 2.0) * rows[j][axis].abs()).sum();
             spans[axis] = spans[axis].max(span);
         }
     });
@@ -121,7 +120,5 @@ pub(super) fn greatest_of(rows: &[[f64; 3]; 3], dual: &[[f64; 3]; 3], rank: usiz
     let most = |i: usize| -> f64 {
         (0..rank).map(|j| dot(&dual[i], &dual[j]).abs() * dot(&rows[j], &rows[j])).sum()
     };
-    [0, 1, 2].map(|j| {
-        if j < rank { (1.0 + 2.0 * ROOM + most(j) * (1.0 + SLACK)).floor() as i32 } else { 0 }
-    })
+    [0, 1, 2].map(|j| if j < rank { (1.0 + 2.0 * ROOM + most(j) * (1.0 + SLACK)).floor() as i32 } else { 0 })
 }

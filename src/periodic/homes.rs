@@ -26,7 +26,9 @@ pub(super) fn limits(reduced: &Reduced, unit: &[f64; 3], dual: &[[f64; 3]; 3]) -
         // How many periods a position is away for each unit of length along this axis.
         let of_reduced = (0..reduced.rank).map(|j| dual[j][axis].abs()).fold(0.0, f64::max);
         let of_caller = |k: usize| -> f64 {
-            (0..reduced.rank).map(|j| dual[j][axis].abs() * reduced.of_caller[j][k].unsigned_abs() as f64).sum()
+            (0..reduced.rank)
+                .map(|j| dual[j][axis].abs() * reduced.of_caller[j][k].unsigned_abs() as f64)
+                .sum()
         };
         let periods = (0..reduced.rank).map(of_caller).fold(of_reduced, f64::max);
         limits[axis] = (unit[axis] * FAR).min(MAX_MAGNITUDE).min(MOST_PERIODS / (3.0 * periods));

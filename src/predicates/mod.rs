@@ -114,11 +114,11 @@ pub use crate::machine::tally::exact_calls;
 pub use crate::simd::LANES;
 pub use array::Array;
 pub use bicells::BiCellTolerances;
-pub use big::compare_lengths;
 pub(crate) use bicells::{
     bicells_hold_for_their_size2d, bicells_hold_for_their_size3d, bicells_surely_hold2d,
     bicells_surely_hold3d,
 };
+pub use big::compare_lengths;
 pub use coordinates::Coordinates;
 pub use corners::{Meeting, sign_of_cross};
 pub use crossing::{crossing, passes_near};

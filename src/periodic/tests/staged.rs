@@ -247,13 +247,21 @@ fn make<G: Dimension>(
     }
 }
 
-fn assert_as_model<G: Dimension>(t: &PeriodicTriangulation<G>, model: &Model<G>, context: &dyn Fn() -> String) {
+fn assert_as_model<G: Dimension>(
+    t: &PeriodicTriangulation<G>,
+    model: &Model<G>,
+    context: &dyn Fn() -> String,
+) {
     assert_eq!(t.id_count(), model.id_count(), "{}", context());
     assert_eq!(t.staged_count(), model.moves.len(), "{}", context());
     assert_eq!(t.staged_edits(), (model.insertions.len(), model.removals.len()), "{}", context());
     assert_eq!(t.timestamp(), model.timestamp, "{}", context());
     for v in 0..model.id_count() {
-        let place = model.positions.get(v).copied().unwrap_or_else(|| Some(model.insertions[v - model.positions.len()]));
+        let place = model
+            .positions
+            .get(v)
+            .copied()
+            .unwrap_or_else(|| Some(model.insertions[v - model.positions.len()]));
         assert_eq!(t.position_or_goal(VertexId::at(v)), place, "{}", context());
     }
 }
@@ -270,7 +278,11 @@ fn cells_of<G: Dimension>(t: &PeriodicTriangulation<G>, names: &[usize]) -> BTre
     rows.collect()
 }
 
-fn assert_as_fresh<G: Dimension>(t: &PeriodicTriangulation<G>, model: &Model<G>, context: &dyn Fn() -> String) {
+fn assert_as_fresh<G: Dimension>(
+    t: &PeriodicTriangulation<G>,
+    model: &Model<G>,
+    context: &dyn Fn() -> String,
+) {
     let there: Vec<usize> = (0..model.positions.len()).filter(|&v| model.positions[v].is_some()).collect();
     let points: Vec<G::Point> = there.iter().filter_map(|&v| model.positions[v]).collect();
     let fresh = PeriodicTriangulation::<G>::new(&points, &model.basis, Options::default()).unwrap();
