@@ -14,8 +14,8 @@
 
 #![expect(clippy::needless_range_loop, reason = "axes and vectors are indices of several arrays at a time")]
 
-use crate::periodic::lattice::{ROOM, Shift};
 use crate::periodic::reduction::{Reduced, SLACK, dot, dual_of, exponent_above};
+use crate::predicates::MAX_MAGNITUDE;
 
 /// Coordinates on the grid, and sums of them, have at most so many bits.
 const GRID_BITS: i32 = 52;
@@ -27,6 +27,20 @@ const BITS_OF_OPEN: i32 = 10;
 
 /// All is rounded so many times at most: rounding changes bounds by far less than a step changes from one time to the next.
 const MOST_ROUNDINGS: usize = 16;
+
+/// Vertices at home are in the unit cell, or outside of it by this share of it at most.
+pub(super) const ROOM: f64 = 0.25;
+
+/// Positions at home are so many units of the grid away at most: no translation that is asked for needs more bits than
+/// there are.
+pub(super) const MOST_UNITS: i128 = 1 << 52;
+
+/// Positions may be so many units of the grid away.
+const FAR: f64 = (1u64 << 62) as f64 * (1u64 << 32) as f64;
+
+/// Translations that take a position home are so many of each vector at most, of the reduced ones and of the caller's: sums of a few
+/// of them are numbers of 64 bits.
+const MOST_PERIODS: f64 = (1u64 << 58) as f64;
 
 /// Vectors on their grid.
 pub(super) struct Grid {
@@ -59,6 +73,26 @@ impl Grid {
             unit = [0, 1, 2].map(|axis| unit[axis].max(next[axis]));
         }
         None
+    }
+
+    /// By axis, how far away positions may be, which is farther than vertices at home are, with the linear forms of the reduced
+    /// basis; none where translations may be too many.
+    pub(super) fn limits(&self, dual: &[[f64; 3]; 3]) -> Option<[f64; 3]> {
+        let Grid { reduced, unit, .. } = self;
+        let mut limits = [MAX_MAGNITUDE; 3];
+        for axis in (0..3).filter(|&axis| unit[axis] != 0.0) {
+            // How many periods a position is away for each unit of length along this axis.
+            let sum = |of: &dyn Fn(usize) -> f64| -> f64 {
+                (0..reduced.rank).map(|j| dual[j][axis].abs() * of(j)).sum()
+            };
+            let of_caller = |k: usize| sum(&|j| reduced.of_caller[j][k].unsigned_abs() as f64);
+            let periods = (0..reduced.rank).map(of_caller).fold(sum(&|_| 1.0), f64::max);
+            limits[axis] = (unit[axis] * FAR).min(MAX_MAGNITUDE).min(MOST_PERIODS / (3.0 * periods));
+            if limits[axis] < unit[axis] * MOST_UNITS as f64 {
+                return None;
+            }
+        }
+        Some(limits)
     }
 }
 
@@ -115,7 +149,7 @@ fn unit_of(reduced: &Reduced) -> [f64; 3] {
 }
 
 /// By vector of a reduced basis with its linear forms, the greatest multiples of images that can be needed.
-pub(super) fn greatest_of(rows: &[[f64; 3]; 3], dual: &[[f64; 3]; 3], rank: usize) -> Shift {
+pub(super) fn greatest_of(rows: &[[f64; 3]; 3], dual: &[[f64; 3]; 3], rank: usize) -> [i32; 3] {
     // The entries of G⁻¹ are products of the linear forms.
     let most = |i: usize| -> f64 {
         (0..rank).map(|j| dot(&dual[i], &dual[j]).abs() * dot(&rows[j], &rows[j])).sum()

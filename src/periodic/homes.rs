@@ -4,40 +4,12 @@
 
 use crate::delaunay::Shape;
 use crate::error::{Error, Result};
-use crate::periodic::grid::exact;
-use crate::periodic::lattice::{Lattice, MOST_UNITS, ROOM};
-use crate::periodic::reduction::Reduced;
+use crate::periodic::grid::{MOST_UNITS, ROOM, exact};
+use crate::periodic::lattice::Lattice;
 use crate::predicates::MAX_MAGNITUDE;
-
-/// Positions may be so many units of the grid away.
-const FAR: f64 = (1u64 << 62) as f64 * (1u64 << 32) as f64;
 
 /// Positions of fewer units of the grid are rounded to it without long numbers, and translated by a vector without rounding.
 const SHORT: f64 = (1u64 << 51) as f64;
-
-/// Translations that take a position home are so many of each vector at most, of the reduced ones and of the caller's: sums of a few
-/// of them are numbers of 64 bits.
-const MOST_PERIODS: f64 = (1u64 << 58) as f64;
-
-/// By axis, how far away positions may be, which is farther than vertices at home are; none where translations may be too many.
-pub(super) fn limits(reduced: &Reduced, unit: &[f64; 3], dual: &[[f64; 3]; 3]) -> Option<[f64; 3]> {
-    let mut limits = [MAX_MAGNITUDE; 3];
-    for axis in (0..3).filter(|&axis| unit[axis] != 0.0) {
-        // How many periods a position is away for each unit of length along this axis.
-        let of_reduced = (0..reduced.rank).map(|j| dual[j][axis].abs()).fold(0.0, f64::max);
-        let of_caller = |k: usize| -> f64 {
-            (0..reduced.rank)
-                .map(|j| dual[j][axis].abs() * reduced.of_caller[j][k].unsigned_abs() as f64)
-                .sum()
-        };
-        let periods = (0..reduced.rank).map(of_caller).fold(of_reduced, f64::max);
-        limits[axis] = (unit[axis] * FAR).min(MAX_MAGNITUDE).min(MOST_PERIODS / (3.0 * periods));
-        if limits[axis] < unit[axis] * MOST_UNITS as f64 {
-            return None;
-        }
-    }
-    Some(limits)
-}
 
 impl<G: Shape> Lattice<G> {
     /// A position in units of the grid; 0 along axes that have none.

@@ -19,8 +19,7 @@
 
 use crate::delaunay::Shape;
 use crate::error::{Error, Result};
-use crate::periodic::grid::{Grid, greatest_of};
-use crate::periodic::homes::limits;
+use crate::periodic::grid::{Grid, MOST_UNITS, ROOM, greatest_of};
 use crate::periodic::reduction::{SLACK, dot, dual_of};
 use crate::periodic::relation::Relation;
 
@@ -42,13 +41,6 @@ pub(super) fn plus(one: Shift, other: Shift) -> Shift {
 pub(super) fn minus(one: Shift, other: Shift) -> Shift {
     [0, 1, 2].map(|j| one[j] - other[j])
 }
-
-/// Vertices at home are in the unit cell, or outside of it by this share of it at most.
-pub(super) const ROOM: f64 = 0.25;
-
-/// Positions at home are so many units of the grid away at most: no translation that is asked for needs more bits than
-/// there are.
-pub(super) const MOST_UNITS: i128 = 1 << 52;
 
 /// The least and the greatest multiples of each vector that vertices at home have.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -152,7 +144,7 @@ impl<G: Shape> Lattice<G> {
             vectors: rows.map(|row| of(&row)),
             of_caller: reduced.of_caller,
             unit: *unit,
-            limit: limits(reduced, unit, &dual)?,
+            limit: grid.limits(&dual)?,
             dual,
             thickness,
             short_way: 0.5 * (1.0 - SLACK) / thickness.iter().fold(0.0, |most, &x| f64::max(most, x)),

@@ -58,6 +58,7 @@ mod reduction;
 mod relation;
 mod saving;
 mod staged;
+mod staging;
 mod taking;
 #[cfg(test)]
 mod tests;
