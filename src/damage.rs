@@ -51,7 +51,8 @@ pub enum Damage {
     },
     /// The vectors of a periodic triangulation are not finite, out of range, or depend on each other.
     Vectors,
-    /// A vertex of a periodic triangulation is in a period that is too far away, or one that is not there is in any.
+    /// A vertex of a periodic triangulation is in a period that is too far away, or in which its position is not a double, or one
+    /// that is not there is in any.
     Period {
         /// The vertex.
         vertex: VertexId,
@@ -213,7 +214,9 @@ impl fmt::Display for Damage {
                 write!(f, "the triangulation is {not}periodic, and one of the other kind is asked for")
             }
             Vectors => write!(f, "the vectors are out of range, or depend on each other"),
-            Period { vertex } => write!(f, "the period of vertex {vertex} is out of range"),
+            Period { vertex } => {
+                write!(f, "the period of vertex {vertex} is out of range, or its position there is no double")
+            }
             Image { inside, vertex } => {
                 write!(f, "vertex {inside} inside is neither vertex {vertex} at home nor its image")
             }

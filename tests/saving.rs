@@ -748,4 +748,11 @@ fn refined_domains_go_on_as_before() {
         assert_eq!(damaged(last_piece + 4, wrong), Damage::Segment { segment: piece });
     }
     assert_eq!(damaged(last_piece + 8, t.id_count() as u32), Damage::Segment { segment: piece });
+    // Segments are before the vertices that have been made, 12 bytes each: one that has been replaced has no marker.
+    let n_made = made(&load::<Plane>(&bytes).expect("saved")).len();
+    let end = last_vertex + 8 - 8 * n_made;
+    let mut rows = (1..).map(|k| end - 12 * k);
+    let replaced = rows.find(|&at| number(at) == u32::MAX && number(at + 4) == u32::MAX).expect("one");
+    assert_eq!(number(replaced + 8), 0);
+    assert!(matches!(damaged(replaced + 8, 7), Damage::Segment { .. }));
 }

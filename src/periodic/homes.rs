@@ -4,11 +4,9 @@
 
 use crate::delaunay::Shape;
 use crate::error::{Error, Result};
-use crate::periodic::lattice::{Lattice, MOST_UNITS, ROOM};
+use crate::periodic::grid::{MOST_UNITS, ROOM, exact};
+use crate::periodic::lattice::Lattice;
 use crate::predicates::MAX_MAGNITUDE;
-
-/// Positions may be so many units of the grid away.
-const FAR: f64 = (1u64 << 62) as f64 * (1u64 << 32) as f64;
 
 /// Positions of fewer units of the grid are rounded to it without long numbers, and translated by a vector without rounding.
 const SHORT: f64 = (1u64 << 51) as f64;
@@ -28,8 +26,7 @@ impl<G: Shape> Lattice<G> {
             if !value.is_finite() {
                 return Err(Error::NotFinite { argument, index, axis, value });
             }
-            let unit = self.unit[axis];
-            let limit = if unit == 0.0 { MAX_MAGNITUDE } else { (unit * FAR).min(MAX_MAGNITUDE) };
+            let (unit, limit) = (self.unit[axis], self.limit[axis]);
             if value.abs() > limit {
                 return Err(Error::OutOfRange { argument, index, axis, value, limit });
             }
@@ -220,6 +217,21 @@ impl<G: Shape> Lattice<G> {
         }
     }
 
+    /// Whether a vertex at home may have come there by this translation: its position is a number that has not been rounded, and
+    /// not too far away.
+    pub(super) fn may_come_by(&self, place: &G::Point, wrap: &[i64; 3]) -> bool {
+        let is_exact = |axis: usize| {
+            let units = self.units_from(place, wrap, axis);
+            self.unit[axis] == 0.0 || exact(units).is_some()
+        };
+        (0..G::D).all(is_exact) && self.check("positions", 0, &self.unwrapped(place, wrap)).is_ok()
+    }
+
+    /// How many units along an axis the position of which a place at home is the translation has.
+    fn units_from(&self, place: &G::Point, wrap: &[i64; 3], axis: usize) -> i128 {
+        (place[axis] / self.unit[axis]) as i128 + self.units_along(axis, wrap)
+    }
+
     /// The position of which a place at home is the translation.
     pub(super) fn unwrapped(&self, place: &G::Point, wrap: &[i64; 3]) -> G::Point {
         if *wrap == [0; 3] {
@@ -227,7 +239,7 @@ impl<G: Shape> Lattice<G> {
         }
         let mut units = [0i128; 3];
         for axis in (0..G::D).filter(|&axis| self.unit[axis] != 0.0) {
-            units[axis] = (place[axis] / self.unit[axis]) as i128 + self.units_along(axis, wrap);
+            units[axis] = self.units_from(place, wrap, axis);
         }
         self.place_of(place, &units)
     }

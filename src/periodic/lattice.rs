@@ -1,9 +1,7 @@
 //! The translations that leave a periodic set as it is.
 //!
-//! A *lattice* has all sums of up to D independent vectors. Its vectors are rounded to a grid: along an axis along which any
-//! of them goes, coordinates are multiples of a power of two, so small that each is off by half of that at most, and so
-//! large that a vertex can be translated by any vector of the lattice that is asked for without rounding. Positions of
-//! vertices are rounded to that grid as well.
+//! A *lattice* has all sums of up to D independent vectors, which are on a grid (grid.rs). Positions of vertices are rounded to that
+//! grid as well.
 //!
 //! # Which images can matter
 //!
@@ -15,14 +13,14 @@
 //! cell, those of the hull too.
 //!
 //! The bound is good for a *reduced* basis, whose vectors are short: pairs are reduced as by Gauss, and the third vector by
-//! the nearest sums of the others (I. Semaev: *A 3-dimensional lattice reduction algorithm*. CaLC 2001,
-//! 10.1007/3-540-44670-2_13). What is found depends on the lattice, not on the basis; only how soon depends on that.
+//! the nearest sums of the others (reduction.rs).
 
 #![expect(clippy::needless_range_loop, reason = "axes and vectors are indices of several arrays at a time")]
 
 use crate::delaunay::Shape;
 use crate::error::{Error, Result};
-use crate::periodic::reduction::{Reduced, SLACK, dot, dual_of, exponent_above};
+use crate::periodic::grid::{Grid, MOST_UNITS, ROOM, greatest_of};
+use crate::periodic::reduction::{SLACK, dot, dual_of};
 use crate::periodic::relation::Relation;
 
 /// Multiples of one vector.
@@ -43,24 +41,6 @@ pub(super) fn plus(one: Shift, other: Shift) -> Shift {
 pub(super) fn minus(one: Shift, other: Shift) -> Shift {
     [0, 1, 2].map(|j| one[j] - other[j])
 }
-
-/// Vertices at home are in the unit cell, or outside of it by this share of it at most.
-pub(super) const ROOM: f64 = 0.25;
-
-/// Coordinates on the grid, and sums of them, have at most so many bits.
-const GRID_BITS: i32 = 52;
-
-/// Where vectors go along more axes than there are vectors, vertices are anywhere along these: there is one grid for all axes,
-/// so that a small component does not ask for a fine one, and it is that much coarser, in bits, so that vertices may be so many
-/// times as far away.
-const BITS_OF_OPEN: i32 = 10;
-
-/// Positions at home are so many units of the grid away at most: no translation that is asked for needs more bits than
-/// there are.
-pub(super) const MOST_UNITS: i128 = 1 << 52;
-
-/// Translations are so many of the caller's vectors at most: sums of some are numbers of 64 bits.
-const MOST_OF_CALLER: i128 = 1 << 61;
 
 /// The least and the greatest multiples of each vector that vertices at home have.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,14 +76,16 @@ impl Occupied {
 pub(super) struct Lattice<G: Shape> {
     /// The number of vectors: of directions in which the set is periodic.
     pub(super) rank: usize,
-    /// The caller's, as they were given.
-    original: [G::Point; 3],
+    /// The caller's, on the grid.
+    given: [G::Point; 3],
     /// Reduced, on the grid.
     pub(super) vectors: [G::Point; 3],
     /// By vector, its multiples of the caller's vectors.
     of_caller: [[i64; 3]; 3],
     /// By axis, the unit of coordinates; 0 where they are as they are given.
     pub(super) unit: [f64; 3],
+    /// By axis, how far away positions may be.
+    pub(super) limit: [f64; 3],
     /// Linear forms, by which a place has its multiples of the vectors, rounded.
     dual: [[f64; 3]; 3],
     /// The lengths of the forms, or a bit more.
@@ -143,49 +125,37 @@ impl<G: Shape> Lattice<G> {
                 }
             }
         }
-        let reduced = (rank <= G::D).then(|| Reduced::new(basis)).flatten();
-        let Some(reduced) = reduced else {
-            return Err(Error::DependentVectors { count: rank });
-        };
-        let rows: [[f64; 3]; 3] = reduced.vectors();
+        let mut rows = [[0.0; 3]; 3];
+        rows.iter_mut().zip(basis).for_each(|(row, vector)| *row = widened::<G>(vector));
+        let grid = (1..=G::D).contains(&rank).then(|| Grid::new(&rows[..rank])).flatten();
+        let lattice = grid.and_then(|grid| Self::on_grid(rank, &grid));
+        lattice.ok_or(Error::DependentVectors { count: rank })
+    }
+
+    /// The lattice of vectors that are on their grid; none if sums of multiples of them are too large for numbers.
+    fn on_grid(rank: usize, grid: &Grid) -> Option<Self> {
+        let Grid { reduced, unit, given } = grid;
+        let rows = reduced.vectors();
         let dual = dual_of(&rows, rank);
         let thickness = dual.map(|form| dot(&form, &form).sqrt() * (1.0 + SLACK));
-        // The entries of G⁻¹ are products of the linear forms.
-        let most = |i: usize| -> f64 {
-            (0..rank).map(|j| dot(&dual[i], &dual[j]).abs() * dot(&rows[j], &rows[j])).sum()
+        let of = |row: &[f64; 3]| {
+            let mut point = G::Point::default();
+            (0..G::D).for_each(|axis| point[axis] = row[axis]);
+            point
         };
-        let mut lattice = Lattice::<G> {
+        let lattice = Lattice::<G> {
             rank,
-            original: [0, 1, 2].map(|j| basis.get(j).copied().unwrap_or_default()),
-            vectors: [G::Point::default(); 3],
+            given: given.map(|row| of(&row)),
+            vectors: rows.map(|row| of(&row)),
             of_caller: reduced.of_caller,
-            unit: [0.0; 3],
+            unit: *unit,
+            limit: grid.limits(&dual)?,
             dual,
             thickness,
             short_way: 0.5 * (1.0 - SLACK) / thickness.iter().fold(0.0, |most, &x| f64::max(most, x)),
-            greatest: [0, 1, 2].map(|j| {
-                if j < rank { (1.0 + 2.0 * ROOM + most(j) * (1.0 + SLACK)).floor() as i32 } else { 0 }
-            }),
+            greatest: greatest_of(&rows, &dual, rank),
         };
-        let span = |axis: usize| -> f64 {
-            (0..rank).map(|j| (f64::from(lattice.greatest[j]) + 2.0) * rows[j][axis].abs()).sum()
-        };
-        let spans = [0, 1, 2].map(|axis| if axis < G::D { span(axis) } else { 0.0 });
-        let greatest = spans.iter().fold(0.0, |most, &x| f64::max(most, x));
-        let has_open = spans.iter().filter(|&&x| x > 0.0).count() > rank;
-        for axis in (0..G::D).filter(|&axis| spans[axis] > 0.0) {
-            lattice.unit[axis] = if has_open {
-                2f64.powi(exponent_above(2.0 * greatest) - GRID_BITS + BITS_OF_OPEN)
-            } else {
-                2f64.powi(exponent_above(2.0 * spans[axis]) - GRID_BITS)
-            };
-        }
-        for (j, row) in rows.iter().enumerate() {
-            for axis in 0..G::D {
-                lattice.vectors[j][axis] = on_grid(row[axis], lattice.unit[axis]);
-            }
-        }
-        Ok(lattice)
+        Some(lattice)
     }
 
     pub(super) fn copied(&self) -> Self {
@@ -229,11 +199,6 @@ impl<G: Shape> Lattice<G> {
         Some(Relation { rows }).filter(|relation| relation.determinant().abs() == 1)
     }
 
-    /// The caller's vectors as they were given: of these [`new`](Self::new) makes the same lattice, on any machine.
-    pub(super) fn original(&self) -> &[G::Point] {
-        &self.original[..self.rank]
-    }
-
     /// Whether a place is one at home: on the grid, near the unit cell, and not too far away where no vector goes.
     pub(super) fn has_at_home(&self, place: &G::Point) -> bool {
         let is_on_grid = |axis: usize| {
@@ -250,39 +215,9 @@ impl<G: Shape> Lattice<G> {
         shift.iter().zip(self.greatest).all(|(n, greatest)| n.unsigned_abs() <= greatest.unsigned_abs())
     }
 
-    /// Whether a vertex at home may have come there by this translation: its position is in range, and so are shifts from it in
-    /// terms of the caller's vectors.
-    pub(super) fn may_come_by(&self, place: &G::Point, wrap: &[i64; 3]) -> bool {
-        let sum = |k: usize| -> i128 {
-            let of = |j: usize| i128::from(wrap[j]).abs().saturating_mul(self.of_caller[j][k].into());
-            (0..3).map(of).fold(0, |sum: i128, n| sum.saturating_add(n.saturating_abs()))
-        };
-        let are_few = (0..3).all(|k| sum(k) <= MOST_OF_CALLER);
-        are_few && self.check("positions", 0, &self.unwrapped(place, wrap)).is_ok()
-    }
-
-    /// The caller's vectors, on the grid: exact, but for those that have more than 53 digits in its units.
-    pub(super) fn given(&self) -> impl ExactSizeIterator<Item = G::Point> + '_ {
-        (0..self.rank).map(|k| {
-            let mut given = G::Point::default();
-            let multiples = self.to_caller(k);
-            for axis in (0..G::D).filter(|&axis| self.unit[axis] != 0.0) {
-                given[axis] = self.units_along(axis, &multiples) as f64 * self.unit[axis];
-            }
-            given
-        })
-    }
-
-    /// Which multiples of the reduced vectors one of the caller's is: a column of cofactors, as the determinant is 1 or -1.
-    fn to_caller(&self, k: usize) -> [i64; 3] {
-        let m = &self.of_caller;
-        let cofactor = |i: usize, j: usize| {
-            let ([a, b], [c, d]) = ([(i + 1) % 3, (i + 2) % 3], [(j + 1) % 3, (j + 2) % 3]);
-            m[a][c] * m[b][d] - m[a][d] * m[b][c]
-        };
-        let determinant: i64 = (0..3).map(|j| m[0][j] * cofactor(0, j)).sum();
-        // The entries of the inverse are those of the transposed cofactors.
-        [0, 1, 2].map(|j| determinant * cofactor(j, k))
+    /// The caller's vectors, on the grid: of these [`new`](Self::new) makes the same lattice, on any machine.
+    pub(super) fn given(&self) -> &[G::Point] {
+        &self.given[..self.rank]
     }
 
     /// Multiples of the caller's vectors.
@@ -406,9 +341,4 @@ const LEAST: f64 = 1e-50;
 
 fn widened<G: Shape>(point: &G::Point) -> [f64; 3] {
     [0, 1, 2].map(|axis| if axis < G::D { point[axis] } else { 0.0 })
-}
-
-/// The nearest multiple of a unit, a power of two.
-fn on_grid(x: f64, unit: f64) -> f64 {
-    if unit == 0.0 { x } else { (x / unit).round_ties_even() * unit }
 }

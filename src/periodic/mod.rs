@@ -41,6 +41,7 @@ mod either;
 mod exporting;
 mod following;
 mod geometry;
+mod grid;
 mod homes;
 mod images;
 mod immediate;
@@ -58,6 +59,7 @@ mod reduction;
 mod relation;
 mod saving;
 mod staged;
+mod staging;
 mod taking;
 #[cfg(test)]
 mod tests;

@@ -33,7 +33,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
 
     /// The vectors by which the set repeats: those that were given, on the grid.
     pub fn vectors(&self) -> impl ExactSizeIterator<Item = G::Point> + '_ {
-        self.lattice.given()
+        self.lattice.given().iter().copied()
     }
 
     /// The vectors of the reduced basis, by whose multiples vertices come home; for each its multiples of the vectors that

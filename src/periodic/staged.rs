@@ -48,11 +48,7 @@ impl<G: Dimension> Staged<G> {
     }
 
     fn make_room(&mut self, n_vertices: usize) -> Result<()> {
-        if self.marks.len() < n_vertices {
-            let more = n_vertices - self.marks.len();
-            memory::lengthen(&mut self.marks, more, 0)?;
-        }
-        Ok(())
+        memory::lengthen(&mut self.marks, n_vertices, 0)
     }
 
     /// Checks that a vertex that is there can move, or go.
@@ -64,15 +60,15 @@ impl<G: Dimension> Staged<G> {
         Ok(())
     }
 
-    /// Stages moves of vertices that are there; all of them, or none.
+    /// Stages moves of vertices that are there, each with its place among what the program has given; all of them, or none.
     pub(super) fn move_vertices(
         &mut self,
         n_vertices: usize,
-        moves: impl Iterator<Item = Result<(VertexId, G::Point)>>,
+        moves: impl Iterator<Item = (usize, Result<(VertexId, G::Point)>)>,
     ) -> Result<()> {
         self.make_room(n_vertices)?;
         let before = self.moves.len();
-        for (index, one) in moves.enumerate() {
+        for (index, one) in moves {
             let staged = one.and_then(|(vertex, goal)| {
                 self.check(index, vertex)?;
                 if self.has(vertex, MOVES) {
@@ -120,6 +116,11 @@ impl<G: Dimension> Staged<G> {
     /// Stages insertions.
     pub(super) fn insert(&mut self, positions: &[G::Point]) -> Result<()> {
         memory::append(&mut self.insertions, positions)
+    }
+
+    /// The first of the insertions are at these positions.
+    pub(super) fn place_insertions(&mut self, positions: &[G::Point]) {
+        self.insertions[..positions.len()].copy_from_slice(positions);
     }
 
     /// The first vertex whose move is staged.

@@ -12,7 +12,7 @@ use crate::periodic::changes::Taking;
 use crate::periodic::edges::PeriodicEdges;
 use crate::periodic::images::{Image, Images};
 use crate::periodic::inside::Inside;
-use crate::periodic::lattice::{HOME, Lattice, Occupied, ROOM};
+use crate::periodic::lattice::{HOME, Lattice, Occupied};
 use crate::periodic::needed::{Needed, for_images, keys_of};
 use crate::periodic::staged::Staged;
 

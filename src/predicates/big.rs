@@ -106,6 +106,23 @@ pub(super) fn is_within_distance(points: [&[f64]; 2], squared: f64) -> bool {
     square(&to_a).compare_magnitude(&given) != Ordering::Greater
 }
 
+/// Compares the lengths of two vectors of integers below 2¹²⁴, each in units of a power of two of its axis.
+#[cold]
+#[inline(never)]
+pub fn compare_lengths(v: &[i128; 3], w: &[i128; 3], exponents: &[i32; 3]) -> Ordering {
+    const LOW_BITS: u32 = 62;
+    let room = Room::new();
+    let least = exponents.iter().fold(i32::MAX, |least, &x| least.min(x));
+    let square_of = |axis: usize, x: i128| {
+        let shift = (exponents[axis] - least) as u32;
+        let low = Integer::shifted(&room, (x & ((1 << LOW_BITS) - 1)) as i64, shift);
+        let whole = Integer::shifted(&room, (x >> LOW_BITS) as i64, shift + LOW_BITS) + low;
+        whole * whole
+    };
+    let square = |v: &[i128; 3]| square_of(0, v[0]) + square_of(1, v[1]) + square_of(2, v[2]);
+    (square(v) - square(w)).sign()
+}
+
 #[cold]
 #[inline(never)]
 pub(super) fn is_collinear3([a, b, c]: [&[f64; 3]; 3]) -> bool {

@@ -118,6 +118,7 @@ pub(crate) use bicells::{
     bicells_hold_for_their_size2d, bicells_hold_for_their_size3d, bicells_surely_hold2d,
     bicells_surely_hold3d,
 };
+pub use big::compare_lengths;
 pub use coordinates::Coordinates;
 pub use corners::{Meeting, sign_of_cross};
 pub use crossing::{crossing, passes_near};

@@ -136,7 +136,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let images = &self.inside.images;
         let check = |index, vertex| images.check(index, vertex, 0).map(|_| vertex);
         let moves = waiting.moves.iter().zip(&waiting.goals).enumerate();
-        let moves = moves.map(|(index, (&v, goal))| Ok((check(index, v)?, *goal)));
+        let moves = moves.map(|(index, (&v, goal))| (index, check(index, v).map(|v| (v, *goal))));
         self.staged.move_vertices(header.ids, moves).map_err(of_staged)?;
         self.staged.insert(&waiting.insertions)?;
         let removals = waiting.removals.iter().enumerate();

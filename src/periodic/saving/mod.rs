@@ -1,6 +1,6 @@
 //! Saving and loading: a triangulation as bytes, the same on every machine.
 //!
-//! docs/FORMAT.md describes the bytes. They hold the vectors as they were given, of which the same lattice follows, what each
+//! docs/FORMAT.md describes the bytes. They hold the vectors on their grid, of which the same lattice follows, what each
 //! vertex inside is, and what is inside as its own bytes; and what is staged, the timestamp, and sums.
 //!
 //! Loading triangulates nothing, and trusts nothing: what is inside is loaded as any triangulation, each image has to be where

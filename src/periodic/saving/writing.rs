@@ -47,8 +47,8 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             put(bytes)
         });
         chunks.write(self.header().bytes())?;
-        let vectors = self.lattice.original().iter();
-        let staged = self.coming.iter().flat_map(|lattice| lattice.original());
+        let vectors = self.lattice.given().iter();
+        let staged = self.coming.iter().flat_map(|lattice| lattice.given());
         let goals = self.staged.moves().iter().map(|(_, goal)| goal);
         for point in vectors.chain(staged).chain(goals).chain(self.staged.insertions()) {
             chunks.point::<G>(point)?;

@@ -161,7 +161,7 @@ fn every_byte_is_protected_in_both_dimensions() {
 }
 
 /// Makes the checksums right, of all and of what is inside.
-fn seal(bytes: &mut [u8]) {
+pub(super) fn seal(bytes: &mut [u8]) {
     let number = |at: usize| u64::from_le_bytes(bytes[at..at + 8].try_into().unwrap()) as usize;
     let (end, inside_bytes) = (bytes.len() - 4, number(184));
     let mut write = |range: std::ops::Range<usize>| {

@@ -81,7 +81,8 @@ impl Reader<'_> {
             // A staged one may have an end that was removed before a compaction.
             let is_known = |v: VertexId| v.index() < header.ids || (is_staged && v == VertexId::NONE);
             let is_there = is_staged || v != VertexId::NONE;
-            if !(if is_there { is_known(v) && is_known(w) } else { w == VertexId::NONE }) {
+            let is_nothing = w == VertexId::NONE && segment.marker == 0;
+            if !(if is_there { is_known(v) && is_known(w) } else { is_nothing }) {
                 return Err(Damage::Segment { segment: id }.into());
             }
             all.push(is_there.then_some(segment));
