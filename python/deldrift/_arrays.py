@@ -292,29 +292,47 @@ def choice(argument: str, value: Any, choices: tuple[str, ...], kind: type = Inv
 
 
 class Handle:
-    """A triangulation of the library, destroyed with the last reference to it."""
+    """A triangulation of the library, destroyed with the last reference to it.
 
-    __slots__ = ("pointer", "keep")
+    It is there before the call that makes the triangulation, which writes the pointer to `made`: so the triangulation is
+    destroyed also where a handler of a signal raises as soon as the call has returned.
+    """
 
-    def __init__(self, pointer: int, keep: Any) -> None:
-        self.pointer = pointer
+    __slots__ = ("made", "pointer", "keep")
+
+    def __init__(self, keep: Any) -> None:
+        self.made = ctypes.c_void_p()
+        self.pointer = 0
         # What the callbacks of the library use.
         self.keep = keep
 
+    def take(self) -> None:
+        """Takes up what has been made."""
+        self.pointer = self.made.value or 0
+
     def __del__(self, destroy: Any = _library.destroy) -> None:
-        destroy(self.pointer)
+        destroy(self.made)
 
 
 class Released:
-    """Arrays of cells that the library has handed over, freed with the last reference."""
+    """Arrays of cells that the library hands over, which writes what owns them to `made`; freed with the last reference."""
 
-    __slots__ = ("pointer",)
+    __slots__ = ("made",)
 
-    def __init__(self, pointer: int) -> None:
-        self.pointer = pointer
+    def __init__(self) -> None:
+        self.made = ctypes.c_void_p()
 
     def __del__(self, free_cells: Any = _library.free_cells) -> None:
-        free_cells(self.pointer)
+        free_cells(self.made)
+
+
+class Keeper:
+    """What keeps the memory of leases: the triangulation, until it has handed the memory over."""
+
+    __slots__ = ("owner",)
+
+    def __init__(self, owner: Any) -> None:
+        self.owner = owner
 
 
 class Version:

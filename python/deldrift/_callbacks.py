@@ -1,11 +1,48 @@
-"""What the library calls back during long calls, and the exceptions that come out of it."""
+"""What the library calls back during long calls, and the exceptions that come out of it.
+
+Python runs the handler of a signal at certain places of its code, and raises there what the handler raises. The entry
+of a function is one of them, ahead of any `try` in it: ctypes would drop what is raised there, and leave the answer
+unset. So all that C calls here is C's own, up to a generator, which goes on inside a `try`.
+
+PyPy's ctypes puts functions of Python's in front of all callbacks. There signals wait while the library is called, and
+are looked for inside the `try`.
+"""
 
 from __future__ import annotations
 
+import collections
+import ctypes
+import functools
+import operator
+import sys
 import threading
-from typing import Any, Callable, Optional
+import time
+from typing import Any, Callable, Iterator, Optional
 
 from . import _library
+
+if sys.implementation.name == "pypy":
+    from __pypy__ import thread as _pypy
+
+    def pause_signals() -> None:
+        """Has handlers of signals wait."""
+        if threading.current_thread() is threading.main_thread():
+            _pypy._signals_exit()
+
+    def resume_signals() -> None:
+        """Runs handlers that have waited, here."""
+        if threading.current_thread() is threading.main_thread():
+            _pypy._signals_enter()
+            # Signals are looked for after other threads had a chance to run.
+            time.sleep(0)
+
+else:
+    pause_signals = resume_signals = None
+
+SPARE = 32
+"""How many threads may get to ask at the same moment, before one of them has made room for another."""
+
+Answers = Iterator[Any]
 
 
 class Callbacks:
@@ -18,29 +55,116 @@ class Callbacks:
         self.progress, self.cancel = progress, cancel
         self._tell = _teller(progress)
         # By thread: several may read one triangulation at once.
-        self._raised: dict[int, BaseException] = {}
-        self.on_progress = _library.ProgressCallback(self._on_progress)
-        self.on_cancel = _library.CancelCallback(self._on_cancel)
+        self._raised: dict[Optional[int], BaseException] = {}
+        # What was told last, by the user data, which are none.
+        self._told: dict[Optional[int], float] = {}
+        # Generators that have stopped where they will be asked: one for each question, as a callback may lead to another.
+        self._waiting: collections.deque[Answers] = collections.deque()
+        self._prepare()
+        asked = map(operator.methodcaller("send", None), iter(self._waiting.pop, None))
+        self.on_cancel = _library.CancelCallback(functools.partial(next, asked))
+        self.on_progress = _library.ProgressCallback() if progress is None else _library.ProgressCallback(self._told.__setitem__)
 
-    def _on_progress(self, _user_data: Any, fraction: float) -> None:
+    def _prepare(self) -> None:
+        while len(self._waiting) < SPARE:
+            answers = self._answer()
+            next(answers)
+            self._waiting.append(answers)
+
+    def _answer(self) -> Answers:
+        """Answers once whether to cancel."""
+        # Handlers of signals run in the main thread.
+        thread, is_waiting = threading.main_thread().ident, True
         try:
-            if self._tell is not None:
-                self._tell(fraction)
+            yield None
+            is_waiting = False
+            thread = threading.get_ident()
+            if resume_signals is not None:
+                resume_signals()
+            self._prepare()
+            answer = thread in self._raised or self._ask()
+            if pause_signals is not None:
+                pause_signals()
+            is_waiting = True
+            yield answer
+        except GeneratorExit as error:
+            if is_waiting:
+                return
+            self._raised[thread] = error
         except BaseException as error:
-            self._raised[threading.get_ident()] = error
+            self._raised[thread] = error
+        if pause_signals is not None:
+            pause_signals()
+        yield True
 
-    def _on_cancel(self, _user_data: Any) -> bool:
+    def _ask(self) -> bool:
+        if self._tell is not None:
+            self._tell(self._told[None])
+        return self.cancel is not None and bool(self.cancel())
+
+    def check(self) -> None:
+        """Raises the exception that has cancelled a call of this thread, once."""
+        raised = self._raised.pop(threading.get_ident(), None) if self._raised else None
+        if raised is not None:
+            try:
+                self._prepare()
+            finally:
+                raise raised
+
+
+class Asked:
+    """A function of the program's that tells whether simplices are too large, as C can call it."""
+
+    def __init__(self, is_too_large: Callable[[int], bool]) -> None:
+        self._raised: Optional[BaseException] = None
+        answers = self._answer(is_too_large)
+        next(answers)
+        if resume_signals is None:
+            # What operator.getitem calls is an attribute of the class, and no method: it gets the corners alone.
+            self._question = type("Question", (), {"__getitem__": answers.send})()
+            self.callback, self.user_data = _library.TooLargeCallback(operator.getitem), id(self._question)
+        else:
+            self.callback = _library.TooLargeCallback(lambda _user_data, corners: answers.send(corners))
+            self.user_data = None
+
+    def _answer(self, is_too_large: Callable[[int], bool]) -> Answers:
+        answer: Any = None
         try:
-            if threading.get_ident() in self._raised:
-                return True
-            return self.cancel is not None and bool(self.cancel())
+            while True:
+                corners = yield answer
+                if resume_signals is not None:
+                    resume_signals()
+                answer = bool(is_too_large(corners))
+                if pause_signals is not None:
+                    pause_signals()
+        except GeneratorExit:
+            return
         except BaseException as error:
-            self._raised[threading.get_ident()] = error
-            return True
+            self._raised = error
+        if pause_signals is not None:
+            pause_signals()
+        # After an answer below 0 the library does not ask any more.
+        yield -1
 
-    def raised(self) -> Optional[BaseException]:
-        """The exception that has cancelled a call of this thread, once."""
-        return self._raised.pop(threading.get_ident(), None)
+    def check(self, callbacks: Optional[Callbacks]) -> None:
+        """Raises the exception that has ended the call; in front of one of the other callbacks, if there is."""
+        if self._raised is not None:
+            try:
+                if callbacks is not None:
+                    callbacks.check()
+            finally:
+                raise self._raised
+
+
+def calling(callbacks: Optional[Callbacks], function: Any, *arguments: Any) -> int:
+    """The status of a call that may call back."""
+    if callbacks is None or resume_signals is None:
+        return int(function(*arguments))
+    pause_signals()
+    try:
+        return int(function(*arguments))
+    finally:
+        resume_signals()
 
 
 def _teller(progress: Any) -> Optional[Callable[[float], None]]:

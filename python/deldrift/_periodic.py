@@ -10,6 +10,7 @@ import numpy as np
 from . import _library
 from ._arrays import F64, I32, Handle, address, address_if, box_corners, half_space_rows, ids as listed_ids
 from ._arrays import mask as mask_of, one_id, places, points as point_rows
+from ._callbacks import calling
 from ._core import cell_count, check, count_of, fixed, id_count, make_options
 from ._errors import WrongCount
 from ._geometry import VoronoiCells, VoronoiDerivatives, vertex_mask
@@ -120,10 +121,10 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         box = _box(vectors, ndim)
         callbacks = given_callbacks(progress, cancel)
         options = make_options(algorithm, threads, "merge", "ignore", callbacks)
-        pointer = ctypes.c_void_p()
-        status = _create_periodic(ndim, address(rows), len(rows), address(box), len(box), options, pointer)
-        check(status, {"positions": "points"}, callbacks)
-        self._start(Handle(pointer.value or 0, callbacks), ndim, threads, "merge", "ignore", callbacks)
+        handle = Handle(callbacks)
+        given = ndim, address(rows), len(rows), address(box), len(box), options, handle.made
+        check(calling(callbacks, _create_periodic, *given), {"positions": "points"}, callbacks)
+        self._start(handle, ndim, threads, "merge", "ignore", callbacks)
 
     @classmethod
     def load(
@@ -185,10 +186,10 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         PeriodicDelaunay
             After the same calls it has the same simplices. It calls the same callbacks.
         """
+        handle = Handle(self._callbacks)
         with self._reading as t:
-            pointer = ctypes.c_void_p()
-            self._check(_clone(t, pointer))
-        return made(type(self), pointer, self._threads, self._coincidence, self._passing, self._callbacks)
+            self._check(_clone(t, handle.made))
+        return made(type(self), handle, self._threads, self._coincidence, self._passing, self._callbacks)
 
     def __copy__(self) -> "PeriodicDelaunay":
         return self.copy()
@@ -704,11 +705,10 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
 
     def _commit(self, t: int, report: Report) -> int:
         """Makes what is staged the next timestamp, or, in a trial, a round of it."""
-        trial = self._trial
-        status = int(_commit_timestamp(t, report) if trial is None else _prepare_timestamp(t, report))
-        if status == 0 and trial is not None:
-            trial._is_prepared = True
-        return status
+        if self._trial is None:
+            return int(_commit_timestamp(t, report))
+        self._trial._may_be_prepared = True
+        return int(_prepare_timestamp(t, report))
 
     def _change(self, change: Callable[[int, Report], int]) -> Report:
         """A change, which has no effect if it fails."""

@@ -10,7 +10,7 @@ import numpy as np
 from . import _library
 from ._arrays import F64, I32, U32, address, places
 from ._core import cell_count, fixed, id_count
-from ._errors import InvalidOption, InvalidValue
+from ._errors import Busy, InvalidOption, InvalidValue
 from ._meeting import Meeting
 from ._near import Near
 
@@ -247,6 +247,8 @@ class Scipy(Near, Meeting):
     def close(self) -> None:
         """Ends changes: `add_points`, `move` and all others raise from now on; what can be read stays."""
         with self._changing:
+            if self._trial is not None:
+                raise Busy("a trial of the triangulation is open, and has to end before it can be closed")
             self._is_closed = True
 
 
