@@ -11,13 +11,13 @@ are looked for inside the `try`.
 from __future__ import annotations
 
 import collections
-import ctypes
 import functools
 import operator
 import sys
 import threading
 import time
-from typing import Any, Callable, Iterator, Optional
+import weakref
+from typing import Any, Callable, Generator, Optional, Union
 
 from . import _library
 
@@ -39,10 +39,10 @@ if sys.implementation.name == "pypy":
 else:
     pause_signals = resume_signals = None
 
-SPARE = 32
+SPARE = 8
 """How many threads may get to ask at the same moment, before one of them has made room for another."""
 
-Answers = Iterator[Any]
+Answers = Generator[Any, Any, None]
 
 
 class Callbacks:
@@ -67,37 +67,14 @@ class Callbacks:
 
     def _prepare(self) -> None:
         while len(self._waiting) < SPARE:
-            answers = self._answer()
+            answers = _answer(weakref.ref(self), self._raised)
             next(answers)
             self._waiting.append(answers)
 
-    def _answer(self) -> Answers:
-        """Answers once whether to cancel."""
-        # Handlers of signals run in the main thread.
-        thread, is_waiting = threading.main_thread().ident, True
-        try:
-            yield None
-            is_waiting = False
-            thread = threading.get_ident()
-            if resume_signals is not None:
-                resume_signals()
-            self._prepare()
-            answer = thread in self._raised or self._ask()
-            if pause_signals is not None:
-                pause_signals()
-            is_waiting = True
-            yield answer
-        except GeneratorExit as error:
-            if is_waiting:
-                return
-            self._raised[thread] = error
-        except BaseException as error:
-            self._raised[thread] = error
-        if pause_signals is not None:
-            pause_signals()
-        yield True
-
-    def _ask(self) -> bool:
+    def _ask(self, thread: int) -> bool:
+        self._prepare()
+        if thread in self._raised:
+            return True
         if self._tell is not None:
             self._tell(self._told[None])
         return self.cancel is not None and bool(self.cancel())
@@ -112,52 +89,94 @@ class Callbacks:
                 raise raised
 
 
+def _answer(reference: "weakref.ref[Callbacks]", raised: dict[Optional[int], BaseException]) -> Answers:
+    """Answers once whether to cancel. Callbacks have generators that wait; these have none, so that there is no circle."""
+    # Handlers of signals run in the main thread.
+    thread, is_waiting = threading.main_thread().ident, True
+    try:
+        yield None
+        is_waiting = False
+        thread = threading.get_ident()
+        if resume_signals is not None:
+            resume_signals()
+        callbacks = reference()
+        answer = callbacks is None or callbacks._ask(thread)
+        if pause_signals is not None:
+            pause_signals()
+        is_waiting = True
+        yield answer
+    except GeneratorExit as error:
+        if is_waiting:
+            return
+        raised[thread] = error
+    except BaseException as error:
+        raised[thread] = error
+    if pause_signals is not None:
+        pause_signals()
+    yield True
+
+
+class _Question:
+    """`question[corners]` is what a generator answers, by C's functions alone."""
+
+    __slots__ = ("send",)
+
+    def __init__(self, send: Callable[[Any], Any]) -> None:
+        self.send = send
+
+    __getitem__ = property(operator.attrgetter("send"))
+
+
 class Asked:
     """A function of the program's that tells whether simplices are too large, as C can call it."""
 
     def __init__(self, is_too_large: Callable[[int], bool]) -> None:
-        self._raised: Optional[BaseException] = None
-        answers = self._answer(is_too_large)
+        self._raised: list[BaseException] = []
+        self._answers = answers = _answer_each(is_too_large, self._raised)
         next(answers)
         if resume_signals is None:
-            # What operator.getitem calls is an attribute of the class, and no method: it gets the corners alone.
-            self._question = type("Question", (), {"__getitem__": answers.send})()
+            self._question = _Question(answers.send)
             self.callback, self.user_data = _library.TooLargeCallback(operator.getitem), id(self._question)
         else:
             self.callback = _library.TooLargeCallback(lambda _user_data, corners: answers.send(corners))
             self.user_data = None
 
-    def _answer(self, is_too_large: Callable[[int], bool]) -> Answers:
-        answer: Any = None
-        try:
-            while True:
-                corners = yield answer
-                if resume_signals is not None:
-                    resume_signals()
-                answer = bool(is_too_large(corners))
-                if pause_signals is not None:
-                    pause_signals()
-        except GeneratorExit:
-            return
-        except BaseException as error:
-            self._raised = error
-        if pause_signals is not None:
-            pause_signals()
-        # After an answer below 0 the library does not ask any more.
-        yield -1
+    def close(self) -> None:
+        """Ends the generator here, where what a handler of a signal raises comes out, and not where it is freed."""
+        self._answers.close()
 
     def check(self, callbacks: Optional[Callbacks]) -> None:
         """Raises the exception that has ended the call; in front of one of the other callbacks, if there is."""
-        if self._raised is not None:
+        if self._raised:
             try:
                 if callbacks is not None:
                     callbacks.check()
             finally:
-                raise self._raised
+                raise self._raised[0]
 
 
-def calling(callbacks: Optional[Callbacks], function: Any, *arguments: Any) -> int:
-    """The status of a call that may call back."""
+def _answer_each(is_too_large: Callable[[int], bool], raised: list[BaseException]) -> Answers:
+    answer: Any = None
+    try:
+        while True:
+            corners = yield answer
+            if resume_signals is not None:
+                resume_signals()
+            answer = bool(is_too_large(corners))
+            if pause_signals is not None:
+                pause_signals()
+    except GeneratorExit:
+        return
+    except BaseException as error:
+        raised[:] = [error]
+    if pause_signals is not None:
+        pause_signals()
+    # After an answer below 0 the library does not ask any more.
+    yield -1
+
+
+def calling(callbacks: Union[Callbacks, Asked, None], function: Any, *arguments: Any) -> int:
+    """The status of a call outside of those of a triangulation with callbacks, which may call some."""
     if callbacks is None or resume_signals is None:
         return int(function(*arguments))
     pause_signals()

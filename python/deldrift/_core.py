@@ -13,7 +13,17 @@ import numpy as np
 from . import _library
 from ._arrays import COUNTS_REFERENCES, Handle, Keeper, Lease, Released, Version, address, choice, taken, whole
 from ._callbacks import Callbacks, pause_signals, resume_signals
-from ._errors import Busy, Closed, ConflictError, ConflictKind, InternalError, InvalidOption, PassingError, raise_for
+from ._errors import (
+    Busy,
+    Closed,
+    ConflictError,
+    ConflictKind,
+    InternalError,
+    InvalidOption,
+    Name,
+    PassingError,
+    raise_for,
+)
 
 if TYPE_CHECKING:
     from ._step import Step, Trial
@@ -26,7 +36,7 @@ CONFLICT = np.dtype([("kind", np.uint32), ("segment", np.int32), ("other", np.in
 PASSING = np.dtype([("segment", np.int32), ("vertex", np.int32)])
 """A vertex that passes a segment."""
 
-NO_NAMES: Mapping[str, str] = {}
+NO_NAMES: Mapping[str, Name] = {}
 
 FEW = 8
 """Up to how many gates of calls that have read are kept."""
@@ -41,7 +51,7 @@ _id_count = _library.function("id_count")
 _cell_count = _library.function("cell_count")
 
 
-def check(status: int, names: Mapping[str, str] = NO_NAMES, callbacks: Optional[Callbacks] = None) -> None:
+def check(status: int, names: Mapping[str, Name] = NO_NAMES, callbacks: Optional[Callbacks] = None) -> None:
     """Raises what a status stands for, or the exception that a callback has raised."""
     if callbacks is not None:
         callbacks.check()
@@ -308,7 +318,7 @@ class Core:
         made: Made = cache[name]
         return made
 
-    def _check(self, status: int, **names: str) -> None:
+    def _check(self, status: int, **names: Name) -> None:
         """`check` with the callbacks of this triangulation, and with its conflicts and passings."""
         if self._callbacks is not None:
             self._callbacks.check()

@@ -234,7 +234,7 @@ def frombytes(
     return of_bytes(Delaunay, data, algorithm, threads, coincidence, passing, progress, cancel)
 
 
-def tsearch(tri: Any, xi: Any) -> np.ndarray:
+def tsearch(tri: Any, xi: Any, *, nan_policy: str = "raise") -> np.ndarray:
     """The simplices that contain points: `tri.find_simplex(xi)`.
 
     Parameters
@@ -243,11 +243,13 @@ def tsearch(tri: Any, xi: Any) -> np.ndarray:
         The triangulation.
     xi : array_like
         Points; the last axis has the coordinates.
+    nan_policy : {"raise", "omit"}, optional
+        As of `Delaunay.find_simplex`.
 
     Returns
     -------
     ndarray of int
         An index for each point, -1 outside the convex hull.
     """
-    found: np.ndarray = tri.find_simplex(xi)
+    found: np.ndarray = tri.find_simplex(xi, nan_policy=nan_policy)
     return found
