@@ -11,6 +11,7 @@ are looked for inside the `try`.
 from __future__ import annotations
 
 import collections
+import ctypes
 import functools
 import operator
 import sys
@@ -18,6 +19,8 @@ import threading
 import time
 import weakref
 from typing import Any, Callable, Generator, Optional, Union
+
+import numpy as np
 
 from . import _library
 
@@ -130,7 +133,7 @@ class _Question:
 class Asked:
     """A function of the program's that tells whether simplices are too large, as C can call it."""
 
-    def __init__(self, is_too_large: Callable[[int], bool]) -> None:
+    def __init__(self, is_too_large: Callable[[np.ndarray], bool]) -> None:
         self._raised: list[BaseException] = []
         self._answers = answers = _answer_each(is_too_large, self._raised)
         next(answers)
@@ -155,11 +158,13 @@ class Asked:
                 raise self._raised[0]
 
 
-def _answer_each(is_too_large: Callable[[int], bool], raised: list[BaseException]) -> Answers:
+def _answer_each(is_too_large: Callable[[np.ndarray], bool], raised: list[BaseException]) -> Answers:
     answer: Any = None
     try:
         while True:
-            corners = yield answer
+            at = yield answer
+            # NumPy drops what is raised in PyPy's ctypes, so that signals still wait here.
+            corners = np.array((ctypes.c_double * 6).from_address(at)).reshape(3, 2)
             if resume_signals is not None:
                 resume_signals()
             answer = bool(is_too_large(corners))

@@ -255,7 +255,7 @@ class Refining(Segmented):
             asked = None
             try:
                 if is_too_large is not None:
-                    asked = Asked(lambda corners: is_too_large(_corners_at(corners)))
+                    asked = Asked(is_too_large)
                     quality.is_too_large, quality.user_data = asked.callback, asked.user_data
                 status = calling(None if self._callbacks else asked, call, t, quality, mask, count, report)
             finally:
@@ -323,10 +323,6 @@ class Refining(Segmented):
             rows = RefinedWeights(np.empty((n, 3), I32), np.empty((n, 3), F64))
             self._check(_refined_weights(t, address(rows.vertices), address(rows.weights), n, ctypes.c_size_t()))
         return rows
-
-
-def _corners_at(address_of: int) -> np.ndarray:
-    return np.array((ctypes.c_double * 6).from_address(address_of)).reshape(3, 2)
 
 
 def _count(argument: str, value: Any) -> int:
