@@ -131,8 +131,8 @@ class _Reading(_Use):
                 raise Busy(
                     "the triangulation is being changed, by another thread or by the call whose callback this is"
                 )
-            if owner._must_withdraw:
-                raise Busy("a trial has ended, and is taken back as soon as other threads have read")
+            if owner._must_withdraw or (owner._must_discard and owner._step is None):
+                raise Busy("a step or trial has failed, and is taken back as soon as other threads have read")
             readers = owner._readers
             if len(readers) > FEW:
                 readers[:] = [reader for reader in readers if reader.locked()]
