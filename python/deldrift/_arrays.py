@@ -318,8 +318,9 @@ def box_corners(box: Any, ndim: int) -> tuple[Optional[np.ndarray], Optional[np.
     """The corners of a box, (low, high), or None twice for no box."""
     if box is None:
         return None, None
+    corners = box if isinstance(box, (list, tuple)) else array_of("box", box)
     try:
-        low, high = box
+        low, high = corners
     except (TypeError, ValueError):
         raise InvalidShape("box must be (low, high), two corners", "box") from None
     return one_point("low", low, ndim), one_point("high", high, ndim)

@@ -238,9 +238,8 @@ class Near(Core):
 
 
 def _fill(argument: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
+    given = floats(argument, value)
     try:
-        return contiguous(np.broadcast_to(floats(argument, value), shape), F64).reshape(-1)
+        return contiguous(np.broadcast_to(given, shape), F64).reshape(-1)
     except ValueError:
-        raise InvalidShape(
-            f"{argument} has the shape {np.shape(value)}, and must be a number or {shape}", argument
-        ) from None
+        raise InvalidShape(f"{argument} has the shape {given.shape}, and must be a number or {shape}", argument) from None
