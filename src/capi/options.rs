@@ -234,6 +234,12 @@ fn misfit<T: Growing>(size: usize, wanted: &'static str) -> Failure {
 #[derive(Clone, Copy)]
 pub struct Answer(u8);
 
+impl From<bool> for Answer {
+    fn from(answer: bool) -> Self {
+        Answer(answer.into())
+    }
+}
+
 impl Answer {
     fn is_yes(self) -> bool {
         self.0 != 0
