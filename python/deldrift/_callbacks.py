@@ -13,6 +13,7 @@ from __future__ import annotations
 import collections
 import ctypes
 import functools
+import importlib
 import operator
 import sys
 import threading
@@ -24,23 +25,25 @@ import numpy as np
 
 from . import _library
 
-if sys.implementation.name == "pypy":
-    from __pypy__ import thread as _pypy
+pause_signals: Optional[Callable[[], None]] = None
+"""Has handlers of signals wait, on PyPy."""
+resume_signals: Optional[Callable[[], None]] = None
+"""Runs handlers that have waited, here."""
 
-    def pause_signals() -> None:
-        """Has handlers of signals wait."""
+if sys.implementation.name == "pypy":
+    _pypy = importlib.import_module("__pypy__").thread
+
+    def _pause() -> None:
         if threading.current_thread() is threading.main_thread():
             _pypy._signals_exit()
 
-    def resume_signals() -> None:
-        """Runs handlers that have waited, here."""
+    def _resume() -> None:
         if threading.current_thread() is threading.main_thread():
             _pypy._signals_enter()
             # Signals are looked for after other threads had a chance to run.
             time.sleep(0)
 
-else:
-    pause_signals = resume_signals = None
+    pause_signals, resume_signals = _pause, _resume
 
 SPARE = 8
 """How many threads may get to ask at the same moment, before one of them has made room for another."""
@@ -137,12 +140,13 @@ class Asked:
         self._raised: list[BaseException] = []
         self._answers = answers = _answer_each(is_too_large, self._raised)
         next(answers)
+        self.callback: Any
+        self.user_data: Optional[int] = None
         if resume_signals is None:
             self._question = _Question(answers.send)
             self.callback, self.user_data = _library.TooLargeCallback(operator.getitem), id(self._question)
         else:
             self.callback = _library.TooLargeCallback(lambda _user_data, corners: answers.send(corners))
-            self.user_data = None
 
     def close(self) -> None:
         """Ends the generator here, where what a handler of a signal raises comes out, and not where it is freed."""
@@ -182,7 +186,7 @@ def _answer_each(is_too_large: Callable[[np.ndarray], bool], raised: list[BaseEx
 
 def calling(callbacks: Union[Callbacks, Asked, None], function: Any, *arguments: Any) -> int:
     """The status of a call outside of those of a triangulation with callbacks, which may call some."""
-    if callbacks is None or resume_signals is None:
+    if callbacks is None or pause_signals is None or resume_signals is None:
         return int(function(*arguments))
     pause_signals()
     try:

@@ -87,6 +87,8 @@ class _Block:
 class Step(_Block):
     """Moves, insertions, removals and segments that `Delaunay.step` commits together."""
 
+    _owner: "Motion"
+
     def __init__(self, owner: "Motion") -> None:
         super().__init__(owner)
         # Whether the end of the block commits what is staged.
@@ -318,6 +320,8 @@ class Step(_Block):
 
 class Trial(_Block):
     """Steps that `Delaunay.trial`, or that of a box, makes one timestamp of, or takes back."""
+
+    _owner: "Core"
 
     def __init__(self, owner: "Core") -> None:
         super().__init__(owner)

@@ -2,7 +2,11 @@
 
 `python signals.py [ROUNDS] [NAME...]` sends so many to each call, with and without callbacks: SIGALRM by a timer of the
 system, and SIGINT by another process, in turn. Their handlers raise. It prints a line for each call: how many exceptions
-came out of the call itself, how many after it, and how many not at all, which must be none.
+came out of the call itself, how many after it, how many not at all, and how often a call had been made in part.
+
+The last two must be none with CPython from 3.10 on. Before, and with PyPy, Python looks for signals between almost all
+instructions: also between the last one of a `with` block and its end, which is then left out, in finalizers, and where NumPy
+calls back, which drop what is raised there. So they are only counted.
 """
 
 import gc
@@ -35,6 +39,9 @@ CALLBACKS = {
     "progress": lambda: {"progress": lambda part: None},
     "both": lambda: {"cancel": lambda: False, "progress": lambda part: None},
 }
+
+
+IS_EXACT = sys.implementation.name == "cpython" and sys.version_info >= (3, 10)
 
 
 class Alarm(Exception):
@@ -183,7 +190,7 @@ def cases(callbacks, size=1):
 def bring(signals, case, rounds, seed):
     """Calls and signals, so many; how many exceptions came in the call, after it, and not at all."""
     make, call, key = case
-    chance, counts = random.Random(seed), [0, 0, 0]
+    chance, counts = random.Random(seed), [0, 0, 0, 0]
     made = make()
     before = key(made)
     start = time.perf_counter()
@@ -204,11 +211,14 @@ def bring(signals, case, rounds, seed):
             counts[2] += 1
         except (Alarm, KeyboardInterrupt):
             counts[is_made] += 1
-        state = key(made)
-        assert state in expected, "a call has been made in part"
-        if key is not nothing and number % 50 == 0:
-            getattr(made, "delaunay", made).validate()
-    if key is nothing and hasattr(made, "timestamp"):
+        try:
+            if key(made) not in expected:
+                counts[3] += 1
+            elif key is not nothing and number % 50 == 0:
+                getattr(made, "delaunay", made).validate()
+        except deldrift.Busy:
+            counts[3] += 1
+    if IS_EXACT and key is nothing and hasattr(made, "timestamp"):
         # Nothing is in use any more.
         made.move(made.points)
         made.validate()
@@ -217,7 +227,7 @@ def bring(signals, case, rounds, seed):
 
 def main(rounds, names=(), kinds=tuple(CALLBACKS), write=print):
     signals = Signals()
-    total = [0, 0, 0]
+    total = [0, 0, 0, 0]
     try:
         write(f"{platform.python_implementation()} {platform.python_version()}, {rounds} signals to each call")
         for kind in kinds:
@@ -228,12 +238,17 @@ def main(rounds, names=(), kinds=tuple(CALLBACKS), write=print):
                 gc.collect()
                 counts = bring(signals, case, rounds, number)
                 total = [a + b for a, b in zip(total, counts)]
-                write(f"{name}; callbacks: {kind}: {counts[0]} in the call, {counts[1]} after it, {counts[2]} lost")
-                assert counts[2] == 0 and not signals.ignored, (name, kind, counts, signals.ignored)
+                write(f"{name}; callbacks: {kind}: " + told(counts))
+                if IS_EXACT:
+                    assert counts[2:] == [0, 0] and not signals.ignored, (name, kind, counts, signals.ignored)
     finally:
         signals.close()
-    write(f"{sum(total)} signals: {total[0]} in the call, {total[1]} after it, {total[2]} lost")
+    write(f"{sum(total[:3])} signals: " + told(total))
     return total
+
+
+def told(counts):
+    return "{} in the call, {} after it, {} lost, {} in part".format(*counts)
 
 
 if __name__ == "__main__":

@@ -47,7 +47,8 @@ def test_signals_at_random_times(kind):
     command = [sys.executable, "-c", script]
     result = subprocess.run(command, cwd=TESTS, env=environment, capture_output=True, text=True, timeout=300)
     assert result.returncode == 0, result.stdout[-2000:] + result.stderr[-5000:]
-    assert "Exception ignored" not in result.stderr and result.stdout.rstrip().endswith(", 0 lost")
+    if signals.IS_EXACT:
+        assert "Exception ignored" not in result.stderr and result.stdout.rstrip().endswith(", 0 lost, 0 in part")
 
 
 @pytest.mark.parametrize("callback", ["cancel", "progress"])
