@@ -116,6 +116,9 @@ def _answer(reference: "weakref.ref[Callbacks]", raised: dict[Optional[int], Bas
             return
         raised[thread] = error
     except BaseException as error:
+        if is_waiting and resume_signals is not None:
+            # Signals wait while the library asks: the generator is freed.
+            raise
         raised[thread] = error
     if pause_signals is not None:
         pause_signals()
@@ -163,10 +166,12 @@ class Asked:
 
 
 def _answer_each(is_too_large: Callable[[np.ndarray], bool], raised: list[BaseException]) -> Answers:
-    answer: Any = None
+    answer: Optional[bool] = None
+    is_waiting = True
     try:
         while True:
             at = yield answer
+            is_waiting = False
             # NumPy drops what is raised in PyPy's ctypes, so that signals still wait here.
             corners = np.array((ctypes.c_double * 6).from_address(at)).reshape(3, 2)
             if resume_signals is not None:
@@ -174,9 +179,14 @@ def _answer_each(is_too_large: Callable[[np.ndarray], bool], raised: list[BaseEx
             answer = bool(is_too_large(corners))
             if pause_signals is not None:
                 pause_signals()
-    except GeneratorExit:
-        return
+            is_waiting = True
+    except GeneratorExit as error:
+        if is_waiting:
+            return
+        raised[:] = [error]
     except BaseException as error:
+        if is_waiting and resume_signals is not None:
+            raise
         raised[:] = [error]
     if pause_signals is not None:
         pause_signals()
