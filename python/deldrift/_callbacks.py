@@ -98,7 +98,7 @@ class Callbacks:
 def _answer(reference: "weakref.ref[Callbacks]", raised: dict[Optional[int], BaseException]) -> Answers:
     """Answers once whether to cancel. Callbacks have generators that wait; these have none, so that there is no circle."""
     # Handlers of signals run in the main thread.
-    thread, is_waiting = threading.main_thread().ident, True
+    thread, is_waiting, answer = threading.main_thread().ident, True, True
     try:
         yield None
         is_waiting = False
@@ -109,20 +109,15 @@ def _answer(reference: "weakref.ref[Callbacks]", raised: dict[Optional[int], Bas
         answer = callbacks is None or callbacks._ask(thread)
         if pause_signals is not None:
             pause_signals()
-        is_waiting = True
-        yield answer
-    except GeneratorExit as error:
-        if is_waiting:
-            return
-        raised[thread] = error
     except BaseException as error:
-        if is_waiting and resume_signals is not None:
-            # Signals wait while the library asks: the generator is freed.
+        # On PyPy signals wait while the library asks: what is raised before that comes as the generator is freed.
+        if is_waiting and (resume_signals is not None or isinstance(error, GeneratorExit)):
             raise
-        raised[thread] = error
-    if pause_signals is not None:
-        pause_signals()
-    yield True
+        raised[thread], answer = error, True
+        if pause_signals is not None:
+            pause_signals()
+    # Not in the `try`: so nothing of Python's runs when the generator is freed.
+    yield answer
 
 
 class _Question:
