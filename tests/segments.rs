@@ -296,7 +296,11 @@ fn check_domain(t: &Triangulation, rng: &mut Rng, context: &dyn Fn() -> String) 
     if m == 0 {
         return;
     }
-    check_labels(t, &regions, rng, context);
+    let hull: Vec<[VertexId; 2]> = left.keys().copied().filter(|&[v, w]| !left.contains_key(&[w, v])).collect();
+    let is_open = |edge: &&[VertexId; 2]| segment_at(**edge).is_none();
+    let open: BTreeSet<usize> =
+        hull.iter().filter(is_open).map(|edge| regions[left[edge].0.index()]).collect();
+    check_labels(t, &regions, (&hull, &open), rng, context);
     let mask: Vec<u8> = (0..m).map(|_| u8::from(rng.one_in(2))).collect();
     let chains = t.boundary_chains(&mask).expect("a mask");
     let mut bounds = BTreeSet::new();
@@ -323,8 +327,15 @@ fn check_domain(t: &Triangulation, rng: &mut Rng, context: &dyn Fn() -> String) 
     assert!(first_edges.is_sorted(), "{}", context());
 }
 
-/// Seeds in some cells, on edges and at vertices.
-fn check_labels(t: &Triangulation, regions: &[usize], rng: &mut Rng, context: &dyn Fn() -> String) {
+/// Seeds in some cells, on edges and at vertices. There come the edges of the hull, and the regions that are one with the
+/// outside, as some edge of theirs there has no segment.
+fn check_labels(
+    t: &Triangulation,
+    regions: &[usize],
+    (hull, open): (&[[VertexId; 2]], &BTreeSet<usize>),
+    rng: &mut Rng,
+    context: &dyn Fn() -> String,
+) {
     let view = t.cells().expect("room");
     let (mut seeds, mut labels, mut expected) = (Vec::new(), Vec::new(), vec![-1; regions.len()]);
     for label in 0..3 {
@@ -340,21 +351,23 @@ fn check_labels(t: &Triangulation, regions: &[usize], rng: &mut Rng, context: &d
         // All cells that have the seed inside or on the boundary, in units that hold the middles.
         let unit = QUANTUM / 4.0;
         let scaled = |p: [f64; 2]| p.map(|x| (x / unit) as i64);
+        let turn = |v: VertexId, w: VertexId| {
+            let [[a, b], [c, d]] = [v, w].map(|v| scaled(t.position(v).expect("present")));
+            let [e, f] = scaled(seed);
+            i128::from(c - a) * i128::from(f - b) - i128::from(d - b) * i128::from(e - a)
+        };
         let touching: BTreeSet<usize> = (0..regions.len())
             .filter(|&other| {
-                let row = view.corners[CellId::at(other)].map(|v| scaled(t.position(v).expect("present")));
-                let p = scaled(seed);
-                (0..3).all(|i| {
-                    let ([a, b], [c, d], [e, f]) = (row[i], row[(i + 1) % 3], p);
-                    i128::from(c - a) * i128::from(f - b) - i128::from(d - b) * i128::from(e - a) >= 0
-                })
+                let row = view.corners[CellId::at(other)];
+                (0..3).all(|i| turn(row[i], row[(i + 1) % 3]) >= 0)
             })
             .collect();
         let around: BTreeSet<usize> = touching.iter().map(|&other| regions[other]).collect();
+        let is_on_hull = hull.iter().any(|&[v, w]| turn(v, w) == 0);
         seeds.push(seed);
         labels.push(label);
         let told = t.label_cells(&seeds, &labels, -1);
-        if around.len() > 1 {
+        if around.len() > 1 || (is_on_hull && around.is_disjoint(open)) {
             assert_eq!(told, Err(Error::AmbiguousSeed { index: seeds.len() - 1 }), "{}", context());
             seeds.pop();
             labels.pop();

@@ -238,6 +238,31 @@ static void slits_and_islands_have_levels(void) {
     deldrift_destroy(t);
 }
 
+// The outside is a region: a seed on the outline of a domain, or at a corner of it, is between two.
+static void outlines_are_boundaries(void) {
+    const double square[] = {0, 0, 4, 0, 4, 4, 0, 4}, seeds[] = {4, 2, 4, 4, 2, 0, 0, 0};
+    const uint32_t sides[] = {0, 1, 1, 2, 2, 3, 3, 0};
+    const int32_t label = 5;
+    int32_t told[ROOM];
+    uint32_t first;
+    size_t count;
+    deldrift_triangulation *t = create(2, square, 4, NULL);
+    OK(deldrift_stage_segments(t, sides, NULL, 4, &first));
+    OK(deldrift_commit_timestamp(t, NULL));
+    for (size_t k = 0; k < 4; k++) {
+        CHECK_STATUS(deldrift_label_cells(t, seeds + 2 * k, &label, 1, 0, told, ROOM, &count), DELDRIFT_AMBIGUOUS_SEED);
+        CHECK_MESSAGE("seeds[0] is on the boundary of several regions");
+    }
+    // Without one of its sides the domain and the outside are one region.
+    OK(deldrift_stage_segment_removals(t, &first, 1));
+    OK(deldrift_commit_timestamp(t, NULL));
+    for (size_t k = 0; k < 4; k++) {
+        OK(deldrift_label_cells(t, seeds + 2 * k, &label, 1, 0, told, ROOM, &count));
+        CHECK(count == 2 && told[0] == 5 && told[1] == 5);
+    }
+    deldrift_destroy(t);
+}
+
 // Two triangles of a mask that touch in a vertex have a chain each; a ring of cells has two.
 static void chains_do_not_cross(void) {
     const double bow[] = {0, 0, 2, -1, 2, 1, -2, -1, -2, 1};
@@ -384,6 +409,7 @@ static void arguments_are_checked(void) {
 int main(void) {
     a_domain_keeps_its_areas_while_its_hole_turns();
     slits_and_islands_have_levels();
+    outlines_are_boundaries();
     chains_do_not_cross();
     shared_sides_count_each();
     without_cells_there_is_nothing();

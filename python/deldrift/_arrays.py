@@ -3,14 +3,24 @@
 from __future__ import annotations
 
 import ctypes
+import functools
 import operator
 import sys
-from typing import Any, Optional
+from typing import Any, Callable, Optional
 
 import numpy as np
 
 from . import _library
-from ._errors import InvalidDimension, InvalidShape, InvalidValue, NoSuchSimplex, NoSuchVertex, WrongCount
+from ._errors import (
+    InvalidDimension,
+    InvalidShape,
+    InvalidValue,
+    NoAxis,
+    NoSuchSimplex,
+    NoSuchVertex,
+    WrongCount,
+    entry,
+)
 
 F64 = np.dtype(np.float64)
 U32 = np.dtype(np.uint32)
@@ -40,12 +50,17 @@ def contiguous(array: np.ndarray, dtype: np.dtype) -> np.ndarray:
     return np.require(array, dtype, ["C", "A"])
 
 
-def reject_masked(argument: str, values: Any) -> None:
-    """Raises an error for an array with a mask."""
-    if isinstance(values, np.ma.MaskedArray):
+def array_of(argument: str, values: Any) -> np.ndarray:
+    """Whatever NumPy, or DLPack, makes an array of; an error for masks, which NumPy drops."""
+    if isinstance(values, np.ma.MaskedArray) or (
+        isinstance(values, (list, tuple)) and any(isinstance(entry, np.ma.MaskedArray) for entry in values)
+    ):
         raise InvalidShape(
             f"{argument} is a masked array, of which it is not known what its masked entries are", argument
         )
+    if hasattr(values, "__dlpack__") and not hasattr(values, "__array__"):
+        values = np.from_dlpack(values)
+    return np.asarray(values)
 
 
 def floats(argument: str, values: Any) -> np.ndarray:
@@ -54,10 +69,7 @@ def floats(argument: str, values: Any) -> np.ndarray:
         flags = values.flags
         if flags.c_contiguous and flags.aligned:
             return values
-    reject_masked(argument, values)
-    if hasattr(values, "__dlpack__") and not hasattr(values, "__array__"):
-        values = np.from_dlpack(values)
-    array = np.asarray(values)
+    array = array_of(argument, values)
     if array.dtype.kind not in "fiub":
         if array.dtype.kind == "O":
             try:
@@ -73,7 +85,8 @@ def points(argument: str, values: Any, ndim: Optional[int] = None) -> np.ndarray
     array = floats(argument, values)
     if array.ndim != 2:
         raise InvalidShape(
-            f"{argument} has the shape {array.shape}, and must have a row of coordinates for each point", argument
+            f"{argument} has the shape {array.shape}, and must have two dimensions: a row of coordinates for each point",
+            argument,
         )
     width = array.shape[1]
     if ndim is None and width not in (2, 3):
@@ -101,48 +114,90 @@ def one_point(argument: str, value: Any, ndim: int) -> np.ndarray:
 
 def places(argument: str, values: Any, ndim: int) -> tuple[np.ndarray, tuple[int, ...]]:
     """Points in an array of any shape whose last axis has the coordinates: rows of them, and the other axes."""
-    array = floats(argument, values)
-    if array.ndim == 0 or array.shape[-1] != ndim:
+    given = array_of(argument, values)
+    if given.ndim == 0:
+        raise NoAxis(f"{argument} has the shape (), whose last entry must be {ndim}", argument)
+    array = floats(argument, given)
+    if array.shape[-1] != ndim:
         raise InvalidShape(f"{argument} has the shape {array.shape}, whose last entry must be {ndim}", argument)
     return array.reshape(-1, ndim), array.shape[:-1]
 
 
 def ids(argument: str, values: Any, missing: type = NoSuchVertex) -> np.ndarray:
     """Ids of vertices, or indices of simplices, as contiguous unsigned numbers of 32 bits."""
-    reject_masked(argument, values)
-    array = np.asarray(values)
+    array = array_of(argument, values)
     if array.ndim != 1:
         raise InvalidShape(f"{argument} has the shape {array.shape}, and must be a list", argument)
+    return _unsigned(argument, array, missing)
+
+
+def id_rows(argument: str, values: Any, widths: range) -> np.ndarray:
+    """Rows of ids of vertices, of one of some widths."""
+    array = array_of(argument, values)
+    if array.size == 0 and array.ndim < 2:
+        return np.empty((0, widths[0]), U32)
+    if array.ndim != 2 or array.shape[1] not in widths:
+        most = "two" if widths == PAIRS else f"{widths[0]} to {widths[-1]}"
+        width = array.shape[1] if array.ndim == 2 else None
+        raise InvalidShape(
+            f"{argument} has the shape {array.shape}, and must have rows of {most} ids", argument, None, width
+        )
+    return _unsigned(argument, array, NoSuchVertex)
+
+
+def simplex_of_each(argument: str, values: Any, count: int) -> np.ndarray:
+    """An index of a simplex, or -1, for each of some points, in an array of any shape, as signed numbers."""
+    array = array_of(argument, values)
+    if array.size != count:
+        raise WrongCount(
+            f"{argument} has {array.size} entries, and there are {count} points", argument, None, array.size
+        )
+    is_none = array == -1
+    listed: np.ndarray = _unsigned(argument, np.where(is_none, 0, array), NoSuchSimplex).view(I32)
+    listed[is_none] = -1
+    return listed
+
+
+def answered(rows: np.ndarray, nan_policy: Any, ask: Callable[[np.ndarray], np.ndarray], none: float) -> np.ndarray:
+    """What `ask` answers for rows of coordinates; with "omit" `none` for those of which one is NaN or infinite."""
+    if choice("nan_policy", nan_policy, NAN_POLICIES) == 0:
+        return ask(rows)
+    is_finite = np.isfinite(rows).all(axis=1)
+    if is_finite.all():
+        return ask(rows)
+    # Others keep their places, so that errors name them.
+    answers = ask(np.where(is_finite[:, None], rows, 0.0))
+    answers[~is_finite] = none
+    return answers
+
+
+def _unsigned(argument: str, array: np.ndarray, missing: type) -> np.ndarray:
     if array.size == 0:
-        return np.empty(0, U32)
+        return np.empty(array.shape, U32)
     if array.dtype.kind not in "iu":
         raise TypeError(f"{argument} has the type {array.dtype}, and must have whole numbers")
     if array.dtype.kind == "i" or array.dtype.itemsize > 4:
         wrong = (array < 0) | (array >= _library.NONE)
         if wrong.any():
-            index = int(np.argmax(wrong))
-            raise missing(
-                f"{argument}[{index}] is {array[index]}, which was never given", argument, index, int(array[index])
-            )
+            flat = int(np.argmax(wrong))
+            value = int(array.reshape(-1)[flat])
+            told, index = entry(flat, array.shape)
+            raise missing(f"{argument}{told} is {value}, which was never given", argument, index, value)
     return contiguous(array, U32)
+
+
+PAIRS = range(2, 3)
+NAN_POLICIES = "raise", "omit"
 
 
 def pairs(argument: str, values: Any) -> np.ndarray:
     """Rows of two ids of vertices."""
-    array = np.asarray(values)
-    if array.size == 0 and array.ndim < 3:
-        return np.empty((0, 2), U32)
-    if array.ndim != 2 or array.shape[1] != 2:
-        raise InvalidShape(f"{argument} has the shape {array.shape}, and must have rows of two ids", argument)
-    if isinstance(values, np.ma.MaskedArray):
-        array = values
-    return ids(argument, array.reshape(-1)).reshape(-1, 2)
+    return id_rows(argument, values, PAIRS)
 
 
 def numbers(argument: str, values: Any, count: int, entries: str) -> np.ndarray:
     """Whole numbers of 32 bits with a sign, one for each of some entries; a single one stands for all."""
-    reject_masked(argument, values)
-    array = np.asarray(values)
+    array = array_of(argument, values)
     if array.ndim > 1:
         raise InvalidShape(f"{argument} has the shape {array.shape}, and must be a list", argument)
     if array.ndim == 1 and len(array) != count:
@@ -154,11 +209,10 @@ def numbers(argument: str, values: Any, count: int, entries: str) -> np.ndarray:
     range_of = np.iinfo(I32)
     wrong = (array < range_of.min) | (array > range_of.max)
     if wrong.any():
+        if array.ndim == 0:
+            one_number(argument, array)
         index = int(np.argmax(wrong))
-        value = int(array.reshape(-1)[index])
-        raise InvalidValue(
-            f"{argument}[{index}] is {value}, and must be a number of 32 bits with a sign", argument, index, value
-        )
+        one_number(argument, array[index], index)
     return contiguous(np.broadcast_to(array, (count,)), I32)
 
 
@@ -166,8 +220,7 @@ def keys(argument: str, values: Any, count: int) -> Optional[np.ndarray]:
     """Keys of vertices, which are unsigned whole numbers of 64 bits; None stands for the ids."""
     if values is None:
         return None
-    reject_masked(argument, values)
-    array = np.asarray(values)
+    array = array_of(argument, values)
     if array.ndim != 1:
         raise InvalidShape(f"{argument} has the shape {array.shape}, and must be a list", argument)
     if len(array) != count:
@@ -197,25 +250,26 @@ def one_key(argument: str, value: Any) -> int:
     return number
 
 
-def one_number(argument: str, value: Any) -> int:
+def one_number(argument: str, value: Any, index: Optional[int] = None) -> int:
     """A whole number of 32 bits with a sign."""
     number = whole(argument, value)
     if not -(1 << 31) <= number < 1 << 31:
+        place = "" if index is None else f"[{index}]"
         raise InvalidValue(
-            f"{argument} is {number}, and must be a number of 32 bits with a sign", argument, None, number
+            f"{argument}{place} is {number}, and must be a number of 32 bits with a sign", argument, index, number
         )
     return number
 
 
 def mask(argument: str, values: Any) -> np.ndarray:
-    """True or false for each simplex."""
-    array = np.asarray(values)
+    """True or false for each simplex or vertex."""
+    array = array_of(argument, values)
     if array.ndim != 1:
-        raise InvalidShape(f"{argument} has the shape {array.shape}, and must have an entry for each simplex", argument)
+        raise InvalidShape(f"{argument} has the shape {array.shape}, and must be a list of true and false", argument)
     if array.size == 0:
         return np.empty(0, np.bool_)
     if array.dtype.kind not in "biu":
-        raise TypeError(f"{argument} has the type {array.dtype}, and must have true or false for each simplex")
+        raise TypeError(f"{argument} has the type {array.dtype}, and must be a list of true and false")
     return contiguous(array, np.dtype(np.bool_))
 
 
@@ -250,7 +304,7 @@ def simplex_ids(argument: str, values: Any) -> np.ndarray:
 
 def check_output(argument: str, array: Any, dtype: np.dtype, least: tuple[int, ...]) -> None:
     """Raises unless `array` can be written to, with so many entries at least, which are for simplices."""
-    if not isinstance(array, np.ndarray) or array.dtype != dtype or not array.flags.carray:
+    if not isinstance(array, np.ndarray) or isinstance(array, np.ma.MaskedArray) or array.dtype != dtype or not array.flags.carray:
         raise TypeError(f"{argument} must be a contiguous, writeable array of {dtype}")
     if array.ndim != len(least) or array.shape[1:] != least[1:]:
         raise InvalidShape(f"{argument} has the shape {array.shape}, and must have {least}", argument)
@@ -264,8 +318,9 @@ def box_corners(box: Any, ndim: int) -> tuple[Optional[np.ndarray], Optional[np.
     """The corners of a box, (low, high), or None twice for no box."""
     if box is None:
         return None, None
+    corners = box if isinstance(box, (list, tuple)) else array_of("box", box)
     try:
-        low, high = box
+        low, high = corners
     except (TypeError, ValueError):
         raise InvalidShape("box must be (low, high), two corners", "box") from None
     return one_point("low", low, ndim), one_point("high", high, ndim)
@@ -291,30 +346,55 @@ def choice(argument: str, value: Any, choices: tuple[str, ...], kind: type = Inv
     raise kind(f"{argument} is {value!r}, and must be one of " + ", ".join(map(repr, choices)), argument)
 
 
-class Handle:
-    """A triangulation of the library, destroyed with the last reference to it."""
+class _Owned:
+    """What the library makes and writes the address of to `made`, freed with the last reference.
 
-    __slots__ = ("pointer", "keep")
+    What frees it is C's. A function of Python's would be a place where handlers of signals run, and what is raised in a
+    `__del__` is lost.
+    """
 
-    def __init__(self, pointer: int, keep: Any) -> None:
-        self.pointer = pointer
+    # Nothing, of C's, where a handler raises before there is anything to free.
+    free: Any = int
+
+    def __init__(self, free: Any) -> None:
+        self.made = ctypes.c_void_p()
+        self.free = functools.partial(free, self.made)
+
+    __del__ = property(operator.attrgetter("free"))
+
+
+class Handle(_Owned):
+    """A triangulation of the library, destroyed with the last reference to it.
+
+    It is there before the call that makes the triangulation, which writes the pointer to `made`: so the triangulation is
+    destroyed also where a handler of a signal raises as soon as the call has returned.
+    """
+
+    def __init__(self, keep: Any) -> None:
+        super().__init__(_library.destroy)
+        self.pointer = 0
         # What the callbacks of the library use.
         self.keep = keep
 
-    def __del__(self, destroy: Any = _library.destroy) -> None:
-        destroy(self.pointer)
+    def take(self) -> None:
+        """Takes up what has been made."""
+        self.pointer = self.made.value or 0
 
 
-class Released:
-    """Arrays of cells that the library has handed over, freed with the last reference."""
+class Released(_Owned):
+    """Arrays of cells that the library hands over, which writes what owns them to `made`; freed with the last reference."""
 
-    __slots__ = ("pointer",)
+    def __init__(self) -> None:
+        super().__init__(_library.free_cells)
 
-    def __init__(self, pointer: int) -> None:
-        self.pointer = pointer
 
-    def __del__(self, free_cells: Any = _library.free_cells) -> None:
-        free_cells(self.pointer)
+class Keeper:
+    """What keeps the memory of leases: the triangulation, until it has handed the memory over."""
+
+    __slots__ = ("owner",)
+
+    def __init__(self, owner: Any) -> None:
+        self.owner = owner
 
 
 class Version:

@@ -13,7 +13,8 @@ from ._arrays import (
     I32,
     address,
     address_if,
-    ids,
+    answered,
+    id_rows,
     mask as mask_of,
     one_id,
     one_point,
@@ -178,13 +179,15 @@ class Asking(Scipy):
             self._check(function(t, number, address(cells), len(cells), count), vertex="vertex!")
         return cells
 
-    def locate(self, xi: Any) -> Locations:
+    def locate(self, xi: Any, *, nan_policy: str = "raise") -> Locations:
         """Where points lie, exactly.
 
         Parameters
         ----------
         xi : array_like
             Points; the last axis has the coordinates.
+        nan_policy : {"raise", "omit"}, optional
+            As of `find_simplex`; with "omit" kind and index of points with NaN are -1.
 
         Returns
         -------
@@ -199,16 +202,23 @@ class Asking(Scipy):
         Locations(kinds=array([0, 1, 2], dtype=int32), indices=array([1, 0, 0], dtype=int32))
         """
         rows, shape = places("xi", xi, self.ndim)
-        locations = np.empty((len(rows), 2), I32)
-        with self._reading as t:
-            self._check(_locate_points(t, address(rows), len(rows), None, address(locations)), positions="xi")
+
+        def ask(rows: np.ndarray) -> np.ndarray:
+            locations = np.empty((len(rows), 2), I32)
+            with self._reading as t:
+                status = _locate_points(t, address(rows), len(rows), None, address(locations))
+                self._check(status, positions=("xi", shape))
+            return locations
+
+        locations = answered(rows, nan_policy, ask, -1)
         return Locations(locations[:, 0].reshape(shape), locations[:, 1].reshape(shape))
 
     def _boxes(self, low: Any, high: Any) -> tuple[np.ndarray, np.ndarray]:
         """The corners of boxes, a row for each."""
         (least, rows), (greatest, others) = places("low", low, self.ndim), places("high", high, self.ndim)
         if rows != others:
-            raise InvalidShape(f"high has the shape {np.shape(high)}, and low {np.shape(low)}", "high")
+            of_high, of_low = (*others, self.ndim), (*rows, self.ndim)
+            raise InvalidShape(f"high has the shape {of_high}, and low {of_low}", "high")
         return least, greatest
 
     def _mask_of_vertices(self, t: Any, mask: Any) -> Optional[np.ndarray]:
@@ -310,22 +320,11 @@ class Asking(Scipy):
         >>> tri.simplices_with([[0, 1], [0, 2]]) >= 0
         array([ True, False])
         """
-        array = np.asarray(vertices)
-        if array.ndim != 2:
-            raise InvalidShape(f"vertices has the shape {array.shape}, and must have rows of ids", "vertices")
-        width = array.shape[1]
-        if not 1 <= width <= self.ndim + 1:
-            raise InvalidShape(
-                f"vertices has the shape {array.shape}, and must have rows of 1 to {self.ndim + 1} ids",
-                "vertices",
-                None,
-                width,
-            )
-        listed = ids("vertices", array.reshape(-1))
-        found = np.empty(len(array), I32)
+        listed = id_rows("vertices", vertices, range(1, self.ndim + 2))
+        found = np.empty(len(listed), I32)
         with self._reading as t:
-            status = _find_simplices(t, width, address(listed), len(array), address(found))
-            self._check(status, vertex="vertices")
+            status = _find_simplices(t, listed.shape[1], address(listed), len(listed), address(found))
+            self._check(status, vertex=("vertices", listed.shape), vertices=("vertices", listed.shape))
         return found
 
 

@@ -1,11 +1,54 @@
-"""What the library calls back during long calls, and the exceptions that come out of it."""
+"""What the library calls back during long calls, and the exceptions that come out of it.
+
+Python runs the handler of a signal at certain places of its code, and raises there what the handler raises. The entry
+of a function is one of them, ahead of any `try` in it: ctypes would drop what is raised there, and leave the answer
+unset. So all that C calls here is C's own, up to a generator, which goes on inside a `try`.
+
+PyPy's ctypes puts functions of Python's in front of all callbacks. There signals wait while the library is called, and
+are looked for inside the `try`.
+"""
 
 from __future__ import annotations
 
+import collections
+import ctypes
+import functools
+import importlib
+import operator
+import sys
 import threading
-from typing import Any, Callable, Optional
+import time
+import weakref
+from typing import Any, Callable, Generator, Optional, Union
+
+import numpy as np
 
 from . import _library
+
+pause_signals: Optional[Callable[[], None]] = None
+"""Has handlers of signals wait, on PyPy."""
+resume_signals: Optional[Callable[[], None]] = None
+"""Runs handlers that have waited, here."""
+
+if sys.implementation.name == "pypy":
+    _pypy = importlib.import_module("__pypy__").thread
+
+    def _pause() -> None:
+        if threading.current_thread() is threading.main_thread():
+            _pypy._signals_exit()
+
+    def _resume() -> None:
+        if threading.current_thread() is threading.main_thread():
+            _pypy._signals_enter()
+            # Signals are looked for after other threads had a chance to run.
+            time.sleep(0)
+
+    pause_signals, resume_signals = _pause, _resume
+
+SPARE = 8
+"""How many threads may get to ask at the same moment, before one of them has made room for another."""
+
+Answers = Generator[Any, Any, None]
 
 
 class Callbacks:
@@ -18,29 +61,143 @@ class Callbacks:
         self.progress, self.cancel = progress, cancel
         self._tell = _teller(progress)
         # By thread: several may read one triangulation at once.
-        self._raised: dict[int, BaseException] = {}
-        self.on_progress = _library.ProgressCallback(self._on_progress)
-        self.on_cancel = _library.CancelCallback(self._on_cancel)
+        self._raised: dict[Optional[int], BaseException] = {}
+        # What was told last, by the user data, which are none.
+        self._told: dict[Optional[int], float] = {}
+        # Generators that have stopped where they will be asked: one for each question, as a callback may lead to another.
+        self._waiting: collections.deque[Answers] = collections.deque()
+        self._prepare()
+        asked = map(operator.methodcaller("send", None), iter(self._waiting.pop, None))
+        self.on_cancel = _library.CancelCallback(functools.partial(next, asked))
+        self.on_progress = _library.ProgressCallback() if progress is None else _library.ProgressCallback(self._told.__setitem__)
 
-    def _on_progress(self, _user_data: Any, fraction: float) -> None:
-        try:
-            if self._tell is not None:
-                self._tell(fraction)
-        except BaseException as error:
-            self._raised[threading.get_ident()] = error
+    def _prepare(self) -> None:
+        while len(self._waiting) < SPARE:
+            answers = _answer(weakref.ref(self), self._raised)
+            next(answers)
+            self._waiting.append(answers)
 
-    def _on_cancel(self, _user_data: Any) -> bool:
-        try:
-            if threading.get_ident() in self._raised:
-                return True
-            return self.cancel is not None and bool(self.cancel())
-        except BaseException as error:
-            self._raised[threading.get_ident()] = error
+    def _ask(self, thread: int) -> bool:
+        self._prepare()
+        if thread in self._raised:
             return True
+        if self._tell is not None:
+            self._tell(self._told[None])
+        return self.cancel is not None and bool(self.cancel())
 
-    def raised(self) -> Optional[BaseException]:
-        """The exception that has cancelled a call of this thread, once."""
-        return self._raised.pop(threading.get_ident(), None)
+    def check(self) -> None:
+        """Raises the exception that has cancelled a call of this thread, once."""
+        raised = self._raised.pop(threading.get_ident(), None) if self._raised else None
+        if raised is not None:
+            try:
+                self._prepare()
+            finally:
+                raise raised
+
+
+def _answer(reference: "weakref.ref[Callbacks]", raised: dict[Optional[int], BaseException]) -> Answers:
+    """Answers once whether to cancel. Callbacks have generators that wait; these have none, so that there is no circle."""
+    # Handlers of signals run in the main thread.
+    thread, is_waiting, answer = threading.main_thread().ident, True, True
+    try:
+        yield None
+        is_waiting = False
+        thread = threading.get_ident()
+        if resume_signals is not None:
+            resume_signals()
+        callbacks = reference()
+        answer = callbacks is None or callbacks._ask(thread)
+        if pause_signals is not None:
+            pause_signals()
+    except BaseException as error:
+        # On PyPy signals wait while the library asks: what is raised before that comes as the generator is freed.
+        if is_waiting and (resume_signals is not None or isinstance(error, GeneratorExit)):
+            raise
+        raised[thread], answer = error, True
+        if pause_signals is not None:
+            pause_signals()
+    # Not in the `try`: so nothing of Python's runs when the generator is freed.
+    yield answer
+
+
+class _Question:
+    """`question[corners]` is what a generator answers, by C's functions alone."""
+
+    __slots__ = ("send",)
+
+    def __init__(self, send: Callable[[Any], Any]) -> None:
+        self.send = send
+
+    __getitem__ = property(operator.attrgetter("send"))
+
+
+class Asked:
+    """A function of the program's that tells whether simplices are too large, as C can call it."""
+
+    def __init__(self, is_too_large: Callable[[np.ndarray], bool]) -> None:
+        self._raised: list[BaseException] = []
+        self._answers = answers = _answer_each(is_too_large, self._raised)
+        next(answers)
+        self.callback: Any
+        self.user_data: Optional[int] = None
+        if resume_signals is None:
+            self._question = _Question(answers.send)
+            self.callback, self.user_data = _library.TooLargeCallback(operator.getitem), id(self._question)
+        else:
+            self.callback = _library.TooLargeCallback(lambda _user_data, corners: answers.send(corners))
+
+    def close(self) -> None:
+        """Ends the generator here, where what a handler of a signal raises comes out, and not where it is freed."""
+        self._answers.close()
+
+    def check(self, callbacks: Optional[Callbacks]) -> None:
+        """Raises the exception that has ended the call; in front of one of the other callbacks, if there is."""
+        if self._raised:
+            try:
+                if callbacks is not None:
+                    callbacks.check()
+            finally:
+                raise self._raised[0]
+
+
+def _answer_each(is_too_large: Callable[[np.ndarray], bool], raised: list[BaseException]) -> Answers:
+    answer: Optional[bool] = None
+    is_waiting = True
+    try:
+        while True:
+            at = yield answer
+            is_waiting = False
+            # NumPy drops what is raised in PyPy's ctypes, so that signals still wait here.
+            corners = np.array((ctypes.c_double * 6).from_address(at)).reshape(3, 2)
+            if resume_signals is not None:
+                resume_signals()
+            answer = bool(is_too_large(corners))
+            if pause_signals is not None:
+                pause_signals()
+            is_waiting = True
+    except GeneratorExit as error:
+        if is_waiting:
+            return
+        raised[:] = [error]
+    except BaseException as error:
+        if is_waiting and resume_signals is not None:
+            raise
+        raised[:] = [error]
+    if pause_signals is not None:
+        pause_signals()
+    # After an answer below 0 the library does not ask any more.
+    yield -1
+
+
+def calling(callbacks: Union[Callbacks, Asked, None], function: Any, *arguments: Any) -> int:
+    """The status of a call outside of those of a triangulation with callbacks, which may call some."""
+    if callbacks is None or pause_signals is None or resume_signals is None:
+        return int(function(*arguments))
+    pause_signals()
+    try:
+        return int(function(*arguments))
+    finally:
+        resume_signals()
 
 
 def _teller(progress: Any) -> Optional[Callable[[float], None]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import operator
 import threading
 import weakref
 from typing import TYPE_CHECKING, Any, Callable, Mapping, Optional, TypeVar
@@ -10,12 +11,22 @@ from typing import TYPE_CHECKING, Any, Callable, Mapping, Optional, TypeVar
 import numpy as np
 
 from . import _library
-from ._arrays import COUNTS_REFERENCES, Handle, Lease, Released, Version, address, choice, taken, whole
-from ._callbacks import Callbacks
-from ._errors import Busy, Closed, ConflictError, ConflictKind, InternalError, InvalidOption, PassingError, raise_for
+from ._arrays import COUNTS_REFERENCES, Handle, Keeper, Lease, Released, Version, address, choice, taken, whole
+from ._callbacks import Callbacks, pause_signals, resume_signals
+from ._errors import (
+    Busy,
+    Closed,
+    ConflictError,
+    ConflictKind,
+    InternalError,
+    InvalidOption,
+    Name,
+    PassingError,
+    raise_for,
+)
 
 if TYPE_CHECKING:
-    from ._step import Trial
+    from ._step import Step, Trial
 
 Made = TypeVar("Made")
 
@@ -25,23 +36,26 @@ CONFLICT = np.dtype([("kind", np.uint32), ("segment", np.int32), ("other", np.in
 PASSING = np.dtype([("segment", np.int32), ("vertex", np.int32)])
 """A vertex that passes a segment."""
 
-NO_NAMES: Mapping[str, str] = {}
+NO_NAMES: Mapping[str, Name] = {}
+
+FEW = 8
+"""Up to how many gates of calls that have read are kept."""
 
 _release_cells = _library.function("release_cells")
 _cells = _library.function("cells")
 _segment_conflicts = _library.function("segment_conflicts")
 _passings = _library.function("passings")
 _discard_moves = _library.function("discard_moves")
+_withdraw_timestamp = _library.function("withdraw_timestamp")
 _id_count = _library.function("id_count")
 _cell_count = _library.function("cell_count")
 
 
-def check(status: int, names: Mapping[str, str] = NO_NAMES, callbacks: Optional[Callbacks] = None) -> None:
+def check(status: int, names: Mapping[str, Name] = NO_NAMES, callbacks: Optional[Callbacks] = None) -> None:
     """Raises what a status stands for, or the exception that a callback has raised."""
+    if callbacks is not None:
+        callbacks.check()
     if status:
-        raised = callbacks.raised() if callbacks is not None else None
-        if raised is not None:
-            raise raised
         raise_for(status, names)
 
 
@@ -64,66 +78,112 @@ def make_options(
     return options
 
 
-class _Reading:
-    """Reads of a triangulation, which may run on several threads at once: `with self._reading as t`."""
+class _Use:
+    """A call on a triangulation: `with owner._reading as t`.
 
-    __slots__ = ("owner",)
+    Its gate is locked while it runs. Leaving the block is the gate's own `__exit__`, C's: a handler of a signal that raises
+    at the entry of a function of Python's cannot keep it from being left.
+    """
+
+    __slots__ = ("owner", "gate")
 
     def __init__(self, owner: "Core") -> None:
         self.owner = owner
+        self.gate = threading.Lock()
 
     def __enter__(self) -> int:
         owner = self.owner
+        if pause_signals is not None and owner._callbacks is not None:
+            pause_signals()
+        try:
+            self.gate.acquire()
+            self._begin(owner)
+            return owner._handle.pointer
+        except BaseException:
+            self._leave()
+            raise
+
+    def _begin(self, owner: "Core") -> None:
+        raise NotImplementedError
+
+    def _leave(self, *_: Any) -> None:
+        if self.gate.locked():
+            self.gate.release()
+        if resume_signals is not None and self.owner._callbacks is not None:
+            resume_signals()
+
+    if resume_signals is None:
+        __exit__ = property(operator.attrgetter("gate.__exit__"))
+    else:
+        __exit__ = property(lambda self: self.gate.__exit__ if self.owner._callbacks is None else self._leave)
+
+
+class _Reading(_Use):
+    """Reads of a triangulation, which may run on several threads at once."""
+
+    __slots__ = ()
+
+    def _begin(self, owner: "Core") -> None:
+        if owner._must_withdraw or owner._must_discard:
+            owner._settle()
         with owner._lock:
-            if owner._is_changing:
+            if owner._changer.locked():
                 raise Busy(
                     "the triangulation is being changed, by another thread or by the call whose callback this is"
                 )
-            owner._readers += 1
-        return owner._handle.pointer
+            if owner._must_withdraw or (owner._must_discard and owner._step is None):
+                raise Busy("a step or trial has failed, and is taken back as soon as other threads have read")
+            readers = owner._readers
+            if len(readers) > FEW:
+                readers[:] = [reader for reader in readers if reader.locked()]
+            readers.append(self.gate)
 
-    def __exit__(self, *_: Any) -> None:
-        with self.owner._lock:
-            self.owner._readers -= 1
 
+class _Changing(_Use):
+    """A call that may not run beside any other."""
 
-class _Changing:
-    """A call that may not run beside any other: `with self._changing as t`."""
-
-    __slots__ = ("owner", "is_of_step", "keeps_cells")
+    __slots__ = ("is_of_step", "keeps_cells")
 
     def __init__(self, owner: "Core", is_of_step: bool, keeps_cells: bool) -> None:
-        self.owner = owner
+        super().__init__(owner)
         # Whether it belongs to the step that is open: nothing else may change the triangulation then.
         self.is_of_step = is_of_step
         # Whether it changes no cells, so that arrays of them stay as they are.
         self.keeps_cells = keeps_cells
 
-    def __enter__(self) -> int:
-        owner = self.owner
+    def _begin(self, owner: "Core") -> None:
+        if owner._must_withdraw or owner._must_discard:
+            owner._settle()
         with owner._lock:
-            if owner._is_changing or owner._readers:
-                raise Busy("the triangulation is in use, by another thread or by the call whose callback this is")
-            if owner._has_step and not self.is_of_step:
+            owner._check_unused()
+            if owner._step is not None and not self.is_of_step:
                 raise Busy("a step of the triangulation is open, and nothing else may change it before that ends")
             if owner._is_closed:
                 raise Closed("the triangulation was closed, and cannot be changed any more")
-            owner._is_changing = True
-        try:
-            if self.keeps_cells:
-                owner._forget_all_but_cells()
-            else:
-                owner._leave_views()
-            if owner._must_discard and not owner._has_step:
-                check(_discard_moves(owner._handle.pointer))
-                owner._must_discard = False
-        except BaseException:
-            owner._is_changing = False
-            raise
-        return owner._handle.pointer
+            owner._changer = self.gate
+        if self.keeps_cells:
+            owner._forget_all_but_cells()
+        else:
+            owner._leave_views()
 
-    def __exit__(self, *_: Any) -> None:
-        self.owner._is_changing = False
+
+class _Ending(_Use):
+    """The end of a trial or step, whatever its block has left."""
+
+    __slots__ = ("keeps_cells",)
+
+    def __init__(self, owner: "Core", keeps_cells: bool) -> None:
+        super().__init__(owner)
+        self.keeps_cells = keeps_cells
+
+    def _begin(self, owner: "Core") -> None:
+        with owner._lock:
+            owner._check_unused()
+            owner._changer = self.gate
+        if self.keeps_cells:
+            owner._forget_all_but_cells()
+        else:
+            owner._leave_views()
 
 
 class Core:
@@ -137,29 +197,36 @@ class Core:
     def _start(
         self, handle: Handle, ndim: int, threads: int, coincidence: str, passing: str, callbacks: Optional[Callbacks]
     ) -> None:
+        handle.take()
         self._handle = handle
         self.ndim = ndim
         self._threads, self._coincidence, self._passing, self._callbacks = threads, coincidence, passing, callbacks
         self._lock = threading.Lock()
-        self._readers = 0
-        self._is_changing = False
+        # The gates of calls, of which those that are locked are running: of calls that read, and of the last change.
+        self._readers: list[Any] = []
+        self._changer = threading.Lock()
         self._is_closed = False
-        self._has_step = False
-        # The trial that is open: steps are rounds of it.
+        # The step and the trial that are open: in a trial steps are rounds of it.
+        self._step: Optional["Step"] = None
         self._trial: Optional["Trial"] = None
-        # Whether the library has moves staged that no step will commit.
-        self._must_discard = False
+        # Whether the library has moves staged that no step will commit, and steps prepared that no trial will publish.
+        self._must_discard = self._must_withdraw = False
         self._last_report: Optional[_library.Report] = None
         self._version = Version()
         # What has been computed of this version, by name.
         self._cache: dict[str, Any] = {}
-        # Arrays of the library's memory that may be in use.
+        # What keeps the library's memory, and the arrays of it that may be in use.
+        self._keeper = Keeper(handle)
         self._leases: list[weakref.ref[Lease]] = []
 
     # Made for each call: kept, they would be in a circle with their owner, whose memory only a collection would free.
     @property
     def _reading(self) -> _Reading:
         return _Reading(self)
+
+    @property
+    def _ending(self) -> _Ending:
+        return _Ending(self, False)
 
     @property
     def _changing(self) -> _Changing:
@@ -177,6 +244,26 @@ class Core:
     def _committing(self) -> _Changing:
         return _Changing(self, True, False)
 
+    def _check_unused(self) -> None:
+        """Raises an error unless no call is running; to be called with the lock."""
+        self._readers[:] = [reader for reader in self._readers if reader.locked()]
+        if self._changer.locked() or self._readers:
+            raise Busy("the triangulation is in use, by another thread or by the call whose callback this is")
+
+    def _settle(self) -> None:
+        """Takes back what a step or trial has left that has failed: at once, or later where a call is running."""
+        try:
+            with _Ending(self, not self._must_withdraw) as t:
+                if self._must_withdraw:
+                    # Without a prepared timestamp it does nothing.
+                    check(_withdraw_timestamp(t))
+                    self._must_withdraw = False
+                if self._must_discard:
+                    check(_discard_moves(t))
+                    self._must_discard = False
+        except Busy:
+            pass
+
     def _forget_all_but_cells(self) -> None:
         cells = self._cache.get("cells")
         self._cache = {} if cells is None else {"cells": cells}
@@ -190,13 +277,16 @@ class Core:
             return
         held = [lease for lease in [reference() for reference in self._leases] if lease is not None]
         if held:
-            view, owner = _library.CellsView(), ctypes.c_void_p()
-            check(_release_cells(self._handle.pointer, view, owner))
-            released = Released(owner.value or 0)
-            for lease in held:
-                if lease.start not in (view.vertices, view.neighbours):
-                    raise InternalError("the arrays that were handed over are not those that are in use")
-                lease.owner = released
+            view, released = _library.CellsView(), Released()
+            try:
+                check(_release_cells(self._handle.pointer, view, released.made))
+            finally:
+                # Also where a handler of a signal raises as soon as they have been handed over.
+                if released.made:
+                    self._keeper.owner = released
+                    self._keeper, self._leases = Keeper(self._handle), []
+            if any(lease.start not in (view.vertices, view.neighbours) for lease in held):
+                raise InternalError("the arrays that were handed over are not those that are in use")
         self._leases = []
 
     def _cell_arrays(self) -> tuple[np.ndarray, np.ndarray]:
@@ -214,7 +304,7 @@ class Core:
     def _lend(self, start: Optional[int], shape: tuple[int, ...]) -> np.ndarray:
         """A read-only array of memory of the library, or of a copy where it would not be known how long it is used."""
         if start and COUNTS_REFERENCES:
-            lease = Lease(self._version, self._handle, start, shape)
+            lease = Lease(self._version, self._keeper, start, shape)
             self._leases.append(weakref.ref(lease))
             return np.asarray(lease)
         copy = taken(start, shape)
@@ -228,8 +318,10 @@ class Core:
         made: Made = cache[name]
         return made
 
-    def _check(self, status: int, **names: str) -> None:
+    def _check(self, status: int, **names: Name) -> None:
         """`check` with the callbacks of this triangulation, and with its conflicts and passings."""
+        if self._callbacks is not None:
+            self._callbacks.check()
         if status:
             kind = status - _library.FIRST_CONFLICT
             if 0 <= kind < len(ConflictKind):
@@ -238,7 +330,7 @@ class Core:
             if status == _library.PASSES_SEGMENT:
                 message = _library.last_error()
                 raise PassingError(message, self._told_passings())
-            check(status, names, self._callbacks)
+            check(status, names)
 
     def _told_conflicts(self) -> np.ndarray:
         """The conflicts for which the last change, or check, was refused."""

@@ -10,6 +10,7 @@ import numpy as np
 from . import _library
 from ._arrays import Handle, address, address_if, keys as given_keys, points as point_rows
 from ._asking import Asking
+from ._callbacks import calling
 from ._core import check, make_options
 from ._files import Files
 from ._geometry import Geometry
@@ -118,10 +119,12 @@ class Delaunay(Motion, Refining, Asking, Geometry, Files):
         given = given_keys("keys", keys, len(rows))
         callbacks = given_callbacks(progress, cancel)
         options = make_options(algorithm, threads, coincidence, passing, callbacks)
-        pointer = ctypes.c_void_p()
-        status = _create(rows.shape[1], address(rows), address_if(given), len(rows), options, pointer)
+        handle = Handle(callbacks)
+        status = calling(
+            callbacks, _create, rows.shape[1], address(rows), address_if(given), len(rows), options, handle.made
+        )
         check(status, {"positions": name}, callbacks)
-        self._start(Handle(pointer.value or 0, callbacks), rows.shape[1], threads, coincidence, passing, callbacks)
+        self._start(handle, rows.shape[1], threads, coincidence, passing, callbacks)
 
     def add_points(self, points: Any, restart: bool = False) -> None:
         """Inserts points, whose ids follow those that have been given.
@@ -144,10 +147,10 @@ class Delaunay(Motion, Refining, Asking, Geometry, Files):
         Delaunay
             After the same calls it has the same simplices. It calls the same callbacks.
         """
+        handle = Handle(self._callbacks)
         with self._reading as t:
-            pointer = ctypes.c_void_p()
-            self._check(_clone(t, pointer))
-        return made(type(self), pointer, self._threads, self._coincidence, self._passing, self._callbacks)
+            self._check(_clone(t, handle.made))
+        return made(type(self), handle, self._threads, self._coincidence, self._passing, self._callbacks)
 
     def __copy__(self) -> "Delaunay":
         return self.copy()
@@ -231,7 +234,7 @@ def frombytes(
     return of_bytes(Delaunay, data, algorithm, threads, coincidence, passing, progress, cancel)
 
 
-def tsearch(tri: Any, xi: Any) -> np.ndarray:
+def tsearch(tri: Any, xi: Any, *, nan_policy: str = "raise") -> np.ndarray:
     """The simplices that contain points: `tri.find_simplex(xi)`.
 
     Parameters
@@ -240,11 +243,13 @@ def tsearch(tri: Any, xi: Any) -> np.ndarray:
         The triangulation.
     xi : array_like
         Points; the last axis has the coordinates.
+    nan_policy : {"raise", "omit"}, optional
+        As of `Delaunay.find_simplex`.
 
     Returns
     -------
     ndarray of int
         An index for each point, -1 outside the convex hull.
     """
-    found: np.ndarray = tri.find_simplex(xi)
+    found: np.ndarray = tri.find_simplex(xi, nan_policy=nan_policy)
     return found

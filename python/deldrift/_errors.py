@@ -9,6 +9,10 @@ from typing import Any, Mapping, Optional, Union
 from . import _library
 
 Number = Union[int, float, None]
+Index = Union[int, tuple[int, ...], None]
+Name = Union[str, tuple[str, tuple[int, ...]]]
+"""What Python calls an argument of C's: with an exclamation mark behind it if it is a single one, of which C tells an
+index; with the shape of an array of more axes than C knows."""
 
 
 class Error(Exception):
@@ -18,18 +22,18 @@ class Error(Exception):
     ----------
     argument : str or None
         Name of the argument that is wrong.
-    index : int or None
-        Which entry of it is wrong.
+    index : int, tuple of int or None
+        Which entry of it is wrong, or which row of coordinates; a tuple where the array has more axes.
     value : int, float or None
         The value that is wrong.
     """
 
     argument: Optional[str]
-    index: Optional[int]
+    index: Index
     value: Number
 
     def __init__(
-        self, message: str, argument: Optional[str] = None, index: Optional[int] = None, value: Number = None
+        self, message: str, argument: Optional[str] = None, index: Index = None, value: Number = None
     ) -> None:
         super().__init__(message)
         self.message = message
@@ -45,6 +49,10 @@ class InvalidDimension(Error, ValueError):
 
 class InvalidShape(Error, ValueError):
     """An array has another shape than it must have, or is masked."""
+
+
+class NoAxis(InvalidShape, IndexError):
+    """A single number was given in place of coordinates; an IndexError too, as in scipy."""
 
 
 class InvalidOption(Error, ValueError):
@@ -242,21 +250,35 @@ def _number(text: str) -> Number:
     return None
 
 
-def raise_for(status: int, names: Mapping[str, str]) -> None:
+def entry(flat: int, shape: tuple[int, ...]) -> tuple[str, Index]:
+    """An entry of an array of some shape as messages and as exceptions have it, by its number."""
+    place = []
+    for length in reversed(shape):
+        flat, at = divmod(flat, length)
+        place.append(at)
+    if not place:
+        return "", None
+    index = tuple(reversed(place))
+    return "[" + ", ".join(map(str, index)) + "]", index if len(index) > 1 else index[0]
+
+
+def raise_for(status: int, names: Mapping[str, Name]) -> None:
     """Raises the exception for a status, with the arguments of C named as those of Python."""
     message = _library.last_error()
     place = PLACE.match(message)
     kind = KINDS.get(status, InternalError)
     if place is None:
         raise kind(message)
-    argument = names.get(place["argument"], place["argument"])
+    name = names.get(place["argument"], place["argument"])
+    argument, shape = (name, None) if isinstance(name, str) else (name[0], name[1] or None)
     # The index 0 that the library tells for a single id has no counterpart in Python.
-    is_single = argument.endswith("!")
-    argument = argument.rstrip("!")
-    index = int(place["index"]) if place["index"] is not None and not is_single else None
+    if argument.endswith("!"):
+        argument, shape = argument.rstrip("!"), ()
+    index: Index = int(place["index"]) if place["index"] is not None else None
     rest = message[place.end("argument") :]
-    if is_single:
-        rest = re.sub(r"^\[0\]", "", rest)
+    if isinstance(index, int) and shape is not None:
+        told, index = entry(index, shape)
+        rest = re.sub(r"^\[\d+\]", told, rest)
     if kind is NoSuchSimplex:
         rest = rest.replace(" cells", " simplices")
     raise kind(argument + rest, argument, index, _number(place["value"]))

@@ -8,7 +8,7 @@ from __future__ import annotations
 import ctypes
 import os
 import sys
-from ctypes import POINTER, c_bool, c_char_p, c_double, c_int, c_int32, c_size_t, c_uint32, c_uint64, c_void_p
+from ctypes import POINTER, c_bool, c_char_p, c_double, c_int, c_int32, c_size_t, c_ubyte, c_uint32, c_uint64, c_void_p
 from typing import Any
 
 NONE = 0xFFFFFFFF
@@ -25,10 +25,15 @@ FIRST_CONFLICT = 30
 """DELDRIFT_CROSSING: the statuses from it on stand for kinds of conflicts, in their order."""
 PASSES_SEGMENT = 35
 """DELDRIFT_PASSES_SEGMENT."""
+NOT_PREPARED = 37
+"""DELDRIFT_NOT_PREPARED."""
 
-CancelCallback = ctypes.CFUNCTYPE(c_bool, c_void_p)
+CancelCallback = ctypes.CFUNCTYPE(c_ubyte, c_void_p)
 ProgressCallback = ctypes.CFUNCTYPE(None, c_void_p, c_double)
-TooLargeCallback = ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p)
+# Its user data are an object of Python's, but on PyPy, whose ctypes hands over none.
+TooLargeCallback = ctypes.CFUNCTYPE(
+    c_int, c_void_p if sys.implementation.name == "pypy" else ctypes.py_object, c_void_p
+)
 
 
 class Options(ctypes.Structure):

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _library
 from ._arrays import Handle, address
-from ._callbacks import Callbacks
+from ._callbacks import Callbacks, calling
 from ._core import Core, check, make_options
 from ._errors import InvalidData
 from ._writing import Path, file_name
@@ -32,7 +32,7 @@ def given_callbacks(progress: Any, cancel: Optional[Callable[[], bool]]) -> Opti
 
 def made(
     kind: type[Kind],
-    pointer: ctypes.c_void_p,
+    handle: Handle,
     threads: int,
     coincidence: str,
     passing: str,
@@ -40,7 +40,7 @@ def made(
     name: str = "data",
 ) -> Kind:
     """A triangulation that the library has made; what is staged, which no step would commit, is forgotten."""
-    handle = Handle(pointer.value or 0, callbacks)
+    handle.take()
     count = ctypes.c_size_t()
     check(_vectors(handle.pointer, None, 0, count))
     if (count.value > 0) != kind.is_periodic:
@@ -71,9 +71,9 @@ def of_file(
     """A triangulation of a file."""
     callbacks = given_callbacks(progress, cancel)
     options = make_options(algorithm, threads, coincidence, passing, callbacks)
-    pointer = ctypes.c_void_p()
-    check(_load_file(file_name(path), options, pointer), {}, callbacks)
-    return made(kind, pointer, threads, coincidence, passing, callbacks, "path")
+    handle = Handle(callbacks)
+    check(calling(callbacks, _load_file, file_name(path), options, handle.made), {}, callbacks)
+    return made(kind, handle, threads, coincidence, passing, callbacks, "path")
 
 
 def of_bytes(
@@ -93,6 +93,6 @@ def of_bytes(
         buffer = np.frombuffer(data, np.uint8)
     except (TypeError, AttributeError):
         raise TypeError(f"data is a {type(data).__name__}, and must be bytes") from None
-    pointer = ctypes.c_void_p()
-    check(_load(address(buffer), len(buffer), options, pointer), {}, callbacks)
-    return made(kind, pointer, threads, coincidence, passing, callbacks)
+    handle = Handle(callbacks)
+    check(calling(callbacks, _load, address(buffer), len(buffer), options, handle.made), {}, callbacks)
+    return made(kind, handle, threads, coincidence, passing, callbacks)

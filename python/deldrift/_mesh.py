@@ -8,7 +8,7 @@ from typing import Any, Callable, Mapping, NamedTuple, Optional
 
 import numpy as np
 
-from ._arrays import floats, numbers, pairs, points as point_rows, real
+from ._arrays import array_of, floats, ids as listed_ids, numbers, pairs, points as point_rows, real
 from ._core import fixed
 from ._delaunay import Delaunay
 from ._errors import ConflictError, InvalidOption, InvalidShape, InvalidValue, NoSuchSegment, PassingError
@@ -59,7 +59,8 @@ class Mesh:
         A number of 32 bits to keep with each segment, or one for all; 0 by default.
     holes : array_like, optional
         Rows of 2 coordinates, a place in each hole. The domain is then all within closed chains of segments but the
-        holes; one outside of all chains has no effect. Without it `keep` says what the domain is.
+        holes; one outside of all chains has no effect, and is told by a warning. One on the boundary of a region raises
+        `AmbiguousSeed`. Without it `keep` says what the domain is.
     keep : {"nesting", "even-odd"}, optional
         What the domain is without `holes`: the triangles with an odd number of edges that have segments on the way to the
         outside, at least, which is 1 in an outline and 2 in its holes, however often a segment is given; or those with an
@@ -68,7 +69,7 @@ class Mesh:
         "nesting", the default, as segments are walls, and is none by "even-odd".
     regions : array_like, optional
         Rows of 2 coordinates and a label: `labels` has it for all triangles of the region where the place is. Of two in
-        one region the first counts, and one outside of all chains has no effect.
+        one region the first counts. Outside of all chains, and on boundaries, they are as holes there.
     algorithm, threads, coincidence, passing, progress, cancel
         As of `Delaunay`.
 
@@ -163,8 +164,8 @@ class Mesh:
         if unused:
             warnings.warn("from_triangle leaves out what a mesh does not have: " + ", ".join(unused), stacklevel=2)
         regions, areas = data.get("regions"), np.empty(0)
-        if regions is not None and np.size(regions):
-            rows = floats("regions", regions)
+        rows = np.empty(0) if regions is None else floats("regions", regions)
+        if rows.size:
             if rows.ndim != 2 or rows.shape[1] != 4:
                 raise InvalidShape(
                     f"regions has the shape {rows.shape}, and must have rows of x, y, label and greatest area", "regions"
@@ -172,7 +173,7 @@ class Mesh:
             regions, areas = rows[:, :3], rows[:, 3]
         markers = data.get("segment_markers")
         if markers is not None:
-            column = np.asarray(markers)
+            column = array_of("segment_markers", markers)
             column = column.reshape(-1) if column.shape[1:] == (1,) else column
             markers = numbers("segment_markers", column, len(pairs("segments", data["segments"])), "segments")
         mesh = cls(data["vertices"], data["segments"], markers, data.get("holes", ()), regions, **options)
@@ -188,7 +189,13 @@ class Mesh:
         """What the regions around some places are known by; None for those outside, and in the region of another."""
         tri = self._tri
         region_of = tri._labels_at(places, np.arange(len(places), dtype=np.int32), -1, argument)
-        region_of[tri.nesting_levels() == 0] = -1
+        is_outside = tri.nesting_levels() == 0
+        region_of[is_outside] = -1
+        # The last entry is that of places outside of the convex hull.
+        for k in np.flatnonzero(np.append(is_outside, True)[tri.find_simplex(places)]):
+            warnings.warn(
+                f"{argument}[{k}] is outside of all closed chains of segments, and has no effect", stacklevel=3
+            )
         beyond = np.append(region_of, -1)[tri.neighbors]
         cells, corners = np.nonzero((region_of >= 0)[:, None] & (beyond != region_of[:, None]))
         # An edge at the leftmost vertex of a region is one of its outer boundary.
@@ -354,7 +361,7 @@ class Mesh:
                 if part < smallest:
                     raise
                 goals = point_rows("points", points, 2)
-                start = self._tri.points if ids is None else self._tri.points[np.asarray(ids)]
+                start = self._tri.points if ids is None else self._tri.points[listed_ids("ids", ids)]
                 places = start + part * (goals - start)
 
     def refine(
@@ -573,9 +580,9 @@ def _switches(text: Any) -> tuple[dict[str, Any], bool]:
 
 def _rows(argument: str, values: Any, width: int) -> np.ndarray:
     """Rows of some numbers; none for None."""
-    if values is None or not np.size(values):
+    array = np.empty(0) if values is None else floats(argument, values)
+    if not array.size:
         return np.empty((0, width))
-    array = floats(argument, values)
     if array.ndim != 2 or array.shape[1] != width:
         raise InvalidShape(f"{argument} has the shape {array.shape}, and must have rows of {width} numbers", argument)
     return array

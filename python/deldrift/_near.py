@@ -8,8 +8,8 @@ from typing import Any, Optional
 import numpy as np
 
 from . import _library
-from ._arrays import F64, I32, address, address_if, choice, contiguous, floats, mask as mask_of, one_point, places, real
-from ._arrays import simplex_ids, whole
+from ._arrays import F64, I32, address, address_if, answered, choice, contiguous, floats, mask as mask_of, one_point
+from ._arrays import places, real, simplex_of_each, whole
 from ._core import Core, count_of, id_count
 from ._errors import InvalidShape, InvalidValue, WrongCount
 
@@ -26,11 +26,11 @@ _interpolate = _library.function("interpolate")
 class Near(Core):
     """What is near places, and values there."""
 
-    def _simplices_at(self, rows: np.ndarray) -> np.ndarray:
-        """The simplex that each point is in, -1 where there is none."""
+    def _simplices_at(self, rows: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
+        """The simplex that each point is in, -1 where there is none; `shape` is that of the points as they were given."""
         raise NotImplementedError
 
-    def nearest_vertices(self, xi: Any, k: Optional[int] = None) -> np.ndarray:
+    def nearest_vertices(self, xi: Any, k: Optional[int] = None, *, nan_policy: str = "raise") -> np.ndarray:
         """The vertices nearest to points, by distance, compared exactly, and at the same distance by id.
 
         In a periodic box each vertex counts once, by its nearest image.
@@ -41,6 +41,8 @@ class Near(Core):
             Points; the last axis has the coordinates.
         k : int, optional
             How many for each point. By default the nearest one, without an axis of its own in the result.
+        nan_policy : {"raise", "omit"}, optional
+            As of `find_simplex`; with "omit" points with NaN get -1.
 
         Returns
         -------
@@ -61,9 +63,15 @@ class Near(Core):
         width = 1 if k is None else whole("k", k)
         if width < 0:
             raise InvalidValue(f"k is {width}, and must be 0 or more", "k", None, width)
-        found = np.empty((len(rows), width), I32)
-        with self._reading as t:
-            self._check(_nearest_vertices(t, address(rows), len(rows), width, address(found)), positions="xi")
+
+        def ask(rows: np.ndarray) -> np.ndarray:
+            found = np.empty((len(rows), width), I32)
+            with self._reading as t:
+                status = _nearest_vertices(t, address(rows), len(rows), width, address(found))
+                self._check(status, positions=("xi", shape))
+            return found
+
+        found = answered(rows, nan_policy, ask, -1)
         return found.reshape(shape if k is None else shape + (width,))
 
     def vertices_in_ball(self, centre: Any, squared_radius: float) -> np.ndarray:
@@ -186,7 +194,7 @@ class Near(Core):
             self._check(_conflicts(t, address(position), None, address(cells), len(cells), count), position="point!")
         return cells
 
-    def barycentric(self, xi: Any, simplices: Any = None) -> np.ndarray:
+    def barycentric(self, xi: Any, simplices: Any = None, *, nan_policy: str = "raise") -> np.ndarray:
         """The barycentric coordinates of points, each in a simplex.
 
         In a periodic box they are those in the translation of the simplex that has the point, NaN where there is none.
@@ -197,6 +205,8 @@ class Near(Core):
             Points; the last axis has the coordinates.
         simplices : array_like of int, optional
             The simplex of each; by default the one that it is in.
+        nan_policy : {"raise", "omit"}, optional
+            As of `find_simplex`; with "omit" coordinates of points with NaN are NaN.
 
         Returns
         -------
@@ -212,24 +222,21 @@ class Near(Core):
                [ nan,  nan,  nan]])
         """
         rows, shape = places("xi", xi, self.ndim)
-        if simplices is None:
-            cells = self._simplices_at(rows)
-        else:
-            cells = np.asarray(simplices).reshape(-1)
-            is_none = cells == -1
-            cells = simplex_ids("simplices", np.where(is_none, 0, cells)).view(I32)
-            cells[is_none] = -1
-        if len(cells) != len(rows):
-            raise WrongCount(
-                f"simplices has {len(cells)} entries, and there are {len(rows)} points", "simplices", None, len(cells)
-            )
-        weights = np.empty((len(rows), self.ndim + 1), F64)
-        with self._reading as t:
-            status = _barycentric(t, address(rows), address(cells), len(rows), address(weights))
-            self._check(status, positions="xi", cells="simplices")
-        return weights.reshape(shape + (self.ndim + 1,))
+        given = None if simplices is None else simplex_of_each("simplices", simplices, len(rows))
 
-    def interpolate(self, values: Any, xi: Any, method: str = "linear", fill_value: Any = np.nan) -> np.ndarray:
+        def ask(rows: np.ndarray) -> np.ndarray:
+            cells = self._simplices_at(rows, shape) if given is None else given
+            weights = np.empty((len(rows), self.ndim + 1), F64)
+            with self._reading as t:
+                status = _barycentric(t, address(rows), address(cells), len(rows), address(weights))
+                self._check(status, positions=("xi", shape), cells=("simplices", cells.shape))
+            return weights
+
+        return answered(rows, nan_policy, ask, np.nan).reshape(shape + (self.ndim + 1,))
+
+    def interpolate(
+        self, values: Any, xi: Any, method: str = "linear", fill_value: Any = np.nan, *, nan_policy: str = "raise"
+    ) -> np.ndarray:
         """Values of the vertices, interpolated at other places.
 
         Parameters
@@ -243,6 +250,8 @@ class Near(Core):
             in a periodic box.
         fill_value : float or array_like, optional
             What points outside the convex hull get.
+        nan_policy : {"raise", "omit"}, optional
+            As of `find_simplex`; with "omit" points with NaN get NaN.
 
         Returns
         -------
@@ -263,32 +272,26 @@ class Near(Core):
         rows, shape = places("xi", xi, self.ndim)
         width = int(np.prod(given.shape[1:], dtype=np.intp))
         outside = _fill("fill_value", fill_value, given.shape[1:])
-        results = np.empty((len(rows), width), F64)
-        with self._reading as t:
-            if len(given) != id_count(t):
-                raise WrongCount(
-                    f"values has {len(given)} entries, and there are {id_count(t)} ids", "values", None, len(given)
-                )
-            status = _interpolate(
-                t,
-                number,
-                address(given),
-                len(given),
-                width,
-                address(rows),
-                len(rows),
-                None,
-                address(outside),
-                address(results),
-            )
-            self._check(status, positions="xi", value_count="values")
+
+        def ask(rows: np.ndarray) -> np.ndarray:
+            results = np.empty((len(rows), width), F64)
+            with self._reading as t:
+                if len(given) != id_count(t):
+                    raise WrongCount(
+                        f"values has {len(given)} entries, and there are {id_count(t)} ids", "values", None, len(given)
+                    )
+                known, asked = (address(given), len(given), width), (address(rows), len(rows), None)
+                status = _interpolate(t, number, *known, *asked, address(outside), address(results))
+                self._check(status, positions=("xi", shape), value_count="values")
+            return results
+
+        results = answered(rows, nan_policy, ask, np.nan)
         return results.reshape(shape + given.shape[1:])
 
 
 def _fill(argument: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
+    given = floats(argument, value)
     try:
-        return contiguous(np.broadcast_to(floats(argument, value), shape), F64).reshape(-1)
+        return contiguous(np.broadcast_to(given, shape), F64).reshape(-1)
     except ValueError:
-        raise InvalidShape(
-            f"{argument} has the shape {np.shape(value)}, and must be a number or {shape}", argument
-        ) from None
+        raise InvalidShape(f"{argument} has the shape {given.shape}, and must be a number or {shape}", argument) from None

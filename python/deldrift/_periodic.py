@@ -8,8 +8,9 @@ from typing import Any, Callable, NamedTuple, Optional
 import numpy as np
 
 from . import _library
-from ._arrays import F64, I32, Handle, address, address_if, box_corners, half_space_rows, ids as listed_ids
+from ._arrays import F64, I32, Handle, address, address_if, answered, array_of, box_corners, half_space_rows, ids as listed_ids
 from ._arrays import mask as mask_of, one_id, places, points as point_rows
+from ._callbacks import calling
 from ._core import cell_count, check, count_of, fixed, id_count, make_options
 from ._errors import WrongCount
 from ._geometry import VoronoiCells, VoronoiDerivatives, cells_and_facets, vertex_mask
@@ -120,10 +121,10 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         box = _box(vectors, ndim)
         callbacks = given_callbacks(progress, cancel)
         options = make_options(algorithm, threads, "merge", "ignore", callbacks)
-        pointer = ctypes.c_void_p()
-        status = _create_periodic(ndim, address(rows), len(rows), address(box), len(box), options, pointer)
-        check(status, {"positions": "points"}, callbacks)
-        self._start(Handle(pointer.value or 0, callbacks), ndim, threads, "merge", "ignore", callbacks)
+        handle = Handle(callbacks)
+        given = ndim, address(rows), len(rows), address(box), len(box), options, handle.made
+        check(calling(callbacks, _create_periodic, *given), {"positions": "points"}, callbacks)
+        self._start(handle, ndim, threads, "merge", "ignore", callbacks)
 
     @classmethod
     def load(
@@ -185,10 +186,10 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         PeriodicDelaunay
             After the same calls it has the same simplices. It calls the same callbacks.
         """
+        handle = Handle(self._callbacks)
         with self._reading as t:
-            pointer = ctypes.c_void_p()
-            self._check(_clone(t, pointer))
-        return made(type(self), pointer, self._threads, self._coincidence, self._passing, self._callbacks)
+            self._check(_clone(t, handle.made))
+        return made(type(self), handle, self._threads, self._coincidence, self._passing, self._callbacks)
 
     def __copy__(self) -> "PeriodicDelaunay":
         return self.copy()
@@ -423,13 +424,15 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         indptr, indices, shifts = self._lists(squared_radius, half, mask, self.ndim)
         return indptr, indices, shifts[:, : len(self.vectors)]
 
-    def locate(self, xi: Any) -> PeriodicLocations:
+    def locate(self, xi: Any, *, nan_policy: str = "raise") -> PeriodicLocations:
         """Where points lie, exactly, once they are rounded to the grid of the box as vertices are.
 
         Parameters
         ----------
         xi : array_like
             Points, in any period; the last axis has the coordinates.
+        nan_policy : {"raise", "omit"}, optional
+            Whether a point with a coordinate that is NaN or infinite raises `NotFinite`, or gets the kind and index -1.
 
         Returns
         -------
@@ -444,16 +447,22 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         PeriodicLocations(kinds=array(0, dtype=int32), indices=array(1, dtype=int32), shifts=array([ 5, -2]))
         """
         rows, shape = places("xi", xi, self.ndim)
+        answers = answered(rows, nan_policy, lambda some: self._located(some, shape), -1)
+        rank = len(self.vectors)
+        kinds, indices = (answers[:, column].astype(I32).reshape(shape) for column in range(2))
+        shifts = np.where(kinds.reshape(-1)[:, None] < 0, 0, answers[:, 2 : 2 + rank])
+        return PeriodicLocations(kinds, indices, shifts.reshape(shape + (rank,)))
+
+    def _located(self, rows: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
+        """Rows of a kind, an index, and shifts."""
         locations, shifts = np.empty((len(rows), 2), I32), np.empty((len(rows), self.ndim), I64)
         with self._reading as t:
             status = _locate_in_period(t, address(rows), len(rows), None, address(locations), address(shifts))
-            self._check(status, positions="xi")
-        rank = len(self.vectors)
-        kinds, indices = (np.array(column).reshape(shape) for column in locations.T)
-        return PeriodicLocations(kinds, indices, np.array(shifts[:, :rank]).reshape(shape + (rank,)))
+            self._check(status, positions=("xi", shape))
+        return np.concatenate([locations.astype(I64), shifts], axis=1)
 
-    def _simplices_at(self, rows: np.ndarray) -> np.ndarray:
-        kinds, indices, _ = self.locate(rows)
+    def _simplices_at(self, rows: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
+        kinds, indices = self._located(rows, shape)[:, :2].T
         found = np.where(kinds == 1, indices, -1).astype(I32)
         if (kinds == 0).any():
             simplex_of = np.full(len(self.points), -1, I32)
@@ -761,11 +770,10 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
 
     def _commit(self, t: int, report: Report) -> int:
         """Makes what is staged the next timestamp, or, in a trial, a round of it."""
-        trial = self._trial
-        status = int(_commit_timestamp(t, report) if trial is None else _prepare_timestamp(t, report))
-        if status == 0 and trial is not None:
-            trial._is_prepared = True
-        return status
+        if self._trial is None:
+            return int(_commit_timestamp(t, report))
+        self._trial._may_be_prepared = True
+        return int(_prepare_timestamp(t, report))
 
     def _change(self, change: Callable[[int, Report], int]) -> Report:
         """A change, which has no effect if it fails."""
@@ -786,7 +794,7 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
 
 def _box(vectors: Any, ndim: int) -> np.ndarray:
     """The vectors of a box, a row for each."""
-    given = np.asarray(vectors)
+    given = array_of("vectors", vectors)
     if given.shape == (ndim,) and given.dtype.kind in "fiu":
         return np.diag(given.astype(F64))
-    return point_rows("vectors", vectors, ndim)
+    return point_rows("vectors", given, ndim)

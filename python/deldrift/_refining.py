@@ -9,6 +9,7 @@ import numpy as np
 
 from . import _library
 from ._arrays import F64, I32, address, choice, contiguous, floats, mask as mask_of, numbers, real, whole
+from ._callbacks import Asked, calling
 from ._core import cell_count, count_of, id_count
 from ._errors import InvalidShape, InvalidValue, WrongCount
 from ._library import QualityReport
@@ -58,22 +59,6 @@ class RefinedWeights(NamedTuple):
         return np.concatenate([values, np.einsum("ki,ki...->k...", self.weights, values[self.vertices])])
 
 
-class _Asked:
-    """A function of the program as C can call it, and the exception that it has raised."""
-
-    def __init__(self, is_too_large: TooLarge) -> None:
-        self.is_too_large = is_too_large
-        self.raised: Optional[BaseException] = None
-        self.callback = _library.TooLargeCallback(self._ask)
-
-    def _ask(self, _user_data: Any, corners: int) -> int:
-        try:
-            return bool(self.is_too_large(np.array((ctypes.c_double * 6).from_address(corners)).reshape(3, 2)))
-        except BaseException as error:
-            self.raised = error
-            return -1
-
-
 class _Wanted:
     """Criteria in the arrays that the library reads."""
 
@@ -95,7 +80,7 @@ class _Wanted:
         self.mask = None if mask is None else mask_of("mask", mask)
         if is_too_large is not None and not callable(is_too_large):
             raise TypeError(f"is_too_large is {is_too_large!r}, and must be a function of the corners of a simplex")
-        self.asked = None if is_too_large is None else _Asked(is_too_large)
+        self.is_too_large = is_too_large
         self.names = {name: name + "!" for name in ("least_angle", "greatest_area", "margin", "share", "joins")}
         if self.sizes is not None and self.sizes.ndim == 0:
             self.names["sizes"] = "sizes!"
@@ -112,8 +97,6 @@ class _Wanted:
             if array is not None and len(array):
                 setattr(quality, name + "s", address(array))
                 setattr(quality, name + "_count", len(array))
-        if self.asked is not None:
-            quality.is_too_large = self.asked.callback
         return (None, 0) if self.mask is None else (address(self.mask), cells)
 
 
@@ -259,6 +242,7 @@ class Refining(Segmented):
     def _improve(self, call: Any, criteria: list[Any], options: Mapping[str, Any], values: Any) -> QualityReport:
         self._check_plane()
         wanted, given, report = _Wanted(*criteria), _given_values(values), QualityReport()
+        is_too_large = wanted.is_too_large
         quality = _library.Quality()
         self._check(_quality_init(quality))
         for name, value in options.items():
@@ -268,11 +252,17 @@ class Refining(Segmented):
             for name, array in given.items():
                 _expect(name, array, ids, "ids")
             mask, count = wanted.enter(quality, cell_count(t), ids)
-            status = call(t, quality, mask, count, report)
-            if wanted.asked is not None and wanted.asked.raised is not None:
-                if self._callbacks is not None:
-                    self._callbacks.raised()
-                raise wanted.asked.raised
+            asked = None
+            try:
+                if is_too_large is not None:
+                    asked = Asked(is_too_large)
+                    quality.is_too_large, quality.user_data = asked.callback, asked.user_data
+                status = calling(None if self._callbacks else asked, call, t, quality, mask, count, report)
+            finally:
+                if asked is not None:
+                    asked.close()
+            if asked is not None:
+                asked.check(self._callbacks)
             self._check(status, **wanted.names)
         if given:
             rows = self.refined_weights()

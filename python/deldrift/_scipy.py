@@ -8,9 +8,9 @@ from typing import Any, Optional
 import numpy as np
 
 from . import _library
-from ._arrays import F64, I32, U32, address, places
+from ._arrays import F64, I32, U32, address, answered, places
 from ._core import cell_count, fixed, id_count
-from ._errors import InvalidOption, InvalidValue
+from ._errors import Busy, InvalidOption, InvalidValue
 from ._meeting import Meeting
 from ._near import Near
 
@@ -77,10 +77,28 @@ class Scipy(Near, Meeting):
         """The triangles or tetrahedra: rows of vertex ids, int32. Read-only.
 
         Triangles are counter-clockwise. Of a tetrahedron a, b, c, d the determinant of the rows b - a, c - a, d - a is
-        positive. The array shows the library's memory without a copy. It keeps what it shows when the triangulation is
+        positive. So the corners of tetrahedra are in another order than scipy's, which have no orientation, but vertices in
+        one order throughout: `simplices_sorted` is for programs that rely on that. The array shows the library's memory without a copy. It keeps what it shows when the triangulation is
         changed: see `deldrift.is_current`.
         """
         return self._cell_arrays()[0]
+
+    @property
+    def simplices_sorted(self) -> np.ndarray:
+        """The simplices with the corners of each in ascending order, int32, in the order of `simplices`. Read-only.
+
+        So a facet of two simplices has its corners in the same order in both, as in scipy's tetrahedra. Neighbour k of
+        `neighbors` is opposite corner k of `simplices`, not of these.
+
+        Examples
+        --------
+        >>> import deldrift, itertools
+        >>> tri = deldrift.Delaunay([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]])
+        >>> facets = [facet for row in tri.simplices_sorted.tolist() for facet in itertools.combinations(row, 3)]
+        >>> len(facets), len(set(facets))
+        (8, 7)
+        """
+        return self._once("simplices_sorted", lambda: fixed(np.sort(self._cell_arrays()[0], axis=1)))
 
     @property
     def neighbors(self) -> np.ndarray:
@@ -187,7 +205,9 @@ class Scipy(Near, Meeting):
         distances: np.ndarray = lifted @ equations[:, :-1].T + equations[:, -1]
         return distances
 
-    def find_simplex(self, xi: Any, bruteforce: bool = False, tol: Optional[float] = None) -> np.ndarray:
+    def find_simplex(
+        self, xi: Any, bruteforce: bool = False, tol: Optional[float] = None, *, nan_policy: str = "raise"
+    ) -> np.ndarray:
         """The simplices that contain points.
 
         Parameters
@@ -199,6 +219,9 @@ class Scipy(Near, Meeting):
         tol : float, optional
             How far below 0 a barycentric coordinate may be. By default nothing is allowed: a point is in a simplex if
             it is so exactly, boundary included.
+        nan_policy : {"raise", "omit"}, optional
+            What comes of a point with a coordinate that is NaN or infinite: `NotFinite` is raised, and names it; or, as in
+            scipy, it is in no simplex, and the others are answered.
 
         Returns
         -------
@@ -211,19 +234,22 @@ class Scipy(Near, Meeting):
         >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [0, 4]])
         >>> tri.find_simplex([[1, 1], [2, 2], [3, 3]])
         array([ 0,  0, -1], dtype=int32)
+        >>> tri.find_simplex([[1, 1], [float("nan"), 1]], nan_policy="omit")
+        array([ 0, -1], dtype=int32)
         """
         rows, shape = places("xi", xi, self.ndim)
-        found = self._simplices_at(rows)
+        found = answered(rows, nan_policy, lambda some: self._simplices_at(some, shape), -1)
         if tol is not None:
             if not tol >= 0:
                 raise InvalidValue(f"tol is {tol}, and must be 0 or more", "tol", None, tol)
             self._accept_near(rows, found, float(tol))
         return found.reshape(shape)
 
-    def _simplices_at(self, rows: np.ndarray) -> np.ndarray:
+    def _simplices_at(self, rows: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
         with self._reading as t:
             locations = np.empty((len(rows), 2), U32)
-            self._check(_locate_points(t, address(rows), len(rows), None, address(locations)), positions="xi")
+            status = _locate_points(t, address(rows), len(rows), None, address(locations))
+            self._check(status, positions=("xi", shape))
         kinds, indices = locations[:, 0], locations[:, 1]
         found = np.where(kinds == IN_CELL, indices, _library.NONE).astype(U32).view(I32)
         at_vertices = np.flatnonzero(kinds == IN_VERTEX)
@@ -237,7 +263,7 @@ class Scipy(Near, Meeting):
         if tol == 0 or not len(on_hull):
             return
         maps = self.transform[on_hull]
-        for i in np.flatnonzero(found < 0):
+        for i in np.flatnonzero((found < 0) & np.isfinite(rows).all(axis=1)):
             coordinates = np.einsum("kij,kj->ki", maps[:, :-1], rows[i] - maps[:, -1])
             least = np.minimum(coordinates.min(axis=1), 1 - coordinates.sum(axis=1))
             best = int(np.argmax(np.where(np.isnan(least), -np.inf, least)))
@@ -247,6 +273,8 @@ class Scipy(Near, Meeting):
     def close(self) -> None:
         """Ends changes: `add_points`, `move` and all others raise from now on; what can be read stays."""
         with self._changing:
+            if self._trial is not None:
+                raise Busy("a trial of the triangulation is open, and has to end before it can be closed")
             self._is_closed = True
 
 

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, Optional
 import numpy as np
 
 from . import _library
-from ._arrays import I32, address, check_output, ids, numbers, one_number, pairs, simplex_ids, whole
+from ._arrays import I32, address, array_of, check_output, ids, numbers, one_number, pairs, simplex_ids, whole
 from ._arrays import mask as mask_of, points as point_rows
 from ._core import PASSING, Core, cell_count, count_of, fixed
 from ._errors import InvalidDimension, InvalidValue, NoSuchSegment, WrongCount
@@ -126,7 +126,7 @@ class Segmented(Core):
             status = _stage_segments(
                 t, address(rows), None if values is None else address(values), len(rows), ctypes.byref(first)
             )
-            self._check(status, ends=name)
+            self._check(status, ends=(name, rows.shape))
         return np.arange(first.value, first.value + len(rows), dtype=I32)
 
     def _stage_segment_removals(self, segments: Any) -> None:
@@ -291,7 +291,8 @@ class Segmented(Core):
             A label for each simplex.
         """
         self._check_plane()
-        places = point_rows("seeds", seeds, 2) if np.size(seeds) else np.empty((0, 2))
+        given = array_of("seeds", seeds)
+        places = point_rows("seeds", given, 2) if given.size else np.empty((0, 2))
         values = numbers("labels", labels, len(places), "seeds")
         return self._labels_at(places, values, one_number("other", other), "seeds")
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import ctypes
-from typing import TYPE_CHECKING, Any
+import functools
+from typing import TYPE_CHECKING, Any, Iterator
 
 import numpy as np
 
@@ -27,43 +28,103 @@ _publish_timestamp = _library.function("publish_timestamp")
 _withdraw_timestamp = _library.function("withdraw_timestamp")
 
 
-class Step:
-    """Moves, insertions, removals and segments that `Delaunay.step` commits together."""
+class _Exit:
+    """`__exit__` of a block, of which nothing that a handler of a signal raises can keep the end from being settled.
 
-    def __init__(self, owner: "Motion") -> None:
+    Python looks for signals at the entry of a function, ahead of its first line, but not where C goes on with a generator
+    that has stopped in a `try`. What is called at the end of the block is `min(False, type, value, traceback, key=...)` with
+    such a generator: it gets False, which is the result, and then what `__exit__` gets.
+    """
+
+    def __get__(self, block: Any, _kind: Any = None) -> Any:
+        if block is None:
+            return self
+        ending = block._ending()
+        next(ending)
+        return functools.partial(min, False, key=ending.send)
+
+    def __call__(self, block: "_Block", *error: Any) -> Any:
+        return self.__get__(block)(*error)
+
+
+class _Block:
+    """What a `with` block opens and ends."""
+
+    __exit__ = _Exit()
+
+    def __init__(self, owner: Any) -> None:
         self._owner = owner
         self._is_open = False
+
+    def _ending(self) -> Iterator[int]:
+        is_ending = False
+        try:
+            yield 0
+            is_ending = True
+            kind = yield 0
+            self._end(kind is None)
+        except GeneratorExit:
+            if is_ending:
+                raise
+            return
+        except BaseException:
+            owner, self._is_open = self._owner, False
+            if owner._step is self:
+                owner._step, owner._must_discard = None, True
+            if owner._trial is self:
+                owner._trial, owner._must_withdraw = None, True
+            owner._settle()
+            raise
+        yield 0
+        yield 0
+        yield 0
+
+    def _end(self, is_good: bool) -> None:
+        """Ends the block, which an exception may have left; what it raises, or leaves open, is settled then."""
+        raise NotImplementedError
+
+
+class Step(_Block):
+    """Moves, insertions, removals and segments that `Delaunay.step` commits together."""
+
+    _owner: "Motion"
+
+    def __init__(self, owner: "Motion") -> None:
+        super().__init__(owner)
         # Whether the end of the block commits what is staged.
         self._is_kept = True
 
     def __enter__(self) -> "Step":
         owner = self._owner
-        with owner._taking:
-            owner._has_step = self._is_open = True
-        return self
+        try:
+            with owner._taking:
+                owner._step = self
+                self._is_open = True
+            return self
+        except BaseException:
+            if owner._step is self:
+                owner._step = None
+            self._is_open = False
+            raise
 
-    def __exit__(self, kind: Any, *_: Any) -> None:
+    def _end(self, is_good: bool) -> None:
         owner = self._owner
         self._is_open = False
-        owner._must_discard = True
-        try:
-            if kind is None and self._is_kept:
-                self._commit(owner)
-        finally:
-            owner._has_step = False
-            if owner._must_discard:
-                _discard(owner)
-
-    def _commit(self, owner: "Motion") -> None:
-        with owner._committing as t:
-            report = Report()
-            trial = owner._trial
-            status = _commit_timestamp(t, report) if trial is None else _prepare_timestamp(t, report)
-            owner._check(status)
-            owner._must_discard = False
-            owner._last_report = report
-            if trial is not None:
-                trial._is_prepared = True
+        if is_good and self._is_kept:
+            with owner._committing as t:
+                report = Report()
+                trial = owner._trial
+                if trial is None:
+                    status = _commit_timestamp(t, report)
+                else:
+                    trial._may_be_prepared = True
+                    status = _prepare_timestamp(t, report)
+                owner._check(status)
+                owner._last_report = report
+            owner._step = None
+        else:
+            owner._step, owner._must_discard = None, True
+            owner._settle()
 
     def _check_open(self) -> None:
         if not self._is_open:
@@ -257,37 +318,46 @@ class Step:
         return np.empty(0, PASSING)
 
 
-class Trial:
+class Trial(_Block):
     """Steps that `Delaunay.trial`, or that of a box, makes one timestamp of, or takes back."""
 
+    _owner: "Core"
+
     def __init__(self, owner: "Core") -> None:
-        self._owner = owner
-        self._is_open = False
-        # Whether there is something to publish or withdraw.
-        self._is_prepared = False
+        super().__init__(owner)
+        # Whether there may be something to publish or withdraw.
+        self._may_be_prepared = False
 
     def __enter__(self) -> "Trial":
         owner = self._owner
-        with owner._taking:
-            if owner._trial is not None:
-                raise Busy("a trial of the triangulation is open, and has to end before another one")
-            owner._trial = self
-            self._is_open = True
-        return self
-
-    def __exit__(self, kind: Any, *_: Any) -> None:
-        owner = self._owner
         try:
-            if kind is None:
-                if self._is_prepared:
-                    with owner._changing as t:
-                        owner._check(_publish_timestamp(t))
-                        self._is_prepared = False
-            else:
-                self.withdraw()
-        finally:
+            with owner._taking:
+                if owner._trial is not None:
+                    raise Busy("a trial of the triangulation is open, and has to end before another one")
+                owner._trial = self
+                self._is_open = True
+            return self
+        except BaseException:
+            if owner._trial is self:
+                owner._trial = None
             self._is_open = False
-            owner._trial = None
+            raise
+
+    def _end(self, is_good: bool) -> None:
+        owner = self._owner
+        if is_good and self._may_be_prepared:
+            with owner._ending as t:
+                # Until it is published.
+                owner._must_withdraw = True
+                status = _publish_timestamp(t)
+                owner._must_withdraw = False
+                if status != _library.NOT_PREPARED:
+                    owner._check(status)
+        elif self._may_be_prepared:
+            owner._must_withdraw = True
+        self._is_open, owner._trial = False, None
+        if owner._must_withdraw:
+            owner._settle()
 
     def withdraw(self) -> None:
         """Takes back all steps of the trial: the triangulation is as it was when the block began, and other steps may be
@@ -295,16 +365,7 @@ class Trial:
         if not self._is_open:
             raise Busy("the trial is not open: use it in `with tri.trial() as trial`")
         owner = self._owner
-        if self._is_prepared:
+        if self._may_be_prepared:
             with owner._changing as t:
                 owner._check(_withdraw_timestamp(t))
-                self._is_prepared = False
-
-
-def _discard(owner: Motion) -> None:
-    """Forgets what is staged: at once, or with the next change where another thread is reading."""
-    try:
-        with owner._taking:
-            pass
-    except Busy:
-        pass
+                self._may_be_prepared = False

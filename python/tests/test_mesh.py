@@ -187,7 +187,8 @@ def test_what_a_mesh_does_not_have_is_told():
 
 def test_concavities_are_outside():
     vertices = [[0, 0], [4, 0], [4, 4], [2, 1], [0, 4]]
-    mesh = deldrift.Mesh(vertices, [[k, (k + 1) % 5] for k in range(5)], holes=[[2, 3], [99, 0]])
+    with pytest.warns(UserWarning, match="outside of all closed chains"):
+        mesh = deldrift.Mesh(vertices, [[k, (k + 1) % 5] for k in range(5)], holes=[[2, 3], [99, 0]])
     assert as_sets(mesh.triangles) == {(0, 1, 3), (1, 2, 3), (0, 3, 4)}
     assert mesh.boundary.loops()[0].tolist() == [0, 1, 2, 3, 4] and "holes" not in mesh.to_dict()
     # Without a closed chain there is no domain.
@@ -269,3 +270,91 @@ def test_copies(rng, copied):
     other.advance(other.points + 0.05 * rng.standard_normal(other.points.shape))
     assert as_sets(other.triangles) != as_sets(before) and set(other.labels) == {0, 7}
     np.testing.assert_array_equal(mesh.triangles, before)
+
+
+SQUARE, SIDES = [[0, 0], [4, 0], [4, 4], [0, 4]], [[0, 1], [1, 2], [2, 3], [3, 0]]
+
+
+@pytest.mark.parametrize("argument", ["holes", "regions"])
+@pytest.mark.parametrize("place", [(4, 2), (4, 4), (0, 0), (2, 0), (0, 3.5), (1, 1), (2, 2), (1.5, 1)])
+def test_seeds_on_outlines_are_told(argument, place):
+    """On the outline, at a corner, on the outline of a hole, or at a corner of it: between two regions."""
+    vertices = SQUARE + [[1, 1], [2, 1], [2, 2], [1, 2]]
+    segments = SIDES + [[4, 5], [5, 6], [6, 7], [7, 4]]
+    seeds = [(3, 3), place]
+    given = seeds if argument == "holes" else [(*seed, 7) for seed in seeds]
+    with pytest.raises(deldrift.AmbiguousSeed, match=rf"{argument}\[1\] is on the boundary of several regions") as caught:
+        deldrift.Mesh(vertices, segments, **{argument: given})
+    assert (caught.value.argument, caught.value.index) == (argument, 1)
+
+
+def test_seeds_on_the_hull_where_it_is_open(rng):
+    """Where no segment is between a place and the outside, there is one region; as C tells it and by the definition."""
+    tri = deldrift.Delaunay(SQUARE, segments=SIDES[:3])
+    for place in (4, 2), (4, 4), (0, 2), (0, 0), (2, 2):
+        assert tri.label_cells([place], [5]).tolist() == [5, 5]
+    tri = deldrift.Delaunay(SQUARE, segments=SIDES + [[0, 2]])
+    assert sorted(tri.label_cells([(3, 1)], [5]).tolist()) == [0, 5]
+    for place in (4, 2), (4, 0), (0, 4), (2, 2), (4, 4):
+        with pytest.raises(deldrift.AmbiguousSeed):
+            tri.label_cells([place], [5])
+    # One half is open: its sides have the same region on both of theirs.
+    tri = deldrift.Delaunay(SQUARE, segments=[SIDES[0], SIDES[2], SIDES[3], [0, 2]])
+    closed = tri.label_cells([(1, 3)], [5])
+    for place in (2, 0), (4, 2), (4, 0):
+        assert (tri.label_cells([place], [5]) == 5 - closed).all()
+    for place in (0, 2), (0, 4), (2, 4), (1, 1), (0, 0), (4, 4):
+        with pytest.raises(deldrift.AmbiguousSeed):
+            tri.label_cells([place], [5])
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_seeds_by_the_definition(seed):
+    """Places on a lattice, on and off segments: ambiguous if cells at it, or cells and the outside, are apart."""
+    rng = np.random.default_rng(seed)
+    lattice = np.stack(np.meshgrid(np.arange(4.0), np.arange(4.0)), axis=-1).reshape(-1, 2)
+    edges = np.unique(np.sort(deldrift.Delaunay(lattice).edges(), axis=1), axis=0)
+    tri = deldrift.Delaunay(lattice, segments=edges[rng.random(len(edges)) < 0.6])
+    at_edges, outside = tri.segments_of_cells(), tri.nsimplex
+    region = np.arange(outside + 1)
+    for cell in range(outside):
+        for corner in range(3):
+            if at_edges[cell, corner] < 0:
+                region[region == region[cell]] = region[tri.neighbors[cell, corner]]
+    for place in np.stack(np.meshgrid(np.arange(0, 3.5, 0.5), np.arange(0, 3.5, 0.5)), axis=-1).reshape(-1, 2):
+        touching = {
+            cell
+            for cell, row in enumerate(tri.simplices)
+            if all(deldrift.orientation([tri.points[row[k - 2]], tri.points[row[k - 1]], place]) >= 0 for k in range(3))
+        }
+        regions = {int(region[cell]) for cell in touching} | ({int(region[outside])} if place.min() == 0 or place.max() == 3 else set())
+        # Of two regions that are one by way of the outside, cells tell.
+        parts = {frozenset(part_of(tri, at_edges, cell)) for cell in touching}
+        if len(regions) > 1 or len(parts) > 1:
+            with pytest.raises(deldrift.AmbiguousSeed):
+                tri.label_cells([place], [5])
+        else:
+            labels = tri.label_cells([place], [5])
+            assert set(np.flatnonzero(labels == 5).tolist()) == parts.pop()
+
+
+def part_of(tri, at_edges, cell):
+    """The simplices that are reached from one without crossing a segment or leaving the hull."""
+    part, waiting = {cell}, [cell]
+    while waiting:
+        here = waiting.pop()
+        for across, segment in zip(tri.neighbors[here].tolist(), at_edges[here].tolist()):
+            if across >= 0 and segment < 0 and across not in part:
+                part.add(across)
+                waiting.append(across)
+    return part
+
+
+def test_seeds_outside_are_told():
+    with pytest.warns(UserWarning) as told:
+        mesh = deldrift.Mesh(SQUARE, SIDES, holes=[(5, 5), (-1, 2)], regions=[(1, 1, 7), (4.5, 2, 8)])
+    assert [str(one.message) for one in told] == [
+        f"{name} is outside of all closed chains of segments, and has no effect"
+        for name in ("holes[0]", "holes[1]", "regions[1]")
+    ]
+    assert len(mesh.triangles) == 2 and mesh.labels.tolist() == [7, 7]

@@ -1,5 +1,9 @@
 """What scipy.spatial.Delaunay has, compared with scipy on points in general position, and with the definition."""
 
+import collections
+import itertools
+import sys
+
 import numpy as np
 import pytest
 
@@ -199,3 +203,67 @@ def test_no_points_at_all(ndim):
     assert np.isnan(tri.min_bound).all()
     tri.add_points(np.vstack([np.zeros(ndim), np.eye(ndim)]))
     assert tri.nsimplex == 1
+
+
+def facets_in_order(rows):
+    return [facet for row in rows.tolist() for facet in itertools.combinations(row, len(row) - 1)]
+
+
+def test_sorted_simplices_have_facets_in_one_order(rng, ndim):
+    """What programs rely on that compare facets as tuples, as with scipy's rows in space."""
+    tri = deldrift.Delaunay(rng.random((300, ndim)))
+    rows = tri.simplices_sorted
+    assert rows.dtype == np.int32 and not rows.flags.writeable and rows is tri.simplices_sorted
+    np.testing.assert_array_equal(rows, np.sort(tri.simplices, axis=1))
+    facets = collections.Counter(facets_in_order(rows))
+    assert set(facets.values()) == {1, 2}
+    once = {facet for facet, count in facets.items() if count == 1}
+    assert once == {tuple(sorted(facet)) for facet in tri.convex_hull.tolist()}
+    tri.move(tri.points[::-1])
+    np.testing.assert_array_equal(tri.simplices_sorted, np.sort(tri.simplices, axis=1))
+
+
+def test_scipys_rows_of_tetrahedra_are_in_one_order(rng):
+    """What the page says of scipy: there is an order of vertices that all rows have, and so facets are in one order."""
+    spatial = pytest.importorskip("scipy.spatial", reason="scipy is not installed")
+    rows = spatial.Delaunay(rng.random((300, 3))).simplices
+    before = {(a, b) for row in rows.tolist() for a, b in itertools.combinations(row, 2)}
+    assert not any((b, a) in before for a, b in before)
+    ours = deldrift.Delaunay(rng.random((300, 3))).simplices
+    before = {(a, b) for row in ours.tolist() for a, b in itertools.combinations(row, 2)}
+    assert any((b, a) in before for a, b in before)
+
+
+def surface(rows, points, alpha):
+    """The facets of an alpha shape as PyPI's alphashape finds them: those that have been seen once, as tuples."""
+    seen, once = set(), set()
+    for row in rows.tolist():
+        corners = points[row]
+        spans = corners[1:] - corners[0]
+        centre = np.linalg.solve(2 * spans, (spans**2).sum(axis=1))
+        if np.sqrt((centre**2).sum()) < 1 / alpha:
+            for facet in itertools.combinations(row, 3):
+                once ^= {facet} if facet not in seen else once & {facet}
+                seen.add(facet)
+    return once
+
+
+def test_alpha_shapes_of_sorted_simplices(rng):
+    points, alpha = rng.random((300, 3)), 3.0
+    tri = deldrift.Delaunay(points)
+    wanted = {tuple(sorted(facet)) for facet in tri.boundary(tri.alpha_mask(1 / alpha**2)).facets.tolist()}
+    assert surface(tri.simplices_sorted, points, alpha) == wanted
+    assert len(surface(tri.simplices, points, alpha)) > 5 * len(wanted)
+    module = pytest.importorskip("alphashape.alphashape", reason="alphashape is not installed")
+    pytest.importorskip("trimesh", reason="trimesh is not installed")
+    module = sys.modules["alphashape.alphashape"]
+
+    class Sorted(deldrift.Delaunay):
+        simplices = deldrift.Delaunay.simplices_sorted
+
+    before = module.alphashape(points, alpha)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(module, "Delaunay", Sorted)
+        after = module.alphashape(points, alpha)
+    assert len(after.faces) == len(before.faces) == len(wanted)
+    assert {tuple(sorted(face)) for face in after.faces.tolist()} == {tuple(sorted(face)) for face in before.faces.tolist()}

@@ -151,7 +151,9 @@ pub unsafe extern "C" fn deldrift_crossing_numbers(
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone.
 ///
 /// Holes are regions, too: give their seeds a label of their own. Without segments there is one region. A seed on a segment
-/// with one region on both sides, or on the hull, is in that region.
+/// with one region on both sides is in that region. The outside of the convex hull is a region like the others, and one with
+/// those from which it is reached without crossing a segment: a seed on the hull, at a segment that bounds a region or at a
+/// corner of such ones, is on the boundary of two.
 ///
 /// Exact. Cost: m, for each segment the cells around an end, and for each seed that of deldrift_locate. After a change the
 /// first call also does what the first deldrift_cells does.

@@ -84,7 +84,7 @@ pub struct deldrift_options {
     /// around single vertices. Passes over all vertices or cells, each of which takes a part of a build, are not
     /// interrupted. When it returns true, the call ends in DELDRIFT_CANCELLED and has had no effect. NULL, the default,
     /// never cancels.
-    pub cancel: Option<unsafe extern "C" fn(user_data: *mut c_void) -> bool>,
+    pub cancel: Option<unsafe extern "C" fn(user_data: *mut c_void) -> Answer>,
     /// Called just before cancel would be, with the part of the work that is done, from 0 to 1, as far as that is
     /// known: it need not change from one call to the next, and begins again where a commit goes on by rebuilding. NULL
     /// is the default.
@@ -247,10 +247,28 @@ fn misfit<T: Growing>(size: usize, wanted: &'static str) -> Failure {
     Failure::Option { field: T::SIZE, value: size as u64, wanted }
 }
 
+/// A bool of C as a function of the program's returns it: a byte, of which any but 0 means true. A program in another
+/// language may leave one that is neither 0 nor 1, and Rust's own bool may not be one.
+#[repr(transparent)]
+#[derive(Clone, Copy)]
+pub struct Answer(u8);
+
+impl From<bool> for Answer {
+    fn from(answer: bool) -> Self {
+        Answer(answer.into())
+    }
+}
+
+impl Answer {
+    fn is_yes(self) -> bool {
+        self.0 != 0
+    }
+}
+
 /// The callbacks of one triangulation.
 #[derive(Clone, Copy)]
 pub(super) struct Callbacks {
-    cancel: Option<unsafe extern "C" fn(*mut c_void) -> bool>,
+    cancel: Option<unsafe extern "C" fn(*mut c_void) -> Answer>,
     progress: Option<unsafe extern "C" fn(*mut c_void, f64)>,
     user_data: *mut c_void,
 }
@@ -285,7 +303,7 @@ impl Callbacks {
             unsafe { progress(self.user_data, fraction) };
         }
         // SAFETY: as above.
-        !self.cancel.is_some_and(|cancel| unsafe { cancel(self.user_data) })
+        !self.cancel.is_some_and(|cancel| unsafe { cancel(self.user_data) }.is_yes())
     }
 }
 
@@ -310,6 +328,21 @@ mod tests {
             // SAFETY: `size` bytes are there.
             let read = unsafe { GivenOptions::new("options", &options) }.read();
             assert_eq!(read.is_ok(), deldrift_options::ENDS.contains(&size), "{size}");
+        }
+    }
+
+    /// The answer of a program that writes its bools by itself.
+    unsafe extern "C" fn given(answer: *mut c_void) -> Answer {
+        // SAFETY: the test hands over a byte.
+        Answer(unsafe { *answer.cast::<u8>() })
+    }
+
+    #[test]
+    fn any_byte_but_0_cancels() {
+        for byte in 0..=u8::MAX {
+            let user_data = ptr::from_ref(&byte).cast_mut().cast();
+            let callbacks = Callbacks { cancel: Some(given), progress: None, user_data };
+            assert_eq!(callbacks.go_on(0.5), byte == 0, "{byte}");
         }
     }
 }

@@ -66,7 +66,7 @@ struct Callback {
     wrong: Cell<Option<&'static str>>,
 }
 
-unsafe extern "C" fn cancel(user_data: *mut c_void) -> bool {
+unsafe extern "C" fn cancel(user_data: *mut c_void) -> Answer {
     // SAFETY: it is what the options had, and outlives the triangulation.
     let callback = unsafe { &*user_data.cast::<Callback>() };
     let t = callback.t.get();
@@ -79,7 +79,7 @@ unsafe extern "C" fn cancel(user_data: *mut c_void) -> bool {
             callback.wrong.set(Some("a call from a callback was let in"));
         }
     }
-    match callback.left.get() {
+    let answer = match callback.left.get() {
         Some(0) => {
             callback.has_cancelled.set(true);
             true
@@ -88,7 +88,8 @@ unsafe extern "C" fn cancel(user_data: *mut c_void) -> bool {
             callback.left.set(left.map(|left| left - 1));
             false
         }
-    }
+    };
+    answer.into()
 }
 
 unsafe extern "C" fn progress(user_data: *mut c_void, fraction: f64) {
@@ -190,7 +191,7 @@ fn options(s: &mut Source, callback: &Callback) -> (deldrift_options, Chosen) {
         threads: u32::from(flags >> 2 & 3),
         coincidence: u32::from(flags & 0x70 == 0),
         passing: 0,
-        cancel: asks.then_some(cancel as unsafe extern "C" fn(*mut c_void) -> bool),
+        cancel: asks.then_some(cancel as unsafe extern "C" fn(*mut c_void) -> Answer),
         progress: tells.then_some(progress as unsafe extern "C" fn(*mut c_void, f64)),
         user_data: std::ptr::from_ref(callback).cast_mut().cast(),
     };

@@ -413,7 +413,7 @@ impl History<'_> {
     fn read_regions(&mut self) {
         let (t, n_seeds) = (self.t, self.s.below(4));
         let levels = self.copied(77, 1, |to, room, count| c!(deldrift_nesting_levels(t, to, room, count)));
-        let (_, neighbours, sides) = self.wanted_sides();
+        let (rows, neighbours, sides) = self.wanted_sides();
         let (mut wanted, mut region) = (vec![NONE; sides.len()], (0..sides.len()).collect::<Vec<_>>());
         let mut has_changed = true;
         while std::mem::take(&mut has_changed) {
@@ -446,7 +446,22 @@ impl History<'_> {
         let touched =
             |q: &Place| -> BTreeSet<usize> { self.touching(q).iter().map(|&cell| region[cell]).collect() };
         let regions: Vec<BTreeSet<usize>> = seeds.iter().map(touched).collect();
-        if regions.iter().any(|regions| regions.len() > 1) {
+        // The outside is a region, too, and one with those that have an edge there without a segment.
+        let edges = || (0..sides.len()).flat_map(|cell| (0..3).map(move |i| (cell, i)));
+        let outer: Vec<(usize, usize)> = edges().filter(|&(cell, i)| neighbours[cell][i] == NONE).collect();
+        let open: BTreeSet<usize> =
+            outer.iter().filter(|&&(cell, i)| sides[cell][i] == NONE).map(|&(cell, _)| region[cell]).collect();
+        let at = |v: u32| self.m.at(v).expect("present");
+        let is_on_hull = |q: &Place| {
+            outer.iter().any(|&(cell, i)| {
+                let [v, w] = [1, 2].map(|k| at(rows[cell][(i + k) % 3]));
+                turn(&v, &w, q) == Equal
+            })
+        };
+        let is_ambiguous = |(q, regions): (&Place, &BTreeSet<usize>)| {
+            regions.len() > 1 || (regions.len() == 1 && is_on_hull(q) && regions.is_disjoint(&open))
+        };
+        if seeds.iter().zip(&regions).any(is_ambiguous) {
             assert_eq!((status, count), (DELDRIFT_AMBIGUOUS_SEED, 0), "{}", message());
             return;
         }

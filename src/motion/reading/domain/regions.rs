@@ -108,32 +108,40 @@ impl MovingTriangulation<Plane> {
         }
     }
 
-    /// The number of the region of each cell, in the order of [`cells`](Self::cells).
-    fn regions(&self) -> Result<Vec<u32>> {
+    /// The number of the region of each cell, in the order of [`cells`](Self::cells), and for each region whether the
+    /// outside of the hull is reached from it without crossing a segment.
+    fn regions(&self) -> Result<(Vec<u32>, Vec<bool>)> {
         let cells = self.cell_arrays()?;
         let at_edges = self.segments_of_cells()?;
-        let (mut regions, mut waiting, mut n) = (Vec::new(), Vec::new(), 0);
+        let (mut regions, mut waiting, mut is_open) = (Vec::new(), Vec::new(), Vec::new());
         memory::lengthen(&mut regions, at_edges.len(), UNKNOWN)?;
         for first in CellId::range(0..at_edges.len()) {
             if regions[first.index()] != UNKNOWN {
                 continue;
             }
-            regions[first.index()] = n;
+            let n = is_open.len();
+            memory::push(&mut is_open, false)?;
+            regions[first.index()] = n as u32;
             memory::push(&mut waiting, first)?;
             while let Some(cell) = waiting.pop() {
                 for (across, segment) in cells.neighbours()[cell].into_iter().zip(at_edges[cell.index()]) {
-                    if across != NO_CELL && segment == SegmentId::NONE && regions[across.index()] == UNKNOWN {
-                        regions[across.index()] = n;
+                    if segment != SegmentId::NONE {
+                        continue;
+                    }
+                    if across == NO_CELL {
+                        is_open[n] = true;
+                    } else if regions[across.index()] == UNKNOWN {
+                        regions[across.index()] = n as u32;
                         memory::push(&mut waiting, across)?;
                     }
                 }
             }
-            n += 1;
         }
-        Ok(regions)
+        Ok((regions, is_open))
     }
 
-    /// The cells that a place is in, or on the boundary of: its position is `q`. None if it is outside.
+    /// The cells that a place is in, or on the boundary of, and `NO_CELL` behind them if it is on the hull: its position is
+    /// `q`. None if it is outside.
     fn cells_touching(&self, place: Location, q: &[f64; 2]) -> Result<Vec<CellId>> {
         let (cells, kernel, mut found) = (self.cell_arrays()?, &self.mesh.kernel, Vec::new());
         match place {
@@ -141,13 +149,19 @@ impl MovingTriangulation<Plane> {
                 kernel.for_cells_around(self.mesh.site_of[v], |slot| {
                     memory::push(&mut found, cells.index_of()[slot])
                 })?;
+                let is_on_hull = found.iter().any(|&cell| {
+                    let (corners, neighbours) = (cells.corners()[cell], cells.neighbours()[cell]);
+                    (0..3).any(|i| neighbours[i] == NO_CELL && corners[i] != v)
+                });
+                if is_on_hull {
+                    memory::push(&mut found, NO_CELL)?;
+                }
             }
             Location::Cell(cell) => {
                 memory::push(&mut found, cell)?;
                 for i in 0..3 {
-                    let across = cells.neighbours()[cell][i];
-                    if across != NO_CELL && kernel.is_on_facet(cells.facet(cell, i), q) {
-                        memory::push(&mut found, across)?;
+                    if kernel.is_on_facet(cells.facet(cell, i), q) {
+                        memory::push(&mut found, cells.neighbours()[cell][i])?;
                     }
                 }
             }
@@ -160,20 +174,23 @@ impl MovingTriangulation<Plane> {
     /// where there is none. A seed outside of the hull labels nothing.
     ///
     /// # Errors
-    /// [`Error::NotFinite`], [`Error::OutOfRange`]; [`Error::AmbiguousSeed`] for one on the boundary of several regions;
-    /// [`Error::OutOfMemory`].
+    /// [`Error::NotFinite`], [`Error::OutOfRange`]; [`Error::AmbiguousSeed`] for one on the boundary of several regions, of
+    /// which the outside is one; [`Error::OutOfMemory`].
     pub fn label_cells(&self, seeds: &[[f64; 2]], labels: &[i32], other: i32) -> Result<Vec<i32>> {
-        let regions = self.regions()?;
+        let (regions, is_open) = self.regions()?;
         let (mut label_of_region, mut places) = (Vec::new(), Vec::new());
-        let n_regions = regions.iter().max().map_or(0, |&most| most as usize + 1);
-        memory::lengthen(&mut label_of_region, n_regions, None)?;
+        memory::lengthen(&mut label_of_region, is_open.len(), None)?;
         memory::reserve(&mut places, seeds.len())?;
         self.locate_points(seeds, None, |place| places.push(place)).map_err(of_seeds)?;
         for (index, (seed, place)) in seeds.iter().zip(places).enumerate() {
             let touching = self.cells_touching(place, seed)?;
             let Some(first) = touching.first() else { continue };
             let region = regions[first.index()];
-            if touching.iter().any(|cell| regions[cell.index()] != region) {
+            let is_in = |cell: &CellId| match *cell {
+                NO_CELL => is_open[region as usize],
+                cell => regions[cell.index()] == region,
+            };
+            if !touching.iter().all(is_in) {
                 return Err(Error::AmbiguousSeed { index });
             }
             label_of_region[region as usize].get_or_insert(labels[index]);
