@@ -65,6 +65,7 @@
 mod around;
 mod coarsening;
 mod criteria;
+mod flat;
 mod given;
 mod insertion;
 mod mesh;
@@ -80,4 +81,4 @@ pub(crate) use criteria::{Criteria, Tests};
 pub(crate) use given::Given;
 pub(crate) use parts::NONE;
 pub use refining::Kept;
-pub(crate) use refining::{Origins, Refined, refine};
+pub(crate) use refining::{Origins, Refined, mendable, refine};

@@ -19,7 +19,7 @@ use crate::motion::state::made::Origin;
 use crate::motion::state::mesh::Standing;
 use crate::motion::state::segments::Segment;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::refine::{self, Candidate, Criteria, NONE, Origins, Refined, Room, Tests};
+use crate::refine::{self, Candidate, Criteria, Kept, NONE, Origins, Refined, Room, Tests};
 use checks::check_coarsening;
 use reading::Read;
 use staging::SegmentChanges;
@@ -71,7 +71,7 @@ impl MovingTriangulation<Plane> {
         }
         let mut read = self.read_vertices()?;
         let areas = none_where_zero(quality.areas)?;
-        let tests = Tests::new(criteria(quality, &areas), read.extent());
+        let tests = tests_of(quality, &areas, &read);
         self.read_cells(&mut read, &tests, mask, quality.labels, false)?;
         tests.check_stop()?;
         let mut report = QualityReport { bad_cells: read.bad.len(), ..Default::default() };
@@ -174,7 +174,7 @@ impl MovingTriangulation<Plane> {
         let mut looked = std::mem::take(&mut made.looked);
         let mut read = self.read_vertices()?;
         let areas = none_where_zero(quality.areas)?;
-        let tests = Tests::new(criteria(quality, &areas), read.extent());
+        let tests = tests_of(quality, &areas, &read);
         self.read_cells(&mut read, &tests, mask, quality.labels, true)?;
         tests.check_stop()?;
         let cells = self.cells()?;
@@ -190,8 +190,15 @@ impl MovingTriangulation<Plane> {
         let candidates = self.candidates(&read, options.share, &known)?;
         let points = memory::copy_of(&read.points)?;
         let given = read.given(cells, mask, quality.labels, self.mesh.kernel.keys());
+        let mendable = match read.bad[..] {
+            [] => Vec::new(),
+            _ => {
+                let (tests, points) = (tests_of(quality, &areas, &read), memory::copy_of(&points)?);
+                refine::mendable(given, points, &read.bad, tests, self.origins(&read)?, Kept::None)?
+            }
+        };
         let room = Room { angle: options.margin, share: options.share, offset: options.joins };
-        let coarsened = refine::coarsen(given, points, tests, room, &read.bad, &candidates)?;
+        let coarsened = refine::coarsen(given, points, tests, room, &mendable, &candidates)?;
         let stays = stays(&read, cells.corners, &candidates, &coarsened.able)?;
         if has_numbers {
             looked.remember(looking, stays)?;
@@ -352,6 +359,12 @@ fn stays(
     able.iter().for_each(|&v| stays[v] = false);
     read.corners_at_sides(corners).for_each(|v| stays[v] = false);
     Ok(stays)
+}
+
+/// The tests of a quality for what has been read.
+fn tests_of<'a>(quality: &Quality<'a>, areas: &'a [f64], read: &Read) -> Tests<'a> {
+    let [lower, upper] = read.extent();
+    Tests::new(criteria(quality, areas), lower, upper)
 }
 
 /// The criteria of a quality.

@@ -53,9 +53,9 @@ impl Read {
         &self.by_edge[self.starts[edge]..self.starts[edge + 1]]
     }
 
-    /// The greatest distance of places along an axis.
-    pub(super) fn extent(&self) -> f64 {
-        (self.upper[0] - self.lower[0]).max(self.upper[1] - self.lower[1])
+    /// The box of all places.
+    pub(super) fn extent(&self) -> [[f64; 2]; 2] {
+        [self.lower, self.upper]
     }
 
     pub(super) fn given<'a>(
