@@ -23,6 +23,9 @@ const OFF_CENTRE: f64 = 0.475;
 /// tenth of a degree.
 const TOUCHING: f64 = 1024.0;
 
+/// All coordinates are multiples of it.
+const LEAST_POSITIVE: f64 = f64::from_bits(1);
+
 /// Says whether a triangle is too large, or that nothing more is to be done.
 pub(crate) type TooLarge<'a> = &'a dyn Fn([[f64; 2]; 3]) -> ControlFlow<(), bool>;
 
@@ -40,6 +43,8 @@ pub(crate) struct Criteria<'a> {
     pub is_too_large: Option<TooLarge<'a>>,
     /// Whether pieces are encroached by what is in their diametral circles, and not only in the lenses.
     pub is_conforming: bool,
+    /// What places have been multiplied by, a power of two.
+    pub scale: f64,
 }
 
 /// Why a triangle is bad.
@@ -93,7 +98,8 @@ impl<'a> Tests<'a> {
             off: OFF_CENTRE * ((1.0 + cosine) / (1.0 - cosine)).sqrt(),
             // The inverse of a subnormal number may be infinite.
             scale: if extent > 0.0 { power_of_two_below((1.0 / extent).min(f64::MAX)) } else { 1.0 },
-            resolution: TOUCHING * f64::EPSILON * power_of_two_below(greatest),
+            resolution: TOUCHING
+                * (f64::EPSILON * power_of_two_below(greatest)).max(LEAST_POSITIVE * criteria.scale),
             is_stopped: Cell::new(false),
         }
     }
@@ -169,10 +175,12 @@ impl<'a> Tests<'a> {
         }
         is_too_large.is_some_and(|is_too_large| {
             !self.is_stopped.get()
-                && is_too_large(p.map(|p| *p)).continue_value().unwrap_or_else(|| {
-                    self.is_stopped.set(true);
-                    false
-                })
+                && is_too_large(p.map(|p| p.map(|x| x / self.criteria.scale)))
+                    .continue_value()
+                    .unwrap_or_else(|| {
+                        self.is_stopped.set(true);
+                        false
+                    })
         })
     }
 
@@ -213,6 +221,13 @@ impl<'a> Tests<'a> {
         cosine < 0.0 && cosine * cosine > self.lens * (dot(&u, &u) * dot(&v, &v))
     }
 
+    /// Takes the number that is nearest among those that a coordinate can be.
+    #[inline(always)]
+    pub(super) fn rounding(&self) -> impl Fn(f64) -> f64 + use<> {
+        let scale = self.criteria.scale;
+        move |x| x / scale * scale + 0.0
+    }
+
     /// Whether a triangle is so flat that its corners touch its longest edge.
     #[inline(always)]
     pub(super) fn is_flat(&self, p: [&[f64; 2]; 3]) -> bool {
@@ -250,7 +265,7 @@ impl<'a> Tests<'a> {
 
     /// Whether there is no criterion.
     pub(crate) fn are_none(&self) -> bool {
-        let Criteria { least_angle, greatest_area, areas, sizes, is_too_large, is_conforming } =
+        let Criteria { least_angle, greatest_area, areas, sizes, is_too_large, is_conforming, scale: _ } =
             &self.criteria;
         *least_angle == 0.0
             && !is_conforming
@@ -296,7 +311,7 @@ pub(super) fn distance(p: &[f64; 2], q: &[f64; 2]) -> f64 {
 }
 
 /// The greatest power of two that is not above `x`, which is a normal number.
-pub(super) fn power_of_two_below(x: f64) -> f64 {
+pub(crate) fn power_of_two_below(x: f64) -> f64 {
     f64::from_bits(x.to_bits() & 0x7FF0_0000_0000_0000)
 }
 

@@ -77,7 +77,7 @@ mod splitting;
 mod walking;
 
 pub(crate) use coarsening::{Candidate, Room, coarsen};
-pub(crate) use criteria::{Criteria, Tests};
+pub(crate) use criteria::{Criteria, Tests, power_of_two_below};
 pub(crate) use given::Given;
 pub(crate) use parts::NONE;
 pub use refining::Kept;

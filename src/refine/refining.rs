@@ -483,7 +483,7 @@ impl<'a> Refinement<'a> {
         if is_nearer || !dot(&w, &w).is_finite() {
             w = off;
         }
-        let p = [o[0] + w[0] + 0.0, o[1] + w[1] + 0.0];
+        let p = [0, 1].map(|axis| self.tests.rounding()(o[axis] + w[axis]));
         // The longest edge is one of the two at the narrowest corner: the other end of each is opposite.
         let x = minus::<f64, 2>(a, d);
         let longest = if dot(&x, &x) > vv { next(narrowest) } else { previous(narrowest) };

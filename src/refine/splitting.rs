@@ -101,10 +101,12 @@ impl Refinement<'_> {
             let greatest = p[axis].abs().max(q[axis].abs());
             greatest.next_up() - greatest
         });
+        let rounded = self.tests.rounding();
         let at = |share: f64, offsets: [f64; 2]| {
             [0, 1].map(|axis| {
                 let x = p[axis] + share * (q[axis] - p[axis]);
-                x.clamp(p[axis].min(q[axis]), p[axis].max(q[axis])) + offsets[axis] * last_place[axis] + 0.0
+                let x = x.clamp(p[axis].min(q[axis]), p[axis].max(q[axis]));
+                rounded(x + offsets[axis] * last_place[axis])
             })
         };
         for may_leave in [false, true] {
