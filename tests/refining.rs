@@ -2,6 +2,7 @@
 
 mod coarsening;
 mod conforming;
+mod lives;
 
 use crate::common::{Rng, assert_same_cells, cell_set, check_adjacency, seeds};
 use deldrift::motion::{

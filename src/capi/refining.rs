@@ -47,8 +47,10 @@ pub type KeptCode = u32;
 pub struct deldrift_quality {
     /// sizeof(deldrift_quality) as the program sees it.
     pub struct_size: usize,
-    /// The least angle of a cell in degrees, up to 34; 0, the default, for any. Up to 26.5 degrees refinement ends wherever
-    /// angles between segments are at least 60 degrees, as is proved; above it does in practice.
+    /// The least angle of a cell in degrees, up to 34; 0, the default, for any. Up to 26.5 degrees all cells have it wherever
+    /// angles between segments are at least 60 degrees and no vertex is within 1,024 last places of the greatest coordinate of
+    /// another one or of a segment, as is proved; above they do in practice. Refinement ends for all angles and domains: no
+    /// vertex is inserted that is so near to another one.
     pub least_angle: f64,
     /// The greatest area of a cell; 0, the default, for any.
     pub greatest_area: f64,
@@ -80,8 +82,8 @@ pub struct deldrift_quality {
     pub has_weights: u32,
     /// Not 0 if no corner of a cell is to be strictly inside the circle that has a segment at the cell for a diameter. Then no
     /// vertex is inside the circle of a cell that it sees, segments or not: a conforming Delaunay triangulation. Segments that
-    /// are kept whole may have such corners. Refinement then ends, as is proved, up to 20.7 degrees, and makes more cells. At
-    /// angles between segments so small that rounding decides, below some millionth of a degree, it may reach the limit.
+    /// are kept whole may have such corners, and those that a vertex touches (see unsplit). What is said of 26.5 degrees then
+    /// holds up to 20.7, and there are more cells.
     /// Default 0: segments are split where angles, areas and lengths need it.
     pub is_conforming: u32,
     /// Greatest number of vertices that deldrift_refine inserts: default SIZE_MAX.
@@ -156,7 +158,8 @@ pub struct deldrift_quality_report {
     pub replaced_segments: u64,
     /// Segments that came. Their ids are the last ones that have been given.
     pub new_segments: u64,
-    /// Pieces that had to be split and are whole, as there is no room for a vertex between their ends.
+    /// Pieces that had to be split and are whole, as there is no room for a vertex: between their ends, or as a vertex touches
+    /// them, which is beside them by less than 1,024 last places of the greatest coordinate.
     pub unsplit: u64,
     /// Cells that are still bad, of those that were to be refined: at small angles between segments, at segments that are
     /// kept whole, and where the limit was reached. What is_conforming asks of segments does not count.

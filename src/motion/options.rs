@@ -134,7 +134,7 @@ pub struct Quality<'a> {
     /// Another criterion, which has to be the same for the same corners. All cells have to be small enough at some size.
     pub is_too_large: Option<TooLarge<'a>>,
     /// Whether no corner of a cell is to be inside the circle around a segment at the cell: then all cells are Delaunay,
-    /// segments or not. With angles up to 20.7 degrees that is proved to end; without it up to 26.5.
+    /// segments or not. With angles up to 20.7 degrees that is proved to be reached; without it up to 26.5.
     pub is_conforming: bool,
 }
 

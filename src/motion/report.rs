@@ -113,7 +113,8 @@ pub struct QualityReport {
     pub replaced_segments: usize,
     /// Segments that came, with the highest ids of all.
     pub new_segments: usize,
-    /// Pieces that had to be split and are whole, as there is no room for a vertex between their ends.
+    /// Pieces that had to be split and are whole, as there is no room for a vertex: between their ends, or as a vertex touches
+    /// them.
     pub unsplit: usize,
     /// Cells that are still bad, of those selected: at small angles between segments, at segments that are kept whole, and
     /// where the limit was reached.

@@ -64,7 +64,7 @@ struct Coarsening<'a> {
     is_near_bad: Vec<bool>,
 }
 
-/// Takes candidates away. `points` are the places of vertices, and `bad` the bad cells.
+/// Takes candidates away. `points` are the places of vertices, and `bad` the cells that refinement would mend.
 pub(crate) fn coarsen(
     given: Given,
     points: Vec<[f64; 2]>,

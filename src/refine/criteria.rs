@@ -18,6 +18,14 @@ const ROUNDING: f64 = 1e-14;
 /// rounding, and its neighbours have room (Üngör, 10.1016/j.comgeo.2008.06.002, leaves the factor open).
 const OFF_CENTRE: f64 = 0.475;
 
+/// Vertices and pieces that are nearer to each other than so many last places of the greatest coordinate are taken for
+/// touching: no vertex comes between them. Angles of triangles with longer edges and greater heights are off by less than a
+/// tenth of a degree.
+const TOUCHING: f64 = 1024.0;
+
+/// All coordinates are multiples of it.
+const LEAST_POSITIVE: f64 = f64::from_bits(1);
+
 /// Says whether a triangle is too large, or that nothing more is to be done.
 pub(crate) type TooLarge<'a> = &'a dyn Fn([[f64; 2]; 3]) -> ControlFlow<(), bool>;
 
@@ -35,6 +43,8 @@ pub(crate) struct Criteria<'a> {
     pub is_too_large: Option<TooLarge<'a>>,
     /// Whether pieces are encroached by what is in their diametral circles, and not only in the lenses.
     pub is_conforming: bool,
+    /// What places have been multiplied by, a power of two.
+    pub scale: f64,
 }
 
 /// Why a triangle is bad.
@@ -57,6 +67,8 @@ pub(crate) struct Tests<'a> {
     pub(super) off: f64,
     /// A power of two by which lengths are multiplied.
     scale: f64,
+    /// What is nearer touches.
+    pub(super) resolution: f64,
     /// Whether the function of the criteria has said to stop: it is not asked any more.
     is_stopped: Cell<bool>,
 }
@@ -72,10 +84,12 @@ pub(crate) struct Measured {
 }
 
 impl<'a> Tests<'a> {
-    /// For places that are no further apart than `extent`.
-    pub(crate) fn new(criteria: Criteria<'a>, extent: f64) -> Self {
+    /// For places in a box.
+    pub(crate) fn new(criteria: Criteria<'a>, lower: [f64; 2], upper: [f64; 2]) -> Self {
         let angle = criteria.least_angle.to_radians();
         let cosine = angle.cos();
+        let extent = (upper[0] - lower[0]).max(upper[1] - lower[1]);
+        let greatest = lower.iter().chain(&upper).fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
         Tests {
             criteria,
             squared_cosine: if angle > 0.0 { cosine * cosine - ROUNDING } else { 2.0 },
@@ -84,6 +98,8 @@ impl<'a> Tests<'a> {
             off: OFF_CENTRE * ((1.0 + cosine) / (1.0 - cosine)).sqrt(),
             // The inverse of a subnormal number may be infinite.
             scale: if extent > 0.0 { power_of_two_below((1.0 / extent).min(f64::MAX)) } else { 1.0 },
+            resolution: TOUCHING
+                * (f64::EPSILON * power_of_two_below(greatest)).max(LEAST_POSITIVE * criteria.scale),
             is_stopped: Cell::new(false),
         }
     }
@@ -159,10 +175,12 @@ impl<'a> Tests<'a> {
         }
         is_too_large.is_some_and(|is_too_large| {
             !self.is_stopped.get()
-                && is_too_large(p.map(|p| *p)).continue_value().unwrap_or_else(|| {
-                    self.is_stopped.set(true);
-                    false
-                })
+                && is_too_large(p.map(|p| p.map(|x| x / self.criteria.scale)))
+                    .continue_value()
+                    .unwrap_or_else(|| {
+                        self.is_stopped.set(true);
+                        false
+                    })
         })
     }
 
@@ -203,6 +221,29 @@ impl<'a> Tests<'a> {
         cosine < 0.0 && cosine * cosine > self.lens * (dot(&u, &u) * dot(&v, &v))
     }
 
+    /// Takes the number that is nearest among those that a coordinate can be.
+    #[inline(always)]
+    pub(super) fn rounding(&self) -> impl Fn(f64) -> f64 + use<> {
+        let scale = self.criteria.scale;
+        move |x| x / scale * scale + 0.0
+    }
+
+    /// Whether a triangle is so flat that its corners touch its longest edge.
+    #[inline(always)]
+    pub(super) fn is_flat(&self, p: [&[f64; 2]; 3]) -> bool {
+        let [u, v, w] =
+            [[0, 1], [0, 2], [1, 2]].map(|[i, j]| minus::<f64, 2>(p[j], p[i]).map(|x| x * self.scale));
+        let longest = [u, v, w].map(|u| dot(&u, &u)).into_iter().fold(0.0, f64::max);
+        (u[0] * v[1] - u[1] * v[0]).abs() < self.resolution * self.scale * longest.sqrt()
+    }
+
+    /// Whether an edge, of this squared length by [`measure`](Self::measure), is so short that its ends touch.
+    #[inline(always)]
+    pub(super) fn is_short(&self, squared_length: f64) -> bool {
+        let least = 2.0 * self.resolution * self.scale;
+        squared_length < least * least
+    }
+
     /// Whether a piece is so long that each triangle at it with the least angle is too large, even one with that angle at
     /// both ends: L² tan(angle) / 4. Such pieces are split before anything else is looked at, as triangles beside them
     /// would be made in vain.
@@ -224,7 +265,7 @@ impl<'a> Tests<'a> {
 
     /// Whether there is no criterion.
     pub(crate) fn are_none(&self) -> bool {
-        let Criteria { least_angle, greatest_area, areas, sizes, is_too_large, is_conforming } =
+        let Criteria { least_angle, greatest_area, areas, sizes, is_too_large, is_conforming, scale: _ } =
             &self.criteria;
         *least_angle == 0.0
             && !is_conforming
@@ -270,7 +311,7 @@ pub(super) fn distance(p: &[f64; 2], q: &[f64; 2]) -> f64 {
 }
 
 /// The greatest power of two that is not above `x`, which is a normal number.
-pub(super) fn power_of_two_below(x: f64) -> f64 {
+pub(crate) fn power_of_two_below(x: f64) -> f64 {
     f64::from_bits(x.to_bits() & 0x7FF0_0000_0000_0000)
 }
 

@@ -31,8 +31,14 @@ impl Mesh<'_> {
     }
 
     /// Finds the cavity of a vertex of this number at `p` that is to split a piece, in the box of whose ends that is; whether
-    /// it may.
-    pub(super) fn dig_at_piece(&mut self, piece: u32, p: &[f64; 2], id: VertexId) -> Result<bool> {
+    /// it may. `may_leave`: whether it may be outside of the hull.
+    pub(super) fn dig_at_piece(
+        &mut self,
+        piece: u32,
+        p: &[f64; 2],
+        id: VertexId,
+        may_leave: bool,
+    ) -> Result<bool> {
         self.cells.clear();
         self.rim.clear();
         self.waiting.clear();
@@ -43,6 +49,9 @@ impl Mesh<'_> {
             let triangle = self.triangle(side.triangle());
             let turn = |side: Side| self.turn(triangle.ends(side.index()), p);
             let is_here = turn(side) > 0.0;
+            if !may_leave && self.across(side) == Side::NONE && turn(side) < 0.0 {
+                return Ok(false);
+            }
             if is_here && [side.next(), side.previous()].into_iter().any(|other| turn(other) <= 0.0) {
                 return Ok(false);
             }
@@ -210,7 +219,7 @@ mod tests {
             };
             let mut mesh = Mesh::new(given, vec![a, b, c, d]).expect("room");
             mesh.copy(0).expect("room");
-            let may = mesh.dig_at_piece(0, &p, ids[4]).expect("room");
+            let may = mesh.dig_at_piece(0, &p, ids[4], true).expect("room");
             let gets_sliver = [1, 0].map(|k| is_in[k] && !mesh.is_inside(corners[1 - k], &p, ids[4]));
             let is_refused = (0..2).any(|k| gets_sliver[k] && is_selected[k]);
             let context = || format!("seed {seed}: {:?}, {is_selected:?}", [a, b, c, d, p]);

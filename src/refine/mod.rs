@@ -27,6 +27,7 @@
 //! | `around` | what is around a vertex, before anything is copied |
 //! | `removal` | removal of a vertex, from within or between two pieces |
 //! | `criteria` | what is bad, what is encroached |
+//! | `flat` | vertices that touch a piece: a few last places beside it |
 //! | `queue` | bad triangles in order |
 //! | `refining`, `splitting` | refinement; where pieces are split |
 //! | `coarsening` | vertices that are not needed any more leave |
@@ -36,12 +37,20 @@
 //! All signs are ([`predicates`](crate::predicates)), ties are broken by vertex id. So at any time the triangles that
 //! are refined are those of a fresh constrained build of all vertices and pieces; the caller builds them by its own means.
 //! Places of new vertices are rounded. One in a triangle may be anywhere in it. One on a segment need not be exactly on
-//! it: then its pieces are straight between their own ends, and the segment bends by a last bit. It is refused where a
-//! piece would touch or cross anything else.
+//! it: then its pieces are straight between their own ends, and the segment bends by a last bit. A place is refused where a
+//! piece would touch or cross anything else, and another one near it is taken: outside of a domain, a side that has bent
+//! has slivers beside it, and no place is legal that is not in one of the two triangles at the piece. So the pieces are the
+//! boundary, exactly as they are stored, and no two are taken for collinear.
 //!
 //! # Why it ends
 //!
-//! Without input angles below 60 degrees between segments, and for a least angle up to 26.5 degrees, Chew's second algorithm
+//! Vertices and pieces *touch* that are nearer to each other than r, 1,024 last places of the greatest coordinate. No edge of
+//! less than 2r is refined, no piece is split less than r from its ends, and what touches a piece does not encroach it
+//! (`flat`). An off-centre is no nearer to any vertex than the shortest edge of its triangle is long, a circumcentre no nearer
+//! than that length by the square root of 3. So no vertex comes within r of another one, and there can only be so many: that
+//! is proved, with rounding, for all angles, sizes and domains. It is no number that a program could wait for.
+//!
+//! How many there are in fact follows from the *local feature size* of the input, as long as it is above r. Without input angles below 60 degrees between segments, and for a least angle up to 26.5 degrees, Chew's second algorithm
 //! ends by Shewchuk's proof: no edge becomes shorter than the *local feature size* of the input there allows. The order of
 //! the queue and off-centres keep that: an off-centre is no nearer to other vertices than the shortest edge of its
 //! triangle is long. Above, it ends in practice up to some 34 degrees, which is why more is refused.
@@ -49,22 +58,33 @@
 //! With circles in the place of lenses this is Ruppert's algorithm, and ends for a least angle up to 20.7 degrees, by
 //! Shewchuk's proof too. A vertex that is taken away from a circle makes no difference: each time a piece is split, of
 //! which there can only be so many, as none becomes shorter than that feature size allows. Vertices on one circle are told
-//! apart exactly, so that a right angle, as in a square with its diagonal, is no cause for splitting.
+//! apart exactly, so that a right angle, as in a square with its diagonal, is no cause for splitting. Both proofs take the
+//! pieces of a segment for straight. Stored pieces are not, by a last bit at each vertex, and the angle between two of one
+//! segment is 180 degrees to that: no triangle of the quality notices, as its edges are longer than 2r.
 //!
 //! At an apex of segments with a smaller angle, segments are split at powers of two from it, and a triangle across the angle
-//! stays as it is if its shortest edge is between two vertices on one shell: that is as long as the angle makes it, and what
-//! would come of it is smaller by the same factor each time. Other triangles have angles that refinement mends.
+//! stays as it is if its shortest edge is between two vertices on one shell and the angle is below 30 degrees: that edge is
+//! as long as the angle makes it, and what would come of it is smaller by the same factor each time. From 30 degrees on it
+//! is no shorter than the pieces at the shell. Other triangles have angles that refinement mends.
 //! Vertices on common shells are in no circles of each other's pieces: from distance d at an angle w, the piece from d to
 //! 2d is seen under 90 degrees at most, since 2d² - 3d² cos w + d² is not negative. Places are rounded, and w² has to be
 //! above that: at angles below 1e-8 or so vertices on two segments are in each other's circles until the last bits.
 //!
 //! A bad triangle waits again only after a piece has been split, and vertices on pieces stay. Pieces that cannot be split,
-//! since they are kept whole or there is no number between their ends, are left, and so are triangles that need it.
-//! Sizes that shrink towards a place without a bound have no end; the limit on insertions is for those.
+//! since they are kept whole or there is no room, are left, and so are triangles that need it. When nothing waits, all that
+//! was left is looked at again, until a pass over all of it changes nothing. So a second call has nothing to do.
+//!
+//! # At rest
+//!
+//! Coarsening takes a vertex away if all triangles that come are good, by a margin. Only around triangles that refinement
+//! would mend may they be as bad as those there: whether it would is found by its own rules ([`mendable`]). After a
+//! refinement there are none, so what coarsening then leaves is good, or was left by refinement too, and neither of the
+//! two finds anything to do.
 
 mod around;
 mod coarsening;
 mod criteria;
+mod flat;
 mod given;
 mod insertion;
 mod mesh;
@@ -76,8 +96,8 @@ mod splitting;
 mod walking;
 
 pub(crate) use coarsening::{Candidate, Room, coarsen};
-pub(crate) use criteria::{Criteria, Tests};
+pub(crate) use criteria::{Criteria, Tests, power_of_two_below};
 pub(crate) use given::Given;
 pub(crate) use parts::NONE;
 pub use refining::Kept;
-pub(crate) use refining::{Origins, Refined, refine};
+pub(crate) use refining::{Origins, Refined, mendable, refine};

@@ -117,7 +117,7 @@ pub(super) struct Piece {
     pub(super) segment: u32,
     /// The next piece of the segment.
     pub(super) next: u32,
-    /// Whether it stays whole.
+    /// Whether there has been no room to split it.
     pub(super) is_fixed: bool,
 }
 

@@ -3,7 +3,7 @@
 use super::criteria::{Flaw, Measured, Tests, distance, size_between};
 use super::given::Given;
 use super::mesh::Mesh;
-use super::parts::{NONE, Side, next, previous};
+use super::parts::{NONE, Piece, Rim, Side, next, previous};
 use super::queue::{Queues, Waiting};
 use super::removal::Hole;
 use super::walking::Place;
@@ -53,6 +53,10 @@ pub(crate) struct Refined {
     pub is_cut_short: bool,
 }
 
+/// Squared cosine of 30 degrees. At input angles from there on an edge across a shell is no shorter than half its distance
+/// from the apex, and so than the pieces at the shell: a vertex may come beside it.
+const NARROW: f64 = 0.75;
+
 /// Two vertices are on one shell around the apex of an input angle if their distances from it differ by no more than this
 /// share: rounded powers of two do, and those that vertices of an earlier call have after they have moved.
 const SHELL: f64 = 0.001;
@@ -63,20 +67,50 @@ const ADDED_BETWEEN: usize = 1000;
 
 pub(super) struct Refinement<'a> {
     pub(super) mesh: Mesh<'a>,
-    tests: Tests<'a>,
+    pub(super) tests: Tests<'a>,
     pub(super) origins: Origins,
     kept: Kept,
     queues: Queues,
-    /// Pieces to be split, each with its ends when it was entered, and whether something was behind it.
-    encroached: Vec<(u32, [VertexId; 2], bool)>,
+    /// Pieces to be split.
+    encroached: Vec<Wanted>,
     /// The original that each vertex is on, [`NONE`] if there is none.
     pub(super) on: Vec<u32>,
     /// The greatest length of edges at each vertex, if that is given.
     sizes: Vec<f64>,
     pub(super) n_given: usize,
     pub(super) n_added: usize,
-    pub(super) n_unsplit: usize,
+    /// Pieces that have been split, and vertices that have been taken out of circles.
+    pub(super) n_split: usize,
+    pub(super) n_cleared: usize,
+    /// Whether something that is wanted has been left, as there was no room for it.
+    pub(super) has_left: bool,
     pub(super) hole: Hole,
+    /// Pieces in the way of a vertex, each with where it is in the way.
+    in_the_way: Vec<(u32, [f64; 2])>,
+    /// Whether flat triangles have been seen.
+    has_flat: bool,
+    /// Where vertices touch a piece.
+    pub(super) touching: Vec<f64>,
+}
+
+/// A piece that is to be split.
+#[derive(Clone, Copy, Debug)]
+struct Wanted {
+    piece: u32,
+    /// Its ends when it was entered.
+    ends: [VertexId; 2],
+    /// What it is to be split for, if that is not only the corner opposite it.
+    cause: Option<[f64; 2]>,
+}
+
+/// What there is to do for a bad triangle.
+enum Remedy {
+    /// Nothing.
+    None,
+    /// To split what is in the way.
+    Split,
+    /// To insert a vertex in a triangle, of which the cavity has been found.
+    Insert([f64; 2], u32),
 }
 
 /// Refines the cells that are selected. `points` are the places of vertices, and `bad` the cells, ascending, that are bad or
@@ -90,25 +124,7 @@ pub(crate) fn refine(
     (kept, limit): (Kept, usize),
     ask: &mut dyn FnMut() -> Result<()>,
 ) -> Result<Refined> {
-    let mut on = Vec::new();
-    let n_given = points.len();
-    memory::lengthen(&mut on, n_given, NONE)?;
-    origins.of_vertices.iter().for_each(|&(v, original)| on[v] = original);
-    let sizes = memory::copy_of(tests.given_sizes())?;
-    let mut refinement = Refinement {
-        mesh: Mesh::new(given, points)?,
-        tests,
-        origins,
-        kept,
-        queues: Queues::new()?,
-        encroached: Vec::new(),
-        on,
-        sizes,
-        n_given,
-        n_added: 0,
-        n_unsplit: 0,
-        hole: Hole::default(),
-    };
+    let mut refinement = Refinement::new(given, points, tests, origins, kept)?;
     for &cell in bad {
         let t = refinement.mesh.copy(cell)?;
         refinement.examine(t)?;
@@ -117,9 +133,85 @@ pub(crate) fn refine(
     refinement.tell(given, is_cut_short)
 }
 
-impl Refinement<'_> {
-    /// Adds vertices; whether there would be more than the limit.
+/// Those of the bad cells for which [`refine`] would do something now.
+pub(crate) fn mendable(
+    given: Given,
+    points: Vec<[f64; 2]>,
+    bad: &[u32],
+    tests: Tests,
+    origins: Origins,
+    kept: Kept,
+) -> Result<Vec<u32>> {
+    let mut refinement = Refinement::new(given, points, tests, origins, kept)?;
+    let mut mendable = Vec::new();
+    for &cell in bad {
+        let t = refinement.mesh.copy(cell)?;
+        if refinement.would_change(t)? {
+            memory::push(&mut mendable, cell)?;
+        }
+    }
+    refinement.tests.check_stop()?;
+    Ok(mendable)
+}
+
+impl<'a> Refinement<'a> {
+    fn new(
+        given: Given<'a>,
+        points: Vec<[f64; 2]>,
+        tests: Tests<'a>,
+        origins: Origins,
+        kept: Kept,
+    ) -> Result<Self> {
+        let mut on = Vec::new();
+        let n_given = points.len();
+        memory::lengthen(&mut on, n_given, NONE)?;
+        origins.of_vertices.iter().for_each(|&(v, original)| on[v] = original);
+        let sizes = memory::copy_of(tests.given_sizes())?;
+        Ok(Refinement {
+            mesh: Mesh::new(given, points)?,
+            tests,
+            origins,
+            kept,
+            queues: Queues::new()?,
+            encroached: Vec::new(),
+            on,
+            sizes,
+            n_given,
+            n_added: 0,
+            n_split: 0,
+            n_cleared: 0,
+            has_left: false,
+            hole: Hole::default(),
+            in_the_way: Vec::new(),
+            has_flat: false,
+            touching: Vec::new(),
+        })
+    }
+
+    /// Adds vertices until there is nothing left to do; whether there would be more than the limit.
     fn go_on(&mut self, limit: usize, ask: &mut dyn FnMut() -> Result<()>) -> Result<bool> {
+        loop {
+            let (n_added, n_split, n_cleared) = (self.n_added, self.n_split, self.n_cleared);
+            if self.go_through(limit, ask)? {
+                return Ok(true);
+            }
+            // What has been left may have room by now, unless nothing has changed since. Where no piece is split, and vertices
+            // come where others go, it would not end.
+            let has_changed = self.n_added != n_added || self.n_split > n_split;
+            let is_going_round = self.n_split == n_split && self.n_cleared > n_cleared;
+            if !self.has_left || !has_changed || is_going_round {
+                return Ok(false);
+            }
+            self.has_left = false;
+            self.mesh.pieces.iter_mut().for_each(|piece| piece.is_fixed = false);
+            for t in 0..self.mesh.triangles.len() as u32 {
+                self.examine(t)?;
+            }
+        }
+    }
+
+    /// Adds vertices for what waits; whether there would be more than the limit.
+    fn go_through(&mut self, limit: usize, ask: &mut dyn FnMut() -> Result<()>) -> Result<bool> {
         let mut n_asked = 0;
         loop {
             if self.n_added >= n_asked {
@@ -132,10 +224,11 @@ impl Refinement<'_> {
                     return Ok(true);
                 }
                 self.tests.check_stop()?;
-                let (piece, ends, is_forced) = self.encroached[k];
+                let Wanted { piece, ends, cause } = self.encroached[k];
                 k += 1;
-                if self.mesh.pieces[piece as usize].ends == ends && (is_forced || self.is_encroached(piece)) {
-                    self.split(piece)?;
+                let is_wanted = cause.is_some() || self.is_encroached(piece);
+                if self.mesh.pieces[piece as usize].ends == ends && is_wanted {
+                    self.split(piece, cause)?;
                 }
             }
             self.encroached.clear();
@@ -164,36 +257,96 @@ impl Refinement<'_> {
         if !triangle.is_live() || !triangle.is_selected() {
             return Ok(());
         }
+        let measured = self.measure(t);
+        self.has_flat |= measured.flaw.is_some() && self.is_flat(t);
         for i in 0..3 {
-            let piece = triangle.pieces[i];
-            if piece == NONE {
-                continue;
-            }
-            let is_too_long =
-                self.tests.is_too_long(triangle.ends(i).map(|v| self.mesh.point(v)), triangle.label);
-            if (is_too_long || self.is_encroached_from(Side::new(t, i))) && self.may_split(piece) {
-                self.enter(piece, is_too_long)?;
+            if let Some((piece, cause)) = self.wanted_at(Side::new(t, i))?
+                && self.may_split(piece)
+            {
+                self.enter(piece, cause)?;
             }
         }
-        let measured = self.measure(t);
+        if !self.may_mend(t, measured) {
+            return Ok(());
+        }
+        let waiting = Waiting { triangle: t, corners: triangle.corners };
+        self.queues.enter(waiting, measured.shortest)
+    }
+
+    /// The piece at a side of a triangle, or behind flat triangles there, if it has to be split for that triangle.
+    fn wanted_at(&mut self, side: Side) -> Result<Option<(u32, Option<[f64; 2]>)>> {
+        let triangle = *self.mesh.triangle(side.triangle());
+        let piece = triangle.pieces[side.index()];
+        if piece == NONE {
+            let is_wanted = self.has_flat && self.is_encroached_from(side);
+            let apex = *self.mesh.point(self.mesh.apex(side));
+            return match is_wanted {
+                true => Ok(self.piece_behind(side)?.map(|piece| (piece, Some(apex)))),
+                false => Ok(None),
+            };
+        }
+        let ends = triangle.ends(side.index()).map(|v| self.mesh.point(v));
+        if self.tests.is_too_long(ends, triangle.label) {
+            return Ok(Some((piece, Some([0, 1].map(|axis| 0.5 * (ends[0][axis] + ends[1][axis]))))));
+        }
+        Ok(self.is_encroached_from(side).then_some((piece, None)))
+    }
+
+    /// Whether a triangle is bad, and not for a reason that stays.
+    fn may_mend(&self, t: u32, measured: Measured) -> bool {
         match measured.flaw {
-            None => Ok(()),
-            Some(Flaw::Angle) if self.is_hopeless(t, measured.narrowest) => Ok(()),
-            Some(_) => {
-                let waiting = Waiting { triangle: t, corners: triangle.corners };
-                self.queues.enter(waiting, measured.shortest)
+            None => false,
+            Some(Flaw::Angle) => {
+                !self.tests.is_short(measured.shortest)
+                    && !self.is_flat(t)
+                    && !self.is_hopeless(t, measured.narrowest)
+            }
+            Some(Flaw::Size) => true,
+        }
+    }
+
+    /// Whether something would be done for a triangle now.
+    fn would_change(&mut self, t: u32) -> Result<bool> {
+        let measured = self.measure(t);
+        self.has_flat |= measured.flaw.is_some() && self.is_flat(t);
+        for i in 0..3 {
+            if let Some((piece, cause)) = self.wanted_at(Side::new(t, i))?
+                && self.can_split(piece, cause)?
+            {
+                return Ok(true);
+            }
+        }
+        if !self.may_mend(t, measured) {
+            return Ok(false);
+        }
+        match self.remedy(t, measured)? {
+            Remedy::None => Ok(false),
+            Remedy::Insert(..) => Ok(true),
+            Remedy::Split => {
+                for k in 0..self.in_the_way.len() {
+                    let (piece, cause) = self.in_the_way[k];
+                    if self.can_split(piece, Some(cause))? {
+                        return Ok(true);
+                    }
+                }
+                Ok(false)
             }
         }
     }
 
     /// Enters a piece that has to be split.
-    fn enter(&mut self, piece: u32, is_forced: bool) -> Result<()> {
+    fn enter(&mut self, piece: u32, cause: Option<[f64; 2]>) -> Result<()> {
         let ends = self.mesh.pieces[piece as usize].ends;
-        memory::push(&mut self.encroached, (piece, ends, is_forced))
+        memory::push(&mut self.encroached, Wanted { piece, ends, cause })
     }
 
     /// Whether a piece at a side would have to be split for the corner opposite it.
     pub(super) fn is_encroached_from(&self, side: Side) -> bool {
+        self.is_seen_wide(side) && !self.is_flat(side.triangle())
+    }
+
+    /// Whether the corner opposite a side is in the lens or circle of that, even if it touches it.
+    fn is_seen_wide(&self, side: Side) -> bool {
         let triangle = self.mesh.triangle(side.triangle());
         let ends = triangle.ends(side.index()).map(|v| self.mesh.point(v));
         self.tests.is_encroached(ends, self.mesh.point(triangle.corners[side.index()]))
@@ -239,49 +392,84 @@ impl Refinement<'_> {
         });
         let are_new = ends.iter().all(|v| v.index() >= self.n_given);
         let tolerance = 2.0 * if are_new { SHELL } else { MOVED_SHELL };
-        (d - e).abs() <= tolerance * d.max(e)
+        (d - e).abs() <= tolerance * d.max(e) && self.is_seen_below(apex, ends, NARROW)
+    }
+
+    /// Whether two vertices are seen from a third one under less than the angle of this squared cosine.
+    pub(super) fn is_seen_below(&self, apex: VertexId, others: [VertexId; 2], squared_cosine: f64) -> bool {
+        let [u, v] = others.map(|v| minus::<f64, 2>(self.mesh.point(v), self.mesh.point(apex)));
+        let cosine = dot(&u, &v);
+        cosine > 0.0 && cosine * cosine > squared_cosine * (dot(&u, &u) * dot(&v, &v))
     }
 
     /// Adds a vertex in the place of a bad triangle, or enters the pieces that are in the way.
     fn improve(&mut self, waiting: Waiting) -> Result<()> {
         let t = waiting.triangle;
         let measured = self.measure(t);
-        let Some((p, from)) = self.centre(t, measured.narrowest) else { return Ok(()) };
-        let id = VertexId::at(self.mesh.points.len());
-        let n_before = self.encroached.len();
-        match self.mesh.walk(from, &p)? {
-            Place::Nowhere => return Ok(()),
-            Place::Behind(piece) => {
-                if self.may_split(piece) {
-                    self.enter(piece, true)?;
+        match self.remedy(t, measured)? {
+            Remedy::Insert(p, at) => self.add(p, at, None),
+            Remedy::None => {
+                self.has_left = true;
+                Ok(())
+            }
+            Remedy::Split => {
+                let mut may_split = false;
+                for k in 0..self.in_the_way.len() {
+                    let (piece, cause) = self.in_the_way[k];
+                    if self.may_split(piece) {
+                        may_split = true;
+                        self.enter(piece, Some(cause))?;
+                    }
                 }
+                if may_split {
+                    return self.queues.enter(waiting, measured.shortest);
+                }
+                // What cannot be split is not asked again.
+                self.has_left = true;
+                Ok(())
+            }
+        }
+    }
+
+    /// What there is to do for a bad triangle; the pieces in the way are listed.
+    fn remedy(&mut self, t: u32, measured: Measured) -> Result<Remedy> {
+        let Some((p, from)) = self.centre(t, measured) else { return Ok(Remedy::None) };
+        let id = VertexId::at(self.mesh.points.len());
+        self.in_the_way.clear();
+        match self.mesh.walk(from, &p)? {
+            Place::Nowhere => Ok(Remedy::None),
+            Place::Behind(piece) => {
+                let ends = self.mesh.pieces[piece as usize].ends.map(|v| self.mesh.point(v));
+                let cause = crossing([self.mesh.point(self.mesh.apex(from)), &p], ends);
+                memory::push(&mut self.in_the_way, (piece, cause))?;
+                Ok(Remedy::Split)
             }
             Place::Inside(at) => {
                 self.mesh.dig(at, &p, id)?;
-                let mut is_free = true;
                 for k in 0..self.mesh.rim.len() {
-                    let side = self.mesh.rim[k];
-                    if side.piece != NONE
-                        && self.tests.is_encroached(side.ends.map(|v| self.mesh.point(v)), &p)
+                    let Rim { ends, across, piece, .. } = self.mesh.rim[k];
+                    if piece == NONE && !self.has_flat
+                        || !self.tests.is_encroached(ends.map(|v| self.mesh.point(v)), &p)
                     {
-                        is_free = false;
-                        if self.may_split(side.piece) {
-                            self.enter(side.piece, true)?;
-                        }
+                        continue;
+                    }
+                    let piece = match piece {
+                        NONE => self.piece_beyond(across)?,
+                        piece => Some(piece),
+                    };
+                    if let Some(piece) = piece {
+                        memory::push(&mut self.in_the_way, (piece, p))?;
                     }
                 }
-                if is_free {
-                    return self.add(p, at, None);
-                }
+                Ok(if self.in_the_way.is_empty() { Remedy::Insert(p, at) } else { Remedy::Split })
             }
         }
-        // What cannot be split is not asked again.
-        if self.encroached.len() > n_before { self.queues.enter(waiting, measured.shortest) } else { Ok(()) }
     }
 
     /// Where a bad triangle gets a vertex: its circumcentre, or the off-centre of its shortest edge if that is nearer; and
     /// the side by which a straight way there leaves the triangle, if it does.
-    fn centre(&self, t: u32, narrowest: usize) -> Option<([f64; 2], Side)> {
+    fn centre(&self, t: u32, measured: Measured) -> Option<([f64; 2], Side)> {
+        let narrowest = measured.narrowest;
         let corners = self.mesh.triangle(t).corners;
         let [o, d, a] =
             [next(narrowest), previous(narrowest), narrowest].map(|i| self.mesh.point(corners[i]));
@@ -290,10 +478,12 @@ impl Refinement<'_> {
         let half = 0.5 / self.mesh.turn([corners[next(narrowest)], corners[previous(narrowest)]], a);
         let mut w = [(v[1] * uu - u[1] * vv) * half, (u[0] * vv - v[0] * uu) * half];
         let off = [0.5 * u[0] - self.tests.off * u[1], 0.5 * u[1] + self.tests.off * u[0]];
-        if dot(&off, &off) < dot(&w, &w) || !dot(&w, &w).is_finite() {
+        // One at an edge whose ends touch would touch them, too.
+        let is_nearer = dot(&off, &off) < dot(&w, &w) && !self.tests.is_short(measured.shortest);
+        if is_nearer || !dot(&w, &w).is_finite() {
             w = off;
         }
-        let p = [o[0] + w[0] + 0.0, o[1] + w[1] + 0.0];
+        let p = [0, 1].map(|axis| self.tests.rounding()(o[axis] + w[axis]));
         // The longest edge is one of the two at the narrowest corner: the other end of each is opposite.
         let x = minus::<f64, 2>(a, d);
         let longest = if dot(&x, &x) > vv { next(narrowest) } else { previous(narrowest) };
@@ -337,13 +527,26 @@ impl Refinement<'_> {
         Ok(())
     }
 
+    /// Whether a piece would have to be split, and there is no room.
+    fn is_unsplit(&self, piece: &Piece) -> bool {
+        let is_touched = |side: Side| {
+            side != Side::NONE
+                && side.unread_cell().is_none()
+                && self.mesh.triangle(side.triangle()).is_selected()
+                && self.is_seen_wide(side)
+        };
+        let is_live = piece.ends[0] != VertexId::NONE && piece.side.unread_cell().is_none();
+        is_live && (piece.is_fixed || is_touched(piece.side) || is_touched(self.mesh.across(piece.side)))
+    }
+
     /// Numbers the vertices that have stayed, and lists what has become of the segments.
     fn tell(self, given: Given, is_cut_short: bool) -> Result<Refined> {
         let n = self.mesh.triangles.len() as u32;
         let n_bad =
             (0..n).filter(|&t| self.mesh.triangle(t).is_selected() && self.measure(t).flaw.is_some()).count();
         self.tests.check_stop()?;
-        let mut told = Refined { is_cut_short, n_bad, n_unsplit: self.n_unsplit, ..Refined::default() };
+        let n_unsplit = self.mesh.pieces.iter().filter(|piece| self.is_unsplit(piece)).count();
+        let mut told = Refined { is_cut_short, n_bad, n_unsplit, ..Refined::default() };
         let mut segment_of = Vec::new();
         memory::lengthen(&mut segment_of, self.mesh.points.len() - self.n_given, NONE)?;
         for piece in &self.mesh.pieces {
@@ -379,4 +582,13 @@ impl Refinement<'_> {
         }
         Ok(told)
     }
+}
+
+/// Where a straight way crosses the line through two ends, but for rounding.
+fn crossing([from, to]: [&[f64; 2]; 2], [p, q]: [&[f64; 2]; 2]) -> [f64; 2] {
+    let (u, v) = (minus::<f64, 2>(to, from), minus::<f64, 2>(q, p));
+    let w = minus::<f64, 2>(p, from);
+    let turn = |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0];
+    let share = turn(w, v) / turn(u, v);
+    [0, 1].map(|axis| from[axis] + share * u[axis])
 }

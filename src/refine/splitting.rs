@@ -5,41 +5,139 @@ use super::parts::{NONE, Piece, Side};
 use super::refining::Refinement;
 use crate::error::Result;
 use crate::ids::VertexId;
-use crate::predicates::{dot, is_in_diametral_circle, minus};
+use crate::predicates::is_in_diametral_circle;
 
 /// Squared cosine of an angle between segments from which on they are split at shells: that of 60 degrees.
 const SHARP: f64 = 0.25;
 
+/// Last places by which a place is moved along each axis, the least distances first: a place that rounding has put off a
+/// piece by less than one is on either side of it among these.
+const AROUND: [[f64; 2]; 25] = [
+    [0.0, 0.0],
+    [1.0, 0.0],
+    [0.0, 1.0],
+    [-1.0, 0.0],
+    [0.0, -1.0],
+    [1.0, 1.0],
+    [-1.0, 1.0],
+    [-1.0, -1.0],
+    [1.0, -1.0],
+    [2.0, 0.0],
+    [0.0, 2.0],
+    [-2.0, 0.0],
+    [0.0, -2.0],
+    [2.0, 1.0],
+    [1.0, 2.0],
+    [-1.0, 2.0],
+    [-2.0, 1.0],
+    [-2.0, -1.0],
+    [-1.0, -2.0],
+    [1.0, -2.0],
+    [2.0, -1.0],
+    [2.0, 2.0],
+    [-2.0, 2.0],
+    [-2.0, -2.0],
+    [2.0, -2.0],
+];
+
+/// How many other shares of a piece are tried where there is little room, and the golden ratio, by whose multiples they
+/// are spread evenly.
+const N_OTHER_SHARES: u32 = 256;
+const GOLDEN: f64 = 0.618_033_988_749_895;
+
 impl Refinement<'_> {
     /// Splits a piece: in the middle, or, at a small angle with another segment, at a round distance from its apex, so that
     /// what is on both is on common shells.
-    pub(super) fn split(&mut self, piece: u32) -> Result<()> {
+    pub(super) fn split(&mut self, piece: u32, cause: Option<[f64; 2]>) -> Result<()> {
         if !self.may_split(piece) {
             return Ok(());
         }
-        let ends = self.mesh.pieces[piece as usize].ends;
-        let [p, q] = ends.map(|v| *self.mesh.point(v));
-        let share = match self.apex_of_shells(piece) {
-            None => {
-                self.clear_circle(piece)?;
-                0.5
-            }
-            Some(apex) => {
-                let [d, e] = [p, q].map(|p| distance(self.mesh.point(apex), &p));
-                (round_between(d.min(e), d.max(e)) - d) / (e - d)
-            }
-        };
-        let middle = [0, 1].map(|axis| {
-            let x = p[axis] + share * (q[axis] - p[axis]);
-            x.clamp(p[axis].min(q[axis]), p[axis].max(q[axis])) + 0.0
-        });
-        let id = VertexId::at(self.mesh.points.len());
-        if middle == p || middle == q || !self.mesh.dig_at_piece(piece, &middle, id)? {
-            self.mesh.pieces[piece as usize].is_fixed = true;
-            self.n_unsplit += 1;
-            return Ok(());
+        let share = self.share_at_split(piece, cause)?;
+        let mut place = self.find_place(piece, share)?;
+        if place.is_some() && share == 0.5 && self.clear_circle(piece)? {
+            place = self.find_place(piece, share)?;
         }
-        self.add(middle, NONE, Some(piece))
+        match place {
+            Some(place) => {
+                self.n_split += 1;
+                self.add(place, NONE, Some(piece))
+            }
+            None => {
+                self.mesh.pieces[piece as usize].is_fixed = true;
+                self.has_left = true;
+                Ok(())
+            }
+        }
+    }
+
+    /// Whether a piece that may be split has room for it.
+    pub(super) fn can_split(&mut self, piece: u32, cause: Option<[f64; 2]>) -> Result<bool> {
+        let share = self.share_at_split(piece, cause)?;
+        Ok(self.may_split(piece) && self.find_place(piece, share)?.is_some())
+    }
+
+    /// Where on a piece, from 0 to 1, it is to be split.
+    fn share_at_split(&mut self, piece: u32, cause: Option<[f64; 2]>) -> Result<f64> {
+        if let Some(middle) = self.middle_between_touching(piece, cause)? {
+            return Ok(middle);
+        }
+        Ok(self.apex_of_shells(piece).map_or(0.5, |apex| {
+            let ends = self.mesh.pieces[piece as usize].ends;
+            let [d, e] = ends.map(|v| distance(self.mesh.point(apex), self.mesh.point(v)));
+            (round_between(d.min(e), d.max(e)) - d) / (e - d)
+        }))
+    }
+
+    /// Finds a place at this share of a piece, or near it, where it can be split, and the cavity there: rounded, then few last
+    /// places beside that, within the hull first, then rounded at other shares.
+    fn find_place(&mut self, piece: u32, share: f64) -> Result<Option<[f64; 2]>> {
+        let [p, q] = self.mesh.pieces[piece as usize].ends.map(|v| *self.mesh.point(v));
+        let room = share.min(1.0 - share);
+        if room * distance(&p, &q) < self.tests.resolution {
+            return Ok(None);
+        }
+        let is_on_hull = self.mesh.sides_of(piece).contains(&Side::NONE);
+        let last_place = [0, 1].map(|axis: usize| {
+            let greatest = p[axis].abs().max(q[axis].abs());
+            greatest.next_up() - greatest
+        });
+        let rounded = self.tests.rounding();
+        let at = |share: f64, offsets: [f64; 2]| {
+            [0, 1].map(|axis| {
+                let x = p[axis] + share * (q[axis] - p[axis]);
+                let x = x.clamp(p[axis].min(q[axis]), p[axis].max(q[axis]));
+                rounded(x + offsets[axis] * last_place[axis])
+            })
+        };
+        for may_leave in [false, true] {
+            for offsets in AROUND {
+                let place = at(share, offsets);
+                if self.may_be_at(piece, &place, may_leave)? {
+                    return Ok(Some(place));
+                }
+            }
+            if !is_on_hull {
+                break;
+            }
+        }
+        // Between slivers on both sides a rounded place is legal as often as these are thick.
+        for k in 1..=N_OTHER_SHARES {
+            let part = (f64::from(k) * GOLDEN).fract() - 0.5;
+            let place = at(share + 0.5 * part * room, [0.0; 2]);
+            if self.may_be_at(piece, &place, true)? {
+                return Ok(Some(place));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Whether a piece can be split at a place, of which the cavity has been found then.
+    fn may_be_at(&mut self, piece: u32, place: &[f64; 2], may_leave: bool) -> Result<bool> {
+        let [p, q] = self.mesh.pieces[piece as usize].ends.map(|v| *self.mesh.point(v));
+        let is_between =
+            (0..2).all(|axis| p[axis].min(q[axis]) <= place[axis] && place[axis] <= p[axis].max(q[axis]));
+        let id = VertexId::at(self.mesh.points.len());
+        Ok(is_between && *place != p && *place != q && self.mesh.dig_at_piece(piece, place, id, may_leave)?)
     }
 
     /// Where a piece makes a small angle with another segment: at one of its ends, with a triangle in between, or further
@@ -73,9 +171,7 @@ impl Refinement<'_> {
 
     /// Whether two vertices are seen from a third one under less than 60 degrees.
     fn is_acute(&self, apex: VertexId, others: [VertexId; 2]) -> bool {
-        let [u, v] = others.map(|v| minus::<f64, 2>(self.mesh.point(v), self.mesh.point(apex)));
-        let cosine = dot(&u, &v);
-        cosine > 0.0 && cosine * cosine > SHARP * (dot(&u, &u) * dot(&v, &v))
+        self.is_seen_below(apex, others, SHARP)
     }
 
     /// Whether a piece makes a small angle at one of its ends with another one, with a triangle in between.
@@ -93,8 +189,9 @@ impl Refinement<'_> {
     }
 
     /// Takes away vertices of this call that are on no segment, next to a piece and in its diametral circle: they are nearer
-    /// to it than the vertex that it gets (Chew, 10.1145/160985.161150).
-    fn clear_circle(&mut self, piece: u32) -> Result<()> {
+    /// to it than the vertex that it gets (Chew, 10.1145/160985.161150). Whether there were any.
+    fn clear_circle(&mut self, piece: u32) -> Result<bool> {
+        let n_before = self.n_cleared;
         for k in 0..2 {
             loop {
                 let side = self.mesh.sides_of(piece)[k];
@@ -112,10 +209,11 @@ impl Refinement<'_> {
                 }
                 self.mesh.replace(apex, &self.hole)?;
                 self.n_added -= 1;
+                self.n_cleared += 1;
                 self.examine_made()?;
             }
         }
-        Ok(())
+        Ok(self.n_cleared > n_before)
     }
 }
 

@@ -19,7 +19,7 @@ use crate::motion::state::made::Origin;
 use crate::motion::state::mesh::Standing;
 use crate::motion::state::segments::Segment;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::refine::{self, Candidate, Criteria, NONE, Origins, Refined, Room, Tests};
+use crate::refine::{self, Candidate, Criteria, Kept, NONE, Origins, Refined, Room, Tests};
 use reading::Read;
 use staging::SegmentChanges;
 
@@ -70,8 +70,8 @@ impl MovingTriangulation<Plane> {
             return Ok(QualityReport::default());
         }
         let mut read = self.read_vertices()?;
-        let areas = none_where_zero(quality.areas)?;
-        let tests = Tests::new(criteria(quality, &areas), read.extent());
+        let bounds = Bounds::new(quality, read.scale)?;
+        let tests = bounds.tests(quality, &read);
         self.read_cells(&mut read, &tests, mask, quality.labels, false)?;
         tests.check_stop()?;
         let mut report = QualityReport { bad_cells: read.bad.len(), ..Default::default() };
@@ -108,7 +108,7 @@ impl MovingTriangulation<Plane> {
             start = end;
         }
         let mut points = Vec::new();
-        memory::collect(&mut points, refined.vertices.iter().map(|&(p, _)| p))?;
+        memory::collect(&mut points, refined.vertices.iter().map(|&(p, _)| p.map(|x| x / read.scale)))?;
         let on = |edge: u32| match edge {
             NONE => SegmentId::NONE,
             edge => self.origin_of(read.segments_at(edge as usize)[0].1).segment,
@@ -174,8 +174,8 @@ impl MovingTriangulation<Plane> {
         // After an error nothing is known.
         let mut looked = std::mem::take(&mut made.looked);
         let mut read = self.read_vertices()?;
-        let areas = none_where_zero(quality.areas)?;
-        let tests = Tests::new(criteria(quality, &areas), read.extent());
+        let bounds = Bounds::new(quality, read.scale)?;
+        let tests = bounds.tests(quality, &read);
         self.read_cells(&mut read, &tests, mask, quality.labels, true)?;
         tests.check_stop()?;
         let cells = self.cells()?;
@@ -187,12 +187,23 @@ impl MovingTriangulation<Plane> {
             labels: quality.labels.unwrap_or_default(),
         };
         let has_numbers = !all_asked.is_empty();
-        let known = if has_numbers { looked.known(looking)? } else { Vec::new() };
-        let candidates = self.candidates(&read, options.share, &known)?;
+        let mut known = if has_numbers { looked.known(looking)? } else { Vec::new() };
         let points = memory::copy_of(&read.points)?;
         let given = read.given(cells, mask, quality.labels, self.mesh.kernel.keys());
+        let mendable = match read.bad[..] {
+            [] => Vec::new(),
+            _ => {
+                let (tests, points) = (bounds.tests(quality, &read), memory::copy_of(&read.points)?);
+                refine::mendable(given, points, &read.bad, tests, self.origins(&read)?, Kept::None)?
+            }
+        };
+        // More vertices may go around these.
+        if !known.is_empty() {
+            mendable.iter().flat_map(|&cell| cells.corners[cell as usize]).for_each(|v| known[v] = false);
+        }
+        let candidates = self.candidates(&read, options.share, &known)?;
         let room = Room { angle: options.margin, share: options.share, offset: options.joins };
-        let coarsened = refine::coarsen(given, points, tests, room, &read.bad, &candidates)?;
+        let coarsened = refine::coarsen(given, points, tests, room, &mendable, &candidates)?;
         let stays = stays(&read, cells.corners, &candidates, &coarsened.able)?;
         if has_numbers {
             looked.remember(looking, stays)?;
@@ -355,21 +366,37 @@ fn stays(
     Ok(stays)
 }
 
-/// The criteria of a quality.
-fn criteria<'a>(quality: &Quality<'a>, areas: &'a [f64]) -> Criteria<'a> {
-    Criteria {
-        least_angle: quality.least_angle,
-        greatest_area: if quality.greatest_area == 0.0 { f64::INFINITY } else { quality.greatest_area },
-        areas,
-        sizes: quality.sizes.unwrap_or_default(),
-        is_too_large: quality.is_too_large,
-        is_conforming: quality.is_conforming,
-    }
+/// The bounds of a quality, multiplied as places are.
+struct Bounds {
+    /// Infinite for none.
+    greatest_area: f64,
+    areas: Vec<f64>,
+    sizes: Vec<f64>,
 }
 
-/// Bounds in which 0 stands for none, as what no area exceeds.
-fn none_where_zero(areas: &[f64]) -> Result<Vec<f64>> {
-    let mut bounds = Vec::new();
-    memory::collect(&mut bounds, areas.iter().map(|&x| if x == 0.0 { f64::INFINITY } else { x }))?;
-    Ok(bounds)
+impl Bounds {
+    fn new(quality: &Quality, scale: f64) -> Result<Self> {
+        // What no area exceeds, where 0 stands for none.
+        let area = |x: f64| if x == 0.0 { f64::INFINITY } else { x * scale * scale };
+        let (mut areas, mut sizes) = (Vec::new(), Vec::new());
+        memory::collect(&mut areas, quality.areas.iter().map(|&x| area(x)))?;
+        let given = quality.sizes.unwrap_or_default();
+        memory::collect(&mut sizes, given.iter().map(|x| (x * scale).min(f64::MAX)))?;
+        Ok(Bounds { greatest_area: area(quality.greatest_area), areas, sizes })
+    }
+
+    /// The tests of a quality for what has been read.
+    fn tests<'a>(&'a self, quality: &Quality<'a>, read: &Read) -> Tests<'a> {
+        let [lower, upper] = read.extent();
+        let criteria = Criteria {
+            least_angle: quality.least_angle,
+            greatest_area: self.greatest_area,
+            areas: &self.areas,
+            sizes: &self.sizes,
+            is_too_large: quality.is_too_large,
+            is_conforming: quality.is_conforming,
+            scale: read.scale,
+        };
+        Tests::new(criteria, lower, upper)
+    }
 }

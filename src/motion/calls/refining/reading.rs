@@ -7,13 +7,15 @@ use crate::machine::memory;
 use crate::motion::state::mesh::Standing;
 use crate::motion::state::views::CellsView;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::refine::{Given, NONE, Tests};
+use crate::refine::{Given, NONE, Tests, power_of_two_below};
 
 /// Vertices, segments, and which cells are bad.
 pub(super) struct Read {
-    /// By vertex, its place.
+    /// By vertex, its place, multiplied by the scale.
     pub(super) points: Vec<[f64; 2]>,
-    /// The box of all places.
+    /// A power of two: more than 1 where all coordinates are so small that the squares of lengths might underflow.
+    pub(super) scale: f64,
+    /// The box of all places, as multiplied.
     lower: [f64; 2],
     upper: [f64; 2],
     /// Segments by edge, the lower end first; sorted.
@@ -44,6 +46,9 @@ struct Around {
     n: u32,
 }
 
+/// Where no coordinate is greater, places are multiplied: fourth powers of lengths are far from underflow above.
+const SMALL: f64 = 1e-30;
+
 /// Sums of so many shares are off by less than this share.
 const ROUNDING: f64 = 1e-12;
 
@@ -53,9 +58,21 @@ impl Read {
         &self.by_edge[self.starts[edge]..self.starts[edge + 1]]
     }
 
-    /// The greatest distance of places along an axis.
-    pub(super) fn extent(&self) -> f64 {
-        (self.upper[0] - self.lower[0]).max(self.upper[1] - self.lower[1])
+    /// Multiplies places by a power of two, which is exact, where their coordinates are very small.
+    fn scale_up(&mut self) {
+        let greatest = self.lower.iter().chain(&self.upper).fold(0.0, |most: f64, x| most.max(x.abs()));
+        if greatest == 0.0 || greatest >= SMALL {
+            return;
+        }
+        // The inverse of a subnormal number may be infinite.
+        self.scale = power_of_two_below((1.0 / greatest).min(f64::MAX));
+        let places = self.points.iter_mut().chain([&mut self.lower, &mut self.upper]);
+        places.flatten().for_each(|x| *x *= self.scale);
+    }
+
+    /// The box of all places, as they have been multiplied.
+    pub(super) fn extent(&self) -> [[f64; 2]; 2] {
+        [self.lower, self.upper]
     }
 
     pub(super) fn given<'a>(
@@ -125,6 +142,7 @@ impl MovingTriangulation<Plane> {
         let n = self.id_count();
         let mut read = Read {
             points: Vec::new(),
+            scale: 1.0,
             lower: [f64::INFINITY; 2],
             upper: [f64::NEG_INFINITY; 2],
             by_edge: Vec::new(),
@@ -149,6 +167,7 @@ impl MovingTriangulation<Plane> {
             }
             read.points[v] = p;
         }
+        read.scale_up();
         self.list_edges(&mut read)?;
         Ok(read)
     }
