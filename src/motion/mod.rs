@@ -48,7 +48,9 @@ pub(crate) use reading::chunks::Chunks;
 pub use reading::domain::ChainEdge;
 pub use reading::exporting::Field;
 pub(crate) use reading::exporting::{Drawn, check_references};
-pub(crate) use reading::geometry::{Asked, Edge, Progress, Ridges, first_cells, list_boundary, nowhere, tell_all};
+pub(crate) use reading::geometry::{
+    Asked, Edge, Progress, Ridges, first_cells, list_boundary, nowhere, tell_all,
+};
 pub use reading::geometry::{
     BoundaryFacet, Interpolation, OrderedStar, Rows, TellCell, TellFacet, VertexValues, VoronoiCell,
     VoronoiCells, VoronoiFacet, VoronoiFacets,

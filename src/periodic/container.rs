@@ -17,6 +17,7 @@ use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::machine::memory;
 use crate::motion::check_position;
+use crate::periodic::grid::ROOM;
 use crate::periodic::lattice::Lattice;
 use crate::periodic::reduction::{SLACK, dot};
 use crate::periodic::triangulation::PeriodicTriangulation;

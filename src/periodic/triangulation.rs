@@ -10,6 +10,7 @@ use crate::motion::{CoincidencePolicy, CommitReport, MAX_VERTICES, MovingTriangu
 use crate::periodic::cells::PeriodicCells;
 use crate::periodic::changes::Taking;
 use crate::periodic::edges::PeriodicEdges;
+use crate::periodic::grid::ROOM;
 use crate::periodic::images::{Image, Images};
 use crate::periodic::inside::Inside;
 use crate::periodic::lattice::{HOME, Lattice, Occupied};
