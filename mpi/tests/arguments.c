@@ -1,4 +1,5 @@
 // Wrong arguments: each has its status, on all processes where the call is collective, and no effect.
+#include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -104,8 +105,9 @@ static void wrong_commits(deldrift_mpi *m, double *points) {
     if (who > 0)
         REFUSED(deldrift_mpi_migrate(m, targets, 4, points, is_wrong ? 8 : 16, NULL, NULL), DELDRIFT_INVALID_VALUE,
                 who);
-    double weights[4] = {1, 1, is_wrong ? -1 : 1, 1};
+    double weights[4] = {1, 1, is_wrong ? -1.5 : 1, 1};
     REFUSED(deldrift_mpi_partition(m, weights, 4, targets), DELDRIFT_INVALID_VALUE, who);
+    CHECK(strstr(deldrift_mpi_last_error(), "weight 2 is -1.5") != NULL);
     REFUSED(deldrift_mpi_partition(m, NULL, 4, is_wrong ? NULL : targets), DELDRIFT_NULL_ARGUMENT, who);
     REFUSED(deldrift_mpi_partition(m, NULL, is_wrong ? 2 : 4, targets), DELDRIFT_WRONG_COUNT, who);
     size_t ids = 0;
@@ -204,6 +206,9 @@ int main(int argc, char **argv) {
     MPI_Init(&argc, &argv);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &size);
+    // One whose numbers have a comma, which those of messages do not.
+    const char *locale_name = getenv("DELDRIFT_TEST_LOCALE");
+    if (locale_name) CHECK(setlocale(LC_ALL, locale_name) && !strcmp(localeconv()->decimal_point, ","));
     CHECK(deldrift_mpi_refusing_process() == -1 && !*deldrift_mpi_last_error());
     wrong_communicators();
     wrong_creation();
