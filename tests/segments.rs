@@ -293,7 +293,8 @@ fn check_domain(t: &Triangulation, rng: &mut Rng, context: &dyn Fn() -> String) 
     if m == 0 {
         return;
     }
-    let hull: Vec<[VertexId; 2]> = left.keys().copied().filter(|&[v, w]| !left.contains_key(&[w, v])).collect();
+    let hull: Vec<[VertexId; 2]> =
+        left.keys().copied().filter(|&[v, w]| !left.contains_key(&[w, v])).collect();
     let is_open = |edge: &&[VertexId; 2]| segment_at(**edge).is_none();
     let open: BTreeSet<usize> =
         hull.iter().filter(is_open).map(|edge| regions[left[edge].0.index()]).collect();

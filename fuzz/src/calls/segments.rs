@@ -446,8 +446,11 @@ impl History<'_> {
         // The outside is a region, too, and one with those that have an edge there without a segment.
         let edges = || (0..sides.len()).flat_map(|cell| (0..3).map(move |i| (cell, i)));
         let outer: Vec<(usize, usize)> = edges().filter(|&(cell, i)| neighbours[cell][i] == NONE).collect();
-        let open: BTreeSet<usize> =
-            outer.iter().filter(|&&(cell, i)| sides[cell][i] == NONE).map(|&(cell, _)| region[cell]).collect();
+        let open: BTreeSet<usize> = outer
+            .iter()
+            .filter(|&&(cell, i)| sides[cell][i] == NONE)
+            .map(|&(cell, _)| region[cell])
+            .collect();
         let at = |v: u32| self.m.at(v).expect("present");
         let is_on_hull = |q: &Place| {
             outer.iter().any(|&(cell, i)| {
