@@ -301,7 +301,7 @@ fn check_domain(t: &Triangulation, rng: &mut Rng, context: &dyn Fn() -> String) 
     let is_open = |edge: &&[VertexId; 2]| segment_at(**edge).is_none();
     let open: BTreeSet<usize> =
         hull.iter().filter(is_open).map(|edge| regions[left[edge].0.index()]).collect();
-    check_labels(t, &regions, (&hull, &open), rng, context);
+    check_labels(t, &regions, (&hull[..], &open), rng, context);
     let mask: Vec<u8> = (0..m).map(|_| u8::from(rng.one_in(2))).collect();
     let chains = t.boundary_chains(&mask).expect("a mask");
     let mut bounds = BTreeSet::new();

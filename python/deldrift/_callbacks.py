@@ -45,10 +45,50 @@ if sys.implementation.name == "pypy":
 
     pause_signals, resume_signals = _pause, _resume
 
-SPARE = 8
+SPARE = 32
 """How many threads may get to ask at the same moment, before one of them has made room for another."""
 
 Answers = Generator[Any, Any, None]
+
+# Generators that have stopped where they will be asked: one for each question, as a callback may lead to another. They are
+# those of all triangulations, and not freed with one: a generator that is freed within a `try` runs a handler of Python's.
+_waiting: "collections.deque[Answers]" = collections.deque()
+
+# By thread what has been raised in the innermost call.
+_raised: dict[Optional[int], BaseException] = {}
+
+
+def _prepare() -> None:
+    while len(_waiting) < SPARE:
+        answers = _answer()
+        next(answers)
+        _waiting.append(answers)
+
+
+def _answer() -> Answers:
+    """Answers once whether to cancel, for the callbacks that it is sent a reference to."""
+    # Handlers of signals run in the main thread.
+    thread, is_waiting, answer = threading.main_thread().ident, True, True
+    try:
+        reference = yield None
+        is_waiting = False
+        thread = threading.get_ident()
+        if resume_signals is not None:
+            resume_signals()
+        _prepare()
+        callbacks = reference()
+        answer = thread in _raised or callbacks is None or callbacks._ask()
+        if pause_signals is not None:
+            pause_signals()
+    except BaseException as error:
+        # On PyPy signals wait while the library asks: what is raised before that comes as the generator is freed.
+        if is_waiting and (resume_signals is not None or isinstance(error, GeneratorExit)):
+            raise
+        _raised[thread], answer = error, True
+        if pause_signals is not None:
+            pause_signals()
+    # Not in the `try`: so nothing of Python's runs when the generator is freed.
+    yield answer
 
 
 class Callbacks:
@@ -60,64 +100,27 @@ class Callbacks:
     def __init__(self, progress: Any, cancel: Optional[Callable[[], bool]]) -> None:
         self.progress, self.cancel = progress, cancel
         self._tell = _teller(progress)
-        # By thread: several may read one triangulation at once.
-        self._raised: dict[Optional[int], BaseException] = {}
         # What was told last, by the user data, which are none.
         self._told: dict[Optional[int], float] = {}
-        # Generators that have stopped where they will be asked: one for each question, as a callback may lead to another.
-        self._waiting: collections.deque[Answers] = collections.deque()
-        self._prepare()
-        asked = map(operator.methodcaller("send", None), iter(self._waiting.pop, None))
-        self.on_cancel = _library.CancelCallback(functools.partial(next, asked))
+        _prepare()
+        # By a weak reference, as there would be a circle.
+        ask = operator.methodcaller("send", weakref.ref(self))
+        self.on_cancel = _library.CancelCallback(functools.partial(next, map(ask, iter(_waiting.pop, None))))
         self.on_progress = _library.ProgressCallback() if progress is None else _library.ProgressCallback(self._told.__setitem__)
 
-    def _prepare(self) -> None:
-        while len(self._waiting) < SPARE:
-            answers = _answer(weakref.ref(self), self._raised)
-            next(answers)
-            self._waiting.append(answers)
-
-    def _ask(self, thread: int) -> bool:
-        self._prepare()
-        if thread in self._raised:
-            return True
+    def _ask(self) -> bool:
         if self._tell is not None:
             self._tell(self._told[None])
         return self.cancel is not None and bool(self.cancel())
 
     def check(self) -> None:
         """Raises the exception that has cancelled a call of this thread, once."""
-        raised = self._raised.pop(threading.get_ident(), None) if self._raised else None
+        raised = _raised.pop(threading.get_ident(), None) if _raised else None
         if raised is not None:
             try:
-                self._prepare()
+                _prepare()
             finally:
                 raise raised
-
-
-def _answer(reference: "weakref.ref[Callbacks]", raised: dict[Optional[int], BaseException]) -> Answers:
-    """Answers once whether to cancel. Callbacks have generators that wait; these have none, so that there is no circle."""
-    # Handlers of signals run in the main thread.
-    thread, is_waiting, answer = threading.main_thread().ident, True, True
-    try:
-        yield None
-        is_waiting = False
-        thread = threading.get_ident()
-        if resume_signals is not None:
-            resume_signals()
-        callbacks = reference()
-        answer = callbacks is None or callbacks._ask(thread)
-        if pause_signals is not None:
-            pause_signals()
-    except BaseException as error:
-        # On PyPy signals wait while the library asks: what is raised before that comes as the generator is freed.
-        if is_waiting and (resume_signals is not None or isinstance(error, GeneratorExit)):
-            raise
-        raised[thread], answer = error, True
-        if pause_signals is not None:
-            pause_signals()
-    # Not in the `try`: so nothing of Python's runs when the generator is freed.
-    yield answer
 
 
 class _Question:

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import ctypes
-import operator
-import threading
 import weakref
+from _thread import allocate_lock as new_lock
 from typing import TYPE_CHECKING, Any, Callable, Mapping, Optional, TypeVar
 
 import numpy as np
@@ -85,37 +84,19 @@ class _Use:
     at the entry of a function of Python's cannot keep it from being left.
     """
 
-    __slots__ = ("owner", "gate")
+    __slots__ = ("owner", "gate", "__exit__")
 
     def __init__(self, owner: "Core") -> None:
         self.owner = owner
-        self.gate = threading.Lock()
-
-    def __enter__(self) -> int:
-        owner = self.owner
-        if pause_signals is not None and owner._callbacks is not None:
-            pause_signals()
-        try:
-            self.gate.acquire()
-            self._begin(owner)
-            return owner._handle.pointer
-        except BaseException:
-            self._leave()
-            raise
-
-    def _begin(self, owner: "Core") -> None:
-        raise NotImplementedError
+        self.gate = gate = new_lock()
+        self.__exit__: Any = gate.__exit__ if pause_signals is None or owner._callbacks is None else self._leave
 
     def _leave(self, *_: Any) -> None:
+        """Leaves what has been begun, or not."""
         if self.gate.locked():
             self.gate.release()
         if resume_signals is not None and self.owner._callbacks is not None:
             resume_signals()
-
-    if resume_signals is None:
-        __exit__ = property(operator.attrgetter("gate.__exit__"))
-    else:
-        __exit__ = property(lambda self: self.gate.__exit__ if self.owner._callbacks is None else self._leave)
 
 
 class _Reading(_Use):
@@ -123,67 +104,75 @@ class _Reading(_Use):
 
     __slots__ = ()
 
-    def _begin(self, owner: "Core") -> None:
-        if owner._must_withdraw or owner._must_discard:
-            owner._settle()
-        with owner._lock:
-            if owner._changer.locked():
-                raise Busy(
-                    "the triangulation is being changed, by another thread or by the call whose callback this is"
-                )
-            if owner._must_withdraw or (owner._must_discard and owner._step is None):
-                raise Busy("a step or trial has failed, and is taken back as soon as other threads have read")
-            readers = owner._readers
-            if len(readers) > FEW:
-                readers[:] = [reader for reader in readers if reader.locked()]
-            readers.append(self.gate)
+    def __enter__(self) -> int:
+        owner, gate = self.owner, self.gate
+        if pause_signals is not None and owner._callbacks is not None:
+            pause_signals()
+        try:
+            gate.acquire()
+            if owner._must_withdraw or owner._must_discard:
+                owner._settle()
+            with owner._lock:
+                if owner._changer.locked():
+                    raise Busy(
+                        "the triangulation is being changed, by another thread or by the call whose callback this is"
+                    )
+                if owner._must_withdraw or (owner._must_discard and owner._step is None):
+                    raise Busy("a step or trial has failed, and is taken back as soon as other threads have read")
+                readers = owner._readers
+                if len(readers) > FEW:
+                    readers[:] = [reader for reader in readers if reader.locked()]
+                readers.append(gate)
+            return owner._handle.pointer
+        except BaseException:
+            self._leave()
+            raise
 
 
 class _Changing(_Use):
     """A call that may not run beside any other."""
 
-    __slots__ = ("is_of_step", "keeps_cells")
+    __slots__ = ("is_of_step", "keeps_cells", "is_end")
 
-    def __init__(self, owner: "Core", is_of_step: bool, keeps_cells: bool) -> None:
-        super().__init__(owner)
+    def __init__(self, owner: "Core", is_of_step: bool, keeps_cells: bool, is_end: bool = False) -> None:
+        self.owner = owner
+        self.gate = gate = new_lock()
+        self.__exit__ = gate.__exit__ if pause_signals is None or owner._callbacks is None else self._leave
         # Whether it belongs to the step that is open: nothing else may change the triangulation then.
         self.is_of_step = is_of_step
         # Whether it changes no cells, so that arrays of them stay as they are.
         self.keeps_cells = keeps_cells
+        # Whether it is the end of a trial or step, whatever its block has left.
+        self.is_end = is_end
 
-    def _begin(self, owner: "Core") -> None:
-        if owner._must_withdraw or owner._must_discard:
-            owner._settle()
-        with owner._lock:
-            owner._check_unused()
-            if owner._step is not None and not self.is_of_step:
-                raise Busy("a step of the triangulation is open, and nothing else may change it before that ends")
-            if owner._is_closed:
-                raise Closed("the triangulation was closed, and cannot be changed any more")
-            owner._changer = self.gate
-        if self.keeps_cells:
-            owner._forget_all_but_cells()
-        else:
-            owner._leave_views()
-
-
-class _Ending(_Use):
-    """The end of a trial or step, whatever its block has left."""
-
-    __slots__ = ("keeps_cells",)
-
-    def __init__(self, owner: "Core", keeps_cells: bool) -> None:
-        super().__init__(owner)
-        self.keeps_cells = keeps_cells
-
-    def _begin(self, owner: "Core") -> None:
-        with owner._lock:
-            owner._check_unused()
-            owner._changer = self.gate
-        if self.keeps_cells:
-            owner._forget_all_but_cells()
-        else:
-            owner._leave_views()
+    def __enter__(self) -> int:
+        owner, gate = self.owner, self.gate
+        if pause_signals is not None and owner._callbacks is not None:
+            pause_signals()
+        try:
+            gate.acquire()
+            if (owner._must_withdraw or owner._must_discard) and not self.is_end:
+                owner._settle()
+            with owner._lock:
+                readers = owner._readers
+                if readers:
+                    readers[:] = [reader for reader in readers if reader.locked()]
+                if readers or owner._changer.locked():
+                    raise Busy("the triangulation is in use, by another thread or by the call whose callback this is")
+                if not self.is_end:
+                    if owner._step is not None and not self.is_of_step:
+                        raise Busy("a step of the triangulation is open, and nothing else may change it before that ends")
+                    if owner._is_closed:
+                        raise Closed("the triangulation was closed, and cannot be changed any more")
+                owner._changer = gate
+            if self.keeps_cells:
+                owner._forget_all_but_cells()
+            else:
+                owner._leave_views()
+            return owner._handle.pointer
+        except BaseException:
+            self._leave()
+            raise
 
 
 class Core:
@@ -201,10 +190,10 @@ class Core:
         self._handle = handle
         self.ndim = ndim
         self._threads, self._coincidence, self._passing, self._callbacks = threads, coincidence, passing, callbacks
-        self._lock = threading.Lock()
+        self._lock = new_lock()
         # The gates of calls, of which those that are locked are running: of calls that read, and of the last change.
         self._readers: list[Any] = []
-        self._changer = threading.Lock()
+        self._changer = new_lock()
         self._is_closed = False
         # The step and the trial that are open: in a trial steps are rounds of it.
         self._step: Optional["Step"] = None
@@ -225,8 +214,8 @@ class Core:
         return _Reading(self)
 
     @property
-    def _ending(self) -> _Ending:
-        return _Ending(self, False)
+    def _ending(self) -> _Changing:
+        return _Changing(self, True, False, True)
 
     @property
     def _changing(self) -> _Changing:
@@ -244,16 +233,10 @@ class Core:
     def _committing(self) -> _Changing:
         return _Changing(self, True, False)
 
-    def _check_unused(self) -> None:
-        """Raises an error unless no call is running; to be called with the lock."""
-        self._readers[:] = [reader for reader in self._readers if reader.locked()]
-        if self._changer.locked() or self._readers:
-            raise Busy("the triangulation is in use, by another thread or by the call whose callback this is")
-
     def _settle(self) -> None:
         """Takes back what a step or trial has left that has failed: at once, or later where a call is running."""
         try:
-            with _Ending(self, not self._must_withdraw) as t:
+            with _Changing(self, True, not self._must_withdraw, True) as t:
                 if self._must_withdraw:
                     # Without a prepared timestamp it does nothing.
                     check(_withdraw_timestamp(t))

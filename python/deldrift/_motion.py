@@ -17,6 +17,7 @@ from ._step import Step, Trial
 
 _move_vertices = _library.function("move_vertices")
 _commit_positions = _library.function("commit_positions")
+_commit_timestamp = _library.function("commit_timestamp")
 _relocate_vertex = _library.function("relocate_vertex")
 _insert_vertex = _library.function("insert_vertex")
 _insert_vertex_with_key = _library.function("insert_vertex_with_key")
@@ -87,12 +88,15 @@ class Motion(Segmented):
         >>> tri.points[4]
         array([3., 2.])
         """
-        if ids is not None or self._trial is not None:
+        if self._trial is not None:
             with self.step() as step:
                 step.move(points, ids)
             return cast(Report, self._last_report)
         positions = _rows(points, self.ndim)
         report = Report()
+        if ids is not None:
+            self._move_some(positions, _listed(ids, positions), report)
+            return report
         with self._changing as t:
             status = _commit_positions(t, address(positions), len(positions), report)
             if status:
@@ -234,6 +238,20 @@ class Motion(Segmented):
             step._is_kept = False
         return conflicts
 
+    def _move_some(self, positions: np.ndarray, listed: np.ndarray, report: Report) -> None:
+        try:
+            with self._changing as t:
+                # Until it is committed.
+                self._must_discard = True
+                status = _move_vertices(t, address(listed), address(positions), len(listed))
+                self._check(status or _commit_timestamp(t, report), positions="points", vertices="ids", vertex="ids")
+                self._must_discard = False
+                self._last_report = report
+        except BaseException:
+            if self._must_discard:
+                self._settle()
+            raise
+
     def _stage_moves(self, values: Any, vertices: Any) -> None:
         positions = _rows(values, self.ndim)
         if vertices is None:
@@ -241,11 +259,7 @@ class Motion(Segmented):
                 _check_rows(t, len(positions))
                 self._check(_move_vertices(t, None, address(positions), len(positions)), positions="points")
             return
-        listed = _ids(vertices)
-        if len(listed) != len(positions):
-            raise WrongCount(
-                f"points has {len(positions)} rows, and ids has {len(listed)} entries", "points", None, len(positions)
-            )
+        listed = _listed(vertices, positions)
         with self._staging as t:
             status = _move_vertices(t, address(listed), address(positions), len(listed))
             self._check(status, positions="points", vertices="ids", vertex="ids")
@@ -447,5 +461,11 @@ def _rows(values: Any, ndim: int) -> np.ndarray:
     return points("points", values, ndim)
 
 
-def _ids(values: Any) -> np.ndarray:
-    return ids("ids", values)
+def _listed(values: Any, positions: np.ndarray) -> np.ndarray:
+    """The vertices of so many positions."""
+    listed = ids("ids", values)
+    if len(listed) != len(positions):
+        raise WrongCount(
+            f"points has {len(positions)} rows, and ids has {len(listed)} entries", "points", None, len(positions)
+        )
+    return listed
