@@ -3062,18 +3062,19 @@ deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
 /// cells do not depend on the periods in which positions are given, on which vectors of the same lattice are given, or on what
 /// happened before. deldrift_cell_shifts tells in which period each corner is.
 ///
-/// Positions and vectors are rounded to a grid, along axes along which a vector goes: its step is a power of two, so that
-/// all coordinates that are calculated with have at most 53 binary digits. In a box whose reduced vectors (the shortest of its
-/// lattice) have lengths up to L and are not flatter than a cube, the step is at most 2^-45 L, and mostly 2^-47 L; a
-/// position moves by half of that at most, and so does each reduced vector. The step depends on the lattice alone, whichever of
-/// its vectors are given. deldrift_copy_positions and deldrift_vectors tell what is used, to the last bit: for these positions
+/// Positions and vectors are rounded to a grid, along axes along which a vector goes: its step is a power of two, so that all
+/// coordinates that are calculated with have at most 53 binary digits. In a box whose reduced vectors (the shortest of its
+/// lattice) have lengths up to L and are not flatter than a cube, the step is at most 2^-45 L, and mostly 2^-47 L; a position
+/// moves by half of that at most, and so does each reduced vector. The step depends on the lattice alone, whichever of its
+/// vectors are given. deldrift_copy_positions and deldrift_vectors tell what is used, to the last bit: for these positions
 /// and vectors the cells are exact, and they are kept as they are when they are given again, here or to
-/// deldrift_stage_vectors and deldrift_commit_positions. A vector of many times L may have no 53 digits as a sum of the rounded
-/// reduced ones: then the vectors that are given are rounded to the grid instead. Entries of vectors may be up to 1e50 in magnitude,
-/// and are 0 or at least 1e-50; positions may be some 1e13 L away, and less far in a box that is skewed by more than a thousand
-/// of its lengths: so far that periods are counted by numbers of 64 bits. Where vectors go along more axes than there are vectors,
-/// as one that is along no axis does, the step is 2^10 times that, and positions may be some 500 L away across the vectors, else they
-/// are out of range. Vectors that on their grid depend on each other, or nearly so, are refused.
+/// deldrift_stage_vectors and deldrift_commit_positions. A vector of many times L may have no 53 digits as a sum of the
+/// rounded reduced ones: then the vectors that are given are rounded to the grid instead. Entries of vectors may be up to
+/// 1e50 in magnitude, and are 0 or at least 1e-50; positions may be some 1e13 L away, and less far in a box that is skewed by
+/// more than a thousand of its lengths: so far that periods are counted by numbers of 64 bits. Where vectors go along more
+/// axes than there are vectors, as one that is along no axis does, the step is 2^10 times that, and positions may be some 500
+/// L away across the vectors, else they are out of range. Vectors that on their grid depend on each other, or nearly so, are
+/// refused.
 ///
 /// All functions serve a periodic triangulation but those of segments, refinement, keys, reach, and a few others, which
 /// return DELDRIFT_PERIODIC: deldrift_stage_insertions_with_keys, deldrift_stage_insertions_at_free_ids,

@@ -1,18 +1,18 @@
 //! The grid on which the vectors of a lattice and positions are.
 //!
-//! Along an axis along which any vector goes, coordinates are multiples of a power of two, the *step*, so large that a vertex can be
-//! translated by any vector of the lattice that is asked for without rounding. It is the greatest one that any reduced basis asks for,
-//! nearly reduced ones included, so it depends on the lattice alone, and not on which of several shortest vectors are found.
+//! Along an axis along which any vector goes, coordinates are multiples of a power of two, the *step*, so large that a vertex
+//! can be translated by any vector of the lattice that is asked for without rounding. It is the greatest one that any reduced
+//! basis asks for, nearly reduced ones included, so it depends on the lattice alone, and not on which of several shortest
+//! vectors are found.
 //!
-//! The first of the reduced bases is rounded to the grid, and with it all vectors of the lattice, so whichever vectors are given,
-//! the lattice on the grid is the same. A vector that is many times as long as those may have more than 53 digits then. In that case
-//! the vectors that are given are rounded instead: what a program is told has to be what is used, and a number that it has given
-//! has few enough digits. The lattice on the grid follows from the vectors, and is that of others only as far as these have the digits.
+//! The first of the reduced bases is rounded to the grid, and with it all vectors of the lattice, so whichever vectors are
+//! given, the lattice on the grid is the same. A vector that is many times as long as those may have more than 53 digits
+//! then. In that case the vectors that are given are rounded instead: what a program is told has to be what is used, and a
+//! number that it has given has few enough digits. The lattice on the grid follows from the vectors, and is that of others
+//! only as far as these have the digits.
 //!
-//! What has been rounded asks for a step of its own. If that is no greater, it is the one that is used, or else all is rounded once
-//! more. So the vectors on the grid, given again, have the same grid, and nothing is rounded then.
-
-#![expect(clippy::needless_range_loop, reason = "axes and vectors are indices of several arrays at a time")]
+//! What has been rounded asks for a step of its own. If that is no greater, it is the one that is used, or else all is
+//! rounded once more. So the vectors on the grid, given again, have the same grid, and nothing is rounded then.
 
 use crate::periodic::reduction::{Reduced, SLACK, dot, dual_of, exponent_above};
 use crate::predicates::MAX_MAGNITUDE;
@@ -38,8 +38,8 @@ pub(super) const MOST_UNITS: i128 = 1 << 52;
 /// Positions may be so many units of the grid away.
 const FAR: f64 = (1u64 << 62) as f64 * (1u64 << 32) as f64;
 
-/// Translations that take a position home are so many of each vector at most, of the reduced ones and of the caller's: sums of a few
-/// of them are numbers of 64 bits.
+/// Translations that take a position home are so many of each vector at most, of the reduced ones and of the caller's: sums
+/// of a few of them are numbers of 64 bits.
 const MOST_PERIODS: f64 = (1u64 << 58) as f64;
 
 /// Vectors on their grid.

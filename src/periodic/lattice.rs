@@ -1,7 +1,7 @@
 //! The translations that leave a periodic set as it is.
 //!
-//! A *lattice* has all sums of up to D independent vectors, which are on a grid (grid.rs). Positions of vertices are rounded to that
-//! grid as well.
+//! A *lattice* has all sums of up to D independent vectors, which are on a grid (grid.rs). Positions of vertices are rounded
+//! to that grid as well.
 //!
 //! # Which images can matter
 //!

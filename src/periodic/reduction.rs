@@ -1,10 +1,11 @@
 //! The shortest vectors of a lattice: pairs are reduced as by Gauss, and the third vector by the nearest sums of the others (I.
 //! Semaev: *A 3-dimensional lattice reduction algorithm*. CaLC 2001, 10.1007/3-540-44670-2_13).
 //!
-//! Where shortest vectors tie, or nearly so, there are several reduced bases. The one that is found follows from the basis that was
-//! given, so that a box that is strained a bit keeps its own. What must depend on the lattice alone is asked of all of them
-//! ([`for_short_bases`](Reduced::for_short_bases)), or of the first one in an order of vectors ([`first`](Reduced::first)). All are sums of the
-//! vectors of any of them with multiples -1, 0 and 1: half of another sum is nearer to a shorter vector of the lattice than to none.
+//! Where shortest vectors tie, or nearly so, there are several reduced bases. The one that is found follows from the basis
+//! that was given, so that a box that is strained a bit keeps its own. What must depend on the lattice alone is asked of all
+//! of them ([`for_short_bases`](Reduced::for_short_bases)), or of the first one in an order of vectors
+//! ([`first`](Reduced::first)). All are sums of the vectors of any of them with multiples -1, 0 and 1: half of another sum is
+//! nearer to a shorter vector of the lattice than to none.
 
 #![expect(clippy::needless_range_loop, reason = "axes and vectors are indices of several arrays at a time")]
 
@@ -15,7 +16,8 @@ use crate::predicates::compare_lengths;
 /// By how much bounds on rounded numbers are widened, relatively.
 pub(super) const SLACK: f64 = 1e-9;
 
-/// Vectors whose squares differ by less, as a share of the square of their difference, tie: far more than what a reduction leaves.
+/// Vectors whose squares differ by less, as a share of the square of their difference, tie: far more than what a reduction
+/// leaves.
 const TIE: f64 = 1e-6;
 
 /// Vectors are read with so many bits.
@@ -67,7 +69,7 @@ impl Reduced {
         }
         for _ in 0..MAX_STEPS {
             if !reduced.step()? {
-                return if reduced.is_independent() { reduced.as_one_of_the_shortest() } else { None };
+                return if reduced.is_independent() { reduced.or_the_first() } else { None };
             }
         }
         None
@@ -115,8 +117,9 @@ impl Reduced {
         Some(false)
     }
 
-    /// By how much the square of a vector is greater than that of another one, less a share of the square of their difference, and less
-    /// what may be rounding: as a product of the difference and the sum, so that a short difference of long vectors counts.
+    /// By how much the square of a vector is greater than that of another one, less a share of the square of their
+    /// difference, and less what may be rounding: as a product of the difference and the sum, so that a short difference of
+    /// long vectors counts.
     fn excess(&self, one: &[i128; 3], other: &[i128; 3], share: f64) -> Option<f64> {
         let (mut way, mut sum) = ([0; 3], [0; 3]);
         for axis in 0..3 {
@@ -164,13 +167,18 @@ impl Reduced {
     fn sums(&self) -> ([Sum; SUMS], usize) {
         let (mut sums, mut n) = ([Sum::default(); SUMS], 0);
         let range = |j: usize| if j < self.rank { -1..=1 } else { 0..=0 };
-        for (a, b, c) in super::inside::all(range(0), range(1), range(2)) {
-            // Of two that are opposite the one whose first multiple is positive.
-            if [a, b, c] > [0; 3] {
-                let multiples = [a, b, c].map(i64::from);
-                let along = |axis: usize| (0..3).map(|j| i128::from(multiples[j]) * self.rows[j][axis]).sum();
-                sums[n] = Sum { row: [0, 1, 2].map(along), multiples };
-                n += 1;
+        for a in range(0) {
+            for b in range(1) {
+                for c in range(2) {
+                    let multiples: [i64; 3] = [a, b, c];
+                    // Of two that are opposite the one whose first multiple is positive.
+                    if multiples > [0; 3] {
+                        let along =
+                            |axis: usize| (0..3).map(|j| i128::from(multiples[j]) * self.rows[j][axis]).sum();
+                        sums[n] = Sum { row: [0, 1, 2].map(along), multiples };
+                        n += 1;
+                    }
+                }
             }
         }
         sums[..n].sort_unstable_by(|one, other| self.order(&one.row, &other.row));
@@ -262,7 +270,7 @@ impl Reduced {
     }
 
     /// This one, if it is one of the shortest bases, or nearly so, and else the first one of these.
-    fn as_one_of_the_shortest(self) -> Option<Self> {
+    fn or_the_first(self) -> Option<Self> {
         let (sums, n) = self.sums();
         let mut is_one = false;
         self.for_ties(&sums[..n], |places| {

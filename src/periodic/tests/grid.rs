@@ -237,7 +237,8 @@ fn skewed<G: Dimension>(rng: &mut Rng, rank: usize, bits: i64) -> Vec<G::Point> 
     basis
 }
 
-/// Sums of the told vectors are the reduced ones, to the last bit, and positions differ from their places by sums of the told ones.
+/// Sums of the told vectors are the reduced ones, to the last bit, and positions differ from their places by sums of the told
+/// ones.
 fn check_identities<G: Dimension>(seed: u64, rank: usize, bits: i64) {
     let rng = &mut Rng::new(seed);
     let basis = skewed::<G>(rng, rank, bits);

@@ -1,5 +1,5 @@
-//! Calls that stage, change and discard, in every order and from every state: beside a model of what each call does, and sets made
-//! anew.
+//! Calls that stage, change and discard, in every order and from every state: beside a model of what each call does, and sets
+//! made anew.
 
 use super::keeping::load;
 use super::*;
