@@ -303,7 +303,12 @@ impl Call {
         ]);
         calls.extend([Interpolation::Linear, Interpolation::NaturalNeighbour].map(Call::Interpolate));
         calls.extend([Call::CellsAround(false), Call::CellsAround(true)]);
-        calls.extend([Call::NearestVertices, Call::VerticesInBall, Call::NeighbourLists, Call::VerticesInBox]);
+        calls.extend([
+            Call::NearestVertices,
+            Call::VerticesInBall,
+            Call::NeighbourLists,
+            Call::VerticesInBox,
+        ]);
         calls.extend([Call::CellsInReach, Call::VerticesInReach]);
         calls.extend([Goal::Near, Goal::Far, Goal::Shared].map(Call::Conflicts));
         calls.extend([Call::FindSimplices(false), Call::FindSimplices(true)]);

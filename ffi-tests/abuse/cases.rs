@@ -183,7 +183,9 @@ impl Cases<'_> {
             | Role::KeysIfAny => true,
             Role::Ids => self.function.name == "deldrift_move_vertices",
             Role::Buffer => {
-                self.function.name != "deldrift_compact" && n_buffers > 1 && (!is_list || name == "offsets" || n_buffers > 2)
+                self.function.name != "deldrift_compact"
+                    && n_buffers > 1
+                    && (!is_list || name == "offsets" || n_buffers > 2)
             }
             _ => false,
         };

@@ -116,7 +116,9 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("uint64_t", "key") => Role::Key,
         ("const uint32_t *", "cells") if function.name == "deldrift_barycentric" => Role::CellIdsIfAny,
         ("const uint32_t *", "cells") => Role::CellIds,
-        ("const uint8_t *", "mask") if function.has("box_count") || function.has("radius_count") => Role::MaskIfAny,
+        ("const uint8_t *", "mask") if function.has("box_count") || function.has("radius_count") => {
+            Role::MaskIfAny
+        }
         ("const uint8_t *", "mask") => Role::Mask,
         ("const deldrift_location *", "hint") => Role::Hint,
         ("const deldrift_options *" | "deldrift_options *", "options") => Role::Options,
@@ -142,7 +144,9 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
             "count" | "vertex_count" | "cell_count" | "seed_count" | "box_count" | "half_space_count",
         ) => Role::Count,
         ("size_t", "vertex_field_count" | "cell_field_count") => Role::Count,
-        ("size_t", "value_count" | "radius_count" | "mask_count" | "offset_count" | "reference_count") => Role::FixedCount,
+        ("size_t", "value_count" | "radius_count" | "mask_count" | "offset_count" | "reference_count") => {
+            Role::FixedCount
+        }
         ("size_t", "n_values" | "k") => Role::CountOfEach,
         ("size_t", "size") => Role::Size,
         ("size_t", "capacity") => Role::Capacity,

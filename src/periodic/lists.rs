@@ -93,10 +93,15 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     /// All translations by which one of these vertices comes as near to another one as the greatest radius.
-    fn translations(&self, wanted: &ListsOf<'_>, placed: &[Placed<G::Point>]) -> Result<Translations<G::Point>> {
+    fn translations(
+        &self,
+        wanted: &ListsOf<'_>,
+        placed: &[Placed<G::Point>],
+    ) -> Result<Translations<G::Point>> {
         let lattice = &self.lattice;
         let mut found = Translations { ways: Vec::new(), shifts: Vec::new(), nowhere: 0 };
-        let Some(greatest) = placed.iter().max_by(|p, q| p.squared_radius.total_cmp(&q.squared_radius)) else {
+        let Some(greatest) = placed.iter().max_by(|p, q| p.squared_radius.total_cmp(&q.squared_radius))
+        else {
             return Ok(found);
         };
         let refused = wanted.refused(greatest.vertex, "small enough for places of images to be exact");

@@ -14,7 +14,8 @@ fn by_definition(
     let mut lists = vec![Vec::new(); id_count];
     for (v, p) in vertices {
         for (w, q) in vertices.iter().filter(|(w, _)| w != v) {
-            let is_near = |from| squared_radius(from).is_some_and(|squared| is_at_most(square(p, q), squared));
+            let is_near =
+                |from| squared_radius(from).is_some_and(|squared| is_at_most(square(p, q), squared));
             let is_in = if !is_half {
                 is_near(*v)
             } else if squared_radius(*v).is_some() && squared_radius(*w).is_some() {
@@ -158,7 +159,8 @@ fn bad_radii_and_masks_of_lists_are_refused() {
     let t = MovingTriangulation::<Plane>::new(&[[0.0, 0.0], [1.0, 0.0], [0.0, 2.0]], Options::default());
     let t = t.expect("good points");
     let asked = |squared_radii: &[f64], mask| {
-        t.neighbour_lists(&ListsOf { squared_radii, mask, is_half: false }).map(|found| found.neighbours.len())
+        t.neighbour_lists(&ListsOf { squared_radii, mask, is_half: false })
+            .map(|found| found.neighbours.len())
     };
     for bad in [-1.0, f64::NAN, -f64::from_bits(1)] {
         let refused = Err(0);

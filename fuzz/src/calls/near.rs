@@ -99,7 +99,8 @@ impl History<'_> {
         let (t, d) = (self.t, self.m.d);
         let mut n_ids = 0;
         self.ok(|| c!(deldrift_id_count(t, &mut n_ids)));
-        let present: Vec<(u32, Place)> = self.m.present().map(|v| (v, self.m.at(v).expect("present"))).collect();
+        let present: Vec<(u32, Place)> =
+            self.m.present().map(|v| (v, self.m.at(v).expect("present"))).collect();
         let n_radii = if self.s.below(2) == 0 { 1 } else { n_ids };
         let mut radii = Vec::new();
         for _ in 0..n_radii {
@@ -117,14 +118,27 @@ impl History<'_> {
         let mask: Vec<u8> = (0..n_ids).map(|_| u8::from(self.s.below(3) != 0)).collect();
         let is_masked = self.s.below(2) == 0;
         let (of, n_of) = if is_masked { (mask.as_ptr(), n_ids) } else { (null(), 0) };
-        let of_list = |v: u32| (!is_masked || mask[v as usize] != 0).then(|| radii[if n_radii == 1 { 0 } else { v as usize }]);
+        let of_list = |v: u32| {
+            (!is_masked || mask[v as usize] != 0).then(|| radii[if n_radii == 1 { 0 } else { v as usize }])
+        };
         for pairs in [0, 1] {
             let mut offsets = vec![77; n_ids + 1];
             let starts = offsets.as_mut_ptr();
             let found = self.copied(77, 1, |to, room, count| {
                 let radii = radii.as_ptr();
                 c!(deldrift_neighbour_lists(
-                    t, radii, n_radii, of, n_of, pairs, starts, n_ids + 1, to, null_mut(), room, count
+                    t,
+                    radii,
+                    n_radii,
+                    of,
+                    n_of,
+                    pairs,
+                    starts,
+                    n_ids + 1,
+                    to,
+                    null_mut(),
+                    room,
+                    count
                 ))
             });
             let mut wanted = Vec::new();
@@ -132,14 +146,19 @@ impl History<'_> {
                 assert_eq!(offsets[v as usize], wanted.len(), "where the list of {v} begins");
                 let Some((_, p)) = present.iter().find(|&&(w, _)| w == v) else { continue };
                 let Some(own) = of_list(v) else { continue };
-                wanted.extend(present.iter().filter(|&&(w, q)| {
-                    let is_near = |squared| is_within(&q, p, squared, d);
-                    w != v
-                        && match of_list(w) {
-                            Some(other) if pairs == 1 => v < w && (is_near(own) || is_near(other)),
-                            _ => is_near(own),
-                        }
-                }).map(|&(w, _)| w));
+                wanted.extend(
+                    present
+                        .iter()
+                        .filter(|&&(w, q)| {
+                            let is_near = |squared| is_within(&q, p, squared, d);
+                            w != v
+                                && match of_list(w) {
+                                    Some(other) if pairs == 1 => v < w && (is_near(own) || is_near(other)),
+                                    _ => is_near(own),
+                                }
+                        })
+                        .map(|&(w, _)| w),
+                );
             }
             assert_eq!(offsets[n_ids], wanted.len());
             assert_eq!(found, wanted, "within {radii:?}");

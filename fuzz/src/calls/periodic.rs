@@ -128,7 +128,18 @@ impl History<'_> {
             let mut n_near = 0;
             let none = (null(), 0, null_mut(), null_mut());
             self.is_ok(c!(deldrift_neighbour_lists(
-                t, &squared, 1, none.0, none.1, 1, null_mut(), 0, none.2, none.3, 0, &mut n_near
+                t,
+                &squared,
+                1,
+                none.0,
+                none.1,
+                1,
+                null_mut(),
+                0,
+                none.2,
+                none.3,
+                0,
+                &mut n_near
             )));
             let (of, to) = (values.as_ptr(), results.as_mut_ptr());
             self.is_ok(c!(deldrift_interpolate(t, 0, of, n, 1, at, 4, null(), null(), to)));

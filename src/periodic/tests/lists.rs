@@ -62,7 +62,12 @@ fn by_definition<G: Dimension>(
 /// Radii are less than so many distances between the sides of the box.
 const MOST: i32 = 3;
 
-fn check_lists<G: Dimension>(t: &PeriodicTriangulation<G>, points: &[G::Point], basis: &[G::Point], rng: &mut Rng) {
+fn check_lists<G: Dimension>(
+    t: &PeriodicTriangulation<G>,
+    points: &[G::Point],
+    basis: &[G::Point],
+    rng: &mut Rng,
+) {
     let least = (0..basis.len()).map(|j| 1.0 / t.lattice.thickness()[j]).fold(f64::INFINITY, f64::min);
     for share in [0.1, 0.6, 2.2] {
         let n_radii = [1, points.len()][rng.below(2)];
@@ -87,8 +92,7 @@ fn check_lists<G: Dimension>(t: &PeriodicTriangulation<G>, points: &[G::Point], 
                 let expected = by_definition::<G>(t, points, basis, &listed, is_half);
                 for (v, expected) in expected.iter().enumerate() {
                     let range = found.offsets[v]..found.offsets[v + 1];
-                    let list: Vec<Found> =
-                        range.map(|k| (found.neighbours[k], found.shifts[k])).collect();
+                    let list: Vec<Found> = range.map(|k| (found.neighbours[k], found.shifts[k])).collect();
                     assert!(&list == expected, "of {v}, half {is_half}: {list:?}, not {expected:?}");
                 }
             }
@@ -125,7 +129,8 @@ fn lists_are_of_all_images() {
 /// One vertex is its own neighbour, each way; of these half lists have one.
 #[test]
 fn a_vertex_is_near_its_own_images() {
-    let t = PeriodicTriangulation::<Plane>::new(&[[7.25, -3.5]], &[[1.0, 0.0], [0.0, 1.0]], Options::default());
+    let t =
+        PeriodicTriangulation::<Plane>::new(&[[7.25, -3.5]], &[[1.0, 0.0], [0.0, 1.0]], Options::default());
     let t = t.unwrap();
     let mut wanted = ListsOf { squared_radii: &[1.0], mask: None, is_half: false };
     let found = t.neighbour_lists(&wanted).unwrap();

@@ -342,7 +342,11 @@ fn nearly_flat_cells_seldom_take_integers_of_the_box() {
         for side in 0..6 {
             let (mut low, mut high) = ([-MAX_MAGNITUDE; 3], [MAX_MAGNITUDE; 3]);
             let at = 4.0 * rng.unit() - 1.5;
-            if side % 2 == 0 { low[side / 2] = at } else { high[side / 2] = at }
+            if side % 2 == 0 {
+                low[side / 2] = at
+            } else {
+                high[side / 2] = at
+            }
             if rng.one_in(3) {
                 (low, high) = ([at, at + 1.0, at - 1.0], [at + 0.5, at + 1.5, at - 0.5]);
             }

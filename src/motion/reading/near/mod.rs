@@ -22,8 +22,8 @@ mod lists;
 mod nearest;
 mod reach;
 
-pub use lists::{ListsOf, NeighbourLists};
 pub(crate) use lists::{Entry, Lists, Placed, Search, Tree};
+pub use lists::{ListsOf, NeighbourLists};
 pub use reach::{InReach, VerticesInReach};
 
 use crate::complex::INFINITE;

@@ -25,8 +25,8 @@ use crate::machine::threads::{Threads, for_ranges};
 use crate::motion::state::checking::check_not_negative;
 use crate::motion::state::mesh::Standing;
 use crate::motion::triangulation::MovingTriangulation;
-pub(crate) use search::{Entry, Search};
 use search::Part;
+pub(crate) use search::{Entry, Search};
 use tree::NO_LIST;
 pub(crate) use tree::{Placed, Tree};
 
@@ -65,7 +65,11 @@ impl ListsOf<'_> {
     }
 
     /// Vertices with their places and the squares of the radii of their lists.
-    pub(crate) fn placed<P>(&self, vertices: impl Iterator<Item = (VertexId, P)>, n: usize) -> Result<Vec<Placed<P>>> {
+    pub(crate) fn placed<P>(
+        &self,
+        vertices: impl Iterator<Item = (VertexId, P)>,
+        n: usize,
+    ) -> Result<Vec<Placed<P>>> {
         let mut placed = Vec::new();
         memory::reserve_exact(&mut placed, n)?;
         let mut bad = VertexId::NONE;
@@ -76,7 +80,10 @@ impl ListsOf<'_> {
                 bad = bad.min(vertex);
             }
             // No square of a distance is greater than the greatest number.
-            memory::push(&mut placed, Placed { place, squared_radius: squared_radius.min(f64::MAX), vertex })?;
+            memory::push(
+                &mut placed,
+                Placed { place, squared_radius: squared_radius.min(f64::MAX), vertex },
+            )?;
         }
         if bad == VertexId::NONE {
             return Ok(placed);
@@ -219,10 +226,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         // In the order of storage, which is mostly one of space.
         let shown = kernel.live_sites().map(|s| (kernel.site(s).id, kernel.site(s).point));
         let n_looked_at = if self.hidden_count() > 0 { self.id_count() } else { 0 };
-        let hidden = self.mesh.standings().take(n_looked_at).filter_map(|(vertex, standing)| match standing {
-            Standing::Hidden(s) => Some((vertex, kernel.site(s).point)),
-            _ => None,
-        });
+        let hidden =
+            self.mesh.standings().take(n_looked_at).filter_map(|(vertex, standing)| match standing {
+                Standing::Hidden(s) => Some((vertex, kernel.site(s).point)),
+                _ => None,
+            });
         let vertices = shown.chain(hidden);
         let search = Search::<G> {
             tree: Tree::new(wanted.placed(vertices, self.vertex_count())?)?,

@@ -103,7 +103,8 @@ impl<G: Dimension> Search<'_, G> {
         memory::reserve_exact(&mut part.lengths, range.len())?;
         let avx2 = Avx2::new();
         let tree = &self.tree;
-        let first = tree.leaves.partition_point(|&leaf| tree.nodes[leaf as usize].end as usize <= range.start);
+        let first =
+            tree.leaves.partition_point(|&leaf| tree.nodes[leaf as usize].end as usize <= range.start);
         for &leaf in &tree.leaves[first..] {
             let node = &tree.nodes[leaf as usize];
             let own = range.start.max(node.first as usize)..range.end.min(node.end as usize);
@@ -172,7 +173,11 @@ impl<G: Dimension> Search<'_, G> {
     /// Finds what is near a vertex; how many there are.
     #[inline(always)]
     fn list<E: Entry>(&self, placed: &Placed<G::Point>, beside: &mut Beside<G, E>) -> usize {
-        if self.is_half { self.list_as::<E, true>(placed, beside) } else { self.list_as::<E, false>(placed, beside) }
+        if self.is_half {
+            self.list_as::<E, true>(placed, beside)
+        } else {
+            self.list_as::<E, false>(placed, beside)
+        }
     }
 
     #[inline(always)]
@@ -335,7 +340,10 @@ mod tests {
         ] {
             for radius in [1e-15, 1e-9, 1e-7, 1e-5, 1e-3, 0.03, 1.0] {
                 let [n_looked_at, n_found] = counts(places, |_| radius * radius);
-                assert!(n_looked_at <= 60 * (places.len() + n_found), "{name} {radius}: {n_looked_at} {n_found}");
+                assert!(
+                    n_looked_at <= 60 * (places.len() + n_found),
+                    "{name} {radius}: {n_looked_at} {n_found}"
+                );
             }
             // Each its own, from far less than what is between them to far more.
             let [n_looked_at, n_found] = counts(places, |k| 4f64.powi(-((k * 7919 % 40) as i32)));

@@ -53,7 +53,8 @@ impl<G: Dimension> Tree<G> {
         memory::push(&mut waiting, (0, placed.len()))?;
         while let Some((first, end)) = waiting.pop().filter(|_| !placed.is_empty()) {
             let node = bounds::<G>(&placed[first..end], first);
-            let middle = (end - first > MOST_IN_LEAF).then(|| halve::<G>(&mut placed[first..end], &node)).flatten();
+            let middle =
+                (end - first > MOST_IN_LEAF).then(|| halve::<G>(&mut placed[first..end], &node)).flatten();
             if let Some(n_below) = middle {
                 memory::push(&mut waiting, (first + n_below, end))?;
                 memory::push(&mut waiting, (first, first + n_below))?;
@@ -144,7 +145,9 @@ mod tests {
             let those = &tree.placed[node.first as usize..node.end as usize];
             assert!(those.len() <= MOST_IN_LEAF || node.low.as_ref() == node.high.as_ref());
             for p in those {
-                assert!((0..G::D).all(|axis| node.low[axis] <= p.place[axis] && p.place[axis] <= node.high[axis]));
+                assert!(
+                    (0..G::D).all(|axis| node.low[axis] <= p.place[axis] && p.place[axis] <= node.high[axis])
+                );
                 assert!(!std::mem::replace(&mut seen[p.vertex.index()], true));
                 assert_eq!(p.place.as_ref(), places[p.vertex.index()].as_ref());
             }
@@ -152,7 +155,8 @@ mod tests {
         assert!(seen.iter().all(|&is_there| is_there) && next as usize == places.len());
         // Each box ends the visit of its parts where the next one begins.
         for node in &tree.nodes {
-            let behind = tree.nodes.get(node.next as usize).map_or(places.len() as u32, |behind| behind.first);
+            let behind =
+                tree.nodes.get(node.next as usize).map_or(places.len() as u32, |behind| behind.first);
             assert_eq!(node.end, behind);
         }
     }
@@ -164,7 +168,8 @@ mod tests {
         check::<Plane>(&[[1.0, 2.0]; 100]);
         let powers: Vec<[f64; 2]> = (0..900).map(|k| [2f64.powi(-k), -(2f64.powi(-k / 2))]).collect();
         check::<Plane>(&powers);
-        let beside: Vec<[f64; 3]> = (0..90).map(|k| [1.0, f64::from_bits(1f64.to_bits() + k % 2), 3.0]).collect();
+        let beside: Vec<[f64; 3]> =
+            (0..90).map(|k| [1.0, f64::from_bits(1f64.to_bits() + k % 2), 3.0]).collect();
         check::<Space>(&beside);
         let grid: Vec<[f64; 3]> =
             (0..1000).map(|k| [k % 10, k / 10 % 10, k / 100].map(|x: i32| f64::from(x * 7 % 10))).collect();
