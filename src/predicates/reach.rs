@@ -7,21 +7,17 @@
 //! e / 2V,    e = max(2V l − n, n − 2V h, 0)
 //! ```
 //!
-//! so that the closed ball meets the closed box exactly if Σ e² ≤ |n|². That is decided in stages.
+//! so that the closed ball meets the closed box exactly if Σ e² ≤ |n|². That is decided in three stages.
 //!
 //! 1. *Rounded*: where the rounded vector o = n / 2V is sharp, it is within R / 2³⁰ of the exact one along each axis, and
 //!    |o|² within a factor 1 ± 2⁻²⁸ of R². A distance along an axis is off by that and by its own rounding, which is less
 //!    than 4 u of itself and of R. So the square of the distance is certain, up to a few u of itself, within
 //!    2 √3 R² / 2³⁰ < R² / 2²⁸ where it is near R²: where it differs from |o|² by more than a factor 1 ± 2⁻²⁶, the answer
 //!    is certain.
-//! 2. *Corners*: a cell that has one in the box meets it.
-//! 3. *Rounded from integers*: where numbers are not sharp, as cells are nearly flat, n and V are evaluated in integers, and o is
-//!    their quotient, within 2⁻⁵⁰ of itself along each axis, which is sharp. These integers have the bits of the cell alone, not
-//!    those of a box that may be without end; lines and planes of vertices have many such cells.
-//! 4. *Integers of 128 bits*: where all differences are integers of few bits in one unit, as those on a lattice are. With
+//! 2. *Integers of 128 bits*: where all differences are integers of few bits in one unit, as those on a lattice are. With
 //!    differences below 2ᵇ, in space |n| along an axis is below 18 · 2⁴ᵇ, V below 6 · 2³ᵇ, hence e below 30 · 2⁴ᵇ and the
 //!    sums below 2,700 · 2⁸ᵇ: b = 14. In the plane these are 4 · 2³ᵇ, 2 · 2²ᵇ, 8 · 2³ᵇ and 128 · 2⁶ᵇ: b = 19.
-//! 5. *Big integers* (`big.rs`), for any.
+//! 3. *Big integers* (`big.rs`), for any.
 //!
 //! Of a box that extends far beyond the ball, sides behind the centre do not count. Where the centre is certainly above
 //! a low side or below a high one, that is left out, so that unbounded boxes are decided by integers of few bits, too.
@@ -54,7 +50,6 @@ use super::plane::orient2d;
 use super::space::orient3d;
 use super::sphere::{circle, sphere};
 use super::vectors::{cross, dot, minus, plus};
-use crate::machine::tally;
 use crate::simd::Real;
 
 /// What the square of a distance must differ by from that of a rounded radius, relatively, to be certainly less or
@@ -106,11 +101,7 @@ impl Reach for [f64; 2] {
         let &[a, b, c] = cell else { unreachable!("a triangle") };
         match is_certainly_met(&rounded2d([a, b, c]), a, low, high) {
             Ok(answer) => answer,
-            Err(unsure) => {
-                let offset = || exact_offset([a, b, c], |p| exact_circle(p));
-                is_surely_met([a, b, c], [low, high], unsure, offset)
-                    .unwrap_or_else(|binding| is_exactly_met_2d([a, b, c], [low, high], binding))
-            }
+            Err(binding) => is_exactly_met_2d([a, b, c], [low, high], binding),
         }
     }
 
@@ -142,11 +133,7 @@ impl Reach for [f64; 3] {
         let &[a, b, c, d] = cell else { unreachable!("a tetrahedron") };
         match is_certainly_met(&rounded3d([a, b, c, d]), a, low, high) {
             Ok(answer) => answer,
-            Err(unsure) => {
-                let offset = || exact_offset([a, b, c, d], |p| exact_sphere(p));
-                is_surely_met([a, b, c, d], [low, high], unsure, offset)
-                    .unwrap_or_else(|binding| is_exactly_met_3d([a, b, c, d], [low, high], binding))
-            }
+            Err(binding) => is_exactly_met_3d([a, b, c, d], [low, high], binding),
         }
     }
 
@@ -177,51 +164,18 @@ impl Reach for [f64; 3] {
 /// For each axis, whether the low side of a box counts, and whether the high one does.
 type Binding<const D: usize> = [[bool; 2]; D];
 
-/// Whether a ball and a box meet, where rounded numbers decide; otherwise the sides that may count, if they are sharp.
+/// Whether a ball and a box meet, where rounded numbers decide; otherwise the sides that may count.
 #[inline(always)]
 fn is_certainly_met<const D: usize>(
     rounded: &Rounded<D>,
     a: &[f64; D],
     low: &[f64; D],
     high: &[f64; D],
-) -> Result<bool, Option<Binding<D>>> {
+) -> Result<bool, Binding<D>> {
     if !rounded.is_sharp {
-        return Err(None);
+        return Err([[true; 2]; D]);
     }
-    is_met_around(&rounded.offset, a, low, high).map_err(Some)
-}
-
-/// Whether a ball and a box meet, where numbers do not decide that are rounded from others: by the corners of the cell, or
-/// where the sides are not known that may count, by the sharp offset of the centre; otherwise the sides that may.
-#[cold]
-#[inline(never)]
-fn is_surely_met<const D: usize, const N: usize>(
-    cell: [&[f64; D]; N],
-    [low, high]: [&[f64; D]; 2],
-    unsure: Option<Binding<D>>,
-    offset: impl FnOnce() -> [f64; D],
-) -> Result<bool, Binding<D>> {
-    let is_in = |p: &&[f64; D]| (0..D).all(|axis| low[axis] <= p[axis] && p[axis] <= high[axis]);
-    if cell.iter().any(is_in) {
-        return Ok(true);
-    }
-    if let Some(binding) = unsure {
-        return Err(binding);
-    }
-    let o = offset();
-    // Squares are in the range of numbers, and the least numbers far below what is certain.
-    let is_sharp = o.iter().all(|x| x.abs() < 1e150) && dot(&o, &o) > 1e-250;
-    if is_sharp { is_met_around(&o, cell[0], low, high) } else { Err([[true; 2]; D]) }
-}
-
-/// Whether a ball and a box meet, by the sharp offset of its centre; otherwise the sides that may count.
-#[inline(always)]
-fn is_met_around<const D: usize>(
-    &o: &[f64; D],
-    a: &[f64; D],
-    low: &[f64; D],
-    high: &[f64; D],
-) -> Result<bool, Binding<D>> {
+    let o = rounded.offset;
     let (low, high) = (minus(low, a), minus(high, a));
     let apart: [f64; D] =
         std::array::from_fn(|axis| Real::max(Real::max(low[axis] - o[axis], o[axis] - high[axis]), 0.0));
@@ -275,7 +229,6 @@ fn is_met<T: Signed, const D: usize>(
 #[cold]
 #[inline(never)]
 fn is_exactly_met_2d([a, b, c]: [&[f64; 2]; 3], sides: [&[f64; 2]; 2], binding: Binding<2>) -> bool {
-    tally::count();
     let [low, high] = counting(a, sides, binding);
     let points = [b, c, &low, &high];
     if let Some([u, v, low, high]) = short(a, points) {
@@ -289,7 +242,6 @@ fn is_exactly_met_2d([a, b, c]: [&[f64; 2]; 3], sides: [&[f64; 2]; 2], binding: 
 #[cold]
 #[inline(never)]
 fn is_exactly_met_3d([a, b, c, d]: [&[f64; 3]; 4], sides: [&[f64; 3]; 2], binding: Binding<3>) -> bool {
-    tally::count();
     let [low, high] = counting(a, sides, binding);
     let points = [b, c, d, &low, &high];
     if let Some([u, v, w, low, high]) = short(a, points) {

@@ -34,12 +34,13 @@ fn by_definition(
 
 /// Squares of radii that are those of distances between vertices, or one last place beside, and others.
 fn a_radius(vertices: &[(VertexId, Grid)], rng: &mut Rng) -> f64 {
-    let Some(&(_, p)) = vertices.get(rng.below(vertices.len().max(1))) else { return rng.unit() };
-    let q = vertices[rng.below(vertices.len())].1;
-    let near = square(&p, &q) as f64 * QUANTUM * QUANTUM;
+    let Some((_, p)) = vertices.get(rng.below(vertices.len().max(1))) else { return rng.unit() };
+    let (_, q) = &vertices[rng.below(vertices.len())];
+    let near = square(p, q) as f64 * QUANTUM * QUANTUM;
     let bits = f64::from_bits(1);
     let all = [near, near.next_up(), near.next_down().max(0.0), 0.0, bits, 1e4 * rng.unit(), f64::INFINITY];
-    all[rng.below(if rng.one_in(4) { 7 } else { 3 })]
+    let n_kinds = if rng.one_in(4) { 7 } else { 3 };
+    all[rng.below(n_kinds)]
 }
 
 fn check_lists<G: Dimension>(t: &MovingTriangulation<G>, rng: &mut Rng) {
