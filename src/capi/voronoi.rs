@@ -39,9 +39,8 @@ unsafe fn pass(
                 let half_spaces = rows()?;
                 t.check_half_spaces(half_spaces)?;
                 let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
-                // Both tell how many entries there are before one is refused.
                 let (cells, facets) = (cell_rows(t.id_count()), facet_rows(t.edge_count()));
-                fill(cells.transpose()?, facets.transpose()?, |cells, facets| {
+                fill(cells, facets, |cells, facets| {
                     t.for_voronoi(clip, half_spaces, mask, monitor, cells, facets)
                 })
             }),
@@ -52,7 +51,7 @@ unsafe fn pass(
                 let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
                 let n_edges = if facets.is_some() { t.edge_count()? } else { 0 };
                 let (cells, facets) = (cell_rows(t.id_count()), facet_rows(n_edges));
-                fill(cells.transpose()?, facets.transpose()?, |cells, facets| {
+                fill(cells, facets, |cells, facets| {
                     t.for_voronoi_in(container.as_ref(), mask, monitor, cells, facets)
                 })
             }),
