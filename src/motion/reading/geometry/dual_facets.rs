@@ -30,7 +30,7 @@ use crate::motion::reading::geometry::centres::{Centres, SHARED_AT_LEAST};
 use crate::motion::reading::geometry::clipping::{
     Clip, Vector, cross, dot, in_space, length_by, minus, times,
 };
-use crate::motion::reading::geometry::pass::Edge;
+use crate::motion::reading::geometry::incidence::Edge;
 use crate::motion::reading::geometry::polytopes::Polytope;
 use crate::motion::reading::geometry::progress::Progress;
 use crate::motion::reading::geometry::sums::LEAST_SQUARE;
