@@ -2781,7 +2781,7 @@ deldrift_status deldrift_voronoi_facets(const deldrift_triangulation *t,
 
 /// The Voronoi cells of all ids within a box, for programs that need them at every step: areas (2D) or volumes (3D),
 /// boundaries and centroids, in one pass over the cells, however many vertices have moved. A program that needs their facets
-/// as well gets both from deldrift_voronoi_cells_and_facets for less.
+/// as well gets both from deldrift_voronoi_cells_and_facets.
 ///
 /// low, high: the corners of the box with the least and the greatest coordinates, 2 or 3 numbers each, read during the call
 /// only; vertices may be outside of it. NULL for both is no box. mask, mask_count: a byte for each id, mask_count of them,

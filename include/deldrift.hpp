@@ -763,7 +763,7 @@ public:
                                                        facets.derivatives.data(), count, &count));
         return facets;
     }
-    // Both, in one pass, for less than one after the other.
+    // Both, in one call, with circumcentres computed once.
     std::pair<VoronoiCells, VoronoiDerivatives> voronoi_cells_and_facets(span<const double> low = {},
                                                                          span<const double> high = {},
                                                                          span<const double> half_spaces = {},

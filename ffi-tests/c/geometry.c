@@ -441,6 +441,11 @@ static void voronoi_cells_without_a_box(void) {
                                                    NULL, 7, &n_edges),
                  DELDRIFT_BUFFER_TOO_SMALL);
     CHECK_MESSAGE("edge_capacity is 7");
+    count = n_edges = 77;
+    CHECK_STATUS(deldrift_voronoi_cells_and_facets(t, NULL, NULL, NULL, 0, NULL, 0, all, NULL, NULL, 4, &count, lengths, NULL,
+                                                   NULL, 8, &n_edges),
+                 DELDRIFT_BUFFER_TOO_SMALL);
+    CHECK(count == 5 && n_edges == 8);
     // Half-spaces alone need not bound anything.
     CHECK_STATUS(deldrift_voronoi_cells_within(t, NULL, NULL, far, 1, NULL, 0, volumes, NULL, NULL, 5, &count),
                  DELDRIFT_NULL_ARGUMENT);

@@ -219,7 +219,7 @@ class Geometry(Measured, Scipy):
     def voronoi_cells_and_facets(
         self, box: Any = None, mask: Any = None, *, half_spaces: Any = None
     ) -> tuple[VoronoiCells, VoronoiDerivatives]:
-        """What `voronoi_cells` and `voronoi_derivatives` give, in one pass, which takes less time than both.
+        """What `voronoi_cells` and `voronoi_derivatives` give, in one call, with circumcentres computed once.
 
         Parameters
         ----------

@@ -590,7 +590,7 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
     def voronoi_cells_and_facets(
         self, mask: Any = None, *, box: Any = None, half_spaces: Any = None
     ) -> tuple[VoronoiCells, VoronoiDerivatives]:
-        """What `voronoi_cells` and `voronoi_derivatives` give, in one pass, which takes less time than both.
+        """What `voronoi_cells` and `voronoi_derivatives` give, in one call, with circumcentres computed once.
 
         Parameters
         ----------

@@ -39,9 +39,8 @@ unsafe fn pass(
                 let half_spaces = rows()?;
                 t.check_half_spaces(half_spaces)?;
                 let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
-                // Both tell how many entries there are before one is refused.
                 let (cells, facets) = (cell_rows(t.id_count()), facet_rows(t.edge_count()));
-                fill(cells.transpose()?, facets.transpose()?, |cells, facets| {
+                fill(cells, facets, |cells, facets| {
                     t.for_voronoi(clip, half_spaces, mask, monitor, cells, facets)
                 })
             }),
@@ -52,7 +51,7 @@ unsafe fn pass(
                 let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
                 let n_edges = if facets.is_some() { t.edge_count()? } else { 0 };
                 let (cells, facets) = (cell_rows(t.id_count()), facet_rows(n_edges));
-                fill(cells.transpose()?, facets.transpose()?, |cells, facets| {
+                fill(cells, facets, |cells, facets| {
                     t.for_voronoi_in(container.as_ref(), mask, monitor, cells, facets)
                 })
             }),
@@ -163,7 +162,7 @@ pub unsafe extern "C" fn deldrift_voronoi_facets(
 
 /// The Voronoi cells of all ids within a box, for programs that need them at every step: areas (2D) or volumes (3D),
 /// boundaries and centroids, in one pass over the cells, however many vertices have moved. A program that needs their facets
-/// as well gets both from deldrift_voronoi_cells_and_facets for less.
+/// as well gets both from deldrift_voronoi_cells_and_facets.
 ///
 /// low, high: the corners of the box with the least and the greatest coordinates, 2 or 3 numbers each, read during the call
 /// only; vertices may be outside of it. NULL for both is no box. mask, mask_count: a byte for each id, mask_count of them,

@@ -3,7 +3,9 @@
 
 use crate::common::exact::{Grid, orientation, to_point};
 use crate::common::{Rng, point, seeds};
-use deldrift::motion::{Interpolation, Location, MovingTriangulation, Options, VertexValues};
+use deldrift::motion::{
+    Interpolation, Location, MovingTriangulation, Options, VertexValues, VoronoiCell, VoronoiFacet,
+};
 use deldrift::{Dimension, Error, Plane, Space, VertexId};
 
 type Vector = [f64; 3];
@@ -268,6 +270,37 @@ fn voronoi_cells_of_few_vertices_in_a_plane_are_those_of_half_spaces() {
     assert!(n_parted > 1000, "{n_parted}");
 }
 
+/// Cells by id and facets by edge, as far as they are told.
+type Told<P> = (Vec<Option<VoronoiCell<P>>>, Vec<Option<VoronoiFacet<P>>>);
+
+/// What one call tells of cells and of facets, if each is asked for.
+fn numbers<G: Dimension>(
+    t: &MovingTriangulation<G>,
+    clip: Option<&[G::Point; 2]>,
+    mask: Option<&[u8]>,
+    [of_cells, of_facets]: [bool; 2],
+) -> Told<G::Point> {
+    let n_cells = if of_cells { t.id_count() } else { 0 };
+    let n_facets = if of_facets { t.edge_count() } else { 0 };
+    let (mut cells, mut facets) = (vec![None; n_cells], vec![None; n_facets]);
+    let mut tell_cell = |v: VertexId, cell: VoronoiCell<G::Point>| {
+        assert!(cells[v.index()].replace(cell).is_none(), "{v:?} is told once");
+    };
+    let mut tell_facet = |k: usize, facet: VoronoiFacet<G::Point>| {
+        assert!(facets[k].replace(facet).is_none(), "{k} is told once");
+    };
+    t.for_voronoi(
+        clip.map(|clip| clip.each_ref()),
+        &[],
+        mask,
+        &mut |_| true,
+        if of_cells { Some(&mut tell_cell) } else { None },
+        if of_facets { Some(&mut tell_facet) } else { None },
+    )
+    .expect("room");
+    (cells, facets)
+}
+
 fn cells_without_a_box<G: Dimension>() {
     let rng = &mut Rng::new(7);
     let points = clouds::<G>(300, rng).swap_remove(0);
@@ -290,6 +323,46 @@ fn cells_without_a_box<G: Dimension>() {
             .zip(&edges)
             .all(|(measure, edge)| { measure.is_finite() || edge.iter().all(|v| is_on_hull[v.index()]) })
     );
+    let mask: Vec<u8> = (0..t.id_count()).map(|v| u8::from(v % 3 == 0)).collect();
+    let (whole, boxed) = (numbers(&t, None, None, [true; 2]), numbers(&t, Some(&far), None, [true; 2]));
+    let near = |x: f64, y: f64| (x - y).abs() <= 1e-7 * (1.0 + x.abs());
+    for (v, cell) in whole.0.iter().enumerate() {
+        let Some(cell) = cell.as_ref().filter(|cell| cell.volume > 1e-6 && cell.volume < 1e6) else {
+            assert!(all[v].is_nan() || all[v] <= 1e-6 || all[v] >= 1e6);
+            continue;
+        };
+        let there = boxed.0[v].as_ref().expect("all are told");
+        assert!(cell.volume.to_bits() == all[v].to_bits() && near(cell.area, there.area));
+        assert!((0..G::D).all(|axis| near(cell.centroid[axis], there.centroid[axis])), "{v}");
+    }
+    for (k, facet) in whole.1.iter().enumerate() {
+        let (facet, there) = (facet.as_ref().expect("told"), boxed.1[k].as_ref().expect("told"));
+        assert_eq!(facet.area.to_bits(), facets[k].to_bits());
+        // A facet of an inner vertex is in the large box.
+        let is_inner = edges[k].iter().any(|v| !is_on_hull[v.index()]);
+        for axis in (0..G::D).filter(|_| is_inner && facet.area > 1e-6) {
+            assert!(near(facet.centroid[axis], there.centroid[axis]), "{k}");
+            let pairs = facet.derivatives.iter().zip(&there.derivatives);
+            assert!(pairs.into_iter().all(|(one, other)| near(one[axis], other[axis])), "{k}");
+        }
+    }
+    // Neither what else is told nor a mask changes a bit.
+    for clip in [None, Some(&far)] {
+        let both = numbers(&t, clip, None, [true; 2]);
+        let (cells, sides) =
+            (numbers(&t, clip, None, [true, false]).0, numbers(&t, clip, None, [false, true]).1);
+        assert_eq!(format!("{both:?}"), format!("{:?}", (cells, sides)));
+        let some = numbers(&t, clip, Some(&mask), [true; 2]);
+        for (v, cell) in some.0.iter().enumerate() {
+            assert_eq!(cell.is_some(), mask[v] != 0);
+            assert!(cell.is_none() || format!("{cell:?}") == format!("{:?}", both.0[v]));
+        }
+        for (k, facet) in some.1.iter().enumerate() {
+            assert_eq!(facet.is_some(), edges[k].iter().any(|v| mask[v.index()] != 0));
+            assert!(facet.is_none() || format!("{facet:?}") == format!("{:?}", both.1[k]));
+        }
+    }
+    assert!(t.for_voronoi(None, &vec![1.0; G::D + 1], None, &mut |_| true, None, None).is_err());
     let n_infinite = facets.iter().filter(|measure| measure.is_infinite()).count();
     // All edges of the hull, by Euler's formula.
     assert_eq!(n_infinite, if G::D == 2 { t.hull_facet_count() } else { t.hull_facet_count() * 3 / 2 });

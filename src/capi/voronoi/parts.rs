@@ -101,12 +101,30 @@ impl FacetArrays {
     }
 }
 
+/// Buffers, if there are any of the kind, and if they are in order.
+type Given<'a> = Option<Result<Rows<'a>, Failure>>;
+
+/// Buffers that are in order. Where those of one kind are too small, it is told of both how many entries there are.
+fn in_order<'a>(cells: Given<'a>, facets: Given<'a>) -> Result<[Option<Rows<'a>>; 2], Failure> {
+    let too_small = |failure: &Failure| matches!(failure, Failure::BufferTooSmall { .. });
+    match (cells, facets) {
+        (Some(Ok(rows)), Some(Err(failure))) | (Some(Err(failure)), Some(Ok(rows))) => {
+            if too_small(&failure) {
+                rows.fitting.tell();
+            }
+            Err(failure)
+        }
+        (cells, facets) => Ok([cells.transpose()?, facets.transpose()?]),
+    }
+}
+
 /// Writes what `list` tells of cells and of facets, as far as there are buffers, and tells how many entries there are.
 pub(super) fn fill<P: AsRef<[f64]>>(
-    mut cells: Option<Rows<'_>>,
-    mut facets: Option<Rows<'_>>,
+    cells: Given<'_>,
+    facets: Given<'_>,
     list: impl FnOnce(TellCell<'_, P>, TellFacet<'_, P>) -> Result<()>,
 ) -> Result<(), Failure> {
+    let [mut cells, mut facets] = in_order(cells, facets)?;
     let are_any = |rows: &&mut Rows<'_>| rows.fitting.are_any;
     let mut tell_cell = cells.as_mut().filter(are_any).map(|rows| {
         let [volumes, areas, centroids] = &mut rows.columns;

@@ -30,7 +30,7 @@ use crate::motion::reading::geometry::centres::{Centres, SHARED_AT_LEAST};
 use crate::motion::reading::geometry::clipping::{
     Clip, Vector, cross, dot, in_space, length_by, minus, times,
 };
-use crate::motion::reading::geometry::pass::Edge;
+use crate::motion::reading::geometry::incidence::Edge;
 use crate::motion::reading::geometry::polytopes::Polytope;
 use crate::motion::reading::geometry::progress::Progress;
 use crate::motion::reading::geometry::sums::LEAST_SQUARE;
@@ -187,71 +187,6 @@ impl<G: Dimension> Voronoi<'_, G> {
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// The Voronoi facets of all edges within the box from `low` to `high`: measures, centroids, and derivatives of the
-    /// areas or volumes on their sides. With a `mask`, NaN for edges that have no end of which the entry is not 0.
-    ///
-    /// The derivative of the volume of a cell by the position of its own vertex is minus the sum of those of its
-    /// neighbours by that position.
-    ///
-    /// Rounded: with h as for [`voronoi_cells`](Self::voronoi_cells), P the perimeter of a facet (in the plane, 2), d
-    /// its diameter, A its measure and L the length of its edge, a measure is off by at most h P, a centroid by
-    /// h P d / A, or by d + h where A is less than 4 h P, a derivative by h P / L times the sum of d and the distance
-    /// from the vertex to the centroid.
-    ///
-    /// ```
-    /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
-    ///
-    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
-    /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
-    /// let facets = t.voronoi_derivatives([&[-1.0, -1.0], &[2.0, 2.0]], None, &mut |_| true)?;
-    /// assert_eq!(facets.areas[0], 1.5); // between vertices 0 and 1: from y = -1 to 1/2
-    /// assert_eq!(facets.centroids[0], [0.5, -0.25]);
-    /// assert_eq!(facets.derivatives[0][0], [0.75, 0.375]); // by the position of vertex 1
-    /// # Ok::<(), deldrift::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// Those of [`voronoi_cells`](Self::voronoi_cells).
-    pub fn voronoi_derivatives(
-        &self,
-        clip: [&G::Point; 2],
-        mask: Option<&[u8]>,
-        monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<VoronoiFacets<G::Point>> {
-        self.voronoi_derivatives_within(clip, &[], mask, monitor)
-    }
-
-    /// The [`voronoi_derivatives`](Self::voronoi_derivatives) within a box and half-spaces, rows as
-    /// [`voronoi_cells_within`](Self::voronoi_cells_within) has them; box and half-spaces stay where they are.
-    ///
-    /// With h as there, errors are those of [`voronoi_derivatives`](Self::voronoi_derivatives), but for a facet that a
-    /// plane cuts divided by the sine of the angle between both; a facet that is in a plane, but for h, may be there or
-    /// not.
-    ///
-    /// # Errors
-    /// Those of [`voronoi_cells_within`](Self::voronoi_cells_within).
-    pub fn voronoi_derivatives_within(
-        &self,
-        clip: [&G::Point; 2],
-        half_spaces: &[f64],
-        mask: Option<&[u8]>,
-        monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<VoronoiFacets<G::Point>> {
-        let nowhere = of_space::<G>(&[f64::NAN; 3]);
-        let (mut areas, mut centroids, mut derivatives) = (Vec::new(), Vec::new(), Vec::new());
-        memory::lengthen(&mut areas, self.edge_count(), f64::NAN)?;
-        memory::lengthen(&mut centroids, self.edge_count(), nowhere)?;
-        memory::lengthen(&mut derivatives, self.edge_count(), [nowhere; 2])?;
-        let edges = self.edges()?;
-        let tell = &mut |edge: usize, facet: VoronoiFacet<G::Point>| {
-            areas[edge] = facet.area;
-            centroids[edge] = facet.centroid;
-            derivatives[edge] = facet.derivatives;
-        };
-        self.for_voronoi(Some(clip), half_spaces, mask, monitor, None, Some(tell))?;
-        Ok(VoronoiFacets { edges, areas, centroids, derivatives })
-    }
-
     /// The facets of edges in a region, or without one, each by itself; on several threads where that pays.
     pub(super) fn facets_of(
         &self,

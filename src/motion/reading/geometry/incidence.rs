@@ -20,6 +20,9 @@ use crate::motion::triangulation::MovingTriangulation;
 /// How many vertices in advance to ask for the cells of one.
 const STARS_AHEAD: usize = 2;
 
+/// An edge, and a cell of it.
+pub(crate) type Edge = ([VertexId; 2], CellId);
+
 /// A list for each vertex, one after the other.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rows<T> {

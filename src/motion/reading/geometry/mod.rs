@@ -11,7 +11,7 @@
 //! | `simplices` | cells that have given vertices as corners |
 //! | `star` | stars in circulation order |
 //! | `rings` | what is around an edge, in order |
-//! | `voronoi_cells`, `pass`, `voronoi`, `progress` | Voronoi cells and facets: what programs ask, what is computed together |
+//! | `voronoi_cells`, `voronoi_lists`, `pass`, `voronoi`, `progress` | Voronoi cells and facets: what programs ask, what is computed together |
 //! | `voronoi_changes` | which Voronoi cells have changed |
 //! | `centres` | circumcentres for these, of all cells or of chosen ones |
 //! | `dual`, `dual_cells`, `dual_facets`, `sums` | volumes, boundaries and centroids of Voronoi cells; their facets, with derivatives |
@@ -54,6 +54,7 @@ mod sums;
 mod voronoi;
 mod voronoi_cells;
 mod voronoi_changes;
+mod voronoi_lists;
 mod weights;
 mod whole_cells;
 mod whole_facets;
@@ -63,12 +64,13 @@ pub(crate) use boundary::list_boundary;
 pub(crate) use dual_cells::nowhere;
 pub use dual_cells::{VoronoiCell, VoronoiCells};
 pub use dual_facets::{VoronoiFacet, VoronoiFacets};
+pub(crate) use incidence::Edge;
 pub use incidence::Rows;
 pub(crate) use incidence::first_cells;
 pub use interpolation::{Interpolation, VertexValues};
 pub(crate) use measures::tell_all;
 pub(crate) use natural::Ridges;
-pub(crate) use pass::{Asked, Edge};
+pub(crate) use pass::Asked;
 pub(crate) use progress::Progress;
 pub use star::OrderedStar;
 pub use voronoi_cells::{TellCell, TellFacet};

@@ -7,7 +7,7 @@
 
 use crate::delaunay::Dimension;
 use crate::error::Result;
-use crate::ids::{CellId, SiteId, VertexId};
+use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::motion::reading::geometry::cells_within::Region;
 use crate::motion::reading::geometry::centres::{All, Centres, Numbering, Ranks};
@@ -15,15 +15,13 @@ use crate::motion::reading::geometry::clipping::unit_of;
 use crate::motion::reading::geometry::dual::{Target, Targets};
 use crate::motion::reading::geometry::dual_cells::{VoronoiCell, cell_of, nowhere};
 use crate::motion::reading::geometry::dual_facets::{Facet, VoronoiFacet, of_space};
+use crate::motion::reading::geometry::incidence::Edge;
 use crate::motion::reading::geometry::progress::Progress;
 use crate::motion::reading::geometry::sums::Sums;
 use crate::motion::reading::geometry::voronoi::Voronoi;
 use crate::motion::reading::geometry::whole_cells::whole_cell;
 use crate::motion::state::mesh::Standing;
 use crate::motion::triangulation::MovingTriangulation;
-
-/// An edge, and a cell of it.
-pub(crate) type Edge = ([VertexId; 2], CellId);
 
 /// Which Voronoi cells and facets are asked for.
 pub(crate) struct Asked<'a> {
