@@ -1,10 +1,9 @@
 //! Copies beside the original: the same history goes on with the original, with clones, and with what has been saved and loaded,
 //! and must be the same one.
 
-use super::called::c;
+use super::called::{c, note};
 use super::model::{Row, sorted};
 use super::{Carried, History, live};
-use deldrift::capi::*;
 use std::ptr::null_mut;
 
 /// What goes on where there is a copy. The original has been read as the copies are.
