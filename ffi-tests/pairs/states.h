@@ -222,6 +222,7 @@ static deldrift_triangulation *strained_soon(deldrift_triangulation *of) {
     return of;
 }
 
+// Of boxes in space, where a walk takes the longest, there are few.
 static const state states[] = {
     {"plain", plain, as_it_is, true, true, false},
     {"plain, two removed", plain, without_two, true, false, false},
@@ -261,18 +262,18 @@ static const state states[] = {
     {"refined, edited", refined, edited, true, false, true},
     {"refined, loaded", refined, edited_and_loaded, true, false, false},
     {"refined, compacted", refined, compacted, true, false, false},
-    {"box", box, as_it_is, true, true, false},
+    {"box", box, as_it_is, true, false, false},
     {"box, two removed", box, without_two, true, false, false},
     {"box, edited", box, edited, true, false, true},
-    {"box, prepared", box, prepared, true, true, false},
+    {"box, prepared", box, prepared, true, false, false},
     {"box, loaded", box, loaded, true, false, false},
     {"box, edited and loaded", box, edited_and_loaded, true, true, true},
-    {"box, compacted", box, compacted, true, true, false},
+    {"box, compacted", box, compacted, true, false, false},
     {"box, cloned", box, cloned, true, false, false},
     {"box, vectors staged", box, strained_soon, true, false, false},
     {"box, one vertex", box_of_one, as_it_is, true, false, false},
     {"box, one hidden", box_with_hidden, edited, true, false, false},
-    {"slab", slab, edited, true, true, false},
+    {"slab", slab, edited, true, false, false},
     {"slab, loaded", slab, edited_and_loaded, true, false, false},
     {"rod", rod, edited, false, true, false},
 };
