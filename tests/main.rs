@@ -29,6 +29,7 @@ mod preparing;
 mod reach;
 mod refining;
 mod repair;
+mod same;
 mod saving;
 mod saving_format;
 mod segments;

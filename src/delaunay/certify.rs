@@ -17,7 +17,7 @@ use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 use crate::machine::threads;
-use crate::simd::{Avx2, LANES};
+use crate::simd::{LANES, in_lanes};
 
 /// A sweep of this number of cells takes a few times as long as a thread takes to wake up.
 const SWEPT_AT_LEAST: usize = 1 << 14;
@@ -151,23 +151,14 @@ impl<G: Dimension> Delaunay<G> {
         cells: impl Iterator<Item = Slot> + Clone,
         visit: impl FnMut(Slot, Doubts) -> bool,
     ) {
-        let Some(avx2) = Avx2::new() else { return self.visit_uncertain_singly(cells, visit) };
         if self.complex.n_slots() * size_of::<Cell<G::Corners>>() > SWEPT_CACHE_BYTES {
-            avx2.run_with(
-                self,
-                cells,
-                visit,
-                #[inline(always)]
-                |t, cells, visit| t.visit_uncertain_in_lanes::<true>(avx2, cells, visit),
-            );
+            in_lanes!(simd, self, cells, visit => |t, cells, visit| {
+                t.visit_uncertain_in_lanes::<_, true>(simd, cells, visit)
+            });
         } else {
-            avx2.run_with(
-                self,
-                cells,
-                visit,
-                #[inline(always)]
-                |t, cells, visit| t.visit_uncertain_in_lanes::<false>(avx2, cells, visit),
-            );
+            in_lanes!(simd, self, cells, visit => |t, cells, visit| {
+                t.visit_uncertain_in_lanes::<_, false>(simd, cells, visit)
+            });
         }
     }
 
@@ -175,35 +166,10 @@ impl<G: Dimension> Delaunay<G> {
     /// there are ghosts among them.
     #[inline(always)]
     pub(super) fn star_surely_holds(&self, star: &[(Slot, u8)]) -> bool {
-        let Some(avx2) = Avx2::new() else {
-            return star.iter().all(|&(c, _)| {
-                !self.complex.cell(c).is_ghost() && G::cell_holds(&self.filter, self.view(), &self.complex, c)
-            });
-        };
-        avx2.run_with(
-            avx2,
-            self,
-            star,
-            #[inline(always)]
-            |avx2, t, star| {
-                G::star_holds(avx2, &t.filter, t.view(), &t.complex, star)
-                    .unwrap_or_else(|| t.star_holds_in_lanes(avx2, star))
-            },
-        )
-    }
-
-    /// Does what [`visit_uncertain`](Self::visit_uncertain) does, one cell at a time and without lanes.
-    pub(super) fn visit_uncertain_singly(
-        &self,
-        mut cells: impl Iterator<Item = Slot>,
-        mut visit: impl FnMut(Slot, Doubts) -> bool,
-    ) {
-        cells.all(|c| {
-            let is_ghost = self.complex.cell(c).is_ghost();
-            self.complex.is_free(c)
-                || !is_ghost && G::cell_holds(&self.filter, self.view(), &self.complex, c)
-                || visit(c, Doubts::ALL)
-        });
+        in_lanes!(simd, self, star, () => |t, star, ()| {
+            G::star_holds(simd, &t.filter, t.view(), &t.complex, star)
+                .unwrap_or_else(|| t.star_holds_in_lanes(simd, star))
+        })
     }
 
     /// Lists a ghost cell, or what of a finite cell fails: `false` if it is not positively oriented. Its facets
@@ -292,25 +258,17 @@ impl<G: Dimension> Delaunay<G> {
     ) -> Result<()> {
         let Waiting { facets, n } = waiting;
         let n = std::mem::take(n);
-        if let Some(avx2) = Avx2::new()
-            && n > 0
-        {
-            // Any facets between finite cells fill the last lanes.
-            let any = facets[0];
-            facets[n..].fill(any);
-            let hold = avx2.run(
-                #[inline(always)]
-                || G::facets_hold(avx2, &self.filter, self.view(), &self.complex, facets),
-            );
-            for (k, &facet) in facets[..n].iter().enumerate() {
-                if hold >> k & 1 == 0 {
-                    self.check_bicell_exactly(facet, before, failures)?;
-                }
-            }
+        if n == 0 {
             return Ok(());
         }
-        for &facet in &facets[..n] {
-            self.check_bicell(facet, before, failures)?;
+        // Any facets between finite cells fill the last lanes.
+        let any = facets[0];
+        facets[n..].fill(any);
+        let hold = in_lanes!(simd => G::facets_hold(simd, &self.filter, self.view(), &self.complex, facets));
+        for (k, &facet) in facets[..n].iter().enumerate() {
+            if hold >> k & 1 == 0 {
+                self.check_bicell_exactly(facet, before, failures)?;
+            }
         }
         Ok(())
     }
