@@ -283,13 +283,18 @@ fn recorded_in<G: Dimension>() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/results/same/{}d.csv", G::D))
 }
 
-/// Makes sure that checksums are those expected, and says which are not.
-fn assert_same(found: &Sums, expected: &[(String, u64)], context: &str) {
+/// Whether counts of exact signs are in it, which may depend on the number of threads.
+fn has_counts(step: &str) -> bool {
+    ["report", "statistics", "saved"].iter().any(|counts| step.ends_with(counts))
+}
+
+/// Makes sure that checksums are those expected, but for counts where these may be others, and says which are not.
+fn assert_same(found: &Sums, expected: &[(String, u64)], may_count: bool, context: &str) {
     let mut differ = String::new();
     let mut n = 0;
     for ((step, sum), (other, expected)) in found.0.iter().zip(expected) {
         assert_eq!(step, other, "{context}");
-        if sum != expected {
+        if sum != expected && !(may_count && has_counts(step)) {
             n += 1;
             if n <= 12 {
                 write!(differ, "\n{step}").expect("room");
@@ -315,9 +320,9 @@ fn same<G: Dimension>(name: &str) {
         (step.to_string(), u64::from_str_radix(sum, 16).expect("a checksum"))
     };
     let recorded: Vec<(String, u64)> = lines.lines().skip(1).map(row).collect();
-    assert_same(&first, &recorded, "one thread");
+    assert_same(&first, &recorded, false, "one thread");
     for threads in [2, 3] {
-        assert_same(&histories::<G>(threads), &recorded, &format!("{threads} threads"));
+        assert_same(&histories::<G>(threads), &recorded, true, &format!("{threads} threads"));
     }
     if is_second {
         return;
