@@ -55,9 +55,8 @@ test: ## all tests, two steps at a time: Rust; C, C++, valgrind, sanitizers; ins
 	-@.ci/packages python3-mpi4py
 	tests/run
 
-counts: ## what has changed in the counts of work since they were recorded, with AVX2 and without; RECORD=1 records them
+counts: ## what has changed in the counts of work since they were recorded; RECORD=1 records them
 	$(if $(RECORD),DELDRIFT_RECORD=1) cargo test --profile quick --test library work:: -- --nocapture --test-threads 1
-	$(if $(RECORD),DELDRIFT_RECORD=1) DELDRIFT_SCALAR=1 cargo test --profile quick --test library work:: -- --nocapture --test-threads 1
 
 soak: ## random histories against fresh builds, on two threads: cpp-bench/results/soak.csv (HOURS=1, or ARGS="--seed 7")
 	cargo bench --bench soak -- $(or $(ARGS),--hours $(HOURS) --csv cpp-bench/results/soak.csv)

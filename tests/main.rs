@@ -31,6 +31,7 @@ mod preparing;
 mod reach;
 mod refining;
 mod repair;
+mod same;
 mod saving;
 mod saving_format;
 mod segments;

@@ -1,5 +1,5 @@
 //! How much work the algorithms take, in counts: files in `results/work`, one for each kind of input, with a row for
-//! each algorithm, summed over a fixed history. They depend on the processor in one thing alone: whether it has AVX2.
+//! each algorithm, summed over a fixed history. They are the same on every processor.
 //!
 //! A change of the library that is for speed, or against it, changes counts. What has changed is printed, as a table; it
 //! is a report, and no test fails for it. A test fails where one of the sums that users feel has grown by more than a
@@ -141,15 +141,6 @@ impl<G: Dimension> History<G> {
     }
 }
 
-/// Several certificates are evaluated at a time where the processor has AVX2, and counted.
-fn arithmetic() -> &'static str {
-    #[cfg(target_arch = "x86_64")]
-    let has_lanes = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
-    #[cfg(not(target_arch = "x86_64"))]
-    let has_lanes = false;
-    if has_lanes && std::env::var_os("DELDRIFT_SCALAR").is_none() { "avx2" } else { "scalar" }
-}
-
 /// Compares the rows of an input in the file with those measured.
 fn check<G: Dimension>(name: &str, points: &[G::Point]) {
     let widths = (0..G::D).map(|k| {
@@ -166,8 +157,7 @@ fn check<G: Dimension>(name: &str, points: &[G::Point]) {
         writeln!(found, "{algorithm:?},{counts}").expect("room");
     }
     let found = format!("algorithm,{HEADER}\n{found}");
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join(format!("tests/results/work/{}/{name}.csv", arithmetic()));
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/results/work/{name}.csv"));
     let recorded = counts_of(&fs::read_to_string(&path).unwrap_or_default());
     if env::var_os("DELDRIFT_RECORD").is_some() {
         fs::write(&path, &found).expect("to be written");

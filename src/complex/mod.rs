@@ -19,6 +19,7 @@
 
 #![allow(unsafe_code)]
 
+mod canonical;
 mod cell;
 mod copying;
 mod corners;

@@ -6,7 +6,7 @@
 
 use super::cavity::Cavity;
 use super::dimension::Insert;
-use super::order::in_rounds;
+use super::order::{along_curve, in_rounds};
 use super::{Delaunay, Dimension, Insertion, Site};
 use crate::complex::{Corners, INFINITE};
 use crate::error::{Error, Result};
@@ -43,10 +43,10 @@ const LARGE: usize = 1 << 15;
 /// Cells between free ones where several threads will flip.
 const GAP_AFTER: usize = 63;
 
-/// After how many cells there is a free one, for this number of threads: each that flips in space needs free cells of
-/// its own.
-fn gap_after<G: Dimension>(n_threads: usize) -> usize {
-    if G::D == 3 && n_threads > 1 { GAP_AFTER } else { usize::MAX }
+/// After how many cells there is a free one, where several threads may flip: each that flips in space needs free cells
+/// of its own.
+fn gap_after<G: Dimension>(is_shared: bool) -> usize {
+    if G::D == 3 && is_shared { GAP_AFTER } else { usize::MAX }
 }
 
 impl<G: Dimension> Delaunay<G> {
@@ -62,13 +62,10 @@ impl<G: Dimension> Delaunay<G> {
             }
             Site::new(point, VertexId::new(item))
         };
-        let (parts, sorted) = self.in_parts(0..n as u32, n, |i| &points[i as usize])?;
+        let sorted = along_curve::<G>(0..n as u32, n, |i| &points[i as usize])?;
         self.begin_sites(n)?;
-        for keyed in &sorted {
-            memory::extend(&mut self.sites, keyed, sorted.len(), |k| site(k.item()))?;
-        }
-        self.parts = parts;
-        Ok(())
+        let n_threads = self.build_threads(n);
+        memory::extend(&mut self.sites, &sorted, n_threads, |k| site(k.item()))
     }
 
     /// Puts the live sites along a Hilbert curve, from index 1 on without gaps. All indices change and the cells
@@ -76,16 +73,12 @@ impl<G: Dimension> Delaunay<G> {
     pub fn sort_sites(&mut self) -> Result<()> {
         let sites = &self.sites;
         let n = sites.len() - 1 - self.free_sites.len();
-        let (parts, keyed) =
-            self.in_parts(self.live_sites().map(SiteId::get), n, |s| &sites[s as usize].point)?;
+        let keyed = along_curve::<G>(self.live_sites().map(SiteId::get), n, |s| &sites[s as usize].point)?;
         let mut sorted = Vec::new();
         memory::reserve_exact(&mut sorted, n + 1)?;
         sorted.push(sites[INFINITE]);
-        for part in &keyed {
-            memory::extend(&mut sorted, part, keyed.len(), |k| sites[k.item() as usize])?;
-        }
+        memory::extend(&mut sorted, &keyed, self.build_threads(n), |k| sites[k.item() as usize])?;
         self.sites = sorted;
-        self.parts = parts;
         self.free_sites.clear();
         self.complex.clear();
         Ok(())
@@ -95,13 +88,18 @@ impl<G: Dimension> Delaunay<G> {
     /// `monitor` is called with the fraction done; if it returns `false`, the cells are left half made.
     pub fn rebuild(&mut self, monitor: &mut dyn FnMut(f64) -> bool) -> Result<Vec<Merge>> {
         self.flat.clear();
-        if let Some(coincident) = self.triangulate_parts(monitor)? {
-            return self.merge(coincident);
+        let n = self.sites.len() - 1 - self.free_sites.len();
+        if let Some((coincident, names)) = self.triangulate_parts(self.build_threads(n), n, monitor)? {
+            return self.merge_in_order(names, coincident);
         }
         self.tighten_filter();
         let order = in_rounds::<G>(self.live_sites())?;
         if order.iter().any(|&s| self.extend_basis(s)) {
-            return self.triangulate(&order, monitor);
+            let coincident = self.triangulate_unmerged(&order, order.len(), monitor)?;
+            if self.is_build_shared(n) {
+                return self.merge_in_order(self.own_names()?, coincident);
+            }
+            return self.merge(coincident);
         }
         self.complex.clear();
         let mut coincident = Vec::new();
@@ -127,16 +125,6 @@ impl<G: Dimension> Delaunay<G> {
         }
         self.find_flat_basis(SiteId::NONE);
         Ok(merges)
-    }
-
-    /// Builds the cells of all live sites, given in insertion order, from a basis of `D + 1` on.
-    pub(super) fn triangulate(
-        &mut self,
-        order: &[SiteId],
-        monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Vec<Merge>> {
-        let coincident = self.triangulate_unmerged(order, order.len(), monitor)?;
-        self.merge(coincident)
     }
 
     /// For how many cells there is room in a build of `n` sites; only few sets have more. In the plane there are not
@@ -308,11 +296,11 @@ impl<G: Dimension> Delaunay<G> {
     /// Returns the new slot of each, [`Slot::NONE`] for free ones, unless they stay as they are.
     pub(crate) fn sort_cells(&mut self, replaced: f64) -> Result<Option<Vec<Slot>>> {
         let n_slots = self.complex.n_slots();
-        let n_threads = self.flipping_threads(n_slots);
-        if self.is_sorted && !self.is_disordered(replaced) || n_slots < LARGE && n_threads == 1 {
+        let is_shared = self.is_flipping_shared(n_slots);
+        if self.is_sorted && !self.is_disordered(replaced) || n_slots < LARGE && !is_shared {
             return Ok(None);
         }
-        let index = self.complex.sort(self.sites.len(), gap_after::<G>(n_threads))?;
+        let index = self.complex.sort(self.sites.len(), gap_after::<G>(is_shared))?;
         for site in &mut self.sites {
             if site.cell != Slot::NONE {
                 site.cell = index[site.cell];
@@ -330,9 +318,85 @@ impl<G: Dimension> Delaunay<G> {
         n_slots >= LARGE && self.n_replaced as f64 > replaced * n_slots as f64
     }
 
-    /// How many threads flip, for this number of cells.
-    fn flipping_threads(&self, n_cells: usize) -> usize {
-        self.threads.for_work(n_cells, LARGE, LARGE / 64)
+    /// Whether several threads would flip in this number of cells, if there were as many.
+    fn is_flipping_shared(&self, n_cells: usize) -> bool {
+        self.threads.shares(n_cells, LARGE, LARGE / 64) > 1
+    }
+
+    /// What the corners of cells are called if they are called what they are.
+    fn own_names(&self) -> Result<Vec<SiteId>> {
+        let mut names = Vec::new();
+        memory::reserve_exact(&mut names, self.sites.len())?;
+        names.extend(SiteId::range(0..self.sites.len()));
+        Ok(names)
+    }
+
+    /// [Merges](Self::merge) coincident sites of cells that have been built, and puts these in order.
+    fn merge_in_order(
+        &mut self,
+        names: Vec<SiteId>,
+        mut coincident: Vec<(SiteId, SiteId)>,
+    ) -> Result<Vec<Merge>> {
+        self.put_in_order(names, &mut coincident)?;
+        if coincident.is_empty() {
+            return Ok(Vec::new());
+        }
+        // Where the lowest vertex of a place had not been in the cells, ties have been broken again.
+        let mut merges = self.merge(coincident)?;
+        merges.sort_unstable_by_key(|merge| (merge.site, merge.hidden));
+        if let Some(wrapping) = &mut self.wrapping {
+            wrapping.forget_failures();
+        }
+        self.put_in_order(self.own_names()?, &mut [])?;
+        Ok(merges)
+    }
+
+    /// Puts the cells that have been built, and their corners, in the order that is a function of the cells: how many
+    /// threads have built them does not show any more. The sites of the cells get these names. Of coincident sites, the
+    /// second of each pair in the cells, the lowest one is there afterwards, with the vertex by which ties have been broken.
+    pub(super) fn put_in_order(
+        &mut self,
+        mut names: Vec<SiteId>,
+        coincident: &mut [(SiteId, SiteId)],
+    ) -> Result<()> {
+        coincident.sort_unstable_by_key(|&(s, t)| (t, s));
+        let mut lowered = Vec::new();
+        memory::reserve_exact(&mut lowered, coincident.len())?;
+        for pairs in coincident.chunk_by_mut(|(_, t), (_, other)| t == other) {
+            let (first, t) = pairs[0];
+            if first < t {
+                lowered.push((t, first));
+                pairs[0].0 = t;
+                pairs.iter_mut().for_each(|pair| pair.1 = first);
+            }
+        }
+        if !lowered.is_empty() {
+            lowered.sort_unstable();
+            for &(t, first) in &lowered {
+                let [a, b] = [t, first].map(|s| self.sites[s].id);
+                (self.sites[t].id, self.sites[first].id) = (b, a);
+            }
+            for name in &mut names {
+                if let Ok(at) = lowered.binary_search_by_key(name, |&(t, _)| t) {
+                    *name = lowered[at].1;
+                }
+            }
+        }
+        coincident.sort_unstable();
+        let n_cells = self.complex.n_finite() + self.complex.n_ghosts();
+        let gap_after = gap_after::<G>(self.is_flipping_shared(n_cells));
+        self.complex.put_in_order(self.sites.len(), gap_after, |s| names[s])?;
+        self.sites.iter_mut().for_each(|site| site.cell = Slot::NONE);
+        for c in (0..self.complex.n_slots()).rev().map(Slot::at) {
+            if !self.complex.is_free(c) {
+                let corners = self.complex.cell(c).corners;
+                corners.as_ref().iter().for_each(|&s| self.sites[s].cell = c);
+            }
+        }
+        let n_ghosts = self.complex.n_ghosts();
+        self.recent = Slot::at(n_ghosts + n_ghosts / gap_after);
+        (self.is_sorted, self.n_replaced) = (true, 0);
+        Ok(())
     }
 
     /// A copy without memory for what is gone, in which the vertices have other ids, `n_ids` in all and in the same order:
@@ -340,17 +404,16 @@ impl<G: Dimension> Delaunay<G> {
     pub(crate) fn compacted(&self, ids: &[VertexId], n_ids: usize) -> Result<(Self, Vec<Slot>)> {
         let sites = &self.sites;
         let n = sites.len() - 1 - self.free_sites.len();
-        let (parts, keyed) =
-            self.in_parts(self.live_sites().map(SiteId::get), n, |s| &sites[s as usize].point)?;
+        let keyed = along_curve::<G>(self.live_sites().map(SiteId::get), n, |s| &sites[s as usize].point)?;
         let mut names = Vec::new();
         memory::reserve_exact(&mut names, sites.len())?;
         names.resize(sites.len(), SiteId::NONE);
         names[INFINITE] = INFINITE;
-        for (name, k) in SiteId::range(1..n + 1).zip(keyed.iter().flatten()) {
+        for (name, k) in SiteId::range(1..n + 1).zip(&keyed) {
             names[k.item() as usize] = name;
         }
         let n_cells = self.complex.n_finite() + self.complex.n_ghosts();
-        let gap_after = gap_after::<G>(self.flipping_threads(n_cells));
+        let gap_after = gap_after::<G>(self.is_flipping_shared(n_cells));
         let (complex, index) = self.complex.compacted(n + 1, gap_after, &names)?;
         let flat = self.flat.renamed(&names)?;
         // Without cells the ghost vertex may still name one.
@@ -359,13 +422,12 @@ impl<G: Dimension> Delaunay<G> {
         memory::reserve_exact(&mut sorted, n + 1)?;
         let ghost = &sites[INFINITE];
         sorted.push(Site { cell: cell_of(ghost), ..*ghost });
-        sorted.extend(keyed.iter().flatten().map(|k| {
+        sorted.extend(keyed.iter().map(|k| {
             let site = &sites[k.item() as usize];
             Site { point: site.point, cell: cell_of(site), id: ids[site.id] }
         }));
         let mut t = Delaunay {
             sites: sorted,
-            parts,
             flat,
             is_sorted: true,
             relocated: SiteId::NONE,

@@ -18,7 +18,7 @@ use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 use crate::predicates::StaticFilter;
-use crate::simd::{Avx2, LANES};
+use crate::simd::{LANES, Simd, in_lanes};
 
 /// Scratch memory.
 #[derive(Debug, Default)]
@@ -130,16 +130,9 @@ fn dig_in_build<const BY_LENGTHS: bool>(
     start: Slot,
     s: SiteId,
 ) -> Result<()> {
-    match Avx2::new() {
-        Some(avx2) => avx2.run_with(
-            (t, scratch),
-            start,
-            s,
-            #[inline(always)]
-            |(t, scratch), start, s| dig::<true, BY_LENGTHS>(t, scratch, start, s),
-        ),
-        None => dig::<true, BY_LENGTHS>(t, scratch, start, s),
-    }
+    in_lanes!(_simd, (t, scratch), start, s => |(t, scratch), start, s| {
+        dig::<true, BY_LENGTHS>(t, scratch, start, s)
+    })
 }
 
 /// Finds the zone of `s` from one cell of it, and its rim. After an error the zone is what has been marked.
@@ -248,28 +241,15 @@ fn glue<const BUILD: bool>(t: &mut Delaunay<Space>, scratch: &mut Scratch, ridge
 #[inline(never)]
 fn prepare<const BY_LENGTHS: bool>(t: &Delaunay<Space>, rim: &[Row], spheres: &mut Spheres) {
     let spheres = spheres.table();
-    match Avx2::new() {
-        Some(avx2) => avx2.run_with(
-            (t, avx2),
-            rim,
-            spheres,
-            #[inline(always)]
-            |(t, avx2), rim, spheres| prepare_in_lanes::<BY_LENGTHS>(avx2, t, rim, spheres),
-        ),
-        None => prepare_each::<BY_LENGTHS>(t, rim, spheres),
-    }
-}
-
-fn prepare_each<const BY_LENGTHS: bool>(t: &Delaunay<Space>, rim: &[Row], mut spheres: Table) {
-    for row in rim {
-        spheres.put::<BY_LENGTHS>(t, row.cell, &row.corners);
-    }
+    in_lanes!(simd, t, rim, spheres => |t, rim, spheres| {
+        prepare_in_lanes::<_, BY_LENGTHS>(simd, t, rim, spheres)
+    });
 }
 
 /// Four at a time; the last four are those at the end, some of them twice.
 #[inline(always)]
-fn prepare_in_lanes<const BY_LENGTHS: bool>(
-    avx2: Avx2,
+fn prepare_in_lanes<S: Simd, const BY_LENGTHS: bool>(
+    simd: S,
     t: &Delaunay<Space>,
     rim: &[Row],
     mut spheres: Table,
@@ -281,7 +261,7 @@ fn prepare_in_lanes<const BY_LENGTHS: bool>(
         if let Some(four) = rim[begin..].first_chunk() {
             let four: [&Row; LANES] = four.each_ref();
             let cells = four.map(|row| row.cell);
-            spheres.put_four::<BY_LENGTHS>(avx2, t, s, &cells, four.map(|row| &row.corners));
+            spheres.put_four::<_, BY_LENGTHS>(simd, t, s, &cells, four.map(|row| &row.corners));
         }
     }
 }

@@ -8,7 +8,6 @@
 mod hull;
 
 use std::ops::Range;
-use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use super::uncertain::Doubts;
 use super::{Delaunay, Dimension, Failures};
@@ -17,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 use crate::machine::threads;
-use crate::simd::{Avx2, LANES};
+use crate::simd::{LANES, in_lanes};
 
 /// A sweep of this number of cells takes a few times as long as a thread takes to wake up.
 const SWEPT_AT_LEAST: usize = 1 << 14;
@@ -54,9 +53,8 @@ impl<G: Dimension> Delaunay<G> {
         before: Option<&[G::Point]>,
     ) -> Result<bool> {
         failures.clear();
-        let n_failed = AtomicUsize::new(0);
-        self.sweep_slots(0..self.complex.n_slots(), failures, most, before, &n_failed)?;
-        if n_failed.into_inner() > most {
+        self.sweep_slots(0..self.complex.n_slots(), failures, most, before)?;
+        if failures.cells.len() > most {
             return Ok(false);
         }
         self.end_sweep(failures)?;
@@ -71,14 +69,14 @@ impl<G: Dimension> Delaunay<G> {
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<()> {
         failures.clear();
-        let (n, n_failed) = (self.complex.n_slots(), AtomicUsize::new(0));
+        let n = self.complex.n_slots();
         let step = SWEPT_UNASKED * self.threads.for_work(n, SWEPT_AT_LEAST, SWEPT_AT_LEAST / 64);
         for first in (0..n).step_by(step) {
             if !monitor(first as f64 / n as f64) {
                 return Err(Error::Cancelled);
             }
             let range = first..n.min(first + step);
-            self.sweep_slots(range, failures, 0, None, &n_failed)?;
+            self.sweep_slots(range, failures, 0, None)?;
             if !failures.cells.is_empty() {
                 return Ok(());
             }
@@ -94,25 +92,31 @@ impl<G: Dimension> Delaunay<G> {
         Ok(())
     }
 
-    /// Sweeps the cells of a range by as many threads as pay.
+    /// Sweeps the cells of a range by as many threads as pay. What is listed does not depend on how many there are: nothing
+    /// beyond the cell that is one too many.
     fn sweep_slots(
         &self,
         range: Range<usize>,
         failures: &mut Failures,
         most: usize,
         before: Option<&[G::Point]>,
-        n_failed: &AtomicUsize,
     ) -> Result<()> {
         let n_threads = self.threads.for_work(range.len(), SWEPT_AT_LEAST, SWEPT_AT_LEAST / 64);
         if n_threads == 1 {
-            return self.sweep_range(range, failures, most, before, n_failed);
+            return self.sweep_range(range, failures, most, before);
         }
         let parts = threads::for_ranges(range.len(), n_threads, |part| {
             let mut failures = Failures::default();
             let part = range.start + part.start..range.start + part.end;
-            self.sweep_range(part, &mut failures, most, before, n_failed).map(|()| failures)
+            self.sweep_range(part, &mut failures, most, before).map(|()| failures)
         })?;
-        parts.into_iter().try_for_each(|part| failures.append(&part?))
+        parts.into_iter().try_for_each(|part| failures.append(&part?))?;
+        if let Some(&last) = failures.cells.get(most) {
+            failures.cells.truncate(most + 1);
+            let n_facets = failures.facets.partition_point(|facet| facet.cell() <= last);
+            failures.facets.truncate(n_facets);
+        }
+        Ok(())
     }
 
     /// How many certificates the finite cells have: an orientation each, and half an empty sphere for each facet.
@@ -120,19 +124,18 @@ impl<G: Dimension> Delaunay<G> {
         (self.complex.n_finite() * (G::D + 3) / 2) as u64
     }
 
-    /// Sweeps the cells of a range; stops when more than `most` cells of all ranges have failed.
+    /// Sweeps the cells of a range; stops when more than `most` have failed.
     fn sweep_range(
         &self,
         range: Range<usize>,
         failures: &mut Failures,
         most: usize,
         before: Option<&[G::Point]>,
-        n_failed: &AtomicUsize,
     ) -> Result<()> {
         let mut swept = Ok(());
         self.visit_uncertain(Slot::range(range), |c, doubts| {
             match self.sweep_cell(c, doubts, before, failures) {
-                Ok(holds) => holds || n_failed.fetch_add(1, Relaxed) < most,
+                Ok(holds) => holds || failures.cells.len() <= most,
                 Err(error) => {
                     swept = Err(error);
                     false
@@ -151,23 +154,14 @@ impl<G: Dimension> Delaunay<G> {
         cells: impl Iterator<Item = Slot> + Clone,
         visit: impl FnMut(Slot, Doubts) -> bool,
     ) {
-        let Some(avx2) = Avx2::new() else { return self.visit_uncertain_singly(cells, visit) };
         if self.complex.n_slots() * size_of::<Cell<G::Corners>>() > SWEPT_CACHE_BYTES {
-            avx2.run_with(
-                self,
-                cells,
-                visit,
-                #[inline(always)]
-                |t, cells, visit| t.visit_uncertain_in_lanes::<true>(avx2, cells, visit),
-            );
+            in_lanes!(simd, self, cells, visit => |t, cells, visit| {
+                t.visit_uncertain_in_lanes::<_, true>(simd, cells, visit)
+            });
         } else {
-            avx2.run_with(
-                self,
-                cells,
-                visit,
-                #[inline(always)]
-                |t, cells, visit| t.visit_uncertain_in_lanes::<false>(avx2, cells, visit),
-            );
+            in_lanes!(simd, self, cells, visit => |t, cells, visit| {
+                t.visit_uncertain_in_lanes::<_, false>(simd, cells, visit)
+            });
         }
     }
 
@@ -175,35 +169,10 @@ impl<G: Dimension> Delaunay<G> {
     /// there are ghosts among them.
     #[inline(always)]
     pub(super) fn star_surely_holds(&self, star: &[(Slot, u8)]) -> bool {
-        let Some(avx2) = Avx2::new() else {
-            return star.iter().all(|&(c, _)| {
-                !self.complex.cell(c).is_ghost() && G::cell_holds(&self.filter, self.view(), &self.complex, c)
-            });
-        };
-        avx2.run_with(
-            avx2,
-            self,
-            star,
-            #[inline(always)]
-            |avx2, t, star| {
-                G::star_holds(avx2, &t.filter, t.view(), &t.complex, star)
-                    .unwrap_or_else(|| t.star_holds_in_lanes(avx2, star))
-            },
-        )
-    }
-
-    /// Does what [`visit_uncertain`](Self::visit_uncertain) does, one cell at a time and without lanes.
-    pub(super) fn visit_uncertain_singly(
-        &self,
-        mut cells: impl Iterator<Item = Slot>,
-        mut visit: impl FnMut(Slot, Doubts) -> bool,
-    ) {
-        cells.all(|c| {
-            let is_ghost = self.complex.cell(c).is_ghost();
-            self.complex.is_free(c)
-                || !is_ghost && G::cell_holds(&self.filter, self.view(), &self.complex, c)
-                || visit(c, Doubts::ALL)
-        });
+        in_lanes!(simd, self, star, () => |t, star, ()| {
+            G::star_holds(simd, &t.filter, t.view(), &t.complex, star)
+                .unwrap_or_else(|| t.star_holds_in_lanes(simd, star))
+        })
     }
 
     /// Lists a ghost cell, or what of a finite cell fails: `false` if it is not positively oriented. Its facets
@@ -292,25 +261,17 @@ impl<G: Dimension> Delaunay<G> {
     ) -> Result<()> {
         let Waiting { facets, n } = waiting;
         let n = std::mem::take(n);
-        if let Some(avx2) = Avx2::new()
-            && n > 0
-        {
-            // Any facets between finite cells fill the last lanes.
-            let any = facets[0];
-            facets[n..].fill(any);
-            let hold = avx2.run(
-                #[inline(always)]
-                || G::facets_hold(avx2, &self.filter, self.view(), &self.complex, facets),
-            );
-            for (k, &facet) in facets[..n].iter().enumerate() {
-                if hold >> k & 1 == 0 {
-                    self.check_bicell_exactly(facet, before, failures)?;
-                }
-            }
+        if n == 0 {
             return Ok(());
         }
-        for &facet in &facets[..n] {
-            self.check_bicell(facet, before, failures)?;
+        // Any facets between finite cells fill the last lanes.
+        let any = facets[0];
+        facets[n..].fill(any);
+        let hold = in_lanes!(simd => G::facets_hold(simd, &self.filter, self.view(), &self.complex, facets));
+        for (k, &facet) in facets[..n].iter().enumerate() {
+            if hold >> k & 1 == 0 {
+                self.check_bicell_exactly(facet, before, failures)?;
+            }
         }
         Ok(())
     }

@@ -2,34 +2,34 @@
 
 use super::shape::{Plane, Shape, Space};
 use super::site::Site;
-use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
+use crate::simd::{ALL, LANES, Lanes, Real, Simd};
 
 /// The exchange of several positions.
 pub trait Exchange: Shape {
     /// Exchanges places with those of sites; returns how many differ, bit by bit. Widens a box, given by its lower and
     /// its upper corner, to the places that the sites get. The lanes of a corner are x, y, x, y in the plane; in space
     /// x, y, z and something without a meaning.
-    fn exchange(
-        avx2: Avx2,
+    fn exchange<S: Simd>(
+        simd: S,
         places: &mut [Self::Point; LANES],
         sites: [&mut Site<Self>; LANES],
-        covered: &mut [Lanes; 2],
+        covered: &mut [S::Lanes; 2],
     ) -> u64;
 }
 
 impl Exchange for Plane {
     #[inline(always)]
-    fn exchange(
-        avx2: Avx2,
+    fn exchange<S: Simd>(
+        simd: S,
         places: &mut [[f64; 2]; LANES],
         [s, t, u, v]: [&mut Site<Plane>; LANES],
-        [lower, upper]: &mut [Lanes; 2],
+        [lower, upper]: &mut [S::Lanes; 2],
     ) -> u64 {
         /// How many of the two pairs of bits of a number are not both set.
         const N_PAIRS: [u8; 1 << LANES] = [2, 2, 2, 1, 2, 2, 2, 1, 2, 2, 2, 1, 1, 1, 1, 0];
         let (first, last) = halves(places);
-        let new = [avx2.load(first), avx2.load(last)];
-        let old = [avx2.two_pairs(&s.point, &t.point), avx2.two_pairs(&u.point, &v.point)];
+        let new = [simd.load(first), simd.load(last)];
+        let old = [simd.two_pairs(&s.point, &t.point), simd.two_pairs(&u.point, &v.point)];
         new[0].store_low_to(&mut s.point);
         new[0].store_high_to(&mut t.point);
         new[1].store_low_to(&mut u.point);
@@ -45,21 +45,21 @@ impl Exchange for Plane {
 
 impl Exchange for Space {
     #[inline(always)]
-    fn exchange(
-        avx2: Avx2,
+    fn exchange<S: Simd>(
+        simd: S,
         places: &mut [[f64; 3]; LANES],
         [s, t, u, v]: [&mut Site<Space>; LANES],
-        [lower, upper]: &mut [Lanes; 2],
+        [lower, upper]: &mut [S::Lanes; 2],
     ) -> u64 {
         let places = places.as_flattened_mut();
         let new = [
-            avx2.load(from(places, 0)),
-            avx2.load(from(places, 3)),
-            avx2.load(from(places, 6)),
-            avx2.load(from(places, 8)).rotated(),
+            simd.load(from(places, 0)),
+            simd.load(from(places, 3)),
+            simd.load(from(places, 6)),
+            simd.load(from(places, 8)).rotated(),
         ];
         let old =
-            [avx2.load(s.padded()), avx2.load(t.padded()), avx2.load(u.padded()), avx2.load(v.padded())];
+            [simd.load(s.padded()), simd.load(t.padded()), simd.load(u.padded()), simd.load(v.padded())];
         *lower = lower.min(new[0].min(new[1]).min(new[2].min(new[3])));
         *upper = upper.max(new[0].max(new[1]).max(new[2].max(new[3])));
         // What is behind a site's point stays.

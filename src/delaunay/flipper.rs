@@ -7,7 +7,7 @@ use super::lane_tests::LaneTests;
 use super::site::Sites;
 use crate::complex::{CellRange, Corners, Facet, INFINITE, Obstacle};
 use crate::predicates::{StaticFilter, exact_calls};
-use crate::simd::{Avx2, LANES};
+use crate::simd::{LANES, in_lanes};
 
 /// The step that differs between the dimensions.
 pub trait Flip: LaneTests {
@@ -32,12 +32,10 @@ impl<G: Flip> Flipper<'_, '_, G> {
         loop {
             // Most suspects hold. If one of those taken together changes cells of the others, what has become of these
             // is a suspect again.
-            while let Some((rest, &four)) = flips.suspects.split_last_chunk::<LANES>()
-                && let Some(avx2) = Avx2::new()
-            {
+            while let Some((rest, &four)) = flips.suspects.split_last_chunk::<LANES>() {
                 self.prefetch(rest);
                 flips.suspects.truncate(rest.len());
-                let hold = self.surely_hold(avx2, &four);
+                let hold = self.surely_hold(&four);
                 flips.certificates += u64::from(hold.count_ones());
                 flips.count_exact(&mut counted);
                 for k in (0..LANES).rev().filter(|k| hold >> k & 1 == 0) {
@@ -89,7 +87,7 @@ impl<G: Flip> Flipper<'_, '_, G> {
 
     /// Which of these facets surely hold, one bit each.
     #[inline(always)]
-    fn surely_hold(&self, avx2: Avx2, facets: &[Facet; LANES]) -> u32 {
+    fn surely_hold(&self, facets: &[Facet; LANES]) -> u32 {
         let none = G::Corners::filled(INFINITE);
         // References: the corners of new cells would be read wider than they have just been written, which waits.
         let (mut cells, mut apexes, mut known) = ([&none; LANES], [INFINITE; LANES], 0);
@@ -101,11 +99,7 @@ impl<G: Flip> Flipper<'_, '_, G> {
                 known |= 1 << k;
             }
         }
-        known
-            & avx2.run(
-                #[inline(always)]
-                || G::are_outside(avx2, self.filter, self.sites, cells, &apexes),
-            )
+        known & in_lanes!(simd => G::are_outside(simd, self.filter, self.sites, cells, &apexes))
     }
 
     /// Flips a facet if it fails, or puts it off; ends where there is no memory, or too much has been evaluated.

@@ -8,29 +8,25 @@ use super::site::Sites;
 use crate::complex::{Complex, Corners, Facet, INFINITE};
 use crate::ids::{SiteId, Slot};
 use crate::predicates::StaticFilter;
-use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
+use crate::simd::{ALL, LANES, Lanes, Real, Simd};
 
 /// What surely holds of cells, facets and hulls.
 pub trait LaneTests: Signs {
-    /// Whether a finite cell surely is positively oriented and has no other corner of a neighbour in its sphere.
-    fn cell_holds(f: &StaticFilter, sites: Sites<Self>, cells: &Complex<Self::Corners>, cell: Slot) -> bool;
-
-    /// What surely holds of several cells, with these corners and these sites beyond their facets;
-    /// [`cell_holds`](Self::cell_holds) is that all of it does.
-    fn cells_hold<const HAVE_OWN_BOUNDS: bool>(
-        avx2: Avx2,
+    /// What surely holds of several finite cells, with these corners and these sites beyond their facets.
+    fn cells_hold<S: Simd, const HAVE_OWN_BOUNDS: bool>(
+        simd: S,
         f: &StaticFilter,
         sites: Sites<Self>,
         cells: [&Self::Corners; LANES],
         apexes: [&[SiteId; LANES]; 4],
-    ) -> Held;
+    ) -> Held<S::Lanes>;
 
-    /// Whether all cells of a star, listed with the index of its site in each, surely are as
-    /// [`cell_holds`](Self::cell_holds) says: not if there are ghosts among them. `None` where there is no faster way
+    /// Whether all cells of a star, listed with the index of its site in each, surely are positively oriented and
+    /// have no other corner of a neighbour in their spheres: not if there are ghosts among them. `None` where there is no faster way
     /// than [`cells_hold`](Self::cells_hold).
     #[inline(always)]
-    fn star_holds(
-        _avx2: Avx2,
+    fn star_holds<S: Simd>(
+        _simd: S,
         _f: &StaticFilter,
         _sites: Sites<Self>,
         _cells: &Complex<Self::Corners>,
@@ -40,8 +36,8 @@ pub trait LaneTests: Signs {
     }
 
     /// For each of several cells, with a site each, whether the site surely is outside the cell's sphere: one bit each.
-    fn are_outside(
-        avx2: Avx2,
+    fn are_outside<S: Simd>(
+        simd: S,
         f: &StaticFilter,
         sites: Sites<Self>,
         cells: [&Self::Corners; LANES],
@@ -49,8 +45,8 @@ pub trait LaneTests: Signs {
     ) -> u32;
 
     /// Where the ray from `o` through `aim` goes, past the facets of several ghosts or through them.
-    fn ray(
-        avx2: Avx2,
+    fn ray<S: Simd>(
+        simd: S,
         f: &StaticFilter,
         sites: Sites<Self>,
         ghosts: [&Self::Corners; LANES],
@@ -60,8 +56,8 @@ pub trait LaneTests: Signs {
 
     /// For each of several ghosts, with the finite corners across its ridges, whether the hull surely is convex at all
     /// of these: one bit each.
-    fn are_convex(
-        avx2: Avx2,
+    fn are_convex<S: Simd>(
+        simd: S,
         f: &StaticFilter,
         sites: Sites<Self>,
         ghosts: [&Self::Corners; LANES],
@@ -79,8 +75,8 @@ pub trait LaneTests: Signs {
 
     /// For each of several facets whether [`bicell_holds`](Self::bicell_holds) says so of it, or sharper bounds do: one
     /// bit each.
-    fn facets_hold(
-        avx2: Avx2,
+    fn facets_hold<S: Simd>(
+        simd: S,
         f: &StaticFilter,
         sites: Sites<Self>,
         cells: &Complex<Self::Corners>,
@@ -99,16 +95,16 @@ pub trait LaneTests: Signs {
 
 /// What surely holds of some cells, by bounds of the cells' own if they have these.
 #[derive(Clone, Copy)]
-pub struct Held {
+pub struct Held<L> {
     /// The cells are positively oriented.
-    pub positive: Lanes,
+    pub positive: L,
     /// The site beyond the facet opposite a corner is outside the sphere; anything of corners that are not there.
-    pub facets: [Lanes; 4],
+    pub facets: [L; 4],
     /// All of this holds by the static bounds, too, which are looser.
-    pub by_static_bounds: Lanes,
+    pub by_static_bounds: L,
 }
 
-impl Held {
+impl<L: Lanes> Held<L> {
     /// The cells of which all holds, one bit each.
     #[inline(always)]
     pub(super) fn all<G: Shape>(&self) -> u32 {
@@ -130,8 +126,8 @@ pub struct Ray {
 impl Ray {
     /// By orientations of facets with the point, and with the point and the aim in place of each corner.
     #[inline(always)]
-    pub(super) fn of<const N: usize>(avx2: Avx2, f: &StaticFilter, orientations: [Lanes; N]) -> Ray {
-        let (positive, negative) = (avx2.splat(f.orient), avx2.splat(-f.orient));
+    pub(super) fn of<S: Simd, const N: usize>(simd: S, f: &StaticFilter, orientations: [S::Lanes; N]) -> Ray {
+        let (positive, negative) = (simd.splat(f.orient), simd.splat(-f.orient));
         // The facet of a ghost is oriented as seen from outside: negative, with a point on the inner side.
         let is_negative = orientations.map(
             #[inline(always)]

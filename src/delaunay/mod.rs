@@ -114,7 +114,6 @@ use cavity::Cavity;
 use dimension::Insert;
 use flat::Flat;
 use flip::AllFlips;
-use parts::Parts;
 use remove::Hole;
 use wrapping::Wrapping;
 
@@ -128,7 +127,6 @@ pub struct Delaunay<G: Dimension> {
     /// What ranks the vertices at the sites.
     keys: Keys,
     free_sites: Vec<SiteId>,
-    parts: Parts,
     complex: Complex<G::Corners>,
     /// Edges that have to be there, the lower site first, sorted.
     required: Vec<[SiteId; 2]>,
@@ -139,7 +137,7 @@ pub struct Delaunay<G: Dimension> {
     upper: G::Point,
     /// What stands in for cells while there are none.
     flat: Flat<G>,
-    /// Whether the cells have been [sorted](Self::sort_cells) since the latest build.
+    /// Whether the cells are in the order of the sites since the latest build, or have been [sorted](Self::sort_cells).
     is_sorted: bool,
     /// How many slots have got other cells since they were sorted, counted once in each change.
     n_replaced: usize,
@@ -197,7 +195,6 @@ impl<G: Dimension> Delaunay<G> {
             sites: Vec::new(),
             keys: Keys::default(),
             free_sites: Vec::new(),
-            parts: Parts::default(),
             complex: Complex::default(),
             required: Vec::new(),
             is_constrained: false,
@@ -476,7 +473,6 @@ impl<G: Dimension> Delaunay<G> {
         memory::bytes_of(&self.sites)
             + self.keys.memory_bytes()
             + memory::bytes_of(&self.free_sites)
-            + self.parts.memory_bytes()
             + self.complex.memory_bytes()
             + self.flat.memory_bytes()
             + self.landmarks.memory_bytes()

@@ -12,7 +12,7 @@ use super::site::Sites;
 use crate::complex::{Complex, Facet, INFINITE, Obstacle};
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::predicates::{self, OwnBounds2d, StaticFilter};
-use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
+use crate::simd::{ALL, LANES, Lanes, Real, Simd};
 
 impl Signs for Plane {
     fn filter(lower: &[f64; 2], upper: &[f64; 2]) -> StaticFilter {
@@ -72,41 +72,27 @@ impl Signs for Plane {
 
 impl LaneTests for Plane {
     #[inline(always)]
-    fn cell_holds(f: &StaticFilter, sites: Sites<Plane>, cells: &Complex<[SiteId; 3]>, c: Slot) -> bool {
-        let cell = cells.cell(c);
-        let [a, b, d] = cell.corners.map(|s| sites.point(s));
-        let circle = predicates::circle(a, b, d);
-        let side = |i| {
-            let apex = cells.apex(cell.neighbour(i));
-            let side = predicates::side_of_circle(&circle, a, sites.point(apex));
-            if apex == INFINITE { f64::NEG_INFINITY } else { side }
-        };
-        let greatest = Real::max(Real::max(side(0), side(1)), side(2));
-        circle[2] > f.orient && greatest < -f.prepared
-    }
-
-    #[inline(always)]
-    fn cells_hold<const HAVE_OWN_BOUNDS: bool>(
-        avx2: Avx2,
+    fn cells_hold<S: Simd, const HAVE_OWN_BOUNDS: bool>(
+        simd: S,
         f: &StaticFilter,
         sites: Sites<Plane>,
         cells: [&[SiteId; 3]; LANES],
         apexes: [&[SiteId; LANES]; 4],
-    ) -> Held {
-        let [a, b, c] = corners(avx2, sites, cells);
+    ) -> Held<S::Lanes> {
+        let [a, b, c] = corners(simd, sites, cells);
         let circle = predicates::circle(&a, &b, &c);
         let own = OwnBounds2d::new(&a, &b, &c);
-        let mut hold_for_all = avx2.splat(f.orient).is_less(circle[2]);
+        let mut hold_for_all = simd.splat(f.orient).is_less(circle[2]);
         let are_positive = if HAVE_OWN_BOUNDS { own.area().is_less(circle[2]) } else { hold_for_all };
         let mut facets = [are_positive; 4];
         for (facet, apexes) in facets.iter_mut().zip(&apexes[..3]) {
-            let q = places(avx2, sites, **apexes);
+            let q = places(simd, sites, **apexes);
             let side = predicates::side_of_circle(&circle, &a, &q);
-            let is_none = avx2.are_equal(&apexes.map(SiteId::get), INFINITE.get());
-            let hold = side.is_less(avx2.splat(-f.prepared)) | is_none;
+            let is_none = simd.are_equal(&apexes.map(SiteId::get), INFINITE.get());
+            let hold = side.is_less(simd.splat(-f.prepared)) | is_none;
             hold_for_all = hold_for_all & hold;
             *facet = if HAVE_OWN_BOUNDS {
-                side.is_less(avx2.splat(0.0) - own.side(&a, &q)) | is_none
+                side.is_less(simd.splat(0.0) - own.side(&a, &q)) | is_none
             } else {
                 hold
             };
@@ -115,8 +101,8 @@ impl LaneTests for Plane {
     }
 
     #[inline(always)]
-    fn star_holds(
-        avx2: Avx2,
+    fn star_holds<S: Simd>(
+        simd: S,
         f: &StaticFilter,
         sites: Sites<Plane>,
         cells: &Complex<[SiteId; 3]>,
@@ -125,7 +111,7 @@ impl LaneTests for Plane {
         // The cells have the site in common: the others are its neighbours.
         let Some(&(c, at)) = star.first() else { return Some(true) };
         let &[x, y] = sites.point(cells.cell(c).corners[usize::from(at)]);
-        let center = [avx2.splat(x), avx2.splat(y)];
+        let center = [simd.splat(x), simd.splat(y)];
         for four in star.chunks(LANES) {
             let rows = [0, 1, 2, 3].map(|k| {
                 // Any cells fill the last lanes.
@@ -138,13 +124,13 @@ impl LaneTests for Plane {
             let [next, previous, across, beside] = [0, 1, 2, 3].map(|i| rows.map(|row| row[i]));
             let are_ghosts = [next, previous].iter().flatten().any(|&s| s == INFINITE);
             let circle =
-                predicates::circle(&center, &places(avx2, sites, next), &places(avx2, sites, previous));
+                predicates::circle(&center, &places(simd, sites, next), &places(simd, sites, previous));
             let [across_side, beside_side] = [across, beside]
-                .map(|s| predicates::side_of_circle(&circle, &center, &places(avx2, sites, s)));
-            let is_none = avx2.are_equal(&across.map(SiteId::get), INFINITE.get());
-            let bound = avx2.splat(-f.prepared);
+                .map(|s| predicates::side_of_circle(&circle, &center, &places(simd, sites, s)));
+            let is_none = simd.are_equal(&across.map(SiteId::get), INFINITE.get());
+            let bound = simd.splat(-f.prepared);
             // Each edge at the site is tested from one of its cells.
-            let hold = avx2.splat(f.orient).is_less(circle[2])
+            let hold = simd.splat(f.orient).is_less(circle[2])
                 & (across_side.is_less(bound) | is_none)
                 & beside_side.is_less(bound);
             if are_ghosts || hold.bits() != ALL {
@@ -155,45 +141,45 @@ impl LaneTests for Plane {
     }
 
     #[inline(always)]
-    fn are_outside(
-        avx2: Avx2,
+    fn are_outside<S: Simd>(
+        simd: S,
         f: &StaticFilter,
         sites: Sites<Plane>,
         cells: [&[SiteId; 3]; LANES],
         others: &[SiteId; LANES],
     ) -> u32 {
-        let [a, b, c] = corners(avx2, sites, cells);
+        let [a, b, c] = corners(simd, sites, cells);
         let circle = predicates::circle(&a, &b, &c);
-        let side = predicates::side_of_circle(&circle, &a, &places(avx2, sites, *others));
-        side.is_less(avx2.splat(-f.prepared)).bits()
+        let side = predicates::side_of_circle(&circle, &a, &places(simd, sites, *others));
+        side.is_less(simd.splat(-f.prepared)).bits()
     }
 
     #[inline(always)]
-    fn ray(
-        avx2: Avx2,
+    fn ray<S: Simd>(
+        simd: S,
         f: &StaticFilter,
         sites: Sites<Plane>,
         ghosts: [&[SiteId; 3]; LANES],
         o: &[f64; 2],
         aim: &[f64; 2],
     ) -> Ray {
-        let [a, b] = [0, 1].map(|i| places(avx2, sites, ghosts.map(|g| g[i])));
-        let [o, aim] = [o, aim].map(|p| p.map(|x| avx2.splat(x)));
-        Ray::of(avx2, f, predicates::ray_and_segment([&a, &b], &o, &aim))
+        let [a, b] = [0, 1].map(|i| places(simd, sites, ghosts.map(|g| g[i])));
+        let [o, aim] = [o, aim].map(|p| p.map(|x| simd.splat(x)));
+        Ray::of(simd, f, predicates::ray_and_segment([&a, &b], &o, &aim))
     }
 
     #[inline(always)]
-    fn are_convex(
-        avx2: Avx2,
+    fn are_convex<S: Simd>(
+        simd: S,
         f: &StaticFilter,
         sites: Sites<Plane>,
         ghosts: [&[SiteId; 3]; LANES],
         across: [&[SiteId; LANES]; 3],
     ) -> u32 {
-        let [a, b] = [0, 1].map(|i| places(avx2, sites, ghosts.map(|g| g[i])));
-        let bound = avx2.splat(-f.orient);
+        let [a, b] = [0, 1].map(|i| places(simd, sites, ghosts.map(|g| g[i])));
+        let bound = simd.splat(-f.orient);
         let [first, last] =
-            [across[0], across[1]].map(|s| predicates::area(&a, &b, &places(avx2, sites, *s)).is_less(bound));
+            [across[0], across[1]].map(|s| predicates::area(&a, &b, &places(simd, sites, *s)).is_less(bound));
         (first & last).bits()
     }
 
@@ -216,8 +202,8 @@ impl LaneTests for Plane {
     }
 
     #[inline(always)]
-    fn facets_hold(
-        avx2: Avx2,
+    fn facets_hold<S: Simd>(
+        simd: S,
         f: &StaticFilter,
         sites: Sites<Plane>,
         cells: &Complex<[SiteId; 3]>,
@@ -230,10 +216,10 @@ impl LaneTests for Plane {
             corners_at(cells, edges[3]),
         ];
         let bicells = [
-            places(avx2, sites, [k[0], l[0], m[0], n[0]]),
-            places(avx2, sites, [k[1], l[1], m[1], n[1]]),
-            places(avx2, sites, [k[2], l[2], m[2], n[2]]),
-            places(avx2, sites, apexes_beyond(cells, edges)),
+            places(simd, sites, [k[0], l[0], m[0], n[0]]),
+            places(simd, sites, [k[1], l[1], m[1], n[1]]),
+            places(simd, sites, [k[2], l[2], m[2], n[2]]),
+            places(simd, sites, apexes_beyond(cells, edges)),
         ];
         let hold = predicates::bicells_surely_hold2d(f, &bicells).bits();
         if hold == ALL { ALL } else { hold | predicates::bicells_hold_for_their_size2d(&bicells).bits() }
@@ -261,15 +247,15 @@ impl Dimension for Plane {
 
 /// The places of the corners of cells, by corner.
 #[inline(always)]
-fn corners(avx2: Avx2, all: Sites<Plane>, [k, l, m, n]: [&[SiteId; 3]; LANES]) -> [[Lanes; 2]; 3] {
+fn corners<S: Simd>(simd: S, all: Sites<Plane>, [k, l, m, n]: [&[SiteId; 3]; LANES]) -> [[S::Lanes; 2]; 3] {
     [
-        places(avx2, all, [k[0], l[0], m[0], n[0]]),
-        places(avx2, all, [k[1], l[1], m[1], n[1]]),
-        places(avx2, all, [k[2], l[2], m[2], n[2]]),
+        places(simd, all, [k[0], l[0], m[0], n[0]]),
+        places(simd, all, [k[1], l[1], m[1], n[1]]),
+        places(simd, all, [k[2], l[2], m[2], n[2]]),
     ]
 }
 
 #[inline(always)]
-fn places(avx2: Avx2, all: Sites<Plane>, sites: [SiteId; LANES]) -> [Lanes; 2] {
-    avx2.pairs(sites.map(|s| all.point(s)))
+fn places<S: Simd>(simd: S, all: Sites<Plane>, sites: [SiteId; LANES]) -> [S::Lanes; 2] {
+    simd.pairs(sites.map(|s| all.point(s)))
 }

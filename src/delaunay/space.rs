@@ -9,9 +9,9 @@ use super::shape::Space;
 use super::signs::Signs;
 use super::site::Sites;
 use crate::complex::{Complex, Facet, INFINITE, Obstacle, outer_of_three, outer_of_two};
-use crate::ids::{SiteId, Slot, VertexId};
+use crate::ids::{SiteId, VertexId};
 use crate::predicates::{self, OwnBounds3d, StaticFilter};
-use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
+use crate::simd::{ALL, LANES, Lanes, Real, Simd, in_lanes};
 
 impl Signs for Space {
     fn filter(lower: &[f64; 3], upper: &[f64; 3]) -> StaticFilter {
@@ -72,41 +72,27 @@ impl Signs for Space {
 
 impl LaneTests for Space {
     #[inline(always)]
-    fn cell_holds(f: &StaticFilter, sites: Sites<Space>, cells: &Complex<[SiteId; 4]>, c: Slot) -> bool {
-        let cell = cells.cell(c);
-        let [a, b, d, e] = cell.corners.map(|s| sites.point(s));
-        let sphere = predicates::sphere(a, b, d, e);
-        let side = |i| {
-            let apex = cells.apex(cell.neighbour(i));
-            let side = predicates::side_of_sphere(&sphere, a, sites.point(apex));
-            if apex == INFINITE { f64::NEG_INFINITY } else { side }
-        };
-        let greatest = Real::max(Real::max(side(0), side(1)), Real::max(side(2), side(3)));
-        sphere[3] > f.orient && greatest < -f.prepared
-    }
-
-    #[inline(always)]
-    fn cells_hold<const HAVE_OWN_BOUNDS: bool>(
-        avx2: Avx2,
+    fn cells_hold<S: Simd, const HAVE_OWN_BOUNDS: bool>(
+        simd: S,
         f: &StaticFilter,
         sites: Sites<Space>,
         cells: [&[SiteId; 4]; LANES],
         apexes: [&[SiteId; LANES]; 4],
-    ) -> Held {
-        let [a, b, c, d] = corners(avx2, sites, cells);
+    ) -> Held<S::Lanes> {
+        let [a, b, c, d] = corners(simd, sites, cells);
         let sphere = predicates::sphere(&a, &b, &c, &d);
         let own = OwnBounds3d::new(&a, &b, &c, &d);
-        let mut hold_for_all = avx2.splat(f.orient).is_less(sphere[3]);
+        let mut hold_for_all = simd.splat(f.orient).is_less(sphere[3]);
         let are_positive = if HAVE_OWN_BOUNDS { own.volume().is_less(sphere[3]) } else { hold_for_all };
         let mut facets = [are_positive; 4];
         for (facet, apexes) in facets.iter_mut().zip(apexes) {
-            let q = places(avx2, sites, *apexes);
+            let q = places(simd, sites, *apexes);
             let side = predicates::side_of_sphere(&sphere, &a, &q);
-            let is_none = avx2.are_equal(&apexes.map(SiteId::get), INFINITE.get());
-            let hold = side.is_less(avx2.splat(-f.prepared)) | is_none;
+            let is_none = simd.are_equal(&apexes.map(SiteId::get), INFINITE.get());
+            let hold = side.is_less(simd.splat(-f.prepared)) | is_none;
             hold_for_all = hold_for_all & hold;
             *facet = if HAVE_OWN_BOUNDS {
-                side.is_less(avx2.splat(0.0) - own.side(&a, &q)) | is_none
+                side.is_less(simd.splat(0.0) - own.side(&a, &q)) | is_none
             } else {
                 hold
             };
@@ -115,44 +101,44 @@ impl LaneTests for Space {
     }
 
     #[inline(always)]
-    fn are_outside(
-        avx2: Avx2,
+    fn are_outside<S: Simd>(
+        simd: S,
         f: &StaticFilter,
         sites: Sites<Space>,
         cells: [&[SiteId; 4]; LANES],
         others: &[SiteId; LANES],
     ) -> u32 {
-        let [a, b, c, d] = corners(avx2, sites, cells);
+        let [a, b, c, d] = corners(simd, sites, cells);
         let sphere = predicates::sphere(&a, &b, &c, &d);
-        let side = predicates::side_of_sphere(&sphere, &a, &places(avx2, sites, *others));
-        side.is_less(avx2.splat(-f.prepared)).bits()
+        let side = predicates::side_of_sphere(&sphere, &a, &places(simd, sites, *others));
+        side.is_less(simd.splat(-f.prepared)).bits()
     }
 
     #[inline(always)]
-    fn ray(
-        avx2: Avx2,
+    fn ray<S: Simd>(
+        simd: S,
         f: &StaticFilter,
         sites: Sites<Space>,
         ghosts: [&[SiteId; 4]; LANES],
         o: &[f64; 3],
         aim: &[f64; 3],
     ) -> Ray {
-        let [a, b, c] = [0, 1, 2].map(|i| places(avx2, sites, ghosts.map(|g| g[i])));
-        let [o, aim] = [o, aim].map(|p| p.map(|x| avx2.splat(x)));
-        Ray::of(avx2, f, predicates::ray_and_triangle([&a, &b, &c], &o, &aim))
+        let [a, b, c] = [0, 1, 2].map(|i| places(simd, sites, ghosts.map(|g| g[i])));
+        let [o, aim] = [o, aim].map(|p| p.map(|x| simd.splat(x)));
+        Ray::of(simd, f, predicates::ray_and_triangle([&a, &b, &c], &o, &aim))
     }
 
     #[inline(always)]
-    fn are_convex(
-        avx2: Avx2,
+    fn are_convex<S: Simd>(
+        simd: S,
         f: &StaticFilter,
         sites: Sites<Space>,
         ghosts: [&[SiteId; 4]; LANES],
         across: [&[SiteId; LANES]; 3],
     ) -> u32 {
-        let [a, b, c] = [0, 1, 2].map(|i| places(avx2, sites, ghosts.map(|g| g[i])));
-        let volumes = predicates::volumes_over([&a, &b, &c], across.map(|s| places(avx2, sites, *s)));
-        let bound = avx2.splat(-f.orient);
+        let [a, b, c] = [0, 1, 2].map(|i| places(simd, sites, ghosts.map(|g| g[i])));
+        let volumes = predicates::volumes_over([&a, &b, &c], across.map(|s| places(simd, sites, *s)));
+        let bound = simd.splat(-f.orient);
         (volumes[0].is_less(bound) & volumes[1].is_less(bound) & volumes[2].is_less(bound)).bits()
     }
 
@@ -175,8 +161,8 @@ impl LaneTests for Space {
     }
 
     #[inline(always)]
-    fn facets_hold(
-        avx2: Avx2,
+    fn facets_hold<S: Simd>(
+        simd: S,
         f: &StaticFilter,
         sites: Sites<Space>,
         cells: &Complex<[SiteId; 4]>,
@@ -189,11 +175,11 @@ impl LaneTests for Space {
             corners_at(cells, faces[3]),
         ];
         let bicells = [
-            places(avx2, sites, [k[0], l[0], m[0], n[0]]),
-            places(avx2, sites, [k[1], l[1], m[1], n[1]]),
-            places(avx2, sites, [k[2], l[2], m[2], n[2]]),
-            places(avx2, sites, [k[3], l[3], m[3], n[3]]),
-            places(avx2, sites, apexes_beyond(cells, faces)),
+            places(simd, sites, [k[0], l[0], m[0], n[0]]),
+            places(simd, sites, [k[1], l[1], m[1], n[1]]),
+            places(simd, sites, [k[2], l[2], m[2], n[2]]),
+            places(simd, sites, [k[3], l[3], m[3], n[3]]),
+            places(simd, sites, apexes_beyond(cells, faces)),
         ];
         let hold = predicates::bicells_surely_hold3d(f, &bicells).bits();
         if hold == ALL { ALL } else { hold | predicates::bicells_hold_for_their_size3d(&bicells).bits() }
@@ -207,14 +193,9 @@ impl LaneTests for Space {
         listed: &[SiteId],
         set: u64,
     ) -> u64 {
-        let Some(avx2) = Avx2::new() else { return set };
-        avx2.run_with(
-            (f, sites),
-            (cell, listed),
-            set,
-            #[inline(always)]
-            |(f, sites), (cell, listed), set| drop_outside_sphere(avx2, f, sites, cell, listed, set),
-        )
+        in_lanes!(simd, (f, sites), (cell, listed), set => |(f, sites), (cell, listed), set| {
+            drop_outside_sphere(simd, f, sites, cell, listed, set)
+        })
     }
 }
 
@@ -261,25 +242,25 @@ impl Dimension for Space {
 
 /// The places of the corners of cells, by corner.
 #[inline(always)]
-fn corners(avx2: Avx2, all: Sites<Space>, [k, l, m, n]: [&[SiteId; 4]; LANES]) -> [[Lanes; 3]; 4] {
+fn corners<S: Simd>(simd: S, all: Sites<Space>, [k, l, m, n]: [&[SiteId; 4]; LANES]) -> [[S::Lanes; 3]; 4] {
     [
-        places(avx2, all, [k[0], l[0], m[0], n[0]]),
-        places(avx2, all, [k[1], l[1], m[1], n[1]]),
-        places(avx2, all, [k[2], l[2], m[2], n[2]]),
-        places(avx2, all, [k[3], l[3], m[3], n[3]]),
+        places(simd, all, [k[0], l[0], m[0], n[0]]),
+        places(simd, all, [k[1], l[1], m[1], n[1]]),
+        places(simd, all, [k[2], l[2], m[2], n[2]]),
+        places(simd, all, [k[3], l[3], m[3], n[3]]),
     ]
 }
 
 #[inline(always)]
-fn places(avx2: Avx2, all: Sites<Space>, sites: [SiteId; LANES]) -> [Lanes; 3] {
-    let [x, y, z, _] = avx2.fours(sites.map(|s| all.padded_point(s)));
+fn places<S: Simd>(simd: S, all: Sites<Space>, sites: [SiteId; LANES]) -> [S::Lanes; 3] {
+    let [x, y, z, _] = simd.fours(sites.map(|s| all.padded_point(s)));
     [x, y, z]
 }
 
 /// Takes sites that are certainly outside the sphere of a tetrahedron out of a set of them, by position.
 #[inline(always)]
-fn drop_outside_sphere(
-    avx2: Avx2,
+fn drop_outside_sphere<S: Simd>(
+    simd: S,
     f: &StaticFilter,
     sites: Sites<Space>,
     cell: &[SiteId; 4],
@@ -288,16 +269,16 @@ fn drop_outside_sphere(
 ) -> u64 {
     let [a, b, c, d] = cell.map(|s| sites.point(s));
     let [x, y, z, volume] = predicates::sphere(a, b, c, d);
-    let sphere = [avx2.splat(x), avx2.splat(y), avx2.splat(z), avx2.splat(volume)];
-    let a = [avx2.splat(a[0]), avx2.splat(a[1]), avx2.splat(a[2])];
+    let sphere = [simd.splat(x), simd.splat(y), simd.splat(z), simd.splat(volume)];
+    let a = [simd.splat(a[0]), simd.splat(a[1]), simd.splat(a[2])];
     for k in (0..listed.len()).step_by(LANES) {
         if (set >> k) as u32 & ALL == 0 {
             continue;
         }
         // The last one fills the last lanes.
         let four = std::array::from_fn(|lane| listed[(k + lane).min(listed.len() - 1)]);
-        let side = predicates::side_of_sphere(&sphere, &a, &places(avx2, sites, four));
-        set &= !(u64::from(side.is_less(avx2.splat(-f.prepared)).bits()) << k);
+        let side = predicates::side_of_sphere(&sphere, &a, &places(simd, sites, four));
+        set &= !(u64::from(side.is_less(simd.splat(-f.prepared)).bits()) << k);
     }
     set
 }

@@ -3,7 +3,7 @@
 //! A build along a curve tests the cells of one neighbourhood again and again. A cell's sphere, prepared once, makes
 //! each of these tests a few operations on one line of cache (see [`predicates::sphere`]). They are kept in a table of
 //! fixed size, each at its cell's slot modulo that; what is not there is prepared when it is asked for. The table is
-//! valid while sites do not move and every cell made is [`put`](Table::put) there: with AVX2
+//! valid while sites do not move and every cell made is [`put`](Table::put) there,
 //! [four at a time](Table::put_four), as all cells that an insertion makes have the new site in common.
 //!
 //! The walk to a new site asks, too: it may end in the first cell whose sphere has the site, as the zone can be found
@@ -22,7 +22,7 @@ use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::predicates::{self, Sphere, StaticFilter};
-use crate::simd::{Avx2, LANES, rows};
+use crate::simd::{LANES, Lanes, Simd, rows};
 
 /// Mark of a cell that has been found in conflict with the site; of all others it is 0.
 pub(super) const IN_ZONE: u8 = 1;
@@ -133,9 +133,9 @@ impl Table<'_> {
 
     /// Prepares the spheres of four cells that have `a` for their first corner.
     #[inline(always)]
-    pub(super) fn put_four<const BY_LENGTHS: bool>(
+    pub(super) fn put_four<S: Simd, const BY_LENGTHS: bool>(
         &mut self,
-        avx2: Avx2,
+        simd: S,
         t: &Delaunay<Space>,
         a: &[f64; 3],
         cells: &[Slot; LANES],
@@ -143,10 +143,10 @@ impl Table<'_> {
     ) {
         let at = a.map(
             #[inline(always)]
-            |x| avx2.splat(x),
+            |x| simd.splat(x),
         );
         let others = |i: usize| {
-            avx2.points(corners.map(
+            simd.points(corners.map(
                 #[inline(always)]
                 |corners| t.view().point(corners[i]),
             ))

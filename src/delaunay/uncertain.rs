@@ -1,9 +1,9 @@
-//! The cells of which not all certificates surely hold, found four cells at a time, by AVX2 and FMA.
+//! The cells of which not all certificates surely hold, found four cells at a time, in lanes.
 //!
 //! Nearly all cells hold after a motion. They are taken in blocks: first the sites beyond the facets of all
 //! cells of a block are looked up, then the certificates of four cells are evaluated together. The loads of
 //! the first step do not depend on each other, so that the processor waits for many at once. All facets are
-//! tested, from both sides, as in [`cell_holds`](super::lane_tests::LaneTests::cell_holds).
+//! tested, from both sides.
 //!
 //! The static bound is that of the whole triangulation, and says nothing of cells that are much smaller than others
 //! are. Where it has said nothing of nearly all cells of a block, the next block is evaluated with bounds of its cells'
@@ -14,7 +14,7 @@ use super::{Delaunay, Dimension};
 use crate::complex::{Corners, INFINITE};
 use crate::ids::{SiteId, Slot};
 use crate::machine::prefetch::{AHEAD, prefetch};
-use crate::simd::{ALL, Avx2, LANES, Lanes};
+use crate::simd::{ALL, LANES, Lanes, Simd};
 
 /// Most cells of a block of many cells, by lane.
 const MANY: usize = 64 / LANES;
@@ -32,8 +32,8 @@ impl Doubts {
 
     /// What does not surely hold of the cell in a lane.
     #[inline(always)]
-    fn of(held: &Held, lane: u32) -> Doubts {
-        let doubt = |of: Lanes, at: usize| ((!of.bits() >> lane & 1) as u8) << at;
+    fn of<L: Lanes>(held: &Held<L>, lane: u32) -> Doubts {
+        let doubt = |of: L, at: usize| ((!of.bits() >> lane & 1) as u8) << at;
         let facets = held.facets.iter().enumerate().map(|(i, &facet)| doubt(facet, i));
         Doubts(doubt(held.positive, Doubts::ORIENTATION) | facets.sum::<u8>())
     }
@@ -70,21 +70,21 @@ impl<G: Dimension> Delaunay<G> {
     /// in a cache near the processor: then neighbours and sites are asked for in advance, which would only cost time
     /// otherwise.
     #[inline(always)]
-    pub(super) fn visit_uncertain_in_lanes<const IS_FAR: bool>(
+    pub(super) fn visit_uncertain_in_lanes<S: Simd, const IS_FAR: bool>(
         &self,
-        avx2: Avx2,
+        simd: S,
         cells: impl Iterator<Item = Slot> + Clone,
         visit: impl FnMut(Slot, Doubts) -> bool,
     ) {
-        self.visit_uncertain_in_blocks::<IS_FAR, MANY>(avx2, cells, visit);
+        self.visit_uncertain_in_blocks::<_, IS_FAR, MANY>(simd, cells, visit);
     }
 
     /// Whether all certificates of the cells of a star in space surely hold: not if there are ghosts among them. By
     /// blocks as large as most stars, as to make one takes the longer the larger it is.
     #[inline(always)]
-    pub(super) fn star_holds_in_lanes(&self, avx2: Avx2, star: &[(Slot, u8)]) -> bool {
+    pub(super) fn star_holds_in_lanes<S: Simd>(&self, simd: S, star: &[(Slot, u8)]) -> bool {
         let mut holds = true;
-        self.visit_uncertain_in_blocks::<false, STAR>(avx2, star.iter().map(|&(c, _)| c), |_, _| {
+        self.visit_uncertain_in_blocks::<_, false, STAR>(simd, star.iter().map(|&(c, _)| c), |_, _| {
             holds = false;
             false
         });
@@ -93,9 +93,9 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Visits uncertain cells, looking at blocks of `N` times as many cells as there are lanes.
     #[inline(always)]
-    fn visit_uncertain_in_blocks<const IS_FAR: bool, const N: usize>(
+    fn visit_uncertain_in_blocks<S: Simd, const IS_FAR: bool, const N: usize>(
         &self,
-        avx2: Avx2,
+        simd: S,
         mut cells: impl Iterator<Item = Slot> + Clone,
         mut visit: impl FnMut(Slot, Doubts) -> bool,
     ) {
@@ -141,9 +141,9 @@ impl<G: Dimension> Delaunay<G> {
                 let apexes = block.apexes.each_ref().map(|a| &a[k]);
                 let corners = block.cells[k].map(|c| &self.complex.cell(c).corners);
                 let held = if has_own_bounds {
-                    G::cells_hold::<true>(avx2, filter, sites, corners, apexes)
+                    G::cells_hold::<_, true>(simd, filter, sites, corners, apexes)
                 } else {
-                    G::cells_hold::<false>(avx2, filter, sites, corners, apexes)
+                    G::cells_hold::<_, false>(simd, filter, sites, corners, apexes)
                 };
                 n_hold += held.by_static_bounds.bits().count_ones() as usize;
                 let n = (block.n - k * LANES).min(LANES);
@@ -169,6 +169,7 @@ mod tests {
     use crate::delaunay::{Failures, Plane, Space};
     use crate::predicates;
     use crate::random::Rng;
+    use crate::simd::in_lanes;
 
     fn point<G: Dimension>(mut coordinate: impl FnMut() -> f64) -> G::Point {
         let mut p = G::Point::default();
@@ -225,21 +226,19 @@ mod tests {
     fn agree<G: Dimension>(t: &Delaunay<G>, context: &str) -> [usize; 3] {
         let all = Slot::range(0..t.complex.n_slots());
         let expected = failures(t, |visit| t.complex.live().for_each(|c| assert!(visit(c, Doubts::ALL))));
-        let found = failures(t, |visit| t.visit_uncertain_singly(all.clone(), visit));
-        assert_eq!(found, expected, "{context}, singly");
-        let Some(avx2) = Avx2::new() else { return [0; 3] };
-        let found =
-            failures(t, |visit| avx2.run(|| t.visit_uncertain_in_lanes::<false>(avx2, all.clone(), visit)));
+        let found = failures(t, |visit| {
+            in_lanes!(simd => t.visit_uncertain_in_lanes::<_, false>(simd, all.clone(), visit));
+        });
         assert_eq!(found, expected, "{context}, near");
-        let found =
-            failures(t, |visit| avx2.run(|| t.visit_uncertain_in_lanes::<true>(avx2, all.clone(), visit)));
+        let found = failures(t, |visit| {
+            in_lanes!(simd => t.visit_uncertain_in_lanes::<_, true>(simd, all.clone(), visit));
+        });
         assert_eq!(found, expected, "{context}, far");
         let mut n_open = 0;
-        let count = |_, _| {
+        in_lanes!(simd => t.visit_uncertain_in_lanes::<_, false>(simd, all.clone(), |_, _| {
             n_open += 1;
             true
-        };
-        avx2.run(|| t.visit_uncertain_in_lanes::<false>(avx2, all, count));
+        }));
         [expected.0.len(), expected.1.len(), n_open - expected.2.len()]
     }
 
@@ -272,9 +271,7 @@ mod tests {
                 }
                 (0..3).for_each(|k| total[k] += n_failed[k]);
             }
-            if Avx2::new().is_some() {
-                assert!(total[0] > 300 && total[1] > 300, "kind {kind}: {total:?}");
-            }
+            assert!(total[0] > 300 && total[1] > 300, "kind {kind}: {total:?}");
         }
     }
 
@@ -296,19 +293,18 @@ mod tests {
             agree(&t, "at rest")[2]
         }
         assert_eq!([n_open::<Plane>(3.0), n_open::<Space>(3.0)], [0, 0]);
-        let n_first = if Avx2::new().is_some() { MANY * LANES } else { 0 };
-        assert_eq!([n_open::<Plane>(1e5), n_open::<Space>(1e5)], [n_first; 2]);
+        assert_eq!([n_open::<Plane>(1e5), n_open::<Space>(1e5)], [MANY * LANES; 2]);
     }
 
     /// How many facets between finite cells hold, and for how many of these that is certain.
-    fn certain_of<G: Dimension>(avx2: Avx2, t: &Delaunay<G>, context: &str) -> [usize; 2] {
+    fn certain_of<G: Dimension>(t: &Delaunay<G>, context: &str) -> [usize; 2] {
         let is_ghost = |facet: Facet| t.complex.cell(facet.cell()).is_ghost();
         let across = |facet: Facet| t.complex.cell(facet.cell()).neighbour(facet.index());
         let facets = t.complex.live().flat_map(|c| (0..G::Corners::N).map(move |i| Facet::new(c, i)));
         let interior: Vec<Facet> = facets.filter(|&f| !is_ghost(f) && !is_ghost(across(f))).collect();
         let mut n = [0; 2];
         for four in interior.as_chunks::<LANES>().0 {
-            let certain = avx2.run(|| G::facets_hold(avx2, &t.filter, t.view(), &t.complex, four));
+            let certain = in_lanes!(simd => G::facets_hold(simd, &t.filter, t.view(), &t.complex, four));
             for (k, &facet) in four.iter().enumerate() {
                 let are_positive = t.is_positive(facet.cell()) && t.is_positive(across(facet).cell());
                 let holds = are_positive && t.is_locally_delaunay(facet);
@@ -324,7 +320,6 @@ mod tests {
     /// What is said of facets is so, and almost nothing that is so is left unsaid, also where the cells are so small
     /// next to all that a bound for all says nothing.
     fn facets_are_certain<G: Dimension>() {
-        let Some(avx2) = Avx2::new() else { return };
         let rng = &mut Rng::new(11);
         let mut n_failed = 0;
         for round in 0..40 {
@@ -336,11 +331,11 @@ mod tests {
             t.add_sites(&points).expect("room for it");
             t.rebuild(&mut |_| true).expect("room for it");
             t.cover(&point::<G>(|| -1e3), &point::<G>(|| 1e3));
-            let [n, n_certain] = certain_of(avx2, &t, "at rest");
+            let [n, n_certain] = certain_of(&t, "at rest");
             assert!(kind == 1 || 1000 * n_certain > 995 * n, "{n_certain} of {n}, scale {scale}");
             for size in [1e-16, 1e-9, 0.05, 1.0] {
                 move_sites(&mut t, 1.0, scale * size, rng);
-                n_failed += n - certain_of(avx2, &t, &format!("moved by {size}"))[0];
+                n_failed += n - certain_of(&t, &format!("moved by {size}"))[0];
             }
         }
         assert!(n_failed > 1000, "{n_failed}");
@@ -355,9 +350,6 @@ mod tests {
     /// No site inside a sphere or on it is dropped, and nearly all outside are; those not in the set stay out of it.
     #[test]
     fn sites_outside_are_dropped() {
-        if Avx2::new().is_none() {
-            return;
-        }
         let rng = &mut Rng::new(13);
         let (mut n_outside, mut n_dropped) = (0, 0);
         for round in 0..60 {

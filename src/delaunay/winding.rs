@@ -26,7 +26,7 @@ use super::{Delaunay, Dimension, Plane};
 use crate::complex::Corners;
 use crate::ids::Slot;
 use crate::predicates::{self, StaticFilter};
-use crate::simd::{ALL, Avx2, LANES};
+use crate::simd::{ALL, LANES, in_lanes};
 
 /// A point of a box, drawn by a fixed rule.
 fn aim_in<G: Dimension>(lower: &G::Point, upper: &G::Point) -> G::Point {
@@ -129,26 +129,22 @@ impl<G: Dimension> Delaunay<G> {
     /// Whether static bounds show that the hull winds once around `o`, a point inside a cell.
     fn surely_winds_once(&self, ghosts: &[Slot], o: &G::Point) -> bool {
         let aim = aim_in::<G>(&self.lower, &self.upper);
-        let Some(avx2) = Avx2::new().filter(|_| self.is_covered(&aim)) else { return false };
-        avx2.run_with(
-            self,
-            ghosts,
-            (o, &aim),
-            #[inline(always)]
-            |t, ghosts, (o, aim)| {
+        if !self.is_covered(&aim) {
+            return false;
+        }
+        in_lanes!(simd, self, ghosts, (o, &aim) => |t, ghosts, (o, aim)| {
                 let mut n_crossings = 0;
                 for four in ghosts.chunks(LANES) {
                     // The last one fills the last lanes.
                     let corners = [0, 1, 2, 3].map(|k| &t.complex.cell(four[k.min(four.len() - 1)]).corners);
-                    let ray = G::ray(avx2, &t.filter, t.view(), corners, o, aim);
+                    let ray = G::ray(simd, &t.filter, t.view(), corners, o, aim);
                     if ray.inside & (ray.crossing | ray.passing) != ALL {
                         return false;
                     }
                     n_crossings += (ray.crossing & (ALL >> (LANES - four.len()))).count_ones();
                 }
                 n_crossings == 1
-            },
-        )
+        })
     }
 }
 

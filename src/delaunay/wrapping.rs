@@ -21,8 +21,7 @@
 //! the site, the frontier is wrapped by exact signs.
 //!
 //! Cost: for `k` sites of the link `2k` passes over `k / 4` lanes in space, and `k` in the plane, and the certificates
-//! that a sweep evaluates for as many cells. (`examples/tolerance_share` times removals with insertions; with
-//! `DELDRIFT_SCALAR` set they are done by exact signs.)
+//! that a sweep evaluates for as many cells. (`examples/tolerance_share` times removals with insertions.)
 
 use super::remove::{Hole, NEW, new_of};
 use super::site::Sites;
@@ -32,7 +31,7 @@ use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 use crate::predicates::{cross, dot, minus};
-use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
+use crate::simd::{ALL, LANES, Lanes, Real, Simd, in_lanes};
 
 /// Most sites of a link.
 const MOST_SITES: usize = 32;
@@ -98,29 +97,31 @@ impl<G: Dimension> Delaunay<G> {
     /// Finds the cells that fill the hole of the gathered star of `s`, whose link's sites are labelled; whether it has.
     #[inline(always)]
     pub(super) fn wrap_in_lanes(&mut self, s: SiteId, hole: &mut Hole<G>) -> Result<bool> {
-        let Some(avx2) = Avx2::new() else { return Ok(false) };
         if hole.sites.len() > MOST_SITES || hole.sites.contains(&INFINITE) {
             return Ok(false);
         }
         let mut wrapping = memory::take_made(&mut self.wrapping)?;
         let reserved = memory::reserve(&mut hole.made, MOST_CELLS);
-        let is_found = reserved.is_ok() && wrapping.is_due() && {
-            let is_found = avx2.run_with(
-                (avx2, self as &Self),
-                (hole, &mut *wrapping),
-                s,
-                #[inline(always)]
-                |(avx2, t), (hole, wrapping), s| wrapping.find(avx2, t, hole, s),
-            );
-            wrapping.follow(is_found);
-            is_found
-        };
+        let is_found = reserved.is_ok()
+            && wrapping.is_due()
+            && {
+                let is_found = in_lanes!(simd, self as &Self, (hole, &mut *wrapping), s => |t, (hole, wrapping), s| {
+                    wrapping.find(simd, t, hole, s)
+                });
+                wrapping.follow(is_found);
+                is_found
+            };
         self.wrapping = Some(wrapping);
         reserved.map(|()| is_found)
     }
 }
 
 impl Wrapping {
+    /// Tries again in the next removal.
+    pub(super) fn forget_failures(&mut self) {
+        (self.skips, self.last_skips) = (0, 0);
+    }
+
     fn is_due(&mut self) -> bool {
         let is_due = self.skips == 0;
         self.skips = self.skips.saturating_sub(1);
@@ -136,10 +137,16 @@ impl Wrapping {
     /// Finds the cells that fill the hole of `s`, whose link has no more than [`MOST_SITES`] sites, none of them the
     /// ghost vertex; there is room for [`MOST_CELLS`] cells. Whether it has.
     #[inline(always)]
-    fn find<G: Dimension>(&mut self, avx2: Avx2, t: &Delaunay<G>, hole: &mut Hole<G>, s: SiteId) -> bool {
+    fn find<S: Simd, G: Dimension>(
+        &mut self,
+        simd: S,
+        t: &Delaunay<G>,
+        hole: &mut Hole<G>,
+        s: SiteId,
+    ) -> bool {
         hole.made.clear();
         self.see(t.view(), &hole.sites, s);
-        let is_found = self.open_link(t, hole) && self.wrap(avx2, hole);
+        let is_found = self.open_link(t, hole) && self.wrap(simd, hole);
         if !is_found {
             for open in &self.open[..self.n_open] {
                 if open.set != CLOSED {
@@ -147,7 +154,7 @@ impl Wrapping {
                 }
             }
         }
-        is_found && are_certain(avx2, t, hole)
+        is_found && are_certain(simd, t, hole)
     }
 
     #[inline(always)]
@@ -195,7 +202,7 @@ impl Wrapping {
 
     /// Puts a cell on the inner side of every facet of the frontier; whether that can be done.
     #[inline(always)]
-    fn wrap<G: Dimension>(&mut self, avx2: Avx2, hole: &mut Hole<G>) -> bool {
+    fn wrap<S: Simd, G: Dimension>(&mut self, simd: S, hole: &mut Hole<G>) -> bool {
         while let Some(last) = self.n_open.checked_sub(1) {
             self.n_open = last;
             let open = self.open[last];
@@ -203,7 +210,7 @@ impl Wrapping {
                 continue;
             }
             self.by_set[usize::from(open.set)] = 0;
-            if !self.put_cell(avx2, hole, &open) {
+            if !self.put_cell(simd, hole, &open) {
                 return false;
             }
         }
@@ -212,12 +219,12 @@ impl Wrapping {
 
     /// Puts a cell on the inner side of a facet.
     #[inline(always)]
-    fn put_cell<G: Dimension>(&mut self, avx2: Avx2, hole: &mut Hole<G>, open: &Open) -> bool {
+    fn put_cell<S: Simd, G: Dimension>(&mut self, simd: S, hole: &mut Hole<G>, open: &Open) -> bool {
         let n = hole.made.len();
         if n == MOST_CELLS {
             return false;
         }
-        let Some(apex) = self.apex::<G>(avx2, open, hole.sites.len(), n) else { return false };
+        let Some(apex) = self.apex::<_, G>(simd, open, hole.sites.len(), n) else { return false };
         let cell = Slot::at(NEW + n);
         let [a, b, c] = open.labels;
         let mut corners = G::Corners::filled(hole.sites[usize::from(apex)]);
@@ -262,7 +269,7 @@ impl Wrapping {
     /// The label of the apex of the cell on the inner side of a facet, if there seems to be one; the floor of the cell,
     /// number `n` of the new ones, is entered.
     #[inline(always)]
-    fn apex<G: Dimension>(&mut self, avx2: Avx2, open: &Open, n_sites: usize, n: usize) -> Option<u8> {
+    fn apex<S: Simd, G: Dimension>(&mut self, simd: S, open: &Open, n_sites: usize, n: usize) -> Option<u8> {
         let [a, b, c] = [open.labels[0], open.labels[1], open.labels[2]];
         let seen = |label: u8| &self.seen[usize::from(label) % MOST_SITES];
         // The plane of the facet, on which `normal · (x, y, z) + offset` is zero.
@@ -289,27 +296,27 @@ impl Wrapping {
         if G::D == 3 {
             left &= !(1 << c);
         }
-        let splat = |x: f64| avx2.splat(x);
+        let splat = |x: f64| simd.splat(x);
         let (mut least, mut of_least) = (splat(f64::INFINITY), splat(0.0));
-        let mut labels = avx2.load(&[0.0, 1.0, 2.0, 3.0]);
+        let mut labels = simd.load(&[0.0, 1.0, 2.0, 3.0]);
         let (normals, floors) = (
             [splat(normal[0]), splat(normal[1]), splat(normal[2])],
             [splat(floor[0]), splat(floor[1]), splat(floor[2]), splat(floor[3])],
         );
         let (zero, four, offsets) = (splat(0.0), splat(LANES as f64), splat(offset));
         for k in 0..n_sites.div_ceil(LANES) {
-            let chunk = |axis: usize| avx2.load(&self.by_axis[axis].as_chunks::<LANES>().0[k]);
+            let chunk = |axis: usize| simd.load(&self.by_axis[axis].as_chunks::<LANES>().0[k]);
             let (mut height, mut above) = (offsets, chunk(3) - floors[3]);
             for axis in 0..G::D {
                 let x = chunk(axis);
-                height = x.times_plus(normals[axis], height);
-                above = above.minus_product(x, floors[axis]);
+                height = height + x * normals[axis];
+                above = above - x * floors[axis];
             }
             let t = above / height;
-            let is_less = zero.is_less(height) & t.is_less(least) & avx2.mask(left & ALL);
+            let is_less = zero.is_less(height) & t.is_less(least) & simd.mask(left & ALL);
             left >>= LANES;
-            least = Lanes::select(is_less, t, least);
-            of_least = Lanes::select(is_less, labels, of_least);
+            least = Real::select(is_less, t, least);
+            of_least = Real::select(is_less, labels, of_least);
             labels = labels + four;
         }
         let (each, of_each) = (least.store(), of_least.store());
@@ -319,7 +326,7 @@ impl Wrapping {
             t = if each[lane] < t { each[lane] } else { t };
         }
         let plane = [normal[0], normal[1], normal[2], offset];
-        avx2.load(&plane).times_plus(splat(t), avx2.load(&floor)).store_to(&mut self.floors[n]);
+        (simd.load(&plane) * splat(t) + simd.load(&floor)).store_to(&mut self.floors[n]);
         (t < f64::INFINITY).then_some(apex as u8)
     }
 }
@@ -383,7 +390,7 @@ const fn below(of: usize) -> [u16; MOST_SITES] {
 
 /// Whether all certificates of the new cells surely hold.
 #[inline(always)]
-fn are_certain<G: Dimension>(avx2: Avx2, t: &Delaunay<G>, hole: &Hole<G>) -> bool {
+fn are_certain<S: Simd, G: Dimension>(simd: S, t: &Delaunay<G>, hole: &Hole<G>) -> bool {
     let (filter, sites) = (&t.filter, t.view());
     let last = hole.made.len() - 1;
     let mut first = 0;
@@ -403,8 +410,8 @@ fn are_certain<G: Dimension>(avx2: Avx2, t: &Delaunay<G>, hole: &Hole<G>) -> boo
         }
         let corners = [&cells[0].0, &cells[1].0, &cells[2].0, &cells[3].0];
         let apexes = [&apexes[0], &apexes[1], &apexes[2], &apexes[3]];
-        if G::cells_hold::<false>(avx2, filter, sites, corners, apexes).all::<G>() != ALL
-            && G::cells_hold::<true>(avx2, filter, sites, corners, apexes).all::<G>() != ALL
+        if G::cells_hold::<_, false>(simd, filter, sites, corners, apexes).all::<G>() != ALL
+            && G::cells_hold::<_, true>(simd, filter, sites, corners, apexes).all::<G>() != ALL
         {
             return false;
         }

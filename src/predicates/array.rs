@@ -1,7 +1,7 @@
 //! What is the same for points of any dimension.
 
 use super::integer::two_difference;
-use crate::simd::{Avx2, LANES, Lanes};
+use crate::simd::{LANES, Simd};
 
 /// Points as arrays, whatever their length: written once, but only where that is known.
 pub trait Array: Sized {
@@ -12,7 +12,7 @@ pub trait Array: Sized {
     /// The points of which the coordinates are given one after the other, and the coordinates left over.
     fn of_flattened(coordinates: &[f64]) -> (&[Self], &[f64]);
     /// Each coordinate of several points, in lanes.
-    fn in_lanes(avx2: Avx2, points: [&Self; LANES]) -> impl AsRef<[Lanes]>;
+    fn in_lanes<S: Simd>(simd: S, points: [&Self; LANES]) -> impl AsRef<[S::Lanes]>;
     /// The vector to this point from another, if no coordinate of it is rounded; of points that are not finite none is
     /// known.
     fn exact_difference(&self, other: &Self) -> Option<Self>;
@@ -32,8 +32,8 @@ impl<const D: usize> Array for [f64; D] {
     }
 
     #[inline(always)]
-    fn in_lanes(avx2: Avx2, points: [&Self; LANES]) -> impl AsRef<[Lanes]> {
-        avx2.points(points)
+    fn in_lanes<S: Simd>(simd: S, points: [&Self; LANES]) -> impl AsRef<[S::Lanes]> {
+        simd.points(points)
     }
 
     #[inline(always)]

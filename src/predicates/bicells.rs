@@ -11,7 +11,7 @@ use super::{
     BiCells, Delimiter, StaticFilter, delimiter2d, delimiter3d, orientation_tolerance2d,
     orientation_tolerance3d, separator3d, tolerances2d, tolerances3d,
 };
-use crate::simd::{Avx2, LANES, Real};
+use crate::simd::{LANES, Lanes, Real, in_lanes};
 
 /// Tolerances of cells and bi-cells. A bi-cell is given by its `D + 2` corners, the opposing vertices first and last;
 /// the vertices of the facet and then the first of all are in the order of a positive orientation.
@@ -59,13 +59,7 @@ impl BiCellTolerances for [f64; 2] {
 
     #[inline]
     fn bicells_hold(f: &StaticFilter, bicells: &BiCells<2, 4>) -> [bool; LANES] {
-        if let Some(avx2) = Avx2::new() {
-            return bits(avx2.run(
-                #[inline(always)]
-                || bicells_surely_hold2d(f, &bicells.lanes(avx2)).bits(),
-            ));
-        }
-        std::array::from_fn(|i| bicells_surely_hold2d(f, &bicells.lane(i)))
+        bits(in_lanes!(simd => bicells_surely_hold2d(f, &bicells.lanes(simd)).bits()))
     }
 
     #[inline(always)]
@@ -102,13 +96,7 @@ impl BiCellTolerances for [f64; 3] {
 
     #[inline]
     fn bicells_hold(f: &StaticFilter, bicells: &BiCells<3, 5>) -> [bool; LANES] {
-        if let Some(avx2) = Avx2::new() {
-            return bits(avx2.run(
-                #[inline(always)]
-                || bicells_surely_hold3d(f, &bicells.lanes(avx2)).bits(),
-            ));
-        }
-        std::array::from_fn(|i| bicells_surely_hold3d(f, &bicells.lane(i)))
+        bits(in_lanes!(simd => bicells_surely_hold3d(f, &bicells.lanes(simd)).bits()))
     }
 
     #[inline(always)]

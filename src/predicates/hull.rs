@@ -1,26 +1,26 @@
-//! Orientations at hull facets, several with one facet: for numbers in lanes.
+//! Orientations at hull facets, several with one facet: for numbers in lanes, which have the bits of single ones.
 //!
 //! They have the signs of [`orient2d`](super::orient2d) and [`orient3d`](super::orient3d), and each is open if its
 //! magnitude is not above [`StaticFilter::orient`](super::StaticFilter): the bound holds for any of the points to take
 //! differences from, and for any order of the columns. In space that is a sum of three products of a minor and a
 //! difference, in the plane a minor.
 
-use super::vectors::{fused_cross, fused_dot, fused_minor, minus};
+use super::vectors::{cross, dot, minor, minus};
 use crate::simd::Real;
 
 /// The orientation of `a`, `b`, `c`.
 #[inline(always)]
 pub fn area<T: Real>(a: &[T; 2], b: &[T; 2], c: &[T; 2]) -> T {
-    cross_of_plane(&minus(b, a), &minus(c, a))
+    minor(&minus(b, a), &minus(c, a))
 }
 
 /// The orientations of a triangle with each of three points.
 #[inline(always)]
 pub fn volumes_over<T: Real>([a, b, c]: [&[T; 3]; 3], others: [[T; 3]; 3]) -> [T; 3] {
-    let normal = fused_cross(&minus(b, a), &minus(c, a));
+    let normal = cross(&minus(b, a), &minus(c, a));
     others.map(
         #[inline(always)]
-        |d| fused_dot(&minus(&d, a), &normal),
+        |d| dot(&minus(&d, a), &normal),
     )
 }
 
@@ -28,20 +28,15 @@ pub fn volumes_over<T: Real>([a, b, c]: [&[T; 3]; 3], others: [[T; 3]; 3]) -> [T
 #[inline(always)]
 pub fn ray_and_segment<T: Real>([a, b]: [&[T; 2]; 2], o: &[T; 2], aim: &[T; 2]) -> [T; 3] {
     let (u, v, t) = (minus(a, o), minus(b, o), minus(aim, o));
-    [cross_of_plane(&u, &v), cross_of_plane(&t, &v), cross_of_plane(&u, &t)]
+    [minor(&u, &v), minor(&t, &v), minor(&u, &t)]
 }
 
 /// The orientation of a triangle with `o`, and then also with `aim` in place of each corner.
 #[inline(always)]
 pub fn ray_and_triangle<T: Real>([a, b, c]: [&[T; 3]; 3], o: &[T; 3], aim: &[T; 3]) -> [T; 4] {
     let (u, v, w, t) = (minus(a, o), minus(b, o), minus(c, o), minus(aim, o));
-    let (wv, uw, vu) = (fused_cross(&w, &v), fused_cross(&u, &w), fused_cross(&v, &u));
-    [fused_dot(&u, &wv), fused_dot(&t, &wv), fused_dot(&t, &uw), fused_dot(&t, &vu)]
-}
-
-#[inline(always)]
-fn cross_of_plane<T: Real>(p: &[T; 2], q: &[T; 2]) -> T {
-    fused_minor(p[0], q[1], p[1], q[0])
+    let (wv, uw, vu) = (cross(&w, &v), cross(&u, &w), cross(&v, &u));
+    [dot(&u, &wv), dot(&t, &wv), dot(&t, &uw), dot(&t, &vu)]
 }
 
 #[cfg(test)]
@@ -49,7 +44,6 @@ mod tests {
     use super::*;
     use crate::predicates::{StaticFilter, orient2d, orient3d};
     use crate::random::Rng;
-    use crate::simd::{Avx2, Lanes};
 
     /// Points of a small grid, of a large one, or off a plane by a rounding, so that many signs are zero or nearly so.
     fn point<const D: usize>(kind: usize, rng: &mut Rng) -> [f64; D] {
@@ -71,16 +65,6 @@ mod tests {
         is_certain
     }
 
-    /// Evaluates in lanes, where there are any, with one and the same points in all.
-    fn in_lanes<const D: usize, const N: usize, const M: usize>(
-        points: [[f64; D]; N],
-        of: impl Fn([[Lanes; D]; N]) -> [Lanes; M],
-    ) -> Option<[f64; M]> {
-        let avx2 = Avx2::new()?;
-        let points = points.map(|p| p.map(|x| avx2.splat(x)));
-        Some(avx2.run(|| of(points)).map(|x| x.store()[1]))
-    }
-
     #[test]
     fn certain_signs_in_the_plane_are_right() {
         let rng = &mut Rng::new(1);
@@ -91,14 +75,9 @@ mod tests {
             let f = StaticFilter::plane([-3.0; 2], [3.0; 2]);
             let orient = |a, b, c| orient2d(&f, a, b, c);
             let exact = [orient(&a, &b, &o), orient(&aim, &b, &o), orient(&a, &aim, &o)];
-            let lanes = in_lanes(points, |[a, b, o, aim]| ray_and_segment([&a, &b], &o, &aim));
-            for signs in [Some(ray_and_segment([&a, &b], &o, &aim)), lanes].into_iter().flatten() {
-                n_certain += signs.iter().zip(exact).filter(|&(&s, e)| is_certain(s, f.orient, e)).count();
-            }
-            let area_in_lanes = in_lanes(points, |[a, b, o, _]| [area(&a, &b, &o)]);
-            for sign in [Some([area(&a, &b, &o)]), area_in_lanes].into_iter().flatten() {
-                n_certain += usize::from(is_certain(sign[0], f.orient, exact[0]));
-            }
+            let signs = ray_and_segment([&a, &b], &o, &aim);
+            n_certain += signs.iter().zip(exact).filter(|&(&s, e)| is_certain(s, f.orient, e)).count();
+            n_certain += usize::from(is_certain(area(&a, &b, &o), f.orient, exact[0]));
         }
         assert!(n_certain > 1_000_000, "{n_certain}");
     }
@@ -118,15 +97,11 @@ mod tests {
                 orient(&a, &aim, &c, &o),
                 orient(&a, &b, &aim, &o),
             ];
-            let lanes = in_lanes(points, |[a, b, c, o, aim]| ray_and_triangle([&a, &b, &c], &o, &aim));
-            for signs in [Some(ray_and_triangle([&a, &b, &c], &o, &aim)), lanes].into_iter().flatten() {
-                n_certain += signs.iter().zip(with_o).filter(|&(&s, e)| is_certain(s, f.orient, e)).count();
-            }
+            let signs = ray_and_triangle([&a, &b, &c], &o, &aim);
+            n_certain += signs.iter().zip(with_o).filter(|&(&s, e)| is_certain(s, f.orient, e)).count();
             let over = [orient(&a, &b, &c, &o), orient(&a, &b, &c, &aim), orient(&a, &b, &c, &a)];
-            let lanes = in_lanes(points, |[a, b, c, o, aim]| volumes_over([&a, &b, &c], [o, aim, a]));
-            for signs in [Some(volumes_over([&a, &b, &c], [o, aim, a])), lanes].into_iter().flatten() {
-                n_certain += signs.iter().zip(over).filter(|&(&s, e)| is_certain(s, f.orient, e)).count();
-            }
+            let signs = volumes_over([&a, &b, &c], [o, aim, a]);
+            n_certain += signs.iter().zip(over).filter(|&(&s, e)| is_certain(s, f.orient, e)).count();
         }
         assert!(n_certain > 1_000_000, "{n_certain}");
     }

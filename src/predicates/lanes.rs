@@ -1,6 +1,6 @@
 //! Bi-cells side by side, to be looked at together.
 
-use crate::simd::{Avx2, LANES, Lanes};
+use crate::simd::{LANES, Simd};
 
 /// A number for each lane, as in memory.
 #[derive(Clone, Copy, Debug, Default)]
@@ -35,11 +35,11 @@ impl<const D: usize, const P: usize> BiCells<D, P> {
 
     /// The points, in lanes.
     #[inline(always)]
-    pub(super) fn lanes(&self, avx2: Avx2) -> [[Lanes; D]; P] {
-        let mut lanes = [[avx2.splat(0.0); D]; P];
+    pub(super) fn lanes<S: Simd>(&self, simd: S) -> [[S::Lanes; D]; P] {
+        let mut lanes = [[simd.splat(0.0); D]; P];
         for (lanes, p) in lanes.iter_mut().zip(&self.0) {
             for (lanes, stored) in lanes.iter_mut().zip(p) {
-                *lanes = avx2.load(&stored.0);
+                *lanes = simd.load(&stored.0);
             }
         }
         lanes

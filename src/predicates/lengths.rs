@@ -72,7 +72,7 @@ const _: () = {
 /// given squared and to the third power, for a point at this squared distance from there.
 #[inline(always)]
 pub(super) fn prepared_bound_by_length_3d<T: Real>(squared: T, cubed: T, squared_distance: T) -> T {
-    cubed * cubed.splat(PREPARED_BY_LENGTHS) * squared.times_plus(squared.splat(0.6), squared_distance)
+    cubed * cubed.splat(PREPARED_BY_LENGTHS) * (squared * squared.splat(0.6) + squared_distance)
 }
 
 /// Bound of the volume of a cell with edges of at most a length from its first corner, which is given to the third
@@ -86,7 +86,7 @@ pub(super) fn volume_bound_by_length<T: Real>(cubed: T) -> T {
 /// for a point at this squared distance from there.
 #[inline(always)]
 pub(super) fn prepared_bound_by_length_2d<T: Real>(squared: T, squared_distance: T) -> T {
-    squared * squared.splat(CIRCLE_BY_LENGTHS) * squared_distance.times_plus(squared.splat(2.0), squared)
+    squared * squared.splat(CIRCLE_BY_LENGTHS) * (squared_distance * squared.splat(2.0) + squared)
 }
 
 /// Bound of the area of a cell with edges of at most a length from its first corner, which is given squared.

@@ -3,7 +3,7 @@
 use super::lanes::BiCells;
 use super::tolerance::{CROSS, Delimiter, LEAST, LEAST_DETERMINANT, ORIENT_3D, UNIT, middle, square_between};
 use super::vectors::{cross, dot, minus, plus};
-use crate::simd::{ALL, Avx2, LANES, Real};
+use crate::simd::{ALL, LANES, Lanes, Real, Simd, in_lanes};
 
 /// The points of a bi-cell: the vertices of the facet, then the opposing ones, `c` and `d`.
 type Points<T> = [[T; 3]; 5];
@@ -42,21 +42,12 @@ pub fn separator3d(c: &[f64; 3], facet: [&[f64; 3]; 3], d: &[f64; 3], enough: f6
 /// Tolerances of [`LANES`] bi-cells, as [`separator3d`] has them.
 #[inline]
 pub fn tolerances3d(bicells: &BiCells<3, 5>, enough: [f64; LANES]) -> [f64; LANES] {
-    if let Some(avx2) = Avx2::new() {
-        return avx2.run(
-            #[inline(always)]
-            || tolerances_in_lanes(avx2, bicells, &enough),
-        );
-    }
-    std::array::from_fn(|i| {
-        let [o, f, g, c, d] = bicells.lane(i);
-        separator3d(&c, [&o, &f, &g], &d, enough[i]).delimiter.tolerance
-    })
+    in_lanes!(simd => tolerances_in_lanes(simd, bicells, &enough))
 }
 
 #[inline(always)]
-fn tolerances_in_lanes(avx2: Avx2, bicells: &BiCells<3, 5>, enough: &[f64; LANES]) -> [f64; LANES] {
-    let separated = separate::<_, true>(&bicells.lanes(avx2), avx2.load(enough));
+fn tolerances_in_lanes<S: Simd>(simd: S, bicells: &BiCells<3, 5>, enough: &[f64; LANES]) -> [f64; LANES] {
+    let separated = separate::<_, true>(&bicells.lanes(simd), simd.load(enough));
     let mut tolerances = separated.half_width.min(separated.reach).store();
     let is_enough = separated.is_enough.bits();
     if is_enough != ALL {

@@ -31,7 +31,7 @@ use super::lengths::{
     HALF_SPACE_SCALE, LEAST_LENGTH, area_bound_by_length, prepared_bound_by_length_2d,
     prepared_bound_by_length_3d, volume_bound_by_length,
 };
-use super::vectors::{dot, fused_cross, fused_dot, fused_minor, minus};
+use super::vectors::{cross, dot, minor, minus};
 use crate::simd::Real;
 
 /// Vector and area of a cell of the plane: `[n_x, n_y, V]`.
@@ -43,8 +43,8 @@ pub type Sphere<T = f64> = [T; 4];
 #[inline(always)]
 pub fn circle<T: Real>(a: &[T; 2], b: &[T; 2], c: &[T; 2]) -> Circle<T> {
     let (u, v) = (minus(b, a), minus(c, a));
-    let (uu, vv) = (fused_dot(&u, &u), fused_dot(&v, &v));
-    [fused_minor(uu, v[1], vv, u[1]), fused_minor(vv, u[0], uu, v[0]), fused_minor(u[0], v[1], u[1], v[0])]
+    let (uu, vv) = (dot(&u, &u), dot(&v, &v));
+    [uu * v[1] - vv * u[1], vv * u[0] - uu * v[0], minor(&u, &v)]
 }
 
 /// Positive if `q` is inside the circle of which `a` is the first corner, negative if outside; open if the
@@ -53,23 +53,23 @@ pub fn circle<T: Real>(a: &[T; 2], b: &[T; 2], c: &[T; 2]) -> Circle<T> {
 #[inline(always)]
 pub fn side_of_circle<T: Real>(&[x, y, volume]: &Circle<T>, a: &[T; 2], q: &[T; 2]) -> T {
     let s = minus(q, a);
-    fused_dot(&s, &[x, y]).minus_product(fused_dot(&s, &s), volume)
+    dot(&s, &[x, y]) - dot(&s, &s) * volume
 }
 
 /// The sphere of the tetrahedron `abcd`.
 #[inline(always)]
 pub fn sphere<T: Real>(a: &[T; 3], b: &[T; 3], c: &[T; 3], d: &[T; 3]) -> Sphere<T> {
     let (u, v, w) = (minus(b, a), minus(c, a), minus(d, a));
-    let (uu, vv, ww) = (fused_dot(&u, &u), fused_dot(&v, &v), fused_dot(&w, &w));
-    let (vw, uw, uv) = (fused_cross(&v, &w), fused_cross(&u, &w), fused_cross(&u, &v));
-    let n = |axis: usize| ww.times_plus(uv[axis], fused_minor(uu, vw[axis], vv, uw[axis]));
-    [n(0), n(1), n(2), fused_dot(&u, &vw)]
+    let (uu, vv, ww) = (dot(&u, &u), dot(&v, &v), dot(&w, &w));
+    let (vw, uw, uv) = (cross(&v, &w), cross(&u, &w), cross(&u, &v));
+    let n = |axis: usize| uu * vw[axis] - vv * uw[axis] + ww * uv[axis];
+    [n(0), n(1), n(2), dot(&u, &vw)]
 }
 
 /// What lies beyond the plane of `a`, `b`, `c`, on the side from which they turn counter-clockwise.
 #[inline(always)]
 pub fn half_space(f: &StaticFilter, a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) -> Sphere {
-    let [x, y, z] = fused_cross(&minus(b, a), &minus(c, a)).map(|t| t * f.largest_square);
+    let [x, y, z] = cross(&minus(b, a), &minus(c, a)).map(|t| t * f.largest_square);
     [x, y, z, 0.0]
 }
 
@@ -78,7 +78,7 @@ pub fn half_space(f: &StaticFilter, a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) ->
 pub fn half_space_by_length(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) -> (Sphere, f32) {
     let squared = Real::max(squared_length(a, b), squared_length(a, c));
     let scale = HALF_SPACE_SCALE * squared;
-    let [x, y, z] = fused_cross(&minus(b, a), &minus(c, a)).map(|t| t * scale);
+    let [x, y, z] = cross(&minus(b, a), &minus(c, a)).map(|t| t * scale);
     ([x, y, z, 0.0], length_above(squared) as f32)
 }
 
@@ -88,7 +88,7 @@ pub fn half_space_by_length(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) -> (Sphere
 #[inline(always)]
 pub fn side_of_sphere<T: Real>(&[x, y, z, volume]: &Sphere<T>, a: &[T; 3], q: &[T; 3]) -> T {
     let s = minus(q, a);
-    fused_dot(&s, &[x, y, z]).minus_product(fused_dot(&s, &s), volume)
+    dot(&s, &[x, y, z]) - dot(&s, &s) * volume
 }
 
 /// Whether the side of `q`, as computed from the sphere of `abcd`, is certain where it does not exceed
@@ -112,7 +112,7 @@ pub fn side_bound_by_length(length: f32, a: &[f64; 3], q: &[f64; 3]) -> f64 {
     let s = minus(q, a);
     let length = f64::from(length);
     let squared = length * length;
-    prepared_bound_by_length_3d(squared, squared * length, fused_dot(&s, &s))
+    prepared_bound_by_length_3d(squared, squared * length, dot(&s, &s))
 }
 
 /// The greatest distance of `b`, `c` and `d` from `a`, from above, also after rounding to `f32`; infinite where it is
@@ -129,7 +129,7 @@ pub fn edge_length<T: Real>(a: &[T; 3], b: &[T; 3], c: &[T; 3], d: &[T; 3]) -> T
 #[inline(always)]
 fn squared_length<T: Real, const D: usize>(a: &[T; D], b: &[T; D]) -> T {
     let u = minus(b, a);
-    fused_dot(&u, &u)
+    dot(&u, &u)
 }
 
 #[inline(always)]

@@ -116,7 +116,7 @@ use super::array::Array;
 use super::filter::{extents, largest};
 use super::lanes::BiCells;
 use super::vectors::{cross, dot, minor, minus, plus};
-use crate::simd::{Avx2, LANES, Real};
+use crate::simd::{LANES, Lanes, Real, Simd, in_lanes};
 
 /// Delimiter of a bi-cell: a sphere with the interior facet inside and the opposing vertices outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -192,16 +192,16 @@ pub fn distance_above<P: AsRef<[f64]> + PartialEq>(p: &P, q: &P) -> f64 {
 
 /// Upper bounds of the distances of several points, each from another one.
 #[inline(always)]
-pub(crate) fn distances_above<P: Array + AsRef<[f64]> + PartialEq>(
-    avx2: Avx2,
+pub(crate) fn distances_above<S: Simd, P: Array + AsRef<[f64]> + PartialEq>(
+    simd: S,
     p: [&P; LANES],
     q: [&P; LANES],
 ) -> [f64; LANES] {
-    let square = square_between(P::in_lanes(avx2, p).as_ref(), P::in_lanes(avx2, q).as_ref());
-    if square.is_less(avx2.splat(LEAST * LEAST)).bits() != 0 {
+    let square = square_between(P::in_lanes(simd, p).as_ref(), P::in_lanes(simd, q).as_ref());
+    if square.is_less(simd.splat(LEAST * LEAST)).bits() != 0 {
         return [0, 1, 2, 3].map(|k| distance_above(p[k], q[k]));
     }
-    (square.sqrt() * avx2.splat(ABOVE)).store()
+    (square.sqrt() * simd.splat(ABOVE)).store()
 }
 
 /// What the [`squared_distance`] of a vertex from its fixed position must be below for the distance to be
@@ -224,14 +224,14 @@ fn limit<T: Real>(tolerance: T) -> T {
 
 /// For each of several vertices whether it is certainly nearer to its fixed position than its tolerance: one bit each.
 #[inline(always)]
-pub(crate) fn are_within<P: Array>(
-    avx2: Avx2,
+pub(crate) fn are_within<S: Simd, P: Array>(
+    simd: S,
     fixed: [&P; LANES],
     tolerances: &[f64; LANES],
     places: [&P; LANES],
 ) -> u32 {
-    let (fixed, places) = (P::in_lanes(avx2, fixed), P::in_lanes(avx2, places));
-    square_between(fixed.as_ref(), places.as_ref()).is_less(limit(avx2.load(tolerances))).bits()
+    let (fixed, places) = (P::in_lanes(simd, fixed), P::in_lanes(simd, places));
+    square_between(fixed.as_ref(), places.as_ref()).is_less(limit(simd.load(tolerances))).bits()
 }
 
 /// Whether `p` is certainly strictly inside the sphere.
@@ -263,13 +263,7 @@ pub fn delimiter2d(c: &[f64; 2], facet: [&[f64; 2]; 2], d: &[f64; 2]) -> Delimit
 /// Tolerances of [`LANES`] bi-cells, as [`delimiter2d`] has them.
 #[inline]
 pub fn tolerances2d(bicells: &BiCells<2, 4>) -> [f64; LANES] {
-    if let Some(avx2) = Avx2::new() {
-        return avx2.run(
-            #[inline(always)]
-            || annulus2d(&bicells.lanes(avx2)).2.store(),
-        );
-    }
-    std::array::from_fn(|i| annulus2d(&bicells.lane(i)).2)
+    in_lanes!(simd => annulus2d(&bicells.lanes(simd)).2.store())
 }
 
 /// Centre, radius and half-width of the standard delimiter of a facet and two opposing vertices.

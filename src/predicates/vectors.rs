@@ -1,8 +1,7 @@
 //! Vectors: points, and differences of points.
 //!
 //! Bounds of rounding errors are those of an order of operations, so the order of each function is part of what it
-//! promises. All operations are rounded, except in the `fused` functions: there, in lanes, a product and a sum are one
-//! operation (see [`Real`]).
+//! promises, and all operations are rounded.
 //!
 //! They are written out for both dimensions: with loops over the axes `insphere` compiles to 7 % more instructions.
 
@@ -55,28 +54,4 @@ pub(super) fn minor<T: Real, const D: usize>(p: &[T; D], q: &[T; D]) -> T {
 #[inline(always)]
 pub(crate) fn cross<T: Real>(p: &[T; 3], q: &[T; 3]) -> [T; 3] {
     [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
-}
-
-/// `a` `b` − `c` `d`, the last product and the difference being one operation in lanes.
-#[inline(always)]
-pub(super) fn fused_minor<T: Real>(a: T, b: T, c: T, d: T) -> T {
-    (a * b).minus_product(c, d)
-}
-
-/// [`dot`], of which each product but the first and its sum are one operation in lanes.
-#[inline(always)]
-pub(super) fn fused_dot<T: Real, const D: usize>(p: &[T; D], q: &[T; D]) -> T {
-    const { assert!(is_dimension(D)) };
-    let sum = p[1].times_plus(q[1], p[0] * q[0]);
-    if D == 3 { p[2].times_plus(q[2], sum) } else { sum }
-}
-
-/// The cross product of space, each component by [`fused_minor`].
-#[inline(always)]
-pub(super) fn fused_cross<T: Real>(p: &[T; 3], q: &[T; 3]) -> [T; 3] {
-    [
-        fused_minor(p[1], q[2], p[2], q[1]),
-        fused_minor(p[2], q[0], p[0], q[2]),
-        fused_minor(p[0], q[1], p[1], q[0]),
-    ]
 }

@@ -1,15 +1,23 @@
 use super::*;
 use crate::random::Rng;
 
-/// The token exists exactly if the processor has AVX2 and FMA and the scalar path is not forced.
+/// The token of AVX2 exists exactly if the processor has that and lanes of numbers are not forced.
+#[cfg(target_arch = "x86_64")]
 #[test]
 fn the_scalar_path_can_be_forced() {
-    #[cfg(target_arch = "x86_64")]
-    let has_both = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
-    #[cfg(not(target_arch = "x86_64"))]
-    let has_both = false;
     let is_forced = std::env::var_os("DELDRIFT_SCALAR").is_some();
-    assert_eq!(Avx2::new().is_some(), has_both && !is_forced);
+    assert_eq!(Avx2::new().is_some(), is_x86_feature_detected!("avx2") && !is_forced);
+}
+
+/// Calls a test with every token that there is here.
+macro_rules! for_all_tokens {
+    ($test:ident) => {
+        $test(Scalar);
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx2) = Avx2::new() {
+            $test(avx2);
+        }
+    };
 }
 
 /// Small integers, fractions and special values.
@@ -23,7 +31,7 @@ fn four(rng: &mut Rng) -> [f64; LANES] {
 }
 
 /// Makes sure that every lane has the bits expected, or NaN where that is expected.
-fn assert_same(found: Lanes, expected: [f64; LANES], what: &str) {
+fn assert_same(found: impl Lanes, expected: [f64; LANES], what: &str) {
     for (found, expected) in found.store().into_iter().zip(expected) {
         assert!(
             found.to_bits() == expected.to_bits() || found.is_nan() && expected.is_nan(),
@@ -32,14 +40,17 @@ fn assert_same(found: Lanes, expected: [f64; LANES], what: &str) {
     }
 }
 
-/// Every lane has the same bits as the scalar result; those of a fused operation where that is what lanes do.
+/// Every lane has the same bits as the scalar result.
 #[test]
 fn lanes_compute_what_numbers_do() {
-    let Some(avx2) = Avx2::new() else { return };
+    for_all_tokens!(lanes_compute);
+}
+
+fn lanes_compute(simd: impl Simd) {
     let mut rng = Rng::new(1);
     for _ in 0..2_000 {
         let [x, y, z] = [(); 3].map(|()| four(&mut rng));
-        let [a, b, c] = [&x, &y, &z].map(|x| avx2.load(x));
+        let [a, b, c] = [&x, &y, &z].map(|x| simd.load(x));
         let each = |f: fn(f64, f64, f64) -> f64| std::array::from_fn(|k| f(x[k], y[k], z[k]));
         assert_same(a, x, "load");
         assert_same(a.splat(y[0]), [y[0]; LANES], "splat");
@@ -51,8 +62,6 @@ fn lanes_compute_what_numbers_do() {
         assert_same(a.abs(), each(|x, _, _| Real::abs(x)), "abs");
         assert_same(a.min(b), each(|x, y, _| Real::min(x, y)), "min");
         assert_same(a.max(b), each(|x, y, _| Real::max(x, y)), "max");
-        assert_same(a.times_plus(b, c), each(|x, y, z| x.mul_add(y, z)), "times_plus");
-        assert_same(a.minus_product(b, c), each(|x, y, z| (-y).mul_add(z, x)), "minus_product");
 
         let bits =
             |is_set: &dyn Fn(usize) -> bool| (0..LANES).map(|k| u32::from(is_set(k)) << k).sum::<u32>();
@@ -69,28 +78,34 @@ fn lanes_compute_what_numbers_do() {
 /// Loads and stores put every number in the right place.
 #[test]
 fn lanes_are_where_they_belong() {
-    let Some(avx2) = Avx2::new() else { return };
+    for_all_tokens!(lanes_are_put);
+}
+
+fn lanes_are_put<S: Simd>(simd: S) {
     let numbers: Vec<f64> = (0..32).map(f64::from).collect();
     let of = |k: [usize; LANES]| k.map(|k| k as f64);
-    let assert_all = |found: &[Lanes], expected: &[[usize; LANES]]| {
+    let assert_all = |found: &[S::Lanes], expected: &[[usize; LANES]]| {
         assert_eq!(found.len(), expected.len());
         found.iter().zip(expected).for_each(|(&found, &expected)| assert_same(found, of(expected), "load"));
     };
     let [a, b, c, d] = [0, 7, 12, 20].map(|k| numbers[k..].first_chunk().expect("two"));
-    assert_all(&[avx2.two_pairs(a, b)], &[[0, 1, 7, 8]]);
-    assert_all(&avx2.pairs([a, b, c, d]), &[[0, 7, 12, 20], [1, 8, 13, 21]]);
+    assert_all(&[simd.two_pairs(a, b)], &[[0, 1, 7, 8]]);
+    assert_all(&simd.pairs([a, b, c, d]), &[[0, 7, 12, 20], [1, 8, 13, 21]]);
     let triples = [0, 7, 12, 20].map(|k| numbers[k..].first_chunk().expect("three"));
-    assert_all(&avx2.points::<3>(triples), &[[0, 7, 12, 20], [1, 8, 13, 21], [2, 9, 14, 22]]);
+    assert_all(&simd.points::<3>(triples), &[[0, 7, 12, 20], [1, 8, 13, 21], [2, 9, 14, 22]]);
     let fours = [0, 7, 12, 20].map(|k| numbers[k..].first_chunk().expect("four"));
     let rows = [[0, 7, 12, 20], [1, 8, 13, 21], [2, 9, 14, 22], [3, 10, 15, 23]];
-    assert_all(&avx2.fours(fours), &rows);
+    assert_all(&simd.fours(fours), &rows);
     let columns = [0, 7, 12, 20].map(|k| [k, k + 1, k + 2, k + 3]);
-    assert_all(&super::rows(avx2.fours(fours)), &columns);
+    assert_all(&super::rows(simd.fours(fours)), &columns);
 
-    let [x, y] = [fours[0], fours[1]].map(|x| avx2.load(x));
+    let [x, y] = [fours[0], fours[1]].map(|x| simd.load(x));
     assert_all(&[x.with_last_of(y), x.rotated()], &[[0, 1, 2, 10], [1, 2, 3, 0]]);
-    assert_eq!(avx2.are_equal(&[5, u32::MAX, 5, 0], 5).bits(), 0b0101);
-    assert_eq!(avx2.are_equal(&[5, u32::MAX, 5, 0], u32::MAX).bits(), 0b0010);
+    for bits in 0..1 << LANES {
+        assert_eq!(simd.mask(bits).bits(), bits);
+    }
+    assert_eq!(simd.are_equal(&[5, u32::MAX, 5, 0], 5).bits(), 0b0101);
+    assert_eq!(simd.are_equal(&[5, u32::MAX, 5, 0], u32::MAX).bits(), 0b0010);
 
     let (mut all, mut three, mut low, mut high) = ([0.0; LANES], [0.0; 3], [0.0; 2], [0.0; 2]);
     y.store_to(&mut all);

@@ -7,7 +7,7 @@ use crate::delaunay::{Delaunay, Dimension, Failures};
 use crate::error::Result;
 use crate::ids::{Slot, VertexId};
 use crate::machine::memory;
-use crate::simd::{Avx2, LANES};
+use crate::simd::{LANES, in_lanes};
 
 impl<G: Dimension> Delaunay<G> {
     /// Checks the ridges of the ghost cells that are open; what is listed may be none any more, where flips have been
@@ -36,14 +36,8 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Drops ghosts at whose ridges the hull surely is convex, and what is no ghost any more.
     pub(in crate::delaunay) fn drop_convex(&self, ghosts: &mut Vec<Slot>) {
-        let Some(avx2) = Avx2::new() else { return };
         ghosts.retain(|&g| self.is_ghost(g));
-        avx2.run_with(
-            avx2,
-            self,
-            ghosts,
-            #[inline(always)]
-            |avx2, t, ghosts| {
+        in_lanes!(simd, self, ghosts, () => |t, ghosts, ()| {
                 let mut n_kept = 0;
                 for first in (0..ghosts.len()).step_by(LANES) {
                     // The last one fills the last lanes.
@@ -52,7 +46,7 @@ impl<G: Dimension> Delaunay<G> {
                     // There are three ridges in space: in the plane the last two are the same.
                     let [i, j, k] = [0, 1, G::D - 1]
                         .map(|i| four.map(|g| t.complex.apex(t.complex.cell(g).neighbour(i))));
-                    let are_convex = G::are_convex(avx2, &t.filter, t.view(), corners, [&i, &j, &k]);
+                    let are_convex = G::are_convex(simd, &t.filter, t.view(), corners, [&i, &j, &k]);
                     for (lane, &g) in four[..LANES.min(ghosts.len() - first)].iter().enumerate() {
                         if are_convex >> lane & 1 == 0 {
                             ghosts[n_kept] = g;
@@ -61,8 +55,7 @@ impl<G: Dimension> Delaunay<G> {
                     }
                 }
                 ghosts.truncate(n_kept);
-            },
-        );
+        });
     }
 
     /// Checks that the hull is convex at a ridge between ghost cells, and has been so all the way. Whether it is now.

@@ -45,10 +45,9 @@ fn crosses<G: Dimension>(t: &Delaunay<G>, ghost: Slot, o: &G::Point, aim: &G::Po
 /// Each bit is right; returns how many there are, by what they say.
 fn rays_agree<G: Dimension>(t: &Delaunay<G>, o: &G::Point, aim: &G::Point) -> [usize; 3] {
     let mut n_certain = [0; 3];
-    let Some(avx2) = Avx2::new() else { return n_certain };
     for four in ghosts(t).chunks_exact(LANES) {
         let corners = [0, 1, 2, 3].map(|k| t.complex.cell(four[k]).corners);
-        let ray = avx2.run(|| G::ray(avx2, &t.filter, t.view(), corners.each_ref(), o, aim));
+        let ray = in_lanes!(simd => G::ray(simd, &t.filter, t.view(), corners.each_ref(), o, aim));
         for (k, &g) in four.iter().enumerate() {
             let is = |bits: u32| bits >> k & 1 == 1;
             let side = G::orientation_with(&t.filter, t.view(), &corners[k], Delaunay::<G>::LAST, o);
@@ -111,13 +110,11 @@ fn all_agree<G: Dimension>() {
                 (0..2).for_each(|k| n_convex[k] += more[k]);
             }
         }
-        if Avx2::new().is_some() {
-            assert!(n_certain.iter().all(|&n| n > 500), "kind {kind}: {n_certain:?}");
-            // On a grid most ridges are flat, or nearly so.
-            let most_are_seen = kind == 1 || n_convex[0] > n_convex[1];
-            assert!(n_convex[0] > 500 && most_are_seen, "kind {kind}: {n_convex:?}");
-            assert!(n_once[1] > 10 * n_once[0], "kind {kind}: {n_once:?}");
-        }
+        assert!(n_certain.iter().all(|&n| n > 500), "kind {kind}: {n_certain:?}");
+        // On a grid most ridges are flat, or nearly so.
+        let most_are_seen = kind == 1 || n_convex[0] > n_convex[1];
+        assert!(n_convex[0] > 500 && most_are_seen, "kind {kind}: {n_convex:?}");
+        assert!(n_once[1] > 10 * n_once[0], "kind {kind}: {n_once:?}");
     }
 }
 

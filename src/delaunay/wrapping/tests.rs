@@ -86,9 +86,6 @@ fn all_agree<G: Dimension>() {
         (0..G::D).for_each(|axis| p[axis] += 1e-12 * rng.unit());
     }
     let of_near_ties = found::<G>(&grid);
-    if Avx2::new().is_none() {
-        return;
-    }
     // Nearly all of what is random is found.
     for n in [of_random, of_graded] {
         assert!(n[0] > 2000 && 200 * n[1] < n[0], "{of_random:?} {of_graded:?}");

@@ -27,7 +27,7 @@ use crate::motion::state::checking::{copy_checked, differ};
 use crate::motion::state::goals::Moves;
 use crate::motion::state::mesh::Mesh;
 use crate::predicates::are_within;
-use crate::simd::{ALL, Avx2, LANES};
+use crate::simd::{ALL, LANES, Simd, in_lanes};
 pub(in crate::motion) use on_record::Motion;
 
 /// Exchanges a position with that of a site; whether they differ.
@@ -140,13 +140,7 @@ impl<G: Dimension> Mesh<G> {
         blocks: &mut Blocks<'_, G>,
         beyond: &mut Beyond<'_, G>,
     ) -> Result<Advance> {
-        if let Some(avx2) = Avx2::new() {
-            return avx2.run_with(
-                self,
-                blocks,
-                beyond,
-                #[inline(always)]
-                |t, blocks, beyond| {
+        in_lanes!(simd, self, blocks, beyond => |t, blocks, beyond| {
                     t.move_and_queue_by::<MOVES_ALL, IS_FAR>(
                         blocks,
                         beyond,
@@ -154,27 +148,17 @@ impl<G: Dimension> Mesh<G> {
                         |fixed, places| {
                             let tolerances = fixed.each_ref().map(Fixed::tolerance);
                             let fixed = fixed.each_ref().map(Fixed::point);
-                            are_within(avx2, fixed, &tolerances, places.each_ref())
+                            are_within(simd, fixed, &tolerances, places.each_ref())
                         },
                         #[inline(always)]
                         |movers, places, sites_of| {
                             // SAFETY: every vertex has a site of its own, and the sites are borrowed.
                             let sites =
                                 unsafe { sites_at(movers.sites.as_mut_ptr(), movers.sites.len(), sites_of) };
-                            G::exchange(avx2, places, sites, &mut [avx2.splat(0.0); 2])
+                            G::exchange(simd, places, sites, &mut [simd.splat(0.0); 2])
                         },
                     )
-                },
-            );
-        }
-        self.move_and_queue_by::<MOVES_ALL, IS_FAR>(
-            blocks,
-            beyond,
-            |fixed, places| bits_of(fixed, places),
-            |movers, places, sites_of| {
-                places.iter_mut().zip(sites_of).map(|(p, &s)| movers.exchange(p, s)).sum()
-            },
-        )
+        })
     }
 
     /// Does what [`move_and_queue`](Self::move_and_queue) does, by tests and exchanges of several vertices at a time.

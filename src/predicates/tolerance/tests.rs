@@ -4,24 +4,18 @@ use super::super::dyadic::{Dyadic, product};
 use super::*;
 use crate::random::Rng;
 
-fn within(
-    avx2: Avx2,
-    fixed: &[[f64; 3]; LANES],
-    tolerances: &[f64; LANES],
-    places: &[[f64; 3]; LANES],
-) -> [u32; 2] {
+fn within(fixed: &[[f64; 3]; LANES], tolerances: &[f64; LANES], places: &[[f64; 3]; LANES]) -> [u32; 2] {
     let plane = |points: &[[f64; 3]; LANES]| points.map(|[x, y, _]| [x, y]);
     let (fixed2d, places2d) = (plane(fixed), plane(places));
     [
-        avx2.run(|| are_within(avx2, fixed2d.each_ref(), tolerances, places2d.each_ref())),
-        avx2.run(|| are_within(avx2, fixed.each_ref(), tolerances, places.each_ref())),
+        in_lanes!(simd => are_within(simd, fixed2d.each_ref(), tolerances, places2d.each_ref())),
+        in_lanes!(simd => are_within(simd, fixed.each_ref(), tolerances, places.each_ref())),
     ]
 }
 
 /// Distances of several points are those of each, bit by bit, also where squares underflow.
 #[test]
 fn distances_of_several_are_those_of_each() {
-    let Some(avx2) = Avx2::new() else { return };
     let rng = &mut Rng::new(3);
     let mut n_same = 0;
     for _ in 0..20_000 {
@@ -30,8 +24,8 @@ fn distances_of_several_are_those_of_each() {
         let p: [[f64; 3]; LANES] = std::array::from_fn(|_| point([0.0; 3]));
         let q = p.map(&mut point);
         let (p2d, q2d) = (p.map(|[x, y, _]| [x, y]), q.map(|[x, y, _]| [x, y]));
-        let in_space = avx2.run(|| distances_above(avx2, p.each_ref(), q.each_ref()));
-        let in_plane = avx2.run(|| distances_above(avx2, p2d.each_ref(), q2d.each_ref()));
+        let in_space = in_lanes!(simd => distances_above(simd, p.each_ref(), q.each_ref()));
+        let in_plane = in_lanes!(simd => distances_above(simd, p2d.each_ref(), q2d.each_ref()));
         assert_eq!(in_space, [0, 1, 2, 3].map(|k| distance_above(&p[k], &q[k])));
         assert_eq!(in_plane, [0, 1, 2, 3].map(|k| distance_above(&p2d[k], &q2d[k])));
         n_same += in_space.iter().filter(|&&distance| distance == 0.0).count();
@@ -42,7 +36,6 @@ fn distances_of_several_are_those_of_each() {
 /// Several vertices are found to be within exactly where each of them is, tolerances without a use included.
 #[test]
 fn several_are_within_where_each_is() {
-    let Some(avx2) = Avx2::new() else { return };
     let mut state = 1_u64;
     let mut random = move |n: u64| {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -54,7 +47,7 @@ fn several_are_within_where_each_is() {
         let mut points = || [(); LANES].map(|()| [(); 3].map(|()| random(3) as f64));
         let (fixed, places) = (points(), points());
         let tolerances = [(); LANES].map(|()| special[random(special.len() as u64) as usize]);
-        let found = within(avx2, &fixed, &tolerances, &places);
+        let found = within(&fixed, &tolerances, &places);
         for k in 0..LANES {
             let ([a, b, _], [c, d, _]) = (fixed[k], places[k]);
             let limit = displacement_limit(tolerances[k]);

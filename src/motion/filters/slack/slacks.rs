@@ -145,7 +145,8 @@ impl<G: Dimension> Slacks<G> {
         let mean = if of_others > 0.0 { of_others } else { of_all };
         // Of no use, but no error either, where nothing moves. A power of two that is no number any more would make
         // all ways 0.
-        self.per_length = (UNITS / mean).log2().floor().clamp(-900.0, 900.0).exp2();
+        let units = (UNITS / mean).clamp(2f64.powi(-900), 2f64.powi(900));
+        self.per_length = f64::from_bits(units.to_bits() >> 52 << 52);
         self.unfit = 0;
         self.expect(mean);
     }

@@ -118,7 +118,7 @@ fn is_flat_and_sized<G: Dimension>(places: &[&G::Point], tolerance: f64) -> bool
 /// coordinate there may be too large to be scaled. Along others no coordinate is more than 2⁵³ times the extent.
 #[cold]
 fn scaled<G: Dimension>(places: &[&G::Point], extent: f64) -> [G::Point; 4] {
-    let exponent = extent.max(f64::MIN_POSITIVE).log2().floor() as i32;
+    let exponent = (extent.max(f64::MIN_POSITIVE).to_bits() >> 52) as i32 - 1023;
     let half = (SCALED_EXTENT - exponent) / 2;
     let (first, second) = (2f64.powi(half), 2f64.powi(SCALED_EXTENT - exponent - half));
     let mut scaled = [*places[0]; 4];

@@ -8,7 +8,7 @@ use crate::machine::threads;
 use crate::motion::state::goals::Moves;
 use crate::motion::state::mesh::Mesh;
 use crate::motion::ways::moving::{BLOCK, copy_good, exchange, sites_at};
-use crate::simd::{Avx2, LANES, Lanes};
+use crate::simd::{LANES, Lanes, Simd, in_lanes};
 
 /// Moves of this number of vertices take a few times as long as a thread takes to wake up.
 const MOVED_AT_LEAST: usize = 1 << 14;
@@ -62,7 +62,7 @@ impl<G: Dimension> Moved<G> {
     }
 
     /// Holds a box in lanes, as exchanges of positions have them.
-    fn hold_lanes(&mut self, [lower, upper]: [Lanes; 2]) {
+    fn hold_lanes<L: Lanes>(&mut self, [lower, upper]: [L; 2]) {
         for (lane, (lower, upper)) in lower.store().into_iter().zip(upper.store()).enumerate() {
             let axis = lane % G::D.next_power_of_two();
             if axis < G::D {
@@ -111,23 +111,10 @@ impl<G: Dimension> SharedSites<G> {
             moved.hold(&more.lower, &more.upper);
             return moved;
         }
-        let Some(avx2) = Avx2::new() else {
-            // SAFETY: the caller's promise.
-            return unsafe {
-                self.move_blocks(origins, goals, sites_of, |sites, moved, places, sites_of| {
-                    places.iter_mut().zip(sites_of).for_each(|(p, &s)| sites.move_one(p, s, moved));
-                })
-            };
-        };
-        let mut covered = [avx2.splat(f64::INFINITY), avx2.splat(f64::NEG_INFINITY)];
-        let mut moved = avx2.run_with(
-            self,
-            (origins, goals, sites_of),
-            &mut covered,
-            #[inline(always)]
-            |sites, (origins, goals, sites_of), covered| {
+        in_lanes!(simd, self, (origins, goals), sites_of => |sites, (origins, goals), sites_of| {
+                let mut covered = [simd.splat(f64::INFINITY), simd.splat(f64::NEG_INFINITY)];
                 // SAFETY: the caller's promise.
-                unsafe {
+                let mut moved = unsafe {
                     sites.move_blocks(
                         origins,
                         goals,
@@ -135,14 +122,13 @@ impl<G: Dimension> SharedSites<G> {
                         #[inline(always)]
                         |sites, moved, places, sites_of| {
                             let sites = sites_at(sites.start, sites.n, sites_of);
-                            moved.n += G::exchange(avx2, places, sites, covered);
+                            moved.n += G::exchange(simd, places, sites, &mut covered);
                         },
                     )
-                }
-            },
-        );
-        moved.hold_lanes(covered);
-        moved
+                };
+                moved.hold_lanes(covered);
+                moved
+        })
     }
 
     /// Copies goals block by block, and exchanges them with the positions of sites by an exchange of several at a time.

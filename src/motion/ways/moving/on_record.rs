@@ -9,7 +9,7 @@ use crate::motion::state::goals::Moves;
 use crate::motion::state::mesh::Mesh;
 use crate::motion::ways::moving::{BLOCK, Blocks, sites_at};
 use crate::predicates::{distance_above, distances_above};
-use crate::simd::{Avx2, LANES};
+use crate::simd::{LANES, Simd, in_lanes};
 
 /// What a motion on record has found.
 pub(in crate::motion) struct Motion {
@@ -29,22 +29,7 @@ impl<G: Dimension> Mesh<G> {
         moves: &mut Moves<'_, G>,
         slacks: &mut Slacks<G>,
     ) -> Result<Motion> {
-        let Some(avx2) = Avx2::new() else {
-            return self.move_all_on_record_by(moves, slacks, |sites, places, sites_of| {
-                std::array::from_fn(|k| {
-                    let (point, p) = (&mut sites[sites_of[k]].point, &mut places[k]);
-                    let distance = distance_above(point, p);
-                    std::mem::swap(point, p);
-                    distance
-                })
-            });
-        };
-        avx2.run_with(
-            self,
-            moves,
-            slacks,
-            #[inline(always)]
-            |t, moves, slacks| {
+        in_lanes!(simd, self, moves, slacks => |t, moves, slacks| {
                 t.move_all_on_record_by(
                     moves,
                     slacks,
@@ -53,13 +38,12 @@ impl<G: Dimension> Mesh<G> {
                         // SAFETY: every vertex has a site of its own, and the sites are borrowed.
                         let sites = unsafe { sites_at(sites.as_mut_ptr(), sites.len(), sites_of) };
                         let old = [&sites[0].point, &sites[1].point, &sites[2].point, &sites[3].point];
-                        let distances = distances_above(avx2, old, places.each_ref());
-                        G::exchange(avx2, places, sites, &mut [avx2.splat(0.0); 2]);
+                        let distances = distances_above(simd, old, places.each_ref());
+                        G::exchange(simd, places, sites, &mut [simd.splat(0.0); 2]);
                         distances
                     },
                 )
-            },
-        )
+        })
     }
 
     /// Does what [`move_all_on_record`](Self::move_all_on_record) does, by exchanges of several positions at a time
