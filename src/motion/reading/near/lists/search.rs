@@ -13,7 +13,7 @@ use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::reading::near::lists::tree::{NO_LIST, Node, Placed, Tree};
 use crate::predicates::is_within_distance;
-use crate::simd::{Avx2, LANES};
+use crate::simd::{LANES, in_lanes};
 
 /// By how much a rounded square of a distance may be off: a sum of three squares of differences, with some last bits each.
 const MARGIN: f64 = 1e-14;
@@ -101,7 +101,6 @@ impl<G: Dimension> Search<'_, G> {
         let mut part = Part { entries: Vec::new(), lengths: Vec::new() };
         let mut beside = Beside::<G, E> { rows: Vec::new(), segments: Vec::new(), found: Vec::new() };
         memory::reserve_exact(&mut part.lengths, range.len())?;
-        let avx2 = Avx2::new();
         let tree = &self.tree;
         let first =
             tree.leaves.partition_point(|&leaf| tree.nodes[leaf as usize].end as usize <= range.start);
@@ -115,10 +114,8 @@ impl<G: Dimension> Search<'_, G> {
             for placed in &tree.placed[own] {
                 let n_found = if placed.squared_radius < 0.0 {
                     0
-                } else if let Some(avx2) = avx2 {
-                    avx2.run(|| self.list(placed, &mut beside))
                 } else {
-                    self.list(placed, &mut beside)
+                    in_lanes!(_simd => self.list(placed, &mut beside))
                 };
                 if self.is_kept {
                     beside.found[..n_found].sort_unstable();
