@@ -259,7 +259,7 @@ fn flips_need_all_their_cells() {
         for start in (1..n).map(|c| Slot::at(WORD * c)) {
             let mut tried = [(0, None), (1, None)];
             complex
-                .divided(&[Slot::new(0), start], &mut tried, |range, (k, tried)| {
+                .divided(&[Slot::new(0), start], &mut tried, 2, |range, (k, tried)| {
                     assert_eq!(*range.free.n, *k * n_free);
                     *tried = range.flip_2_3(facet, &mut Vec::new()).err();
                 })
