@@ -270,7 +270,7 @@ fn flips_need_all_their_cells() {
         // The first range has all cells.
         let mut tried = [None];
         complex
-            .divided(&[Slot::new(0)], &mut tried, |range, tried| {
+            .divided(&[Slot::new(0)], &mut tried, 1, |range, tried| {
                 *tried = range.flip_2_3(facet, &mut Vec::new()).err()
             })
             .unwrap();
