@@ -54,6 +54,7 @@ mod flip;
 mod flipper;
 mod flips;
 mod high_degree;
+mod in_order;
 mod keys;
 mod landmarks;
 mod lane_tests;

@@ -11,6 +11,8 @@
 //! `tolerance_test`).
 
 #![allow(unsafe_code)]
+// Clippy does not see the SAFETY lines of blocks inside of `in_lanes!`.
+#![allow(clippy::undocumented_unsafe_blocks)]
 
 mod all;
 mod on_record;
