@@ -92,6 +92,8 @@
  *
  *     What a call says when it ends: status codes, the message of the last failure, the version.
  *         deldrift_status_string
+ *     Options: a structure that can grow, read as far as the caller's header knows it.
+ *         deldrift_options_init
  *     Creation, destruction, and what is chosen for the whole life of a triangulation.
  *         deldrift_create
  *     Motion: what is staged, and becomes a timestamp.
@@ -388,25 +390,6 @@ typedef uint32_t deldrift_interpolation;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// In how many lists of deldrift_neighbour_lists a pair of vertices is.
-enum
-#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  deldrift_pairs : uint32_t
-#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
- {
-    /// In the list of each of the two in whose ball the other one is: full lists.
-    DELDRIFT_PAIRS_FULL = 0,
-    /// Each pair of which the full lists have one vertex or both, once: half lists.
-    DELDRIFT_PAIRS_HALF = 1,
-};
-#ifndef __cplusplus
-#if __STDC_VERSION__ >= 202311L
-typedef enum deldrift_pairs deldrift_pairs;
-#else
-typedef uint32_t deldrift_pairs;
-#endif // __STDC_VERSION__ >= 202311L
-#endif // __cplusplus
-
 /// Which segments deldrift_refine keeps whole.
 enum
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -425,6 +408,25 @@ enum
 typedef enum deldrift_kept deldrift_kept;
 #else
 typedef uint32_t deldrift_kept;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/// In how many lists of deldrift_neighbour_lists a pair of vertices is.
+enum
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  deldrift_pairs : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /// In the list of each of the two in whose ball the other one is: full lists.
+    DELDRIFT_PAIRS_FULL = 0,
+    /// Each pair of which the full lists have one vertex or both, once: half lists.
+    DELDRIFT_PAIRS_HALF = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum deldrift_pairs deldrift_pairs;
+#else
+typedef uint32_t deldrift_pairs;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -647,8 +649,10 @@ typedef struct deldrift_location {
 typedef struct deldrift_quality {
     /// sizeof(deldrift_quality) as the program sees it.
     size_t struct_size;
-    /// The least angle of a cell in degrees, up to 34; 0, the default, for any. Up to 26.5 degrees refinement ends wherever
-    /// angles between segments are at least 60 degrees, as is proved; above it does in practice.
+    /// The least angle of a cell in degrees, up to 34; 0, the default, for any. Up to 26.5 degrees all cells have it wherever
+    /// angles between segments are at least 60 degrees and no vertex is within 1,024 last places of the greatest coordinate of
+    /// another one or of a segment, as is proved; above they do in practice. Refinement ends for all angles and domains: no
+    /// vertex is inserted that is so near to another one.
     double least_angle;
     /// The greatest area of a cell; 0, the default, for any.
     double greatest_area;
@@ -680,8 +684,8 @@ typedef struct deldrift_quality {
     uint32_t has_weights;
     /// Not 0 if no corner of a cell is to be strictly inside the circle that has a segment at the cell for a diameter. Then no
     /// vertex is inside the circle of a cell that it sees, segments or not: a conforming Delaunay triangulation. Segments that
-    /// are kept whole may have such corners. Refinement then ends, as is proved, up to 20.7 degrees, and makes more cells. At
-    /// angles between segments so small that rounding decides, below some millionth of a degree, it may reach the limit.
+    /// are kept whole may have such corners, and those that a vertex touches (see unsplit). What is said of 26.5 degrees then
+    /// holds up to 20.7, and there are more cells.
     /// Default 0: segments are split where angles, areas and lengths need it.
     uint32_t is_conforming;
     /// Greatest number of vertices that deldrift_refine inserts: default SIZE_MAX.
@@ -710,7 +714,8 @@ typedef struct deldrift_quality_report {
     uint64_t replaced_segments;
     /// Segments that came. Their ids are the last ones that have been given.
     uint64_t new_segments;
-    /// Pieces that had to be split and are whole, as there is no room for a vertex between their ends.
+    /// Pieces that had to be split and are whole, as there is no room for a vertex: between their ends, or as a vertex touches
+    /// them, which is beside them by less than 1,024 last places of the greatest coordinate.
     uint64_t unsplit;
     /// Cells that are still bad, of those that were to be refined: at small angles between segments, at segments that are
     /// kept whole, and where the limit was reached. What is_conforming asks of segments does not count.
@@ -763,6 +768,26 @@ const char *deldrift_last_error(void);
 ///
 /// Cost: constant.
 const char *deldrift_version(void);
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Options: a structure that can grow, read as far as the caller's header knows it.
+// ---------------------------------------------------------------------------------------------------------------------
+
+/// Sets struct_size and the default of every other option. NULL is legal and does nothing.
+///
+/// C and C++ programs have it from this header, so that it fills the structure of the header, whichever later version
+/// they run with. Other languages have a function of this name in the library. In every version that one fills the
+/// structure as it is here, and says so in struct_size; a program that knows more fields sets them to zero, which is the
+/// default of all, and struct_size to the size of its structure.
+///
+/// Cost: constant.
+static inline void deldrift_options_init(deldrift_options *options) {
+    static deldrift_options zeros;
+    if (options) {
+        *options = zeros;
+        options->struct_size = sizeof *options;
+    }
+}
 
 // ---------------------------------------------------------------------------------------------------------------------
 // Creation, destruction, and what is chosen for the whole life of a triangulation.
@@ -2235,7 +2260,9 @@ deldrift_status deldrift_crossing_numbers(const deldrift_triangulation *t,
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone.
 ///
 /// Holes are regions, too: give their seeds a label of their own. Without segments there is one region. A seed on a segment
-/// with one region on both sides, or on the hull, is in that region.
+/// with one region on both sides is in that region. The outside of the convex hull is a region like the others, and one with
+/// those from which it is reached without crossing a segment: a seed on the hull, at a segment that bounds a region or at a
+/// corner of such ones, is on the boundary of two.
 ///
 /// Exact. Cost: m, for each segment the cells around an end, and for each seed that of deldrift_locate. After a change the
 /// first call also does what the first deldrift_cells does.
@@ -3315,8 +3342,8 @@ deldrift_status deldrift_clone(const deldrift_triangulation *t,
 /// Saved are positions, ids, segments, removed and hidden vertices, cells with their indices, staged moves, insertions and
 /// removals, the timestamp and statistics. Not saved are the options, what the algorithm keeps between commits,
 /// which changes have been taken, the weights of deldrift_refined_weights, and what deldrift_segment_conflicts and
-/// deldrift_passings tell. docs/FORMAT.md describes the bytes. Of a periodic triangulation the vectors as they were
-/// given, those that are staged, and the periods of vertices are saved, too, and all images with their cells.
+/// deldrift_passings tell. docs/FORMAT.md describes the bytes. Of a periodic triangulation the vectors as
+/// deldrift_vectors tells them, those that are staged, and the periods of vertices are saved, too, and all images with their cells.
 ///
 /// buffer: room for capacity bytes, with any alignment. count: receives the number of bytes, which is also written
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone, in constant time.
