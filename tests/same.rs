@@ -1,13 +1,11 @@
-//! The same calls give the same answers, to the last bit and in the same order, on every processor and for every number
-//! of threads: checksums of all that programs read, over histories, compared with those recorded in `results/same.csv`.
+//! The same calls on one thread give the same answers, to the last bit and in the same order, on every processor: checksums of
+//! all that programs read, over histories, compared with those recorded in `results/same`.
 //!
-//! Each history runs on one, two and three threads, with the lanes of the processor and in a second process with those of
-//! numbers (`DELDRIFT_SCALAR`). `DELDRIFT_RECORD` writes the file again. A line of it is a history, a step and a
-//! quantity.
+//! Each history runs with the lanes of the processor and in a second process with those of numbers (`DELDRIFT_SCALAR`).
+//! `DELDRIFT_RECORD` writes the file again. A line of it is a history, a step and a quantity.
 
 use crate::common::inputs::{Kind, draw};
 use crate::common::{Rng, point};
-use deldrift::internals::use_all_threads;
 use deldrift::motion::{
     Algorithm, Interpolation, MovingTriangulation, Options, Purpose, Quality, RefineOptions, Segment,
     VertexValues,
@@ -257,9 +255,9 @@ fn algorithms() -> impl Iterator<Item = Algorithm> {
 }
 
 /// All histories of a dimension.
-fn histories<G: Dimension>(threads: u32) -> Sums {
+fn histories<G: Dimension>() -> Sums {
     let mut sums = Sums::default();
-    let options = |algorithm: Algorithm| Options { algorithm, threads, ..Options::default() };
+    let options = |algorithm: Algorithm| Options { algorithm, threads: 1, ..Options::default() };
     for algorithm in algorithms() {
         for kind in [Kind::Random, Kind::Lattice, Kind::RoundedSphere, Kind::Clusters, Kind::Duplicates] {
             let points = draw::<G>(kind, 700, &mut Rng::new(1));
@@ -283,32 +281,26 @@ fn recorded_in<G: Dimension>() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/results/same/{}d.csv", G::D))
 }
 
-/// Whether counts of exact signs are in it, which may depend on the number of threads.
-fn has_counts(step: &str) -> bool {
-    ["report", "statistics", "saved"].iter().any(|counts| step.ends_with(counts))
-}
-
-/// Makes sure that checksums are those expected, but for counts where these may be others, and says which are not.
-fn assert_same(found: &Sums, expected: &[(String, u64)], may_count: bool, context: &str) {
+/// Makes sure that checksums are those expected, and says which are not.
+fn assert_same(found: &Sums, expected: &[(String, u64)]) {
     let mut differ = String::new();
     let mut n = 0;
     for ((step, sum), (other, expected)) in found.0.iter().zip(expected) {
-        assert_eq!(step, other, "{context}");
-        if sum != expected && !(may_count && has_counts(step)) {
+        assert_eq!(step, other);
+        if sum != expected {
             n += 1;
             if n <= 12 {
                 write!(differ, "\n{step}").expect("room");
             }
         }
     }
-    assert_eq!(n, 0, "{context}: {n} of {} differ, first{differ}", expected.len());
-    assert_eq!(found.0.len(), expected.len(), "{context}");
+    assert_eq!(n, 0, "{n} of {} differ, first{differ}", expected.len());
+    assert_eq!(found.0.len(), expected.len());
 }
 
 fn same<G: Dimension>(name: &str) {
-    use_all_threads();
     let path = recorded_in::<G>();
-    let first = histories::<G>(1);
+    let first = histories::<G>();
     let is_second = std::env::var_os(SECOND).is_some();
     if std::env::var_os("DELDRIFT_RECORD").is_some() && !is_second {
         let lines: String = first.0.iter().map(|(step, sum)| format!("{step},{sum:016x}\n")).collect();
@@ -320,10 +312,7 @@ fn same<G: Dimension>(name: &str) {
         (step.to_string(), u64::from_str_radix(sum, 16).expect("a checksum"))
     };
     let recorded: Vec<(String, u64)> = lines.lines().skip(1).map(row).collect();
-    assert_same(&first, &recorded, false, "one thread");
-    for threads in [2, 3] {
-        assert_same(&histories::<G>(threads), &recorded, true, &format!("{threads} threads"));
-    }
+    assert_same(&first, &recorded);
     if is_second {
         return;
     }

@@ -19,7 +19,6 @@
 
 #![allow(unsafe_code)]
 
-mod canonical;
 mod cell;
 mod copying;
 mod corners;

@@ -8,7 +8,6 @@ use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
 use crate::machine::threads;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 /// Why cells were not changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,14 +70,12 @@ impl<C: Corners> Complex<C> {
         CellRange { first: Slot::new(0), cells: &mut self.cells, free: self.free.whole() }
     }
 
-    /// Works on the ranges that begin at these slots, all of them multiples of [`WORD`] and the first one 0, each with its
-    /// own one of `parts`, on several threads, which take the next one when they are done with one. After an error nothing
-    /// has changed.
+    /// Works on the ranges that begin at these slots, all of them multiples of [`WORD`] and the first one 0, each on a
+    /// thread of its own and with its own one of `parts`. After an error nothing has changed.
     pub(crate) fn divided<P: Send>(
         &mut self,
         starts: &[Slot],
         parts: &mut [P],
-        n_threads: usize,
         work: impl Fn(&mut CellRange<C>, &mut P) + Sync,
     ) -> Result<()> {
         debug_assert!(starts.iter().all(|start| start.index().is_multiple_of(WORD)));
@@ -93,12 +90,9 @@ impl<C: Corners> Complex<C> {
             (cells, rest) = rest.split_at_mut(n);
             all.push(Mutex::new((CellRange { first: starts[k], cells, free }, part)));
         }
-        let next = AtomicUsize::new(0);
-        threads::for_each(0..n_threads.min(starts.len()), &|_| {
-            while let Some(range) = all.get(next.fetch_add(1, Relaxed)) {
-                let (range, part) = &mut *range.lock().expect("each is locked once");
-                work(range, part);
-            }
+        threads::for_each(0..starts.len(), &|k| {
+            let (range, part) = &mut *all[k].lock().expect("each is locked once");
+            work(range, part);
         });
         drop(all);
         self.free.count();

@@ -9,7 +9,7 @@ use crate::machine::aligned::Aligned;
 use crate::machine::memory;
 
 /// The free slots among those of `n_live` sorted cells: one after every `gap_after` of them.
-pub(super) fn gaps(n_live: usize, gap_after: usize) -> impl Iterator<Item = Slot> {
+fn gaps(n_live: usize, gap_after: usize) -> impl Iterator<Item = Slot> {
     (1..=n_live / gap_after).map(move |k| Slot::at(k * (gap_after + 1) - 1))
 }
 

@@ -6,7 +6,7 @@
 
 use super::cavity::Cavity;
 use super::dimension::Insert;
-use super::order::{along_curve, in_rounds};
+use super::order::in_rounds;
 use super::{Delaunay, Dimension, Insertion, Site};
 use crate::complex::{Corners, INFINITE};
 use crate::error::{Error, Result};
@@ -43,10 +43,10 @@ const LARGE: usize = 1 << 15;
 /// Cells between free ones where several threads will flip.
 const GAP_AFTER: usize = 63;
 
-/// After how many cells there is a free one, where several threads may flip: each that flips in space needs free cells
-/// of its own.
-pub(super) fn gap_after<G: Dimension>(is_shared: bool) -> usize {
-    if G::D == 3 && is_shared { GAP_AFTER } else { usize::MAX }
+/// After how many cells there is a free one, for this number of threads: each that flips in space needs free cells of
+/// its own.
+fn gap_after<G: Dimension>(n_threads: usize) -> usize {
+    if G::D == 3 && n_threads > 1 { GAP_AFTER } else { usize::MAX }
 }
 
 impl<G: Dimension> Delaunay<G> {
@@ -62,10 +62,13 @@ impl<G: Dimension> Delaunay<G> {
             }
             Site::new(point, VertexId::new(item))
         };
-        let sorted = along_curve::<G>(0..n as u32, n, |i| &points[i as usize])?;
+        let (parts, sorted) = self.in_parts(0..n as u32, n, |i| &points[i as usize])?;
         self.begin_sites(n)?;
-        let n_threads = self.build_threads(n);
-        memory::extend(&mut self.sites, &sorted, n_threads, |k| site(k.item()))
+        for keyed in &sorted {
+            memory::extend(&mut self.sites, keyed, sorted.len(), |k| site(k.item()))?;
+        }
+        self.parts = parts;
+        Ok(())
     }
 
     /// Puts the live sites along a Hilbert curve, from index 1 on without gaps. All indices change and the cells
@@ -73,12 +76,16 @@ impl<G: Dimension> Delaunay<G> {
     pub fn sort_sites(&mut self) -> Result<()> {
         let sites = &self.sites;
         let n = sites.len() - 1 - self.free_sites.len();
-        let keyed = along_curve::<G>(self.live_sites().map(SiteId::get), n, |s| &sites[s as usize].point)?;
+        let (parts, keyed) =
+            self.in_parts(self.live_sites().map(SiteId::get), n, |s| &sites[s as usize].point)?;
         let mut sorted = Vec::new();
         memory::reserve_exact(&mut sorted, n + 1)?;
         sorted.push(sites[INFINITE]);
-        memory::extend(&mut sorted, &keyed, self.build_threads(n), |k| sites[k.item() as usize])?;
+        for part in &keyed {
+            memory::extend(&mut sorted, part, keyed.len(), |k| sites[k.item() as usize])?;
+        }
         self.sites = sorted;
+        self.parts = parts;
         self.free_sites.clear();
         self.complex.clear();
         Ok(())
@@ -88,18 +95,13 @@ impl<G: Dimension> Delaunay<G> {
     /// `monitor` is called with the fraction done; if it returns `false`, the cells are left half made.
     pub fn rebuild(&mut self, monitor: &mut dyn FnMut(f64) -> bool) -> Result<Vec<Merge>> {
         self.flat.clear();
-        let n = self.sites.len() - 1 - self.free_sites.len();
-        if let Some((coincident, names)) = self.triangulate_parts(self.build_threads(n), n, monitor)? {
-            return self.merge_in_order(names, coincident);
+        if let Some(coincident) = self.triangulate_parts(monitor)? {
+            return self.merge(coincident);
         }
         self.tighten_filter();
         let order = in_rounds::<G>(self.live_sites())?;
         if order.iter().any(|&s| self.extend_basis(s)) {
-            let coincident = self.triangulate_unmerged(&order, order.len(), monitor)?;
-            if self.is_build_shared(n) {
-                return self.merge_in_order(self.own_names()?, coincident);
-            }
-            return self.merge(coincident);
+            return self.triangulate(&order, monitor);
         }
         self.complex.clear();
         let mut coincident = Vec::new();
@@ -125,6 +127,16 @@ impl<G: Dimension> Delaunay<G> {
         }
         self.find_flat_basis(SiteId::NONE);
         Ok(merges)
+    }
+
+    /// Builds the cells of all live sites, given in insertion order, from a basis of `D + 1` on.
+    pub(super) fn triangulate(
+        &mut self,
+        order: &[SiteId],
+        monitor: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<Vec<Merge>> {
+        let coincident = self.triangulate_unmerged(order, order.len(), monitor)?;
+        self.merge(coincident)
     }
 
     /// For how many cells there is room in a build of `n` sites; only few sets have more. In the plane there are not
@@ -243,7 +255,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Drops the sites that found others at their places, and gives those the vertex of the lowest key.
-    pub(super) fn merge(&mut self, coincident: Vec<(SiteId, SiteId)>) -> Result<Vec<Merge>> {
+    fn merge(&mut self, coincident: Vec<(SiteId, SiteId)>) -> Result<Vec<Merge>> {
         if coincident.is_empty() {
             return Ok(Vec::new());
         }
@@ -296,11 +308,11 @@ impl<G: Dimension> Delaunay<G> {
     /// Returns the new slot of each, [`Slot::NONE`] for free ones, unless they stay as they are.
     pub(crate) fn sort_cells(&mut self, replaced: f64) -> Result<Option<Vec<Slot>>> {
         let n_slots = self.complex.n_slots();
-        let is_shared = self.is_flipping_shared(n_slots);
-        if self.is_sorted && !self.is_disordered(replaced) || n_slots < LARGE && !is_shared {
+        let n_threads = self.flipping_threads(n_slots);
+        if self.is_sorted && !self.is_disordered(replaced) || n_slots < LARGE && n_threads == 1 {
             return Ok(None);
         }
-        let index = self.complex.sort(self.sites.len(), gap_after::<G>(is_shared))?;
+        let index = self.complex.sort(self.sites.len(), gap_after::<G>(n_threads))?;
         for site in &mut self.sites {
             if site.cell != Slot::NONE {
                 site.cell = index[site.cell];
@@ -318,9 +330,9 @@ impl<G: Dimension> Delaunay<G> {
         n_slots >= LARGE && self.n_replaced as f64 > replaced * n_slots as f64
     }
 
-    /// Whether several threads would flip in this number of cells, if there were as many.
-    pub(super) fn is_flipping_shared(&self, n_cells: usize) -> bool {
-        self.threads.shares(n_cells, LARGE, LARGE / 64) > 1
+    /// How many threads flip, for this number of cells.
+    fn flipping_threads(&self, n_cells: usize) -> usize {
+        self.threads.for_work(n_cells, LARGE, LARGE / 64)
     }
 
     /// A copy without memory for what is gone, in which the vertices have other ids, `n_ids` in all and in the same order:
@@ -328,16 +340,17 @@ impl<G: Dimension> Delaunay<G> {
     pub(crate) fn compacted(&self, ids: &[VertexId], n_ids: usize) -> Result<(Self, Vec<Slot>)> {
         let sites = &self.sites;
         let n = sites.len() - 1 - self.free_sites.len();
-        let keyed = along_curve::<G>(self.live_sites().map(SiteId::get), n, |s| &sites[s as usize].point)?;
+        let (parts, keyed) =
+            self.in_parts(self.live_sites().map(SiteId::get), n, |s| &sites[s as usize].point)?;
         let mut names = Vec::new();
         memory::reserve_exact(&mut names, sites.len())?;
         names.resize(sites.len(), SiteId::NONE);
         names[INFINITE] = INFINITE;
-        for (name, k) in SiteId::range(1..n + 1).zip(&keyed) {
+        for (name, k) in SiteId::range(1..n + 1).zip(keyed.iter().flatten()) {
             names[k.item() as usize] = name;
         }
         let n_cells = self.complex.n_finite() + self.complex.n_ghosts();
-        let gap_after = gap_after::<G>(self.is_flipping_shared(n_cells));
+        let gap_after = gap_after::<G>(self.flipping_threads(n_cells));
         let (complex, index) = self.complex.compacted(n + 1, gap_after, &names)?;
         let flat = self.flat.renamed(&names)?;
         // Without cells the ghost vertex may still name one.
@@ -346,12 +359,13 @@ impl<G: Dimension> Delaunay<G> {
         memory::reserve_exact(&mut sorted, n + 1)?;
         let ghost = &sites[INFINITE];
         sorted.push(Site { cell: cell_of(ghost), ..*ghost });
-        sorted.extend(keyed.iter().map(|k| {
+        sorted.extend(keyed.iter().flatten().map(|k| {
             let site = &sites[k.item() as usize];
             Site { point: site.point, cell: cell_of(site), id: ids[site.id] }
         }));
         let mut t = Delaunay {
             sites: sorted,
+            parts,
             flat,
             is_sorted: true,
             relocated: SiteId::NONE,

@@ -11,6 +11,7 @@ impl<G: Dimension> Delaunay<G> {
             sites: memory::copy_of(&self.sites)?,
             keys: self.keys.copied()?,
             free_sites: memory::copy_of(&self.free_sites)?,
+            parts: self.parts.copy()?,
             complex: self.complex.copied()?,
             required: memory::copy_of(&self.required)?,
             is_constrained: self.is_constrained,

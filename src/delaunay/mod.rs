@@ -54,7 +54,6 @@ mod flip;
 mod flipper;
 mod flips;
 mod high_degree;
-mod in_order;
 mod keys;
 mod landmarks;
 mod lane_tests;
@@ -115,6 +114,7 @@ use cavity::Cavity;
 use dimension::Insert;
 use flat::Flat;
 use flip::AllFlips;
+use parts::Parts;
 use remove::Hole;
 use wrapping::Wrapping;
 
@@ -128,6 +128,7 @@ pub struct Delaunay<G: Dimension> {
     /// What ranks the vertices at the sites.
     keys: Keys,
     free_sites: Vec<SiteId>,
+    parts: Parts,
     complex: Complex<G::Corners>,
     /// Edges that have to be there, the lower site first, sorted.
     required: Vec<[SiteId; 2]>,
@@ -138,7 +139,7 @@ pub struct Delaunay<G: Dimension> {
     upper: G::Point,
     /// What stands in for cells while there are none.
     flat: Flat<G>,
-    /// Whether the cells are in the order of the sites since the latest build, or have been [sorted](Self::sort_cells).
+    /// Whether the cells have been [sorted](Self::sort_cells) since the latest build.
     is_sorted: bool,
     /// How many slots have got other cells since they were sorted, counted once in each change.
     n_replaced: usize,
@@ -196,6 +197,7 @@ impl<G: Dimension> Delaunay<G> {
             sites: Vec::new(),
             keys: Keys::default(),
             free_sites: Vec::new(),
+            parts: Parts::default(),
             complex: Complex::default(),
             required: Vec::new(),
             is_constrained: false,
@@ -474,6 +476,7 @@ impl<G: Dimension> Delaunay<G> {
         memory::bytes_of(&self.sites)
             + self.keys.memory_bytes()
             + memory::bytes_of(&self.free_sites)
+            + self.parts.memory_bytes()
             + self.complex.memory_bytes()
             + self.flat.memory_bytes()
             + self.landmarks.memory_bytes()

@@ -53,18 +53,6 @@ impl Keyed {
     }
 }
 
-/// Items, `n` in ascending order, along the Hilbert curve of their points.
-pub fn along_curve<'p, G: Dimension>(
-    items: impl Iterator<Item = u32>,
-    n: usize,
-    point: impl Fn(u32) -> &'p G::Point + Copy,
-) -> Result<Vec<Keyed>> {
-    let mut all = Vec::new();
-    memory::reserve_exact(&mut all, n)?;
-    all.extend(items.map(Keyed::new));
-    hilbert_order::<G>(all, point)
-}
-
 /// Sorts items, ascending as given, along the Hilbert curve of their points.
 pub fn hilbert_order<'p, G: Dimension>(
     mut items: Vec<Keyed>,
@@ -104,7 +92,7 @@ fn sort_in_box<'p, G: Dimension>(
         return;
     }
     // Several boxes of the grid to a point of a uniform set, and keys of 32 bits at most.
-    let per_axis = (keyed.len() - 1).checked_ilog2().map_or(0, |bits| bits + 1).div_ceil(G::D as u32) + 2;
+    let per_axis = ((keyed.len() as f64).log2() / G::D as f64).ceil() as u32 + 2;
     let bits = if G::D == 2 { per_axis.next_multiple_of(4).min(16) } else { per_axis.min(10) };
     // Of small extents the scale would be infinite.
     let up = if extent < SMALL { UP } else { 1.0 };

@@ -7,8 +7,7 @@
 //! Invariants: a thread changes nothing but its own part's triangulation, of which it is the owner; that of the first
 //! part has the sites of all and room for all cells, each other one a copy of its own sites and a part of that room,
 //! where its cells stay; the monitor is called by the calling thread alone. Keys break the ties in a part as in the
-//! whole, so the cells are those of a build on one thread; [`put_in_order`](Delaunay::put_in_order) makes their order that,
-//! too.
+//! whole, so the cells are those of a build on one thread.
 //!
 //! Cost: that of the largest part, and of uniting. Of a million sites in two parts 0.15 % are inserted again
 //! in the plane, and 1.7 % in space. Where spheres reach far into other parts, as those of points on one
@@ -48,30 +47,29 @@ struct Build<'t, G: Dimension> {
 }
 
 impl<G: Dimension> Delaunay<G> {
-    /// Triangulates the live sites, of which there are `n`, in this number of parts at the same time; returns pairs of
-    /// coincident sites, the second in the cells, and which site each corner of the cells stands for. `None`, and no cells,
-    /// if there is but one part or no memory for several, or one is flat.
+    /// Triangulates the parts of the live sites at the same time; returns pairs of coincident sites, the
+    /// second in the cells. `None`, and no cells, if there is but one part or no memory for several, or one
+    /// is flat.
     pub(super) fn triangulate_parts(
         &mut self,
-        n_parts: usize,
-        n: usize,
         monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Option<(Coincident, Vec<SiteId>)>> {
-        if n_parts <= 1 {
+    ) -> Result<Option<Coincident>> {
+        let n_parts = self.parts.count();
+        if n_parts == 1 {
             return Ok(None);
         }
-        let Ok((parts, names, mut t)) = self.parted(n_parts, n) else { return Ok(None) };
-        let n_sites = t.sites.len();
+        let n_sites = self.sites.len();
         let mut boxes = Vec::new();
         memory::lengthen(&mut boxes, n_parts, None)?;
         threads::fill(&mut boxes, &|part| {
-            let sites = &t.sites[parts.sites(part..part + 1, n_sites)];
-            bounding_box::<G>(sites.iter().map(|site| &site.point))
+            let sites = &self.sites[self.parts.sites(part..part + 1, n_sites)];
+            bounding_box::<G>(sites.iter().filter(|site| site.is_live()).map(|site| &site.point))
         });
         if boxes.contains(&None) {
             return Ok(None);
         }
-        let Ok(copies) = t.copies(&parts) else { return Ok(None) };
+        let Ok(copies) = self.copies() else { return Ok(None) };
+        let parts = std::mem::take(&mut self.parts);
         let build = Build {
             parts: &parts,
             keys: self.keys.another(),
@@ -82,59 +80,44 @@ impl<G: Dimension> Delaunay<G> {
         };
         let mut is_cancelled = false;
         self.complex.clear();
-        (t.complex, t.cavity) = (std::mem::take(&mut self.complex), std::mem::take(&mut self.cavity));
-        // The first part is triangulated where the sites of all are.
-        let built = t.complex.reserve(build.n_cells_of(0..n_parts)).and_then(|()| {
-            build.triangulate(&mut t, 0..n_parts, &mut |fraction| {
+        // The first part is triangulated here, where the sites of all are.
+        let built = self.complex.reserve(build.n_cells_of(0..n_parts)).and_then(|()| {
+            build.triangulate(self, 0..n_parts, &mut |fraction| {
                 is_cancelled |= !monitor(fraction);
                 !is_cancelled && !build.stop.load(Relaxed)
             })
         });
-        t.complex.reclaim();
-        (self.complex, self.cavity) = (std::mem::take(&mut t.complex), std::mem::take(&mut t.cavity));
+        self.complex.reclaim();
+        self.parts = parts;
         match built {
-            Ok(mut coincident) => {
-                self.tighten_filter();
-                coincident.iter_mut().for_each(|(s, t)| (*s, *t) = (names[*s], names[*t]));
-                Ok(Some((coincident, names)))
+            Ok(coincident) => Ok(Some(coincident)),
+            Err(_) => {
+                self.flat.clear();
+                if is_cancelled { Err(Error::Cancelled) } else { Ok(None) }
             }
-            Err(_) if is_cancelled => Err(Error::Cancelled),
-            Err(_) => Ok(None),
         }
     }
 
-    /// The live sites in parts, in a kernel without cells, and which of the sites here each one is.
-    fn parted(&self, n_parts: usize, n: usize) -> Result<(Parts, Vec<SiteId>, Self)> {
-        let (parts, lists) = self.in_parts(n_parts, n)?;
-        let (mut names, mut sites) = (Vec::new(), Vec::new());
-        memory::reserve_exact(&mut names, n + 1)?;
-        memory::reserve_exact(&mut sites, n + 1)?;
-        names.push(INFINITE);
-        lists.iter().for_each(|list| names.extend_from_slice(list));
-        memory::extend(&mut sites, &names, n_parts, |&s| self.sites[s])?;
-        Ok((parts, names, Delaunay { sites, keys: self.keys.another(), ..Delaunay::empty_on(self.threads) }))
-    }
-
     /// The [copies](Self::copy_of_part) of all parts.
-    fn copies(&self, parts: &Parts) -> Result<Vec<Mutex<Vec<Site<G>>>>> {
+    fn copies(&self) -> Result<Vec<Mutex<Vec<Site<G>>>>> {
         let mut copies = Vec::new();
-        memory::reserve_exact(&mut copies, parts.count())?;
-        for part in 0..parts.count() {
-            copies.push(self.copy_of_part(parts, part)?);
+        memory::reserve_exact(&mut copies, self.parts.count())?;
+        for part in 0..self.parts.count() {
+            copies.push(self.copy_of_part(part)?);
         }
         Ok(copies)
     }
 
     /// The sites of a part, after a placeholder, with room for those of all parts that will be united with it; nothing
     /// for the first part.
-    fn copy_of_part(&self, parts: &Parts, part: usize) -> Result<Mutex<Vec<Site<G>>>> {
+    fn copy_of_part(&self, part: usize) -> Result<Mutex<Vec<Site<G>>>> {
         let mut copy = Vec::new();
         if part > 0 {
-            let (n_parts, n_sites) = (parts.count(), self.sites.len());
-            let room = parts.sites(part..parts::end_from(part, n_parts), n_sites).len();
+            let (n_parts, n_sites) = (self.parts.count(), self.sites.len());
+            let room = self.parts.sites(part..parts::end_from(part, n_parts), n_sites).len();
             memory::reserve_exact(&mut copy, room + 1)?;
             copy.push(self.sites[INFINITE]);
-            let own = &self.sites[parts.sites(part..part + 1, n_sites)];
+            let own = &self.sites[self.parts.sites(part..part + 1, n_sites)];
             memory::extend(&mut copy, own, n_parts, |site| *site)?;
         }
         Ok(Mutex::new(copy))
@@ -246,25 +229,12 @@ mod tests {
         points
     }
 
-    /// Triangulates in as many parts as there are threads, and puts that in order.
-    fn triangulated_parts<G: Dimension>(
-        t: &mut Delaunay<G>,
-        monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Option<Coincident>> {
-        let n = t.sites.len() - 1;
-        let Some((mut coincident, names)) = t.triangulate_parts(t.build_threads(n), n, monitor)? else {
-            return Ok(None);
-        };
-        t.put_in_order(names, &mut coincident)?;
-        Ok(Some(coincident))
-    }
-
     /// Parts are triangulated as such, and their sizes, hulls and counters are those of one triangulation.
     fn unites<G: Dimension>() {
         for threads in [2, 3, 5] {
             let mut t = Delaunay::<G>::on(Threads::exactly(threads)).expect("room for it");
             t.add_sites(&random::<G>(3000)).expect("room for it");
-            let coincident = triangulated_parts(&mut t, &mut |_| true).expect("room for it");
+            let coincident = t.triangulate_parts(&mut |_| true).expect("room for it");
             assert_eq!(coincident, Some(Vec::new()));
             t.validate(Level::Delaunay).expect("a Delaunay triangulation");
             let mut one = Delaunay::<G>::default();
@@ -293,7 +263,7 @@ mod tests {
                 let [first, last] = [SiteId::at(1), SiteId::at(3000)].map(|s| t.site(s).point);
                 t.set_point(SiteId::at(1), last);
                 t.set_point(SiteId::at(3000), first);
-                assert_eq!(triangulated_parts(&mut t, &mut |_| true), Ok(Some(Vec::new())));
+                assert_eq!(t.triangulate_parts(&mut |_| true), Ok(Some(Vec::new())));
                 t.validate(Level::Delaunay).expect("a Delaunay triangulation");
             }
         }
@@ -310,7 +280,7 @@ mod tests {
         let points: Vec<[f64; 3]> = (0..n).map(|_| rng.unit()).map(|x| [x, x * x, x * x * x]).collect();
         let mut t = Delaunay::<Space>::on(Threads::exactly(2)).expect("room for it");
         t.add_sites(&points).expect("room for it");
-        assert_eq!(triangulated_parts(&mut t, &mut |_| true), Ok(Some(Vec::new())));
+        assert_eq!(t.triangulate_parts(&mut |_| true), Ok(Some(Vec::new())));
         assert!(t.complex().n_finite() > 3 * Delaunay::<Space>::n_cells_of(n));
         t.validate(Level::Delaunay).expect("a Delaunay triangulation");
     }
@@ -320,10 +290,10 @@ mod tests {
     fn room_is_divided_and_taken_back() {
         let mut t = Delaunay::<Space>::on(Threads::exactly(4)).expect("room for it");
         t.add_sites(&random::<Space>(3000)).expect("room for it");
-        triangulated_parts(&mut t, &mut |_| true).expect("room for it");
+        t.triangulate_parts(&mut |_| true).expect("room for it");
         let (room, n_slots) = (t.complex().n_cells_reserved(), t.complex().n_slots());
         for most in [0.5, 2.0, 0.9, 2.0] {
-            let built = triangulated_parts(&mut t, &mut |fraction| fraction < most);
+            let built = t.triangulate_parts(&mut |fraction| fraction < most);
             assert_eq!(built, if most > 1.0 { Ok(Some(Vec::new())) } else { Err(Error::Cancelled) });
             assert_eq!(t.complex().n_cells_reserved(), room);
         }
@@ -337,7 +307,7 @@ mod tests {
         points.iter_mut().filter(|p| p[0] < 0.6).for_each(|p| p[1] = 0.0);
         let mut t = Delaunay::<Plane>::on(Threads::exactly(2)).expect("room for it");
         t.add_sites(&points).expect("room for it");
-        assert_eq!(triangulated_parts(&mut t, &mut |_| true), Ok(None));
+        assert_eq!(t.triangulate_parts(&mut |_| true), Ok(None));
         assert_eq!(t.rebuild(&mut |_| true), Ok(Vec::new()));
         t.validate(Level::Delaunay).expect("a Delaunay triangulation");
     }

@@ -1,10 +1,11 @@
 //! Parts of the sites, for a build on several threads.
 //!
 //! Hyperplanes orthogonal to the axes divide space, each part of it in two (Bentley's k-d tree, 10.1145/361002.361007).
-//! The sites of each part keep their order, along a Hilbert curve. The planes are those of a sample, and of one build.
+//! The sites of each part follow each other in memory, along a Hilbert curve of their own. The planes are those of a
+//! sample, and stay when sites move: before the next build, sites that have crossed one change places.
 
-use super::order::bounding_box;
-use super::{Delaunay, Dimension};
+use super::order::{Keyed, bounding_box, hilbert_order};
+use super::{Delaunay, Dimension, Site};
 use crate::error::Result;
 use crate::ids::SiteId;
 use crate::machine::memory;
@@ -18,7 +19,7 @@ const SAMPLE: usize = 1 << 13;
 /// The first site after the placeholder.
 const FIRST: SiteId = SiteId::new(1);
 
-/// Parts of sites.
+/// Parts of sites; none for a build on one thread.
 #[derive(Debug, Default)]
 pub(super) struct Parts {
     /// First site of each part; none if there is but one part.
@@ -29,6 +30,10 @@ pub(super) struct Parts {
 }
 
 impl Parts {
+    pub(super) fn memory_bytes(&self) -> usize {
+        memory::bytes_of(&self.starts) + memory::bytes_of(&self.planes)
+    }
+
     /// Planes for `n_parts` parts with like shares of a sample.
     fn of_sample<G: Dimension>(sample: &mut [G::Point], n_parts: usize) -> Result<Self> {
         let mut parts = Parts::default();
@@ -51,6 +56,11 @@ impl Parts {
         self.planes[middle - 1] = (axis, at[axis]);
         self.divide::<G>(below, parts.start..middle);
         self.divide::<G>(&mut sample[rank..], middle..parts.end);
+    }
+
+    /// A copy.
+    pub(super) fn copy(&self) -> Result<Self> {
+        Ok(Parts { starts: memory::copy_of(&self.starts)?, planes: memory::copy_of(&self.planes)? })
     }
 
     /// Number of parts.
@@ -82,26 +92,26 @@ impl Parts {
         (least, limit)
     }
 
-    /// The sites of a part.
+    /// The items of a part.
     fn items_in<'p, G: Dimension>(
         &self,
         part: usize,
-        mut items: impl Iterator<Item = SiteId>,
+        mut items: impl Iterator<Item = u32>,
         n: usize,
-        point: impl Fn(SiteId) -> &'p G::Point,
-    ) -> Result<Vec<SiteId>> {
+        point: impl Fn(u32) -> &'p G::Point,
+    ) -> Result<Vec<Keyed>> {
         let (least, limit) = self.bounds(part);
         let mut own = Vec::new();
         // Sizes differ by less unless many coordinates are equal.
         memory::reserve_exact(&mut own, n / self.count() + n / 16)?;
         // On which side of a plane the next one is cannot be predicted: all are written and some kept.
-        let mut kept = [SiteId::NONE; 1024];
+        let mut kept = [Keyed::default(); 1024];
         loop {
             let (mut n_items, mut n_kept) = (0, 0);
             for item in items.by_ref().take(kept.len()) {
                 let p = point(item);
                 let is_in = (0..G::D).fold(true, |is_in, k| is_in & (least[k] <= p[k]) & (p[k] < limit[k]));
-                kept[n_kept] = item;
+                kept[n_kept] = Keyed::new(item);
                 n_kept += is_in as usize;
                 n_items += 1;
             }
@@ -114,6 +124,37 @@ impl Parts {
             }
             own.extend_from_slice(&kept[..n_kept]);
         }
+    }
+
+    /// Lets sites that are on the wrong side of a plane change places.
+    fn restore<G: Dimension>(&mut self, sites: &mut [Site<G>], parts: Range<usize>) {
+        if parts.len() <= 1 {
+            return;
+        }
+        let middle = middle(&parts);
+        let (axis, at) = self.planes[middle - 1];
+        let Range { start: mut i, end: mut j } = self.sites(parts.clone(), sites.len());
+        loop {
+            i += sites[i..j].iter().take_while(|site| site.point[axis] < at).count();
+            j -= sites[i..j].iter().rev().take_while(|site| site.point[axis] >= at).count();
+            if i == j {
+                break;
+            }
+            sites.swap(i, j - 1);
+            (i, j) = (i + 1, j - 1);
+        }
+        self.starts[middle] = SiteId::at(i);
+        self.restore(sites, parts.start..middle);
+        self.restore(sites, middle..parts.end);
+    }
+
+    /// Whether no part is much larger than the others.
+    fn are_even(&self, n_sites: usize) -> bool {
+        if self.starts.is_empty() {
+            return true;
+        }
+        let largest = (0..self.count()).map(|part| self.sites(part..part + 1, n_sites).len()).max();
+        largest.is_none_or(|largest| largest * self.count() <= n_sites + n_sites / 8)
     }
 }
 
@@ -138,36 +179,68 @@ pub(super) fn end_from(part: usize, n_parts: usize) -> usize {
 
 impl<G: Dimension> Delaunay<G> {
     /// How many threads build a triangulation of this number of sites.
-    pub(super) fn build_threads(&self, n: usize) -> usize {
+    pub(crate) fn build_threads(&self, n: usize) -> usize {
         self.threads.for_work(n, BUILT_AT_LEAST[G::D - 2], BUILT_IF_ASKED)
     }
 
-    /// Whether several threads would build a triangulation of this number of sites, if there were as many.
-    pub(super) fn is_build_shared(&self, n: usize) -> bool {
-        self.threads.shares(n, BUILT_AT_LEAST[G::D - 2], BUILT_IF_ASKED) > 1
-    }
-
-    /// The live sites, of which there are `n`, in this number of parts, each in their order.
-    pub(super) fn in_parts(&self, n_parts: usize, n: usize) -> Result<(Parts, Vec<Vec<SiteId>>)> {
+    /// Items at these places in parts for as many threads as pay, each along a Hilbert curve. The parts start
+    /// where the sites do if the first one is [`FIRST`].
+    pub(super) fn in_parts<'p>(
+        &self,
+        items: impl Iterator<Item = u32> + Clone + Sync,
+        n: usize,
+        point: impl Fn(u32) -> &'p G::Point + Copy + Sync,
+    ) -> Result<(Parts, Vec<Vec<Keyed>>)> {
+        let n_parts = self.build_threads(n);
+        let mut sorted = Vec::new();
+        memory::reserve_exact(&mut sorted, n_parts)?;
+        if n_parts == 1 {
+            let mut all = Vec::new();
+            memory::reserve_exact(&mut all, n)?;
+            all.extend(items.map(Keyed::new));
+            sorted.push(hilbert_order::<G>(all, point)?);
+            return Ok((Parts::default(), sorted));
+        }
         let step = (n / (SAMPLE * n_parts)).max(1);
         let mut sample = Vec::new();
         memory::reserve_exact(&mut sample, n.div_ceil(step))?;
-        memory::collect(&mut sample, self.live_sites().step_by(step).map(|s| self.site(s).point))?;
+        memory::collect(&mut sample, items.clone().step_by(step).map(|item| *point(item)))?;
         let mut parts = Parts::of_sample::<G>(&mut sample, n_parts)?;
-        let (mut lists, mut done) = (Vec::new(), Vec::new());
-        memory::reserve_exact(&mut lists, n_parts)?;
+        sorted.resize_with(n_parts, Vec::new);
+        let mut done = Vec::new();
         memory::lengthen(&mut done, n_parts, Ok(Vec::new()))?;
         threads::fill(&mut done, &|part| {
-            parts.items_in::<G>(part, self.live_sites(), n, |s| &self.site(s).point)
+            hilbert_order::<G>(parts.items_in::<G>(part, items.clone(), n, point)?, point)
         });
-        let mut start = FIRST;
-        for (part, list) in done.into_iter().enumerate() {
-            let list = list?;
-            parts.starts[part] = start;
-            start = SiteId::at(start.index() + list.len());
-            lists.push(list);
+        for (sorted, done) in sorted.iter_mut().zip(done) {
+            *sorted = done?;
         }
-        Ok((parts, lists))
+        let mut start = FIRST;
+        for (part, sorted) in sorted.iter().enumerate() {
+            parts.starts[part] = start;
+            start = SiteId::at(start.index() + sorted.len());
+        }
+        Ok((parts, sorted))
+    }
+
+    /// Brings the sites back into parts, if they were: indices change. [`rebuild`](Self::rebuild) must follow.
+    pub(crate) fn restore_parts(&mut self) {
+        let n_parts = self.parts.count();
+        if n_parts == 1 {
+            return;
+        }
+        self.parts.restore(&mut self.sites, 0..n_parts);
+        if !self.free_sites.is_empty() {
+            // The list keeps its length, so this needs no memory.
+            self.free_sites.clear();
+            let sites = SiteId::range(1..self.sites.len());
+            self.free_sites.extend(sites.filter(|&s| !self.sites[s].is_live()));
+        }
+    }
+
+    /// Whether no part of the sites is much larger than the others.
+    pub(crate) fn has_even_parts(&self) -> bool {
+        self.parts.are_even(self.sites.len())
     }
 }
 
@@ -183,29 +256,35 @@ const BUILT_AT_LEAST: [usize; 2] = [5_000, 2_500];
 mod tests {
     use super::*;
     use crate::delaunay::Plane;
-    use crate::machine::threads::Threads;
+    use crate::ids::VertexId;
     use crate::random::Rng;
 
-    /// Every site is in one part, on its side of all planes, and parts are even and keep the order of sites.
+    /// Sites that have crossed a plane change places with others, all others stay.
     #[test]
-    fn sites_are_parted() {
+    fn parts_are_restored() {
         let rng = &mut Rng::new(1);
-        let points: Vec<[f64; 2]> = (0..4_000).map(|_| [rng.unit(), rng.unit()]).collect();
-        let mut t = Delaunay::<Plane>::on(Threads::ONE).expect("room");
-        t.add_sites(&points).expect("room");
+        let mut sample: Vec<[f64; 2]> = (0..4_000).map(|_| [rng.unit(), rng.unit()]).collect();
         let n_parts = 5;
-        let (parts, lists) = t.in_parts(n_parts, points.len()).expect("room");
-        for (part, list) in lists.iter().enumerate() {
-            let (least, limit) = parts.bounds(part);
-            for &s in list {
-                let p = t.site(s).point;
-                assert!((0..2).all(|k| least[k] <= p[k] && p[k] < limit[k]), "{part}");
+        let mut parts = Parts::of_sample::<Plane>(&mut sample, n_parts).expect("room");
+        let site = |(k, &point): (usize, &[f64; 2])| Site::new(point, VertexId::at(k));
+        // In any order at first.
+        let mut sites: Vec<Site<Plane>> = sample.iter().enumerate().map(site).collect();
+        sites.insert(0, Site::new([f64::NAN; 2], VertexId::NONE));
+        for round in 0..3 {
+            parts.restore(&mut sites, 0..n_parts);
+            assert!(parts.are_even(sites.len()));
+            for part in 0..n_parts {
+                let (least, limit) = parts.bounds(part);
+                for site in &sites[parts.sites(part..part + 1, sites.len())] {
+                    assert!((0..2).all(|k| least[k] <= site.point[k] && site.point[k] < limit[k]), "{part}");
+                }
             }
-            assert!(list.is_sorted() && n_parts * list.len() < points.len() + points.len() / 8);
-            assert_eq!(parts.sites(part..part + 1, points.len() + 1).len(), list.len());
+            let mut ids: Vec<VertexId> = sites[1..].iter().map(|site| site.id).collect();
+            ids.sort_unstable();
+            assert!(ids.into_iter().eq(VertexId::range(0..sample.len())), "{round}");
+            for site in sites[1..].iter_mut().step_by(7) {
+                site.point = [rng.unit(), rng.unit()];
+            }
         }
-        let mut all = lists.concat();
-        all.sort_unstable();
-        assert!(all.into_iter().eq(t.live_sites()));
     }
 }

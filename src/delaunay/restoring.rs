@@ -5,7 +5,6 @@
 //! and one over the hull, whatever the cells are. Time and memory are in proportion to their number and that of the
 //! positions, but for the sort's `n log n`.
 
-use super::order::along_curve;
 use super::{Delaunay, Dimension, Failures, Keys, Site};
 use crate::complex::{Complex, Corners, Facet};
 use crate::damage::{Damage, LoadError};
@@ -64,20 +63,23 @@ impl<G: Dimension> Delaunay<G> {
         let vertices = 0..positions.len() as u32;
         let n = vertices.clone().filter(|&v| is_site(VertexId::new(v))).count();
         let own = vertices.filter(move |&v| is_site(VertexId::new(v)));
-        let sorted = along_curve::<G>(own, n, |v| &positions[v as usize])?;
+        let (parts, sorted) = t.in_parts(own, n, |v| &positions[v as usize])?;
         t.reserve_sites(n)?;
         let mut site_of = Vec::new();
         memory::lengthen(&mut site_of, positions.len(), SiteId::NONE)?;
-        for (k, keyed) in sorted.iter().enumerate() {
-            if let Some(later) = sorted.get(k + AHEAD) {
-                prefetch(positions, later.item() as usize);
-                prefetch(&site_of, later.item() as usize);
+        for part in &sorted {
+            for (k, keyed) in part.iter().enumerate() {
+                if let Some(later) = part.get(k + AHEAD) {
+                    prefetch(positions, later.item() as usize);
+                    prefetch(&site_of, later.item() as usize);
+                }
+                site_of[keyed.item() as usize] = SiteId::at(t.sites.len());
+                t.sites.push(Site::new(positions[keyed.item() as usize], VertexId::new(keyed.item())));
             }
-            site_of[keyed.item() as usize] = SiteId::at(t.sites.len());
-            t.sites.push(Site::new(positions[keyed.item() as usize], VertexId::new(keyed.item())));
         }
         drop(sorted);
         go_on(monitor, SORTED)?;
+        t.parts = parts;
         t.tighten_filter();
         if rows.corners.is_empty() {
             t.enter_flat(&mut part_of(monitor, SORTED, 1.0))?;

@@ -19,6 +19,7 @@ impl<G: Dimension> Delaunay<G> {
         let mut sites = Vec::new();
         memory::reserve_exact(&mut sites, self.sites.len() + more)?;
         let free_sites = memory::copy_of(&self.free_sites)?;
+        let parts = self.parts.copy()?;
         sites.push(self.sites[0]);
         for (k, site) in self.sites.iter().enumerate().skip(1) {
             if let Some(next) = self.sites.get(k + AHEAD) {
@@ -31,12 +32,18 @@ impl<G: Dimension> Delaunay<G> {
             sites,
             keys: self.keys.another(),
             free_sites,
+            parts,
             threads: self.threads,
             ..Delaunay::empty()
         };
         self.give_scratch_to(&mut next);
         (next.certificates, next.link_sites) = (self.certificates, self.link_sites);
         Ok(next)
+    }
+
+    /// Whether a rebuild leaves all sites at their indices: for several threads they may change places.
+    pub(crate) fn keeps_sites(&self) -> bool {
+        self.parts.count() == 1
     }
 
     /// Gives all scratch memory to another kernel.

@@ -117,11 +117,6 @@ impl<G: Dimension> Delaunay<G> {
 }
 
 impl Wrapping {
-    /// Tries again in the next removal.
-    pub(super) fn forget_failures(&mut self) {
-        (self.skips, self.last_skips) = (0, 0);
-    }
-
     fn is_due(&mut self) -> bool {
         let is_due = self.skips == 0;
         self.skips = self.skips.saturating_sub(1);

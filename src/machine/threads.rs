@@ -49,7 +49,7 @@ impl Threads {
     /// At most `given`, or with 0 no more than the system runs at the same time, which is the most that are used in any
     /// case.
     pub(crate) fn at_most(given: u32) -> Self {
-        if given > 0 && are_all_used() {
+        if given > 1 && are_all_used() {
             return Threads::exactly(given);
         }
         let available = available();
@@ -64,22 +64,14 @@ impl Threads {
     /// This number wherever the work can be divided, whether or not that pays.
     pub(crate) fn exactly(n: u32) -> Self {
         let most = n as usize;
-        if most > 1 {
-            allow_workers(most - 1);
-        }
+        allow_workers(most - 1);
         Threads { most, all: true }
     }
 
     /// How many to use for work on `items` items: at most as many as leave each one `paying` items, below which a
     /// thread more costs as much as it saves, or `least` if all are to be used.
     pub(crate) fn for_work(self, items: usize, paying: usize, least: usize) -> usize {
-        self.shares(items, paying, least).min(self.most)
-    }
-
-    /// How many threads would pay, if there were as many; at least one. What comes out of work that is divided by this
-    /// number does not depend on how many threads there are.
-    pub(crate) fn shares(self, items: usize, paying: usize, least: usize) -> usize {
-        (items / if self.all { least } else { paying }).max(1)
+        (items / if self.all { least } else { paying }).clamp(1, self.most)
     }
 }
 

@@ -84,8 +84,8 @@ pub struct Options {
     /// plane or 2,500 in space, for each 16,384 cells of a sweep, and for each 500 facets from which to flip. All
     /// triangulations share them. They are kept, and sleep between calls.
     ///
-    /// Neither the cells nor their order nor the numbers computed of them depend on it, as work is divided by how much of
-    /// it there is, or put in order afterwards. Counts of certificates and exact signs may.
+    /// The cells do not depend on it. Their order does, and so do the counts of flips, placements and exact
+    /// signs, as those depend on the order.
     pub threads: u32,
     /// Coincident vertices.
     pub coincidence: CoincidencePolicy,

@@ -12,25 +12,24 @@ const SLOWER_PER_DOUBLING: f64 = 0.11;
 /// Bytes of sites and cells below which that makes no difference.
 const NEAR_BYTES: f64 = (4 << 20) as f64;
 
+/// Share of a build in parts that one thread does alone.
+const BUILT_ALONE: f64 = 0.12;
+
+/// Share of a repair that one thread does alone.
+pub(in crate::motion) const REPAIRED_ALONE: f64 = 0.3;
+
 /// Whether to give up placing is asked once this share of what a rebuild costs has been spent.
 const MIN_SHARE_SPENT: f64 = 1.0 / 16.0;
 
 impl<G: Dimension> Mesh<G> {
-    /// By what factor a task grows beside rebuilding, compared with a small triangulation: where caches do not hold all.
-    /// How many threads there are is left out: the ways that are taken, and so the order of cells, may not depend on it.
-    pub(in crate::motion) fn slowdown(&self) -> f64 {
-        1.0 + SLOWER_PER_DOUBLING * doublings(self.kernel.bytes_read() as f64 / NEAR_BYTES)
+    /// By what factor a task, of which one thread does this share alone, grows beside rebuilding, compared with a small
+    /// triangulation on one thread: where caches do not hold all, and where several threads rebuild.
+    pub(in crate::motion) fn slowdown(&self, alone: f64) -> f64 {
+        let doublings = (self.kernel.bytes_read() as f64 / NEAR_BYTES).log2().max(0.0);
+        let n_threads = self.kernel.build_threads(self.n_present) as f64;
+        let shortened = |alone: f64| alone + (1.0 - alone) / n_threads;
+        (1.0 + SLOWER_PER_DOUBLING * doublings) * shortened(alone) / shortened(BUILT_ALONE)
     }
-}
-
-/// The logarithm of a number above 1 to base 2, nearly, by operations that are the same everywhere: straight between powers
-/// of two; 0 up to 1.
-fn doublings(x: f64) -> f64 {
-    let (mut rest, mut doublings) = (x, 0.0);
-    while rest >= 2.0 {
-        (rest, doublings) = (0.5 * rest, doublings + 1.0);
-    }
-    doublings + (rest - 1.0).max(0.0)
 }
 
 /// The time that placing vertices may take.

@@ -39,6 +39,7 @@ use crate::machine::memory;
 use crate::motion::algorithms::Algorithm;
 use crate::motion::options::SwitchingRule;
 use crate::motion::plan::auto::{Round, Scope};
+use crate::motion::plan::budget::REPAIRED_ALONE;
 use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Moves;
@@ -103,7 +104,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         };
         memory::made(&mut self.repair)?.set_limit(self.auto.limit());
         let repaired = self.commit_by_repair(start, moves, report);
-        let (evaluations, slowdown) = ([before, self.mesh.evaluations()], self.mesh.slowdown());
+        let (evaluations, slowdown) = ([before, self.mesh.evaluations()], self.mesh.slowdown(REPAIRED_ALONE));
         let repair = memory::made(&mut self.repair)?;
         repair.set_limit(None);
         repaired?;

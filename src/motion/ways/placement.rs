@@ -87,7 +87,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
         mut relocate: impl FnMut(&mut Self, VertexId, &G::Point, &mut CommitReport) -> Result<Placed>,
     ) -> Result<()> {
-        let (left, slowdown) = (queue.len(), self.mesh.slowdown());
+        let (left, slowdown) = (queue.len(), self.mesh.slowdown(1.0));
         let mut budget = Budget::new(
             self.mesh.constants,
             self.mesh.n_present,

@@ -122,11 +122,12 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Triangulates the sites of a new kernel. Returns the hidden vertices, the mean stride of sorted sites, and
     /// whether the sites have their indices from before.
     fn build(&mut self, next: &mut Delaunay<G>) -> Result<(Hidden, f64, bool)> {
-        let (mut stride, mut keeps_sites) = (self.mesh.sorted_stride, true);
-        if next.mean_stride() > MAX_STRIDE_RATIO * stride {
+        let (mut stride, mut keeps_sites) = (self.mesh.sorted_stride, next.keeps_sites());
+        if next.mean_stride() > MAX_STRIDE_RATIO * stride || !next.has_even_parts() {
             next.sort_sites()?;
             (stride, keeps_sites) = (next.mean_stride(), false);
         }
+        next.restore_parts();
         let pace = self.mesh.kernel.pace_mut();
         let merges = next.rebuild(&mut |fraction| pace.ask(fraction))?;
         let hidden = self.mesh.hide_merged(next, &merges, self.options.coincidence)?;

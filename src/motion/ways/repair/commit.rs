@@ -33,6 +33,7 @@ use crate::error::{Error, Result};
 use crate::ids::SiteId;
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
+use crate::motion::plan::budget::REPAIRED_ALONE;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::{Goals, Moves};
 use crate::motion::state::mesh::Mesh;
@@ -131,7 +132,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     fn mend_failures(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<Mending> {
         let constants = self.mesh.constants;
-        let per_placement = self.mesh.slowdown() * constants.rebuilt_per_placement as f64;
+        let per_placement = self.mesh.slowdown(REPAIRED_ALONE) * constants.rebuilt_per_placement as f64;
         let most = (self.mesh.n_present as f64 / per_placement) as usize;
         if repair.failures.is_sweep_due && constants.are_few(repair.places.n_new, self.mesh.n_present) {
             self.take_all_back(repair)?;

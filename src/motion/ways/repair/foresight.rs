@@ -10,7 +10,7 @@
 //! On random points a repair takes as long as a rebuild where about every sixth facet in space, or every seventh in the
 //! plane, fails: more and more cells are inverted, and vertices have to be placed, then. It may be every third, or
 //! every fifth, where hardly a cell is inverted, or there are ties and flips untangle the cells. Both come sooner where
-//! caches do not hold all. All that holds if
+//! caches do not hold all, and where several threads rebuild, as one of them does much of a repair. All that holds if
 //! what fails is in many small clusters of cells, as in the cubes of a lattice. In large ones, of hundreds of vertices
 //! nearly on a sphere, flips get stuck, or evaluate the certificates of a cluster again and again: then a repair takes
 //! longer when one facet in seventy fails. So some clusters are gathered.
@@ -23,6 +23,7 @@
 
 use crate::delaunay::{Dimension, Failures, Joint};
 use crate::error::Result;
+use crate::motion::plan::budget::REPAIRED_ALONE;
 use crate::motion::state::repair::Repair;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::motion::ways::repair::Prospect;
@@ -100,9 +101,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let origins = self.mesh.transaction.origins();
         let before = (has_rest && origins.are_of_all()).then_some(origins.positions());
         let is_done = self.mesh.kernel.sweep(&mut repair.failures, most, before)?;
-        // How far several threads have come when one finds too much depends on them.
-        let exact = if is_done { exact_calls() - start } else { 0 };
-        let found = Findings::of(&repair.failures, exact, 1.0);
+        let found = Findings::of(&repair.failures, exact_calls() - start, 1.0);
         let prospect = self.prospect(found, repair);
         if is_done || prospect == Prospect::Placeable {
             repair.note_findings(found, n_cells);
@@ -121,7 +120,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         if repair.limit.is_some_and(|limit| found.all_failing() > limit * n_cells) {
             return Prospect::TooMuch;
         }
-        let are_few = self.mesh.slowdown() * n_moved * constants.costs.placed < n * constants.costs.rebuilt;
+        let are_few =
+            self.mesh.slowdown(1.0) * n_moved * constants.costs.placed < n * constants.costs.rebuilt;
         if are_few && found.all_failing() > constants.failures_per_moved * n_moved {
             return Prospect::Placeable;
         }
@@ -142,7 +142,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let constants = self.mesh.constants;
         let n_cells = self.mesh.kernel.complex().n_finite() as f64;
         let failing = found.failing + constants.failing_for_inverted * found.inverted;
-        let most = constants.max_failing_with_inverted / self.mesh.slowdown();
+        let most = constants.max_failing_with_inverted / self.mesh.slowdown(REPAIRED_ALONE);
         found.have_ties(n_cells) || failing <= most * n_cells
     }
 
@@ -225,13 +225,21 @@ mod tests {
         assert_eq!(rebuilds[1..], [0; 5]);
     }
 
-    /// Rebuilding gains by order, and what is chosen for that does not depend on threads.
+    /// Rebuilding gains by threads and by order.
     #[test]
-    fn repair_is_slower_where_caches_do_not_hold_all() {
+    fn repair_is_slower_beside_several_threads_and_where_caches_do_not_hold_all() {
         let rng = &mut Rng::new(1);
-        let mut slowdown = |n, threads| random::<Plane>(n, threads, rng).0.mesh.slowdown();
-        assert_eq!(slowdown(2_000, 1), 1.0);
-        let many = slowdown(80_000, 1);
-        assert!(many > 1.0 && slowdown(80_000, 2) == many, "{many}");
+        let slowdowns = |n, threads, rng: &mut Rng| {
+            let (t, _) = random::<Plane>(n, threads, rng);
+            [0.0, 0.3, 1.0].map(|alone| t.mesh.slowdown(alone))
+        };
+        let few = slowdowns(2_000, 1, rng);
+        assert_eq!(few, [1.0; 3]);
+        let many = slowdowns(80_000, 1, rng);
+        assert!(many[0] > 1.0 && many == [many[0]; 3], "{many:?}");
+        if std::thread::available_parallelism().is_ok_and(|n| n.get() > 1) {
+            let [none, some, all] = slowdowns(80_000, 2, rng);
+            assert!(none < many[0] && many[0] < some && some < all, "{none} {some} {all}");
+        }
     }
 }
