@@ -481,9 +481,8 @@ typedef struct deldrift_options {
     /// Greatest number of threads a call may use, the calling one included; 0, the default, is no limit. The library uses
     /// as many as make the call faster, at most one per processor: one for each 5,000 vertices in 2D or 2,500
     /// in 3D to build and rebuild, and likewise to move all, check all certificates and flip in repair. All
-    /// triangulations of the process share them, and they sleep between calls. Neither the cells nor their order nor the
-    /// numbers computed of them depend on the number, or on the processor; the counts of certificates and of exact calls
-    /// in reports may depend on the number. Callbacks come from the calling thread only.
+    /// triangulations of the process share them, and they sleep between calls. The cells do not depend on the number,
+    /// their order and the counts in reports may. Callbacks come from the calling thread only.
     uint32_t threads;
     /// Default DELDRIFT_COINCIDENCE_MERGE.
     deldrift_coincidence coincidence;

@@ -339,8 +339,6 @@ static void ask_about(const deldrift_triangulation *t, const places *p) {
     GO(deldrift_vertices_in_box(t, p->low, p->high, ids, TOUR_ROOM, &count));
     note(ids, count * sizeof *ids);
     static size_t starts[TOUR_ROOM];
-    size_t n_ids;
-    GO(deldrift_id_count(t, &n_ids));
     GO(deldrift_neighbour_lists(t, &p->squared_radius, 1, NULL, 0, DELDRIFT_PAIRS_HALF, starts, n_ids + 1, ids, NULL,
                                 TOUR_ROOM, &count));
     note(starts, (n_ids + 1) * sizeof *starts);
