@@ -339,7 +339,9 @@ static void ask_about(const deldrift_triangulation *t, const places *p) {
     GO(deldrift_vertices_in_box(t, p->low, p->high, ids, TOUR_ROOM, &count));
     note(ids, count * sizeof *ids);
     static size_t starts[TOUR_ROOM];
-    GO(deldrift_neighbour_lists(t, &p->squared_radius, 1, NULL, 0, DELDRIFT_PAIRS_HALF, starts, n_ids + 1, ids, NULL,
+    // Lists of many vertices have no room otherwise.
+    const double squared = n_ids > 1000 ? p->squared_radius / 1000 : p->squared_radius;
+    GO(deldrift_neighbour_lists(t, &squared, 1, NULL, 0, DELDRIFT_PAIRS_HALF, starts, n_ids + 1, ids, NULL,
                                 TOUR_ROOM, &count));
     note(starts, (n_ids + 1) * sizeof *starts);
     note(ids, count * sizeof *ids);
