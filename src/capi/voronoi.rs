@@ -29,9 +29,11 @@ unsafe fn pass(
     t.read_any_watched(|t, monitor| {
         let d = t.dimension() as usize;
         let are_both = cells.is_some() && facets.is_some();
-        // SAFETY: as was promised to this function, here and below.
+        // SAFETY: the caller promises that there are as many half-spaces.
         let rows = || unsafe { half_space_rows(d, half_spaces, half_space_count) };
+        // SAFETY: the caller promises that the arrays of cells have the room that they say.
         let cell_rows = |n: usize| cells.map(|cells| unsafe { cells.rows(d, n) });
+        // SAFETY: the caller promises that the arrays of facets have the room that they say.
         let facet_rows = |n: usize| facets.map(|facets| unsafe { facets.rows(d, n, are_both) });
         match t {
             Content::Open(t) => in_its_dimension!(t => {

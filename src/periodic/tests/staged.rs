@@ -152,8 +152,8 @@ impl<G: Dimension> Model<G> {
             Call::MoveFirst => self.stage_move(0, goals[1])?,
             Call::MoveAll => {
                 let mut next = self.clone();
-                for vertex in 0..self.positions.len() {
-                    if self.positions[vertex].is_some() && !self.removals.contains(&vertex) {
+                for (vertex, position) in self.positions.iter().enumerate() {
+                    if position.is_some() && !self.removals.contains(&vertex) {
                         next.stage_move(vertex, goals[vertex])?;
                     }
                 }

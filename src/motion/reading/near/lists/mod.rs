@@ -76,7 +76,7 @@ impl ListsOf<'_> {
         for (vertex, place) in vertices {
             let has_list = self.mask.is_none_or(|mask| mask[vertex.index()] != 0);
             let squared_radius = if has_list { self.squared_radius(vertex) } else { NO_LIST };
-            if has_list && !(squared_radius >= 0.0) {
+            if has_list && (squared_radius.is_nan() || squared_radius < 0.0) {
                 bad = bad.min(vertex);
             }
             // No square of a distance is greater than the greatest number.

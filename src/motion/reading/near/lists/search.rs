@@ -195,9 +195,9 @@ impl<G: Dimension> Search<'_, G> {
             for row in &rows[segment.rows.clone()] {
                 let mut squares = [0.0; LANES];
                 for axis in 0..G::D {
-                    for lane in 0..LANES {
-                        let way = q[axis] - row.axes[axis][lane];
-                        squares[lane] += way * way;
+                    for (square, x) in squares.iter_mut().zip(row.axes[axis]) {
+                        let way = q[axis] - x;
+                        *square += way * way;
                     }
                 }
                 let limits = if IS_HALF {
