@@ -175,7 +175,7 @@ pub unsafe extern "C" fn deldrift_vectors(
 ///
 /// vectors: receives rows of 2 (2D) or 3 (3D) numbers. multiples: receives as many rows of whole numbers, the multiples of the
 /// vectors that were given whose sum each one is. greatest: receives a number for each: where vertices are at positions that
-/// deldrift_wrap_positions gives, no edge spans more than greatest[j] times vector j, and the place to which it leads is
+/// deldrift_wrap_positions gives, no edge spans more than entry j of greatest times vector j, and the place to which it leads is
 /// calculated without rounding. All are buffers with room for capacity vectors; one
 /// that is NULL is not filled. count: receives their number, 0 for a triangulation that is not periodic; it is also written
 /// when the buffers are too small. NULL for all with capacity 0 asks for the count alone.

@@ -47,9 +47,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::WrongCount`] unless there is one radius, or one for each id, and an entry of the mask for each id;
-    /// [`Error::InvalidValue`] for the square of the radius of a list that is negative or NaN, or so large that places of images are
-    /// rounded; [`Error::OutOfMemory`].
+    /// [`Error::WrongCount`](crate::Error::WrongCount) unless there is one radius, or one for each id, and an entry of the
+    /// mask for each id; [`Error::InvalidValue`](crate::Error::InvalidValue) for the square of the radius of a list that is
+    /// negative or NaN, or so large that places of images are rounded; [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn neighbour_lists(&self, wanted: &ListsOf<'_>) -> Result<NeighbourLists> {
         let found = self.lists_of(wanted, true, &mut |_| true)?;
         let (mut neighbours, mut shifts) = (Vec::new(), Vec::new());

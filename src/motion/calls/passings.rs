@@ -31,7 +31,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Passing`] if one would, [`Error::OutOfMemory`].
+    /// [`Error::Passing`](crate::Error::Passing) if one would, [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn check_passings(&mut self) -> Result<()> {
         self.mesh.last_found.begin();
         let staging = std::mem::take(&mut self.staging);
