@@ -64,7 +64,7 @@ static bool is_rounded_by_slots(size_t k) {
 // Whether a call tells what the latest call that changes or checks has found: not what a triangulation is, and nothing that
 // clones have. tests/last_found.rs has what each call leaves.
 static bool is_of_latest_call(size_t k) {
-    return strcmp(calls[k].function, "deldrift_segment_conflicts") == 0 || strcmp(calls[k].function, "deldrift_passings") == 0;
+    return is_of(k, "deldrift_segment_conflicts") || is_of(k, "deldrift_passings");
 }
 
 #endif
