@@ -54,7 +54,9 @@ impl Refinement<'_> {
         }
         let share = self.share_at_split(piece, cause)?;
         let mut place = self.find_place(piece, share)?;
-        if place.is_some() && share == 0.5 && self.clear_circle(piece)? {
+        if place.is_some() && share == 0.5 {
+            self.clear_circle(piece)?;
+            // What looks at vertices in the circle finds cavities of their own.
             place = self.find_place(piece, share)?;
         }
         match place {
@@ -189,9 +191,8 @@ impl Refinement<'_> {
     }
 
     /// Takes away vertices of this call that are on no segment, next to a piece and in its diametral circle: they are nearer
-    /// to it than the vertex that it gets (Chew, 10.1145/160985.161150). Whether there were any.
-    fn clear_circle(&mut self, piece: u32) -> Result<bool> {
-        let n_before = self.n_cleared;
+    /// to it than the vertex that it gets (Chew, 10.1145/160985.161150).
+    fn clear_circle(&mut self, piece: u32) -> Result<()> {
         for k in 0..2 {
             loop {
                 let side = self.mesh.sides_of(piece)[k];
@@ -213,7 +214,7 @@ impl Refinement<'_> {
                 self.examine_made()?;
             }
         }
-        Ok(self.n_cleared > n_before)
+        Ok(())
     }
 }
 
