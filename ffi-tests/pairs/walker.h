@@ -113,6 +113,9 @@ static void compare_with_loaded(size_t a, size_t b, answer *is, const answer *wa
         memset(o->numbers, 0, sizeof o->numbers);
         memset(o->more_numbers, 0, sizeof o->more_numbers);
         memset(o->rows, 0, sizeof o->rows);
+        memset(o->facets, 0, sizeof o->facets);
+        memset(o->more_facets, 0, sizeof o->more_facets);
+        memset(o->facet_rows, 0, sizeof o->facet_rows);
         memset(o->few_numbers, 0, sizeof o->few_numbers);
     }
     compare_answers(a, b, "loaded copy", is, &should_be);
