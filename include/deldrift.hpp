@@ -609,11 +609,11 @@ public:
     WrappedPositions wrap_positions(const Positions &positions, const Positions &previous = {}) const {
         std::vector<double> room, room_of_previous;
         const span<const double> numbers = positions.numbers("positions", dimension_, room);
-        const span<const double> near = previous.numbers("previous", dimension_, room_of_previous);
+        const span<const double> before = previous.numbers("previous", dimension_, room_of_previous);
         const std::size_t count = count_of("positions", numbers);
-        if (!near.empty()) expect("previous", near.size(), numbers.size());
+        if (!before.empty()) expect("previous", before.size(), numbers.size());
         WrappedPositions wrapped{std::vector<double>(numbers.size()), std::vector<std::int64_t>(numbers.size())};
-        require_ok(deldrift_wrap_positions(native(), numbers.data(), near.empty() ? nullptr : near.data(), count,
+        require_ok(deldrift_wrap_positions(native(), numbers.data(), before.empty() ? nullptr : before.data(), count,
                                            wrapped.places.data(), wrapped.shifts.data()));
         return wrapped;
     }
