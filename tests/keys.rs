@@ -559,7 +559,7 @@ fn what_was_before_insertions_is_checked() {
     let mut t = MovingTriangulation::<Plane>::new(&ten(), Options::default()).expect("a build");
     t.stage_insertions_with_keys(&[[0.5, 0.5], [0.25, 0.5]], &[9, 9]).expect("room");
     let bytes = t.saved().expect("room");
-    let at = bytes.len() - 4 - 16;
+    let at = bytes.len() - 4 - 88;
     let with = |n_known: u64, had_keys: u64| {
         let mut changed = bytes.clone();
         changed[at..at + 8].copy_from_slice(&n_known.to_le_bytes());
@@ -575,6 +575,13 @@ fn what_was_before_insertions_is_checked() {
     for (n_known, had_keys) in [(9, 0), (13, 0), (10, 1), (10, 2), (u64::MAX, 0)] {
         assert_eq!(with(n_known, had_keys), Err(LoadError::Data(Damage::Counts)), "{n_known} {had_keys}");
     }
+    // A mesh of no vertices is compared with nothing.
+    let mut changed = bytes.clone();
+    changed[at + 16] = 1;
+    seal(&mut changed);
+    let saved = Saved::of(&changed).expect("the right checksum");
+    let loaded = MovingTriangulation::<Plane>::load(&saved, Options::default()).map(drop);
+    assert_eq!(loaded, Err(LoadError::Data(Damage::Counts)));
 }
 
 /// Whether an id is given again: not one that is staged, nor where segments may still know it.

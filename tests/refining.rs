@@ -3,6 +3,7 @@
 mod coarsening;
 mod conforming;
 mod lives;
+mod loops;
 
 use crate::common::{Rng, assert_same_cells, cell_set, check_adjacency, seeds};
 use deldrift::motion::{

@@ -98,6 +98,11 @@ pub struct deldrift_quality {
     /// ends, or off it by no more than this share of the distance of these: from 0 to 1. The default, 1e-9, is above what
     /// the rounding of motions adds up to.
     pub joins: f64,
+    /// How many times as many vertices as a mesh made anew the mesh may have: 1 or more, default 1.1. Where deldrift_coarsen
+    /// leaves more of those that deldrift_refine has inserted, or takes many away for another quality, the next
+    /// deldrift_refine finds the mesh made anew, and if it has fewer by this factor takes it: in its one commit, the report of
+    /// which tells what was removed. Infinity for never. Not done with sizes.
+    pub growth: f64,
 }
 
 impl Growing for deldrift_quality {
@@ -120,6 +125,7 @@ impl Growing for deldrift_quality {
         margin: 2.0,
         share: 0.9,
         joins: 1e-9,
+        growth: 1.1,
     };
     const ENDS: &'static [usize] = &[
         offset_of!(deldrift_quality, greatest_area),
@@ -138,6 +144,7 @@ impl Growing for deldrift_quality {
         offset_of!(deldrift_quality, margin),
         offset_of!(deldrift_quality, share),
         offset_of!(deldrift_quality, joins),
+        offset_of!(deldrift_quality, growth),
         size_of::<deldrift_quality>(),
     ];
     const SIZE: &'static str = "quality.struct_size";
@@ -377,7 +384,7 @@ pub unsafe extern "C" fn deldrift_refined_weights(
 
 /// What coarsening is told by a quality.
 fn coarsening_of(given: &deldrift_quality) -> CoarsenOptions {
-    CoarsenOptions { margin: given.margin, share: given.share, joins: given.joins }
+    CoarsenOptions { margin: given.margin, share: given.share, joins: given.joins, growth: given.growth }
 }
 
 /// Runs a call that improves the cells of a mask.
@@ -469,6 +476,7 @@ fn of_quality(failure: Failure) -> Failure {
         ("margin", false) => "quality.margin",
         ("share", false) => "quality.share",
         ("joins", false) => "quality.joins",
+        ("growth", false) => "quality.growth",
         (other, _) => other,
     };
     match failure {

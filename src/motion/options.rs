@@ -183,11 +183,15 @@ pub struct CoarsenOptions {
     /// by no more than this share of the distance of these. The default, 1e-9, is above what the rounding of motions adds
     /// up to.
     pub joins: f64,
+    /// How many times as many vertices as a mesh made anew the mesh may have, 1 or more. Where it has more, or may have, as
+    /// another quality is asked for, the next refinement makes it anew, in its one commit, and takes that if it is so. Not
+    /// with sizes. Infinite for never.
+    pub growth: f64,
 }
 
 impl Default for CoarsenOptions {
     fn default() -> Self {
-        CoarsenOptions { margin: 2.0, share: 0.9, joins: 1e-9 }
+        CoarsenOptions { margin: 2.0, share: 0.9, joins: 1e-9, growth: 1.1 }
     }
 }
 

@@ -73,37 +73,68 @@ pub(crate) fn coarsen(
     bad: &[u32],
     candidates: &[Candidate],
 ) -> Result<Coarsened> {
-    let squared_cosine = tests.squared_cosine_above(room.angle);
-    let mut into = Vec::new();
-    memory::collect(&mut into, 0..given.segments.len() as u32)?;
-    let (mut is_touched, mut is_near_bad) = (Vec::new(), Vec::new());
-    memory::lengthen(&mut is_touched, points.len(), false)?;
-    memory::lengthen(&mut is_near_bad, points.len(), false)?;
+    let mut coarsening = Coarsening::new(given, points, tests, room)?;
     for &cell in bad {
-        given.corners[cell as usize].iter().for_each(|&v| is_near_bad[v] = true);
+        given.corners[cell as usize].iter().for_each(|&v| coarsening.is_near_bad[v] = true);
     }
-    let mut coarsening = Coarsening {
-        mesh: Mesh::new(given, points)?,
-        tests,
-        room,
-        squared_cosine,
-        hole: Hole::default(),
-        told: Coarsened::default(),
-        into,
-        is_touched,
-        is_near_bad,
-    };
-    let mut able = coarsening.list_able(candidates)?;
-    memory::collect(&mut coarsening.told.able, able.iter().map(|&(_, c)| c.vertex))?;
-    let mut waiting = coarsening.pass(candidates, &mut able)?;
-    while !waiting.is_empty() {
-        able = coarsening.list_able(&waiting)?;
-        waiting = coarsening.pass(candidates, &mut able)?;
-    }
+    let able = coarsening.take_away(candidates)?;
+    coarsening.told.able = able;
     coarsening.tell(given)
 }
 
-impl Coarsening<'_> {
+/// Takes all candidates away that can go, whatever comes in their place; returns what is left, the vertices taken, and by
+/// segment the one of whose piece it is a part. Pieces are joined where the vertex between them is on a line by `offset`, as
+/// in [`Room`].
+pub(super) fn strip<'a>(
+    given: Given<'a>,
+    points: Vec<[f64; 2]>,
+    no_tests: Tests<'a>,
+    offset: f64,
+    candidates: &[Candidate],
+) -> Result<(Mesh<'a>, Vec<VertexId>, Vec<u32>)> {
+    let room = Room { angle: 0.0, share: 1.0, offset };
+    let mut coarsening = Coarsening::new(given, points, no_tests, room)?;
+    coarsening.take_away(candidates)?;
+    for segment in 0..coarsening.into.len() as u32 {
+        coarsening.into[segment as usize] = coarsening.current(segment);
+    }
+    Ok((coarsening.mesh, coarsening.told.vertices, coarsening.into))
+}
+
+impl<'a> Coarsening<'a> {
+    fn new(given: Given<'a>, points: Vec<[f64; 2]>, tests: Tests<'a>, room: Room) -> Result<Self> {
+        let squared_cosine = tests.squared_cosine_above(room.angle);
+        let mut into = Vec::new();
+        memory::collect(&mut into, 0..given.segments.len() as u32)?;
+        let (mut is_touched, mut is_near_bad) = (Vec::new(), Vec::new());
+        memory::lengthen(&mut is_touched, points.len(), false)?;
+        memory::lengthen(&mut is_near_bad, points.len(), false)?;
+        Ok(Coarsening {
+            mesh: Mesh::new(given, points)?,
+            tests,
+            room,
+            squared_cosine,
+            hole: Hole::default(),
+            told: Coarsened::default(),
+            into,
+            is_touched,
+            is_near_bad,
+        })
+    }
+
+    /// Takes away what may go, until nothing does; returns those that could have gone first.
+    fn take_away(&mut self, candidates: &[Candidate]) -> Result<Vec<VertexId>> {
+        let mut first = Vec::new();
+        let mut able = self.list_able(candidates)?;
+        memory::collect(&mut first, able.iter().map(|&(_, c)| c.vertex))?;
+        let mut waiting = self.pass(candidates, &mut able)?;
+        while !waiting.is_empty() {
+            able = self.list_able(&waiting)?;
+            waiting = self.pass(candidates, &mut able)?;
+        }
+        Ok(first)
+    }
+
     /// Lists those that may go, each with the square of a short edge.
     fn list_able(&mut self, candidates: &[Candidate]) -> Result<Vec<(f64, Candidate)>> {
         let mut able = Vec::new();

@@ -29,7 +29,7 @@
 //! | `criteria` | what is bad, what is encroached |
 //! | `flat` | vertices that touch a piece: a few last places beside it |
 //! | `queue` | bad triangles in order |
-//! | `refining`, `splitting` | refinement; where pieces are split |
+//! | `refining`, `splitting`, `telling` | refinement; where pieces are split; what has been done |
 //! | `coarsening` | vertices that are not needed any more leave |
 //!
 //! # What is exact
@@ -93,6 +93,7 @@ mod queue;
 mod refining;
 mod removal;
 mod splitting;
+mod telling;
 mod walking;
 
 pub(crate) use coarsening::{Candidate, Room, coarsen};
@@ -100,4 +101,5 @@ pub(crate) use criteria::{Criteria, Tests, power_of_two_below};
 pub(crate) use given::Given;
 pub(crate) use parts::NONE;
 pub use refining::Kept;
-pub(crate) use refining::{Origins, Refined, mendable, refine};
+pub(crate) use refining::{Origins, mendable, refine, remesh};
+pub(crate) use telling::Refined;

@@ -1,11 +1,13 @@
 //! Refinement: vertices are added until no triangle is bad and no piece of a segment encroached.
 
+use super::coarsening::{Candidate, strip};
 use super::criteria::{Flaw, Measured, Tests, distance, size_between};
 use super::given::Given;
 use super::mesh::Mesh;
-use super::parts::{NONE, Piece, Rim, Side, next, previous};
+use super::parts::{NONE, Rim, Side, next, previous};
 use super::queue::{Queues, Waiting};
 use super::removal::Hole;
+use super::telling::Refined;
 use super::walking::Place;
 use crate::error::Result;
 use crate::ids::VertexId;
@@ -33,24 +35,6 @@ pub(crate) struct Origins {
     pub of_segments: Vec<u32>,
     /// Vertices that earlier calls have added, with the original that they are on.
     pub of_vertices: Vec<(VertexId, u32)>,
-}
-
-/// What a refinement has done.
-#[derive(Debug, Default)]
-pub(crate) struct Refined {
-    /// The new vertices in the order of their numbers, the first of which is the number of those given; each with the
-    /// segment that it is on, or [`NONE`].
-    pub vertices: Vec<([f64; 2], u32)>,
-    /// The segments that have been split, ascending, each with where its vertices end in `chain`.
-    pub split: Vec<(u32, usize)>,
-    /// The vertices of the split segments, from end to end.
-    pub chain: Vec<VertexId>,
-    /// Pieces that had to be split and could not, as there is no room for a vertex on them.
-    pub n_unsplit: usize,
-    /// Selected triangles that are bad.
-    pub n_bad: usize,
-    /// Whether the limit was reached.
-    pub is_cut_short: bool,
 }
 
 /// Squared cosine of 30 degrees. At input angles from there on an edge across a shell is no shorter than half its distance
@@ -124,13 +108,33 @@ pub(crate) fn refine(
     (kept, limit): (Kept, usize),
     ask: &mut dyn FnMut() -> Result<()>,
 ) -> Result<Refined> {
-    let mut refinement = Refinement::new(given, points, tests, origins, kept)?;
+    let mut refinement = Refinement::new(Mesh::new(given, points)?, tests, origins, kept)?;
     for &cell in bad {
         let t = refinement.mesh.copy(cell)?;
         refinement.examine(t)?;
     }
     let is_cut_short = refinement.go_on(limit, ask)?;
-    refinement.tell(given, is_cut_short)
+    refinement.tell(is_cut_short)
+}
+
+/// Takes all vertices away that are `made`, by [`strip`] without tests, and refines the selected cells from there.
+pub(crate) fn remesh<'a>(
+    given: Given<'a>,
+    points: Vec<[f64; 2]>,
+    (made, no_tests, offset): (&[Candidate], Tests<'a>, f64),
+    tests: Tests<'a>,
+    origins: Origins,
+    (kept, limit): (Kept, usize),
+    ask: &mut dyn FnMut() -> Result<()>,
+) -> Result<Refined> {
+    let (mut mesh, removed, into) = strip(given, points, no_tests, offset, made)?;
+    for cell in (0..given.mask.len() as u32).filter(|&cell| given.mask[cell as usize] != 0) {
+        mesh.copy(cell)?;
+    }
+    let mut refinement = Refinement::new(mesh, tests, origins, kept)?;
+    refinement.examine_all()?;
+    let is_cut_short = refinement.go_on(limit, ask)?;
+    Ok(Refined { removed, into, ..refinement.tell(is_cut_short)? })
 }
 
 /// Those of the bad cells for which [`refine`] would do something now.
@@ -142,7 +146,7 @@ pub(crate) fn mendable(
     origins: Origins,
     kept: Kept,
 ) -> Result<Vec<u32>> {
-    let mut refinement = Refinement::new(given, points, tests, origins, kept)?;
+    let mut refinement = Refinement::new(Mesh::new(given, points)?, tests, origins, kept)?;
     let mut mendable = Vec::new();
     for &cell in bad {
         let t = refinement.mesh.copy(cell)?;
@@ -155,20 +159,14 @@ pub(crate) fn mendable(
 }
 
 impl<'a> Refinement<'a> {
-    fn new(
-        given: Given<'a>,
-        points: Vec<[f64; 2]>,
-        tests: Tests<'a>,
-        origins: Origins,
-        kept: Kept,
-    ) -> Result<Self> {
+    fn new(mesh: Mesh<'a>, tests: Tests<'a>, origins: Origins, kept: Kept) -> Result<Self> {
         let mut on = Vec::new();
-        let n_given = points.len();
+        let n_given = mesh.points.len();
         memory::lengthen(&mut on, n_given, NONE)?;
         origins.of_vertices.iter().for_each(|&(v, original)| on[v] = original);
         let sizes = memory::copy_of(tests.given_sizes())?;
         Ok(Refinement {
-            mesh: Mesh::new(given, points)?,
+            mesh,
             tests,
             origins,
             kept,
@@ -204,10 +202,12 @@ impl<'a> Refinement<'a> {
             }
             self.has_left = false;
             self.mesh.pieces.iter_mut().for_each(|piece| piece.is_fixed = false);
-            for t in 0..self.mesh.triangles.len() as u32 {
-                self.examine(t)?;
-            }
+            self.examine_all()?;
         }
+    }
+
+    fn examine_all(&mut self) -> Result<()> {
+        (0..self.mesh.triangles.len() as u32).try_for_each(|t| self.examine(t))
     }
 
     /// Adds vertices for what waits; whether there would be more than the limit.
@@ -244,7 +244,7 @@ impl<'a> Refinement<'a> {
         }
     }
 
-    fn measure(&self, t: u32) -> Measured {
+    pub(super) fn measure(&self, t: u32) -> Measured {
         let triangle = self.mesh.triangle(t);
         let corners = triangle.corners;
         let points = corners.map(|v| self.mesh.point(v));
@@ -346,7 +346,7 @@ impl<'a> Refinement<'a> {
     }
 
     /// Whether the corner opposite a side is in the lens or circle of that, even if it touches it.
-    fn is_seen_wide(&self, side: Side) -> bool {
+    pub(super) fn is_seen_wide(&self, side: Side) -> bool {
         let triangle = self.mesh.triangle(side.triangle());
         let ends = triangle.ends(side.index()).map(|v| self.mesh.point(v));
         self.tests.is_encroached(ends, self.mesh.point(triangle.corners[side.index()]))
@@ -525,62 +525,6 @@ impl<'a> Refinement<'a> {
             self.examine(self.mesh.made[k])?;
         }
         Ok(())
-    }
-
-    /// Whether a piece would have to be split, and there is no room.
-    fn is_unsplit(&self, piece: &Piece) -> bool {
-        let is_touched = |side: Side| {
-            side != Side::NONE
-                && side.unread_cell().is_none()
-                && self.mesh.triangle(side.triangle()).is_selected()
-                && self.is_seen_wide(side)
-        };
-        let is_live = piece.ends[0] != VertexId::NONE && piece.side.unread_cell().is_none();
-        is_live && (piece.is_fixed || is_touched(piece.side) || is_touched(self.mesh.across(piece.side)))
-    }
-
-    /// Numbers the vertices that have stayed, and lists what has become of the segments.
-    fn tell(self, given: Given, is_cut_short: bool) -> Result<Refined> {
-        let n = self.mesh.triangles.len() as u32;
-        let n_bad =
-            (0..n).filter(|&t| self.mesh.triangle(t).is_selected() && self.measure(t).flaw.is_some()).count();
-        self.tests.check_stop()?;
-        let n_unsplit = self.mesh.pieces.iter().filter(|piece| self.is_unsplit(piece)).count();
-        let mut told = Refined { is_cut_short, n_bad, n_unsplit, ..Refined::default() };
-        let mut segment_of = Vec::new();
-        memory::lengthen(&mut segment_of, self.mesh.points.len() - self.n_given, NONE)?;
-        for piece in &self.mesh.pieces {
-            for v in piece.ends.into_iter().filter(|v| v.index() >= self.n_given) {
-                segment_of[v.index() - self.n_given] = piece.segment;
-            }
-        }
-        let mut number = Vec::new();
-        memory::lengthen(&mut number, segment_of.len(), VertexId::NONE)?;
-        memory::reserve(&mut told.vertices, self.n_added)?;
-        for (k, &segment) in segment_of.iter().enumerate() {
-            if self.mesh.at[self.n_given + k] != NONE {
-                number[k] = VertexId::at(self.n_given + told.vertices.len());
-                told.vertices.push((self.mesh.points[self.n_given + k], segment));
-            }
-        }
-        let renamed =
-            |v: VertexId| if v.index() < self.n_given { v } else { number[v.index() - self.n_given] };
-        for segment in 0..given.segments.len() as u32 {
-            let mut piece = &self.mesh.pieces[segment as usize];
-            if piece.next == NONE {
-                continue;
-            }
-            memory::push(&mut told.chain, renamed(piece.ends[0]))?;
-            loop {
-                memory::push(&mut told.chain, renamed(piece.ends[1]))?;
-                match piece.next {
-                    NONE => break,
-                    next => piece = &self.mesh.pieces[next as usize],
-                }
-            }
-            memory::push(&mut told.split, (segment, told.chain.len()))?;
-        }
-        Ok(told)
     }
 }
 

@@ -152,6 +152,10 @@ impl Mesh<'_> {
             memory::push(&mut hole.polygon, from)?;
             memory::collect(&mut hole.polygon, sides.iter().map(|side| side.ends[1]))?;
             let n = hole.polygon.len();
+            // Rounding has bent the pieces away from one side of a triangle, which the joined piece takes the place of.
+            if n == 2 && hole.polygon[1] == to && sides[0].piece == NONE {
+                continue;
+            }
             if hole.polygon[n - 1] != to
                 || sides.iter().any(|side| side.label != label)
                 || n < 3
@@ -161,7 +165,7 @@ impl Mesh<'_> {
                 return Ok(false);
             }
         }
-        Ok(true)
+        Ok(!hole.triangles.is_empty())
     }
 
     /// Whether a bad triangle is an ear that has to be there: then nothing else need be looked at.
@@ -278,7 +282,12 @@ impl Mesh<'_> {
     /// Finds what is across a side of a triangle that has been made.
     fn link(&mut self, side: Side, hole: &Hole, joined: Option<(u32, [VertexId; 2])>) {
         let [u, w] = self.triangle(side.triangle()).ends(side.index());
-        if let Some(&Rim { across, piece, .. }) = self.rim.iter().find(|rim| rim.ends == [u, w]) {
+        let is_joined = |ends: [VertexId; 2]| ends == [u, w] || ends == [w, u];
+        let joined = joined.filter(|&(_, ends)| is_joined(ends)).map_or(NONE, |(piece, _)| piece);
+        if let Some(&Rim { across, mut piece, .. }) = self.rim.iter().find(|rim| rim.ends == [u, w]) {
+            if joined != NONE {
+                piece = joined;
+            }
             let triangle = &mut self.triangles[side.triangle() as usize];
             triangle.across[side.index()] = across;
             triangle.pieces[side.index()] = piece;
@@ -289,15 +298,11 @@ impl Mesh<'_> {
             let i = (0..3).find(|&i| corners[next(i)] == w && corners[previous(i)] == u)?;
             Some(Side::new(t, i))
         });
-        let piece = match joined {
-            Some((piece, ends)) if ends == [u, w] || ends == [w, u] => piece,
-            _ => NONE,
-        };
         let triangle = &mut self.triangles[side.triangle() as usize];
         triangle.across[side.index()] = beyond.unwrap_or(Side::NONE);
-        triangle.pieces[side.index()] = piece;
-        if piece != NONE {
-            self.pieces[piece as usize].side = side;
+        triangle.pieces[side.index()] = joined;
+        if joined != NONE {
+            self.pieces[joined as usize].side = side;
         }
     }
 

@@ -6,6 +6,7 @@
 
 mod checks;
 mod reading;
+mod remeshing;
 mod staging;
 
 use crate::delaunay::Plane;
@@ -13,7 +14,7 @@ use crate::error::Result;
 use crate::ids::{SegmentId, VertexId};
 use crate::machine::memory;
 use crate::motion::options::{CoarsenOptions, Quality, RefineOptions};
-use crate::motion::report::QualityReport;
+use crate::motion::report::{QualityReport, VertexWeights};
 use crate::motion::state::looked::{Looking, Question};
 use crate::motion::state::made::Origin;
 use crate::motion::state::mesh::Standing;
@@ -65,44 +66,56 @@ impl MovingTriangulation<Plane> {
         self.check_quality(quality, mask)?;
         let asked = asked(quality)?;
         let question = self.question(&asked, quality, mask);
-        if self.made.as_ref().is_some_and(|made| made.found.all_good.holds(question)) {
-            self.forget_weights();
+        let due = self.made.as_ref().and_then(|made| made.density.due());
+        if due.is_none() && self.made.as_ref().is_some_and(|made| made.found.all_good.holds(question)) {
+            self.set_refined(quality, 0, Vec::new());
             return Ok(QualityReport::default());
         }
         let mut read = self.read_vertices()?;
         let bounds = Bounds::new(quality, read.scale)?;
         let tests = bounds.tests(quality, &read);
-        self.read_cells(&mut read, &tests, mask, quality.labels, false)?;
+        self.read_cells(&mut read, &tests, mask, quality.labels, due.is_some())?;
         tests.check_stop()?;
         let mut report = QualityReport { bad_cells: read.bad.len(), ..Default::default() };
-        if report.bad_cells == 0 || tests.are_none() {
+        let mut pace = std::mem::take(self.mesh.kernel.pace_mut());
+        pace.begin();
+        let found = self.find((&mut read, mask, quality), &bounds, tests, options, &mut || pace.ask_again());
+        *self.mesh.kernel.pace_mut() = pace;
+        let Some(refined) = found? else {
             if let (Some(made), 0) = (&mut self.made, report.bad_cells) {
                 made.found.all_good.set(question)?;
             }
             // Nothing fails from here on.
-            self.forget_weights();
+            self.set_refined(quality, 0, Vec::new());
             return Ok(report);
-        }
-        let mut pace = std::mem::take(self.mesh.kernel.pace_mut());
-        pace.begin();
-        let refined = self.find_refined((&mut read, mask, quality), tests, options, &mut || pace.ask_again());
-        *self.mesh.kernel.pace_mut() = pace;
-        let refined = refined?;
+        };
         report.inserted = refined.vertices.len();
         report.on_segments = refined.vertices.iter().filter(|(_, segment)| *segment != NONE).count();
+        report.removed = refined.removed.len();
         report.unsplit = refined.n_unsplit;
         report.is_cut_short = refined.is_cut_short;
         report.bad_cells = refined.n_bad;
-        if report.inserted == 0 {
-            self.forget_weights();
-            return Ok(report);
+        let mut weights = Vec::new();
+        if report.inserted > 0 || report.removed > 0 {
+            weights = self.commit_refined(&read, &refined, options, &mut report)?;
         }
+        self.set_refined(quality, report.inserted, weights);
+        Ok(report)
+    }
+
+    /// Makes what has been found in a commit; returns the weights of the new vertices, if they are wanted.
+    fn commit_refined(
+        &mut self,
+        read: &Read,
+        refined: &Refined,
+        options: &RefineOptions,
+        report: &mut QualityReport,
+    ) -> Result<Vec<VertexWeights>> {
         let mut changes = SegmentChanges::default();
         let mut start = 0;
-        for &(edge, end) in &refined.split {
-            let chain = &refined.chain[start..end];
-            for pair in chain.windows(2) {
-                self.replace_at(&read, edge, [pair[0], pair[1]], &mut changes)?;
+        for &(edge, end) in &refined.replaced {
+            for pair in refined.chain[start..end].windows(2) {
+                self.replace_at(read, edge, [pair[0], pair[1]], &mut changes)?;
             }
             changes.leave(read.segments_at(edge as usize))?;
             start = end;
@@ -115,27 +128,43 @@ impl MovingTriangulation<Plane> {
         };
         let mut on_segments = Vec::new();
         memory::collect(&mut on_segments, refined.vertices.iter().map(|&(_, edge)| on(edge)))?;
-        let edges =
-            refined.vertices.iter().map(|&(_, edge)| (edge != NONE).then(|| read.edges[edge as usize]));
-        let weights = if options.has_weights { self.weights_of(&points, edges)? } else { Vec::new() };
-        self.commit_quality(&points, &on_segments, &[], changes, &mut report)?;
-        let timestamp = self.statistics.timestamp;
-        self.made.as_mut().expect("it has been made").set_weights(weights, timestamp);
-        Ok(report)
+        let weights = match options.has_weights {
+            true => self.weights_of(&points, &self.edges_under(read, refined)?)?,
+            false => Vec::new(),
+        };
+        self.commit_quality(&points, &on_segments, &refined.removed, changes, report)?;
+        Ok(weights)
     }
 
-    /// Finds what is to be inserted. `ask` is called now and then, and ends it by an error.
-    fn find_refined(
-        &self,
+    /// Finds what is to be done, if anything. `ask` is called now and then, and ends it by an error.
+    fn find(
+        &mut self,
         (read, mask, quality): (&mut Read, &[u8], &Quality),
+        bounds: &Bounds,
         tests: Tests,
         options: &RefineOptions,
         ask: &mut dyn FnMut() -> Result<()>,
-    ) -> Result<Refined> {
-        let points = std::mem::take(&mut read.points);
-        let given = read.given(self.cells()?, mask, quality.labels, self.mesh.kernel.keys());
-        let origins = self.origins(read)?;
-        refine::refine(given, points, &read.bad, tests, origins, (options.keeps, options.limit), ask)
+    ) -> Result<Option<Refined>> {
+        let anew = self.find_anew((read, mask, quality), bounds, options, ask)?;
+        let n = self.made_vertices().count();
+        let anew = match anew {
+            Some((anew, most)) if n > most => return Ok(Some(anew)),
+            anew => anew,
+        };
+        let refined = if read.bad.is_empty() || tests.are_none() {
+            None
+        } else {
+            let points = std::mem::take(&mut read.points);
+            let given = read.given(self.cells()?, mask, quality.labels, self.mesh.kernel.keys());
+            let origins = self.origins(read)?;
+            let limit = (options.keeps, options.limit);
+            Some(refine::refine(given, points, &read.bad, tests, origins, limit, ask)?)
+        };
+        let n_inserted = refined.as_ref().map_or(0, |refined| refined.vertices.len());
+        Ok(match anew {
+            Some((anew, most)) if n + n_inserted > most => Some(anew),
+            _ => refined,
+        })
     }
 
     /// Removes vertices that [`refine`](Self::refine) has added and that are not needed any more: those around which the
@@ -201,7 +230,12 @@ impl MovingTriangulation<Plane> {
         if !known.is_empty() {
             mendable.iter().flat_map(|&cell| cells.corners[cell as usize]).for_each(|v| known[v] = false);
         }
-        let candidates = self.candidates(&read, options.share, &known)?;
+        let mut candidates = self.candidates(&read)?;
+        for candidate in &mut candidates {
+            let is_inside = candidate.between.is_none();
+            let is_known = is_inside && known.get(candidate.vertex.index()) == Some(&true);
+            candidate.is_kept = is_known || !read.has_room(candidate.vertex, options.share, is_inside);
+        }
         let room = Room { angle: options.margin, share: options.share, offset: options.joins };
         let coarsened = refine::coarsen(given, points, tests, room, &mendable, &candidates)?;
         let stays = stays(&read, cells.corners, &candidates, &coarsened.able)?;
@@ -218,6 +252,7 @@ impl MovingTriangulation<Plane> {
                     made.found.all_good.set(Question { asked: &quality_asked, ..question })?;
                 }
             }
+            self.set_coarsened(quality, options, report.removed);
             return Ok(report);
         }
         let mut changes = SegmentChanges::default();
@@ -228,6 +263,7 @@ impl MovingTriangulation<Plane> {
             changes.leave(read.segments_at(edge as usize))?;
         }
         self.commit_quality(&[], &[], &coarsened.vertices, changes, &mut report)?;
+        self.set_coarsened(quality, options, report.removed);
         Ok(report)
     }
 
@@ -240,13 +276,6 @@ impl MovingTriangulation<Plane> {
     fn question<'a>(&self, asked: &'a [u64], quality: &Quality<'a>, mask: &'a [u8]) -> Question<'a> {
         let labels = quality.labels.unwrap_or_default();
         Question { n_changes: self.mesh.n_changes, asked, mask, labels }
-    }
-
-    /// The last refinement has inserted nothing.
-    fn forget_weights(&mut self) {
-        if let Some(made) = &mut self.made {
-            made.set_weights(Vec::new(), 0);
-        }
     }
 
     /// Where a segment that is in force comes from.
@@ -288,8 +317,8 @@ impl MovingTriangulation<Plane> {
         Ok(origins)
     }
 
-    /// The vertices that may go, where cells that come may have this share of the greatest areas, in the order of cells.
-    fn candidates(&self, read: &Read, share: f64, known: &[bool]) -> Result<Vec<Candidate>> {
+    /// The vertices that may go, in the order of cells.
+    fn candidates(&self, read: &Read) -> Result<Vec<Candidate>> {
         let n = self.id_count();
         let (mut before, mut behind) = (Vec::new(), Vec::new());
         memory::lengthen(&mut before, n, NONE)?;
@@ -310,9 +339,7 @@ impl MovingTriangulation<Plane> {
                 _ => (Some(pieces), on != SegmentId::NONE && self.are_of_one_origin(read, pieces)),
             };
             if may_go && !self.mesh.is_shared(s) {
-                let is_known = between.is_none() && known.get(vertex.index()) == Some(&true);
-                let is_kept = is_known || !read.has_room(vertex, share, between.is_none());
-                memory::push(&mut candidates, Candidate { vertex, between, is_kept })?;
+                memory::push(&mut candidates, Candidate { vertex, between, is_kept: false })?;
             }
         }
         read.sort_by_cell(&mut candidates, |candidate| candidate.vertex)?;
@@ -343,8 +370,9 @@ fn asked(quality: &Quality) -> Result<Vec<u64>> {
 fn asked_with(quality: &[u64], options: &CoarsenOptions) -> Result<Vec<u64>> {
     let mut asked = Vec::new();
     if !quality.is_empty() {
-        let CoarsenOptions { margin, share, joins } = *options;
-        memory::collect(&mut asked, [margin, share, joins].map(f64::to_bits).iter().chain(quality).copied())?;
+        let CoarsenOptions { margin, share, joins, growth } = *options;
+        let numbers = [margin, share, joins, growth].map(f64::to_bits);
+        memory::collect(&mut asked, numbers.iter().chain(quality).copied())?;
     }
     Ok(asked)
 }
@@ -395,6 +423,21 @@ impl Bounds {
             sizes: &self.sizes,
             is_too_large: quality.is_too_large,
             is_conforming: quality.is_conforming,
+            scale: read.scale,
+        };
+        Tests::new(criteria, lower, upper)
+    }
+
+    /// Tests that all cells pass.
+    fn tests_of_none<'a>(&'a self, read: &Read) -> Tests<'a> {
+        let [lower, upper] = read.extent();
+        let criteria = Criteria {
+            least_angle: 0.0,
+            greatest_area: f64::INFINITY,
+            areas: &[],
+            sizes: &[],
+            is_too_large: None,
+            is_conforming: false,
             scale: read.scale,
         };
         Tests::new(criteria, lower, upper)

@@ -22,13 +22,13 @@ impl MovingTriangulation<Plane> {
     pub(super) fn weights_of(
         &self,
         points: &[[f64; 2]],
-        edges: impl Iterator<Item = Option<[VertexId; 2]>>,
+        edges: &[Option<[VertexId; 2]>],
     ) -> Result<Vec<VertexWeights>> {
         let mut weights = Vec::new();
         memory::reserve_exact(&mut weights, points.len())?;
         let kernel = &self.mesh.kernel;
         let mut near = Slot::NONE;
-        for (point, edge) in points.iter().zip(edges) {
+        for (point, &edge) in points.iter().zip(edges) {
             weights.push(match edge {
                 Some(edge) => self.weights_on(edge, point),
                 None => match kernel.locate(point, near) {

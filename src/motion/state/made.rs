@@ -9,6 +9,7 @@ use crate::error::Result;
 use crate::ids::{SegmentId, VertexId};
 use crate::machine::memory;
 use crate::motion::report::VertexWeights;
+use crate::motion::state::density::Density;
 use crate::motion::state::looked::{Found, Looked};
 
 /// The segment that a piece was made of.
@@ -36,8 +37,8 @@ pub(in crate::motion) struct Made {
     coming: Vec<(SegmentId, Origin)>,
     /// Those of the vertices that the last refinement inserted.
     weights: Vec<VertexWeights>,
-    /// The timestamp that it reached.
-    refined_at: u64,
+    /// How dense the mesh is.
+    pub(in crate::motion) density: Density,
     /// Copies know nothing of it.
     pub(in crate::motion) looked: Looked,
     pub(in crate::motion) found: Found,
@@ -119,12 +120,12 @@ impl Made {
 
     /// How values at the vertices that the refinement of a timestamp inserted follow from others, if that was the last one.
     pub(in crate::motion) fn weights(&self, timestamp: u64) -> &[VertexWeights] {
-        if self.refined_at == timestamp { &self.weights } else { &[] }
+        if self.density.refined_at() == timestamp { &self.weights } else { &[] }
     }
 
-    /// Remembers the weights of a refinement that has reached a timestamp.
-    pub(in crate::motion) fn set_weights(&mut self, weights: Vec<VertexWeights>, timestamp: u64) {
-        (self.weights, self.refined_at) = (weights, timestamp);
+    /// Remembers the weights of the last refinement.
+    pub(in crate::motion) fn set_weights(&mut self, weights: Vec<VertexWeights>) {
+        self.weights = weights;
     }
 
     /// Makes room for more.
@@ -160,7 +161,7 @@ impl Made {
         copy.pieces.extend_from_slice(&self.pieces);
         copy.coming = memory::copy_of(&self.coming)?;
         copy.weights = memory::copy_of(&self.weights)?;
-        copy.refined_at = self.refined_at;
+        copy.density = self.density;
         Ok(copy)
     }
 

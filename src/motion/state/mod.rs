@@ -6,6 +6,7 @@
 pub(in crate::motion) mod cells;
 pub(in crate::motion) mod changes;
 pub(in crate::motion) mod checking;
+pub(in crate::motion) mod density;
 pub(in crate::motion) mod edits;
 pub(in crate::motion) mod foreseen;
 pub(in crate::motion) mod goals;

@@ -60,6 +60,7 @@ impl CoarsenOptions {
     pub(crate) fn check(&self) -> Result<()> {
         check_all("margin", &[self.margin], |x| (0.0..=30.0).contains(&x), "from 0 to 30 degrees")?;
         check_all("share", &[self.share], |x| x > 0.0 && x <= 1.0, "above 0 and up to 1")?;
-        check_all("joins", &[self.joins], |x| (0.0..=1.0).contains(&x), "from 0 to 1")
+        check_all("joins", &[self.joins], |x| (0.0..=1.0).contains(&x), "from 0 to 1")?;
+        check_all("growth", &[self.growth], |x| x >= 1.0, "1 or more")
     }
 }

@@ -3,6 +3,7 @@
 use crate::damage::Damage;
 use crate::ids::VertexId;
 use crate::motion::report::CommitReport;
+use crate::motion::state::density::Density;
 use crate::motion::state::segments::Segment;
 
 /// What data begin with. A byte above 127, and ends of lines of either kind, tell a file that has been taken for text
@@ -10,14 +11,14 @@ use crate::motion::state::segments::Segment;
 const MAGIC: [u8; 8] = *b"\x89DLD\r\n\x1a\n";
 
 /// The version of the format, without segments and keys, with segments, with keys, and of what repeats; and without keys and
-/// with some where the [staged insertions](StagedSince) have a history.
+/// with some where there is a [history](History).
 const VERSION: u32 = 1;
 const WITH_SEGMENTS: u32 = 2;
 const WITH_KEYS: u32 = 3;
 const PERIODIC: u32 = 4;
-const SINCE: u32 = 5;
-const SINCE_WITH_KEYS: u32 = 6;
-const LATEST: u32 = SINCE_WITH_KEYS;
+const WITH_HISTORY: u32 = 5;
+const WITH_KEYS_AND_HISTORY: u32 = 6;
+const LATEST: u32 = WITH_KEYS_AND_HISTORY;
 
 /// Bytes of a key.
 const KEY: usize = 8;
@@ -39,8 +40,8 @@ const MADE_VERTEX: usize = 8;
 /// Bytes of a piece of a segment: its id, that of the segment, and the ends of that.
 const PIECE: usize = 16;
 
-/// Bytes about what was before insertions were staged.
-const SINCE_BYTES: usize = 16;
+/// Bytes of a history.
+const HISTORY: usize = 88;
 
 /// Bytes of the header.
 pub(super) const SIZE: usize = 72 + 8 * N_SUMS;
@@ -138,25 +139,30 @@ impl Beginning {
     }
 }
 
-/// What was before insertions were staged, and is again when they are discarded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct StagedSince {
+/// What was before insertions were staged, and is again when they are discarded; and what refinement compares with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct History {
     /// How many ids had been given, which are not given again.
     pub(super) n_known: usize,
     /// Whether vertices had keys.
     pub(super) had_keys: bool,
+    pub(super) density: Density,
 }
 
-impl StagedSince {
+impl History {
     /// In the order in which they are saved.
-    pub(super) fn numbers(&self) -> [u64; 2] {
-        [self.n_known as u64, u64::from(self.had_keys)]
+    pub(super) fn numbers(&self) -> impl Iterator<Item = u64> + use<> {
+        [self.n_known as u64, u64::from(self.had_keys)].into_iter().chain(self.density.numbers())
     }
 
-    /// Those of two numbers.
-    pub(super) fn of([n_known, had_keys]: [u64; 2]) -> Result<Self, Damage> {
+    /// That of eleven numbers.
+    pub(super) fn of([n_known, had_keys, density @ ..]: [u64; 11]) -> Result<Self, Damage> {
         let n_known = usize::try_from(n_known).map_err(|_| Damage::Counts)?;
-        if had_keys > 1 { Err(Damage::Counts) } else { Ok(StagedSince { n_known, had_keys: had_keys == 1 }) }
+        let density = Density::of_numbers(density).ok_or(Damage::Counts)?;
+        match had_keys {
+            0 | 1 => Ok(History { n_known, had_keys: had_keys == 1, density }),
+            _ => Err(Damage::Counts),
+        }
     }
 }
 
@@ -171,8 +177,8 @@ pub(super) struct Header {
     pub(super) removals: usize,
     /// Whether vertices have keys of the program's.
     pub(super) has_keys: bool,
-    /// Whether the data tell what was before insertions were staged, as it does not follow from these.
-    pub(super) tells_since: bool,
+    /// Whether there is a history, as it does not follow from the rest.
+    pub(super) has_history: bool,
     /// Bytes about segments, 0 without any.
     pub(super) segment_bytes: usize,
     /// All but the number of hidden vertices.
@@ -189,7 +195,7 @@ impl Header {
             + 8 * d * sum(&places)
             + 4 * (sum(&numbers) + 2 * (d + 1) * self.cells as u128)
             + if self.has_keys { KEY as u128 * self.ids as u128 } else { 0 }
-            + if self.tells_since { SINCE_BYTES as u128 } else { 0 }
+            + if self.has_history { HISTORY as u128 } else { 0 }
             + self.segment_bytes as u128
             + CHECKSUM as u128;
         u64::try_from(bytes).ok()
@@ -197,9 +203,9 @@ impl Header {
 
     /// Its bytes.
     pub(super) fn bytes(&self) -> [u8; SIZE] {
-        let version = match (self.tells_since, self.has_keys, self.segment_bytes > 0) {
-            (true, true, _) => SINCE_WITH_KEYS,
-            (true, false, _) => SINCE,
+        let version = match (self.has_history, self.has_keys, self.segment_bytes > 0) {
+            (true, true, _) => WITH_KEYS_AND_HISTORY,
+            (true, false, _) => WITH_HISTORY,
             (false, true, _) => WITH_KEYS,
             (false, false, true) => WITH_SEGMENTS,
             (false, false, false) => VERSION,
@@ -217,10 +223,10 @@ impl Header {
             return Err(Damage::Periodic { is_periodic: true });
         }
         let [ids, cells, moves, insertions, removals] = counts;
-        let has_keys = matches!(version, WITH_KEYS | SINCE_WITH_KEYS);
-        let tells_since = matches!(version, SINCE | SINCE_WITH_KEYS);
+        let has_keys = matches!(version, WITH_KEYS | WITH_KEYS_AND_HISTORY);
+        let has_history = matches!(version, WITH_HISTORY | WITH_KEYS_AND_HISTORY);
         let counts = Header { dimension, ids, cells, moves, insertions, removals, ..Header::default() };
-        let mut header = Header { has_keys, tells_since, ..counts };
+        let mut header = Header { has_keys, has_history, ..counts };
         if version != VERSION {
             // All that is left is about segments; how much that has to be is told there.
             let left = header.size().and_then(|known| size.checked_sub(known)).ok_or(Damage::Counts)?;

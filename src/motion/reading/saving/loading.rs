@@ -9,7 +9,7 @@ use crate::machine::memory;
 use crate::machine::threads::Threads;
 use crate::motion::options::Options;
 use crate::motion::reading::saving::Saved;
-use crate::motion::reading::saving::header::{GIVEN_UP, Header, SIZE, SegmentCounts, StagedSince};
+use crate::motion::reading::saving::header::{GIVEN_UP, Header, History, SIZE, SegmentCounts};
 use crate::motion::reading::saving::reader::Reader;
 use crate::motion::state::cells::Cells;
 use crate::motion::state::checking::check_position;
@@ -31,13 +31,13 @@ impl Reader<'_> {
         Keys::of_list(keys)
     }
 
-    /// What was before insertions were staged, if the data tell it.
-    fn since(&mut self, header: &Header) -> Result<Option<StagedSince>, Damage> {
-        if !header.tells_since {
+    /// The history, if there is one.
+    fn history(&mut self, header: &Header) -> Result<Option<History>, Damage> {
+        if !header.has_history {
             return Ok(None);
         }
-        let numbers = self.entries::<8>(2);
-        StagedSince::of([0, 1].map(|k| u64::from_le_bytes(numbers[k]))).map(Some)
+        let numbers = self.entries::<8>(11);
+        History::of(std::array::from_fn(|k| u64::from_le_bytes(numbers[k]))).map(Some)
     }
 
     fn rows<I: Id, C: Corners<I>>(&mut self, n: usize) -> Result<Vec<C>> {
@@ -242,7 +242,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut later = Reader(&reader.0[4 * (header.moves + header.insertions + header.removals)..]);
         let keys = later.keys(header)?;
         let n_present = check_vertices::<G>(&positions, &representatives, &keys)?;
-        let since = later.since(header)?;
+        let history = later.history(header)?;
         let (segments, made) = later.segments::<G>(header)?.unzip();
         let made = made.flatten();
         if let Some(&(vertex, _)) =
@@ -286,7 +286,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         t.statistics = header.statistics;
         t.statistics.coincident = t.mesh.hidden.count() as u64;
-        t.stage_saved(header, &mut reader, (&moved, &coming), since)?;
+        t.stage_saved(header, &mut reader, (&moved, &coming), history)?;
         Ok(t)
     }
 
@@ -296,7 +296,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         header: &Header,
         reader: &mut Reader<'_>,
         (moved, coming): (&[G::Point], &[G::Point]),
-        since: Option<StagedSince>,
+        history: Option<History>,
     ) -> Result<(), LoadError> {
         let moves = reader.numbers::<VertexId>(header.moves)?;
         let insertions = reader.numbers::<VertexId>(header.insertions)?;
@@ -313,12 +313,18 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.edits.insert(vertex, position);
             last = Some(vertex);
         }
-        let usual = self.usual_since();
-        let StagedSince { n_known, had_keys } = since.unwrap_or(usual);
-        let is_known = (usual.n_known..=self.mesh.site_of.len()).contains(&n_known);
-        let may_be_told = self.edits.has_insertions() && since != Some(usual);
-        if since.is_some() && !(may_be_told && is_known && had_keys <= self.has_keys()) {
+        let usual = self.usual_history();
+        let told = history.unwrap_or(usual);
+        let History { n_known, had_keys, density } = told;
+        let is_staged = (n_known, had_keys) == (usual.n_known, usual.had_keys) || self.edits.has_insertions();
+        let is_known =
+            (usual.n_known..=self.mesh.site_of.len()).contains(&n_known) && had_keys <= self.has_keys();
+        let is_compared = density == usual.density || self.made_vertices().next().is_some();
+        if history == Some(usual) || !(is_staged && is_known && is_compared) {
             return Err(Damage::Counts.into());
+        }
+        if let Some(made) = &mut self.made {
+            made.density = density;
         }
         self.edits.know(n_known, had_keys);
         if let Some(vertex) = self.first_key_of_none() {

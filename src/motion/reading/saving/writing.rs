@@ -5,7 +5,8 @@ use crate::error::{Error, Result};
 use crate::ids::{CellId, SegmentId, VertexId};
 use crate::machine::memory;
 use crate::motion::reading::chunks::Chunks;
-use crate::motion::reading::saving::header::{GIVEN_UP, Header, SegmentCounts, StagedSince};
+use crate::motion::reading::saving::header::{GIVEN_UP, Header, History, SegmentCounts};
+use crate::motion::state::density::Density;
 use crate::motion::state::made::Origin;
 use crate::motion::state::segments::{Segment, Segments};
 use crate::motion::state::views::CellsView;
@@ -40,7 +41,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             insertions,
             removals,
             has_keys: !self.mesh.kernel.keys().are_ids(),
-            tells_since: self.since_to_save().is_some(),
+            has_history: self.history_to_save().is_some(),
             segment_bytes: self.segments_to_save().map_or(0, |segments| self.counts_of(segments).bytes()),
             statistics: self.statistics(),
         }
@@ -106,7 +107,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         insertions.iter().try_for_each(|(id, _)| chunks.numbers(&[id.get()]))?;
         chunks.numbers(VertexId::numbers_of(self.edits.removals()))?;
         self.save_keys(chunks)?;
-        for number in self.since_to_save().iter().flat_map(StagedSince::numbers) {
+        for number in self.history_to_save().iter().flat_map(History::numbers) {
             chunks.numbers(&[number as u32, (number >> 32) as u32])?;
         }
         let Some(segments) = self.segments_to_save() else { return Ok(()) };
@@ -131,19 +132,26 @@ impl<G: Dimension> MovingTriangulation<G> {
         })
     }
 
-    /// What was before insertions were staged, as far as ids and keys tell: no id is known that only they have, and there were
-    /// keys if there are.
-    pub(super) fn usual_since(&self) -> StagedSince {
+    /// The history as far as ids and keys tell it: no id is known that only staged insertions have, there were keys if there
+    /// are, and there is nothing to compare with.
+    pub(super) fn usual_history(&self) -> History {
         let n_ids = self.id_count();
         let last = self.edits.insertions().iter().rev().zip(1..=n_ids);
         let n_last = last.take_while(|&(&(v, _), k)| v.index() == n_ids - k).count();
-        StagedSince { n_known: n_ids - n_last, had_keys: self.has_keys() }
+        History { n_known: n_ids - n_last, had_keys: self.has_keys(), density: Density::default() }
     }
 
-    /// What was before insertions were staged, if it is to be saved.
-    fn since_to_save(&self) -> Option<StagedSince> {
-        let since = StagedSince { n_known: self.edits.n_known(), had_keys: self.edits.had_keys() };
-        (self.edits.has_insertions() && since != self.usual_since()).then_some(since)
+    /// The history, if it is to be saved.
+    fn history_to_save(&self) -> Option<History> {
+        let usual = self.usual_history();
+        let mut history = usual;
+        if self.edits.has_insertions() {
+            (history.n_known, history.had_keys) = (self.edits.n_known(), self.edits.had_keys());
+        }
+        if self.made_vertices().next().is_some() {
+            history.density = self.made.as_ref().map_or(usual.density, |made| made.density);
+        }
+        (history != usual).then_some(history)
     }
 
     /// How many segments there are to be saved.

@@ -1,0 +1,165 @@
+//! Loops of moves, commits, coarsening and refinement, beside meshes made anew.
+
+use super::lives::{LIMIT, coarsen, count_bad, domain_of, domains, quality, refine, turned};
+use super::{Domain, Triangulation, circle};
+use deldrift::VertexId;
+use deldrift::motion::{CoarsenOptions, Level, Options, Quality, RefineOptions, Saved};
+
+/// A ring whose inner polygon turns.
+struct Rotor {
+    t: Triangulation,
+    turn: f64,
+}
+
+const OUTER: f64 = 0.95;
+const INNER: f64 = 0.4;
+
+impl Rotor {
+    fn domain(turn: f64) -> Domain {
+        Domain::default()
+            .with_ring(&turned(&circle([0.0; 2], 1.0, 12), 0.05))
+            .with_ring(&turned(&circle([0.0; 2], INNER, 8), 0.3 + turn))
+    }
+
+    fn new() -> Self {
+        Rotor { t: Self::domain(0.0).build(), turn: 0.0 }
+    }
+
+    /// All vertices turn, the less the nearer they are to the outer polygon.
+    fn step(&mut self, angle: f64) {
+        self.turn += angle;
+        for v in (0..self.t.id_count()).map(VertexId::at) {
+            let Ok(p) = self.t.position(v) else { continue };
+            let r = p[0].hypot(p[1]);
+            let share = ((OUTER - r) / (OUTER - INNER)).clamp(0.0, 1.0);
+            let (sine, cosine) = (angle * share).sin_cos();
+            self.t
+                .move_vertices(&[v], &[[p[0] * cosine - p[1] * sine, p[0] * sine + p[1] * cosine]])
+                .expect("present");
+        }
+        self.t.commit_timestamp().expect("no conflict");
+    }
+}
+
+/// How many times the vertices of a mesh made anew there are after each step: the mean, and the most.
+fn growth_of(asked: &Quality, n_steps: usize) -> [f64; 2] {
+    let mut rotor = Rotor::new();
+    refine(&mut rotor.t, asked, LIMIT);
+    let (mut sum, mut most) = (0.0, 0.0f64);
+    for _ in 0..n_steps {
+        rotor.step(0.02);
+        coarsen(&mut rotor.t, asked);
+        refine(&mut rotor.t, asked, LIMIT);
+        assert_eq!(count_bad(&rotor.t, asked), 0, "{asked:?}");
+        let mut anew = Rotor::domain(rotor.turn).build();
+        refine(&mut anew, asked, LIMIT);
+        let ratio = rotor.t.vertex_count() as f64 / anew.vertex_count() as f64;
+        sum += ratio;
+        most = most.max(ratio);
+    }
+    assert_eq!(rotor.t.validate(Level::Delaunay), Ok(()));
+    [sum / n_steps as f64, most]
+}
+
+#[test]
+fn meshes_that_move_have_as_few_vertices_as_new_ones() {
+    for (angle, area, most_of_all) in
+        [(20.0, 0.004, 1.25), (25.0, 0.004, 1.25), (30.0, 0.004, 1.25), (33.0, 0.004, 1.35)]
+    {
+        for area in [0.0, area] {
+            let [mean, most] = growth_of(&quality(angle, area), 250);
+            println!("{angle} degrees, {area}: mean {mean:.3}, most {most:.3}");
+            assert!(mean <= 1.1 && most <= most_of_all, "{angle}, {area}: {mean} {most}");
+        }
+    }
+}
+
+/// A mesh for 25 times the area is as if it had been made for that, whatever it was made for before.
+#[test]
+fn meshes_for_larger_cells_have_as_few_vertices_as_new_ones() {
+    for (name, size, domain) in domains() {
+        for (angle, area) in [(20.0, 0.001), (25.0, 0.001), (30.0, 0.002), (33.0, 0.002), (0.0, 0.001)] {
+            let [fine, coarse] = [1.0, 25.0].map(|factor| quality(angle, factor * area * size * size));
+            let mut t = domain.build();
+            refine(&mut t, &fine, LIMIT);
+            coarsen(&mut t, &coarse);
+            let report = refine(&mut t, &coarse, LIMIT);
+            let mut anew = domain.build();
+            let fresh = refine(&mut anew, &coarse, LIMIT);
+            let [n, n_anew] = [&t, &anew].map(|t| t.vertex_count() as f64);
+            assert!(n <= 1.25 * n_anew, "{name}, {angle}: {n} {n_anew}");
+            assert!(report.bad_cells <= fresh.bad_cells, "{name}, {angle}: {report:?} {fresh:?}");
+            coarsen(&mut t, &coarse);
+            refine(&mut t, &coarse, LIMIT);
+            let saved = t.saved().expect("room");
+            assert_eq!((coarsen(&mut t, &coarse).removed, refine(&mut t, &coarse, LIMIT).inserted), (0, 0));
+            assert!(t.saved().expect("room") == saved, "{name}, {angle}");
+        }
+    }
+}
+
+/// Loaded copies and clones are made anew in the same steps.
+#[test]
+fn copies_are_made_anew_alike() {
+    let asked = quality(33.0, 0.02);
+    let mut rotor = Rotor::new();
+    refine(&mut rotor.t, &asked, LIMIT);
+    let (mut n_anew, mut n_alike) = (0, 0);
+    for step in 0..150 {
+        rotor.step(0.02);
+        let bytes = rotor.t.saved().expect("room");
+        let loaded =
+            Triangulation::load(&Saved::of(&bytes).expect("saved"), Options::default()).expect("saved");
+        let cloned = rotor.t.try_clone(None).expect("room");
+        let ends = [loaded, cloned].map(|mut copy| {
+            // What has changed is in another order in a loaded copy, so that other vertices may come.
+            let is_same = coarsen(&mut copy, &asked).removed == 0;
+            refine(&mut copy, &asked, LIMIT);
+            is_same.then(|| copy.saved().expect("room"))
+        });
+        coarsen(&mut rotor.t, &asked);
+        let report = refine(&mut rotor.t, &asked, LIMIT);
+        n_anew += usize::from(report.removed > 0);
+        for end in ends.into_iter().flatten() {
+            n_alike += usize::from(report.removed > 0);
+            assert_eq!(end.len(), rotor.t.saved().expect("room").len(), "{step}");
+        }
+    }
+    assert!(n_anew > 3 && n_alike > 3, "{n_anew} {n_alike}");
+}
+
+/// Values of a linear function are carried over to a mesh made anew; without growth there is none.
+#[test]
+fn values_are_carried_to_a_mesh_made_anew() {
+    let asked = quality(33.0, 0.004);
+    let linear = |p: [f64; 2]| 3.0 + 2.0 * p[0] - 0.5 * p[1];
+    let options = RefineOptions { has_weights: true, ..RefineOptions::default() };
+    let (mut n_anew, mut n_inserted) = (0, 0);
+    for growth in [1.1, f64::INFINITY] {
+        let coarsening = CoarsenOptions { growth, ..CoarsenOptions::default() };
+        let mut rotor = Rotor::new();
+        refine(&mut rotor.t, &asked, LIMIT);
+        for _ in 0..60 {
+            rotor.step(0.02);
+            let mask = domain_of(&rotor.t);
+            rotor.t.coarsen(&asked, &coarsening, &mask).expect("a domain");
+            let t = &rotor.t;
+            let values: Vec<_> =
+                VertexId::range(0..t.id_count()).map(|v| t.position(v).map_or(f64::NAN, linear)).collect();
+            let mask = domain_of(t);
+            let report = rotor.t.refine(&asked, &options, &mask).expect("a domain");
+            n_anew += usize::from(report.removed > 0);
+            assert!(growth < f64::INFINITY || report.removed == 0);
+            n_inserted += report.inserted;
+            let weights = rotor.t.refined_weights();
+            assert_eq!(weights.len(), report.inserted);
+            for (v, row) in VertexId::range(values.len()..rotor.t.id_count()).zip(weights) {
+                let value: f64 =
+                    row.vertices.iter().zip(row.weights).map(|(&v, weight)| values[v.index()] * weight).sum();
+                let wanted = linear(rotor.t.position(v).expect("it has been inserted"));
+                assert!((value - wanted).abs() < 1e-12, "{v:?}: {value} {wanted}");
+            }
+        }
+    }
+    assert!(n_anew > 2 && n_inserted > 1000, "{n_anew} {n_inserted}");
+}
