@@ -699,6 +699,11 @@ typedef struct deldrift_quality {
     /// ends, or off it by no more than this share of the distance of these: from 0 to 1. The default, 1e-9, is above what
     /// the rounding of motions adds up to.
     double joins;
+    /// How many times as many vertices as a mesh made anew the mesh may have: 1 or more, default 1.1. Where deldrift_coarsen
+    /// leaves more of those that deldrift_refine has inserted, or takes many away for another quality, the next
+    /// deldrift_refine finds the mesh made anew, and if it has fewer by this factor takes it: in its one commit, the report of
+    /// which tells what was removed. Infinity for never. Not done with sizes.
+    double growth;
 } deldrift_quality;
 
 /// What deldrift_refine or deldrift_coarsen did.
@@ -2465,6 +2470,23 @@ deldrift_status deldrift_refined_weights(const deldrift_triangulation *t,
                                          double *weights,
                                          size_t capacity,
                                          size_t *count);
+
+/// For each vertex that the last deldrift_refine inserted, in the order of their ids, the greatest length of edges that it had
+/// there, from those given in quality.sizes at the vertices before. With these behind the others a second call finds nothing
+/// to do. It has to have been called with sizes, and neither a commit nor a compaction must have come since; otherwise there
+/// are none.
+///
+/// sizes: a buffer with room for capacity numbers. count: receives the number of vertices, which is also written when the
+/// buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Cost: the vertices inserted.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL.
+deldrift_status deldrift_refined_sizes(const deldrift_triangulation *t,
+                                       double *sizes,
+                                       size_t capacity,
+                                       size_t *count);
 
 // ---------------------------------------------------------------------------------------------------------------------
 // What meets what: edges, neighbours and cells of vertices, mirror indices, ordered stars.

@@ -563,6 +563,15 @@ public:
                                             &count));
         return rows;
     }
+    // The sizes of the vertices that the last change, a refine() with sizes, inserted: behind those given, a second one finds
+    // nothing to do.
+    std::vector<double> refined_sizes() const {
+        std::size_t count = 0;
+        require_ok(deldrift_refined_sizes(native(), nullptr, 0, &count));
+        std::vector<double> sizes(count);
+        require_ok(deldrift_refined_sizes(native(), sizes.data(), count, &count));
+        return sizes;
+    }
     // Appends to values, n_values numbers for each id that there was before the last refine(), those of the vertices that
     // it has inserted. Numbers that are linear in the position stay so.
     void carry(std::vector<double> &values, std::size_t n_values = 1) const {

@@ -175,6 +175,7 @@ fn segments(sums: &mut Sums, name: &str, options: Options) {
     let refined = t.refine(&quality, &RefineOptions { has_weights: true, ..RefineOptions::default() }, &mask);
     sums.enter(name, "refined", &refined);
     sums.enter(name, "weights", t.refined_weights());
+    sums.enter(name, "sizes", t.refined_sizes());
     read(sums, &format!("{name} refined"), &mut t, true, rng);
     let now: Vec<[f64; 2]> = VertexId::range(0..t.id_count())
         .map(|v| t.position(v).expect("present"))

@@ -232,6 +232,17 @@ std::vector<Call> segment_calls() {
                  return deldrift_refined_weights(c.t, to, nullptr, room, count);
              });
          }, 2},
+        {"deldrift_refined_sizes", "as many vertices as there were", [](Context &c) {
+             bound(c);
+             const std::vector<double> sizes(c.n, 1e300);
+             deldrift_quality quality = quality_of(c);
+             quality.sizes = sizes.data();
+             quality.size_count = sizes.size();
+             deldrift_refine(c.t, &quality, nullptr, 0, nullptr);
+             fill<1, double>(c, c.n, [&](double *to, std::size_t room, std::size_t *count) {
+                 return deldrift_refined_sizes(c.t, to, room, count);
+             });
+         }, 2},
         {"deldrift_original_segments", "one edge in eight", [](Context &c) {
              fill<1, std::uint32_t>(c, lay(c), [&](std::uint32_t *to, std::size_t room, std::size_t *count) {
                  return deldrift_original_segments(c.t, to, room, count);

@@ -8,7 +8,7 @@ use super::roles::{Role, is_of_bytes, role};
 use super::rows::{ROWS, Row};
 
 /// Functions for triangulations of the plane alone.
-const OF_PLANE: [&str; 20] = [
+const OF_PLANE: [&str; 21] = [
     "deldrift_update_labels",
     "deldrift_ordered_star",
     "deldrift_stage_segments",
@@ -29,6 +29,7 @@ const OF_PLANE: [&str; 20] = [
     "deldrift_made_vertices",
     "deldrift_original_segments",
     "deldrift_refined_weights",
+    "deldrift_refined_sizes",
 ];
 
 /// Functions that list what there is not.
@@ -443,6 +444,9 @@ impl Cases<'_> {
             ("zero", "a share of 0", "share = 0", "INVALID_VALUE", "share[0] is 0"),
             ("nan", "what is joined", "joins = NAN", "INVALID_VALUE", "joins[0] is NaN"),
             ("value", "what is joined, above 1", "joins = 2", "INVALID_VALUE", "joins[0] is 2"),
+            ("nan", "a growth", "growth = NAN", "INVALID_VALUE", "growth[0] is NaN"),
+            ("value", "a growth below 1", "growth = 0.5", "INVALID_VALUE", "growth[0] is 0.5"),
+            ("infinite", "a growth", "growth = INFINITY", "OK", ""),
             ("zero", "a limit of 0", "limit = 0", "OK", ""),
             ("value", "circles, any number", "is_conforming = 999", "OK", ""),
             ("huge", "labels, SIZE_MAX", "label_count = SIZE_MAX", "NULL_ARGUMENT", "labels is NULL"),

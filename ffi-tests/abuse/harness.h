@@ -460,6 +460,10 @@ static void refine_fence(deldrift_triangulation *of) {
     deldrift_quality_report report;
     quality.greatest_area = 0.005;
     quality.has_weights = 1;
+    double sizes[COUNT];
+    for (int v = 0; v < COUNT; v++) sizes[v] = INFINITY;
+    quality.sizes = sizes;
+    quality.size_count = COUNT;
     mask_fence(of);
     OK(deldrift_refine(of, &quality, fenced, n_cells, &report));
     CHECK(report.inserted > 2);

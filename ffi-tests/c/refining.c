@@ -156,6 +156,17 @@ static void cells_are_of_the_sizes_asked_for(void) {
     measure(t);
     CHECK(report.inserted > 300 && least_angle >= 25 && longest_share <= 1 + 1e-9);
     sizes = NULL;
+    // With the sizes that it had at its vertices there is nothing to do.
+    static double all[ROOM];
+    size_t n;
+    for (int k = 0; k < CORNERS; k++) all[k] = of_vertices[k];
+    OK(deldrift_refined_sizes(t, all + CORNERS, ROOM - CORNERS, &n));
+    CHECK(n == report.inserted);
+    quality.sizes = all;
+    quality.size_count = CORNERS + n;
+    OK(deldrift_refine(t, &quality, NULL, 0, &report));
+    OK(deldrift_refined_sizes(t, NULL, 0, &n));
+    CHECK(report.inserted == 0 && n == 0);
     deldrift_destroy(t);
 
     // Areas by region: that of the hole, and of all else.
@@ -387,6 +398,7 @@ static void what_has_no_meaning_is_refused(void) {
     CHECK_STATUS(deldrift_made_vertices(solid, NULL, NULL, 0, &n), DELDRIFT_INVALID_DIMENSION);
     CHECK_STATUS(deldrift_original_segments(solid, NULL, 0, &n), DELDRIFT_INVALID_DIMENSION);
     CHECK_STATUS(deldrift_refined_weights(solid, NULL, NULL, 0, &n), DELDRIFT_INVALID_DIMENSION);
+    CHECK_STATUS(deldrift_refined_sizes(solid, NULL, 0, &n), DELDRIFT_INVALID_DIMENSION);
     CHECK_STATUS(deldrift_quality_init(NULL), DELDRIFT_NULL_ARGUMENT);
     OK(deldrift_move_vertex(t, 0, PLACES));
     CHECK_STATUS(deldrift_refine(t, &good, NULL, 0, NULL), DELDRIFT_STAGED_VERTEX);

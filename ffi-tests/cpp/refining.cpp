@@ -137,7 +137,9 @@ static void sizes_and_labels_are_taken() {
     quality.limit = 50;
     CHECK(t.refine(quality).is_cut_short == 1);
     CHECK_THROWS(t.refine(quality), DELDRIFT_WRONG_COUNT, "quality.size_count is 8, but must be 58");
-    t.carry(quality.sizes);
+    const std::vector<double> sizes = t.refined_sizes();
+    CHECK(sizes.size() == 50);
+    quality.sizes.insert(quality.sizes.end(), sizes.begin(), sizes.end());
     quality.limit = Quality().limit;
     CHECK(t.refine(quality).inserted > 50);
     for (const Corners &c : cells_in_domain(t)) {

@@ -32,7 +32,7 @@ public:
     std::vector<std::int32_t> labels{};
     // By label.
     std::vector<double> areas{};
-    // By vertex id; carry(quality.sizes) adds those of new vertices.
+    // By vertex id; append what refined_sizes() gives for new vertices.
     std::vector<double> sizes{};
     // What it throws comes out of refine() or coarsen(), which has had no effect then.
     std::function<bool(const Corners &)> is_too_large{};
@@ -42,13 +42,13 @@ public:
     // Whether segments are split until all cells are Delaunay, segments or not.
     bool is_conforming = false;
     std::size_t limit;
-    double margin, share, joins;
+    double margin, share, joins, growth;
 
     Quality() : Quality(defaults()) {}
 
 private:
     explicit Quality(const deldrift_quality &given) noexcept
-        : limit(given.limit), margin(given.margin), share(given.share), joins(given.joins) {}
+        : limit(given.limit), margin(given.margin), share(given.share), joins(given.joins), growth(given.growth) {}
     static deldrift_quality defaults() noexcept {
         deldrift_quality quality;
         deldrift_quality_init(&quality);
@@ -109,6 +109,7 @@ class GivenQuality {
         given_.margin = quality.margin;
         given_.share = quality.share;
         given_.joins = quality.joins;
+        given_.growth = quality.growth;
         if (quality_.is_too_large) {
             given_.is_too_large = ask;
             given_.user_data = this;

@@ -138,6 +138,7 @@ class Quality(ctypes.Structure):
         ("margin", c_double),
         ("share", c_double),
         ("joins", c_double),
+        ("growth", c_double),
     ]
 
 
@@ -164,6 +165,9 @@ class QualityReport(Counts):
         1 if the limit was reached, otherwise 0.
     values : ndarray, dict of ndarray or None
         The values that `refine` was given, by the ids that there are now.
+    sizes : ndarray or None
+        The sizes that `refine` was given, by the ids that there are now, with those that it had for the new vertices. With
+        these a second call finds nothing to do.
     """
 
     inserted: int
@@ -175,6 +179,7 @@ class QualityReport(Counts):
     bad_cells: int
     is_cut_short: int
     values: Any = None
+    sizes: Any = None
 
     _fields_ = [
         (name, c_uint64)
@@ -330,6 +335,7 @@ PROTOTYPES = {
     "made_vertices": (T, A, A, N, C),
     "original_segments": (T, A, N, C),
     "refined_weights": (T, A, A, N, C),
+    "refined_sizes": (T, A, N, C),
     "update_circumcentres": (T, A, N, A, A, N),
     "update_volumes": (T, A, N, A, N),
     "update_mask_by_circumradius": (T, A, N, F64, A, N),

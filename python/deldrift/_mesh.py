@@ -430,6 +430,7 @@ class Mesh:
         margin: float = 2.0,
         share: float = 0.9,
         joins: float = 1e-9,
+        growth: float = 1.1,
         is_conforming: bool = False,
     ) -> QualityReport:
         """Removes vertices that `refine` has inserted and that are not needed any more.
@@ -440,7 +441,7 @@ class Mesh:
             As of `Delaunay.coarsen`.
         areas : dict, optional
             The greatest area of triangles by the label of their region, 0 for any.
-        sizes, is_too_large, margin, share, joins, is_conforming
+        sizes, is_too_large, margin, share, joins, growth, is_conforming
             As of `Delaunay.coarsen`.
 
         Returns
@@ -456,6 +457,7 @@ class Mesh:
             margin=margin,
             share=share,
             joins=joins,
+            growth=growth,
             is_conforming=is_conforming,
             **self._selected(areas),
         )

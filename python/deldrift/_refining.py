@@ -21,6 +21,7 @@ _coarsen = _library.function("coarsen")
 _made_vertices = _library.function("made_vertices")
 _original_segments = _library.function("original_segments")
 _refined_weights = _library.function("refined_weights")
+_refined_sizes = _library.function("refined_sizes")
 
 TooLarge = Callable[[np.ndarray], bool]
 Values = Union[np.ndarray, dict[str, np.ndarray], None]
@@ -81,7 +82,7 @@ class _Wanted:
         if is_too_large is not None and not callable(is_too_large):
             raise TypeError(f"is_too_large is {is_too_large!r}, and must be a function of the corners of a simplex")
         self.is_too_large = is_too_large
-        self.names = {name: name + "!" for name in ("least_angle", "greatest_area", "margin", "share", "joins")}
+        self.names = {name: name + "!" for name in ("least_angle", "greatest_area", "margin", "share", "joins", "growth")}
         if self.sizes is not None and self.sizes.ndim == 0:
             self.names["sizes"] = "sizes!"
 
@@ -155,7 +156,7 @@ class Refining(Segmented):
         Returns
         -------
         QualityReport
-            What was done. `values` has the values by the ids that there are now.
+            What was done. `values` has the values by the ids that there are now, and `sizes` the sizes.
 
         Examples
         --------
@@ -191,6 +192,7 @@ class Refining(Segmented):
         margin: float = 2.0,
         share: float = 0.9,
         joins: float = 1e-9,
+        growth: float = 1.1,
         is_conforming: bool = False,
     ) -> QualityReport:
         """Removes vertices that `refine` has inserted and that are not needed any more, in 2D.
@@ -209,6 +211,10 @@ class Refining(Segmented):
         joins : float, optional
             How far the vertex between two pieces may be off the line through their other ends to be removed, as a share
             of the distance of these, from 0 to 1.
+        growth : float, optional
+            How many times as many vertices as a mesh made anew the mesh may have, 1 or more, or infinite. Where more are
+            left, or there may be more as larger simplices are asked for, the next `refine` finds the mesh made anew, and
+            takes it if it has fewer by this factor: its report counts what was removed. Not with `sizes`.
         is_conforming : bool, optional
             As of `refine`.
 
@@ -234,6 +240,7 @@ class Refining(Segmented):
                 "margin": real("margin", margin),
                 "share": real("share", share),
                 "joins": real("joins", joins),
+                "growth": real("growth", growth),
                 "is_conforming": bool(is_conforming),
             },
             None,
@@ -268,7 +275,17 @@ class Refining(Segmented):
             rows = self.refined_weights()
             carried = [rows.carried(array) for array in given.values()]
             report.values = dict(zip(values, carried)) if isinstance(values, Mapping) else carried[0]
+        if wanted.sizes is not None and call is _refine:
+            report.sizes = np.concatenate([wanted.sizes, self._refined_sizes()])
         return report
+
+    def _refined_sizes(self) -> np.ndarray:
+        """The sizes that the last `refine` had for the vertices that it inserted."""
+        with self._reading as t:
+            n = count_of(lambda t, count: _refined_sizes(t, None, 0, count), t)
+            sizes = np.empty(n, F64)
+            self._check(_refined_sizes(t, address(sizes), n, ctypes.c_size_t()))
+        return sizes
 
     def made_vertices(self) -> MadeVertices:
         """The vertices that `refine` has inserted and that are there, ascending, in 2D.

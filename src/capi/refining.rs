@@ -382,6 +382,32 @@ pub unsafe extern "C" fn deldrift_refined_weights(
     })
 }
 
+/// For each vertex that the last deldrift_refine inserted, in the order of their ids, the greatest length of edges that it had
+/// there, from those given in quality.sizes at the vertices before. With these behind the others a second call finds nothing
+/// to do. It has to have been called with sizes, and neither a commit nor a compaction must have come since; otherwise there
+/// are none.
+///
+/// sizes: a buffer with room for capacity numbers. count: receives the number of vertices, which is also written when the
+/// buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Cost: the vertices inserted.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_refined_sizes(
+    t: *const deldrift_triangulation,
+    sizes: *mut f64,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    given!(t: Reading, sizes[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        let all = of_the_plane(t)?.refined_sizes();
+        sizes.fill(count, all.len(), || Ok(all.iter().copied()))
+    })
+}
+
 /// What coarsening is told by a quality.
 fn coarsening_of(given: &deldrift_quality) -> CoarsenOptions {
     CoarsenOptions { margin: given.margin, share: given.share, joins: given.joins, growth: given.growth }

@@ -60,7 +60,7 @@ pub(super) struct Refinement<'a> {
     /// The original that each vertex is on, [`NONE`] if there is none.
     pub(super) on: Vec<u32>,
     /// The greatest length of edges at each vertex, if that is given.
-    sizes: Vec<f64>,
+    pub(super) sizes: Vec<f64>,
     pub(super) n_given: usize,
     pub(super) n_added: usize,
     /// Pieces that have been split, and vertices that have been taken out of circles.

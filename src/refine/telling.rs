@@ -16,6 +16,8 @@ pub(crate) struct Refined {
     pub removed: Vec<VertexId>,
     /// By segment the one to which it has been joined, itself if to none; empty if no vertices have been taken away.
     pub into: Vec<u32>,
+    /// The sizes of the new vertices, if there are sizes.
+    pub sizes: Vec<f64>,
     /// The segments that others take the place of, ascending, each with where its vertices end in `chain`; none where it has
     /// been joined to the one before.
     pub replaced: Vec<(u32, usize)>,
@@ -61,10 +63,12 @@ impl Refinement<'_> {
         let mut number = Vec::new();
         memory::lengthen(&mut number, segment_of.len(), VertexId::NONE)?;
         memory::reserve(&mut told.vertices, self.n_added)?;
+        memory::reserve(&mut told.sizes, if self.sizes.is_empty() { 0 } else { self.n_added })?;
         for (k, &segment) in segment_of.iter().enumerate() {
             if self.mesh.at[self.n_given + k] != NONE {
                 number[k] = VertexId::at(self.n_given + told.vertices.len());
                 told.vertices.push((self.mesh.points[self.n_given + k], segment));
+                told.sizes.extend(self.sizes.get(self.n_given + k));
             }
         }
         let renamed =

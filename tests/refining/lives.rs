@@ -248,6 +248,37 @@ fn rounds_at_rest_change_nothing() {
     }
 }
 
+/// Sizes that refinement has used at its vertices are those of which nothing is too long.
+#[test]
+fn a_second_call_with_the_sizes_of_the_first_changes_nothing() {
+    for (name, size, domain) in domains() {
+        let centre = domain.points[0];
+        let mut sizes: Vec<f64> = domain
+            .points
+            .iter()
+            .map(|p| 1e-2 * size + 0.3 * (p[0] - centre[0]).hypot(p[1] - centre[1]))
+            .collect();
+        let mut t = domain.build();
+        let mask = domain_of(&t);
+        let asked = Quality { sizes: Some(&sizes), ..quality(25.0, 0.0) };
+        let report = t.refine(&asked, &RefineOptions { limit: LIMIT, ..RefineOptions::default() }, &mask);
+        let report = report.expect("a domain");
+        let more = t.refined_sizes().to_vec();
+        assert_eq!(more.len(), report.inserted, "{name}");
+        assert!(report.inserted > 20, "{name}: {report:?}");
+        sizes.extend(more);
+        let mask = domain_of(&t);
+        let before = bytes(&t);
+        let again = t.refine(
+            &Quality { sizes: Some(&sizes), ..quality(25.0, 0.0) },
+            &RefineOptions::default(),
+            &mask,
+        );
+        assert_eq!(again.expect("a domain").inserted, 0, "{name}");
+        assert!(bytes(&t) == before && t.refined_sizes().is_empty(), "{name}");
+    }
+}
+
 /// A domain is refined at any scale, down to the least numbers.
 #[test]
 fn the_least_coordinates_are_refined() {

@@ -64,6 +64,7 @@ impl History<'_> {
         quality.limit = self.s.pick(&[0, 1, 5, 30, 30, 100]);
         quality.has_weights = self.s.below(2) as u32;
         quality.keeps = self.s.pick(&[0, 0, 1, 2]);
+        quality.growth = self.s.pick(&[1.1, 1.0, f64::INFINITY]);
         let kind = self.s.below(4);
         let n = self.m.positions.len();
         let sizes: Vec<f64> =
@@ -75,7 +76,7 @@ impl History<'_> {
             quality.user_data = std::ptr::from_mut(&mut width).cast();
         }
         if self.s.below(3) != 0 {
-            self.refine(&quality);
+            self.refine(&quality, if kind == 0 { &sizes } else { &[] });
         } else {
             self.coarsen(&quality);
         }
@@ -149,7 +150,7 @@ impl History<'_> {
         status == DELDRIFT_OK
     }
 
-    fn refine(&mut self, quality: &deldrift_quality) {
+    fn refine(&mut self, quality: &deldrift_quality, sizes: &[f64]) {
         let (t, (mask, wanted)) = (self.t, self.choose_mask());
         let (before, first) = (self.pieces(), self.m.positions.len() as u32);
         let mut report = deldrift_quality_report { inserted: 77, ..Default::default() };
@@ -159,7 +160,9 @@ impl History<'_> {
             return self.check();
         }
         let deldrift_quality_report { inserted, on_segments, bad_cells, is_cut_short, .. } = report;
-        assert_eq!((report.removed, report.reserved), (0, [0; 4]), "{report:?}");
+        assert_eq!(report.reserved, [0; 4], "{report:?}");
+        let places = self.m.positions.clone();
+        let gone = self.drop_gone(report.removed);
         assert!(inserted <= quality.limit as u64 && on_segments <= inserted, "{report:?}");
         assert!(is_cut_short == 0 || inserted == quality.limit as u64, "{report:?}");
         assert!(quality.keeps != 2 || on_segments == 0 && report.replaced_segments == 0, "{report:?}");
@@ -170,27 +173,26 @@ impl History<'_> {
             self.m.made.insert(v);
         }
         tally::REFINED.add(inserted);
-        if inserted > 0 {
+        if inserted + report.removed > 0 {
             (self.fresh, self.m.timestamp) = (None, self.m.timestamp + 1);
         }
-        let is_new = |v: u32| v >= first;
-        self.follow_pieces(&before, &report, is_new);
+        self.follow_pieces(&before, &report, |v| v >= first || gone.contains(&v));
         self.check();
-        self.check_made(first, &report, quality.has_weights != 0);
+        self.check_made(&places, &report, quality.has_weights != 0);
         if mask.is_none() && bad_cells == 0 && is_cut_short == 0 {
             // Fourth powers of lengths are in the range of numbers then.
             if self.is_moderate() {
                 self.check_quality(quality);
             }
             if report.unsplit == 0 {
-                self.check_that_nothing_is_left(quality);
+                self.check_that_nothing_is_left(quality, sizes);
             }
         }
     }
 
     fn coarsen(&mut self, quality: &deldrift_quality) {
         let (t, (mask, wanted)) = (self.t, self.choose_mask());
-        let (before, n_before) = (self.pieces(), self.m.present().count());
+        let before = self.pieces();
         // Whether the mask is looked at where nothing is left of what has been made is not said.
         let (mask, wanted) = if self.m.made.is_empty() { (None, DELDRIFT_OK) } else { (mask, wanted) };
         let mut report = deldrift_quality_report { inserted: 77, ..Default::default() };
@@ -200,6 +202,18 @@ impl History<'_> {
             return self.check();
         }
         assert_eq!((report.inserted, report.on_segments, report.bad_cells), (0, 0, 0), "{report:?}");
+        let gone = self.drop_gone(report.removed);
+        tally::COARSENED.add(report.removed);
+        if report.removed > 0 {
+            (self.fresh, self.m.timestamp) = (None, self.m.timestamp + 1);
+        }
+        self.follow_pieces(&before, &report, |v| gone.contains(&v));
+        self.check();
+    }
+
+    /// The vertices, of those made, that are no more: so many. The model drops them.
+    fn drop_gone(&mut self, n_removed: u64) -> BTreeSet<u32> {
+        let (t, n_before) = (self.t, self.m.present().count());
         let mut gone = BTreeSet::new();
         for v in self.m.made.clone() {
             let mut is_present = false;
@@ -211,13 +225,8 @@ impl History<'_> {
             }
         }
         let n = self.m.present().count();
-        assert_eq!((gone.len() as u64, n_before - n), (report.removed, gone.len()), "removed vertices");
-        tally::COARSENED.add(report.removed);
-        if report.removed > 0 {
-            (self.fresh, self.m.timestamp) = (None, self.m.timestamp + 1);
-        }
-        self.follow_pieces(&before, &report, |v| gone.contains(&v));
-        self.check();
+        assert_eq!((gone.len() as u64, n_before - n), (n_removed, gone.len()), "removed vertices");
+        gone
     }
 
     /// The segments in force, as the library tells, and what they are pieces of.
@@ -253,6 +262,9 @@ impl History<'_> {
         let is_at = |v: u32, w: u32| {
             v == w || !is_within(v) && !is_within(w) && shown[v as usize] == shown[w as usize]
         };
+        if report.inserted > 0 && report.removed > 0 {
+            return self.follow_pieces_made_anew(before, &now, [&gone, &come], is_within);
+        }
         let is_split = report.inserted > 0;
         let (long, short) = if is_split { (&gone, &come) } else { (&come, &gone) };
         let row = |id: u32| if let Some(row) = now.get(&id) { *row } else { before[&id] };
@@ -289,9 +301,39 @@ impl History<'_> {
         }
     }
 
+    /// Where vertices have been inserted and removed, what has come of each original begins and ends where what is gone does.
+    fn follow_pieces_made_anew(
+        &mut self,
+        before: &Pieces,
+        now: &Pieces,
+        [gone, come]: [&[u32]; 2],
+        is_within: impl Fn(u32) -> bool,
+    ) {
+        let shown = self.m.representatives();
+        // How often more pieces begin at a place than end there; those of one original may go both ways.
+        let ends = |pieces: &Pieces, ids: &[u32]| {
+            let mut ends: BTreeMap<(u32, u32), u32> = BTreeMap::new();
+            for ([from, to], original) in ids.iter().map(|id| pieces[id]) {
+                for v in [from, to].into_iter().filter(|&v| !is_within(v)) {
+                    *ends.entry((original, shown[v as usize])).or_default() += 1;
+                }
+            }
+            ends
+        };
+        assert_eq!(ends(before, gone), ends(now, come), "ends of pieces");
+        let first = self.m.segments.n_ids();
+        assert!(come.iter().copied().eq(first..first + come.len() as u32), "ids of pieces");
+        for id in come {
+            let (ends, original) = now[id];
+            let marked = gone.iter().find(|id| before[id].1 == original).expect("it takes the place of one");
+            self.m.segments.add(ends, *marked);
+        }
+        gone.iter().for_each(|&id| self.m.segments.drop(id));
+    }
+
     /// The vertices that have been made, where they were put, and the weights of the last ones.
-    fn check_made(&mut self, first: u32, report: &deldrift_quality_report, has_weights: bool) {
-        let t = self.t;
+    fn check_made(&mut self, places: &[Option<Place>], report: &deldrift_quality_report, has_weights: bool) {
+        let (t, first) = (self.t, places.len() as u32);
         let made =
             self.copied(77, 1, |to, room, count| c!(deldrift_made_vertices(t, to, null_mut(), room, count)));
         let on =
@@ -311,7 +353,7 @@ impl History<'_> {
             let mut mean = [0.0; 2];
             for (&v, weight) in row.iter().zip(weights) {
                 assert!(v < first && (0.0..=1.0).contains(weight), "{row:?}, {weights:?}");
-                let p = self.m.at(v).expect("a corner is present");
+                let p = places[v as usize].expect("a corner was present");
                 (0..2).for_each(|axis| mean[axis] += weight * p[axis]);
             }
             let is_near =
@@ -356,12 +398,14 @@ impl History<'_> {
     }
 
     /// Where all is good a second call commits nothing.
-    fn check_that_nothing_is_left(&mut self, quality: &deldrift_quality) {
-        if !quality.sizes.is_null() {
-            return;
-        }
+    fn check_that_nothing_is_left(&mut self, quality: &deldrift_quality, sizes: &[f64]) {
         let (t, mut report) = (self.t, deldrift_quality_report::default());
-        self.ok(|| c!(deldrift_refine(t, quality, null(), 0, &mut report)));
+        let new = self.copied(77.0, 1, |to, room, count| c!(deldrift_refined_sizes(t, to, room, count)));
+        let mut quality = *quality;
+        let sizes = [sizes, &new].concat();
+        assert_eq!(sizes.len(), if quality.sizes.is_null() { 0 } else { self.m.positions.len() }, "sizes");
+        (quality.sizes, quality.size_count) = (sizes.as_ptr(), sizes.len());
+        self.ok(|| c!(deldrift_refine(t, &quality, null(), 0, &mut report)));
         assert_eq!(report, deldrift_quality_report::default(), "where all is good");
         self.check();
     }
@@ -395,6 +439,7 @@ impl History<'_> {
             self.expect(wanted, || c!(deldrift_made_vertices(t, none, none, 0, &mut count)));
             self.expect(wanted, || c!(deldrift_original_segments(t, none, 0, &mut count)));
             self.expect(wanted, || c!(deldrift_refined_weights(t, none, null_mut(), 0, &mut count)));
+            self.expect(wanted, || c!(deldrift_refined_sizes(t, null_mut(), 0, &mut count)));
         }
         assert_eq!((report.inserted, count), (77, 77), "an output of a call that failed");
     }

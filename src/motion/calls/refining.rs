@@ -68,7 +68,7 @@ impl MovingTriangulation<Plane> {
         let question = self.question(&asked, quality, mask);
         let due = self.made.as_ref().and_then(|made| made.density.due());
         if due.is_none() && self.made.as_ref().is_some_and(|made| made.found.all_good.holds(question)) {
-            self.set_refined(quality, 0, Vec::new());
+            self.set_refined(quality, 0, Default::default());
             return Ok(QualityReport::default());
         }
         let mut read = self.read_vertices()?;
@@ -81,12 +81,12 @@ impl MovingTriangulation<Plane> {
         pace.begin();
         let found = self.find((&mut read, mask, quality), &bounds, tests, options, &mut || pace.ask_again());
         *self.mesh.kernel.pace_mut() = pace;
-        let Some(refined) = found? else {
+        let Some(mut refined) = found? else {
             if let (Some(made), 0) = (&mut self.made, report.bad_cells) {
                 made.found.all_good.set(question)?;
             }
             // Nothing fails from here on.
-            self.set_refined(quality, 0, Vec::new());
+            self.set_refined(quality, 0, Default::default());
             return Ok(report);
         };
         report.inserted = refined.vertices.len();
@@ -96,10 +96,12 @@ impl MovingTriangulation<Plane> {
         report.is_cut_short = refined.is_cut_short;
         report.bad_cells = refined.n_bad;
         let mut weights = Vec::new();
+        let mut sizes = std::mem::take(&mut refined.sizes);
+        sizes.iter_mut().for_each(|size| *size /= read.scale);
         if report.inserted > 0 || report.removed > 0 {
             weights = self.commit_refined(&read, &refined, options, &mut report)?;
         }
-        self.set_refined(quality, report.inserted, weights);
+        self.set_refined(quality, report.inserted, (weights, sizes));
         Ok(report)
     }
 

@@ -18,6 +18,13 @@ impl MovingTriangulation<Plane> {
         self.made.as_ref().map_or(&[], |made| made.weights(self.statistics.timestamp))
     }
 
+    /// For each vertex that the last [`refine`](Self::refine) inserted, in the order of their ids, the size that it had there,
+    /// if it was called with [sizes](crate::motion::Quality::sizes), and neither a commit nor a compaction has come since.
+    /// Otherwise empty. With these sizes a second call finds nothing to do.
+    pub fn refined_sizes(&self) -> &[f64] {
+        self.made.as_ref().map_or(&[], |made| made.sizes(self.statistics.timestamp))
+    }
+
     /// Weights of places that are on an edge of two vertices, or in the closure of a cell.
     pub(super) fn weights_of(
         &self,

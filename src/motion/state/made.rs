@@ -37,6 +37,8 @@ pub(in crate::motion) struct Made {
     coming: Vec<(SegmentId, Origin)>,
     /// Those of the vertices that the last refinement inserted.
     weights: Vec<VertexWeights>,
+    /// Sizes of these.
+    sizes: Vec<f64>,
     /// How dense the mesh is.
     pub(in crate::motion) density: Density,
     /// Copies know nothing of it.
@@ -123,9 +125,14 @@ impl Made {
         if self.density.refined_at() == timestamp { &self.weights } else { &[] }
     }
 
-    /// Remembers the weights of the last refinement.
-    pub(in crate::motion) fn set_weights(&mut self, weights: Vec<VertexWeights>) {
-        self.weights = weights;
+    /// The sizes that the refinement of a timestamp had for the vertices that it inserted, if that was the last one.
+    pub(in crate::motion) fn sizes(&self, timestamp: u64) -> &[f64] {
+        if self.density.refined_at() == timestamp { &self.sizes } else { &[] }
+    }
+
+    /// Remembers weights and sizes of the last refinement.
+    pub(in crate::motion) fn set_values(&mut self, (weights, sizes): (Vec<VertexWeights>, Vec<f64>)) {
+        (self.weights, self.sizes) = (weights, sizes);
     }
 
     /// Makes room for more.
@@ -161,6 +168,7 @@ impl Made {
         copy.pieces.extend_from_slice(&self.pieces);
         copy.coming = memory::copy_of(&self.coming)?;
         copy.weights = memory::copy_of(&self.weights)?;
+        copy.sizes = memory::copy_of(&self.sizes)?;
         copy.density = self.density;
         Ok(copy)
     }
@@ -168,7 +176,7 @@ impl Made {
     /// A copy in which the vertices have other ids, in their order: by the old ones, [`VertexId::NONE`] for those removed.
     pub(in crate::motion) fn renumbered(&self, ids: &[VertexId]) -> Result<Self> {
         let mut copy = self.copied()?;
-        copy.weights = Vec::new();
+        (copy.weights, copy.sizes) = (Vec::new(), Vec::new());
         copy.vertices.iter_mut().for_each(|(v, _)| *v = ids[*v]);
         copy.vertices.retain(|&(v, _)| v != VertexId::NONE);
         copy.pieces.iter_mut().chain(&mut copy.coming).for_each(|(_, origin)| {
@@ -182,6 +190,7 @@ impl Made {
             + memory::bytes_of(&self.pieces)
             + memory::bytes_of(&self.coming)
             + memory::bytes_of(&self.weights)
+            + memory::bytes_of(&self.sizes)
             + self.looked.memory_bytes()
             + self.found.memory_bytes()
     }

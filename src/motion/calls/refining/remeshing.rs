@@ -24,12 +24,17 @@ impl MovingTriangulation<Plane> {
         }
     }
 
-    /// Refinement ends, and is remembered with the weights of the vertices that it has inserted.
-    pub(super) fn set_refined(&mut self, quality: &Quality, n_inserted: usize, weights: Vec<VertexWeights>) {
+    /// Refinement ends, and is remembered with weights and sizes of the vertices that it has inserted.
+    pub(super) fn set_refined(
+        &mut self,
+        quality: &Quality,
+        n_inserted: usize,
+        values: (Vec<VertexWeights>, Vec<f64>),
+    ) {
         let (n, timestamp) = (self.made_vertices().count(), self.statistics.timestamp);
         if let Some(made) = &mut self.made {
             made.density.set_refined([n, n_inserted], bounds_of(quality), timestamp);
-            made.set_weights(weights);
+            made.set_values(values);
         }
     }
 
