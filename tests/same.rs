@@ -26,7 +26,7 @@ const SECOND: &str = "DELDRIFT_SAME_SECOND";
 struct Sums {
     rows: Vec<(String, u64)>,
     threads: u32,
-    parts: u32,
+    parts: usize,
 }
 
 /// FNV-1a of what is written.
@@ -265,7 +265,7 @@ fn algorithms() -> impl Iterator<Item = Algorithm> {
 }
 
 /// All histories of a dimension, on so many threads and with so many parts. In parts each algorithm has one kind of points.
-fn histories<G: Dimension>(threads: u32, parts: u32) -> Sums {
+fn histories<G: Dimension>(threads: u32, parts: usize) -> Sums {
     let mut sums = Sums { rows: Vec::new(), threads, parts };
     let kinds = [Kind::Random, Kind::Lattice, Kind::RoundedSphere, Kind::Clusters, Kind::Duplicates];
     for (k, algorithm) in algorithms().enumerate() {
@@ -304,7 +304,7 @@ fn assert_same(found: &Sums, expected: &[(String, u64)]) {
 }
 
 /// Compares histories in so many parts, on as many threads as are listed, with those recorded.
-fn same<G: Dimension>(name: &str, parts: u32, threads: &[u32]) {
+fn same<G: Dimension>(name: &str, parts: usize, threads: &[u32]) {
     let file = if parts == 0 { format!("{}d.csv", G::D) } else { format!("{}d_in_parts.csv", G::D) };
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/results/same").join(file);
     let is_second = std::env::var_os(SECOND).is_some();
@@ -340,7 +340,7 @@ fn recorded_in(path: &Path) -> Vec<(String, u64)> {
 }
 
 /// How many parts there are in the tests: more than most numbers of threads.
-const PARTS: u32 = 3;
+const PARTS: usize = 3;
 
 #[test]
 fn answers_in_the_plane_are_the_same_everywhere() {
@@ -372,7 +372,8 @@ fn another_division_is_found() {
     fn check<G: Dimension>() {
         use_all_threads();
         let differ = differences(&histories::<G>(2, 1), &histories::<G>(2, PARTS).rows);
-        let quantities = ["changes", "corners", "neighbours", "stars", "volumes", "circumspheres", "voronoi cells"];
+        let quantities =
+            ["changes", "corners", "neighbours", "stars", "volumes", "circumspheres", "voronoi cells"];
         for quantity in quantities {
             assert!(differ.iter().any(|row| row.ends_with(quantity)), "{quantity} in {}D", G::D);
         }

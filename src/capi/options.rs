@@ -76,6 +76,11 @@ pub struct deldrift_options {
     /// order, last bits of rounded numbers and the counts in reports may, unless parts is set. Callbacks come from the
     /// calling thread only.
     pub threads: u32,
+    /// Default DELDRIFT_COINCIDENCE_MERGE.
+    pub coincidence: CoincidenceCode,
+    /// What commits, deldrift_check_staged and deldrift_relocate_vertex do when a vertex would pass a segment. Default
+    /// DELDRIFT_PASSING_IGNORE.
+    pub passing: PassingCode,
     /// Greatest number of parts into which work is divided where that shows in the order of cells: builds, and flips. 0,
     /// the default, is one for each thread that is used. With any other number the same calls give the same answers for any
     /// number of threads and on every machine: cells in the same order, every bit of rounded numbers, and reports but
@@ -83,12 +88,7 @@ pub struct deldrift_options {
     /// with fewer parts some threads have nothing to do in this work; with more each part costs something. For 100,000
     /// vertices a build on one thread takes up to 1.1 times as long in eight parts as in one in 2D; in 3D 1.1 times in
     /// two parts, 1.35 times in eight.
-    pub parts: u32,
-    /// Default DELDRIFT_COINCIDENCE_MERGE.
-    pub coincidence: CoincidenceCode,
-    /// What commits, deldrift_check_staged and deldrift_relocate_vertex do when a vertex would pass a segment. Default
-    /// DELDRIFT_PASSING_IGNORE.
-    pub passing: PassingCode,
+    pub parts: usize,
     /// Called now and then during long calls: at least once for some ten thousand cells that are made, or looked at
     /// around single vertices. Passes over all vertices or cells, each of which takes a part of a build, are not
     /// interrupted. When it returns true, the call ends in DELDRIFT_CANCELLED and has had no effect. NULL, the default,
@@ -133,9 +133,9 @@ impl deldrift_options {
         struct_size: size_of::<deldrift_options>(),
         algorithm: 0,
         threads: 0,
-        parts: 0,
         coincidence: 0,
         passing: 0,
+        parts: 0,
         cancel: None,
         progress: None,
         user_data: ptr::null_mut(),
@@ -145,9 +145,9 @@ impl deldrift_options {
     const ENDS: [usize; 9] = [
         size_of::<usize>(),
         offset_of!(deldrift_options, threads),
-        offset_of!(deldrift_options, parts),
         offset_of!(deldrift_options, coincidence),
         offset_of!(deldrift_options, passing),
+        offset_of!(deldrift_options, parts),
         offset_of!(deldrift_options, cancel),
         offset_of!(deldrift_options, progress),
         offset_of!(deldrift_options, user_data),

@@ -99,7 +99,7 @@ impl<G: Dimension> Delaunay<G> {
         let built = self.complex.reserve(build.n_cells_of(0..n_parts)).and_then(|()| {
             build.triangulate(self, 0..n_parts, &mut |fraction| {
                 furthest = fraction.max(furthest);
-                is_cancelled |= !monitor(furthest);
+                is_cancelled = is_cancelled || !monitor(furthest);
                 !is_cancelled && !build.stop.load(Relaxed)
             })
         });
@@ -142,12 +142,7 @@ impl<G: Dimension> Delaunay<G> {
 
 impl<G: Dimension> Build<'_, G> {
     /// Triangulates parts, for the cells of which there is [room](Self::n_cells_of).
-    fn triangulate(
-        &self,
-        t: &mut Delaunay<G>,
-        parts: Range<usize>,
-        monitor: Monitor,
-    ) -> Result<Coincident> {
+    fn triangulate(&self, t: &mut Delaunay<G>, parts: Range<usize>, monitor: Monitor) -> Result<Coincident> {
         let built = if parts.len() == 1 {
             self.triangulate_one(t, parts.start, monitor)
         } else {
@@ -202,12 +197,7 @@ impl<G: Dimension> Build<'_, G> {
 
     /// Triangulates one part. A flat one is an error, whichever: the caller triangulates all on one thread
     /// then.
-    fn triangulate_one(
-        &self,
-        t: &mut Delaunay<G>,
-        part: usize,
-        monitor: Monitor,
-    ) -> Result<Coincident> {
+    fn triangulate_one(&self, t: &mut Delaunay<G>, part: usize, monitor: Monitor) -> Result<Coincident> {
         if part > 0 {
             t.sites = std::mem::take(&mut *self.copies[part].lock().expect("each is locked once"));
         }
@@ -283,6 +273,41 @@ mod tests {
     fn parts_are_united() {
         unites::<Plane>();
         unites::<Space>();
+    }
+
+    /// What is built depends on the parts alone, slot by slot, and progress never goes back.
+    #[test]
+    fn threads_do_not_show() {
+        fn check<G: Dimension>() {
+            for parts in [2, 5, 8] {
+                let on = |threads| {
+                    let mut t =
+                        Delaunay::<G>::on(Threads::exactly(threads).in_parts(parts)).expect("room for it");
+                    t.add_sites(&random::<G>(3000)).expect("room for it");
+                    let mut told = vec![0.0];
+                    let coincident = t.triangulate_parts(&mut |fraction| {
+                        told.push(fraction);
+                        true
+                    });
+                    assert_eq!(coincident, Ok(Some(Vec::new())));
+                    assert!(told.is_sorted() && *told.last().expect("some") <= 1.0, "{told:?}");
+                    t
+                };
+                let one = on(1);
+                one.validate(Level::Delaunay).expect("a Delaunay triangulation");
+                for threads in [2, 3, 7] {
+                    let several = on(threads);
+                    let cells = |t: &Delaunay<G>| format!("{:?}", t.complex().cells());
+                    assert!(cells(&several) == cells(&one), "{threads} threads, {parts} parts");
+                }
+                let mut t = on(1);
+                for most in [0.01, 0.3, 0.7, 0.9] {
+                    assert_eq!(t.triangulate_parts(&mut |fraction| fraction < most), Err(Error::Cancelled));
+                }
+            }
+        }
+        check::<Plane>();
+        check::<Space>();
     }
 
     /// No hyperplane separates parts of which a site has left for the place of another one; they are united all the

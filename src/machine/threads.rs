@@ -50,9 +50,9 @@ impl Threads {
 
     /// At most `given`, or with 0 no more than the system runs at the same time, which is the most that are used in any
     /// case. Work whose division shows is divided into at most so many `parts`, or with 0 into one for each thread.
-    pub(crate) fn at_most(given: u32, parts: u32) -> Self {
+    pub(crate) fn at_most(given: u32, parts: usize) -> Self {
         if given > 0 && are_all_used() {
-            return Threads { parts: parts as usize, ..Threads::exactly(given) };
+            return Threads::exactly(given).in_parts(parts);
         }
         let available = available();
         let most = if given == 0 { available } else { available.min(given as usize) };
@@ -60,7 +60,7 @@ impl Threads {
             // More than one call may run at a time.
             allow_workers(available - 1);
         }
-        Threads { most, parts: parts as usize, all: false }
+        Threads { most, parts, all: false }
     }
 
     /// This number wherever the work can be divided, whether or not that pays.
@@ -70,6 +70,11 @@ impl Threads {
             allow_workers(most - 1);
         }
         Threads { most, parts: 0, all: true }
+    }
+
+    /// As many threads, which divide work whose division shows into at most so many parts.
+    pub(crate) fn in_parts(self, parts: usize) -> Self {
+        Threads { parts, ..self }
     }
 
     /// How many to use for work on `items` items: at most as many as leave each one `paying` items, below which a
@@ -302,7 +307,7 @@ mod tests {
     fn all_work_is_done_in_order() {
         for n_ranges in 1..9 {
             let mut parts = vec![0..0; n_ranges];
-            fill(&mut parts, &|k| share(1000, k, n_ranges));
+            fill(&mut parts, n_ranges, &|k| share(1000, k, n_ranges));
             assert!(parts.into_iter().flatten().eq(0..1000));
             let ranges = for_ranges(1000, n_ranges, |range| range).expect("room for them");
             assert!(ranges.into_iter().flatten().eq(0..1000));
@@ -426,7 +431,9 @@ mod tests {
         assert_eq!([0, 99, 199, 200, 1000].map(|n| some.for_work(n, 100, 10)), [1, 1, 1, 2, 4]);
         let all = Threads::exactly(4);
         assert_eq!([0, 19, 20, 1000].map(|n| all.for_work(n, 100, 10)), [1, 1, 2, 4]);
-        assert!(Threads::at_most(0, 0).most == available() && Threads::at_most(u32::MAX, 0).most == available());
+        assert!(
+            Threads::at_most(0, 0).most == available() && Threads::at_most(u32::MAX, 0).most == available()
+        );
         assert_eq!(Threads::at_most(1, 0).for_work(1 << 30, 100, 10), 1);
         // Parts follow the threads, unless a number is given.
         assert_eq!([0, 199, 200, 1000].map(|n| some.parts_of(n, 100, 10)), [1, 1, 2, 4]);

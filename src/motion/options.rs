@@ -93,7 +93,7 @@ pub struct Options {
     /// counts of certificates and exact signs. More threads than parts have nothing to do in this work. A build takes
     /// longer in more parts than there are threads: for 100,000 vertices one thread takes up to 1.1 times as long in
     /// eight parts as in one in the plane; in space 1.1 times in two, 1.35 times in eight.
-    pub parts: u32,
+    pub parts: usize,
     /// Coincident vertices.
     pub coincidence: CoincidencePolicy,
     /// Vertices that pass segments.
