@@ -492,11 +492,11 @@ typedef struct deldrift_options {
     deldrift_passing passing;
     /// Greatest number of parts into which work is divided where that shows in the order of cells: builds, and flips. 0,
     /// the default, is one for each thread that is used. With any other number the same calls give the same answers for any
-    /// number of threads and on every machine: cells in the same order, every bit of rounded numbers, and reports but
-    /// for certificates and exact_calls. Parts should be as many as the threads that a program is to run on, at most:
-    /// with fewer parts some threads have nothing to do in this work; with more each part costs something. For 100,000
-    /// vertices a build on one thread takes up to 1.1 times as long in eight parts as in one in 2D; in 3D 1.1 times in
-    /// two parts, 1.35 times in eight.
+    /// number of threads and on every processor: cells in the same order, every bit of rounded numbers, and reports
+    /// included. (A build for whose parts there is no memory is in one.) Parts should be as many as the threads that a
+    /// program is to run on, at most: with fewer some threads have nothing to do in this work, and with more each costs
+    /// something. For 100,000 vertices a build on one thread takes 1.1 times as long in eight parts as in one in 2D; in 3D
+    /// 1.06 times in two, 1.1 in four and 1.3 in eight; for 20,000 1.2 times in 2D, 1.15 to 1.6 times in 3D.
     size_t parts;
     /// Called now and then during long calls: at least once for some ten thousand cells that are made, or looked at
     /// around single vertices. Passes over all vertices or cells, each of which takes a part of a build, are not

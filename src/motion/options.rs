@@ -89,10 +89,11 @@ pub struct Options {
     pub threads: u32,
     /// Greatest number of parts into which work is divided where that shows in the order of cells: builds, and flips of
     /// [`Algorithm::Repair`]. 0, the default, is one for each thread that is used. With any other number all answers are
-    /// the same for any number of threads: the order of cells, every bit of rounded numbers, and reports but for their
-    /// counts of certificates and exact signs. More threads than parts have nothing to do in this work. A build takes
-    /// longer in more parts than there are threads: for 100,000 vertices one thread takes up to 1.1 times as long in
-    /// eight parts as in one in the plane; in space 1.1 times in two, 1.35 times in eight.
+    /// the same for any number of threads: the order of cells, every bit of rounded numbers, and reports. (A build for
+    /// whose parts there is no memory is in one.) More threads than parts have nothing to do in this work, and a build takes
+    /// longer in more parts than there are threads: for 100,000 vertices one thread takes 1.1 times as long in eight parts
+    /// as in one in the plane; in space 1.06 times in two, 1.1 in four and 1.3 in eight; for 20,000 1.2 times in the plane,
+    /// 1.15 to 1.6 times in space.
     pub parts: usize,
     /// Coincident vertices.
     pub coincidence: CoincidencePolicy,
