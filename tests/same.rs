@@ -1,11 +1,14 @@
-//! The same calls on one thread give the same answers, to the last bit and in the same order, on every processor: checksums of
-//! all that programs read, over histories, compared with those recorded in `results/same`.
+//! The same calls give the same answers, to the last bit and in the same order, on every processor, and, where the number of
+//! parts is given, on any number of threads: checksums of all that programs read, over histories, compared with those
+//! recorded in `results/same`.
 //!
 //! Each history runs with the lanes of the processor and in a second process with those of numbers (`DELDRIFT_SCALAR`).
-//! `DELDRIFT_RECORD` writes the file again. A line of it is a history, a step and a quantity.
+//! Those in parts run on one thread, two and three. `DELDRIFT_RECORD` writes the files again. A line of them is a history, a
+//! step and a quantity.
 
 use crate::common::inputs::{Kind, draw};
 use crate::common::{Rng, point};
+use deldrift::internals::use_all_threads;
 use deldrift::motion::{
     Algorithm, Interpolation, MovingTriangulation, Options, Purpose, Quality, RefineOptions, Segment,
     VertexValues,
@@ -13,15 +16,18 @@ use deldrift::motion::{
 use deldrift::periodic::PeriodicTriangulation;
 use deldrift::{CellId, Dimension, Plane, Space, VertexId};
 use std::fmt::{Debug, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Says that a process is the second one.
 const SECOND: &str = "DELDRIFT_SAME_SECOND";
 
-/// Checksums by history, step and quantity.
-#[derive(Default)]
-struct Sums(Vec<(String, u64)>);
+/// Checksums by history, step and quantity, of histories with these options.
+struct Sums {
+    rows: Vec<(String, u64)>,
+    threads: u32,
+    parts: usize,
+}
 
 /// FNV-1a of what is written.
 struct Sum(u64);
@@ -40,7 +46,11 @@ impl Sums {
     fn enter(&mut self, step: &str, quantity: &str, value: impl Debug) {
         let mut sum = Sum(0xcbf2_9ce4_8422_2325);
         write!(sum, "{value:?}").expect("nothing fails");
-        self.0.push((format!("{step} {quantity}"), sum.0));
+        self.rows.push((format!("{step} {quantity}"), sum.0));
+    }
+
+    fn options(&self, algorithm: Algorithm) -> Options {
+        Options { algorithm, threads: self.threads, parts: self.parts, ..Options::default() }
     }
 }
 
@@ -112,8 +122,8 @@ fn read<G: Dimension>(
 }
 
 /// A history of commits and edits.
-fn open<G: Dimension>(sums: &mut Sums, name: &str, points: &[G::Point], options: Options, steps: usize) {
-    let (mut now, rng) = (points.to_vec(), &mut Rng::new(5));
+fn open<G: Dimension>(sums: &mut Sums, name: &str, points: &[G::Point], algorithm: Algorithm, steps: usize) {
+    let (mut now, rng, options) = (points.to_vec(), &mut Rng::new(5), sums.options(algorithm));
     let mut t = MovingTriangulation::<G>::new(points, options).expect("points");
     read(sums, &format!("{name} built"), &mut t, steps < 3, rng);
     // Every vertex stays, or trembles, or a few go far.
@@ -148,8 +158,8 @@ fn open<G: Dimension>(sums: &mut Sums, name: &str, points: &[G::Point], options:
 }
 
 /// Segments that move with a mesh, and refinement.
-fn segments(sums: &mut Sums, name: &str, options: Options) {
-    let rng = &mut Rng::new(9);
+fn segments(sums: &mut Sums, name: &str, algorithm: Algorithm) {
+    let (rng, options) = (&mut Rng::new(9), sums.options(algorithm));
     let mut now: Vec<[f64; 2]> = [[0.0, 0.0], [8.0, 0.0], [8.0, 8.0], [0.0, 8.0]].to_vec();
     now.extend([[3.0, 3.0], [5.0, 3.0], [5.0, 5.0], [3.0, 5.5]]);
     now.extend((0..600).map(|_| [0.5 + 2.0 * rng.unit(), 0.5 + 7.0 * rng.unit()]));
@@ -186,8 +196,8 @@ fn segments(sums: &mut Sums, name: &str, options: Options) {
 }
 
 /// Vertices in a box that repeats.
-fn in_box<G: Dimension>(sums: &mut Sums, name: &str, n: usize, options: Options) {
-    let rng = &mut Rng::new(11);
+fn in_box<G: Dimension>(sums: &mut Sums, n: usize) {
+    let (name, rng, options) = (&format!("box of {n}"), &mut Rng::new(11), sums.options(Algorithm::Auto));
     let mut now: Vec<G::Point> = (0..n).map(|_| point::<G>(|_| rng.unit())).collect();
     let vectors: Vec<G::Point> = (0..G::D)
         .map(|i| {
@@ -255,65 +265,58 @@ fn algorithms() -> impl Iterator<Item = Algorithm> {
     Algorithm::ALL.into_iter().filter(|algorithm| algorithm.row().purpose == Purpose::Use)
 }
 
-/// All histories of a dimension.
-fn histories<G: Dimension>() -> Sums {
-    let mut sums = Sums::default();
-    let options = |algorithm: Algorithm| Options { algorithm, threads: 1, ..Options::default() };
-    for algorithm in algorithms() {
-        for kind in [Kind::Random, Kind::Lattice, Kind::RoundedSphere, Kind::Clusters, Kind::Duplicates] {
-            let points = draw::<G>(kind, 700, &mut Rng::new(1));
-            open::<G>(&mut sums, &format!("{kind:?} {algorithm:?}"), &points, options(algorithm), 8);
+/// All histories of a dimension, on so many threads and with so many parts. In parts each algorithm has one kind of points.
+fn histories<G: Dimension>(threads: u32, parts: usize) -> Sums {
+    let mut sums = Sums { rows: Vec::new(), threads, parts };
+    let kinds = [Kind::Random, Kind::Lattice, Kind::RoundedSphere, Kind::Clusters, Kind::Duplicates];
+    for (k, algorithm) in algorithms().enumerate() {
+        let own = if parts == 0 { 0..kinds.len() } else { k..k + 1 };
+        for kind in &kinds[own] {
+            let points = draw::<G>(*kind, 700, &mut Rng::new(1));
+            open::<G>(&mut sums, &format!("{kind:?} {algorithm:?}"), &points, algorithm, 8);
         }
         if G::D == 2 {
-            segments(&mut sums, &format!("segments {algorithm:?}"), options(algorithm));
+            segments(&mut sums, &format!("segments {algorithm:?}"), algorithm);
         }
     }
-    for n in [3, 60, 500] {
-        in_box::<G>(&mut sums, &format!("box of {n}"), n, options(Algorithm::Auto));
+    for n in if parts == 0 { &[3, 60, 500][..] } else { &[500] } {
+        in_box::<G>(&mut sums, *n);
     }
     // So many that arrays are large, and sorted.
     let n = if G::D == 2 { 24_000 } else { 7_000 };
     let points = draw::<G>(Kind::Random, n, &mut Rng::new(2));
-    open::<G>(&mut sums, "many", &points, options(Algorithm::Auto), 2);
+    open::<G>(&mut sums, "many", &points, Algorithm::Auto, if parts == 0 { 2 } else { 4 });
     sums
 }
 
-fn recorded_in<G: Dimension>() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/results/same/{}d.csv", G::D))
+/// Which of the checksums are not those expected.
+fn differences(found: &Sums, expected: &[(String, u64)]) -> Vec<String> {
+    assert!(found.rows.iter().map(|(step, _)| step).eq(expected.iter().map(|(step, _)| step)));
+    let pairs = found.rows.iter().zip(expected);
+    pairs.filter(|(row, other)| row != other).map(|(_, (step, _))| step.clone()).collect()
 }
 
 /// Makes sure that checksums are those expected, and says which are not.
 fn assert_same(found: &Sums, expected: &[(String, u64)]) {
-    let mut differ = String::new();
-    let mut n = 0;
-    for ((step, sum), (other, expected)) in found.0.iter().zip(expected) {
-        assert_eq!(step, other);
-        if sum != expected {
-            n += 1;
-            if n <= 12 {
-                write!(differ, "\n{step}").expect("room");
-            }
-        }
-    }
-    assert_eq!(n, 0, "{n} of {} differ, first{differ}", expected.len());
-    assert_eq!(found.0.len(), expected.len());
+    let differ = differences(found, expected);
+    let first = &differ[..differ.len().min(12)];
+    let (n, threads) = (expected.len(), found.threads);
+    assert!(differ.is_empty(), "on {threads} threads {} of {n} differ, first {first:#?}", differ.len());
 }
 
-fn same<G: Dimension>(name: &str) {
-    let path = recorded_in::<G>();
-    let first = histories::<G>();
+/// Compares histories in so many parts, on as many threads as are listed, with those recorded.
+fn same<G: Dimension>(name: &str, parts: usize, threads: &[u32]) {
+    let file = if parts == 0 { format!("{}d.csv", G::D) } else { format!("{}d_in_parts.csv", G::D) };
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/results/same").join(file);
     let is_second = std::env::var_os(SECOND).is_some();
-    if std::env::var_os("DELDRIFT_RECORD").is_some() && !is_second {
-        let lines: String = first.0.iter().map(|(step, sum)| format!("{step},{sum:016x}\n")).collect();
-        std::fs::write(&path, format!("history,checksum\n{lines}")).expect("to be written");
+    for &threads in threads {
+        let found = histories::<G>(threads, parts);
+        if std::env::var_os("DELDRIFT_RECORD").is_some() && !is_second && threads == 1 {
+            let lines: String = found.rows.iter().map(|(step, sum)| format!("{step},{sum:016x}\n")).collect();
+            std::fs::write(&path, format!("history,checksum\n{lines}")).expect("to be written");
+        }
+        assert_same(&found, &recorded_in(&path));
     }
-    let lines = std::fs::read_to_string(&path).expect("recorded");
-    let row = |line: &str| {
-        let (step, sum) = line.split_once(',').expect("two columns");
-        (step.to_string(), u64::from_str_radix(sum, 16).expect("a checksum"))
-    };
-    let recorded: Vec<(String, u64)> = lines.lines().skip(1).map(row).collect();
-    assert_same(&first, &recorded);
     if is_second {
         return;
     }
@@ -328,12 +331,58 @@ fn same<G: Dimension>(name: &str) {
     assert!(output.status.success() && said.contains("1 passed"), "with other lanes: {said}");
 }
 
+fn recorded_in(path: &Path) -> Vec<(String, u64)> {
+    let lines = std::fs::read_to_string(path).expect("recorded");
+    let row = |line: &str| {
+        let (step, sum) = line.split_once(',').expect("two columns");
+        (step.to_string(), u64::from_str_radix(sum, 16).expect("a checksum"))
+    };
+    lines.lines().skip(1).map(row).collect()
+}
+
+/// How many parts there are in the tests: more than most numbers of threads.
+const PARTS: usize = 3;
+
 #[test]
 fn answers_in_the_plane_are_the_same_everywhere() {
-    same::<Plane>("same::answers_in_the_plane_are_the_same_everywhere");
+    same::<Plane>("same::answers_in_the_plane_are_the_same_everywhere", 0, &[1]);
 }
 
 #[test]
 fn answers_in_space_are_the_same_everywhere() {
-    same::<Space>("same::answers_in_space_are_the_same_everywhere");
+    same::<Space>("same::answers_in_space_are_the_same_everywhere", 0, &[1]);
+}
+
+#[test]
+fn answers_in_the_plane_in_parts_are_the_same_on_any_number_of_threads() {
+    use_all_threads();
+    let name = "same::answers_in_the_plane_in_parts_are_the_same_on_any_number_of_threads";
+    same::<Plane>(name, PARTS, &[1, 2, 3, 5]);
+}
+
+#[test]
+fn answers_in_space_in_parts_are_the_same_on_any_number_of_threads() {
+    use_all_threads();
+    let name = "same::answers_in_space_in_parts_are_the_same_on_any_number_of_threads";
+    same::<Space>(name, PARTS, &[1, 2, 3, 5]);
+}
+
+/// What is compared tells orders and last bits apart: what is not divided shows in each kind of history.
+#[test]
+fn another_division_is_found() {
+    fn check<G: Dimension>() {
+        use_all_threads();
+        let differ = differences(&histories::<G>(2, 1), &histories::<G>(2, PARTS).rows);
+        let quantities =
+            ["changes", "corners", "neighbours", "stars", "volumes", "circumspheres", "voronoi cells"];
+        for quantity in quantities {
+            assert!(differ.iter().any(|row| row.ends_with(quantity)), "{quantity} in {}D", G::D);
+        }
+        for history in ["Random", "many", "box of 500"] {
+            assert!(differ.iter().any(|row| row.starts_with(history)), "{history} in {}D", G::D);
+        }
+        assert!(G::D == 3 || differ.iter().any(|row| row.starts_with("segments")));
+    }
+    check::<Plane>();
+    check::<Space>();
 }

@@ -54,6 +54,7 @@ static void structures_of_earlier_versions_are_accepted(void) {
                            offsetof(deldrift_options, threads),
                            offsetof(deldrift_options, coincidence),
                            offsetof(deldrift_options, passing),
+                           offsetof(deldrift_options, parts),
                            offsetof(deldrift_options, cancel),
                            offsetof(deldrift_options, progress),
                            offsetof(deldrift_options, user_data),

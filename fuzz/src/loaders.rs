@@ -71,6 +71,7 @@ fn default_options() -> deldrift_options {
         threads: 1,
         coincidence: 0,
         passing: 0,
+        parts: 0,
         cancel: None,
         progress: None,
         user_data: null_mut(),

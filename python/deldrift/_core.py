@@ -58,18 +58,21 @@ def check(status: int, names: Mapping[str, Name] = NO_NAMES, callbacks: Optional
         raise_for(status, names)
 
 
+Division = tuple[int, int]
+"""Into what work is divided: the arguments `threads` and `parts`."""
+
+
 def make_options(
-    algorithm: str, threads: int, coincidence: str, passing: str, callbacks: Optional[Callbacks]
+    algorithm: str, division: Division, coincidence: str, passing: str, callbacks: Optional[Callbacks]
 ) -> _library.Options:
     """deldrift_options of Python's arguments."""
-    number = whole("threads", threads)
-    if not 0 <= number < 1 << 32:
-        raise InvalidOption(
-            f"threads is {number}, and must be a number of threads, or 0 for all that pay", "threads", None, number
-        )
     options = _library.Options(ctypes.sizeof(_library.Options))
+    for name, given, other in zip(("threads", "parts"), division, ("all that pay", "one for each thread")):
+        number = whole(name, given)
+        if not 0 <= number < 1 << 32:
+            raise InvalidOption(f"{name} is {number}, and must be a number of {name}, or 0 for {other}", name, None, number)
+        setattr(options, name, number)
     options.algorithm = choice("algorithm", algorithm, _library.ALGORITHMS, InvalidOption)
-    options.threads = number
     options.coincidence = choice("coincidence", coincidence, _library.COINCIDENCES, InvalidOption)
     options.passing = choice("passing", passing, _library.PASSINGS, InvalidOption)
     if callbacks is not None:
@@ -184,12 +187,12 @@ class Core:
     """Whether points repeat."""
 
     def _start(
-        self, handle: Handle, ndim: int, threads: int, coincidence: str, passing: str, callbacks: Optional[Callbacks]
+        self, handle: Handle, ndim: int, division: Division, coincidence: str, passing: str, callbacks: Optional[Callbacks]
     ) -> None:
         handle.take()
         self._handle = handle
         self.ndim = ndim
-        self._threads, self._coincidence, self._passing, self._callbacks = threads, coincidence, passing, callbacks
+        self._division, self._coincidence, self._passing, self._callbacks = division, coincidence, passing, callbacks
         self._lock = new_lock()
         # The gates of calls, of which those that are locked are running: of calls that read, and of the last change.
         self._readers: list[Any] = []

@@ -11,7 +11,7 @@ from . import _library
 from ._arrays import Handle, address, address_if, keys as given_keys, points as point_rows
 from ._asking import Asking
 from ._callbacks import calling
-from ._core import check, make_options
+from ._core import Division, check, make_options
 from ._files import Files
 from ._geometry import Geometry
 from ._loading import given_callbacks, made, of_bytes, of_file
@@ -50,6 +50,9 @@ class Delaunay(Motion, Refining, Asking, Geometry, Files):
         How `move` and steps bring the triangulation to new positions. All give the same simplices.
     threads : int, optional
         The most threads that a call may use, 0 for as many as pay.
+    parts : int, optional
+        The most parts into which work is divided where that shows in the order of simplices, 0 for one a thread. With
+        any other number the same calls give the same answers, to the last bit, on any number of threads.
     coincidence : {"merge", "reject"}, optional
         Whether points at one place are legal, or raise `Coincident`.
     passing : {"ignore", "tell", "refuse"}, optional
@@ -89,6 +92,7 @@ class Delaunay(Motion, Refining, Asking, Geometry, Files):
         *,
         algorithm: str = "auto",
         threads: int = 0,
+        parts: int = 0,
         coincidence: str = "merge",
         passing: str = "ignore",
         progress: Any = None,
@@ -99,7 +103,7 @@ class Delaunay(Motion, Refining, Asking, Geometry, Files):
     ) -> None:
         check_scipy_options(furthest_site, qhull_options)
         rows = point_rows("points", points)
-        self._create(rows, algorithm, threads, coincidence, passing, progress, cancel, keys=keys)
+        self._create(rows, algorithm, (threads, parts), coincidence, passing, progress, cancel, keys=keys)
         if segments is not None or segment_markers is not None:
             with self.step():
                 self._stage_segments(() if segments is None else segments, segment_markers, *SEGMENT_ARGUMENTS)
@@ -108,7 +112,7 @@ class Delaunay(Motion, Refining, Asking, Geometry, Files):
         self,
         rows: np.ndarray,
         algorithm: str,
-        threads: int,
+        division: Division,
         coincidence: str,
         passing: str,
         progress: Any,
@@ -118,13 +122,13 @@ class Delaunay(Motion, Refining, Asking, Geometry, Files):
     ) -> None:
         given = given_keys("keys", keys, len(rows))
         callbacks = given_callbacks(progress, cancel)
-        options = make_options(algorithm, threads, coincidence, passing, callbacks)
+        options = make_options(algorithm, division, coincidence, passing, callbacks)
         handle = Handle(callbacks)
         status = calling(
             callbacks, _create, rows.shape[1], address(rows), address_if(given), len(rows), options, handle.made
         )
         check(status, {"positions": name}, callbacks)
-        self._start(handle, rows.shape[1], threads, coincidence, passing, callbacks)
+        self._start(handle, rows.shape[1], division, coincidence, passing, callbacks)
 
     def add_points(self, points: Any, restart: bool = False) -> None:
         """Inserts points, whose ids follow those that have been given.
@@ -150,7 +154,7 @@ class Delaunay(Motion, Refining, Asking, Geometry, Files):
         handle = Handle(self._callbacks)
         with self._reading as t:
             self._check(_clone(t, handle.made))
-        return made(type(self), handle, self._threads, self._coincidence, self._passing, self._callbacks)
+        return made(type(self), handle, self._division, self._coincidence, self._passing, self._callbacks)
 
     def __copy__(self) -> "Delaunay":
         return self.copy()
@@ -159,7 +163,7 @@ class Delaunay(Motion, Refining, Asking, Geometry, Files):
         return self.copy()
 
     def __reduce__(self) -> Any:
-        options = self.algorithm, self._threads, self._coincidence, self._passing
+        options = self.algorithm, self._division, self._coincidence, self._passing
         return _unpickled, (type(self), self.tobytes(), *options)
 
     def __repr__(self) -> str:
@@ -167,9 +171,9 @@ class Delaunay(Motion, Refining, Asking, Geometry, Files):
 
 
 def _unpickled(
-    kind: type[Delaunay], data: bytes, algorithm: str, threads: int, coincidence: str, passing: str
+    kind: type[Delaunay], data: bytes, algorithm: str, division: Division, coincidence: str, passing: str
 ) -> Delaunay:
-    return of_bytes(kind, data, algorithm, threads, coincidence, passing)
+    return of_bytes(kind, data, algorithm, division, coincidence, passing)
 
 
 def load(
@@ -177,6 +181,7 @@ def load(
     *,
     algorithm: str = "auto",
     threads: int = 0,
+    parts: int = 0,
     coincidence: str = "merge",
     passing: str = "ignore",
     progress: Any = None,
@@ -188,7 +193,7 @@ def load(
     ----------
     path : str or path
         Of the file.
-    algorithm, threads, coincidence, passing, progress, cancel
+    algorithm, threads, parts, coincidence, passing, progress, cancel
         As of `Delaunay`; they are not saved.
 
     Returns
@@ -204,7 +209,7 @@ def load(
     >>> deldrift.load(path)
     <deldrift.Delaunay of 4 points in 2D, 2 simplices>
     """
-    return of_file(Delaunay, path, algorithm, threads, coincidence, passing, progress, cancel)
+    return of_file(Delaunay, path, algorithm, (threads, parts), coincidence, passing, progress, cancel)
 
 
 def frombytes(
@@ -212,6 +217,7 @@ def frombytes(
     *,
     algorithm: str = "auto",
     threads: int = 0,
+    parts: int = 0,
     coincidence: str = "merge",
     passing: str = "ignore",
     progress: Any = None,
@@ -223,7 +229,7 @@ def frombytes(
     ----------
     data : bytes-like
         The bytes. Whatever they are, nothing is loaded that is not a Delaunay triangulation, exactly.
-    algorithm, threads, coincidence, passing, progress, cancel
+    algorithm, threads, parts, coincidence, passing, progress, cancel
         As of `Delaunay`; they are not saved.
 
     Returns
@@ -231,7 +237,7 @@ def frombytes(
     Delaunay
         As the one that was saved, simplices with their indices included.
     """
-    return of_bytes(Delaunay, data, algorithm, threads, coincidence, passing, progress, cancel)
+    return of_bytes(Delaunay, data, algorithm, (threads, parts), coincidence, passing, progress, cancel)
 
 
 def tsearch(tri: Any, xi: Any, *, nan_policy: str = "raise") -> np.ndarray:

@@ -45,6 +45,7 @@ class Options(ctypes.Structure):
         ("threads", c_uint32),
         ("coincidence", c_uint32),
         ("passing", c_uint32),
+        ("parts", c_size_t),
         ("cancel", CancelCallback),
         ("progress", ProgressCallback),
         ("user_data", c_void_p),

@@ -10,7 +10,7 @@ import numpy as np
 from . import _library
 from ._arrays import Handle, address
 from ._callbacks import Callbacks, calling
-from ._core import Core, check, make_options
+from ._core import Core, Division, check, make_options
 from ._errors import InvalidData
 from ._writing import Path, file_name
 
@@ -33,7 +33,7 @@ def given_callbacks(progress: Any, cancel: Optional[Callable[[], bool]]) -> Opti
 def made(
     kind: type[Kind],
     handle: Handle,
-    threads: int,
+    division: Division,
     coincidence: str,
     passing: str,
     callbacks: Optional[Callbacks],
@@ -54,7 +54,7 @@ def made(
     ndim = ctypes.c_uint32()
     check(_dimension(handle.pointer, ndim))
     new = kind.__new__(kind)
-    new._start(handle, ndim.value, threads, coincidence, passing, callbacks)
+    new._start(handle, ndim.value, division, coincidence, passing, callbacks)
     return new
 
 
@@ -62,7 +62,7 @@ def of_file(
     kind: type[Kind],
     path: Path,
     algorithm: str,
-    threads: int,
+    division: Division,
     coincidence: str,
     passing: str,
     progress: Any,
@@ -70,17 +70,17 @@ def of_file(
 ) -> Kind:
     """A triangulation of a file."""
     callbacks = given_callbacks(progress, cancel)
-    options = make_options(algorithm, threads, coincidence, passing, callbacks)
+    options = make_options(algorithm, division, coincidence, passing, callbacks)
     handle = Handle(callbacks)
     check(calling(callbacks, _load_file, file_name(path), options, handle.made), {}, callbacks)
-    return made(kind, handle, threads, coincidence, passing, callbacks, "path")
+    return made(kind, handle, division, coincidence, passing, callbacks, "path")
 
 
 def of_bytes(
     kind: type[Kind],
     data: Any,
     algorithm: str,
-    threads: int,
+    division: Division,
     coincidence: str,
     passing: str,
     progress: Any = None,
@@ -88,11 +88,11 @@ def of_bytes(
 ) -> Kind:
     """A triangulation of bytes."""
     callbacks = given_callbacks(progress, cancel)
-    options = make_options(algorithm, threads, coincidence, passing, callbacks)
+    options = make_options(algorithm, division, coincidence, passing, callbacks)
     try:
         buffer = np.frombuffer(data, np.uint8)
     except (TypeError, AttributeError):
         raise TypeError(f"data is a {type(data).__name__}, and must be bytes") from None
     handle = Handle(callbacks)
     check(calling(callbacks, _load, address(buffer), len(buffer), options, handle.made), {}, callbacks)
-    return made(kind, handle, threads, coincidence, passing, callbacks)
+    return made(kind, handle, division, coincidence, passing, callbacks)

@@ -70,7 +70,7 @@ class Mesh:
     regions : array_like, optional
         Rows of 2 coordinates and a label: `labels` has it for all triangles of the region where the place is. Of two in
         one region the first counts. Outside of all chains, and on boundaries, they are as holes there.
-    algorithm, threads, coincidence, passing, progress, cancel
+    algorithm, threads, parts, coincidence, passing, progress, cancel
         As of `Delaunay`.
 
     Examples
@@ -97,6 +97,7 @@ class Mesh:
         keep: str = "nesting",
         algorithm: str = "auto",
         threads: int = 0,
+        parts: int = 0,
         coincidence: str = "merge",
         passing: str = "ignore",
         progress: Any = None,
@@ -109,7 +110,7 @@ class Mesh:
         labelled = _rows("regions", regions, 3)
         self._tri = tri = Delaunay.__new__(Delaunay)
         rows = point_rows("vertices", vertices, 2)
-        tri._create(rows, algorithm, threads, coincidence, passing, progress, cancel, "vertices")
+        tri._create(rows, algorithm, (threads, parts), coincidence, passing, progress, cancel, "vertices")
         with tri.step():
             tri._stage_segments(segments, markers, "segments", "markers")
         self._holes = None if places is None else [side for side in self._sides(places, "holes") if side is not None]
@@ -138,7 +139,7 @@ class Mesh:
             beside segments, too; `Y` to keep the boundary of the domain whole, and `YY` all segments; `S` with a greatest
             number of new vertices. `p` and `A` are what is done anyway, and others raise.
         **options
-            As of `Mesh`: `algorithm`, `threads`, `coincidence`, `passing`, `progress` and `cancel`.
+            As of `Mesh`: `algorithm`, `threads`, `parts`, `coincidence`, `passing`, `progress` and `cancel`.
 
         Returns
         -------

@@ -86,6 +86,9 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         How `move` brings the triangulation to new positions. All give the same simplices.
     threads : int, optional
         The most threads that a call may use, 0 for as many as pay.
+    parts : int, optional
+        The most parts into which work is divided where that shows in the order of simplices, 0 for one a thread. With
+        any other number the same calls give the same answers, to the last bit, on any number of threads.
     progress : callable or tqdm, optional
         Called during long calls with the part that is done. An exception cancels the call.
     cancel : callable, optional
@@ -113,6 +116,7 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         *,
         algorithm: str = "auto",
         threads: int = 0,
+        parts: int = 0,
         progress: Any = None,
         cancel: Optional[Callable[[], bool]] = None,
     ) -> None:
@@ -120,11 +124,11 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         ndim = rows.shape[1]
         box = _box(vectors, ndim)
         callbacks = given_callbacks(progress, cancel)
-        options = make_options(algorithm, threads, "merge", "ignore", callbacks)
+        options = make_options(algorithm, (threads, parts), "merge", "ignore", callbacks)
         handle = Handle(callbacks)
         given = ndim, address(rows), len(rows), address(box), len(box), options, handle.made
         check(calling(callbacks, _create_periodic, *given), {"positions": "points"}, callbacks)
-        self._start(handle, ndim, threads, "merge", "ignore", callbacks)
+        self._start(handle, ndim, (threads, parts), "merge", "ignore", callbacks)
 
     @classmethod
     def load(
@@ -133,6 +137,7 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         *,
         algorithm: str = "auto",
         threads: int = 0,
+        parts: int = 0,
         progress: Any = None,
         cancel: Optional[Callable[[], bool]] = None,
     ) -> "PeriodicDelaunay":
@@ -142,7 +147,7 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         ----------
         path : str or path
             Of the file.
-        algorithm, threads, progress, cancel
+        algorithm, threads, parts, progress, cancel
             As of `PeriodicDelaunay`; they are not saved.
 
         Returns
@@ -150,7 +155,7 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         PeriodicDelaunay
             As the one that was saved. Simplices have their indices, unless `changes` had been called.
         """
-        return of_file(cls, path, algorithm, threads, "merge", "ignore", progress, cancel)
+        return of_file(cls, path, algorithm, (threads, parts), "merge", "ignore", progress, cancel)
 
     @classmethod
     def frombytes(
@@ -159,6 +164,7 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         *,
         algorithm: str = "auto",
         threads: int = 0,
+        parts: int = 0,
         progress: Any = None,
         cancel: Optional[Callable[[], bool]] = None,
     ) -> "PeriodicDelaunay":
@@ -168,7 +174,7 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         ----------
         data : bytes-like
             The bytes. Whatever they are, nothing is loaded that is not right, exactly.
-        algorithm, threads, progress, cancel
+        algorithm, threads, parts, progress, cancel
             As of `PeriodicDelaunay`; they are not saved.
 
         Returns
@@ -176,7 +182,7 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         PeriodicDelaunay
             As the one that was saved. Simplices have their indices, unless `changes` had been called.
         """
-        return of_bytes(cls, data, algorithm, threads, "merge", "ignore", progress, cancel)
+        return of_bytes(cls, data, algorithm, (threads, parts), "merge", "ignore", progress, cancel)
 
     def copy(self) -> "PeriodicDelaunay":
         """An independent triangulation that is as this one.
@@ -189,7 +195,7 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         handle = Handle(self._callbacks)
         with self._reading as t:
             self._check(_clone(t, handle.made))
-        return made(type(self), handle, self._threads, self._coincidence, self._passing, self._callbacks)
+        return made(type(self), handle, self._division, self._coincidence, self._passing, self._callbacks)
 
     def __copy__(self) -> "PeriodicDelaunay":
         return self.copy()
@@ -201,7 +207,7 @@ class PeriodicDelaunay(Near, Measured, Meeting, Writing):
         with self._reading as t:
             number = ctypes.c_uint32()
             self._check(_get_algorithm(t, number))
-        options = _library.ALGORITHMS[number.value], self._threads, self._coincidence, self._passing
+        options = _library.ALGORITHMS[number.value], self._division, self._coincidence, self._passing
         return of_bytes, (type(self), self.tobytes(), *options)
 
     def star(self, vertex: int) -> np.ndarray:

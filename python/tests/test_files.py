@@ -43,7 +43,7 @@ class Special(deldrift.Delaunay):
 def test_copies_are_independent(tri, rng, again):
     other = again(tri)
     assert_same(tri, other)
-    assert (other.algorithm, other._threads) == ("tolerance", 1)
+    assert (other.algorithm, other._division) == ("tolerance", (1, 0))
     before = tri.points.copy()
     other.move(rng.random(tri.points.shape))
     np.testing.assert_array_equal(tri.points, before)

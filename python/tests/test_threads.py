@@ -1,5 +1,6 @@
 """Callbacks, and several threads: on several triangulations, and on one."""
 
+import pickle
 import threading
 import time
 
@@ -104,6 +105,14 @@ def test_several_threads_on_several_triangulations(many):
         thread.join()
     for tri in results:
         assert set(map(frozenset, tri.simplices.tolist())) == set(map(frozenset, expected.tolist()))
+
+
+def test_parts_give_one_order(many):
+    few = many[:20_000]
+    one, several = (deldrift.Delaunay(few, threads=threads, parts=3) for threads in (1, 2))
+    for tri in (several, several.copy(), pickle.loads(pickle.dumps(several))):
+        np.testing.assert_array_equal(tri.simplices, one.simplices)
+        assert tri._division == (2, 3)
 
 
 def test_the_gil_is_released(rng):

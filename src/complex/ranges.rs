@@ -70,12 +70,13 @@ impl<C: Corners> Complex<C> {
         CellRange { first: Slot::new(0), cells: &mut self.cells, free: self.free.whole() }
     }
 
-    /// Works on the ranges that begin at these slots, all of them multiples of [`WORD`] and the first one 0, each on a
-    /// thread of its own and with its own one of `parts`. After an error nothing has changed.
+    /// Works on the ranges that begin at these slots, all of them multiples of [`WORD`] and the first one 0, each with its
+    /// own one of `parts`, on so many threads. After an error nothing has changed.
     pub(crate) fn divided<P: Send>(
         &mut self,
         starts: &[Slot],
         parts: &mut [P],
+        n_threads: usize,
         work: impl Fn(&mut CellRange<C>, &mut P) + Sync,
     ) -> Result<()> {
         debug_assert!(starts.iter().all(|start| start.index().is_multiple_of(WORD)));
@@ -90,7 +91,7 @@ impl<C: Corners> Complex<C> {
             (cells, rest) = rest.split_at_mut(n);
             all.push(Mutex::new((CellRange { first: starts[k], cells, free }, part)));
         }
-        threads::for_each(0..starts.len(), &|k| {
+        threads::for_pieces(starts.len(), n_threads, &|k| {
             let (range, part) = &mut *all[k].lock().expect("each is locked once");
             work(range, part);
         });

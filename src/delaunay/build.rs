@@ -43,10 +43,10 @@ const LARGE: usize = 1 << 15;
 /// Cells between free ones where several threads will flip.
 const GAP_AFTER: usize = 63;
 
-/// After how many cells there is a free one, for this number of threads: each that flips in space needs free cells of
-/// its own.
-fn gap_after<G: Dimension>(n_threads: usize) -> usize {
-    if G::D == 3 && n_threads > 1 { GAP_AFTER } else { usize::MAX }
+/// After how many cells there is a free one, for this number of ranges in which to flip: each needs free cells of its own
+/// in space.
+fn gap_after<G: Dimension>(n_ranges: usize) -> usize {
+    if G::D == 3 && n_ranges > 1 { GAP_AFTER } else { usize::MAX }
 }
 
 impl<G: Dimension> Delaunay<G> {
@@ -64,8 +64,9 @@ impl<G: Dimension> Delaunay<G> {
         };
         let (parts, sorted) = self.in_parts(0..n as u32, n, |i| &points[i as usize])?;
         self.begin_sites(n)?;
+        let n_threads = self.threads.for_work(sorted.len(), 1, 1);
         for keyed in &sorted {
-            memory::extend(&mut self.sites, keyed, sorted.len(), |k| site(k.item()))?;
+            memory::extend(&mut self.sites, keyed, n_threads, |k| site(k.item()))?;
         }
         self.parts = parts;
         Ok(())
@@ -81,8 +82,9 @@ impl<G: Dimension> Delaunay<G> {
         let mut sorted = Vec::new();
         memory::reserve_exact(&mut sorted, n + 1)?;
         sorted.push(sites[INFINITE]);
+        let n_threads = self.threads.for_work(keyed.len(), 1, 1);
         for part in &keyed {
-            memory::extend(&mut sorted, part, keyed.len(), |k| sites[k.item() as usize])?;
+            memory::extend(&mut sorted, part, n_threads, |k| sites[k.item() as usize])?;
         }
         self.sites = sorted;
         self.parts = parts;
@@ -308,11 +310,11 @@ impl<G: Dimension> Delaunay<G> {
     /// Returns the new slot of each, [`Slot::NONE`] for free ones, unless they stay as they are.
     pub(crate) fn sort_cells(&mut self, replaced: f64) -> Result<Option<Vec<Slot>>> {
         let n_slots = self.complex.n_slots();
-        let n_threads = self.flipping_threads(n_slots);
-        if self.is_sorted && !self.is_disordered(replaced) || n_slots < LARGE && n_threads == 1 {
+        let n_ranges = self.flipping_ranges(n_slots);
+        if self.is_sorted && !self.is_disordered(replaced) || n_slots < LARGE && n_ranges == 1 {
             return Ok(None);
         }
-        let index = self.complex.sort(self.sites.len(), gap_after::<G>(n_threads))?;
+        let index = self.complex.sort(self.sites.len(), gap_after::<G>(n_ranges))?;
         for site in &mut self.sites {
             if site.cell != Slot::NONE {
                 site.cell = index[site.cell];
@@ -330,9 +332,9 @@ impl<G: Dimension> Delaunay<G> {
         n_slots >= LARGE && self.n_replaced as f64 > replaced * n_slots as f64
     }
 
-    /// How many threads flip, for this number of cells.
-    fn flipping_threads(&self, n_cells: usize) -> usize {
-        self.threads.for_work(n_cells, LARGE, LARGE / 64)
+    /// In how many ranges to flip, of this number of cells.
+    fn flipping_ranges(&self, n_cells: usize) -> usize {
+        self.threads.parts_of(n_cells, LARGE, LARGE / 64)
     }
 
     /// A copy without memory for what is gone, in which the vertices have other ids, `n_ids` in all and in the same order:
@@ -350,7 +352,7 @@ impl<G: Dimension> Delaunay<G> {
             names[k.item() as usize] = name;
         }
         let n_cells = self.complex.n_finite() + self.complex.n_ghosts();
-        let gap_after = gap_after::<G>(self.flipping_threads(n_cells));
+        let gap_after = gap_after::<G>(self.flipping_ranges(n_cells));
         let (complex, index) = self.complex.compacted(n + 1, gap_after, &names)?;
         let flat = self.flat.renamed(&names)?;
         // Without cells the ghost vertex may still name one.

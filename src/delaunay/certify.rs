@@ -8,15 +8,13 @@
 mod hull;
 
 use std::ops::Range;
-use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use super::uncertain::Doubts;
 use super::{Delaunay, Dimension, Failures};
 use crate::complex::{Cell, Corners, Facet, INFINITE};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot};
-use crate::machine::memory;
-use crate::machine::threads;
+use crate::machine::{memory, tally, threads};
 use crate::simd::{LANES, in_lanes};
 
 /// A sweep of this number of cells takes a few times as long as a thread takes to wake up.
@@ -44,7 +42,7 @@ impl Default for Waiting {
 
 impl<G: Dimension> Delaunay<G> {
     /// Checks every certificate of the finite cells once, and lists the ghosts; `false`, before the end,
-    /// when more than `most` cells have failed. What has been listed before an error is of no use. Where it is known
+    /// when more than `most` cells have failed; then no sign is counted. What has been listed before an error is of no use. Where it is known
     /// where all vertices were `before`, by id, certificates of those that have not moved are not evaluated again in
     /// exact arithmetic.
     pub(crate) fn sweep(
@@ -54,9 +52,11 @@ impl<G: Dimension> Delaunay<G> {
         before: Option<&[G::Point]>,
     ) -> Result<bool> {
         failures.clear();
-        let n_failed = AtomicUsize::new(0);
-        self.sweep_slots(0..self.complex.n_slots(), failures, most, before, &n_failed)?;
-        if n_failed.into_inner() > most {
+        let exact_calls = tally::exact_calls();
+        self.sweep_slots(0..self.complex.n_slots(), failures, most, before)?;
+        if failures.cells.len() > most {
+            // How far several threads have come depends on them.
+            tally::forget_since(exact_calls);
             return Ok(false);
         }
         self.end_sweep(failures)?;
@@ -71,14 +71,14 @@ impl<G: Dimension> Delaunay<G> {
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<()> {
         failures.clear();
-        let (n, n_failed) = (self.complex.n_slots(), AtomicUsize::new(0));
+        let n = self.complex.n_slots();
         let step = SWEPT_UNASKED * self.threads.for_work(n, SWEPT_AT_LEAST, SWEPT_AT_LEAST / 64);
         for first in (0..n).step_by(step) {
             if !monitor(first as f64 / n as f64) {
                 return Err(Error::Cancelled);
             }
             let range = first..n.min(first + step);
-            self.sweep_slots(range, failures, 0, None, &n_failed)?;
+            self.sweep_slots(range, failures, 0, None)?;
             if !failures.cells.is_empty() {
                 return Ok(());
             }
@@ -94,25 +94,31 @@ impl<G: Dimension> Delaunay<G> {
         Ok(())
     }
 
-    /// Sweeps the cells of a range by as many threads as pay.
+    /// Sweeps the cells of a range by as many threads as pay. What is listed does not depend on how many there are: nothing
+    /// beyond the cell that is one too many.
     fn sweep_slots(
         &self,
         range: Range<usize>,
         failures: &mut Failures,
         most: usize,
         before: Option<&[G::Point]>,
-        n_failed: &AtomicUsize,
     ) -> Result<()> {
         let n_threads = self.threads.for_work(range.len(), SWEPT_AT_LEAST, SWEPT_AT_LEAST / 64);
         if n_threads == 1 {
-            return self.sweep_range(range, failures, most, before, n_failed);
+            return self.sweep_range(range, failures, most, before);
         }
         let parts = threads::for_ranges(range.len(), n_threads, |part| {
             let mut failures = Failures::default();
             let part = range.start + part.start..range.start + part.end;
-            self.sweep_range(part, &mut failures, most, before, n_failed).map(|()| failures)
+            self.sweep_range(part, &mut failures, most, before).map(|()| failures)
         })?;
-        parts.into_iter().try_for_each(|part| failures.append(&part?))
+        parts.into_iter().try_for_each(|part| failures.append(&part?))?;
+        if let Some(&last) = failures.cells.get(most) {
+            failures.cells.truncate(most + 1);
+            let n_facets = failures.facets.partition_point(|facet| facet.cell() <= last);
+            failures.facets.truncate(n_facets);
+        }
+        Ok(())
     }
 
     /// How many certificates the finite cells have: an orientation each, and half an empty sphere for each facet.
@@ -120,19 +126,18 @@ impl<G: Dimension> Delaunay<G> {
         (self.complex.n_finite() * (G::D + 3) / 2) as u64
     }
 
-    /// Sweeps the cells of a range; stops when more than `most` cells of all ranges have failed.
+    /// Sweeps the cells of a range; stops when more than `most` have failed.
     fn sweep_range(
         &self,
         range: Range<usize>,
         failures: &mut Failures,
         most: usize,
         before: Option<&[G::Point]>,
-        n_failed: &AtomicUsize,
     ) -> Result<()> {
         let mut swept = Ok(());
         self.visit_uncertain(Slot::range(range), |c, doubts| {
             match self.sweep_cell(c, doubts, before, failures) {
-                Ok(holds) => holds || n_failed.fetch_add(1, Relaxed) < most,
+                Ok(holds) => holds || failures.cells.len() <= most,
                 Err(error) => {
                     swept = Err(error);
                     false

@@ -9,8 +9,9 @@
 //!
 //! **Threads.** Cells near each other in space are near each other in storage once they have been sorted. So each
 //! thread flips in a range of the cells, all with about as many failing facets, and leaves flips that need cells of
-//! others alone. As flips of different threads have no cell in common, it is as if they had been done one after the
-//! other. What is left is flipped by one thread. For 300,000 points that move by a fiftieth of a spacing two threads
+//! others alone. As flips of different ranges have no cell in common, it is as if they had been done one after the
+//! other: what comes of them depends on how many ranges there are, and not on how many threads. What is left is flipped
+//! by one thread. For 300,000 points that move by a fiftieth of a spacing two threads
 //! are 1.7 and 1.5 times as fast as one, all of the repair included (`examples/thread_scaling`).
 //!
 //! Invariant: a facet whose cells have changed since it was found to hold is a suspect, or listed as stuck or as one
@@ -103,8 +104,8 @@ impl<G: Dimension> Delaunay<G> {
         std::mem::swap(&mut flips.own.stuck, stuck);
         // Unless the cells are sorted nearly all flips would need those of several threads.
         let n = if self.is_sorted { flips.own.suspects.len() } else { 0 };
-        let n_threads = self.threads.for_work(n, FLIPPED_AT_LEAST, FLIPPED_IF_ASKED);
-        let done = self.flip_listed(&mut flips, n_threads, most, WhenStuck::Fill);
+        let n_ranges = self.threads.parts_of(n, FLIPPED_AT_LEAST, FLIPPED_IF_ASKED);
+        let done = self.flip_listed(&mut flips, n_ranges, most, WhenStuck::Fill);
         std::mem::swap(&mut flips.own.suspects, suspects);
         std::mem::swap(&mut flips.own.stuck, stuck);
         self.flips = Some(flips);
@@ -143,11 +144,11 @@ impl<G: Dimension> Delaunay<G> {
     fn flip_listed(
         &mut self,
         flips: &mut AllFlips<G>,
-        n_threads: usize,
+        n_ranges: usize,
         most: u64,
         when_stuck: WhenStuck,
     ) -> Result<Option<u64>> {
-        let done = self.flip_as_far_as_possible(flips, n_threads, most, when_stuck);
+        let done = self.flip_as_far_as_possible(flips, n_ranges, most, when_stuck);
         let is_exhausted = flips.own.is_exhausted;
         let is_done = flips.own.stuck.is_empty() && !is_exhausted;
         let done = done.and_then(|()| if is_done { self.enter_flips(flips) } else { Ok(()) });
@@ -175,14 +176,14 @@ impl<G: Dimension> Delaunay<G> {
     fn flip_as_far_as_possible(
         &mut self,
         flips: &mut AllFlips<G>,
-        n_threads: usize,
+        n_ranges: usize,
         most: u64,
         when_stuck: WhenStuck,
     ) -> Result<()> {
         flips.own.begin(most);
         flips.parts.iter_mut().for_each(|part| part.begin(most));
-        if n_threads > 1 {
-            self.flip_side_by_side(flips, n_threads)?;
+        if n_ranges > 1 {
+            self.flip_side_by_side(flips, n_ranges)?;
             flips.own.is_exhausted = flips.parts.iter().any(|part| part.is_exhausted);
             if flips.own.is_exhausted {
                 return Ok(());
@@ -214,10 +215,10 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// Flips as far as several threads can, each in a range of the cells.
-    fn flip_side_by_side(&mut self, flips: &mut AllFlips<G>, n_threads: usize) -> Result<()> {
+    /// Flips as far as that is possible in ranges of the cells, by as many threads as there are.
+    fn flip_side_by_side(&mut self, flips: &mut AllFlips<G>, n_ranges: usize) -> Result<()> {
         let AllFlips { own: Flips { suspects, .. }, parts, .. } = flips;
-        let starts = starts_of_ranges(suspects.iter().map(|facet| facet.cell()), n_threads)?;
+        let starts = starts_of_ranges(suspects.iter().map(|facet| facet.cell()), n_ranges)?;
         let missing = starts.len().saturating_sub(parts.len());
         memory::reserve_exact(parts, missing)?;
         parts.resize_with(parts.len() + missing, Flips::default);
@@ -229,7 +230,8 @@ impl<G: Dimension> Delaunay<G> {
         }
         let (sites, filter, are_sites_far) =
             (Sites::new(&self.sites, &self.keys), &self.filter, self.is_far());
-        self.complex.divided(&starts, parts, |cells, part| {
+        let n_threads = self.threads.for_work(starts.len(), 1, 1);
+        self.complex.divided(&starts, parts, n_threads, |cells, part| {
             Flipper { filter, sites, cells, are_sites_far }.flip_all(part);
         })?;
         suspects.clear();

@@ -1,4 +1,4 @@
-//! Parts of the sites, for a build on several threads.
+//! Parts of the sites, for a build on several threads, or as on several threads.
 //!
 //! Hyperplanes orthogonal to the axes divide space, each part of it in two (Bentley's k-d tree, 10.1145/361002.361007).
 //! The sites of each part follow each other in memory, along a Hilbert curve of their own. The planes are those of a
@@ -19,7 +19,7 @@ const SAMPLE: usize = 1 << 13;
 /// The first site after the placeholder.
 const FIRST: SiteId = SiteId::new(1);
 
-/// Parts of sites; none for a build on one thread.
+/// Parts of sites; none for a build in one.
 #[derive(Debug, Default)]
 pub(super) struct Parts {
     /// First site of each part; none if there is but one part.
@@ -178,12 +178,12 @@ pub(super) fn end_from(part: usize, n_parts: usize) -> usize {
 }
 
 impl<G: Dimension> Delaunay<G> {
-    /// How many threads build a triangulation of this number of sites.
-    pub(crate) fn build_threads(&self, n: usize) -> usize {
-        self.threads.for_work(n, BUILT_AT_LEAST[G::D - 2], BUILT_IF_ASKED)
+    /// In how many parts to build a triangulation of this number of sites.
+    pub(crate) fn build_parts(&self, n: usize) -> usize {
+        self.threads.parts_of(n, BUILT_AT_LEAST[G::D - 2], BUILT_IF_ASKED)
     }
 
-    /// Items at these places in parts for as many threads as pay, each along a Hilbert curve. The parts start
+    /// Items at these places in [parts](Self::build_parts), each along a Hilbert curve. The parts start
     /// where the sites do if the first one is [`FIRST`].
     pub(super) fn in_parts<'p>(
         &self,
@@ -191,7 +191,7 @@ impl<G: Dimension> Delaunay<G> {
         n: usize,
         point: impl Fn(u32) -> &'p G::Point + Copy + Sync,
     ) -> Result<(Parts, Vec<Vec<Keyed>>)> {
-        let n_parts = self.build_threads(n);
+        let n_parts = self.build_parts(n);
         let mut sorted = Vec::new();
         memory::reserve_exact(&mut sorted, n_parts)?;
         if n_parts == 1 {
@@ -209,7 +209,7 @@ impl<G: Dimension> Delaunay<G> {
         sorted.resize_with(n_parts, Vec::new);
         let mut done = Vec::new();
         memory::lengthen(&mut done, n_parts, Ok(Vec::new()))?;
-        threads::fill(&mut done, &|part| {
+        threads::fill(&mut done, self.threads.for_work(n_parts, 1, 1), &|part| {
             hilbert_order::<G>(parts.items_in::<G>(part, items.clone(), n, point)?, point)
         });
         for (sorted, done) in sorted.iter_mut().zip(done) {

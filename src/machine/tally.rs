@@ -24,8 +24,13 @@ pub(crate) fn count() {
 pub(crate) fn uncounted<T>(work: impl FnOnce() -> T) -> T {
     let before = EXACT.get();
     let done = work();
-    EXACT.set(before);
+    forget_since(before);
     done
+}
+
+/// Has no sign count that the current thread has needed since there were so many.
+pub(crate) fn forget_since(before: u64) {
+    EXACT.set(before);
 }
 
 /// Counts signs that another thread has taken by exact arithmetic for the current one.

@@ -34,23 +34,25 @@ use crate::error::{Error, Result};
 /// Ranges for each thread.
 const RANGES: usize = 8;
 
-/// How many threads a call may use.
+/// How many threads a call may use, and how work is divided.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Threads {
     most: usize,
+    /// Most parts of work whose division shows in what comes of it; 0 for one a thread.
+    parts: usize,
     /// Whether all are to be used.
     all: bool,
 }
 
 impl Threads {
     /// The calling thread alone.
-    pub(crate) const ONE: Threads = Threads { most: 1, all: false };
+    pub(crate) const ONE: Threads = Threads { most: 1, parts: 0, all: false };
 
     /// At most `given`, or with 0 no more than the system runs at the same time, which is the most that are used in any
-    /// case.
-    pub(crate) fn at_most(given: u32) -> Self {
-        if given > 1 && are_all_used() {
-            return Threads::exactly(given);
+    /// case. Work whose division shows is divided into at most so many `parts`, or with 0 into one for each thread.
+    pub(crate) fn at_most(given: u32, parts: usize) -> Self {
+        if given > 0 && are_all_used() {
+            return Threads::exactly(given).in_parts(parts);
         }
         let available = available();
         let most = if given == 0 { available } else { available.min(given as usize) };
@@ -58,20 +60,54 @@ impl Threads {
             // More than one call may run at a time.
             allow_workers(available - 1);
         }
-        Threads { most, all: false }
+        Threads { most, parts, all: false }
     }
 
     /// This number wherever the work can be divided, whether or not that pays.
     pub(crate) fn exactly(n: u32) -> Self {
         let most = n as usize;
-        allow_workers(most - 1);
-        Threads { most, all: true }
+        if most > 1 {
+            allow_workers(most - 1);
+        }
+        Threads { most, parts: 0, all: true }
+    }
+
+    /// As many threads, which divide work whose division shows into at most so many parts.
+    pub(crate) fn in_parts(self, parts: usize) -> Self {
+        Threads { parts, ..self }
     }
 
     /// How many to use for work on `items` items: at most as many as leave each one `paying` items, below which a
     /// thread more costs as much as it saves, or `least` if all are to be used.
     pub(crate) fn for_work(self, items: usize, paying: usize, least: usize) -> usize {
         (items / if self.all { least } else { paying }).clamp(1, self.most)
+    }
+
+    /// Into how many parts to divide work on `items` items where the division shows in what comes of it: as many as
+    /// threads would be used [for it](Self::for_work), but for how many there are if the number of parts is given.
+    pub(crate) fn parts_of(self, items: usize, paying: usize, least: usize) -> usize {
+        let most = if self.parts == 0 { self.most } else { self.parts };
+        Threads { most, ..self }.for_work(items, paying, least)
+    }
+
+    /// The threads for work that is divided again and again, maybe into more parts than there are threads.
+    pub(crate) fn crew(self) -> Crew {
+        Crew(AtomicUsize::new(self.most - 1))
+    }
+}
+
+/// How many threads may join in with those at work.
+pub(crate) struct Crew(AtomicUsize);
+
+impl Crew {
+    /// Whether one more may join in; [`leave`](Self::leave) must follow if so.
+    pub(crate) fn enter(&self) -> bool {
+        self.0.fetch_update(Relaxed, Relaxed, |idle| idle.checked_sub(1)).is_ok()
+    }
+
+    /// It may join in elsewhere.
+    pub(crate) fn leave(&self) {
+        self.0.fetch_add(1, Relaxed);
     }
 }
 
@@ -182,21 +218,25 @@ pub(crate) fn for_each(range: Range<usize>, work: &(impl Fn(usize) + Sync)) {
     join(|| for_each(range.start..middle, work), || for_each(middle..range.end, work));
 }
 
-/// Makes each entry of an array by its index, on as many threads as there are entries.
-pub(crate) fn fill<R: Send>(results: &mut [R], work: &(impl Fn(usize) -> R + Sync)) {
-    fill_from(0, results, work);
+/// Does `n` pieces of work on so many threads, which take the next one when they are done with one.
+pub(crate) fn for_pieces(n: usize, n_threads: usize, work: &(impl Fn(usize) + Sync)) {
+    let next = AtomicUsize::new(0);
+    for_each(0..n_threads, &|_| {
+        loop {
+            let k = next.fetch_add(1, Relaxed);
+            if k >= n {
+                return;
+            }
+            work(k);
+        }
+    });
 }
 
-fn fill_from<R: Send>(first: usize, results: &mut [R], work: &(impl Fn(usize) -> R + Sync)) {
-    if let [result] = results {
-        *result = work(first);
-        return;
-    }
-    if !results.is_empty() {
-        let middle = results.len() / 2;
-        let (results, more) = results.split_at_mut(middle);
-        join(|| fill_from(first, results, work), || fill_from(first + middle, more, work));
-    }
+/// Makes each entry of an array by its index.
+pub(crate) fn fill<R: Send>(results: &mut [R], n_threads: usize, work: &(impl Fn(usize) -> R + Sync)) {
+    for_parts(results, 0, n_threads, &|first, part: &mut [R]| {
+        (first..).zip(part).for_each(|(k, result)| *result = work(k));
+    });
 }
 
 /// Works on as many parts of an array as there are threads; `first` is the index of its first entry.
@@ -244,17 +284,8 @@ pub(crate) fn for_ranges<R: Send>(
     let no_room = |_| Error::OutOfMemory { bytes: n_ranges * size_of::<R>() };
     results.try_reserve_exact(n_ranges).map_err(no_room)?;
     let slots = Slots(results.as_mut_ptr());
-    let next = AtomicUsize::new(0);
-    for_each(0..n_threads, &|_| {
-        loop {
-            let k = next.fetch_add(1, Relaxed);
-            if k >= n_ranges {
-                return;
-            }
-            // SAFETY: there is room for that many, and each number is taken once.
-            unsafe { slots.write(k, work(share(n, k, n_ranges))) };
-        }
-    });
+    // SAFETY: there is room for that many, and each number is taken once.
+    for_pieces(n_ranges, n_threads, &|k| unsafe { slots.write(k, work(share(n, k, n_ranges))) });
     // SAFETY: each thread has gone on until all numbers were taken, and has written what it took. (After a panic this
     // is not reached.)
     unsafe { results.set_len(n_ranges) };
@@ -276,7 +307,7 @@ mod tests {
     fn all_work_is_done_in_order() {
         for n_ranges in 1..9 {
             let mut parts = vec![0..0; n_ranges];
-            fill(&mut parts, &|k| share(1000, k, n_ranges));
+            fill(&mut parts, n_ranges, &|k| share(1000, k, n_ranges));
             assert!(parts.into_iter().flatten().eq(0..1000));
             let ranges = for_ranges(1000, n_ranges, |range| range).expect("room for them");
             assert!(ranges.into_iter().flatten().eq(0..1000));
@@ -377,14 +408,42 @@ mod tests {
         assert_eq!(std::sync::Arc::strong_count(&shared), 1);
     }
 
+    /// Pieces and entries are more than threads, and each is done once.
+    #[test]
+    fn few_threads_do_many_pieces() {
+        for n_threads in 1..5 {
+            let done = [const { AtomicUsize::new(0) }; 9];
+            for_pieces(9, n_threads, &|k| {
+                done[k].fetch_add(1, Relaxed);
+            });
+            assert!(done.into_iter().all(|n| n.into_inner() == 1));
+            let mut entries = [0; 9];
+            fill(&mut entries, n_threads, &|k| k);
+            assert!(entries.into_iter().eq(0..9));
+        }
+        let crew = Threads { most: 3, parts: 7, all: false }.crew();
+        assert_eq!([(); 3].map(|()| crew.enter()), [true, true, false]);
+        crew.leave();
+        assert!(crew.enter() && !crew.enter() && !Threads::ONE.crew().enter());
+    }
+
     #[test]
     fn numbers_of_threads() {
-        let some = Threads { most: 4, all: false };
+        let some = Threads { most: 4, parts: 0, all: false };
         assert_eq!([0, 99, 199, 200, 1000].map(|n| some.for_work(n, 100, 10)), [1, 1, 1, 2, 4]);
         let all = Threads::exactly(4);
         assert_eq!([0, 19, 20, 1000].map(|n| all.for_work(n, 100, 10)), [1, 1, 2, 4]);
-        assert!(Threads::at_most(0).most == available() && Threads::at_most(u32::MAX).most == available());
-        assert_eq!(Threads::at_most(1).for_work(1 << 30, 100, 10), 1);
+        assert!(
+            Threads::at_most(0, 0).most == available() && Threads::at_most(u32::MAX, 0).most == available()
+        );
+        assert_eq!(Threads::at_most(1, 0).for_work(1 << 30, 100, 10), 1);
+        // Parts follow the threads, unless a number is given.
+        assert_eq!([0, 199, 200, 1000].map(|n| some.parts_of(n, 100, 10)), [1, 1, 2, 4]);
+        for most in 1..9 {
+            let given = Threads { most, parts: 6, all: false };
+            assert_eq!([0, 199, 200, 1000].map(|n| given.parts_of(n, 100, 10)), [1, 1, 2, 6]);
+            assert_eq!(given.for_work(1000, 100, 10), most);
+        }
         assert_eq!(Threads::ONE.for_work(1 << 30, 100, 10), 1);
     }
 }

@@ -79,7 +79,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// some kilobytes, and to move them takes longer than to build one of a few points.
     #[inline(always)]
     pub(crate) fn unbuilt(options: Options) -> Self {
-        let kernel = Delaunay::empty_on(Threads::at_most(options.threads));
+        let kernel = Delaunay::empty_on(Threads::at_most(options.threads, options.parts));
         Self::of_parts(kernel, Vec::new(), Hidden::default(), 0, options)
     }
 
@@ -114,8 +114,8 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// The options of this, for another triangulation, but for the monitor.
     pub(crate) fn options_of_another(&self) -> Options {
-        let Options { algorithm, threads, coincidence, passing, .. } = self.options;
-        Options { algorithm, threads, coincidence, passing, monitor: None }
+        let Options { algorithm, threads, parts, coincidence, passing, .. } = self.options;
+        Options { algorithm, threads, parts, coincidence, passing, monitor: None }
     }
 
     /// How many threads its calls may use.

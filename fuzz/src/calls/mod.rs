@@ -191,6 +191,7 @@ fn options(s: &mut Source, callback: &Callback) -> (deldrift_options, Chosen) {
         threads: u32::from(flags >> 2 & 3),
         coincidence: u32::from(flags & 0x70 == 0),
         passing: 0,
+        parts: usize::from(flags >> 2 & 1),
         cancel: asks.then_some(cancel as unsafe extern "C" fn(*mut c_void) -> Answer),
         progress: tells.then_some(progress as unsafe extern "C" fn(*mut c_void, f64)),
         user_data: std::ptr::from_ref(callback).cast_mut().cast(),

@@ -259,7 +259,7 @@ fn flips_need_all_their_cells() {
         for start in (1..n).map(|c| Slot::at(WORD * c)) {
             let mut tried = [(0, None), (1, None)];
             complex
-                .divided(&[Slot::new(0), start], &mut tried, |range, (k, tried)| {
+                .divided(&[Slot::new(0), start], &mut tried, 2, |range, (k, tried)| {
                     assert_eq!(*range.free.n, *k * n_free);
                     *tried = range.flip_2_3(facet, &mut Vec::new()).err();
                 })
@@ -270,7 +270,7 @@ fn flips_need_all_their_cells() {
         // The first range has all cells.
         let mut tried = [None];
         complex
-            .divided(&[Slot::new(0)], &mut tried, |range, tried| {
+            .divided(&[Slot::new(0)], &mut tried, 1, |range, tried| {
                 *tried = range.flip_2_3(facet, &mut Vec::new()).err()
             })
             .unwrap();

@@ -1,8 +1,9 @@
-//! Tests of ridges.
+//! Tests of sweeps and ridges.
 
 use super::*;
-use crate::delaunay::Space;
+use crate::delaunay::{Plane, Space};
 use crate::ids::VertexId;
+use crate::machine::threads::Threads;
 
 /// A pyramid, and the diagonal of its base as a ridge, after a vertex of that, not on the diagonal, has gone to a
 /// place.
@@ -55,4 +56,44 @@ fn ridges_that_were_flat_may_wind() {
         assert_eq!(failures.may_wind_twice, is_open, "from {from} to {to}");
         assert!(failures.cells.is_empty() && failures.ridges.is_empty() && failures.open_ghosts.is_empty());
     }
+}
+
+/// What a sweep lists and counts does not depend on how many threads there are, also where it ends early.
+#[test]
+fn sweeps_find_the_same_on_any_number_of_threads() {
+    fn check<G: Dimension>(side: usize) {
+        let points: Vec<G::Point> = (0..side.pow(G::D as u32))
+            .map(|i| {
+                let mut p = G::Point::default();
+                (0..G::D).for_each(|k| p[k] = (i / side.pow(k as u32) % side) as f64);
+                p
+            })
+            .collect();
+        let sweeps = |threads| {
+            let mut t = Delaunay::<G>::on(Threads::exactly(threads).in_parts(1)).expect("room");
+            t.add_sites(&points).expect("room");
+            t.rebuild(&mut |_| true).expect("room");
+            // Sites far from each other change places: cells around them are inverted, and the lattice is full of ties.
+            for s in (1..points.len() / 2).step_by(40) {
+                let [a, b] = [s, points.len() - s].map(SiteId::at);
+                let [p, q] = [a, b].map(|s| t.site(s).point);
+                t.set_point(a, q);
+                t.set_point(b, p);
+            }
+            let mut failures = Failures::default();
+            [0, 5, 60, usize::MAX - 1].map(|most| {
+                let start = tally::exact_calls();
+                let is_done = t.sweep(&mut failures, most, None).expect("room");
+                let exact = tally::exact_calls() - start;
+                assert!(is_done == (most > 60) && (exact > 0) == is_done && !failures.cells.is_empty());
+                (failures.cells.clone(), failures.facets.clone(), exact)
+            })
+        };
+        let expected = sweeps(1);
+        for threads in [2, 3, 5] {
+            assert!(sweeps(threads) == expected, "{threads} threads in {}D", G::D);
+        }
+    }
+    check::<Plane>(50);
+    check::<Space>(14);
 }

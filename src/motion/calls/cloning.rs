@@ -35,7 +35,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// A copy, of the prepared state if there is one, which is published in the copy.
     fn duplicate(&self, monitor: Option<Monitor>) -> Result<Self> {
-        let Options { algorithm, threads, coincidence, passing, .. } = self.options;
+        let Options { algorithm, threads, parts, coincidence, passing, .. } = self.options;
         let mut mesh = self.mesh.copied()?;
         mesh.kernel.pace_mut().set_monitor(monitor);
         Ok(MovingTriangulation {
@@ -47,7 +47,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             switching: self.switching.clone(),
             repair: None,
             auto: self.auto.clone(),
-            options: Options { algorithm, threads, coincidence, passing, monitor: None },
+            options: Options { algorithm, threads, parts, coincidence, passing, monitor: None },
             statistics: self.statistics,
             n_moved: self.n_moved,
             foreseen: Default::default(),

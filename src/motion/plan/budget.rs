@@ -23,11 +23,12 @@ const MIN_SHARE_SPENT: f64 = 1.0 / 16.0;
 
 impl<G: Dimension> Mesh<G> {
     /// By what factor a task, of which one thread does this share alone, grows beside rebuilding, compared with a small
-    /// triangulation on one thread: where caches do not hold all, and where several threads rebuild.
+    /// triangulation on one thread: where caches do not hold all, and where several threads rebuild. With a number of parts
+    /// given there are taken to be as many threads, so that what is done does not depend on how many there are.
     pub(in crate::motion) fn slowdown(&self, alone: f64) -> f64 {
         let doublings = (self.kernel.bytes_read() as f64 / NEAR_BYTES).log2().max(0.0);
-        let n_threads = self.kernel.build_threads(self.n_present) as f64;
-        let shortened = |alone: f64| alone + (1.0 - alone) / n_threads;
+        let n_parts = self.kernel.build_parts(self.n_present) as f64;
+        let shortened = |alone: f64| alone + (1.0 - alone) / n_parts;
         (1.0 + SLOWER_PER_DOUBLING * doublings) * shortened(alone) / shortened(BUILT_ALONE)
     }
 }

@@ -72,7 +72,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         ids.sort_unstable();
         memory::collect(&mut places, ids.iter().map(|&v| self.mesh.kernel.site(self.mesh.site_of[v]).point))?;
-        let options = Options { threads: self.options.threads, ..Options::default() };
+        let Options { threads, parts, .. } = self.options;
+        let options = Options { threads, parts, ..Options::default() };
         let spanning = MovingTriangulation::<G>::new(&spanning::<G>(places)?, options)?;
         spanning.cells_of_first(ids.len(), region, progress, |v, sums| tell(ids[v.index()], sums))
     }

@@ -253,7 +253,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let ends = ends_of(segments.as_deref(), &representatives)?;
         let rows = Rows { corners: &corners, neighbours: &neighbours, segments: &ends };
         let is_site = |v: VertexId| representatives[v] == v;
-        let threads = Threads::at_most(options.threads);
+        let threads = Threads::at_most(options.threads, options.parts);
         let mut unmonitored = |_| true;
         let monitor: &mut dyn FnMut(f64) -> bool = match &mut options.monitor {
             Some(monitor) => monitor,
