@@ -55,7 +55,9 @@ TriangleSwitches::TriangleSwitches(const char *switches) {
         case 'q': read_angle(number_behind(each)); break;
         case 'a': read_area(number_behind(each)); break;
         case 'o': read_order(number_behind(each)); break;
-        case 'D': refines = conforms = true; break;
+        case 'D':
+        case 'L': refines = conforms = true; break;
+        case 'u': refines = asks = true; break;
         case 'Y': n_kept++; break;
         case 'S': limit = std::strtoull(("0" + number_behind(each)).c_str(), nullptr, 10); break;
         case 'z': zero_based = true; break;
@@ -73,7 +75,9 @@ TriangleSwitches::TriangleSwitches(const char *switches) {
         case 'E': triangles = false; break;
         case 'P': segments = false; break;
         default:
-            if (!is_without_effect(*each) && unserved.empty()) unserved = std::string("switch ") + *each;
+            if (is_without_effect(*each) || !unserved.empty()) break;
+            unserved = std::string("switch ") + *each;
+            if (*each == 'w' || *each == 'W') unserved += " (weights: regular triangulations are to come)";
         }
     }
 }

@@ -25,11 +25,12 @@ struct TriangleSwitches {
     bool points = true;        // not N
     bool triangles = true;     // not E
     bool segments = true;      // not P
-    bool refines = false;      // q, a or D: points are added
+    bool refines = false;      // q, a, D, L or u: points are added
     double least_angle = 0;    // q: in degrees
     double greatest_area = 0;  // a with a number; 0 for any
     bool has_region_areas = false; // a without a number: those of regions
-    bool conforms = false;     // D: no point is inside the circle around a triangle
+    bool conforms = false;     // D, or L, as it was called: no point is inside the circle around a triangle
+    bool asks = false;         // u: the program's triunsuitable says which triangles are too large
     int n_kept = 0;            // Y: segments of the boundary stay whole, YY: all
     std::size_t limit = SIZE_MAX; // S: of the points that are added
     std::string unserved;      // the first switch that deldrift does not serve; empty if there is none

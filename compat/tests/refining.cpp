@@ -17,6 +17,23 @@ namespace {
 using Pair = std::pair<int, int>;
 Pair pair_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
+// What switch u asks: whether a triangle is too large for the distance of its centre from the corner (64, 64); a row for each
+// triangle that it was asked about, which are counter-clockwise and of the area told. It may throw at some question.
+int n_asked = 0, throws_at = -1;
+bool are_asked_right = true;
+double allowed(double x, double y) { return 0.5 + 0.25 * std::hypot(64 - x, 64 - y); }
+
+} // namespace
+
+extern "C" int triunsuitable(double *p, double *q, double *r, double area) {
+    if (n_asked++ == throws_at) throw std::string("enough");
+    const double own = 0.5 * ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]));
+    are_asked_right = are_asked_right && area > 0 && std::abs(area - own) <= 1e-9;
+    return area > allowed((p[0] + q[0] + r[0]) / 3, (p[1] + q[1] + r[1]) / 3) ? 1 : 0;
+}
+
+namespace {
+
 // Whole numbers, so that halves of segments are exact. Segment i has marker 10 + i; those of the hole are 4 to 7, the
 // slit is 8, and 9 cuts the square in two.
 const Points places{0, 0, 64, 0, 64, 64, 0, 64, 8, 8, 16, 8, 16, 16, 8, 16, 8, 40, 24, 48, 32, 0, 32, 64};
@@ -199,6 +216,49 @@ void quality_is_reached() {
     }
 }
 
+void the_program_is_asked() {
+    for (const char *switches : {"QzpAneu", "QzpAneuq25", "QzpAneuD", "QzpAneua20"}) {
+        n_asked = 0;
+        const Refined mesh(switches);
+        check_domain(mesh);
+        check_segments(mesh, -1);
+        check_lists(mesh);
+        check_quality(mesh, std::string(switches).find('q') == std::string::npos ? 0 : 25, 1e9, 1e9);
+        CHECK(n_asked > mesh.out.numberoftriangles && are_asked_right && mesh.out.numberoftriangles > 300);
+        for (int c = 0; c < mesh.out.numberoftriangles; c++) {
+            const double *p = mesh.at(mesh.corners(c)[0]), *q = mesh.at(mesh.corners(c)[1]), *r = mesh.at(mesh.corners(c)[2]);
+            CHECK(mesh.area(c) <= allowed((p[0] + q[0] + r[0]) / 3, (p[1] + q[1] + r[1]) / 3) + 1e-9);
+        }
+    }
+    n_asked = 0;
+    Refined without("QzpAneq25");
+    CHECK(n_asked == 0);
+    // What it throws comes out, and the next call is as if there had been none.
+    for (const int question : {0, 100}) {
+        throws_at = question;
+        n_asked = 0;
+        std::string thrown;
+        try {
+            const Refined mesh("QzpAneu");
+        } catch (const std::string &what) {
+            thrown = what;
+        }
+        throws_at = -1;
+        CHECK(thrown == "enough" && n_asked == question + 1);
+        check_lists(Refined("QzpAneu"));
+    }
+}
+
+// L is what D was called.
+void an_old_name_does_the_same() {
+    for (const auto &[old, current] : {std::pair{"QzpAneL", "QzpAneD"}, {"QzpAneq25a30L", "QzpAneq25a30D"}}) {
+        const Refined mesh(old), same(current);
+        check_conforming(mesh);
+        CHECK(mesh.out.numberofpoints == same.out.numberofpoints && mesh.out.numberofpoints > n_points);
+        CHECK(std::equal(mesh.at(0), mesh.at(mesh.out.numberofpoints), same.at(0)));
+    }
+}
+
 void limits_are_kept() {
     for (const auto &[switches, most] : {std::pair{"QzpAneqa1S0", 0}, {"QzpAneqa1S25", 25}, {"QzpAneqa1DS7", 7}}) {
         const Refined mesh(switches);
@@ -250,6 +310,8 @@ void calls_do_not_depend_on_earlier_ones() {
 
 int main() {
     quality_is_reached();
+    the_program_is_asked();
+    an_old_name_does_the_same();
     limits_are_kept();
     middles_are_points();
     calls_do_not_depend_on_earlier_ones();
