@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <initializer_list>
+#include <memory>
 #include <mutex>
 #include <new>
 #include <string>
@@ -17,6 +18,7 @@
 #include "representatives.hpp"
 #include "settings.hpp"
 #include "triangle_carving.hpp"
+#include "triangle_given.hpp"
 #include "triangle_graph.hpp"
 #include "triangle_mesh.hpp"
 #include "triangle_original.hpp"
@@ -97,8 +99,10 @@ bool is_valid(const Call &call, const TriangleSwitches &switches) {
     if (in.numberofpointattributes < 0) return reject("in->numberofpointattributes is negative");
     if (in.numberofpointattributes > 0 && in.pointattributelist == nullptr)
         return reject("in->pointattributelist is NULL");
-    const std::string of_graph = switches.planar_graph ? what_is_wrong_with_graph(in) : "";
-    return of_graph.empty() || reject(of_graph.c_str());
+    std::string wrong = switches.planar_graph ? what_is_wrong_with_graph(in) : "";
+    if (wrong.empty() && switches.reconstructs)
+        wrong = what_is_wrong_with_triangles(in, switches.zero_based, switches.has_region_areas);
+    return wrong.empty() || reject(wrong.c_str());
 }
 
 // Writes the mesh, sorted if that was asked for. The seconds that writing took.
@@ -133,7 +137,7 @@ public:
         const Cells cells{3, view.count, view.vertices, view.neighbours};
         if (!switches.has_segments()) mesh_ = plain_mesh(cells);
         else if (switches.refines && cells.count > 0)
-            message_ = refine(switches, in_, graph_, triangulation_.get(), unsuitable, refined_, mesh_);
+            message_ = refine(switches, in_, graph_, triangulation_.get(), unsuitable, given_.get(), refined_, mesh_);
         else mesh_ = carved_mesh(switches, cells);
     }
 
@@ -144,9 +148,22 @@ public:
     Mesh &mesh() { return mesh_; }
 
 private:
-    // Without p the lists are not looked at.
-    static triangulateio with_graph_of(const TriangleSwitches &switches, triangulateio in) {
+    // Without p the lists are not looked at. Of triangles that are given the boundary is added to the segments, and
+    // there are no holes and regions.
+    triangulateio with_graph_of(const TriangleSwitches &switches, triangulateio in) {
         if (!switches.planar_graph) in.numberofsegments = in.numberofholes = in.numberofregions = 0;
+        if (!switches.reconstructs) return in;
+        given_ = std::make_unique<GivenTriangles>(in, switches.zero_based);
+        segments_.assign(in.segmentlist, in.segmentlist + std::ptrdiff_t{2} * in.numberofsegments);
+        if (in.segmentmarkerlist != nullptr)
+            markers_.assign(in.segmentmarkerlist, in.segmentmarkerlist + in.numberofsegments);
+        for (const std::uint32_t point : given_->boundary())
+            segments_.push_back(static_cast<int>(point) + (switches.zero_based ? 0 : 1));
+        markers_.resize(segments_.size() / 2, 0);
+        in.segmentlist = segments_.data();
+        in.segmentmarkerlist = markers_.data();
+        in.numberofsegments = static_cast<int>(markers_.size());
+        in.numberofholes = in.numberofregions = 0;
         return in;
     }
 
@@ -176,6 +193,8 @@ private:
         return mesh;
     }
 
+    std::vector<int> segments_, markers_;
+    std::unique_ptr<GivenTriangles> given_;
     triangulateio in_;
     Graph graph_;
     Borrowed triangulation_;

@@ -54,6 +54,7 @@ TriangleSwitches::TriangleSwitches(const char *switches) {
         switch (*each) {
         case 'q': read_angle(number_behind(each)); break;
         case 'a': read_area(number_behind(each)); break;
+        case 'r': reconstructs = true; break;
         case 'o': read_order(number_behind(each)); break;
         case 'D':
         case 'L': refines = conforms = true; break;
@@ -83,6 +84,8 @@ TriangleSwitches::TriangleSwitches(const char *switches) {
 }
 
 const char *TriangleSwitches::unserved_input(const triangulateio &in) const {
+    if (reconstructs && !refines) return "switch r without q, a, u or D";
+    if (reconstructs && in.numberofcorners == 6) return "switch r with triangles of six corners";
     return planar_graph && splits && in.numberofsegments > 0 ? "switch s with segments" : nullptr;
 }
 

@@ -25,6 +25,7 @@ struct TriangleSwitches {
     bool points = true;        // not N
     bool triangles = true;     // not E
     bool segments = true;      // not P
+    bool reconstructs = false; // r: triangles are given, and what they cover is refined
     bool refines = false;      // q, a, D, L or u: points are added
     double least_angle = 0;    // q: in degrees
     double greatest_area = 0;  // a with a number; 0 for any
@@ -43,7 +44,7 @@ struct TriangleSwitches {
 
     bool has_segments() const { return planar_graph || convex || refines; }
     // Whether the edges of the hull are segments.
-    bool encloses() const { return convex || !planar_graph; }
+    bool encloses() const { return !reconstructs && (convex || !planar_graph); }
     bool lists_segments() const { return (planar_graph || convex) && segments; }
 
     // For the original, to give cells that can be compared: from zero, with neighbours, quiet, and what else is

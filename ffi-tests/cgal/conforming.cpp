@@ -1,7 +1,7 @@
-// Conforming triangulations by CGAL's conformer and, with the same names, by deldrift's. It writes how many vertices each
-// inserts, and fails unless deldrift's are conforming by CGAL's own questions, which both answer alike at each stage, have the
-// vertices that were there and pieces from end to end of each constraint, do not change when they are made again, and are about
-// as small as CGAL's.
+// Conforming triangulations by CGAL's conformer and, with the same names, by deldrift's. It writes how many vertices
+// each inserts, and fails unless deldrift's are conforming by CGAL's own questions, which both answer alike at each
+// stage, have the vertices that were there and pieces from end to end of each constraint, do not change when they are
+// made again, and are about as small as CGAL's.
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_conformer_2.h>
@@ -71,7 +71,8 @@ static std::vector<Input> inputs() {
         Input fan{"fan " + std::to_string(n), {}, {}};
         for (int i = 0; i < 3; i++) {
             const double turn = 2 * std::acos(-1.0) * i / n;
-            fan.constraints.emplace_back(Point(0, 0), Point((3 + 0.3 * i) * std::cos(turn), (3 + 0.3 * i) * std::sin(turn)));
+            const double length = 3 + 0.3 * i;
+            fan.constraints.emplace_back(Point(0, 0), Point(length * std::cos(turn), length * std::sin(turn)));
         }
         fan.points = {Point(1, -0.01), Point(-1, -1)};
         all.push_back(fan);
@@ -131,7 +132,8 @@ static void check_pieces(const With_deldrift &ours, const Input &input) {
 using Conformer = deldrift::cgal::Triangulation_conformer_2<With_deldrift>;
 using Their_conformer = CGAL::Triangulation_conformer_2<With_cgal>;
 
-// What CGAL's conformer answers, but that a corner on a circle is not inside it: for CGAL the diagonal of a square is neither.
+// What CGAL's conformer answers, but that a corner on a circle is not inside it: for CGAL the diagonal of a square is
+// neither.
 static bool is_conforming(const With_cgal &cdt, bool is_Gabriel) {
     for (auto e = cdt.finite_edges_begin(); e != cdt.finite_edges_end(); ++e) {
         const auto [f, i] = *e;
@@ -207,8 +209,8 @@ int main() {
             if (is_Gabriel) CGAL::make_conforming_Gabriel_2(cdt);
             else CGAL::make_conforming_Delaunay_2(cdt);
             const std::size_t theirs = cdt.number_of_vertices() - before, ours = inserted(input, is_Gabriel);
-            std::printf("%s, %s: %zu vertices, CGAL %zu\n", input.name.c_str(), is_Gabriel ? "Gabriel" : "Delaunay", ours,
-                        theirs);
+            const char *kind = is_Gabriel ? "Gabriel" : "Delaunay";
+            std::printf("%s, %s: %zu vertices, CGAL %zu\n", input.name.c_str(), kind, ours, theirs);
             n_ours += ours;
             n_theirs += theirs;
         }

@@ -52,7 +52,8 @@ static void check_answers(Cdt &cdt) {
     CHECK(conformer.number_of_constrained_edges() == n_edges && cdt.is_valid());
 }
 
-// A comb in a square with a slit at a small angle to its side, and points in the way; times a factor, off by some distance.
+// A comb in a square with a slit at a small angle to its side, and points in the way; times a factor, off by some
+// distance.
 static Cdt drawing(double factor = 1, double off = 0) {
     const auto at = [&](double x, double y) { return Point(x * factor + off, y * factor + off); };
     Cdt cdt;
@@ -102,18 +103,21 @@ static void steps() {
         else conformer.init_Delaunay();
         std::size_t n = cdt.number_of_vertices();
         for (bool other = false; !conformer.is_conforming_done(); other = !other) {
-            const bool has_inserted =
-                is_Gabriel ? other ? conformer.try_one_step_conforming_Gabriel() : conformer.step_by_step_conforming_Gabriel()
-                : other    ? conformer.try_one_step_conforming_Delaunay()
-                           : conformer.step_by_step_conforming_Delaunay();
+            bool has_inserted = false;
+            if (is_Gabriel && other) has_inserted = conformer.try_one_step_conforming_Gabriel();
+            if (is_Gabriel && !other) has_inserted = conformer.step_by_step_conforming_Gabriel();
+            if (!is_Gabriel && other) has_inserted = conformer.try_one_step_conforming_Delaunay();
+            if (!is_Gabriel && !other) has_inserted = conformer.step_by_step_conforming_Delaunay();
             CHECK(has_inserted && cdt.number_of_vertices() == ++n);
         }
-        CHECK(!conformer.step_by_step_conforming_Delaunay() && (!is_Gabriel || !conformer.step_by_step_conforming_Gabriel()));
+        CHECK(!conformer.step_by_step_conforming_Delaunay());
+        CHECK(!is_Gabriel || !conformer.step_by_step_conforming_Gabriel());
         check_answers(cdt);
     }
 }
 
-// Vertices stay with their infos, moves that are staged wait, constraints are known by their edges, and a copy is independent.
+// Vertices stay with their infos, moves that are staged wait, constraints are known by their edges, and a copy is
+// independent.
 static void handles_and_moves() {
     for (const bool is_Gabriel : {false, true}) {
         Cdt cdt = drawing();

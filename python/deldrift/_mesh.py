@@ -73,13 +73,13 @@ class Mesh:
         differ where chains share sides: a notch that is a chain of its own along a side is part of the domain by
         "nesting", the default, as segments are walls, and is none by "even-odd".
     split : bool, optional
-        Whether segments that cross, overlap or have a vertex on them are split, as by `Step.split`: a vertex comes where
-        two cross, rounded correctly, with the ids behind those of `vertices`, and pieces have the marker of their segment.
-        Otherwise they raise `ConflictError`. Moves split nothing.
+        Whether segments that cross, overlap or have a vertex on them are split, as by `Step.split`: a vertex comes
+        where two cross, rounded correctly, with an id behind those of `vertices`, and pieces have the marker of their
+        segment. Otherwise they raise `ConflictError`. Moves split nothing.
     degenerate : {"refuse", "drop"}, optional
-        What becomes of segments of no length, between a vertex and itself or another one at its place, and of those that
-        repeat an earlier one, in either direction. By default the former raise `ConflictError`, and the latter are kept, each
-        with its id. With "drop" both are left out; the ids of those that stay have no gaps.
+        What becomes of segments of no length, between a vertex and itself or another one at its place, and of those
+        that repeat an earlier one, in either direction. By default the former raise `ConflictError`, and the latter are
+        kept, each with its id. With "drop" both are left out; the ids of those that stay have no gaps.
     algorithm, threads, coincidence, passing, progress, cancel
         As of `Delaunay`.
 
@@ -254,7 +254,7 @@ class Mesh:
         return list(map(int, beside[rows, [side.column for side in sides]]))
 
     def _rows_of(self, sides: list[_Side]) -> np.ndarray:
-        """For each side the index of its segment, or of the piece that begins where it did; -1 if there is none any more."""
+        """For each side the index of its segment, or of the piece that begins where it did; -1 if there is none."""
         pieces = _joined(self._tri.original_segments(), self._tri.segments.ends[:, 0])
         order = np.argsort(pieces, kind="stable")
         wanted = _joined(*np.array([side[:2] for side in sides], np.int32).T)

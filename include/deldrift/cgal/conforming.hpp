@@ -32,8 +32,8 @@ class Conforming {
         copy_.discard_moves();
     }
 
-    // Until no corner of a cell is inside the circle around a segment at it, by deldrift_refine: all cells are refined, within
-    // a frame of sides that stay whole.
+    // Until no corner of a cell is inside the circle around a segment at it, by deldrift_refine: all cells are refined,
+    // within a frame of sides that stay whole.
     void make_Gabriel() {
         if (copy_.cell_count() == 0) return;
         const std::uint32_t first = copy_.stage_insertions(frame());
@@ -56,8 +56,8 @@ class Conforming {
         copy_.commit_timestamp();
     }
 
-    // Until both cells at each segment have the corner beyond it on their circle or outside: in rounds, each of which divides
-    // all segments of which that does not hold. Such a segment has a corner inside of the circle around it.
+    // Until both cells at each segment have the corner beyond it on their circle or outside: in rounds, each of which
+    // divides all segments of which that does not hold. Such a segment has a corner inside of the circle around it.
     void make_Delaunay() {
         find_apexes();
         std::set<std::uint32_t> whole;
@@ -124,8 +124,8 @@ class Conforming {
     static Place minus(const Place &p, const Place &q) { return {p[0] - q[0], p[1] - q[1]}; }
     static double dot(const Place &p, const Place &q) { return p[0] * q[0] + p[1] * q[1]; }
 
-    // The corners of an octagon so far away that no circle around a side reaches what is inside, and none around a segment
-    // inside reaches a corner.
+    // The corners of an octagon so far away that no circle around a side reaches what is inside, and none around a
+    // segment inside reaches a corner.
     std::vector<Place> frame() const {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         Place low{infinity, infinity}, high{-infinity, -infinity};
@@ -168,8 +168,8 @@ class Conforming {
         });
     }
 
-    // A number between two others, away from both by a quarter of their difference, that is a multiple of the greatest power
-    // of two.
+    // A number between two others, away from both by a quarter of their difference, that is a multiple of the greatest
+    // power of two.
     static double round_between(double low, double high) {
         const double quarter = 0.25 * (high - low), least = low + quarter, most = high - quarter;
         for (double step = std::exp2(std::floor(std::log2(most))); step > 0.25 * quarter; step *= 0.5) {
@@ -195,7 +195,8 @@ class Conforming {
         return place;
     }
 
-    // Divides each of some segments in two, and what rounding then has in the way of each other. Whether that could be done.
+    // Divides each of some segments in two, and what rounding then has in the way of each other. Whether that could be
+    // done.
     bool split(const std::vector<std::uint32_t> &wanted) {
         const Segments segments = copy_.segments();
         const std::size_t n = copy_.id_count();
@@ -252,8 +253,8 @@ class Conforming {
 // Divides the constrained edges of a triangulation until it is a conforming one:
 // - Delaunay: no vertex is inside the circle of a face, constraints or not;
 // - Gabriel: besides, the vertices opposite a constrained edge in its two faces are not inside the circle around it.
-// Handles of vertices stay valid, and new vertices have infos of a constructor without arguments. A call that throws has no
-// effect. An edge that has no room for a vertex, by rounding, stays as it is, and is_conforming_* tells.
+// Handles of vertices stay valid, and new vertices have infos of a constructor without arguments. A call that throws
+// has no effect. An edge that has no room for a vertex, by rounding, stays as it is, and is_conforming_* tells.
 template <class Tr>
 class Triangulation_conformer_2 {
 public:
