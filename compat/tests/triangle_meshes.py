@@ -186,7 +186,7 @@ def check_mesh(functions, switches, arguments, tally):
     check_delaunay(out, all_points, first)
     if len(numbers):
         compare_angles(switches, corners, corners_of(other, first)[1], tally)
-    if "p" in switches and 0 < other.numberoftriangles < 1000:
+    if "p" in switches and 0 < other.numberoftriangles < 300:
         check_given(functions, other, scale, first, tally)
 
 
