@@ -10,6 +10,7 @@
 //! | `programs.rs` | every program under `c/` and `cpp/`, with the shared and with the static library |
 //! | `cgal/both.cpp`, `cgal/constrained.cpp` | programs for CGAL, which write the same with deldrift in its place (`--include-ignored`) |
 //! | `cgal/meshing.cpp` | meshes of domains beside those of CGAL's mesher (`--include-ignored`) |
+//! | `cgal/conforming.cpp` | conforming triangulations beside those of CGAL's conformer (`--include-ignored`) |
 //! | `cgal/examples` | a script that runs CGAL's own examples with deldrift in its place (`make cgal-examples`) |
 //! | `c/faults.c`, `c/limits.c`, `c/memory_bytes.c` | calls for which there is no memory, and how much is held |
 //! | `c/environment.c`, `c/stack.c` | calls from foreign floating-point environments, and on little stack |

@@ -137,6 +137,18 @@ fn meshes_have_few_more_faces_than_those_of_cgal() {
     println!("{said}");
 }
 
+/// Conforming triangulations under CGAL's names are conforming by CGAL's questions, and about as small.
+#[test]
+#[ignore = "needs CGAL"]
+fn conforming_triangulations_are_so_for_cgal() {
+    let flags = ["-O1", "-g0", "-w", "-Wl,--no-as-needed", "-lgmp", "-lmpfr"];
+    let source = repository("ffi-tests/cgal/conforming.cpp");
+    let program = build(&source, &fresh_folder("conforming"), Linkage::Shared, &flags);
+    let said = succeed(&mut command(program));
+    assert!(said.lines().count() > 100, "{said}");
+    println!("{said}");
+}
+
 /// The example of a solver carries its data to the end, and checks them.
 #[test]
 fn the_example_of_a_solver_keeps_its_data() {

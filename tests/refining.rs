@@ -354,8 +354,12 @@ fn random_domains_are_refined() {
         }
         if !report.is_cut_short {
             let again = refine(&mut t, &quality, &options, &after);
-            if keeps == Kept::None && report.bad_cells == 0 {
+            if keeps != Kept::None || report.bad_cells == 0 {
                 assert_eq!(again.inserted, 0, "{}", context());
+            }
+            if keeps != Kept::None {
+                let areas = Quality { least_angle: 0.0, ..quality };
+                assert!(bad_cells(&t, &after, &areas).is_empty(), "{}", context());
             }
             counts[0] += 1;
         } else {
@@ -371,6 +375,39 @@ fn random_domains_are_refined() {
     println!("{counts:?} finished, cut short, with bad cells; inserted");
     assert!(counts[3] < 400 * (counts[0] + counts[1]), "{counts:?}");
     assert!(counts[0] > 60 && counts[1] > 5 && counts[3] > 5_000, "{counts:?}");
+}
+
+/// Beside sides that stay whole cells have no larger areas either, however far away those of the vertices are that they get.
+#[test]
+fn areas_are_reached_beside_sides_that_stay_whole() {
+    let sharp = [[0.0, 0.0], [10.0, 0.0], [10.0, 1.0]];
+    let corner = [[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [2.0, 2.0], [2.0, 4.0], [0.0, 4.0]];
+    let square = [[-2.0, -2.0], [6.0, -2.0], [6.0, 6.0], [-2.0, 6.0]];
+    for domain in [
+        Domain::default().with_ring(&square),
+        Domain::default().with_ring(&square).with_ring(&corner),
+        Domain::default().with_ring(&sharp),
+    ] {
+        for (keeps, least_angle) in [(Kept::Outer, 0.0), (Kept::Outer, 25.0), (Kept::All, 30.0)] {
+            let quality = Quality { least_angle, greatest_area: 0.05, ..Quality::default() };
+            let options = RefineOptions { keeps, limit: 20_000, has_weights: false };
+            let context = || format!("{keeps:?}, {least_angle}, {domain:?}");
+            let mut t = domain.build();
+            let selected = mask(&t, |_| true);
+            let report = refine(&mut t, &quality, &options, &selected);
+            assert!(
+                !report.is_cut_short && report.inserted > 100 && report.on_segments == 0,
+                "{}",
+                context()
+            );
+            check_fresh(&t, &context);
+            check_chains(&t, &domain, &context);
+            let selected = mask(&t, |_| true);
+            let large = Quality { least_angle: 0.0, ..quality };
+            assert!(bad_cells(&t, &selected, &large).is_empty(), "{}", context());
+            assert_eq!(refine(&mut t, &quality, &options, &selected).inserted, 0, "{}", context());
+        }
+    }
 }
 
 /// The cells of a mask with this number.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <initializer_list>
+#include <memory>
 #include <mutex>
 #include <new>
 #include <string>
@@ -17,6 +18,7 @@
 #include "representatives.hpp"
 #include "settings.hpp"
 #include "triangle_carving.hpp"
+#include "triangle_given.hpp"
 #include "triangle_graph.hpp"
 #include "triangle_mesh.hpp"
 #include "triangle_original.hpp"
@@ -29,6 +31,9 @@ static_assert(offsetof(triangulateio, numberofpoints) == 24 && offsetof(triangul
 static_assert(offsetof(triangulateio, neighborlist) == 56 && offsetof(triangulateio, numberofcorners) == 68);
 static_assert(offsetof(triangulateio, segmentlist) == 80 && offsetof(triangulateio, holelist) == 104);
 static_assert(offsetof(triangulateio, edgelist) == 136 && offsetof(triangulateio, numberofedges) == 160);
+
+// The program's own, where it is linked with this library.
+extern "C" [[gnu::weak]] int triunsuitable(double *, double *, double *, double);
 
 namespace compat {
 
@@ -49,6 +54,14 @@ struct Call {
 
 // Triangle itself, as far as the call would have come to it without this library; null if there is none.
 Function original_for(const Call &call) { return reinterpret_cast<Function>(original_of(call.symbol, call.caller)); }
+
+// What switch u asks; null if the program has no such function.
+Unsuitable unsuitable_of(const Call &call) {
+    if (&triunsuitable != nullptr) return &triunsuitable;
+    for (const char *symbol : {"triunsuitable", "_Z13triunsuitablePdS_S_d"})
+        if (void *found = original_of(symbol, call.caller)) return reinterpret_cast<Unsuitable>(found);
+    return nullptr;
+}
 
 // Who frees the lists of holes and regions, if there are any, is for the Triangle to say that the program was made for.
 bool wants_copies(const Call &call, const TriangleSwitches &switches) {
@@ -86,8 +99,10 @@ bool is_valid(const Call &call, const TriangleSwitches &switches) {
     if (in.numberofpointattributes < 0) return reject("in->numberofpointattributes is negative");
     if (in.numberofpointattributes > 0 && in.pointattributelist == nullptr)
         return reject("in->pointattributelist is NULL");
-    const std::string of_graph = switches.planar_graph ? what_is_wrong_with_graph(in) : "";
-    return of_graph.empty() || reject(of_graph.c_str());
+    std::string wrong = switches.planar_graph ? what_is_wrong_with_graph(in) : "";
+    if (wrong.empty() && switches.reconstructs)
+        wrong = what_is_wrong_with_triangles(in, switches.zero_based, switches.has_region_areas);
+    return wrong.empty() || reject(wrong.c_str());
 }
 
 // Writes the mesh, sorted if that was asked for. The seconds that writing took.
@@ -108,7 +123,7 @@ void report_difference(const Difference &difference, std::size_t n_cells) {
 // A call that is served, from its input to its mesh.
 class Served {
 public:
-    Served(const TriangleSwitches &switches, const triangulateio &in)
+    Served(const TriangleSwitches &switches, const triangulateio &in, Unsuitable unsuitable)
         : in_(with_graph_of(switches, in)), graph_(in_, switches.zero_based),
           triangulation_(2, in.pointlist, graph_.n_points(), graph_.ends()) {
         deldrift_cells_view view{};
@@ -122,7 +137,7 @@ public:
         const Cells cells{3, view.count, view.vertices, view.neighbours};
         if (!switches.has_segments()) mesh_ = plain_mesh(cells);
         else if (switches.refines && cells.count > 0)
-            message_ = refine(switches, in_, graph_, triangulation_.get(), refined_, mesh_);
+            message_ = refine(switches, in_, graph_, triangulation_.get(), unsuitable, given_.get(), refined_, mesh_);
         else mesh_ = carved_mesh(switches, cells);
     }
 
@@ -133,9 +148,22 @@ public:
     Mesh &mesh() { return mesh_; }
 
 private:
-    // Without p the lists are not looked at.
-    static triangulateio with_graph_of(const TriangleSwitches &switches, triangulateio in) {
+    // Without p the lists are not looked at. Of triangles that are given the boundary is added to the segments, and
+    // there are no holes and regions.
+    triangulateio with_graph_of(const TriangleSwitches &switches, triangulateio in) {
         if (!switches.planar_graph) in.numberofsegments = in.numberofholes = in.numberofregions = 0;
+        if (!switches.reconstructs) return in;
+        given_ = std::make_unique<GivenTriangles>(in, switches.zero_based);
+        segments_.assign(in.segmentlist, in.segmentlist + std::ptrdiff_t{2} * in.numberofsegments);
+        if (in.segmentmarkerlist != nullptr)
+            markers_.assign(in.segmentmarkerlist, in.segmentmarkerlist + in.numberofsegments);
+        for (const std::uint32_t point : given_->boundary())
+            segments_.push_back(static_cast<int>(point) + (switches.zero_based ? 0 : 1));
+        markers_.resize(segments_.size() / 2, 0);
+        in.segmentlist = segments_.data();
+        in.segmentmarkerlist = markers_.data();
+        in.numberofsegments = static_cast<int>(markers_.size());
+        in.numberofholes = in.numberofregions = 0;
         return in;
     }
 
@@ -165,6 +193,8 @@ private:
         return mesh;
     }
 
+    std::vector<int> segments_, markers_;
+    std::unique_ptr<GivenTriangles> given_;
     triangulateio in_;
     Graph graph_;
     Borrowed triangulation_;
@@ -188,7 +218,7 @@ Mesh mesh_of(const TriangleOriginal &original, const TriangleSwitches &switches,
 int serve(const Call &call, const TriangleSwitches &switches, Function compared) {
     const std::size_t n_points = static_cast<std::size_t>(call.in->numberofpoints);
     const double start = processor_time();
-    Served served(switches, *call.in);
+    Served served(switches, *call.in, switches.asks ? unsuitable_of(call) : nullptr);
     if (!served.message().empty()) {
         complain(name, "%s", served.message().c_str());
         return give_nothing(call);
@@ -241,15 +271,16 @@ int pass_on(const Call &call, const std::string &unserved, Function original) {
 }
 
 // Empty if deldrift serves the call.
-std::string what_is_unserved(const TriangleSwitches &switches, const triangulateio *in) {
+std::string what_is_unserved(const TriangleSwitches &switches, const Call &call) {
     if (!switches.unserved.empty()) return switches.unserved;
-    const char *of_input = in != nullptr ? switches.unserved_input(*in) : nullptr;
+    if (switches.asks && unsuitable_of(call) == nullptr) return "switch u without a function triunsuitable";
+    const char *of_input = call.in != nullptr ? switches.unserved_input(*call.in) : nullptr;
     return of_input != nullptr ? of_input : "";
 }
 
 int dispatch(const Call &call) {
     const TriangleSwitches switches(call.switches);
-    const std::string unserved = what_is_unserved(switches, call.in);
+    const std::string unserved = what_is_unserved(switches, call);
     Function original = nullptr;
     if (!unserved.empty() || mode() != Mode::deldrift || (switches.refines && leaves_refinement()))
         original = original_for(call);

@@ -55,6 +55,23 @@ void Carver::carve(const TriangleSwitches &switches) {
     if ((switches.regions || switches.has_region_areas) && in_.numberofregions > 0) spread_regions();
 }
 
+void Carver::keep(const GivenTriangles &given) {
+    eat_concavities();
+    for (std::size_t place = 0; place < 3 * cells_.count; place++)
+        if (given.is_outside(cells_, place)) flood(static_cast<std::uint32_t>(place / 3), eaten);
+}
+
+void Carver::give_attributes_of(const GivenTriangles &given) {
+    mesh_.has_cell_attributes = true;
+    mesh_.cell_attributes.assign(cells_.count, 0);
+    for (std::size_t c = 0; c < cells_.count; c++) {
+        double centre[2] = {0, 0};
+        for (std::size_t i = 0; i < 6; i++)
+            centre[i % 2] += mesh_.points[std::size_t{2} * cells_.vertices[3 * c + i / 2] + i % 2] / 3;
+        if (labels_[c] != eaten) mesh_.cell_attributes[c] = given.attribute_at(centre);
+    }
+}
+
 // What no segment separates from the outside. Segments of the hull are marked first, as in Triangle, where what they
 // enclose may be eaten later.
 void Carver::eat_concavities() {
@@ -128,7 +145,8 @@ void Carver::mark_boundary() {
 
 Mesh Carver::finish(const TriangleSwitches &switches) {
     mark_boundary();
-    if (switches.planar_graph && switches.regions && in_.numberofregions > 0) give_attributes();
+    const bool has_regions = switches.regions && !switches.reconstructs && in_.numberofregions > 0;
+    if (switches.planar_graph && has_regions) give_attributes();
     const std::size_t n_eaten = static_cast<std::size_t>(std::count(labels_.begin(), labels_.end(), eaten));
     if (n_eaten > 0) take_away(cells_.count - n_eaten);
     else mesh_.cells = cells_;

@@ -9,6 +9,7 @@
 
 #include <deldrift.h>
 
+#include "triangle_given.hpp"
 #include "triangle_graph.hpp"
 #include "triangle_mesh.hpp"
 #include "triangle_switches.hpp"
@@ -32,6 +33,11 @@ public:
 
     // Takes away, and spreads regions, as the switches say.
     void carve(const TriangleSwitches &switches);
+
+    // Takes away what is beyond the boundary of triangles that are given.
+    void keep(const GivenTriangles &given);
+    // Gives the cells that are left the attributes of those.
+    void give_attributes_of(const GivenTriangles &given);
 
     // Of each cell. With labels that are given, carve is not called.
     const std::vector<std::int32_t> &labels() const { return labels_; }

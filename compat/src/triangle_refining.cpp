@@ -1,6 +1,7 @@
 #include "triangle_refining.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <new>
 #include <stdexcept>
 #include <unordered_map>
@@ -48,11 +49,49 @@ Cells cells_of(const deldrift_triangulation *t) {
     return {3, view.count, view.vertices, view.neighbours};
 }
 
+// Asks the program about triangles; what it throws comes out of the refinement.
+class Asking {
+public:
+    // Both may be null. With the areas of triangles that are given, each has that of the one around its centroid.
+    Asking(Unsuitable unsuitable, const GivenTriangles *areas) : unsuitable_(unsuitable), areas_(areas) {}
+    void ask_for(deldrift_quality &quality) {
+        if (unsuitable_ == nullptr && areas_ == nullptr) return;
+        quality.is_too_large = is_too_large;
+        quality.user_data = this;
+    }
+    void throw_again() const {
+        if (thrown_ != nullptr) std::rethrow_exception(thrown_);
+    }
+
+private:
+    static int is_too_large(void *self, const double *corners) {
+        Asking &asking = *static_cast<Asking *>(self);
+        double p[6];
+        std::copy_n(corners, 6, p);
+        const double area = 0.5 * ((p[2] - p[0]) * (p[5] - p[1]) - (p[3] - p[1]) * (p[4] - p[0]));
+        try {
+            if (asking.areas_ != nullptr) {
+                const double centre[2] = {(p[0] + p[2] + p[4]) / 3, (p[1] + p[3] + p[5]) / 3};
+                const double greatest = asking.areas_->greatest_area_at(centre);
+                if (greatest > 0 && area > greatest) return 1;
+            }
+            return asking.unsuitable_ != nullptr && asking.unsuitable_(p, p + 2, p + 4, area) != 0 ? 1 : 0;
+        } catch (...) {
+            asking.thrown_ = std::current_exception();
+            return -1;
+        }
+    }
+
+    Unsuitable unsuitable_;
+    const GivenTriangles *areas_;
+    std::exception_ptr thrown_;
+};
+
 class Refiner {
 public:
     Refiner(const TriangleSwitches &switches, const triangulateio &in, deldrift_triangulation *t, const Mesh &outline,
-            const std::vector<std::int32_t> &labels)
-        : switches_(switches), t_(t), outline_(outline), labels_(labels) {
+            const std::vector<std::int32_t> &labels, Unsuitable unsuitable, const GivenTriangles *given)
+        : switches_(switches), t_(t), outline_(outline), labels_(labels), unsuitable_(unsuitable), given_(given) {
         outline_.own_points.assign(outline.points, outline.points + 2 * outline.n_points);
         if (outline.n_attributes > 0)
             outline_.own_attributes.assign(outline.attributes,
@@ -84,8 +123,12 @@ public:
         quality.limit = switches_.limit;
         std::vector<std::uint8_t> mask(labels_.size());
         for (std::size_t c = 0; c < mask.size(); c++) mask[c] = labels_[c] != eaten;
+        Asking asking(switches_.asks ? unsuitable_ : nullptr, switches_.has_region_areas ? given_ : nullptr);
+        asking.ask_for(quality);
         deldrift_quality_report report{};
-        require(deldrift_refine(t_, &quality, mask.data(), mask.size(), &report));
+        const deldrift_status status = deldrift_refine(t_, &quality, mask.data(), mask.size(), &report);
+        asking.throw_again();
+        require(status);
         if (switches_.conforms && report.unsplit > 0)
             complain("triangulate", "switch D: rounding leaves no room to split %llu pieces of segments",
                      static_cast<unsigned long long>(report.unsplit));
@@ -203,6 +246,8 @@ private:
     deldrift_triangulation *t_;
     Mesh outline_;
     std::vector<std::int32_t> labels_;
+    Unsuitable unsuitable_;
+    const GivenTriangles *given_;
     std::vector<double> areas_;
     std::vector<Origin> origins_; // by the id of the segment
 };
@@ -217,7 +262,7 @@ void bring_in_hull(deldrift_triangulation *t, const Graph &graph, const Mesh &ou
 }
 
 Mesh refined_mesh(const TriangleSwitches &switches, const triangulateio &in, const Graph &graph,
-                  const deldrift_triangulation *t, Triangulation &copy) {
+                  const deldrift_triangulation *t, Unsuitable unsuitable, GivenTriangles *given, Triangulation &copy) {
     deldrift_triangulation *cloned = nullptr;
     require(deldrift_clone(t, &cloned));
     copy.reset(cloned);
@@ -232,25 +277,32 @@ Mesh refined_mesh(const TriangleSwitches &switches, const triangulateio &in, con
     }
     Cells cells = cells_of(cloned);
     Carver carver(in, std::move(outline), cloned, cells);
-    carver.carve(switches);
+    if (given != nullptr) {
+        given->find_in(t, cells_of(t));
+        carver.keep(*given);
+    } else {
+        carver.carve(switches);
+    }
     const std::vector<std::int32_t> &labels = carver.labels();
     if (std::all_of(labels.begin(), labels.end(), [](std::int32_t label) { return label == eaten; }))
         return carver.finish(switches);
     carver.mark_boundary();
-    Refiner refiner(switches, in, cloned, carver.outline(), labels);
+    Refiner refiner(switches, in, cloned, carver.outline(), labels, unsuitable, given);
     refiner.run();
     cells = cells_of(cloned);
     Carver refined(in, refiner.outline(), cloned, cells);
     refined.set_labels(refiner.labels());
+    if (given != nullptr && given->has_attributes()) refined.give_attributes_of(*given);
     return refined.finish(switches);
 }
 
 } // namespace
 
 std::string refine(const TriangleSwitches &switches, const triangulateio &in, const Graph &graph,
-                   const deldrift_triangulation *t, Triangulation &copy, Mesh &mesh) {
+                   const deldrift_triangulation *t, Unsuitable unsuitable, GivenTriangles *given, Triangulation &copy,
+                   Mesh &mesh) {
     try {
-        mesh = refined_mesh(switches, in, graph, t, copy);
+        mesh = refined_mesh(switches, in, graph, t, unsuitable, given, copy);
     } catch (const std::runtime_error &error) {
         return error.what();
     }

@@ -54,8 +54,11 @@ TriangleSwitches::TriangleSwitches(const char *switches) {
         switch (*each) {
         case 'q': read_angle(number_behind(each)); break;
         case 'a': read_area(number_behind(each)); break;
+        case 'r': reconstructs = true; break;
         case 'o': read_order(number_behind(each)); break;
-        case 'D': refines = conforms = true; break;
+        case 'D':
+        case 'L': refines = conforms = true; break;
+        case 'u': refines = asks = true; break;
         case 'Y': n_kept++; break;
         case 'S': limit = std::strtoull(("0" + number_behind(each)).c_str(), nullptr, 10); break;
         case 'z': zero_based = true; break;
@@ -73,12 +76,16 @@ TriangleSwitches::TriangleSwitches(const char *switches) {
         case 'E': triangles = false; break;
         case 'P': segments = false; break;
         default:
-            if (!is_without_effect(*each) && unserved.empty()) unserved = std::string("switch ") + *each;
+            if (is_without_effect(*each) || !unserved.empty()) break;
+            unserved = std::string("switch ") + *each;
+            if (*each == 'w' || *each == 'W') unserved += " (weights: regular triangulations are to come)";
         }
     }
 }
 
 const char *TriangleSwitches::unserved_input(const triangulateio &in) const {
+    if (reconstructs && !refines) return "switch r without q, a, u or D";
+    if (reconstructs && in.numberofcorners == 6) return "switch r with triangles of six corners";
     return planar_graph && splits && in.numberofsegments > 0 ? "switch s with segments" : nullptr;
 }
 

@@ -25,11 +25,13 @@ struct TriangleSwitches {
     bool points = true;        // not N
     bool triangles = true;     // not E
     bool segments = true;      // not P
-    bool refines = false;      // q, a or D: points are added
+    bool reconstructs = false; // r: triangles are given, and what they cover is refined
+    bool refines = false;      // q, a, D, L or u: points are added
     double least_angle = 0;    // q: in degrees
     double greatest_area = 0;  // a with a number; 0 for any
     bool has_region_areas = false; // a without a number: those of regions
-    bool conforms = false;     // D: no point is inside the circle around a triangle
+    bool conforms = false;     // D, or L, as it was called: no point is inside the circle around a triangle
+    bool asks = false;         // u: the program's triunsuitable says which triangles are too large
     int n_kept = 0;            // Y: segments of the boundary stay whole, YY: all
     std::size_t limit = SIZE_MAX; // S: of the points that are added
     std::string unserved;      // the first switch that deldrift does not serve; empty if there is none
@@ -42,7 +44,7 @@ struct TriangleSwitches {
 
     bool has_segments() const { return planar_graph || convex || refines; }
     // Whether the edges of the hull are segments.
-    bool encloses() const { return convex || !planar_graph; }
+    bool encloses() const { return !reconstructs && (convex || !planar_graph); }
     bool lists_segments() const { return (planar_graph || convex) && segments; }
 
     // For the original, to give cells that can be compared: from zero, with neighbours, quiet, and what else is

@@ -17,6 +17,24 @@ namespace {
 using Pair = std::pair<int, int>;
 Pair pair_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
+// What switch u asks: whether a triangle is too large for the distance of its centre from the corner (64, 64); a row
+// for each triangle that it was asked about, which are counter-clockwise and of the area told. It may throw at some
+// question.
+int n_asked = 0, throws_at = -1;
+bool are_asked_right = true;
+double allowed(double x, double y) { return 0.5 + 0.25 * std::hypot(64 - x, 64 - y); }
+
+} // namespace
+
+extern "C" int triunsuitable(double *p, double *q, double *r, double area) {
+    if (n_asked++ == throws_at) throw std::string("enough");
+    const double own = 0.5 * ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]));
+    are_asked_right = are_asked_right && area > 0 && std::abs(area - own) <= 1e-9;
+    return area > allowed((p[0] + q[0] + r[0]) / 3, (p[1] + q[1] + r[1]) / 3) ? 1 : 0;
+}
+
+namespace {
+
 // Whole numbers, so that halves of segments are exact. Segment i has marker 10 + i; those of the hole are 4 to 7, the
 // slit is 8, and 9 cuts the square in two.
 const Points places{0, 0, 64, 0, 64, 64, 0, 64, 8, 8, 16, 8, 16, 16, 8, 16, 8, 40, 24, 48, 32, 0, 32, 64};
@@ -42,6 +60,10 @@ public:
         in.numberofholes = 1;
         in.regionlist = regions_;
         in.numberofregions = 2;
+        std::string text(switches);
+        CHECK(triangulate(text.data(), &in, &out, nullptr) == 0);
+    }
+    Refined(const char *switches, triangulateio in) {
         std::string text(switches);
         CHECK(triangulate(text.data(), &in, &out, nullptr) == 0);
     }
@@ -103,7 +125,7 @@ void check_domain(const Refined &mesh) {
 }
 
 // The pieces with the marker of each segment are on it, and as long together; so are points with its marker.
-void check_segments(const Refined &mesh, int n_whole) {
+void check_segments(const Refined &mesh, int n_whole, int n_before = n_points) {
     std::array<double, n_segments> lengths{};
     std::set<int> on_segments;
     int n_pieces = 0;
@@ -116,7 +138,7 @@ void check_segments(const Refined &mesh, int n_whole) {
         for (const int point : {ends.first, ends.second}) {
             const double *p = mesh.at(point);
             CHECK(std::abs(x * (p[1] - start[1]) - y * (p[0] - start[0])) < 1e-10);
-            if (point >= n_points) CHECK(mesh.out.pointmarkerlist[point] == marker);
+            if (point >= n_before) CHECK(mesh.out.pointmarkerlist[point] == marker);
             on_segments.insert(point);
         }
         lengths[segment] += std::hypot(mesh.at(ends.second)[0] - mesh.at(ends.first)[0],
@@ -128,7 +150,7 @@ void check_segments(const Refined &mesh, int n_whole) {
         const double *end = &places[2 * static_cast<std::size_t>(segments[2 * i + 1])];
         CHECK(std::abs(lengths[i] - std::hypot(end[0] - start[0], end[1] - start[1])) < 1e-9);
     }
-    for (int i = n_points; i < mesh.out.numberofpoints; i++)
+    for (int i = n_before; i < mesh.out.numberofpoints; i++)
         CHECK(on_segments.count(i) == 1 || mesh.out.pointmarkerlist[i] == 0);
     CHECK(n_whole < 0 || n_pieces == n_whole);
 }
@@ -199,6 +221,174 @@ void quality_is_reached() {
     }
 }
 
+void the_program_is_asked() {
+    for (const char *switches : {"QzpAneu", "QzpAneuq25", "QzpAneuD", "QzpAneua20"}) {
+        n_asked = 0;
+        const Refined mesh(switches);
+        check_domain(mesh);
+        check_segments(mesh, -1);
+        check_lists(mesh);
+        check_quality(mesh, std::string(switches).find('q') == std::string::npos ? 0 : 25, 1e9, 1e9);
+        CHECK(n_asked > mesh.out.numberoftriangles && are_asked_right && mesh.out.numberoftriangles > 300);
+        for (int c = 0; c < mesh.out.numberoftriangles; c++) {
+            const int *row = mesh.corners(c);
+            const double *p = mesh.at(row[0]), *q = mesh.at(row[1]), *r = mesh.at(row[2]);
+            CHECK(mesh.area(c) <= allowed((p[0] + q[0] + r[0]) / 3, (p[1] + q[1] + r[1]) / 3) + 1e-9);
+        }
+    }
+    n_asked = 0;
+    Refined without("QzpAneq25");
+    CHECK(n_asked == 0);
+    // What it throws comes out, and the next call is as if there had been none.
+    for (const int question : {0, 100}) {
+        throws_at = question;
+        n_asked = 0;
+        std::string thrown;
+        try {
+            const Refined mesh("QzpAneu");
+        } catch (const std::string &what) {
+            thrown = what;
+        }
+        throws_at = -1;
+        CHECK(thrown == "enough" && n_asked == question + 1);
+        check_lists(Refined("QzpAneu"));
+    }
+}
+
+// L is what D was called.
+void an_old_name_does_the_same() {
+    for (const auto &[old, current] : {std::pair{"QzpAneL", "QzpAneD"}, {"QzpAneq25a30L", "QzpAneq25a30D"}}) {
+        const Refined mesh(old), same(current);
+        check_conforming(mesh);
+        CHECK(mesh.out.numberofpoints == same.out.numberofpoints && mesh.out.numberofpoints > n_points);
+        CHECK(std::equal(mesh.at(0), mesh.at(mesh.out.numberofpoints), same.at(0)));
+    }
+}
+
+// A mesh, as the input of a call that refines it.
+struct Given {
+    triangulateio in{};
+    std::vector<double> areas;
+
+    explicit Given(const Refined &mesh) : in(mesh.out) {
+        for (int c = 0; c < in.numberoftriangles; c++) areas.push_back(c % 5 == 0 ? -1 : 2 + c % 7);
+        in.trianglearealist = areas.data();
+    }
+    // The greatest area of the triangle around a place; on an edge the greater one.
+    double area_at(double x, double y) const {
+        double most = 0;
+        for (int c = 0; c < in.numberoftriangles; c++) {
+            bool is_inside = true;
+            for (int i = 0; i < 3; i++) {
+                const double *p = in.pointlist + 2 * in.trianglelist[3 * c + i];
+                const double *q = in.pointlist + 2 * in.trianglelist[3 * c + (i + 1) % 3];
+                is_inside = is_inside && (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]) >= -1e-9;
+            }
+            const double area = areas[static_cast<std::size_t>(c)];
+            if (is_inside) most = std::max(most, area > 0 ? area : 1e9);
+        }
+        return most;
+    }
+};
+
+// Regions, areas, markers and attributes of points are as for the mesh that has been refined. Without p segments inside
+// are lost, and so are markers.
+void a_given_mesh_is_refined() {
+    for (const char *coarse : {"QzpAneqa60", "QzpAne", "QzpAneq33a20D"}) {
+        const Refined given(coarse);
+        const Given mesh(given);
+        const int n_given = mesh.in.numberofpoints;
+        for (const char *switches : {"Qzrpnea", "Qzrpneq25a", "Qzrpneu", "Qzrpneq20D", "Qzrpneq30a5", "QzrneAq30a"}) {
+            const std::string text(switches);
+            const Refined fine(switches, mesh.in);
+            CHECK(fine.out.numberofpoints >= n_given);
+            CHECK(std::equal(mesh.in.pointlist, mesh.in.pointlist + 2 * n_given, fine.out.pointlist));
+            if (text.find('p') == std::string::npos) {
+                CHECK(fine.out.segmentlist == nullptr);
+            } else {
+                check_domain(fine);
+                check_segments(fine, -1, n_given);
+                check_lists(fine);
+            }
+            if (text.find('D') != std::string::npos) check_conforming(fine);
+            const std::size_t q = text.find('q');
+            const double angle = q == std::string::npos ? 0 : std::stod(text.substr(q + 1));
+            check_quality(fine, angle, text.find("a5") == std::string::npos ? 1e9 : 5, 1e9);
+            double sum = 0;
+            for (int c = 0; c < fine.out.numberoftriangles; c++) {
+                const int *row = fine.corners(c);
+                const double *a = fine.at(row[0]), *b = fine.at(row[1]), *d = fine.at(row[2]);
+                const double most = mesh.area_at((a[0] + b[0] + d[0]) / 3, (a[1] + b[1] + d[1]) / 3);
+                if (text.back() == 'a') CHECK(fine.area(c) <= most + 1e-9);
+                sum += fine.area(c);
+            }
+            CHECK(std::abs(sum - (64 * 64 - 64)) < 1e-9);
+            // At rest nothing is added.
+            if (text != "Qzrpneq30a5") continue;
+            const Refined again(switches, fine.out);
+            CHECK(again.out.numberofpoints == fine.out.numberofpoints);
+            CHECK(again.out.numberoftriangles == fine.out.numberoftriangles);
+        }
+    }
+    // Any triangles, those of a grid, of which other diagonals are as good, and clockwise ones.
+    Points grid;
+    std::vector<int> corners;
+    std::vector<double> numbers;
+    for (int i = 0; i < 36; i++) grid.insert(grid.end(), {static_cast<double>(i % 6), static_cast<double>(i / 6)});
+    for (int i = 0; i < 36; i++) {
+        if (i % 6 == 5 || i / 6 == 5 || i == 14) continue;
+        const bool other = (i % 6 + i / 6) % 2 == 0;
+        for (int corner : {i, other ? i + 6 : i + 1, i + 7}) corners.push_back(1 + corner);
+        for (int corner : {i, other ? i + 1 : i + 7, other ? i + 7 : i + 6}) corners.push_back(1 + corner);
+        for (int k = 0; k < 2; k++) numbers.push_back(i);
+    }
+    triangulateio in{};
+    in.pointlist = grid.data();
+    in.numberofpoints = 36;
+    in.trianglelist = corners.data();
+    in.numberofcorners = 3;
+    in.numberoftriangles = static_cast<int>(numbers.size());
+    in.triangleattributelist = numbers.data();
+    in.numberoftriangleattributes = 1;
+    const Refined fine("Qrneq33a0.05", in);
+    double sum = 0;
+    for (int c = 0; c < fine.out.numberoftriangles; c++) {
+        const int *row = fine.corners(c);
+        double x = 0, y = 0;
+        for (int i = 0; i < 3; i++) {
+            x += fine.at(row[i] - 1)[0] / 3;
+            y += fine.at(row[i] - 1)[1] / 3;
+        }
+        CHECK(fine.out.triangleattributelist[c] == std::floor(x) + 6 * std::floor(y));
+        const double *p = fine.at(row[0] - 1), *q = fine.at(row[1] - 1), *r = fine.at(row[2] - 1);
+        const double area = 0.5 * ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]));
+        CHECK(area > 0 && area <= 0.05);
+        sum += area;
+    }
+    CHECK(std::abs(sum - 24) < 1e-9);
+    const auto is_refused = [&](const char *switches) {
+        triangulateio out{};
+        std::string text(switches);
+        const int returned = triangulate(text.data(), &in, &out, nullptr);
+        for (double *list : {out.pointlist, out.pointattributelist, out.triangleattributelist}) std::free(list);
+        for (int *list : {out.pointmarkerlist, out.trianglelist}) std::free(list);
+        return returned == 1 && out.numberoftriangles == 0;
+    };
+    CHECK(!is_refused("Qrq") && is_refused("Qr") && is_refused("Qrqa") && is_refused("Qzrq"));
+    for (const int n_corners : {4, 6}) {
+        in.numberofcorners = n_corners;
+        CHECK(is_refused("Qrq"));
+    }
+    in.numberofcorners = 3;
+    in.numberoftriangleattributes = 2;
+    CHECK(is_refused("Qrq"));
+    in.numberoftriangleattributes = 1;
+    in.triangleattributelist = nullptr;
+    CHECK(is_refused("Qrq"));
+    in.numberoftriangleattributes = in.numberoftriangles = 0;
+    CHECK(is_refused("Qrq"));
+}
+
 void limits_are_kept() {
     for (const auto &[switches, most] : {std::pair{"QzpAneqa1S0", 0}, {"QzpAneqa1S25", 25}, {"QzpAneqa1DS7", 7}}) {
         const Refined mesh(switches);
@@ -250,6 +440,9 @@ void calls_do_not_depend_on_earlier_ones() {
 
 int main() {
     quality_is_reached();
+    the_program_is_asked();
+    a_given_mesh_is_refined();
+    an_old_name_does_the_same();
     limits_are_kept();
     middles_are_points();
     calls_do_not_depend_on_earlier_ones();

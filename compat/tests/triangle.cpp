@@ -342,7 +342,7 @@ void bad_input_gives_nothing() {
     in.numberofpoints = 10;
     CHECK(!gives_nothing("Qz", &in));
     CHECK(gives_nothing("Qz", nullptr) && gives_nothing("Qzv", &in, false));
-    for (const char *switches : {"Qzr", "Qzq34.5", "Qzo3", "QzL", "Qzu", "Qzw", "QzpW", "Qzk", "Qza0", "Qzq30a0.0"})
+    for (const char *switches : {"Qzr", "Qzq34.5", "Qzo3", "Qzu", "Qzw", "QzpW", "Qzk", "Qza0", "Qzq30a0.0"})
         CHECK(gives_nothing(switches, &in));
     for (int triangulateio::*count : {&triangulateio::numberofsegments, &triangulateio::numberofholes,
                                       &triangulateio::numberofregions}) {

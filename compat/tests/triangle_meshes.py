@@ -186,6 +186,39 @@ def check_mesh(functions, switches, arguments, tally):
     check_delaunay(out, all_points, first)
     if len(numbers):
         compare_angles(switches, corners, corners_of(other, first)[1], tally)
+    if "p" in switches and 0 < other.numberoftriangles < 300:
+        check_given(functions, other, scale, first, tally)
+
+
+def check_given(functions, mesh, scale, first, tally):
+    """Triangle's mesh, refined by both: points and what is covered stay, and areas are those given for triangles."""
+    numbers, corners = corners_of(mesh, first)
+    areas = areas_of(corners)
+    greatest = numpy.where(numpy.arange(len(areas)) % 3 == 0, -1, areas / 3)
+    points = rows(mesh.pointlist, mesh.numberofpoints, 2).copy()
+    lists = {"trianglelist": (numbers + first).astype(numpy.intc), "trianglearealist": greatest}
+    if mesh.numberofsegments > 0 and mesh.segmentlist:
+        lists["segmentlist"] = rows(mesh.segmentlist, mesh.numberofsegments, 2).astype(numpy.intc)
+        lists["segmentmarkerlist"] = rows(mesh.segmentmarkerlist, mesh.numberofsegments, 1).astype(numpy.intc)
+    arguments = points, numpy.zeros((len(points), 0)), numpy.zeros(len(points), numpy.intc), lists
+    if not does_end(functions[1], ("Qrpneqa", *arguments)):
+        tally["Triangle fails at r"] += 1
+        return
+    (out, _), (other, _) = (call(function, "Qrpneqa", *arguments) for function in functions)
+    check((rows(out.pointlist, out.numberofpoints, 2)[: len(points)] == points).all(), "places with r")
+    fine, other_fine = areas_of(corners_of(out, first)[1]), areas_of(corners_of(other, first)[1])
+    check(fine.min() > 0 and abs(fine.sum() - areas.sum()) <= TOLERANCE * scale**2, "the area with r")
+    centres = corners_of(out, first)[1].mean(axis=1)
+    for triangle, most in zip(corners, greatest):
+        sides = [numpy.stack([triangle[k], triangle[(k + 1) % 3]]) for k in range(3)]
+        signs = [(b - a)[0] * (centres - a)[:, 1] - (b - a)[1] * (centres - a)[:, 0] for a, b in sides]
+        inside = (numpy.min(signs, axis=0) > TOLERANCE * scale**2)
+        check(most < 0 or (fine[inside] <= most * (1 + TOLERANCE)).all(), "an area with r")
+    pieces, other_pieces = segments_of(out, first), segments_of(other, first)
+    check(set(pieces.values()) == set(other_pieces.values()), "markers with r")
+    check_delaunay(out, rows(out.pointlist, out.numberofpoints, 2), first)
+    tally["own with r"] += len(fine)
+    tally["Triangle's with r"] += len(other_fine)
 
 
 def compare_angles(switches, corners, other_corners, tally):

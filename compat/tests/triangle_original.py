@@ -34,8 +34,9 @@ def call(function, switches, points, attributes, markers, graph=None):
     given, out, vorout = TriangulateIO(), TriangulateIO(), TriangulateIO()
     for name, array in (graph or {}).items():
         setattr(given, name, array.ctypes.data_as(INTS if array.dtype == numpy.intc else REALS))
+    given.numberofcorners = 3
     for name, count in (("segmentlist", "numberofsegments"), ("holelist", "numberofholes"),
-                        ("regionlist", "numberofregions")):
+                        ("regionlist", "numberofregions"), ("trianglelist", "numberoftriangles")):
         setattr(given, count, len((graph or {}).get(name, ())))
     given.pointlist = points.ctypes.data_as(REALS)
     given.pointattributelist = attributes.ctypes.data_as(REALS)

@@ -25,6 +25,7 @@ template class deldrift::cgal::Constrained_Delaunay_triangulation_2<Kernel>;
 template class deldrift::cgal::Constrained_Delaunay_triangulation_2<Kernel, deldrift::cgal::Infos<int, int>,
                                                                     deldrift::cgal::Exact_predicates_tag>;
 template class deldrift::cgal::Delaunay_mesher_2<deldrift::cgal::Constrained_Delaunay_triangulation_2<Kernel>>;
+template class deldrift::cgal::Triangulation_conformer_2<deldrift::cgal::Constrained_Delaunay_triangulation_2<Kernel>>;
 template class deldrift::cgal::Delaunay_triangulation_3<Kernel>;
 template class deldrift::cgal::Delaunay_triangulation_3<Kernel, unsigned>;
 

@@ -1,5 +1,6 @@
 // CGAL's names for deldrift: Delaunay_triangulation_2, Delaunay_triangulation_3 and
-// Constrained_Delaunay_triangulation_2, and meshes of the latter, so far as common programs use them.
+// Constrained_Delaunay_triangulation_2, and meshes and conforming triangulations of the latter, so far as common programs use
+// them.
 //
 //     using K = deldrift::cgal::Kernel;  // or any kernel of CGAL's with coordinates in double
 //     using Dt = deldrift::cgal::Delaunay_triangulation_2<K, unsigned>;  // unsigned: the info of vertices
@@ -36,6 +37,7 @@
 #include <cstddef>
 #include <ostream>
 
+#include "cgal/conforming.hpp"
 #include "cgal/constrained.hpp"
 #include "cgal/meshing.hpp"
 #include "cgal/plane.hpp"

@@ -29,7 +29,9 @@ class _Side(NamedTuple):
     """What a region is known by while its segments move: a segment of its outer boundary, and on which side it is."""
 
     segment: int
-    """By the id that it had before refinement made pieces of it."""
+    """By the id that it had before pieces were made of it."""
+    start: int
+    """The vertex at which the piece beside the region begins, which stays one's first end when that is split again."""
     column: int
     """0 for the left, as seen from the segment's first end along it, 1 for the right."""
 
@@ -61,15 +63,23 @@ class Mesh:
         Rows of 2 coordinates, a place in each hole. The domain is then all within closed chains of segments but the
         holes; one outside of all chains has no effect, and is told by a warning. One on the boundary of a region raises
         `AmbiguousSeed`. Without it `keep` says what the domain is.
+    regions : array_like, optional
+        Rows of 2 coordinates and a label: `labels` has it for all triangles of the region where the place is. Of two in
+        one region the first counts. Outside of all chains, and on boundaries, they are as holes there.
     keep : {"nesting", "even-odd"}, optional
         What the domain is without `holes`: the triangles with an odd number of edges that have segments on the way to the
         outside, at least, which is 1 in an outline and 2 in its holes, however often a segment is given; or those with an
         odd number of segments on the way, where each of several at one edge counts, as the even-odd rule has it. They
         differ where chains share sides: a notch that is a chain of its own along a side is part of the domain by
         "nesting", the default, as segments are walls, and is none by "even-odd".
-    regions : array_like, optional
-        Rows of 2 coordinates and a label: `labels` has it for all triangles of the region where the place is. Of two in
-        one region the first counts. Outside of all chains, and on boundaries, they are as holes there.
+    split : bool, optional
+        Whether segments that cross, overlap or have a vertex on them are split, as by `Step.split`: a vertex comes
+        where two cross, rounded correctly, with an id behind those of `vertices`, and pieces have the marker of their
+        segment. Otherwise they raise `ConflictError`. Moves split nothing.
+    degenerate : {"refuse", "drop"}, optional
+        What becomes of segments of no length, between a vertex and itself or another one at its place, and of those
+        that repeat an earlier one, in either direction. By default the former raise `ConflictError`, and the latter are
+        kept, each with its id. With "drop" both are left out; the ids of those that stay have no gaps.
     algorithm, threads, parts, coincidence, passing, progress, cancel
         As of `Delaunay`.
 
@@ -95,6 +105,8 @@ class Mesh:
         regions: Any = None,
         *,
         keep: str = "nesting",
+        split: bool = False,
+        degenerate: str = "refuse",
         algorithm: str = "auto",
         threads: int = 0,
         parts: int = 0,
@@ -105,14 +117,20 @@ class Mesh:
     ) -> None:
         if keep not in ("nesting", "even-odd"):
             raise InvalidValue(f"keep is {keep!r}, and must be one of 'nesting', 'even-odd'", "keep")
+        if degenerate not in ("refuse", "drop"):
+            raise InvalidValue(f"degenerate is {degenerate!r}, and must be one of 'refuse', 'drop'", "degenerate")
         self._keep = keep
         places = None if holes is None else _rows("holes", holes, 2)
         labelled = _rows("regions", regions, 3)
         self._tri = tri = Delaunay.__new__(Delaunay)
         rows = point_rows("vertices", vertices, 2)
+        if degenerate == "drop":
+            segments, markers = _without_degenerate(rows, segments, markers)
         tri._create(rows, algorithm, (threads, parts), coincidence, passing, progress, cancel, "vertices")
-        with tri.step():
+        with tri.step() as step:
             tri._stage_segments(segments, markers, "segments", "markers")
+            if split:
+                step.split()
         self._holes = None if places is None else [side for side in self._sides(places, "holes") if side is not None]
         sides = self._sides(np.ascontiguousarray(labelled[:, :2]), "regions")
         # Which of the regions given have a side.
@@ -139,12 +157,13 @@ class Mesh:
             beside segments, too; `Y` to keep the boundary of the domain whole, and `YY` all segments; `S` with a greatest
             number of new vertices. `p` and `A` are what is done anyway, and others raise.
         **options
-            As of `Mesh`: `algorithm`, `threads`, `parts`, `coincidence`, `passing`, `progress` and `cancel`.
+            As of `Mesh`: `split`, which Triangle always does, `degenerate`, `algorithm`, `threads`, `parts`,
+            `coincidence`, `passing`, `progress` and `cancel`.
 
         Returns
         -------
         Mesh
-            Vertices and segments have the ids of their rows; new ones follow.
+            Vertices and segments have the ids of their rows, unless segments are dropped; new ones follow.
 
         Examples
         --------
@@ -208,8 +227,9 @@ class Mesh:
         rows = np.searchsorted(tri.segments.ids, segments)
         beside = tri.cells_of_segments()[rows]
         sides: list[Optional[_Side]] = [None] * len(places)
-        for region, segment, column in zip(regions, tri.original_segments()[rows], beside[:, 1] == cells):
-            sides[region] = _Side(int(segment), int(column))
+        originals, starts = tri.original_segments()[rows], tri.segments.ends[rows, 0]
+        for region, segment, start, column in zip(regions, originals, starts, beside[:, 1] == cells):
+            sides[region] = _Side(int(segment), int(start), int(column))
         return sides
 
     def _domain(self) -> _Domain:
@@ -235,13 +255,13 @@ class Mesh:
         return list(map(int, beside[rows, [side.column for side in sides]]))
 
     def _rows_of(self, sides: list[_Side]) -> np.ndarray:
-        """For each side the index of its segment, or of a piece of it; -1 if there is none any more."""
-        originals = self._tri.original_segments()
-        order = np.argsort(originals, kind="stable")
-        segments = np.array([side.segment for side in sides], np.int32)
+        """For each side the index of its segment, or of the piece that begins where it did; -1 if there is none."""
+        pieces = _joined(self._tri.original_segments(), self._tri.segments.ends[:, 0])
+        order = np.argsort(pieces, kind="stable")
+        wanted = _joined(*np.array([side[:2] for side in sides], np.int32).T)
         # The last entry is that of segments behind all others.
-        rows = np.append(order, -1)[np.searchsorted(originals, segments, sorter=order)]
-        return np.where(np.append(originals, -1)[rows] == segments, rows, -1)
+        rows = np.append(order, -1)[np.searchsorted(pieces, wanted, sorter=order)]
+        return np.where(np.append(pieces, -1)[rows] == wanted, rows, -1)
 
     def _reached(self, starts: list[int]) -> np.ndarray:
         """For each simplex from which start, an index, it is reached without crossing a segment; -1 from none."""
@@ -550,6 +570,25 @@ class Mesh:
 
     def __repr__(self) -> str:
         return f"<deldrift.Mesh of {len(self.triangles)} triangles within {len(self.segments.ids)} segments>"
+
+
+def _joined(segments: np.ndarray, vertices: np.ndarray) -> np.ndarray:
+    """One number for each pair of a segment and a vertex."""
+    return segments.astype(np.int64) << 32 | vertices
+
+
+def _without_degenerate(rows: np.ndarray, segments: Any, markers: Any) -> tuple[np.ndarray, Any]:
+    """Segments, and their markers, but for those of no length and those that an earlier one is a repetition of."""
+    ends = pairs("segments", segments)
+    values = None if markers is None else numbers("markers", markers, len(ends), "segments")
+    if (ends >= len(rows)).any():  # The library says which one.
+        return ends, values
+    # Adding zero makes the two zeros one.
+    places = np.unique(rows + 0.0, axis=0, return_inverse=True)[1].reshape(-1)
+    low, high = np.sort(places[ends], axis=1).T
+    first = np.unique(_joined(low, high), return_index=True)[1]
+    kept = np.sort(first[low[first] < high[first]])
+    return ends[kept], None if values is None else values[kept]
 
 
 SWITCH = re.compile(r"[pA]|(?P<angle>q)(?P<degrees>[\d.]*)|(?P<area>a)(?P<most>[\d.]*)|(?P<keep>YY?)|S(?P<limit>\d+)|(?P<circles>D)")

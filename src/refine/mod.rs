@@ -71,7 +71,9 @@
 //! above that: at angles below 1e-8 or so vertices on two segments are in each other's circles until the last bits.
 //!
 //! A bad triangle waits again only after a piece has been split, and vertices on pieces stay. Pieces that cannot be split,
-//! since they are kept whole or there is no room, are left, and so are triangles that need it. When nothing waits, all that
+//! since they are kept whole or there is no room, are left, and so are triangles that need it. But one of too large an area gets
+//! its centroid where pieces that are kept whole are in the way of its centre. With area A and longest edge L that is 2A / 3L away
+//! from its sides, so there can only be so many. When nothing waits, all that
 //! was left is looked at again, until a pass over all of it changes nothing. So a second call has nothing to do.
 //!
 //! # At rest

@@ -46,6 +46,9 @@ const NARROW: f64 = 0.75;
 const SHELL: f64 = 0.001;
 const MOVED_SHELL: f64 = 0.2;
 
+/// Of the greatest area: what a triangle has that is too large for that, to rounding.
+const NEARLY_ALL: f64 = 0.999;
+
 /// Vertices that are added between two questions whether to go on: each takes some ten cells.
 const ADDED_BETWEEN: usize = 1000;
 
@@ -431,8 +434,30 @@ impl<'a> Refinement<'a> {
         }
     }
 
-    /// What there is to do for a bad triangle; the pieces in the way are listed.
+    /// What there is to do for a bad triangle; the pieces in the way are listed. One of too large an area gets its centroid
+    /// where all pieces in the way of its centre are kept whole.
     fn remedy(&mut self, t: u32, measured: Measured) -> Result<Remedy> {
+        let remedy = self.remedy_at_centre(t, measured)?;
+        let triangle = *self.mesh.triangle(t);
+        let corners = triangle.corners.map(|v| *self.mesh.point(v));
+        if self.kept == Kept::None
+            || measured.flaw != Some(Flaw::Size)
+            || !matches!(remedy, Remedy::Split)
+            || self.in_the_way.iter().any(|&(piece, _)| self.may_split(piece))
+            || self.tests.share_of_area(corners.each_ref(), triangle.label) < NEARLY_ALL
+        {
+            return Ok(remedy);
+        }
+        let p = [0, 1].map(|axis| self.tests.rounding()(corners.iter().map(|p| p[axis] / 3.0).sum()));
+        if (0..3).any(|i| self.mesh.turn(triangle.ends(i), &p) <= 0.0) {
+            return Ok(Remedy::None);
+        }
+        self.mesh.dig(t, &p, VertexId::at(self.mesh.points.len()))?;
+        Ok(Remedy::Insert(p, t))
+    }
+
+    /// What there is to do at the centre of a bad triangle.
+    fn remedy_at_centre(&mut self, t: u32, measured: Measured) -> Result<Remedy> {
         let Some((p, from)) = self.centre(t, measured) else { return Ok(Remedy::None) };
         let id = VertexId::at(self.mesh.points.len());
         self.in_the_way.clear();

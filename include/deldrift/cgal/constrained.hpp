@@ -18,6 +18,8 @@ namespace deldrift::cgal {
 
 template <class Tr, class Crit>
 class Delaunay_mesher_2;
+template <class Tr>
+class Triangulation_conformer_2;
 
 // What becomes of constraints that cross: an exception, or a vertex at the place, rounded.
 struct No_constraint_intersection_tag {};
@@ -259,6 +261,8 @@ public:
 private:
     template <class Tr, class Crit>
     friend class Delaunay_mesher_2;
+    template <class Tr>
+    friend class Triangulation_conformer_2;
     using Ends = std::array<Vertex_handle, 2>;
     using Segment_at = std::map<Ends, std::uint32_t>;
     using Ends_of = std::unordered_map<std::uint32_t, Ends>;
@@ -320,6 +324,18 @@ private:
         if (!is_refined) return;
         segment_at_.swap(segment_at);
         ends_of_.swap(ends_of);
+    }
+
+    // New vertices at these places, and pieces between them, by ids, in the place of segments.
+    void divide(const std::vector<std::array<double, 2>> &places, const std::vector<deldrift::Ends> &pieces,
+                const std::vector<std::uint32_t> &removals) {
+        std::vector<Point> points;
+        for (const auto &p : places) points.push_back(detail::Coordinates<2, K>::point(p));
+        const std::uint32_t first = this->mesh_to_change().divide(points, pieces, removals);
+        for (std::uint32_t segment : removals) drop(segment);
+        for (std::size_t k = 0; k < pieces.size(); k++) {
+            keep(first + static_cast<std::uint32_t>(k), {vertex_of(pieces[k][0]), vertex_of(pieces[k][1])});
+        }
     }
 
     // Split where vertices are on them, or where they cross others.

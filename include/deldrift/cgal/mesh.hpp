@@ -232,24 +232,35 @@ public:
             by_id_[id]->point = Coordinates<D, K>::point(t_.position<D>(static_cast<std::uint32_t>(id)));
         }
     }
+    // New vertices, new segments, of which these may be ends, by ids, and the removal of other segments. The id of the first
+    // segment.
+    std::uint32_t divide(const std::vector<Point> &points, const std::vector<Ends> &ends,
+                         const std::vector<std::uint32_t> &removals) {
+        const std::size_t n_before = by_id_.size();
+        std::uint32_t first = 0;
+        try {
+            std::vector<Numbers> places;
+            for (const Point &p : points) {
+                add(p, {});
+                places.push_back(numbers_of(p));
+            }
+            commit_alone([&] {
+                t_.stage_insertions(places);
+                first = t_.stage_segments(ends);
+                t_.stage_segment_removals(removals);
+            });
+        } catch (...) {
+            while (by_id_.size() > n_before) drop_last();
+            throw;
+        }
+        return first;
+    }
     // A vertex on a segment, of which two come to be; and the id of the first.
     std::pair<Record *, std::uint32_t> split_segment(const Point &p, const std::array<Record *, 2> &ends,
                                                      std::uint32_t segment) {
-        Record *record = add(p, {});
-        std::uint32_t first = 0;
-        try {
-            commit_alone([&] {
-                const Numbers place = numbers_of(p);
-                const std::uint32_t id = t_.stage_insertions(place);
-                const std::uint32_t pieces[] = {ends[0]->id, id, id, ends[1]->id};
-                require_ok(deldrift_stage_segments(t_.native(), pieces, nullptr, 2, &first));
-                require_ok(deldrift_stage_segment_removals(t_.native(), &segment, 1));
-            });
-        } catch (...) {
-            drop_last();
-            throw;
-        }
-        return {record, first};
+        const auto id = static_cast<std::uint32_t>(by_id_.size());
+        const std::uint32_t first = divide({p}, {{ends[0]->id, id}, {id, ends[1]->id}}, {segment});
+        return {by_id_[id], first};
     }
     // Refines the cells that are marked, in a copy that takes the place of the triangulation when nothing can fail any more.
     // keep: called before that with the copy, when by_id() has the new vertices already.
