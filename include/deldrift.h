@@ -3142,8 +3142,8 @@ deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
 /// deldrift_hull_facets_in_reach, deldrift_vertices_in_reach, deldrift_mask_without_flat_cells,
 /// deldrift_segments_of_cells, deldrift_cells_of_segments, deldrift_nesting_levels, deldrift_crossing_numbers,
 /// deldrift_label_cells, deldrift_update_labels, deldrift_boundary_chains, deldrift_refine, deldrift_coarsen,
-/// deldrift_made_vertices, deldrift_original_segments, deldrift_refined_weights, deldrift_find_simplices and
-/// deldrift_ordered_star. Cells are numbered anew by each commit, unless changes are taken.
+/// deldrift_made_vertices, deldrift_original_segments, deldrift_refined_weights, deldrift_refined_sizes,
+/// deldrift_find_simplices and deldrift_ordered_star. Cells are numbered anew by each commit, unless changes are taken.
 ///
 /// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves,
 /// or of other vectors that are near those in force, costs what it costs in an open triangulation of as many, and reading the
@@ -3371,7 +3371,7 @@ deldrift_status deldrift_clone(const deldrift_triangulation *t,
 ///
 /// Saved are positions, ids, segments, removed and hidden vertices, cells with their indices, staged moves, insertions and
 /// removals, the timestamp and statistics. Not saved are the options, what the algorithm keeps between commits,
-/// which changes have been taken, the weights of deldrift_refined_weights, and what deldrift_segment_conflicts and
+/// which changes have been taken, the answers of deldrift_refined_weights and deldrift_refined_sizes, and what deldrift_segment_conflicts and
 /// deldrift_passings tell. docs/FORMAT.md describes the bytes. Of a periodic triangulation the vectors as
 /// deldrift_vectors tells them, those that are staged, and the periods of vertices are saved, too, and all images with their cells.
 ///
