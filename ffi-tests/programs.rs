@@ -62,7 +62,6 @@ fn calls_take_as_little_of_the_stack_when_they_are_optimised() {
     let run_path = format!("-Wl,-rpath,{}", target.join("release").display());
     succeed(
         compiler(&source)
-            .arg("-DMOST_KIB=80")
             .arg(&source)
             .arg("-o")
             .arg(&program)

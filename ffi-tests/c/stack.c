@@ -8,12 +8,7 @@
 #include <pthread.h>
 
 // What the header says that a call takes at most, and the smallest stack that it says is enough.
-// What the library takes as it is built for programs, of which ffi-tests/programs.rs says so, is 80 KiB; with little
-// optimisation frames are larger.
-#ifndef MOST_KIB
-#define MOST_KIB 88
-#endif
-enum { MOST = MOST_KIB << 10, STACK = 128 << 10, MARGIN = 512, N_SEEDS = 3, MOST_NAMES = 300, MANY = 3000 };
+enum { MOST = 80 << 10, STACK = 128 << 10, MARGIN = 512, N_SEEDS = 3, MOST_NAMES = 300, MANY = 3000 };
 
 static const unsigned char PATTERN = 0xa5;
 
