@@ -158,8 +158,10 @@ fn load_periodic(
     let (callbacks, options) = (options.callbacks(), options.convert()?);
     let saved = SavedPeriodic::of(data).map_err(|damage| Failure::Data { argument, damage })?;
     reject_coincidence(&options)?;
-    let made = AnyPeriodic::load(&saved, options).map_err(|error| of_load(argument, error))?;
-    hand_out(out, memory::boxed(made)?, callbacks)
+    match AnyPeriodic::load(&saved, options) {
+        Ok(made) => hand_out(out, memory::boxed(made)?, callbacks),
+        Err(error) => Err(of_load(argument, error)),
+    }
 }
 
 /// Makes an open triangulation, by itself for the same reason.
@@ -172,8 +174,10 @@ fn load_open(
 ) -> Result<(), Failure> {
     let (callbacks, options) = (options.callbacks(), options.convert()?);
     let saved = Saved::of(data).map_err(|damage| Failure::Data { argument, damage })?;
-    let made = AnyTriangulation::load(&saved, options).map_err(|error| of_load(argument, error))?;
-    hand_out(out, made, callbacks)
+    match AnyTriangulation::load(&saved, options) {
+        Ok(made) => hand_out(out, made, callbacks),
+        Err(error) => Err(of_load(argument, error)),
+    }
 }
 
 /// Why the bytes of an argument make no triangulation.

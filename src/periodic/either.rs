@@ -22,11 +22,11 @@ impl AnyPeriodic {
     /// # Errors
     /// Those of [`PeriodicTriangulation::load`].
     pub fn load(saved: &SavedPeriodic<'_>, options: Options) -> Result<Self, LoadError> {
-        Ok(if saved.dimension() == 2 {
-            Self::Plane(PeriodicTriangulation::load(saved, options)?)
+        if saved.dimension() == 2 {
+            PeriodicTriangulation::load(saved, options).map(Self::Plane)
         } else {
-            Self::Space(PeriodicTriangulation::load(saved, options)?)
-        })
+            PeriodicTriangulation::load(saved, options).map(Self::Space)
+        }
     }
 
     /// A copy with a monitor of its own, as [`PeriodicTriangulation::try_clone`] makes it.
