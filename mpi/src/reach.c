@@ -82,13 +82,14 @@ static void unite_boxes_of(const deldrift_mpi *m, dm_box *all, int process) {
         if (!dm_is_empty_box(&boxes[b])) unite(m, all, &boxes[b]);
 }
 
-// Whether a process has a copy of each own vertex, so that nothing is left to be sent: so it is with points on a
-// sphere, of which each cell is in reach of all boxes.
-static bool has_all(const deldrift_mpi *m, int process) {
-    if (m->lattice.rank || m->peer_of[process] < 0) return false;
+// Whether a process has a copy of each own vertex by a translation, so that nothing is left to be sent: so it is with
+// points on a sphere or a line, of which each cell is in reach of all boxes.
+static bool has_all(const deldrift_mpi *m, int process, uint32_t period) {
+    if (m->peer_of[process] < 0) return false;
     const dm_list *sent = &m->peers[m->peer_of[process]].sent;
     size_t staying = 0;
-    for (size_t k = 0; sent->count >= m->next_count && k < sent->count; k++) staying += !sent->is_leaving[k];
+    for (size_t k = 0; sent->count >= m->next_count && k < sent->count; k++)
+        staying += sent->period[k] == period && !sent->is_leaving[k];
     return staying >= m->next_count;
 }
 
@@ -97,7 +98,7 @@ static bool has_all(const deldrift_mpi *m, int process) {
 static dm_box box_of_group(const deldrift_mpi *m, int first, int width, bool of_peers) {
     dm_box all = no_box();
     for (int process = first; process < m->size && process < first + width; process++)
-        if (process != m->rank && !(of_peers ? m->peer_of[process] < 0 : has_all(m, process)))
+        if (process != m->rank && !(of_peers ? m->peer_of[process] < 0 : has_all(m, process, 0)))
             unite_boxes_of(m, &all, process);
     return all;
 }
@@ -227,14 +228,16 @@ static dm_box translated(const deldrift_mpi *m, const dm_box *box, uint32_t peri
     return there;
 }
 
-// Whether what a process has in a period, in the box `all`, meets the extent, wider by `margin` spacings, and is not what is
-// own. A rounded translation of a box has the translations of all that is in it, as these are not rounded.
+// Whether what a process has in a period, in the box `all`, is asked about: it is not what is own, meets the extent,
+// wider by `margin` spacings, and, unless it is asked what peers still need, something is left to be sent. A rounded
+// translation of a box has the translations of all that is in it, as these are not rounded.
 static bool may_reach(const deldrift_mpi *m, const dm_box *extent, int process, const dm_box *all, uint32_t period,
-                      double margin, dm_box *wider) {
+                      bool of_peers, double margin, dm_box *wider) {
     dm_box there = translated(m, all, period);
     if (DM_HAS_FAULT(DM_FAULT_NO_PERIOD) && period == m->lattice.unit[0]) return false;
     *wider = widened(m, &there, margin);
-    return (process != m->rank || period) && meet(m, extent, wider);
+    return (process != m->rank || period) && meet(m, extent, wider) &&
+           (of_peers || !has_all(m, process, dm_opposite(period)));
 }
 
 // The box of a process, which is empty where nothing is asked about it.
@@ -245,8 +248,8 @@ static dm_box box_of(const deldrift_mpi *m, int process, bool of_peers) {
 }
 
 // Asks about all that a process has in a period, in one box, if it is farther from own vertices than these are from each
-// other: in nodes, in the order of put_periods, whether something own is in reach. Of points on a line most periods are far, and
-// no half-space tells.
+// other: in nodes, in the order of put_periods, whether something own is in reach. Of points on a line most periods are
+// far, and no half-space tells.
 static bool ask_far(deldrift_mpi *m, const dm_box *extent, const dm_box *near, bool of_peers, double margin) {
     size_t asked = 0;
     for (int process = 0; process < m->size; process++) {
@@ -254,7 +257,7 @@ static bool ask_far(deldrift_mpi *m, const dm_box *extent, const dm_box *near, b
         if (dm_is_empty_box(&all)) continue;
         if (!reserve_boxes(m, asked + m->lattice.count)) return false;
         for (uint32_t period = 0; period < m->lattice.count; period++)
-            if (may_reach(m, extent, process, &all, period, margin, &wider) && !meet(m, near, &wider))
+            if (may_reach(m, extent, process, &all, period, of_peers, margin, &wider) && !meet(m, near, &wider))
                 put_box(m, asked++, &wider, process, dm_opposite(period));
     }
     if (asked && !search(m, asked)) return false;
@@ -262,8 +265,8 @@ static bool ask_far(deldrift_mpi *m, const dm_box *extent, const dm_box *near, b
     return true;
 }
 
-// The boxes of all processes in all periods that meet this one, wider by `margin` spacings; without those that ask_far has
-// found to be out of reach, if there is a box near which it has not asked.
+// The boxes of all processes in all periods that meet this one, wider by `margin` spacings; without those that ask_far
+// has found to be out of reach, if there is a box near which it has not asked.
 static bool put_periods(deldrift_mpi *m, const dm_box *extent, const dm_box *near, bool of_peers, double margin,
                         size_t *boxes) {
     size_t far = 0;
@@ -272,7 +275,7 @@ static bool put_periods(deldrift_mpi *m, const dm_box *extent, const dm_box *nea
         dm_box all = box_of(m, process, of_peers), wider;
         if (dm_is_empty_box(&all)) continue;
         for (uint32_t period = 0; period < m->lattice.count; period++) {
-            if (!may_reach(m, extent, process, &all, period, margin, &wider)) continue;
+            if (!may_reach(m, extent, process, &all, period, of_peers, margin, &wider)) continue;
             if (near && !meet(m, near, &wider) && !m->nodes[far++]) continue;
             const dm_box *each = dm_boxes_now(m) + (size_t)process * m->options.boxes;
             if (!reserve_boxes(m, *boxes + m->options.boxes)) return false;
