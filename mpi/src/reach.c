@@ -298,9 +298,9 @@ static bool search_processes(deldrift_mpi *m, bool of_peers, double margin, size
     if (m->lattice.rank) {
         dm_box extent, own = no_box();
         unite_boxes_of(m, &own, m->rank);
-        dm_box near = widened(m, &own, 1);
-        if (!find_extent(m, &extent) || !ask_far(m, &extent, &near, of_peers, margin) ||
-            !put_periods(m, &extent, &near, of_peers, margin, boxes))
+        dm_box beside = widened(m, &own, 1);
+        if (!find_extent(m, &extent) || !ask_far(m, &extent, &beside, of_peers, margin) ||
+            !put_periods(m, &extent, &beside, of_peers, margin, boxes))
             return false;
         return !*boxes || search(m, *boxes);
     }
