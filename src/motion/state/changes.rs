@@ -253,6 +253,12 @@ impl<C: Corners<VertexId>> Tracker<C> {
         Some((returned.map_or(CellId::NONE, |k| self.removed[k as usize].0), returned))
     }
 
+    /// The row at the base of a cell that was there, given the one that was seen last.
+    fn before(&self, origin: CellId, seen: C) -> C {
+        let found = self.turned.binary_search_by_key(&origin, |event| event.origin);
+        found.map_or(seen, |k| self.turned[k].before)
+    }
+
     /// The removed cells that may have come back, by their sorted corners, each with its position in the list.
     fn sorted_removed(&self) -> Result<Vec<(C, u32)>> {
         let mut by_corners = Vec::new();
@@ -271,6 +277,17 @@ impl<C: Corners<VertexId>> Tracker<C> {
             + self.removed.capacity() * size_of::<(CellId, C)>()
             + self.turned.capacity() * size_of::<Turned<C>>()
     }
+}
+
+/// Whether one row is an odd permutation of another one.
+fn is_odd<C: Corners<VertexId>>(row: &C, other: &C) -> bool {
+    let (mut row, mut is_odd) = (*row, false);
+    for i in 0..C::N {
+        let found = (i..C::N).find(|&k| row[k] == other[i]).unwrap_or(i);
+        row.as_mut().swap(i, found);
+        is_odd ^= found != i;
+    }
+    is_odd
 }
 
 /// Keeps of each cell how it was before it was turned over for the first time, in the order of the cells.
@@ -331,6 +348,8 @@ pub(in crate::motion) struct Taken<C> {
     removed_corners: Vec<C>,
     renumbered_from: Vec<CellId>,
     renumbered_to: Vec<CellId>,
+    /// Cells that live and have been turned over, by their indices of now, and how they listed their corners.
+    turned: Vec<(CellId, C)>,
     stars: Marks<VertexId>,
     hidden: Vec<VertexId>,
     shown: Vec<VertexId>,
@@ -344,6 +363,7 @@ impl<C> Default for Taken<C> {
             removed_corners: Vec::new(),
             renumbered_from: Vec::new(),
             renumbered_to: Vec::new(),
+            turned: Vec::new(),
             stars: Marks::default(),
             hidden: Vec::new(),
             shown: Vec::new(),
@@ -358,6 +378,7 @@ impl<C: Corners<VertexId>> Taken<C> {
         clear(&mut self.removed_corners);
         clear(&mut self.renumbered_from);
         clear(&mut self.renumbered_to);
+        clear(&mut self.turned);
         clear(&mut self.hidden);
         clear(&mut self.shown);
         let n_stars = self.stars.as_slice().len();
@@ -406,6 +427,11 @@ impl<C: Corners<VertexId>> Taken<C> {
         }
     }
 
+    /// Cells that live and have been turned over, by their indices of now, and how they listed their corners.
+    pub(in crate::motion) fn turned(&self) -> &[(CellId, C)] {
+        &self.turned
+    }
+
     /// Lists what a tracker knows.
     fn list_cells(&mut self, tracker: &mut Tracker<C>, corners: &[C]) -> Result<()> {
         let by_corners = tracker.sorted_removed()?;
@@ -419,11 +445,14 @@ impl<C: Corners<VertexId>> Taken<C> {
         let mut has_returned = Vec::new();
         memory::reserve_exact(&mut has_returned, by_corners.len())?;
         has_returned.resize(by_corners.len(), false);
+        keep_first_turns(&mut tracker.turned);
         tracker.touched.sort();
         for &index in tracker.touched.as_slice() {
             let Some((origin, returned)) = tracker.origin_of(index, corners, &by_corners) else { break };
             if let Some(k) = returned {
                 has_returned[k as usize] = true;
+                let before = tracker.before(origin, tracker.removed[k as usize].1);
+                memory::push(&mut self.turned, (index, before))?;
             }
             if origin == CellId::NONE {
                 self.created.push(index);
@@ -432,16 +461,33 @@ impl<C: Corners<VertexId>> Taken<C> {
                 self.renumbered_to.push(index);
             }
         }
-        keep_first_turns(&mut tracker.turned);
-        let turned = &tracker.turned;
+        self.list_turned(tracker, corners)?;
         for (k, &(origin, corners)) in tracker.removed.iter().enumerate() {
             if has_returned.get(k) == Some(&true) {
                 continue;
             }
-            let was_turned = turned.binary_search_by_key(&origin, |event| event.origin);
             self.removed.push(origin);
-            self.removed_corners.push(was_turned.map_or(corners, |k| turned[k].before));
+            self.removed_corners.push(tracker.before(origin, corners));
         }
+        Ok(())
+    }
+
+    /// Lists the cells that live and are turned over; those that have come back are there, turned over or not.
+    fn list_turned(&mut self, tracker: &Tracker<C>, corners: &[C]) -> Result<()> {
+        if !tracker.turned.is_empty() {
+            let (mut gone, mut moved) = (Vec::new(), Vec::new());
+            memory::collect(&mut gone, tracker.removed.iter().map(|&(origin, _)| origin))?;
+            gone.sort_unstable();
+            let renumbered = self.renumbered_from.iter().zip(&self.renumbered_to);
+            memory::collect(&mut moved, renumbered.map(|(&from, &to)| (from, to)))?;
+            moved.sort_unstable();
+            for event in tracker.turned.iter().filter(|event| gone.binary_search(&event.origin).is_err()) {
+                let found = moved.binary_search_by_key(&event.origin, |&(from, _)| from);
+                let index = found.map_or(event.origin, |k| moved[k].1);
+                memory::push(&mut self.turned, (index, event.before))?;
+            }
+        }
+        self.turned.retain(|(index, before)| is_odd(before, &corners[*index]));
         Ok(())
     }
 
@@ -466,6 +512,7 @@ impl<C: Corners<VertexId>> Taken<C> {
         let vertices = [&self.hidden, &self.shown];
         cells.map(memory::bytes_of).iter().chain(&vertices.map(memory::bytes_of)).sum::<usize>()
             + self.removed_corners.capacity() * size_of::<C>()
+            + self.turned.capacity() * size_of::<(CellId, C)>()
             + self.stars.memory_bytes()
     }
 }

@@ -1,0 +1,244 @@
+//! The transfer of means in a triangulation that is open.
+
+use super::overlap::{Place, centroid, plus};
+use super::{Arrived, Beyond, Facet, Gone, Meeting, TransferOrder, TransferReport, Transferred};
+use super::{is_turned_over, transfer};
+use crate::delaunay::Dimension;
+use crate::error::{Error, Result};
+use crate::ids::{CellId, VertexId};
+use crate::machine::memory;
+use crate::motion::state::cells::{Cells, NO_CELL};
+use crate::motion::state::changes::{Changes, NO_VERTEX};
+use crate::motion::state::checking::check_position;
+use crate::motion::triangulation::MovingTriangulation;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Brings means in cells over to the cells of now: conservative transfer of what a program knows of each cell, by the changes
+    /// that were [taken](Self::take_changes) last.
+    ///
+    /// `values` has `n_values` components for each cell that there was when changes were taken before, in the order of the
+    /// indices of then; afterwards for each cell that there is. A mean rides with its cell: what is kept is the sum of mean times
+    /// volume *at the positions of now*. A program that keeps content, not means, divides by the volumes of now before.
+    ///
+    /// `positions` has by id where the vertices of the cells that were are now, or where they were when they were removed: what
+    /// a program has that has committed them, before it reads those of new vertices. Where none of them has been removed it may be
+    /// none, for where they are.
+    ///
+    /// ```
+    /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options, TransferOrder}};
+    ///
+    /// let places = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [2.0, 2.0]];
+    /// let mut t = MovingTriangulation::<Plane>::new(&places, Options::default())?;
+    /// t.take_changes()?;
+    /// let mut heat = vec![1.0, 2.0, 3.0, 4.0];
+    /// t.remove_vertex(VertexId::new(4))?;
+    /// t.insert_vertex(&[1.0, 2.0])?;
+    /// t.take_changes()?;
+    /// let report = t.transfer_cells(Some(&places), TransferOrder::First, 1, &mut heat)?;
+    /// let content: f64 = heat.iter().zip(t.volumes()?).map(|(mean, volume)| mean * volume).sum();
+    /// assert!((content - 40.0).abs() < 1e-14 && report.lost[0].abs() < 1e-14);
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::ChangesNotTaken`] unless changes have been taken and none has come since, and where vertices of cells that are
+    /// gone have no id any more; [`Error::WrongCount`] unless there are as many values as there were cells;
+    /// [`Error::InvalidValue`] for a value that is needed and no number up to 10³⁰⁰ in magnitude; [`Error::RemovedVertex`] and
+    /// [`Error::NoSuchVertex`] for a vertex of which `positions` has none; [`Error::NotFinite`], [`Error::OutOfRange`],
+    /// [`Error::OutOfMemory`]. Then the values are as before.
+    pub fn transfer_cells(
+        &self,
+        positions: Option<&[G::Point]>,
+        order: TransferOrder,
+        n_values: usize,
+        values: &mut Vec<f64>,
+    ) -> Result<TransferReport> {
+        let (before, now) = (self.count_before()?, self.cell_count());
+        if Some(values.len()) != before.checked_mul(n_values) {
+            let (given, wanted) = (values.len(), before.saturating_mul(n_values));
+            return Err(Error::WrongCount { argument: "values", given, wanted, coming: 0 });
+        }
+        let known = |before: u32, c: usize| values[before as usize * n_values + c];
+        let made = self.transferred(positions, order, n_values, &known)?;
+        memory::lengthen(values, before.max(now) * n_values, 0.0)?;
+        made.tell(n_values, |entry, mean| values[entry] = mean);
+        values.truncate(now * n_values);
+        Ok(made.report)
+    }
+
+    /// How many cells there were when changes were taken before.
+    pub(crate) fn count_before(&self) -> Result<usize> {
+        let changes = self.fresh_changes()?.1;
+        Ok(self.cell_count() + changes.removed.len() - changes.created.len())
+    }
+
+    /// The lists that were taken last, and cells of now that were turned over, with how their rows were.
+    fn fresh_changes(&self) -> Result<(&Cells<G>, Changes<'_, G::Vertices>, &[(CellId, G::Vertices)])> {
+        let cells = self.cell_arrays()?;
+        let taken = self.taken.as_ref().filter(|_| cells.are_changes_taken()).ok_or(Error::ChangesNotTaken)?;
+        Ok((cells, taken.changes(), taken.turned()))
+    }
+
+    /// What becomes of means; `value` tells a component of that of a cell that was.
+    pub(crate) fn transferred(
+        &self,
+        positions: Option<&[G::Point]>,
+        order: TransferOrder,
+        n_values: usize,
+        value: &impl Fn(u32, usize) -> f64,
+    ) -> Result<Transferred> {
+        let (cells, changes, turned) = self.fresh_changes()?;
+        let mut lists = Lists { t: self, cells, changes, arrived: Vec::new(), gone: Vec::new() };
+        for (&cell, row) in changes.removed.iter().zip(changes.removed_corners) {
+            lists.enter(cell, row, |v| self.place_before(positions, v))?;
+        }
+        for (cell, row) in turned {
+            lists.enter(lists.before(*cell), row, |v| self.place_before(positions, v))?;
+        }
+        memory::append(&mut lists.arrived, changes.created)?;
+        turned.iter().try_for_each(|&(cell, _)| memory::push(&mut lists.arrived, cell))?;
+        if G::D == 2 {
+            lists.transfer::<2>(order, n_values, value)
+        } else {
+            lists.transfer::<3>(order, n_values, value)
+        }
+    }
+
+    /// Where a vertex of a cell that was is, or was at last.
+    fn place_before(&self, positions: Option<&[G::Point]>, v: VertexId) -> Result<Place> {
+        let (argument, index, vertex) = ("positions", v.index(), v);
+        let point = match positions {
+            _ if v == NO_VERTEX => return Err(Error::ChangesNotTaken),
+            Some(positions) => match positions.get(index) {
+                Some(point) => check_position::<G>(argument, index, point)?,
+                None => return Err(Error::NoSuchVertex { argument, index, vertex, ids: positions.len() }),
+            },
+            None if !self.mesh.is_present(v) => return Err(Error::RemovedVertex { argument, index, vertex }),
+            None => self.position(v)?,
+        };
+        Ok(place_of::<G>(&point))
+    }
+}
+
+fn place_of<G: Dimension>(point: &G::Point) -> Place {
+    let mut place = [0.0; 3];
+    place[..G::D].copy_from_slice(point.as_ref());
+    place
+}
+
+/// The cells that are gone and have come.
+struct Lists<'t, G: Dimension> {
+    t: &'t MovingTriangulation<G>,
+    cells: &'t Cells<G>,
+    changes: Changes<'t, G::Vertices>,
+    gone: Vec<Gone>,
+    /// Cells that have come, ascending once all are there.
+    arrived: Vec<CellId>,
+}
+
+impl<G: Dimension> Lists<'_, G> {
+    /// The index that a cell had.
+    fn before(&self, cell: CellId) -> CellId {
+        let found = self.changes.renumbered_to.binary_search(&cell);
+        found.map_or(cell, |k| self.changes.renumbered_from[k])
+    }
+
+    fn enter(
+        &mut self,
+        before: CellId,
+        row: &G::Vertices,
+        place: impl Fn(VertexId) -> Result<Place>,
+    ) -> Result<()> {
+        let mut corners = [[0.0; 3]; 4];
+        for (corner, &v) in corners.iter_mut().zip(row.as_ref()) {
+            *corner = place(v)?;
+        }
+        memory::push(&mut self.gone, Gone { corners, facets: facets_of(row.as_ref()), before: before.get() })
+    }
+
+    /// The corners of a cell of now.
+    fn corners(&self, cell: CellId) -> [Place; 4] {
+        let mut corners = [[0.0; 3]; 4];
+        let sites = self.cells.sites(&self.t.mesh.kernel, cell);
+        for (corner, site) in corners.iter_mut().zip(sites.as_ref()) {
+            *corner = place_of::<G>(&self.t.mesh.kernel.site(*site).point);
+        }
+        corners
+    }
+
+    /// Where a cell that is gone is turned over, cells that live and that it meets are both gone and come.
+    fn enter_met<const D: usize>(&mut self) -> Result<()> {
+        self.arrived.sort_unstable();
+        let mut turned_over = Vec::new();
+        memory::collect(&mut turned_over, self.gone.iter().copied().filter(is_turned_over::<D>))?;
+        if turned_over.is_empty() {
+            return Ok(());
+        }
+        let (meeting, n) = (meeting::<D>(&turned_over)?, self.arrived.len());
+        for cell in CellId::range(0..self.cells.corners().len()) {
+            let corners = self.corners(cell);
+            if self.arrived[..n].binary_search(&cell).is_err() && meeting.meets::<D>(&corners)? {
+                let facets = facets_of(self.cells.corners()[cell].as_ref());
+                let before = self.before(cell).get();
+                memory::push(&mut self.gone, Gone { corners, facets, before })?;
+                memory::push(&mut self.arrived, cell)?;
+            }
+        }
+        self.arrived.sort_unstable();
+        Ok(())
+    }
+
+    fn beyond<const D: usize>(&self, cell: CellId) -> [Beyond; 4] {
+        let mut beyond = [Beyond::Nothing; 4];
+        for (entry, &other) in beyond.iter_mut().zip(self.cells.neighbours()[cell].as_ref()) {
+            *entry = match self.arrived.binary_search(&other) {
+                _ if other == NO_CELL => Beyond::Nothing,
+                Ok(k) => Beyond::Arrived(k as u32),
+                Err(_) => {
+                    let corners = self.corners(other);
+                    let centre = plus(&corners[0], &centroid::<D>(&corners));
+                    Beyond::Living { before: self.before(other).get(), centre }
+                }
+            };
+        }
+        beyond
+    }
+
+    fn transfer<const D: usize>(
+        mut self,
+        order: TransferOrder,
+        n_values: usize,
+        value: &impl Fn(u32, usize) -> f64,
+    ) -> Result<Transferred> {
+        self.enter_met::<D>()?;
+        let mut arrived = Vec::new();
+        memory::collect(&mut arrived, self.arrived.iter().map(|&cell| Arrived {
+            index: cell,
+            corners: self.corners(cell),
+            facets: facets_of(self.cells.corners()[cell].as_ref()),
+            beyond: self.beyond::<D>(cell),
+        }))?;
+        let renumbered = [self.changes.renumbered_from, self.changes.renumbered_to];
+        transfer::<D>(meeting::<D>(&self.gone)?, &arrived, renumbered, order, n_values, value)
+    }
+}
+
+fn meeting<const D: usize>(gone: &[Gone]) -> Result<Meeting<'_>> {
+    let mut copies = Vec::new();
+    memory::collect(&mut copies, (0..gone.len() as u32).map(|k| (k, [0.0; 3])))?;
+    Meeting::of::<D>(gone, copies)
+}
+
+/// The facets of a cell, by the vertices of each in the order of their ids.
+fn facets_of(row: &[VertexId]) -> [Facet; 4] {
+    let mut facets = [Facet::default(); 4];
+    for (k, facet) in facets.iter_mut().enumerate().take(row.len()) {
+        let mut others = [(VertexId::NONE, 0); 3];
+        let on_facet = row.iter().zip(0..).filter(|&(_, i)| usize::from(i) != k);
+        others.iter_mut().zip(on_facet).for_each(|(entry, (&v, i))| *entry = (v, i));
+        others[..row.len() - 1].sort_unstable();
+        let name = others.iter().fold(0, |name, (v, _)| name << 32 | u128::from(v.get()));
+        *facet = Facet { name, anchor: others[0].1 };
+    }
+    facets
+}
