@@ -62,6 +62,7 @@ pub(crate) use reading::query::cells_at;
 pub use reading::saving::Saved;
 pub(crate) use reading::saving::header::Beginning;
 pub(crate) use reading::saving::reader::Reader;
+pub(crate) use reading::transfer::{Extent, Facet, Gone, Now, Transferred, transfer};
 pub use reading::transfer::{TransferOrder, TransferReport};
 pub use report::{CommitReport, QualityReport, SplitReport, VertexWeights};
 pub use state::cells::{NO_CELL, NO_CORNER, OwnedCells};

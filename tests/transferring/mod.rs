@@ -2,6 +2,7 @@
 //!
 //! `DELDRIFT_SOAK` multiplies the number of seeds.
 
+mod boxes;
 mod exact;
 
 use crate::common::{Rng, point, seeds, vertex};

@@ -9,15 +9,15 @@ use crate::machine::memory;
 
 /// A box.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Extent {
-    low: Place,
-    high: Place,
+pub(crate) struct Extent {
+    pub(crate) low: Place,
+    pub(crate) high: Place,
 }
 
 impl Extent {
     const NOTHING: Self = Extent { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
 
-    pub(super) fn of(places: &[Place]) -> Self {
+    pub(crate) fn of(places: &[Place]) -> Self {
         let mut all = Self::NOTHING;
         places.iter().for_each(|place| all.enter(&Extent { low: *place, high: *place }));
         all
@@ -30,7 +30,7 @@ impl Extent {
         }
     }
 
-    pub(super) fn meets(&self, other: &Self) -> bool {
+    pub(crate) fn meets(&self, other: &Self) -> bool {
         (0..3).all(|j| self.low[j] <= other.high[j] && other.low[j] <= self.high[j])
     }
 

@@ -37,15 +37,19 @@
 
 mod beside;
 mod boxes;
+mod change;
 mod means;
 mod open;
 mod overlap;
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::ids::CellId;
 use crate::machine::memory;
-use boxes::{Boxes, Extent};
-use overlap::{Facets, Overlap, Place, centroid, error_of_volume, extent, minus, plus, volume};
+use boxes::Boxes;
+pub(crate) use boxes::Extent;
+pub(crate) use change::{Now, transfer};
+pub(crate) use overlap::Place;
+use overlap::{Facets, Overlap, centroid, error_of_volume, extent, minus, plus, volume};
 
 /// How much of a function means are transferred with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -153,7 +157,7 @@ struct Overlay<'a> {
 }
 
 /// Cells that are gone, to be met.
-pub(crate) struct Meeting<'a> {
+struct Meeting<'a> {
     gone: &'a [Gone],
     /// Where each of them is: its number, and by how much it is translated.
     copies: Vec<(u32, Place)>,
@@ -162,7 +166,7 @@ pub(crate) struct Meeting<'a> {
 
 impl<'a> Meeting<'a> {
     /// That of some cells with their translations.
-    pub(crate) fn of<const D: usize>(gone: &'a [Gone], copies: Vec<(u32, Place)>) -> Result<Self> {
+    fn of<const D: usize>(gone: &'a [Gone], copies: Vec<(u32, Place)>) -> Result<Self> {
         let mut extents = Vec::new();
         memory::collect(&mut extents, copies.iter().map(|&(k, offset)| {
             let corners = gone[k as usize].corners.map(|corner| plus(&corner, &offset));
@@ -190,7 +194,7 @@ impl<'a> Meeting<'a> {
     }
 
     /// Whether a cell meets any of them.
-    pub(crate) fn meets<const D: usize>(&self, corners: &[Place; 4]) -> Result<bool> {
+    fn meets<const D: usize>(&self, corners: &[Place; 4]) -> Result<bool> {
         let mut is_met = false;
         self.for_each::<D>(corners, &mut |_, _, found, _| {
             is_met |= found.share != 0.0;
@@ -224,39 +228,6 @@ impl<'a> Meeting<'a> {
     }
 }
 
-/// Whether a cell that is gone is turned over at the new positions.
-pub(crate) fn is_turned_over<const D: usize>(cell: &Gone) -> bool {
-    Facets::of::<D>(&cell.corners).determinant < 0.0
-}
-
-/// Transfers means; `renumbered` are the cells that live and have other indices, of before and now, and `value` tells a component
-/// of the mean of a cell that was.
-pub(crate) fn transfer<const D: usize>(
-    meeting: Meeting<'_>,
-    arrived: &[Arrived],
-    [from, to]: [&[CellId]; 2],
-    order: TransferOrder,
-    n_values: usize,
-    value: &impl Fn(u32, usize) -> f64,
-) -> Result<Transferred> {
-    let gone = meeting.gone.iter().map(|cell| cell.before);
-    let living = arrived.iter().flat_map(|cell| &cell.beyond).filter_map(|beyond| match beyond {
-        Beyond::Living { before, .. } => Some(*before),
-        _ => None,
-    });
-    for before in gone.chain(living) {
-        (0..n_values).try_for_each(|c| check_value(before as usize * n_values + c, value(before, c)))?;
-    }
-    let mut made = meeting.overlay::<D>(arrived)?.transfer::<D>(order, n_values, value)?;
-    memory::append(&mut made.cells, to)?;
-    memory::reserve(&mut made.means, to.len() * n_values)?;
-    // A cell that counts as come may have another index as well: then the last entry, with what has come of it, is in force.
-    from.iter().for_each(|cell| made.means.extend((0..n_values).map(|c| value(cell.get(), c))));
-    made.cells.rotate_right(to.len());
-    made.means.rotate_right(to.len() * n_values);
-    Ok(made)
-}
-
 impl Transferred {
     /// Tells which entry of an array of means becomes what.
     pub(crate) fn tell(&self, n_values: usize, mut tell: impl FnMut(usize, f64)) {
@@ -264,12 +235,4 @@ impl Transferred {
             (0..n_values).for_each(|c| tell(cell.index() * n_values + c, row[c]));
         }
     }
-}
-
-/// A value must be a number that can be calculated with: sums and differences of some are finite.
-fn check_value(index: usize, value: f64) -> Result<()> {
-    if value.abs() <= 1e300 {
-        return Ok(());
-    }
-    Err(Error::InvalidValue { argument: "values", index, value, wanted: "a number up to 1e300 in magnitude" })
 }

@@ -1,8 +1,9 @@
 //! The transfer of means in a triangulation that is open.
 
-use super::overlap::{Place, centroid, plus};
-use super::{Arrived, Beyond, Facet, Gone, Meeting, TransferOrder, TransferReport, Transferred};
-use super::{is_turned_over, transfer};
+use super::boxes::Extent;
+use super::change::{Now, transfer};
+use super::overlap::Place;
+use super::{Facet, Gone, TransferOrder, TransferReport, Transferred};
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
@@ -88,20 +89,22 @@ impl<G: Dimension> MovingTriangulation<G> {
         value: &impl Fn(u32, usize) -> f64,
     ) -> Result<Transferred> {
         let (cells, changes, turned) = self.fresh_changes()?;
-        let mut lists = Lists { t: self, cells, changes, arrived: Vec::new(), gone: Vec::new() };
-        for (&cell, row) in changes.removed.iter().zip(changes.removed_corners) {
-            lists.enter(cell, row, |v| self.place_before(positions, v))?;
+        let place = |v| self.place_before(positions, v);
+        let now = Open { t: self, cells, changes };
+        let (mut gone, mut arrived) = (Vec::new(), Vec::new());
+        let turned_rows = turned.iter().map(|(cell, row)| (now.before(*cell), row));
+        for (before, row) in changes.removed.iter().copied().zip(changes.removed_corners).chain(turned_rows) {
+            let mut corners = [[0.0; 3]; 4];
+            for (corner, &v) in corners.iter_mut().zip(row.as_ref()) {
+                *corner = place(v)?;
+            }
+            let facets = facets_of(row.as_ref());
+            memory::push(&mut gone, Gone { corners, facets, before: before.get() })?;
         }
-        for (cell, row) in turned {
-            lists.enter(lists.before(*cell), row, |v| self.place_before(positions, v))?;
-        }
-        memory::append(&mut lists.arrived, changes.created)?;
-        turned.iter().try_for_each(|&(cell, _)| memory::push(&mut lists.arrived, cell))?;
-        if G::D == 2 {
-            lists.transfer::<2>(order, n_values, value)
-        } else {
-            lists.transfer::<3>(order, n_values, value)
-        }
+        memory::append(&mut arrived, changes.created)?;
+        turned.iter().try_for_each(|&(cell, _)| memory::push(&mut arrived, cell))?;
+        let renumbered = [changes.renumbered_from, changes.renumbered_to];
+        transfer(&now, gone, arrived, renumbered, order, n_values, value)
     }
 
     /// Where a vertex of a cell that was is, or was at last.
@@ -126,37 +129,25 @@ fn place_of<G: Dimension>(point: &G::Point) -> Place {
     place
 }
 
-/// The cells that are gone and have come.
-struct Lists<'t, G: Dimension> {
+/// The cells of now.
+struct Open<'t, G: Dimension> {
     t: &'t MovingTriangulation<G>,
     cells: &'t Cells<G>,
     changes: Changes<'t, G::Vertices>,
-    gone: Vec<Gone>,
-    /// Cells that have come, ascending once all are there.
-    arrived: Vec<CellId>,
 }
 
-impl<G: Dimension> Lists<'_, G> {
-    /// The index that a cell had.
+impl<G: Dimension> Now for Open<'_, G> {
+    const D: usize = G::D;
+
+    fn len(&self) -> usize {
+        self.cells.corners().len()
+    }
+
     fn before(&self, cell: CellId) -> CellId {
         let found = self.changes.renumbered_to.binary_search(&cell);
         found.map_or(cell, |k| self.changes.renumbered_from[k])
     }
 
-    fn enter(
-        &mut self,
-        before: CellId,
-        row: &G::Vertices,
-        place: impl Fn(VertexId) -> Result<Place>,
-    ) -> Result<()> {
-        let mut corners = [[0.0; 3]; 4];
-        for (corner, &v) in corners.iter_mut().zip(row.as_ref()) {
-            *corner = place(v)?;
-        }
-        memory::push(&mut self.gone, Gone { corners, facets: facets_of(row.as_ref()), before: before.get() })
-    }
-
-    /// The corners of a cell of now.
     fn corners(&self, cell: CellId) -> [Place; 4] {
         let mut corners = [[0.0; 3]; 4];
         let sites = self.cells.sites(&self.t.mesh.kernel, cell);
@@ -166,67 +157,20 @@ impl<G: Dimension> Lists<'_, G> {
         corners
     }
 
-    /// Where a cell that is gone is turned over, cells that live and that it meets are both gone and come.
-    fn enter_met<const D: usize>(&mut self) -> Result<()> {
-        self.arrived.sort_unstable();
-        let mut turned_over = Vec::new();
-        memory::collect(&mut turned_over, self.gone.iter().copied().filter(is_turned_over::<D>))?;
-        if turned_over.is_empty() {
-            return Ok(());
-        }
-        let (meeting, n) = (meeting::<D>(&turned_over)?, self.arrived.len());
-        for cell in CellId::range(0..self.cells.corners().len()) {
-            let corners = self.corners(cell);
-            if self.arrived[..n].binary_search(&cell).is_err() && meeting.meets::<D>(&corners)? {
-                let facets = facets_of(self.cells.corners()[cell].as_ref());
-                let before = self.before(cell).get();
-                memory::push(&mut self.gone, Gone { corners, facets, before })?;
-                memory::push(&mut self.arrived, cell)?;
-            }
-        }
-        self.arrived.sort_unstable();
-        Ok(())
+    fn facets(&self, cell: CellId) -> [Facet; 4] {
+        facets_of(self.cells.corners()[cell].as_ref())
     }
 
-    fn beyond<const D: usize>(&self, cell: CellId) -> [Beyond; 4] {
-        let mut beyond = [Beyond::Nothing; 4];
-        for (entry, &other) in beyond.iter_mut().zip(self.cells.neighbours()[cell].as_ref()) {
-            *entry = match self.arrived.binary_search(&other) {
-                _ if other == NO_CELL => Beyond::Nothing,
-                Ok(k) => Beyond::Arrived(k as u32),
-                Err(_) => {
-                    let corners = self.corners(other);
-                    let centre = plus(&corners[0], &centroid::<D>(&corners));
-                    Beyond::Living { before: self.before(other).get(), centre }
-                }
-            };
-        }
-        beyond
+    fn beyond(&self, cell: CellId, corner: usize) -> Option<(CellId, Place)> {
+        let other = self.cells.neighbours()[cell].as_ref()[corner];
+        (other != NO_CELL).then_some((other, [0.0; 3]))
     }
 
-    fn transfer<const D: usize>(
-        mut self,
-        order: TransferOrder,
-        n_values: usize,
-        value: &impl Fn(u32, usize) -> f64,
-    ) -> Result<Transferred> {
-        self.enter_met::<D>()?;
-        let mut arrived = Vec::new();
-        memory::collect(&mut arrived, self.arrived.iter().map(|&cell| Arrived {
-            index: cell,
-            corners: self.corners(cell),
-            facets: facets_of(self.cells.corners()[cell].as_ref()),
-            beyond: self.beyond::<D>(cell),
-        }))?;
-        let renumbered = [self.changes.renumbered_from, self.changes.renumbered_to];
-        transfer::<D>(meeting::<D>(&self.gone)?, &arrived, renumbered, order, n_values, value)
+    fn copies(&self, gone: &[Gone], _within: &Extent) -> Result<Vec<(u32, Place)>> {
+        let mut copies = Vec::new();
+        memory::collect(&mut copies, (0..gone.len() as u32).map(|k| (k, [0.0; 3])))?;
+        Ok(copies)
     }
-}
-
-fn meeting<const D: usize>(gone: &[Gone]) -> Result<Meeting<'_>> {
-    let mut copies = Vec::new();
-    memory::collect(&mut copies, (0..gone.len() as u32).map(|k| (k, [0.0; 3])))?;
-    Meeting::of::<D>(gone, copies)
 }
 
 /// The facets of a cell, by the vertices of each in the order of their ids.

@@ -16,7 +16,7 @@
 //! computed, and at most 8δ in fact. Shares are rounded in each cut, which is less than 256 ε of a volume up to Fⁿ.
 
 /// Places have three coordinates in either dimension; the last one is 0 in the plane.
-pub(super) type Place = [f64; 3];
+pub(crate) type Place = [f64; 3];
 
 /// By how many ε (E + F) Fⁿ⁻¹ a volume in common may be off.
 const BOUND: f64 = 1536.0;
