@@ -36,7 +36,13 @@ pub(super) struct Base<G: Dimension> {
 impl<G: Dimension> Base<G> {
     /// That of a box in which no cell has been told yet.
     pub(super) fn none() -> Self {
-        Base { corners: Vec::new(), index_of: HashMap::default(), is_odd: Vec::new(), hidden: Vec::new(), lattice: None }
+        Base {
+            corners: Vec::new(),
+            index_of: HashMap::default(),
+            is_odd: Vec::new(),
+            hidden: Vec::new(),
+            lattice: None,
+        }
     }
 
     /// A copy in which vertices have other ids, listed by the old ones; those that have none any more are in no cell of now.

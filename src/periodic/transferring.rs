@@ -5,7 +5,9 @@ use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
-use crate::motion::{Extent, Facet, Gone, NO_CELL, Now, TransferOrder, TransferReport, Transferred, transfer};
+use crate::motion::{
+    Extent, Facet, Gone, NO_CELL, Now, TransferOrder, TransferReport, Transferred, transfer,
+};
 use crate::periodic::cells::PeriodicCells;
 use crate::periodic::changes::Lists;
 use crate::periodic::triangulation::PeriodicTriangulation;
@@ -189,7 +191,9 @@ impl<G: Dimension> Now for Repeating<'_, G> {
         for (k, cell) in (0..).zip(gone) {
             let extent = Extent::of(&cell.corners[..=G::D]);
             let mut ranges = [(0, 0); 3];
-            for (j, (own, other)) in multiples(&extent).into_iter().zip(all).enumerate().take(self.t.lattice.rank()) {
+            for (j, (own, other)) in
+                multiples(&extent).into_iter().zip(all).enumerate().take(self.t.lattice.rank())
+            {
                 // One period more at both ends, as multiples are rounded.
                 ranges[j] = ((other.0 - own.1).floor() as i64, (other.1 - own.0).ceil() as i64);
                 let periods = ranges[j].1.saturating_sub(ranges[j].0);
@@ -230,7 +234,8 @@ fn facets_of(row: &[(VertexId, [i64; 3])]) -> [Facet; 4] {
         for ((v, shift), _) in &*others {
             let numbers = [i64::from(v.get()), shift[0] - first[0], shift[1] - first[1], shift[2] - first[2]];
             for number in numbers {
-                name = (name.rotate_left(41) ^ number as u128).wrapping_mul(0x9e37_79b9_7f4a_7c15_f39c_c060_5ced_c835);
+                name = (name.rotate_left(41) ^ number as u128)
+                    .wrapping_mul(0x9e37_79b9_7f4a_7c15_f39c_c060_5ced_c835);
             }
         }
         *facet = Facet { name, anchor };

@@ -12,7 +12,15 @@ fn history<G: Dimension>(seed: u64, n: usize, steps: usize) -> usize {
     let order = if rng.one_in(2) { TransferOrder::First } else { TransferOrder::Second };
     let (way, skew) = (*rng.pick(&[0.02, 0.1, 0.5]), rng.below(3) as f64 * 0.3);
     let vectors = |strain: f64| -> Vec<G::Point> {
-        let entry = |j: usize, k: usize| if j == k { 1.0 + strain } else if j > k { skew } else { 0.0 };
+        let entry = |j: usize, k: usize| {
+            if j == k {
+                1.0 + strain
+            } else if j > k {
+                skew
+            } else {
+                0.0
+            }
+        };
         (0..G::D).map(|j| point::<G>(|k| entry(j, k))).collect()
     };
     let mut places: Vec<G::Point> = (0..n).map(|_| point::<G>(|_| rng.unit())).collect();
@@ -61,7 +69,8 @@ fn history<G: Dimension>(seed: u64, n: usize, steps: usize) -> usize {
         let contents = [report.lost[1], report.gained[1]].map(f64::abs);
         assert!(contents.iter().all(|&x| x <= 4.0 * report.volume_error), "{name}, step {step}: {report:?}");
         if report.turned_over == 0 {
-            let fold = |values: &[f64], f: fn(f64, f64) -> f64| values.iter().skip(1).step_by(2).copied().reduce(f);
+            let fold =
+                |values: &[f64], f: fn(f64, f64) -> f64| values.iter().skip(1).step_by(2).copied().reduce(f);
             assert!(fold(&values, f64::min) >= fold(&before, f64::min), "{name}, step {step}: a new minimum");
             assert!(fold(&values, f64::max) <= fold(&before, f64::max), "{name}, step {step}: a new maximum");
         }

@@ -107,10 +107,8 @@ fn determinant(rows: &[Vec<Ratio>]) -> Ratio {
 
 /// Twice the area, or six times the volume, with its sign.
 pub fn volume(corners: &[Place]) -> Ratio {
-    let rows: Vec<Vec<Ratio>> = corners[1..]
-        .iter()
-        .map(|p| p.iter().zip(&corners[0]).map(|(x, y)| x - y).collect())
-        .collect();
+    let rows: Vec<Vec<Ratio>> =
+        corners[1..].iter().map(|p| p.iter().zip(&corners[0]).map(|(x, y)| x - y).collect()).collect();
     determinant(&rows)
 }
 

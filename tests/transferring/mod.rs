@@ -4,6 +4,7 @@
 
 mod boxes;
 mod exact;
+mod orders;
 
 use crate::common::{Rng, point, seeds, vertex};
 use deldrift::motion::{MovingTriangulation, Options, TransferOrder, TransferReport};
@@ -135,7 +136,8 @@ impl<G: Dimension> History<G> {
     /// Volumes of the cells that were, at the new positions, with their signs.
     fn volumes_before(&self) -> Vec<f64> {
         let signed = |row: &G::Vertices| {
-            let corners: Vec<_> = row.as_ref().iter().map(|v| place(self.places[v.index()].as_ref())).collect();
+            let corners: Vec<_> =
+                row.as_ref().iter().map(|v| place(self.places[v.index()].as_ref())).collect();
             volume(&corners).value() / if G::D == 2 { 2.0 } else { 6.0 }
         };
         self.rows.iter().map(signed).collect()
@@ -149,7 +151,8 @@ impl<G: Dimension> History<G> {
         self.t.take_changes().expect("room");
         let before = self.values.clone();
         let places = self.places[..n_ids].to_vec();
-        let report = self.t.transfer_cells(Some(&places), self.order, N, &mut self.values).expect("a transfer");
+        let report =
+            self.t.transfer_cells(Some(&places), self.order, N, &mut self.values).expect("a transfer");
         counts.takes += 1;
         counts.turned_over += report.turned_over;
         counts.uncovered += report.uncovered;
@@ -176,9 +179,11 @@ impl<G: Dimension> History<G> {
             let all: f64 = volumes_before.iter().chain(&volumes).map(|v| v.abs()).sum();
             let room = 2.0 * greatest * (report.volume_error + 1e-14 * all);
             assert!((is - was).abs() <= room, "{}: component {c}: {is} for {was}, {report:?}", self.name);
-            let [low, high] = before.iter().skip(c).step_by(N).fold([f64::MAX, f64::MIN], |[low, high], &x| {
-                [low.min(x), high.max(x)]
-            });
+            let [low, high] = before
+                .iter()
+                .skip(c)
+                .step_by(N)
+                .fold([f64::MAX, f64::MIN], |[low, high], &x| [low.min(x), high.max(x)]);
             if report.turned_over == 0 && !before.is_empty() {
                 let are_within = self.values.iter().skip(c).step_by(N).all(|&x| low <= x && x <= high);
                 assert!(are_within, "{}: component {c} has new extremes: {low} to {high}", self.name);

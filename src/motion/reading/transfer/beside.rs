@@ -96,9 +96,9 @@ impl Besides {
         &self.list[self.first[k as usize] as usize..self.first[k as usize + 1] as usize]
     }
 
-    /// Where the values of the neighbours of a cell are.
-    pub(super) fn values_of(&self, k: usize) -> impl Iterator<Item = u32> + '_ {
-        self.of_one(k as u32).iter().map(|neighbour| neighbour.before)
+    /// Tells where the values of the neighbours of a cell are, and of theirs.
+    pub(super) fn for_values(&self, k: u32, mut tell: impl FnMut(u32)) {
+        self.for_each(k, true, |_, before| tell(before));
     }
 
     /// Neighbours whose means a gradient is fitted to: those of a cell, and where `are_more`, those of these.

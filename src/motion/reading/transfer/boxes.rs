@@ -60,12 +60,9 @@ impl Boxes {
         let n = extents.len();
         let mut order = Vec::new();
         memory::collect(&mut order, 0..n as u32)?;
-        let mut n_nodes = 1;
-        while (n_nodes + 1) / 2 * LEAF < n {
-            n_nodes = 2 * n_nodes + 1;
-        }
+        let n_leaves = n.div_ceil(LEAF).next_power_of_two();
         let mut nodes = Vec::new();
-        memory::lengthen(&mut nodes, n_nodes, Extent::NOTHING)?;
+        memory::lengthen(&mut nodes, 2 * n_leaves - 1, Extent::NOTHING)?;
         let mut tree = Boxes { extents, order, nodes };
         tree.divide(0, 0, n);
         Ok(tree)
@@ -82,7 +79,8 @@ impl Boxes {
         let (half, j) = ((to - from) / 2, all.longest_side());
         let middle = |k: &u32| extents[*k as usize].middle(j);
         if to > from {
-            order[from..to].select_nth_unstable_by(half, |a, b| middle(a).total_cmp(&middle(b)).then(a.cmp(b)));
+            order[from..to]
+                .select_nth_unstable_by(half, |a, b| middle(a).total_cmp(&middle(b)).then(a.cmp(b)));
         }
         self.divide(2 * node + 1, from, from + half);
         self.divide(2 * node + 2, from + half, to);

@@ -209,7 +209,8 @@ impl Overlay<'_> {
                 range = [range[0].min(there), range[1].max(there)];
             }
             let low = middle + sum / cover.whole;
-            (work.low[i], work.range[i]) = (if cover.is_signed { low } else { low.max(range[0]).min(range[1]) }, range);
+            (work.low[i], work.range[i]) =
+                (if cover.is_signed { low } else { low.max(range[0]).min(range[1]) }, range);
         }
         if let Some((besides, fits)) = gradients {
             self.add_gradients(covers, besides, fits, work, value);
@@ -255,9 +256,10 @@ impl Overlay<'_> {
             for k in cover.pairs.clone() {
                 let added = work.added[k];
                 sums[usize::from(added < 0.0)] += added.abs();
-                for there in besides.values_of(self.pairs[k].gone as usize).map(value) {
+                besides.for_values(self.pairs[k].gone, |before| {
+                    let there = value(before);
                     (*low, *high) = (low.min(there), high.max(there));
-                }
+                });
             }
             let mean = work.low[i];
             let share = |room: f64, sum: f64| if sum > room { room / sum } else { 1.0 };

@@ -13,10 +13,10 @@
 //!   positions, less what is told as lost, and with what is told as gained, but for the rounding of sums.
 //! - What is lost and gained is 0 where the regions are the same, but for rounding (see `overlap`).
 //! - A constant stays, to the last bit: means are differences from one of those that a cell meets.
-//! - But where a cell that is turned over is met, no mean is beyond those of the cells that it comes from and of the neighbours
-//!   of these; of the first order, of the cells that it comes from.
-//! - Linear functions are reproduced but for rounding, of the second order, where gradients are known (`beside`) and the mean
-//!   is not beyond those of the neighbourhood, as it may be at the hull.
+//! - But where a cell that is turned over is met, no mean is beyond those of the cells that it comes from, and of the second
+//!   order of the neighbours of these, and of theirs.
+//! - Linear functions are reproduced but for rounding, of the second order, where gradients are known (`beside`) and no part that
+//!   cells have in common has a mean beyond that range, as one may at the hull.
 //!
 //! # Order 2
 //! A mean m of a cell becomes m + a g · (x - c), with the gradient g fitted to neighbours and c the centroid, which does not change
@@ -129,7 +129,10 @@ pub(crate) enum Beyond {
     /// Another one of them, by its number.
     Arrived(u32),
     /// A cell that lives: its index before, and its centroid as seen from here.
-    Living { before: u32, centre: Place },
+    Living {
+        before: u32,
+        centre: Place,
+    },
 }
 
 /// Two cells that have something in common.
@@ -168,10 +171,13 @@ impl<'a> Meeting<'a> {
     /// That of some cells with their translations.
     fn of<const D: usize>(gone: &'a [Gone], copies: Vec<(u32, Place)>) -> Result<Self> {
         let mut extents = Vec::new();
-        memory::collect(&mut extents, copies.iter().map(|&(k, offset)| {
-            let corners = gone[k as usize].corners.map(|corner| plus(&corner, &offset));
-            Extent::of(&corners[..=D])
-        }))?;
+        memory::collect(
+            &mut extents,
+            copies.iter().map(|&(k, offset)| {
+                let corners = gone[k as usize].corners.map(|corner| plus(&corner, &offset));
+                Extent::of(&corners[..=D])
+            }),
+        )?;
         Ok(Meeting { gone, copies, boxes: Boxes::new(extents)? })
     }
 

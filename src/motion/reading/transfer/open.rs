@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::state::cells::{Cells, NO_CELL};
-use crate::motion::state::changes::{Changes, NO_VERTEX};
+use crate::motion::state::changes::{Changes, NO_VERTEX, Taken};
 use crate::motion::state::checking::check_position;
 use crate::motion::triangulation::MovingTriangulation;
 
@@ -46,7 +46,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// gone have no id any more; [`Error::WrongCount`] unless there are as many values as there were cells;
     /// [`Error::InvalidValue`] for a value that is needed and no number up to 10³⁰⁰ in magnitude; [`Error::RemovedVertex`] and
     /// [`Error::NoSuchVertex`] for a vertex of which `positions` has none; [`Error::NotFinite`], [`Error::OutOfRange`],
-    /// [`Error::OutOfMemory`]. Then the values are as before.
+    /// [`Error::Prepared`], [`Error::OutOfMemory`]. Then the values are as before.
     pub fn transfer_cells(
         &self,
         positions: Option<&[G::Point]>,
@@ -69,15 +69,17 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// How many cells there were when changes were taken before.
     pub(crate) fn count_before(&self) -> Result<usize> {
-        let changes = self.fresh_changes()?.1;
+        let changes = self.fresh_lists()?.1.changes();
         Ok(self.cell_count() + changes.removed.len() - changes.created.len())
     }
 
-    /// The lists that were taken last, and cells of now that were turned over, with how their rows were.
-    fn fresh_changes(&self) -> Result<(&Cells<G>, Changes<'_, G::Vertices>, &[(CellId, G::Vertices)])> {
+    /// The cells, and the lists that were taken last.
+    fn fresh_lists(&self) -> Result<(&Cells<G>, &Taken<G::Vertices>)> {
+        self.reject_prepared()?;
         let cells = self.cell_arrays()?;
-        let taken = self.taken.as_ref().filter(|_| cells.are_changes_taken()).ok_or(Error::ChangesNotTaken)?;
-        Ok((cells, taken.changes(), taken.turned()))
+        let taken =
+            self.taken.as_ref().filter(|_| cells.are_changes_taken()).ok_or(Error::ChangesNotTaken)?;
+        Ok((cells, taken))
     }
 
     /// What becomes of means; `value` tells a component of that of a cell that was.
@@ -88,7 +90,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         n_values: usize,
         value: &impl Fn(u32, usize) -> f64,
     ) -> Result<Transferred> {
-        let (cells, changes, turned) = self.fresh_changes()?;
+        let (cells, taken) = self.fresh_lists()?;
+        let (changes, turned) = (taken.changes(), taken.turned());
         let place = |v| self.place_before(positions, v);
         let now = Open { t: self, cells, changes };
         let (mut gone, mut arrived) = (Vec::new(), Vec::new());
