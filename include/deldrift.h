@@ -255,8 +255,7 @@ enum
     DELDRIFT_PERIODIC = 38,
     /// The vectors of a periodic box depend on each other, or nearly so, or are more than there are axes.
     DELDRIFT_DEPENDENT_VECTORS = 39,
-    /// The call needs the lists of the latest deldrift_take_changes, and something has changed since, or ids are not those of
-    /// then.
+    /// The call needs the lists of the latest deldrift_take_changes, and cells have changed since, or ids are not those of then.
     DELDRIFT_CHANGES_NOT_TAKEN = 40,
 };
 #ifndef __cplusplus
@@ -1530,15 +1529,15 @@ deldrift_status deldrift_take_changes(deldrift_triangulation *t,
 /// avoid it. A cell of now that was turned over since is gone as it was, and has come.
 ///
 /// With the second order, what gradients add is limited for each cell by what its new mean may be: no less and no more than the
-/// cells that it comes from and their neighbours have. Gradients are fitted to the means of neighbours. Linear functions are kept
-/// but for rounding where that does not limit them, as it may at the hull.
+/// cells that it comes from have, their neighbours, and the neighbours of these. Gradients are fitted to the means of neighbours.
+/// Linear functions are kept but for rounding where that does not limit them, as it may at the hull.
 ///
 /// Cost: n log n for n cells in the list of changes and what they have in common, times n_values; if one of them is turned
 /// over, also m; in a periodic triangulation also n + m.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for an order
 /// that there is not, for a value that is used and is no number or a greater one, and for positions that take a cell through more
-/// than 64 periods, DELDRIFT_CHANGES_NOT_TAKEN if anything has changed since the latest deldrift_take_changes, if there was
+/// than 64 periods, DELDRIFT_CHANGES_NOT_TAKEN if cells have changed since the latest deldrift_take_changes, if there was
 /// none, or if ids have been given anew since the one before, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_NO_SUCH_VERTEX for a vertex
 /// beyond position_count, DELDRIFT_REMOVED_VERTEX for one where positions are NULL, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
 /// DELDRIFT_PREPARED, DELDRIFT_OUT_OF_MEMORY; then nothing is written.

@@ -72,8 +72,8 @@ class Transferring(Core):
         >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 4], [0, 4], [2, 2]])
         >>> changes = tri.changes()
         >>> heat = np.array([1.0, 2.0, 3.0, 4.0])
-        >>> heat @ tri.volumes()
-        np.float64(40.0)
+        >>> float(heat @ tri.volumes())
+        40.0
         >>> before = tri.points
         >>> tri.remove(4)
         >>> new = tri.insert([1, 2])
