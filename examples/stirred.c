@@ -1,5 +1,5 @@
-// Dye in a square that is stirred: a mean for each triangle of a mesh that is coarsened and refined at every step. No dye is
-// lost, and nowhere is more of it than there was.
+// Dye in a square that is stirred: a mean for each triangle of a mesh that is coarsened and refined at every step. No
+// dye is lost, and nowhere is more of it than there was.
 //
 //   cc examples/stirred.c -Iinclude target/release/libdeldrift.a -lm -lpthread -ldl -o stirred && ./stirred
 #include <deldrift.h>
@@ -31,8 +31,8 @@ static double content(const deldrift_triangulation *t, double *least, double *gr
     return sum;
 }
 
-// A mean rides with its triangle. What a triangle of another area has then is what its mean says: the flow keeps areas but for
-// what a step of some length does to triangles of some size.
+// A mean rides with its triangle. What a triangle of another area has then is what its mean says: the flow keeps areas
+// but for what a step of some length does to triangles of some size.
 static void stir(size_t n) {
     for (size_t v = 0; v < n; v++) {
         const double pi = 3.14159265358979323846, x = positions[2 * v], y = positions[2 * v + 1];
@@ -70,8 +70,8 @@ int main(void) {
         if (step % 40 == 0) {
             const double sum = content(t, &least, &greatest);
             check(deldrift_cell_count(t, &n_cells));
-            printf("step %3d: %zu triangles, dye %.6f from %.3f to %.3f; lost %.0e, gained %.0e\n", step, n_cells, sum, least,
-                   greatest, lost, gained);
+            printf("step %3d: %zu triangles, dye %.6f from %.3f to %.3f; lost %.0e, gained %.0e\n", step, n_cells, sum,
+                   least, greatest, lost, gained);
         }
         check(deldrift_cell_count(t, &n_cells));
         stir(n);
@@ -81,7 +81,8 @@ int main(void) {
         check(deldrift_take_changes(t, &changes));
         // Positions are still those of before: of all vertices that triangles had.
         double out, in;
-        check(deldrift_transfer_cells(t, positions, n, DELDRIFT_TRANSFER_SECOND_ORDER, dye, n_cells, 1, MOST, NULL, &out, &in));
+        const deldrift_transfer_order order = DELDRIFT_TRANSFER_SECOND_ORDER;
+        check(deldrift_transfer_cells(t, positions, n, order, dye, n_cells, 1, MOST, NULL, &out, &in));
         lost += fabs(out), gained += fabs(in);
         check(deldrift_copy_positions(t, positions, MOST, &n));
     }

@@ -346,9 +346,9 @@ public:
         require_ok(deldrift_take_changes(native(), &changes));
         return changes;
     }
-    // Brings means in cells over, by the latest take_changes(): values, n_values for each cell that there was at the one before,
-    // become those of the cells that there are. positions: by id, where vertices were at last, before any was removed; none for
-    // where they are.
+    // Brings means in cells over, by the latest take_changes(): values, n_values for each cell that there was at the
+    // one before, become those of the cells that there are. positions: by id, where vertices were at last, before any
+    // was removed; none for where they are.
     Transfer transfer_cells(std::vector<double> &values, std::size_t n_values = 1,
                             const Positions &positions = {},
                             deldrift_transfer_order order = DELDRIFT_TRANSFER_SECOND_ORDER) const {
@@ -359,7 +359,8 @@ public:
         Transfer made{deldrift_transfer_report{}, std::vector<double>(n_values), std::vector<double>(n_values)};
         values.resize(std::max(before, now) * n_values);
         const deldrift_status status = deldrift_transfer_cells(
-            native(), numbers.empty() ? nullptr : numbers.data(), count_of("positions", numbers), order, values.data(), before, n_values, std::max(before, now), &made.report, made.lost.data(), made.gained.data());
+            native(), numbers.empty() ? nullptr : numbers.data(), count_of("positions", numbers), order, values.data(),
+            before, n_values, std::max(before, now), &made.report, made.lost.data(), made.gained.data());
         values.resize((status == DELDRIFT_OK ? now : before) * n_values);
         require_ok(status);
         return made;

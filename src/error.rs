@@ -157,7 +157,8 @@ pub enum Error {
     },
     /// No timestamp is prepared that could be published.
     NotPrepared,
-    /// The call needs the lists of the changes that were taken last, and cells have changed since, or ids are not those of then.
+    /// The call needs the lists of the changes that were taken last, and cells have changed since, or ids are not
+    /// those of then.
     ChangesNotTaken,
     /// A number that has no meaning for its argument.
     InvalidValue {

@@ -11,7 +11,7 @@ mod common;
 #[path = "faults_in_boxes/mod.rs"]
 mod faults_in_boxes;
 
-use common::carried::{Carried, List};
+use common::carried::{Carried, List, take};
 use common::history::Snapshot;
 use common::{Rng, ids, point, seeds, sorted, vertex};
 use deldrift::motion::{Algorithm, CommitReport, Interpolation, Level, ListsOf, Location, Monitor};
@@ -475,7 +475,8 @@ impl<G: Dimension> Scene<G> {
             let p = point::<G>(|k| 0.45 + 0.05 * k as f64);
             t.relocate_vertex(vertex(5), &p).expect("a relocation");
             points[5] = p;
-            carried.take(&mut t, &|| "after".to_string());
+            let list = take(&mut t).expect("room");
+            carried.follow(&t, &list, &|| "after".to_string());
         }
         let saved = if call == Call::Load { t.saved().expect("room") } else { Vec::new() };
         let present = VertexId::range(0..t.id_count()).filter(|&v| t.is_present(v)).collect();
@@ -790,7 +791,7 @@ impl Faults<'_> {
         let name = format!("{}D, {call:?}, {setting:?}", G::D);
         // What it gives without faults.
         let mut reference = Scene::<G>::new(call, setting, None);
-        let Ok(given) = reference.call() else { panic!("{name}: it fails") };
+        let given = reference.call().unwrap_or_else(|error| panic!("{name}: it fails: {error}"));
         let finished = reference.finish();
         drop(reference);
         // Without looking at the cells where they have not been read: that would make the arrays.

@@ -415,8 +415,8 @@ std::vector<Call> changing_calls() {
                  must(deldrift_take_changes(c.t, &changes));
                  values.resize(std::max(values.size(), c.cells()));
                  c.meter.time([&] {
-                     must(deldrift_transfer_cells(c.t, nullptr, 0, DELDRIFT_TRANSFER_SECOND_ORDER, values.data(), before, 1,
-                                                  values.size(), nullptr, nullptr, nullptr));
+                     must(deldrift_transfer_cells(c.t, nullptr, 0, DELDRIFT_TRANSFER_SECOND_ORDER, values.data(),
+                                                  before, 1, values.size(), nullptr, nullptr, nullptr));
                  });
                  c.meter.count(1 + double(before + changes.created_count + changes.removed_count));
              }

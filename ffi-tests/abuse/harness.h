@@ -22,8 +22,8 @@ enum { ROOM = 1024, BYTES = 16384, PLACES = 15 };
 
 #include "words.h"
 
-// The triangulations that calls are made on: with moves, insertions and removals staged; without; that, with the cell within the
-// fence refined; prepared; and with changes taken.
+// The triangulations that calls are made on: with moves, insertions and removals staged; without; that, with the cell
+// within the fence refined; prepared; and with changes taken.
 typedef enum { WITH_EDITS, WITHOUT_EDITS, REFINED, PREPARED, TAKEN, N_BASES } base;
 
 // The bases.

@@ -48,7 +48,8 @@ static void live(uint32_t dimension, deldrift_transfer_order order) {
     double lost[2], gained[2];
     deldrift_transfer_report report;
     // Nothing has been taken.
-    CHECK_STATUS(deldrift_transfer_cells(t, NULL, 0, order, values, 0, 2, ROOM, NULL, NULL, NULL), DELDRIFT_CHANGES_NOT_TAKEN);
+    CHECK_STATUS(deldrift_transfer_cells(t, NULL, 0, order, values, 0, 2, ROOM, NULL, NULL, NULL),
+                 DELDRIFT_CHANGES_NOT_TAKEN);
     OK(deldrift_take_changes(t, &changes));
     // There were no cells.
     OK(deldrift_cell_count(t, &n_cells));
@@ -117,7 +118,8 @@ static void refusals(void) {
     means[1] = 3;
     deldrift_triangulation *copy;
     OK(deldrift_clone(t, &copy));
-    CHECK_STATUS(deldrift_transfer_cells(copy, NULL, 0, DELDRIFT_TRANSFER_FIRST_ORDER, means, 2, 1, 8, NULL, NULL, NULL),
+    const deldrift_transfer_order order = DELDRIFT_TRANSFER_FIRST_ORDER;
+    CHECK_STATUS(deldrift_transfer_cells(copy, NULL, 0, order, means, 2, 1, 8, NULL, NULL, NULL),
                  DELDRIFT_CHANGES_NOT_TAKEN);
     deldrift_destroy(copy);
     OK(deldrift_transfer_cells(t, NULL, 0, DELDRIFT_TRANSFER_FIRST_ORDER, means, 2, 1, 8, NULL, NULL, NULL));

@@ -18,7 +18,8 @@ struct Circumspheres {
     std::vector<double> squared_radii;
 };
 
-// What was met as means were transferred, and by component the content that was lost and gained; see deldrift_transfer_cells.
+// What was met as means were transferred, and by component the content that was lost and gained; see
+// deldrift_transfer_cells.
 struct Transfer {
     deldrift_transfer_report report;
     std::vector<double> lost;

@@ -43,27 +43,28 @@ class Transferring(Core):
     def transfer_cells(self, values: Any, points: Any = None, *, order: int = 2) -> Transfer:
         """Means in simplices, brought over to the simplices that there are: conservative transfer.
 
-        A mean rides with its simplex while vertices move, and one that lives keeps it; each new one gets the mean, over
-        itself, of what is there at the positions of now. The sum of mean times area or volume stays, where the hull does; a
-        constant stays to the last bit, and no mean is beyond those around. To be called after `changes`, before anything else
-        changes.
+        A mean rides with its simplex while vertices move, and one that lives keeps it; each new one gets the mean,
+        over itself, of what is there at the positions of now. The sum of mean times area or volume stays, where the
+        hull does; a constant stays to the last bit, and no mean is beyond those around. To be called after `changes`,
+        before anything else changes.
 
         Parameters
         ----------
         values : array_like
-            A number, or a row of them, for each simplex that there was when `changes` was called before, in the order of
-            `simplices` then.
+            A number, or a row of them, for each simplex that there was when `changes` was called before, in the order
+            of `simplices` then.
         points : array_like, optional
-            By id, where the vertices were at last: `points` after the last move, before any of them was removed. By default
-            where they are, if none of them has been removed. In a periodic box, where they have gone through whatever periods.
+            By id, where the vertices were at last: `points` after the last move, before any of them was removed. By
+            default where they are, if none of them has been removed. In a periodic box, where they have gone through
+            whatever periods.
         order : {1, 2}, optional
             As if values were constant in each simplex, or with a limited gradient in each.
 
         Returns
         -------
         Transfer
-            The means, and what was lost and gained where the hull has changed: what there is, is what was, less `lost` and with
-            `gained`.
+            The means, and what was lost and gained where the hull has changed: what there is, is what was, less `lost`
+            and with `gained`.
 
         Examples
         --------

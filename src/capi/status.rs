@@ -102,7 +102,8 @@ pub enum deldrift_status {
     DELDRIFT_PERIODIC = 38,
     /// The vectors of a periodic box depend on each other, or nearly so, or are more than there are axes.
     DELDRIFT_DEPENDENT_VECTORS = 39,
-    /// The call needs the lists of the latest deldrift_take_changes, and cells have changed since, or ids are not those of then.
+    /// The call needs the lists of the latest deldrift_take_changes, and cells have changed since, or ids are not
+    /// those of then.
     DELDRIFT_CHANGES_NOT_TAKEN = 40,
 }
 

@@ -1,5 +1,5 @@
-//! Conservative transfer of means in cells of a set that repeats: cells that are gone are met in all the periods in which they
-//! meet those that have come.
+//! Conservative transfer of means in cells of a set that repeats: cells that are gone are met in all the periods in
+//! which they meet those that have come.
 
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
@@ -18,13 +18,14 @@ type Place = [f64; 3];
 const MOST_PERIODS: i64 = 64;
 
 impl<G: Dimension> PeriodicTriangulation<G> {
-    /// As of [`MovingTriangulation`](crate::motion::MovingTriangulation::transfer_cells). Positions are where vertices have gone
-    /// from where they were when changes were taken before, whatever periods they have come to: where the program has taken
-    /// some to other periods since, those before it did. Volumes and what is in common are those with the vectors of now.
+    /// As of [`MovingTriangulation`](crate::motion::MovingTriangulation::transfer_cells). Positions are where vertices
+    /// have gone from where they were when changes were taken before, whatever periods they have come to: where the
+    /// program has taken some to other periods since, those before it did. Volumes and what is in common are those
+    /// with the vectors of now.
     ///
     /// # Errors
-    /// Those of the open triangulation, [`Error::Prepared`], and [`Error::InvalidValue`] for positions that take a cell through
-    /// more than 64 periods.
+    /// Those of the open triangulation, [`Error::Prepared`], and [`Error::InvalidValue`] for positions that take a
+    /// cell through more than 64 periods.
     pub fn transfer_cells(
         &self,
         positions: Option<&[G::Point]>,

@@ -21,8 +21,9 @@ fn mean<G: Dimension>(corners: &[G::Point], f: fn(&G::Point) -> f64) -> f64 {
     of_corners * at_corners + of_centre * f(&centre)
 }
 
-/// Half of the vertices of a mesh of m to a side, but those on the sides, are replaced by others: the mean error of a smooth
-/// function where cells have come, and the share of the cells away from the hull where a linear function is another one.
+/// Half of the vertices of a mesh of m to a side, but those on the sides, are replaced by others: the mean error of a
+/// smooth function where cells have come, and the share of the cells away from the hull where a linear function is
+/// another one.
 fn errors<G: Dimension>(m: usize, order: TransferOrder) -> (f64, f64) {
     let rng = &mut Rng::new(m as u64);
     let mut places = Vec::new();

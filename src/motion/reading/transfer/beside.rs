@@ -1,9 +1,9 @@
 //! Which of the cells that were is beside which, and the gradients of their means.
 //!
-//! Facets tell: each of a cell that is gone is that of another one, or of a cell that has come, across which is one that lives.
-//! A gradient is the least-squares fit to the means of these, by the inverse squares of their distances, and where they do not
-//! span all directions, to those beside them as well; where these do not either, there is none. A linear function has its own
-//! gradient, wherever centroids are.
+//! Facets tell: each of a cell that is gone is that of another one, or of a cell that has come, across which is one
+//! that lives. A gradient is the least-squares fit to the means of these, by the inverse squares of their distances,
+//! and where they do not span all directions, to those beside them as well; where these do not either, there is none.
+//! A linear function has its own gradient, wherever centroids are.
 
 use super::overlap::{Place, centroid, dot, minus, plus};
 use super::{Arrived, Beyond, Gone};
@@ -66,7 +66,8 @@ impl Besides {
         sides.sort_unstable_by_key(|side| (side.name, side.gone));
         let mut pairs = Vec::new();
         memory::reserve_exact(&mut pairs, sides.len())?;
-        // Where vertices coincide, or a cell is its own neighbour, more than two may have a facet's name; two of them will do.
+        // Where vertices coincide, or a cell is its own neighbour, more than two may have a facet's name; two of them
+        // will do.
         let mut at = 0;
         while at + 1 < sides.len() {
             let (a, b) = (sides[at], sides[at + 1]);

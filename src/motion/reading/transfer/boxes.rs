@@ -1,7 +1,7 @@
 //! A tree over the boxes of cells, which finds those that meet a box.
 //!
-//! Each node halves its cells at the middle one along the longest side of their box. Cost: n log n, and for each search, where
-//! boxes are no longer than is usual, log n and what is found.
+//! Each node halves its cells at the middle one along the longest side of their box. Cost: n log n, and for each
+//! search, where boxes are no longer than is usual, log n and what is found.
 
 use super::overlap::Place;
 use crate::error::Result;

@@ -29,8 +29,8 @@ pub(crate) trait Now {
     fn copies(&self, gone: &[Gone], within: &Extent) -> Result<Vec<(u32, Place)>>;
 }
 
-/// Transfers means from the cells that are gone to those that have come; `renumbered` are the cells that live and have other
-/// indices, of before and now, and `value` tells a component of the mean of a cell that was.
+/// Transfers means from the cells that are gone to those that have come; `renumbered` are the cells that live and have
+/// other indices, of before and now, and `value` tells a component of the mean of a cell that was.
 pub(crate) fn transfer<T: Now>(
     now: &T,
     gone: Vec<Gone>,
@@ -132,7 +132,8 @@ impl<T: Now> Change<'_, T> {
         let mut made = meeting.overlay::<D>(&arrived)?.transfer::<D>(order, n_values, value)?;
         memory::append(&mut made.cells, to)?;
         memory::reserve(&mut made.means, to.len() * n_values)?;
-        // A cell that counts as come may have another index as well: the last entry, with what has come of it, is in force.
+        // A cell that counts as come may have another index as well: the last entry, with what has come of it, is in
+        // force.
         from.iter().for_each(|cell| made.means.extend((0..n_values).map(|c| value(cell.get(), c))));
         made.cells.rotate_right(to.len());
         made.means.rotate_right(to.len() * n_values);

@@ -1,39 +1,42 @@
 //! Conservative transfer: means in cells, from the cells that were to those that are.
 //!
-//! A mean rides with its cell while vertices move. A cell that lives keeps it. At the new positions, those that are gone, with
-//! removed vertices where they last were, and those that have come cover the same region, but for what the hull has lost or
-//! gained: so each of these gets the mean, over itself, of what was there. Only cells of the change list meet.
+//! A mean rides with its cell while vertices move. A cell that lives keeps it. At the new positions, those that are
+//! gone, with removed vertices where they last were, and those that have come cover the same region, but for what the
+//! hull has lost or gained: so each of these gets the mean, over itself, of what was there. Only cells of the change
+//! list meet.
 //!
-//! A cell that was turned over since is both gone, as it was, and come; and if one that is gone is turned over at the new
-//! positions, so are all cells that live and that it meets. The volume that it has in common with others counts as negative:
-//! then at each place the cells that were add up to one, counted with their signs, and the sum over all is exact.
+//! A cell that was turned over since is both gone, as it was, and come; and if one that is gone is turned over at the
+//! new positions, so are all cells that live and that it meets. The volume that it has in common with others counts as
+//! negative: then at each place the cells that were add up to one, counted with their signs, and the sum over all is
+//! exact.
 //!
 //! # Invariants
-//! - The sum of mean times volume over the cells of now is that over the cells that were, with signed volumes at the new
-//!   positions, less what is told as lost, and with what is told as gained, but for the rounding of sums.
+//! - The sum of mean times volume over the cells of now is that over the cells that were, with signed volumes at the
+//!   new positions, less what is told as lost, and with what is told as gained, but for the rounding of sums.
 //! - What is lost and gained is 0 where the regions are the same, but for rounding (see `overlap`).
 //! - A constant stays, to the last bit: means are differences from one of those that a cell meets.
-//! - But where a cell that is turned over is met, no mean is beyond those of the cells that it comes from, and of the second
-//!   order of the neighbours of these, and of theirs.
-//! - Linear functions are reproduced but for rounding, of the second order, where gradients are known (`beside`) and no part that
-//!   cells have in common has a mean beyond that range, as one may at the hull.
+//! - But where a cell that is turned over is met, no mean is beyond those of the cells that it comes from, and of the
+//!   second order of the neighbours of these, and of theirs.
+//! - Linear functions are reproduced but for rounding, of the second order, where gradients are known (`beside`) and
+//!   no part that cells have in common has a mean beyond that range, as one may at the hull.
 //!
 //! # Order 2
-//! A mean m of a cell becomes m + a g · (x - c), with the gradient g fitted to neighbours and c the centroid, which does not change
-//! its content. The share a is the greatest of 0 to 1 for which no mean that comes of it can leave the range above, by what
-//! all that meet there add and take away (Zalesak's limiter). It limits what is made of a gradient, not the gradient at the
-//! corners of its cell (Barth and Jespersen), which would flatten linear functions, too.
+//! A mean m of a cell becomes m + a g · (x - c), with the gradient g fitted to neighbours and c the centroid, which
+//! does not change its content. The share a is the greatest of 0 to 1 for which no mean that comes of it can leave the
+//! range above, by what all that meet there add and take away (Zalesak's limiter). It limits what is made of a
+//! gradient, not the gradient at the corners of its cell (Barth and Jespersen), which would flatten linear functions,
+//! too.
 //!
 //! # Cost
-//! For n cells in the change list n log n and the pairs that meet, times the number of components. If one is turned over, also
-//! a look at all cells.
+//! For n cells in the change list n log n and the pairs that meet, times the number of components. If one is turned
+//! over, also a look at all cells.
 //!
 //! # Sources
-//! P. E. Farrell and J. R. Maddison, "Conservative interpolation between volume meshes by local Galerkin projection", 2011
-//! (doi:10.1016/j.cma.2010.07.015); F. Alauzet, "A parallel matrix-free conservative solution interpolation on unstructured
-//! tetrahedral meshes", 2016 (doi:10.1016/j.cma.2015.10.012); S. T. Zalesak, "Fully multidimensional flux-corrected transport algorithms
-//! for fluids", 1979 (doi:10.1016/0021-9991(79)90051-2); T. J. Barth and D. C. Jespersen, "The design and application of upwind schemes on unstructured
-//! meshes", 1989 (doi:10.2514/6.1989-366).
+//! P. E. Farrell and J. R. Maddison, "Conservative interpolation between volume meshes by local Galerkin projection",
+//! 2011 (doi:10.1016/j.cma.2010.07.015); F. Alauzet, "A parallel matrix-free conservative solution interpolation on
+//! unstructured tetrahedral meshes", 2016 (doi:10.1016/j.cma.2015.10.012); S. T. Zalesak, "Fully multidimensional
+//! flux-corrected transport algorithms for fluids", 1979 (doi:10.1016/0021-9991(79)90051-2); T. J. Barth and D. C.
+//! Jespersen, "The design and application of upwind schemes on unstructured meshes", 1989 (doi:10.2514/6.1989-366).
 
 mod beside;
 mod boxes;
@@ -77,7 +80,8 @@ pub struct TransferReport {
     pub lost_volume: f64,
     /// The volume of the cells that have come that none of those that are gone was in, with its sign.
     pub gained_volume: f64,
-    /// By how much at most the volumes lost and gained are off, where nothing underflows: what is no more than that may be 0.
+    /// By how much at most the volumes lost and gained are off, where nothing underflows: what is no more than that
+    /// may be 0.
     pub volume_error: f64,
     /// By component, the content of what was lost: mean times volume.
     pub lost: Vec<f64>,
@@ -181,8 +185,8 @@ impl<'a> Meeting<'a> {
         Ok(Meeting { gone, copies, boxes: Boxes::new(extents)? })
     }
 
-    /// Tells what a cell has in common with those that are gone, and with which, and how that is translated, and by how much
-    /// the volume of that may be off.
+    /// Tells what a cell has in common with those that are gone, and with which, and how that is translated, and by
+    /// how much the volume of that may be off.
     fn for_each<const D: usize>(
         &self,
         corners: &[Place; 4],

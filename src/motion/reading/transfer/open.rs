@@ -9,21 +9,23 @@ use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::state::cells::{Cells, NO_CELL};
-use crate::motion::state::changes::{Changes, NO_VERTEX, Taken};
+use crate::motion::state::changes::NO_VERTEX;
 use crate::motion::state::checking::check_position;
+use crate::motion::state::taken::{Changes, Taken};
 use crate::motion::triangulation::MovingTriangulation;
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Brings means in cells over to the cells of now: conservative transfer of what a program knows of each cell, by the changes
-    /// that were [taken](Self::take_changes) last.
+    /// Brings means in cells over to the cells of now: conservative transfer of what a program knows of each cell, by
+    /// the changes that were [taken](Self::take_changes) last.
     ///
-    /// `values` has `n_values` components for each cell that there was when changes were taken before, in the order of the
-    /// indices of then; afterwards for each cell that there is. A mean rides with its cell: what is kept is the sum of mean times
-    /// volume *at the positions of now*. A program that keeps content, not means, divides by the volumes of now before.
+    /// `values` has `n_values` components for each cell that there was when changes were taken before, in the order of
+    /// the indices of then; afterwards for each cell that there is. A mean rides with its cell: what is kept is the
+    /// sum of mean times volume *at the positions of now*. A program that keeps content, not means, divides by the
+    /// volumes of now before.
     ///
-    /// `positions` has by id where the vertices of the cells that were are now, or where they were when they were removed: what
-    /// a program has that has committed them, before it reads those of new vertices. Where none of them has been removed it may be
-    /// none, for where they are.
+    /// `positions` has by id where the vertices of the cells that were are now, or where they were when they were
+    /// removed: what a program has that has committed them, before it reads those of new vertices. Where none of them
+    /// has been removed it may be none, for where they are.
     ///
     /// ```
     /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options, TransferOrder}};
@@ -42,11 +44,12 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::ChangesNotTaken`] unless changes have been taken and none has come since, and where vertices of cells that are
-    /// gone have no id any more; [`Error::WrongCount`] unless there are as many values as there were cells;
-    /// [`Error::InvalidValue`] for a value that is needed and no number up to 10³⁰⁰ in magnitude; [`Error::RemovedVertex`] and
-    /// [`Error::NoSuchVertex`] for a vertex of which `positions` has none; [`Error::NotFinite`], [`Error::OutOfRange`],
-    /// [`Error::Prepared`], [`Error::OutOfMemory`]. Then the values are as before.
+    /// [`Error::ChangesNotTaken`] unless changes have been taken and none has come since, and where vertices of cells
+    /// that are gone have no id any more; [`Error::WrongCount`] unless there are as many values as there were cells;
+    /// [`Error::InvalidValue`] for a value that is needed and no number up to 10³⁰⁰ in magnitude;
+    /// [`Error::RemovedVertex`] and [`Error::NoSuchVertex`] for a vertex of which `positions` has none;
+    /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::Prepared`], [`Error::OutOfMemory`]. Then the values are
+    /// as before.
     pub fn transfer_cells(
         &self,
         positions: Option<&[G::Point]>,

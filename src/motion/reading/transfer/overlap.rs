@@ -1,18 +1,19 @@
 //! What two cells have in common.
 //!
-//! The heights of a point above the facets of a cell, as determinants, are linear, so that those of the corners of another
-//! cell tell all of it. It is cut at the zeros of one height after the other, always along one edge: a cut divides the volume
-//! as it divides the edge. What is left where no height is negative is summed up.
+//! The heights of a point above the facets of a cell, as determinants, are linear, so that those of the corners of
+//! another cell tell all of it. It is cut at the zeros of one height after the other, always along one edge: a cut
+//! divides the volume as it divides the edge. What is left where no height is negative is summed up.
 //!
 //! # Accuracy
-//! The volume in common is within [`BOUND`] · ε (E + F) Fⁿ⁻¹ of the exact one, and 8 ε Eⁿ for the volume of the cell that is cut,
-//! where ε is 2⁻⁵³, n the dimension, E the greatest difference of coordinates in the cell that is cut, and F that in the cell with
-//! the facets, as long as nothing underflows. Proof: a height is a determinant of a difference of up to E + F, as the boxes meet,
-//! and of edges up to F: it is off by at most 48 ε (E + F) Fⁿ⁻¹, and those of new corners, which are between others, by 24 more
-//! in each of four cuts. So all is within δ = 160 ε (E + F) Fⁿ⁻¹, and what is kept differs from what is in common only where a
-//! height is within δ of 0. Let V be the determinant of the cell with the facets. A height within it is below δ on a share nδ/V
-//! of its volume V/n! at most, for all facets (n + 1)nδ/n!, at most 3δ; and beyond its facets is what the cell that is larger
-//! by 1 + (n + 1)δ/V has more, at most 3.3δ where V is at least 16δ. A flatter one has nothing in common with others by what is
+//! The volume in common is within [`BOUND`] · ε (E + F) Fⁿ⁻¹ of the exact one, and 8 ε Eⁿ for the volume of the cell
+//! that is cut, where ε is 2⁻⁵³, n the dimension, E the greatest difference of coordinates in the cell that is cut,
+//! and F that in the cell with the facets, as long as nothing underflows. Proof: a height is a determinant of a
+//! difference of up to E + F, as the boxes meet, and of edges up to F: it is off by at most 48 ε (E + F) Fⁿ⁻¹, and
+//! those of new corners, which are between others, by 24 more in each of four cuts. So all is within δ = 160 ε (E + F)
+//! Fⁿ⁻¹, and what is kept differs from what is in common only where a height is within δ of 0. Let V be the
+//! determinant of the cell with the facets. A height within it is below δ on a share nδ/V of its volume V/n! at most,
+//! for all facets (n + 1)nδ/n!, at most 3δ; and beyond its facets is what the cell that is larger by 1 + (n + 1)δ/V
+//! has more, at most 3.3δ where V is at least 16δ. A flatter one has nothing in common with others by what is
 //! computed, and at most 8δ in fact. Shares are rounded in each cut, which is less than 256 ε of a volume up to Fⁿ.
 
 /// Places have three coordinates in either dimension; the last one is 0 in the plane.
@@ -119,8 +120,8 @@ impl Facets {
         BOUND * UNIT * (its_extent + self.extent) * self.extent.powi(D as i32 - 1)
     }
 
-    /// What is in common with a cell of this extent: the share of its volume, and that times where the centroid of the common
-    /// part is as seen from the cell's first corner.
+    /// What is in common with a cell of this extent: the share of its volume, and that times where the centroid of the
+    /// common part is as seen from the cell's first corner.
     pub(super) fn overlap<const D: usize>(&self, other: &[Place; 4], its_extent: f64) -> Overlap {
         let mut sum = Overlap::default();
         // Not so for NaN either.
