@@ -255,7 +255,8 @@ enum
     DELDRIFT_PERIODIC = 38,
     /// The vectors of a periodic box depend on each other, or nearly so, or are more than there are axes.
     DELDRIFT_DEPENDENT_VECTORS = 39,
-    /// The call needs the lists of the latest deldrift_take_changes, and cells have changed since, or ids are not those of then.
+    /// The call needs the lists of the latest deldrift_take_changes, and cells have changed since, or ids are not
+    /// those of then.
     DELDRIFT_CHANGES_NOT_TAKEN = 40,
 };
 #ifndef __cplusplus
@@ -1046,10 +1047,11 @@ deldrift_status deldrift_commit_positions(deldrift_triangulation *t,
 ///
 /// While a timestamp is prepared, these calls give DELDRIFT_PREPARED and do nothing: deldrift_commit_timestamp,
 /// deldrift_commit_positions, deldrift_insert_vertex, deldrift_insert_vertex_with_key, deldrift_remove_vertex,
-/// deldrift_relocate_vertex, deldrift_compact, deldrift_refine, deldrift_coarsen, deldrift_take_changes, deldrift_transfer_cells,
-/// deldrift_clone, deldrift_save and deldrift_save_file. All others may be made, those that stage or check what is staged included. Changes are
-/// of published states: between two calls of deldrift_take_changes, rounds count as commits once they are published.
-/// deldrift_cells gives a cell that was there before the index that it had, as after commits.
+/// deldrift_relocate_vertex, deldrift_compact, deldrift_refine, deldrift_coarsen, deldrift_take_changes,
+/// deldrift_transfer_cells, deldrift_clone, deldrift_save and deldrift_save_file. All others may be made, those that
+/// stage or check what is staged included. Changes are of published states: between two calls of
+/// deldrift_take_changes, rounds count as commits once they are published. deldrift_cells gives a cell that was there
+/// before the index that it had, as after commits.
 ///
 /// Passings are looked at round by round, each on the way from where the round before has left the vertices.
 ///
@@ -1498,48 +1500,52 @@ deldrift_status deldrift_take_changes(deldrift_triangulation *t,
 // Conservative transfer of means in cells.
 // ---------------------------------------------------------------------------------------------------------------------
 
-/// Brings means in cells over to the cells of now: conservative transfer, by the latest deldrift_take_changes, of what a
-/// program keeps for each cell.
+/// Brings means in cells over to the cells of now: conservative transfer, by the latest deldrift_take_changes, of what
+/// a program keeps for each cell.
 ///
-/// A mean rides with its cell while vertices move, and a cell that lives keeps it. At the positions of now, the cells that are
-/// gone and those that have come cover the same region: each new cell gets the mean of what is in it. So the sum of mean times
-/// area or volume stays, where the hull does; a constant stays to the last bit; and no mean is beyond those of the cells around.
-/// What is kept is the sum with the volumes at the positions of now: a program that keeps the content of a cell while its volume
-/// changes divides it by the volume of now before, whatever the sign of that.
+/// A mean rides with its cell while vertices move, and a cell that lives keeps it. At the positions of now, the cells
+/// that are gone and those that have come cover the same region: each new cell gets the mean of what is in it. So the
+/// sum of mean times area or volume stays, where the hull does; a constant stays to the last bit; and no mean is
+/// beyond those of the cells around. What is kept is the sum with the volumes at the positions of now: a program that
+/// keeps the content of a cell while its volume changes divides it by the volume of now before, whatever the sign of
+/// that.
 ///
-/// positions: by id, where the vertices of the cells that were are now, or where they were when they were removed: what a
-/// program has given to its last commit, before it reads the positions of what has been inserted since. position_count rows of 2
-/// or 3 numbers, of which those of vertices of cells that are gone are used. NULL for where they are now, if none of them has
-/// been removed. In a periodic triangulation they are where vertices have gone, through whatever periods: those before the
-/// program took any to another period. order: see deldrift_transfer_order. values: rows of n_values components, for each cell
-/// that there was at the deldrift_take_changes before the last one, in the order of that time; receives rows for the cells that
-/// there are, in the order of deldrift_cells. Numbers up to 1e300 in magnitude. value_count: how many cells there were. capacity:
-/// for how many rows there is room, at least for the cells that were and for those that are. report: receives what was met. lost, gained: receive n_values numbers
-/// each, see below. Each of the last three may be NULL.
+/// positions: by id, where the vertices of the cells that were are now, or where they were when they were removed:
+/// what a program has given to its last commit, before it reads the positions of what has been inserted since.
+/// position_count rows of 2 or 3 numbers, of which those of vertices of cells that are gone are used. NULL for where
+/// they are now, if none of them has been removed. In a periodic triangulation they are where vertices have gone,
+/// through whatever periods: those before the program took any to another period. order: see deldrift_transfer_order.
+/// values: rows of n_values components, for each cell that there was at the deldrift_take_changes before the last one,
+/// in the order of that time; receives rows for the cells that there are, in the order of deldrift_cells. Numbers up
+/// to 1e300 in magnitude. value_count: how many cells there were. capacity: for how many rows there is room, at least
+/// for the cells that were and for those that are. report: receives what was met. lost, gained: receive n_values
+/// numbers each, see below. Each of the last three may be NULL.
 ///
-/// Where the hull has changed, regions differ. The content, mean times volume, that was where no new cell is, is told as lost;
-/// that of new cells where nothing was, as gained: a new cell has the mean of what covers the rest of it, or, if nothing does,
-/// that of the nearest cell through facets, or 0 if there is none. With these the sums always agree: what there is, is what was
-/// less lost and with gained, but for rounding. Both are 0 where regions agree, but for rounding: no more than volume_error
-/// times twice the greatest magnitude.
+/// Where the hull has changed, regions differ. The content, mean times volume, that was where no new cell is, is told
+/// as lost; that of new cells where nothing was, as gained: a new cell has the mean of what covers the rest of it, or,
+/// if nothing does, that of the nearest cell through facets, or 0 if there is none. With these the sums always agree:
+/// what there is, is what was less lost and with gained, but for rounding. Both are 0 where regions agree, but for
+/// rounding: no more than volume_error times twice the greatest magnitude.
 ///
-/// A cell that is gone, and is turned over at the new positions, has a negative volume there, and what it has in common with
-/// others counts as negative; cells that live beneath it are both gone and come, and get other means, too. So the sum stays
-/// exact, and so does a constant, but means there may be beyond those of all others: turned_over tells of it, and shorter steps
-/// avoid it. A cell of now that was turned over since is gone as it was, and has come.
+/// A cell that is gone, and is turned over at the new positions, has a negative volume there, and what it has in
+/// common with others counts as negative; cells that live beneath it are both gone and come, and get other means, too.
+/// So the sum stays exact, and so does a constant, but means there may be beyond those of all others: turned_over
+/// tells of it, and shorter steps avoid it. A cell of now that was turned over since is gone as it was, and has come.
 ///
-/// With the second order, what gradients add is limited for each cell by what its new mean may be: no less and no more than the
-/// cells that it comes from have, their neighbours, and the neighbours of these. Gradients are fitted to the means of neighbours.
-/// Linear functions are kept but for rounding where that does not limit them, as it may at the hull.
+/// With the second order, what gradients add is limited for each cell by what its new mean may be: no less and no more
+/// than the cells that it comes from have, their neighbours, and the neighbours of these. Gradients are fitted to the
+/// means of neighbours. Linear functions are kept but for rounding where that does not limit them, as it may at the
+/// hull.
 ///
-/// Cost: n log n for n cells in the list of changes and what they have in common, times n_values; if one of them is turned
-/// over, also m; in a periodic triangulation also n + m.
+/// Cost: n log n for n cells in the list of changes and what they have in common, times n_values; if one of them is
+/// turned over, also m; in a periodic triangulation also n + m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for an order
-/// that there is not, for a value that is used and is no number or a greater one, and for positions that take a cell through more
-/// than 64 periods, DELDRIFT_CHANGES_NOT_TAKEN if cells have changed since the latest deldrift_take_changes, if there was
-/// none, or if ids have been given anew since the one before, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_NO_SUCH_VERTEX for a vertex
-/// beyond position_count, DELDRIFT_REMOVED_VERTEX for one where positions are NULL, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for an
+/// order that there is not, for a value that is used and is no number or a greater one, and for positions that take a
+/// cell through more than 64 periods, DELDRIFT_CHANGES_NOT_TAKEN if cells have changed since the latest
+/// deldrift_take_changes, if there was none, or if ids have been given anew since the one before,
+/// DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_NO_SUCH_VERTEX for a vertex beyond position_count,
+/// DELDRIFT_REMOVED_VERTEX for one where positions are NULL, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
 /// DELDRIFT_PREPARED, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
 deldrift_status deldrift_transfer_cells(const deldrift_triangulation *t,
                                         const double *positions,

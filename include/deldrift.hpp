@@ -352,15 +352,16 @@ public:
     Transfer transfer_cells(std::vector<double> &values, std::size_t n_values = 1,
                             const Positions &positions = {},
                             deldrift_transfer_order order = DELDRIFT_TRANSFER_SECOND_ORDER) const {
-        std::vector<double> room;
-        const span<const double> numbers = positions.numbers("positions", dimension_, room);
+        std::vector<double> gathered;
+        const span<const double> numbers = positions.numbers("positions", dimension_, gathered);
         const std::size_t now = cell_count(), before = n_values == 0 ? now : values.size() / n_values;
+        const std::size_t room = before < now ? now : before;
         expect("values", values.size(), before * n_values);
         Transfer made{deldrift_transfer_report{}, std::vector<double>(n_values), std::vector<double>(n_values)};
-        values.resize(std::max(before, now) * n_values);
+        values.resize(room * n_values);
         const deldrift_status status = deldrift_transfer_cells(
             native(), numbers.empty() ? nullptr : numbers.data(), count_of("positions", numbers), order, values.data(),
-            before, n_values, std::max(before, now), &made.report, made.lost.data(), made.gained.data());
+            before, n_values, room, &made.report, made.lost.data(), made.gained.data());
         values.resize((status == DELDRIFT_OK ? now : before) * n_values);
         require_ok(status);
         return made;

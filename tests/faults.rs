@@ -601,13 +601,18 @@ impl<G: Dimension> Scene<G> {
                 Given::Nothing
             }
             Call::TransferCells => {
-                let mut means = values.clone();
-                let made = t.transfer_cells(None, TransferOrder::Second, 1, &mut means);
+                let mut made = t.transfer_cells(None, TransferOrder::Second, 1, values);
+                if let Err(Error::WrongCount { wanted, .. }) = made {
+                    // Changes have been taken again, to compare what there is.
+                    disarm();
+                    values.resize(wanted, 0.25);
+                    made = t.transfer_cells(None, TransferOrder::Second, 1, values);
+                }
                 disarm();
-                assert!(made.is_ok() || means == *values, "what has failed has changed something");
+                assert!(values.iter().all(|&mean| mean == 0.25), "a constant is another one");
                 made?;
-                assert!(means.len() == t.cell_count() && means.iter().all(|&mean| mean == 0.25));
-                Given::Numbers(vec![means.len() as u64])
+                assert_eq!(values.len(), t.cell_count());
+                Given::Numbers(vec![values.len() as u64])
             }
             Call::Circumspheres => {
                 let n = given(t.circumspheres().map(Iterator::count))?;

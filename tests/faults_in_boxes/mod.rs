@@ -175,13 +175,11 @@ impl<G: Dimension> Scene<G> {
                 t.timestamp()
             }
             Call::TransferCells => {
-                let mut means = heights.clone();
-                let made = t.transfer_cells(None, TransferOrder::Second, 1, &mut means);
+                let made = t.transfer_cells(None, TransferOrder::Second, 1, heights);
                 disarm();
-                assert!(made.is_ok() || means == *heights, "what has failed has changed something");
+                assert!(heights.iter().all(|&mean| mean == 0.25), "a constant is another one");
                 made?;
-                assert!(means.iter().all(|&mean| mean == 0.25));
-                means.len() as u64
+                heights.len() as u64
             }
             Call::TakeChanges => {
                 let changes = given(t.take_changes())?;
