@@ -753,8 +753,8 @@ typedef struct deldrift_quality {
     /// default 0.9.
     double share;
     /// Two pieces of a segment are joined by deldrift_coarsen if the vertex between them is on the line through their other
-    /// ends, or off it by no more than this share of the distance of these: from 0 to 1. The default, 1e-9, is above what
-    /// the rounding of motions adds up to.
+    /// ends, or off it by no more than this share of the distance of these: from 0 to 1. Above 0 it may be off by 64 last
+    /// places of the greatest coordinate at least. The default, 1e-9, is above what the rounding of motions adds up to.
     double joins;
     /// How many times as many vertices as a mesh made anew the mesh may have: 1 or more, default 1.1. Where deldrift_coarsen
     /// leaves more of those that deldrift_refine has inserted, or takes many away for another quality, the next
