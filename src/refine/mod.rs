@@ -29,7 +29,7 @@
 //! | `criteria` | what is bad, what is encroached |
 //! | `flat` | vertices that touch a piece: a few last places beside it |
 //! | `queue` | bad triangles in order |
-//! | `refining`, `splitting`, `telling` | refinement; where pieces are split; what has been done |
+//! | `refining`, `splitting`, `telling` | refinement; where pieces are split; its calls, and what they tell |
 //! | `coarsening` | vertices that are not needed any more leave |
 //!
 //! # What is exact
@@ -103,5 +103,5 @@ pub(crate) use criteria::{Criteria, Tests, power_of_two_below};
 pub(crate) use given::Given;
 pub(crate) use parts::NONE;
 pub use refining::Kept;
-pub(crate) use refining::{Origins, mendable, refine, remesh};
-pub(crate) use telling::Refined;
+pub(crate) use refining::Origins;
+pub(crate) use telling::{Refined, mendable, refine, remesh};

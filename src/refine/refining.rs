@@ -1,13 +1,10 @@
 //! Refinement: vertices are added until no triangle is bad and no piece of a segment encroached.
 
-use super::coarsening::{Candidate, strip};
 use super::criteria::{Flaw, Measured, Tests, distance, size_between};
-use super::given::Given;
 use super::mesh::Mesh;
 use super::parts::{NONE, Rim, Side, next, previous};
 use super::queue::{Queues, Waiting};
 use super::removal::Hole;
-use super::telling::Refined;
 use super::walking::Place;
 use crate::error::Result;
 use crate::ids::VertexId;
@@ -100,69 +97,8 @@ enum Remedy {
     Insert([f64; 2], u32),
 }
 
-/// Refines the cells that are selected. `points` are the places of vertices, and `bad` the cells, ascending, that are bad or
-/// have segments that are encroached.
-pub(crate) fn refine(
-    given: Given,
-    points: Vec<[f64; 2]>,
-    bad: &[u32],
-    tests: Tests,
-    origins: Origins,
-    (kept, limit): (Kept, usize),
-    ask: &mut dyn FnMut() -> Result<()>,
-) -> Result<Refined> {
-    let mut refinement = Refinement::new(Mesh::new(given, points)?, tests, origins, kept)?;
-    for &cell in bad {
-        let t = refinement.mesh.copy(cell)?;
-        refinement.examine(t)?;
-    }
-    let is_cut_short = refinement.go_on(limit, ask)?;
-    refinement.tell(is_cut_short)
-}
-
-/// Takes all vertices away that are `made`, by [`strip`] without tests, and refines the selected cells from there.
-pub(crate) fn remesh<'a>(
-    given: Given<'a>,
-    points: Vec<[f64; 2]>,
-    (made, no_tests, offset): (&[Candidate], Tests<'a>, f64),
-    tests: Tests<'a>,
-    origins: Origins,
-    (kept, limit): (Kept, usize),
-    ask: &mut dyn FnMut() -> Result<()>,
-) -> Result<Refined> {
-    let (mut mesh, removed, into) = strip(given, points, no_tests, offset, made)?;
-    for cell in (0..given.mask.len() as u32).filter(|&cell| given.mask[cell as usize] != 0) {
-        mesh.copy(cell)?;
-    }
-    let mut refinement = Refinement::new(mesh, tests, origins, kept)?;
-    refinement.examine_all()?;
-    let is_cut_short = refinement.go_on(limit, ask)?;
-    Ok(Refined { removed, into, ..refinement.tell(is_cut_short)? })
-}
-
-/// Those of the bad cells for which [`refine`] would do something now.
-pub(crate) fn mendable(
-    given: Given,
-    points: Vec<[f64; 2]>,
-    bad: &[u32],
-    tests: Tests,
-    origins: Origins,
-    kept: Kept,
-) -> Result<Vec<u32>> {
-    let mut refinement = Refinement::new(Mesh::new(given, points)?, tests, origins, kept)?;
-    let mut mendable = Vec::new();
-    for &cell in bad {
-        let t = refinement.mesh.copy(cell)?;
-        if refinement.would_change(t)? {
-            memory::push(&mut mendable, cell)?;
-        }
-    }
-    refinement.tests.check_stop()?;
-    Ok(mendable)
-}
-
 impl<'a> Refinement<'a> {
-    fn new(mesh: Mesh<'a>, tests: Tests<'a>, origins: Origins, kept: Kept) -> Result<Self> {
+    pub(super) fn new(mesh: Mesh<'a>, tests: Tests<'a>, origins: Origins, kept: Kept) -> Result<Self> {
         let mut on = Vec::new();
         let n_given = mesh.points.len();
         memory::lengthen(&mut on, n_given, NONE)?;
@@ -190,7 +126,7 @@ impl<'a> Refinement<'a> {
     }
 
     /// Adds vertices until there is nothing left to do; whether there would be more than the limit.
-    fn go_on(&mut self, limit: usize, ask: &mut dyn FnMut() -> Result<()>) -> Result<bool> {
+    pub(super) fn go_on(&mut self, limit: usize, ask: &mut dyn FnMut() -> Result<()>) -> Result<bool> {
         loop {
             let (n_added, n_split, n_cleared) = (self.n_added, self.n_split, self.n_cleared);
             if self.go_through(limit, ask)? {
@@ -209,7 +145,7 @@ impl<'a> Refinement<'a> {
         }
     }
 
-    fn examine_all(&mut self) -> Result<()> {
+    pub(super) fn examine_all(&mut self) -> Result<()> {
         (0..self.mesh.triangles.len() as u32).try_for_each(|t| self.examine(t))
     }
 
@@ -255,7 +191,7 @@ impl<'a> Refinement<'a> {
     }
 
     /// Enters a triangle if it is bad, and the pieces at its sides that its corners encroach.
-    fn examine(&mut self, t: u32) -> Result<()> {
+    pub(super) fn examine(&mut self, t: u32) -> Result<()> {
         let triangle = *self.mesh.triangle(t);
         if !triangle.is_live() || !triangle.is_selected() {
             return Ok(());
@@ -309,7 +245,7 @@ impl<'a> Refinement<'a> {
     }
 
     /// Whether something would be done for a triangle now.
-    fn would_change(&mut self, t: u32) -> Result<bool> {
+    pub(super) fn would_change(&mut self, t: u32) -> Result<bool> {
         let measured = self.measure(t);
         self.has_flat |= measured.flaw.is_some() && self.is_flat(t);
         for i in 0..3 {

@@ -1,7 +1,11 @@
-//! What a refinement has done is told in the numbers of what it was given.
+//! Refinement from what is given to what is told, in the numbers of what was given.
 
+use super::coarsening::{Candidate, strip};
+use super::criteria::Tests;
+use super::given::Given;
+use super::mesh::Mesh;
 use super::parts::{NONE, Piece, Side};
-use super::refining::Refinement;
+use super::refining::{Kept, Origins, Refinement};
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -31,6 +35,67 @@ pub(crate) struct Refined {
     pub is_cut_short: bool,
 }
 
+/// Refines the cells that are selected. `points` are the places of vertices, and `bad` the cells, ascending, that are bad or
+/// have segments that are encroached.
+pub(crate) fn refine(
+    given: Given,
+    points: Vec<[f64; 2]>,
+    bad: &[u32],
+    tests: Tests,
+    origins: Origins,
+    (kept, limit): (Kept, usize),
+    ask: &mut dyn FnMut() -> Result<()>,
+) -> Result<Refined> {
+    let mut refinement = Refinement::new(Mesh::new(given, points)?, tests, origins, kept)?;
+    for &cell in bad {
+        let t = refinement.mesh.copy(cell)?;
+        refinement.examine(t)?;
+    }
+    let is_cut_short = refinement.go_on(limit, ask)?;
+    refinement.tell(is_cut_short)
+}
+
+/// Takes all vertices away that are `made`, by [`strip`] without tests, and refines the selected cells from there.
+pub(crate) fn remesh<'a>(
+    given: Given<'a>,
+    points: Vec<[f64; 2]>,
+    (made, no_tests, offset): (&[Candidate], Tests<'a>, f64),
+    tests: Tests<'a>,
+    origins: Origins,
+    (kept, limit): (Kept, usize),
+    ask: &mut dyn FnMut() -> Result<()>,
+) -> Result<Refined> {
+    let (mut mesh, removed, into) = strip(given, points, no_tests, offset, made)?;
+    for cell in (0..given.mask.len() as u32).filter(|&cell| given.mask[cell as usize] != 0) {
+        mesh.copy(cell)?;
+    }
+    let mut refinement = Refinement::new(mesh, tests, origins, kept)?;
+    refinement.examine_all()?;
+    let is_cut_short = refinement.go_on(limit, ask)?;
+    Ok(Refined { removed, into, ..refinement.tell(is_cut_short)? })
+}
+
+/// Those of the bad cells for which [`refine`] would do something now.
+pub(crate) fn mendable(
+    given: Given,
+    points: Vec<[f64; 2]>,
+    bad: &[u32],
+    tests: Tests,
+    origins: Origins,
+    kept: Kept,
+) -> Result<Vec<u32>> {
+    let mut refinement = Refinement::new(Mesh::new(given, points)?, tests, origins, kept)?;
+    let mut mendable = Vec::new();
+    for &cell in bad {
+        let t = refinement.mesh.copy(cell)?;
+        if refinement.would_change(t)? {
+            memory::push(&mut mendable, cell)?;
+        }
+    }
+    refinement.tests.check_stop()?;
+    Ok(mendable)
+}
+
 impl Refinement<'_> {
     /// Whether a piece would have to be split, and there is no room.
     fn is_unsplit(&self, piece: &Piece) -> bool {
@@ -45,7 +110,7 @@ impl Refinement<'_> {
     }
 
     /// Numbers the vertices that have stayed, and lists what has become of the segments.
-    pub(super) fn tell(self, is_cut_short: bool) -> Result<Refined> {
+    fn tell(self, is_cut_short: bool) -> Result<Refined> {
         let n = self.mesh.triangles.len() as u32;
         let n_bad =
             (0..n).filter(|&t| self.mesh.triangle(t).is_selected() && self.measure(t).flaw.is_some()).count();

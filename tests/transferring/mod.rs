@@ -262,13 +262,13 @@ fn histories<G: Dimension>(n_seeds: u64, n: usize, steps: usize, is_exact: bool)
 
 #[test]
 fn content_and_constants_are_kept_in_the_plane() {
-    let counts = histories::<Plane>(1000, 24, 6, false);
+    let counts = histories::<Plane>(250, 24, 6, false);
     assert!(counts.turned_over > 100 && counts.lost > 100 && counts.uncovered > 10, "{counts:?}");
 }
 
 #[test]
 fn content_and_constants_are_kept_in_space() {
-    let counts = histories::<Space>(1000, 16, 3, false);
+    let counts = histories::<Space>(250, 16, 3, false);
     assert!(counts.turned_over > 100 && counts.lost > 100 && counts.uncovered > 10, "{counts:?}");
 }
 
