@@ -355,6 +355,18 @@ static void ask_for_a_domain(void) {
     check(deldrift_stage_splits(t, 1, &report));
     expect(report.inserted == 0 && report.pieces == 4, "two that would cross where a vertex is are split there");
     check(deldrift_commit_timestamp(t, NULL));
+    double sizes[100] = {2, 2, 2, 2, 2, 2, 2};
+    deldrift_quality quality;
+    check(deldrift_quality_init(&quality));
+    check(deldrift_id_count(t, &quality.size_count));
+    quality.sizes = sizes;
+    check(deldrift_refine(t, &quality, NULL, 0, NULL));
+    check(deldrift_refined_sizes(t, sizes + quality.size_count, 100 - quality.size_count, &count));
+    expect(count > 3, "edges longer than 2 are divided");
+    quality.size_count += count;
+    check(deldrift_refine(t, &quality, NULL, 0, NULL));
+    check(deldrift_refined_sizes(t, NULL, 0, &count));
+    expect(count == 0, "and with the sizes that the new vertices have none is left");
     deldrift_destroy(t);
 }
 

@@ -89,6 +89,20 @@ fn the_turned_plate_has_its_temperature_without_flat_cells() {
     }
 }
 
+/// No dye is lost or gained but what rounding makes of it, and no more of it is anywhere than there was.
+#[test]
+fn stirred_dye_stays() {
+    let folder = fresh_folder("stirred");
+    let said = succeed(&mut command(build(&repository("examples/stirred.c"), &folder, Linkage::Static, &[])));
+    assert_eq!(said.lines().count(), 6, "{said}");
+    for row in said.lines() {
+        let [dye, least, greatest] = [" dye ", " from ", " to "].map(|word| number_after(word, row));
+        let [lost, gained] = ["lost ", "gained "].map(|word| number_after(word, row));
+        assert!(lost < 1e-13 && gained < 1e-13 && (dye - 0.5).abs() < 0.01, "{said}");
+        assert!((0.0..=1.0).contains(&least) && (0.0..=1.0).contains(&greatest), "{said}");
+    }
+}
+
 /// Some steps are rejected, and leave no trace; the areas add up.
 #[test]
 fn rejected_steps_leave_all_as_it_was() {

@@ -35,6 +35,7 @@ const MAIN: Header = Header {
         "segments",
         "splitting",
         "changes",
+        "transferring",
         "state",
         "query",
         "location",

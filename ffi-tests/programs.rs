@@ -60,16 +60,7 @@ fn calls_take_as_little_of_the_stack_when_they_are_optimised() {
     let source = repository("ffi-tests/c/stack.c");
     let program = fresh_folder("stack").join("stack");
     let run_path = format!("-Wl,-rpath,{}", target.join("release").display());
-    succeed(
-        compiler(&source)
-            .arg("-DMOST_KIB=80")
-            .arg(&source)
-            .arg("-o")
-            .arg(&program)
-            .arg(library)
-            .arg(run_path)
-            .arg("-lm"),
-    );
+    succeed(compiler(&source).arg(&source).arg("-o").arg(&program).arg(library).arg(run_path).arg("-lm"));
     println!("{}", succeed(&mut command(program)));
 }
 

@@ -110,6 +110,8 @@
  *         deldrift_stage_splits
  *     The change list: what a program has to know that keeps something for each cell.
  *         deldrift_take_changes
+ *     Conservative transfer of means in cells.
+ *         deldrift_transfer_cells
  *     What a triangulation holds: counts, sums, and the positions of vertices.
  *         deldrift_vertex_count
  *     Queries: cells, and what is where. None changes the triangulation.
@@ -253,6 +255,9 @@ enum
     DELDRIFT_PERIODIC = 38,
     /// The vectors of a periodic box depend on each other, or nearly so, or are more than there are axes.
     DELDRIFT_DEPENDENT_VECTORS = 39,
+    /// The call needs the lists of the latest deldrift_take_changes, and cells have changed since, or ids are not
+    /// those of then.
+    DELDRIFT_CHANGES_NOT_TAKEN = 40,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -451,6 +456,25 @@ typedef uint32_t deldrift_passing;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+/// How much of a function means in cells are transferred with.
+enum
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  deldrift_transfer_order : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /// As if it were constant in each cell.
+    DELDRIFT_TRANSFER_FIRST_ORDER = 0,
+    /// With a gradient in each cell, which is limited so that no new extreme comes of it.
+    DELDRIFT_TRANSFER_SECOND_ORDER = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum deldrift_transfer_order deldrift_transfer_order;
+#else
+typedef uint32_t deldrift_transfer_order;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
 /// Arrays of cells that a program has taken over: opaque, made by deldrift_release_cells, unmade by
 /// deldrift_free_cells.
 typedef struct deldrift_released_cells deldrift_released_cells;
@@ -619,6 +643,30 @@ typedef struct deldrift_changes {
     size_t reserved[4];
 } deldrift_changes;
 
+/// What deldrift_transfer_cells has met. A cell that is gone is at the new positions here.
+typedef struct deldrift_transfer_report {
+    /// Cells that are gone, those that count as such included.
+    uint64_t gone;
+    /// Cells that have come, those that count as such included.
+    uint64_t arrived;
+    /// Pairs of these that have something in common.
+    uint64_t overlaps;
+    /// Cells that are gone and turned over: what they have is counted as negative.
+    uint64_t turned_over;
+    /// Cells that have come where nothing was: their means are those of a neighbour.
+    uint64_t uncovered;
+    /// Zero; later versions may count more.
+    uint64_t reserved[3];
+    /// The area or volume of the cells that are gone to which no cell has come, with its sign.
+    double lost_volume;
+    /// That of the cells that have come of which none of those that are gone has had any, with its sign.
+    double gained_volume;
+    /// By how much at most both are off: what is no more than that may be 0.
+    double volume_error;
+    /// Zero; later versions may tell more.
+    double reserved_numbers[3];
+} deldrift_transfer_report;
+
 /// The cells of a triangulation: triangles in 2D, tetrahedra in 3D. Read-only, without a copy, valid
 /// until the next call that changes the triangulation.
 ///
@@ -705,8 +753,8 @@ typedef struct deldrift_quality {
     /// default 0.9.
     double share;
     /// Two pieces of a segment are joined by deldrift_coarsen if the vertex between them is on the line through their other
-    /// ends, or off it by no more than this share of the distance of these: from 0 to 1. The default, 1e-9, is above what
-    /// the rounding of motions adds up to.
+    /// ends, or off it by no more than this share of the distance of these: from 0 to 1. Above 0 it may be off by 64 last
+    /// places of the greatest coordinate at least. The default, 1e-9, is above what the rounding of motions adds up to.
     double joins;
     /// How many times as many vertices as a mesh made anew the mesh may have: 1 or more, default 1.1. Where deldrift_coarsen
     /// leaves more of those that deldrift_refine has inserted, or takes many away for another quality, the next
@@ -716,8 +764,9 @@ typedef struct deldrift_quality {
     /// Not 0 if deldrift_refine gives its vertices free ids, as deldrift_stage_insertions_at_free_ids does: of vertices
     /// that earlier commits have removed, the lowest first, and then new ones; deldrift_refined_vertices tells which. So
     /// deldrift_id_count does not grow for ever. From the first insertion on vertices have keys then, as if these had
-    /// been given (see deldrift_keys): those that deldrift_refine inserts the greatest one, the others their ids.
-    /// Default 0.
+    /// been given (see deldrift_keys): those that deldrift_refine inserts the greatest one, the others their ids. Who
+    /// transfers means of cells takes the changes between deldrift_coarsen and deldrift_refine as well: a cell with the
+    /// ids of one that was is not listed. Default 0.
     uint32_t reuses_ids;
 } deldrift_quality;
 
@@ -1020,10 +1069,11 @@ deldrift_status deldrift_commit_positions(deldrift_triangulation *t,
 ///
 /// While a timestamp is prepared, these calls give DELDRIFT_PREPARED and do nothing: deldrift_commit_timestamp,
 /// deldrift_commit_positions, deldrift_insert_vertex, deldrift_insert_vertex_with_key, deldrift_remove_vertex,
-/// deldrift_relocate_vertex, deldrift_compact, deldrift_refine, deldrift_coarsen, deldrift_take_changes, deldrift_clone,
-/// deldrift_save and deldrift_save_file. All others may be made, those that stage or check what is staged included. Changes are
-/// of published states: between two calls of deldrift_take_changes, rounds count as commits once they are published.
-/// deldrift_cells gives a cell that was there before the index that it had, as after commits.
+/// deldrift_relocate_vertex, deldrift_compact, deldrift_refine, deldrift_coarsen, deldrift_take_changes,
+/// deldrift_transfer_cells, deldrift_clone, deldrift_save and deldrift_save_file. All others may be made, those that
+/// stage or check what is staged included. Changes are of published states: between two calls of
+/// deldrift_take_changes, rounds count as commits once they are published. deldrift_cells gives a cell that was there
+/// before the index that it had, as after commits.
 ///
 /// Passings are looked at round by round, each on the way from where the round before has left the vertices.
 ///
@@ -1466,6 +1516,69 @@ deldrift_status deldrift_stage_splits(deldrift_triangulation *t,
 /// Not to be called at the same time as any other call on t.
 deldrift_status deldrift_take_changes(deldrift_triangulation *t,
                                       deldrift_changes *changes);
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Conservative transfer of means in cells.
+// ---------------------------------------------------------------------------------------------------------------------
+
+/// Brings means in cells over to the cells of now: conservative transfer, by the latest deldrift_take_changes, of what
+/// a program keeps for each cell.
+///
+/// A mean rides with its cell while vertices move, and a cell that lives keeps it. At the positions of now, the cells
+/// that are gone and those that have come cover the same region: each new cell gets the mean of what is in it. So the
+/// sum of mean times area or volume stays, where the hull does; a constant stays to the last bit; and no mean is
+/// beyond those of the cells around. What is kept is the sum with the volumes at the positions of now: a program that
+/// keeps the content of a cell while its volume changes divides it by the volume of now before, whatever the sign of
+/// that.
+///
+/// positions: by id, where the vertices of the cells that were are now, or where they were when they were removed:
+/// what a program has given to its last commit, before it reads the positions of what has been inserted since.
+/// position_count rows of 2 or 3 numbers, of which those of vertices of cells that are gone are used. NULL for where
+/// they are now, if none of them has been removed. In a periodic triangulation they are where vertices have gone,
+/// through whatever periods: those before the program took any to another period. order: see deldrift_transfer_order.
+/// values: rows of n_values components, for each cell that there was at the deldrift_take_changes before the last one,
+/// in the order of that time; receives rows for the cells that there are, in the order of deldrift_cells. Numbers up
+/// to 1e300 in magnitude. value_count: how many cells there were. capacity: for how many rows there is room, at least
+/// for the cells that were and for those that are. report: receives what was met. lost, gained: receive n_values
+/// numbers each, see below. Each of the last three may be NULL.
+///
+/// Where the hull has changed, regions differ. The content, mean times volume, that was where no new cell is, is told
+/// as lost; that of new cells where nothing was, as gained: a new cell has the mean of what covers the rest of it, or,
+/// if nothing does, that of the nearest cell through facets, or 0 if there is none. With these the sums always agree:
+/// what there is, is what was less lost and with gained, but for rounding. Both are 0 where regions agree, but for
+/// rounding: no more than volume_error times twice the greatest magnitude.
+///
+/// A cell that is gone, and is turned over at the new positions, has a negative volume there, and what it has in
+/// common with others counts as negative; cells that live beneath it are both gone and come, and get other means, too.
+/// So the sum stays exact, and so does a constant, but means there may be beyond those of all others: turned_over
+/// tells of it, and shorter steps avoid it. A cell of now that was turned over since is gone as it was, and has come.
+///
+/// With the second order, what gradients add is limited for each cell by what its new mean may be: no less and no more
+/// than the cells that it comes from have, their neighbours, and the neighbours of these. Gradients are fitted to the
+/// means of neighbours. Linear functions are kept but for rounding where that does not limit them, as it may at the
+/// hull.
+///
+/// Cost: n log n for n cells in the list of changes and what they have in common, times n_values; if one of them is
+/// turned over, also m; in a periodic triangulation also n + m.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for an
+/// order that there is not, for a value that is used and is no number or a greater one, and for positions that take a
+/// cell through more than 64 periods, DELDRIFT_CHANGES_NOT_TAKEN if cells have changed since the latest
+/// deldrift_take_changes, if there was none, or if ids have been given anew since the one before,
+/// DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_NO_SUCH_VERTEX for a vertex beyond position_count,
+/// DELDRIFT_REMOVED_VERTEX for one where positions are NULL, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_PREPARED, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
+deldrift_status deldrift_transfer_cells(const deldrift_triangulation *t,
+                                        const double *positions,
+                                        size_t position_count,
+                                        deldrift_transfer_order order,
+                                        double *values,
+                                        size_t value_count,
+                                        size_t n_values,
+                                        size_t capacity,
+                                        deldrift_transfer_report *report,
+                                        double *lost,
+                                        double *gained);
 
 // ---------------------------------------------------------------------------------------------------------------------
 // What a triangulation holds: counts, sums, and the positions of vertices.
@@ -2411,7 +2524,8 @@ deldrift_status deldrift_refine(deldrift_triangulation *t,
 /// still be of the quality, by a margin. Pieces of a segment are joined again. One commit of its own, all or nothing, of
 /// which deldrift_take_changes tells what it changed.
 ///
-/// The arguments are those of deldrift_refine. keeps, has_weights, limit and reuses_ids of the quality are not used.
+/// The arguments are those of deldrift_refine. has_weights, limit and reuses_ids of the quality are not used; keeps says
+/// what it would do.
 ///
 /// Around cells that are of lower quality already, those that come may have angles as small: call it before deldrift_refine,
 /// which then has less to insert.
@@ -2420,8 +2534,8 @@ deldrift_status deldrift_refine(deldrift_triangulation *t,
 /// looking at the cells around it. Where no place, cell or segment has changed since this call has found nothing to remove
 /// with these numbers: comparing mask and labels.
 ///
-/// Errors: those of deldrift_refine but for keeps: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT,
-/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS for struct_size, DELDRIFT_WRONG_COUNT,
+/// Errors: those of deldrift_refine: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT,
+/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS for struct_size and keeps, DELDRIFT_WRONG_COUNT,
 /// DELDRIFT_INVALID_VALUE, DELDRIFT_STAGED_VERTEX, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED,
 /// DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING. Not to be called at the same time as any other call on t.
 deldrift_status deldrift_coarsen(deldrift_triangulation *t,

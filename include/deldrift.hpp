@@ -363,6 +363,26 @@ public:
         require_ok(deldrift_take_changes(native(), &changes));
         return changes;
     }
+    // Brings means in cells over, by the latest take_changes(): values, n_values for each cell that there was at the
+    // one before, become those of the cells that there are. positions: by id, where vertices were at last, before any
+    // was removed; none for where they are.
+    Transfer transfer_cells(std::vector<double> &values, std::size_t n_values = 1,
+                            const Positions &positions = {},
+                            deldrift_transfer_order order = DELDRIFT_TRANSFER_SECOND_ORDER) const {
+        std::vector<double> gathered;
+        const span<const double> numbers = positions.numbers("positions", dimension_, gathered);
+        const std::size_t now = cell_count(), before = n_values == 0 ? now : values.size() / n_values;
+        const std::size_t room = before < now ? now : before;
+        expect("values", values.size(), before * n_values);
+        Transfer made{deldrift_transfer_report{}, std::vector<double>(n_values), std::vector<double>(n_values)};
+        values.resize(room * n_values);
+        const deldrift_status status = deldrift_transfer_cells(
+            native(), numbers.empty() ? nullptr : numbers.data(), count_of("positions", numbers), order, values.data(),
+            before, n_values, room, &made.report, made.lost.data(), made.gained.data());
+        values.resize((status == DELDRIFT_OK ? now : before) * n_values);
+        require_ok(status);
+        return made;
+    }
     std::vector<std::uint32_t> star(std::uint32_t vertex) const {
         return found([&](std::uint32_t *cells, std::size_t capacity, std::size_t *count) {
             return deldrift_star(native(), vertex, cells, capacity, count);

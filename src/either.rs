@@ -47,11 +47,11 @@ impl AnyTriangulation {
     /// # Errors
     /// Those of [`MovingTriangulation::load`].
     pub fn load(saved: &Saved<'_>, options: Options) -> Result<Self, LoadError> {
-        Ok(if saved.dimension() == 2 {
-            Self::Plane(MovingTriangulation::load(saved, options)?)
+        if saved.dimension() == 2 {
+            MovingTriangulation::load(saved, options).map(Self::Plane)
         } else {
-            Self::Space(MovingTriangulation::load(saved, options)?)
-        })
+            MovingTriangulation::load(saved, options).map(Self::Space)
+        }
     }
 
     /// A copy with a monitor of its own, as [`MovingTriangulation::try_clone`] makes it.

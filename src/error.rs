@@ -157,6 +157,9 @@ pub enum Error {
     },
     /// No timestamp is prepared that could be published.
     NotPrepared,
+    /// The call needs the lists of the changes that were taken last, and cells have changed since, or ids are not
+    /// those of then.
+    ChangesNotTaken,
     /// A number that has no meaning for its argument.
     InvalidValue {
         /// Parameter at fault.
@@ -372,6 +375,7 @@ impl fmt::Display for Error {
                 f,
                 "timestamp {timestamp} is prepared, in {rounds} rounds: it has to be published or withdrawn first"
             ),
+            Error::ChangesNotTaken => write!(f, "changes have not been taken since the last one"),
             Error::NotPrepared => write!(f, "no timestamp is prepared"),
             Error::OutsideOfPeriodic { argument } => {
                 write!(f, "{argument} is outside the convex hull of a triangulation that is periodic")

@@ -1,4 +1,5 @@
-//! In the steady state a commit allocates nothing: all that it works with has grown in the commits before.
+//! In the steady state a commit allocates nothing: all that it works with has grown in the commits before. Lists of neighbours
+//! allocate nothing for each vertex.
 //!
 //! Vertices go round a fixed cycle of places, so that after some rounds every list has been as
 //! long as it will be. Every allocation and reallocation by the test's thread, and by others on the way through this
@@ -8,7 +9,7 @@
 mod common;
 
 use common::{Rng, point};
-use deldrift::motion::{Algorithm, Commits, MovingTriangulation, Options};
+use deldrift::motion::{Algorithm, Commits, ListsOf, MovingTriangulation, Options};
 use deldrift::{Dimension, Plane, Space, VertexId};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::backtrace::Backtrace;
@@ -134,10 +135,30 @@ fn allocations<G: Dimension>(algorithm: Algorithm, displacement: f64) -> BTreeMa
     sites
 }
 
+/// Allocations of lists of what is near all of so many vertices.
+fn allocations_of_lists<G: Dimension>(n: usize) -> usize {
+    let rng = &mut Rng::new(2);
+    let side = (n as f64).powf(1.0 / G::D as f64);
+    let places: Vec<G::Point> = (0..n).map(|_| point::<G>(|_| side * rng.unit())).collect();
+    let t = MovingTriangulation::<G>::new(&places, Options::default()).expect("points in range");
+    let wanted = ListsOf { squared_radii: &[4.0], mask: None, is_half: false };
+    IS_COUNTING.store(true, Relaxed);
+    let lists = t.neighbour_lists(&wanted).expect("room");
+    IS_COUNTING.store(false, Relaxed);
+    assert!(lists.neighbours.len() > 5 * n);
+    TRACES.lock().expect("no panic while noting").drain(..).count()
+}
+
 /// One test, as the process must do nothing else meanwhile.
 #[test]
-fn commits_allocate_nothing_once_they_have_gone_round() {
+fn commits_allocate_nothing_once_they_have_gone_round_and_lists_nothing_for_each_vertex() {
     IS_TESTING.set(true);
+    for of_lists in [allocations_of_lists::<Plane>, allocations_of_lists::<Space>] {
+        let [few, many] = [N, 8 * N].map(of_lists);
+        println!("lists of {N} vertices: {few} allocations, of {}: {many}", 8 * N);
+        // Arrays for parts of the vertices, which grow.
+        assert!(0 < few && few < N / 4 && many < 2 * N);
+    }
     let mut found = Vec::new();
     for (dimension, algorithm) in [2, 3].into_iter().flat_map(|d| steady_algorithms().map(move |a| (d, a))) {
         for displacement in displacements(dimension, algorithm) {

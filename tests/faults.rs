@@ -11,11 +11,11 @@ mod common;
 #[path = "faults_in_boxes/mod.rs"]
 mod faults_in_boxes;
 
-use common::carried::{Carried, List};
+use common::carried::{Carried, List, take};
 use common::history::Snapshot;
 use common::{Rng, ids, point, seeds, sorted, vertex};
 use deldrift::motion::{Algorithm, CommitReport, Interpolation, Level, ListsOf, Location, Monitor};
-use deldrift::motion::{MovingTriangulation, Options, Rows, Saved, VertexValues};
+use deldrift::motion::{MovingTriangulation, Options, Rows, Saved, TransferOrder, VertexValues};
 use deldrift::{CellId, Dimension, Plane, Space, VertexId};
 use deldrift::{Error, LoadError, Result};
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -243,6 +243,7 @@ enum Call {
     AnnulusWidths,
     StandardDelimiter,
     TakeChanges,
+    TransferCells,
     Tolerance,
     Circumspheres,
     MaskBoundary,
@@ -292,7 +293,7 @@ impl Call {
         calls.extend([Call::Prepare, Call::Withdraw, Call::StageInsertions, Call::StageRemovals]);
         calls.extend([Call::MoveVertices, Call::MoveAll, Call::Cells, Call::Star, Call::Locate]);
         calls.extend([Call::Nearest, Call::Validate, Call::AnnulusWidths, Call::StandardDelimiter]);
-        calls.extend([Call::TakeChanges, Call::Tolerance]);
+        calls.extend([Call::TakeChanges, Call::TransferCells, Call::Tolerance]);
         calls.extend([Call::Circumspheres, Call::MaskBoundary, Call::Edges, Call::VertexNeighbours]);
         calls.extend([Call::VertexCells, Call::MirrorIndices, Call::VoronoiVolumes, Call::VoronoiFacets]);
         calls.extend([
@@ -466,7 +467,17 @@ impl<G: Dimension> Scene<G> {
             }
         }
         let options = Some(options());
-        let (mask, values) = (vec![1; t.cell_count()], (0..t.id_count()).map(|v| v as f64).collect());
+        let (mask, mut values) = (vec![1; t.cell_count()], (0..t.id_count()).map(|v| v as f64).collect());
+        if call == Call::TransferCells {
+            let carried = carried.get_or_insert_default();
+            carried.take(&mut t, &|| "before".to_string());
+            values = vec![0.25; t.cell_count()];
+            let p = point::<G>(|k| 0.45 + 0.05 * k as f64);
+            t.relocate_vertex(vertex(5), &p).expect("a relocation");
+            points[5] = p;
+            let list = take(&mut t).expect("room");
+            carried.follow(&t, &list, &|| "after".to_string());
+        }
         let saved = if call == Call::Load { t.saved().expect("room") } else { Vec::new() };
         let present = VertexId::range(0..t.id_count()).filter(|&v| t.is_present(v)).collect();
         Scene { t, points, carried, call, options, mask, values, present, saved }
@@ -588,6 +599,20 @@ impl<G: Dimension> Scene<G> {
                 let carried = self.carried.get_or_insert_default();
                 carried.follow(t, &list, &|| "taken".to_string());
                 Given::Nothing
+            }
+            Call::TransferCells => {
+                let mut made = t.transfer_cells(None, TransferOrder::Second, 1, values);
+                if let Err(Error::WrongCount { wanted, .. }) = made {
+                    // Changes have been taken again, to compare what there is.
+                    disarm();
+                    values.resize(wanted, 0.25);
+                    made = t.transfer_cells(None, TransferOrder::Second, 1, values);
+                }
+                disarm();
+                assert!(values.iter().all(|&mean| mean == 0.25), "a constant is another one");
+                made?;
+                assert_eq!(values.len(), t.cell_count());
+                Given::Numbers(vec![values.len() as u64])
             }
             Call::Circumspheres => {
                 let n = given(t.circumspheres().map(Iterator::count))?;
@@ -771,7 +796,7 @@ impl Faults<'_> {
         let name = format!("{}D, {call:?}, {setting:?}", G::D);
         // What it gives without faults.
         let mut reference = Scene::<G>::new(call, setting, None);
-        let Ok(given) = reference.call() else { panic!("{name}: it fails") };
+        let given = reference.call().unwrap_or_else(|error| panic!("{name}: it fails: {error}"));
         let finished = reference.finish();
         drop(reference);
         // Without looking at the cells where they have not been read: that would make the arrays.

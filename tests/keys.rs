@@ -559,7 +559,7 @@ fn what_was_before_insertions_is_checked() {
     let mut t = MovingTriangulation::<Plane>::new(&ten(), Options::default()).expect("a build");
     t.stage_insertions_with_keys(&[[0.5, 0.5], [0.25, 0.5]], &[9, 9]).expect("room");
     let bytes = t.saved().expect("room");
-    let at = bytes.len() - 4 - 88;
+    let at = bytes.len() - 4 - 96;
     let with = |n_known: u64, had_keys: u64| {
         let mut changed = bytes.clone();
         changed[at..at + 8].copy_from_slice(&n_known.to_le_bytes());

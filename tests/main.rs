@@ -40,4 +40,5 @@ mod splitting;
 mod suites;
 mod threads;
 mod tolerances;
+mod transferring;
 mod work;

@@ -4,6 +4,7 @@
 use crate::common::inputs::on_unit_sphere;
 use crate::common::{Rng, point, seeds, vertex};
 use crate::exact_oracle::reach::{ball_meets_box, is_box_beyond};
+use deldrift::internals::predicates::exact_calls;
 use deldrift::motion::{BoundaryFacet, MovingTriangulation, Options};
 use deldrift::{CellId, Dimension, Error, Plane, Space, VertexId};
 use std::collections::BTreeSet;
@@ -411,4 +412,32 @@ fn bad_boxes_and_masks_are_refused() {
     assert!(matches!(error, Some(Error::WrongCount { given: 1, wanted: 2, .. })));
     let error = t.vertices_in_reach(&good, &good, Some(&[1; 4])).err();
     assert!(matches!(error, Some(Error::WrongCount { argument: "mask_count", given: 4, wanted: 3, .. })));
+}
+
+/// Points on the diagonal of a box, but for the last bit, and their images nearby: nearly all cells are flat. What takes
+/// integers of any length is done once for a cell, however many boxes are asked about, and not for each box.
+#[test]
+fn flat_cells_take_long_integers_once_for_many_boxes() {
+    let sides = [1.0, 1.1, 1.3];
+    let at = |k: usize, shift: [f64; 3]| -> [f64; 3] {
+        std::array::from_fn(|axis| sides[axis] * ((k as f64 + 0.5) / 20.0 + shift[axis]))
+    };
+    let shifts = |most: i32| {
+        let steps = move || (-most..=most).map(f64::from);
+        steps().flat_map(move |x| steps().flat_map(move |y| steps().map(move |z| [x, y, z])))
+    };
+    let images = |most: i32| shifts(most).flat_map(|shift| (0..20).map(move |k| at(k, shift)));
+    let t = MovingTriangulation::<Space>::new(&images(1).collect::<Vec<_>>(), Options::default());
+    let t = t.expect("good places");
+    let places: Vec<[f64; 3]> = images(2).collect();
+    let calls = |places: &[[f64; 3]]| {
+        let before = exact_calls();
+        let found = t.vertices_in_reach(places, places, None).expect("good boxes");
+        assert!(!found.vertices.is_empty());
+        (exact_calls() - before) as usize
+    };
+    let (few, all, n_cells) = (calls(&places[..20]), calls(&places), t.cell_count());
+    println!("{n_cells} cells; {few} calls for 20 boxes, {all} for {}", places.len());
+    // A centre for each cell, and for each box a few signs of hull facets and near ties, and to locate it.
+    assert!(all < n_cells + 12 * places.len());
 }

@@ -405,6 +405,22 @@ std::vector<Call> changing_calls() {
                  c.meter.count(double(changes.star_count + changes.hidden_count + changes.shown_count));
              }
          }},
+        {"deldrift_transfer_cells", "after each of some relocations", [](Context &c) {
+             deldrift_changes changes;
+             must(deldrift_take_changes(c.t, &changes));
+             std::vector<double> values(2 * c.cells() + 1000);
+             for (std::size_t i = 0; i < c.some(); ++i) {
+                 const std::size_t before = c.cells();
+                 must(deldrift_relocate_vertex(c.t, c.some_vertex(i), c.elsewhere().data()));
+                 must(deldrift_take_changes(c.t, &changes));
+                 values.resize(std::max(values.size(), c.cells()));
+                 c.meter.time([&] {
+                     must(deldrift_transfer_cells(c.t, nullptr, 0, DELDRIFT_TRANSFER_SECOND_ORDER, values.data(),
+                                                  before, 1, values.size(), nullptr, nullptr, nullptr));
+                 });
+                 c.meter.count(1 + double(before + changes.created_count + changes.removed_count));
+             }
+         }},
         {"deldrift_take_changes", "after all have moved far away", [](Context &c) {
              deldrift_changes changes;
              must(deldrift_take_changes(c.t, &changes));

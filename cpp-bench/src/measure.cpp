@@ -48,7 +48,7 @@ std::vector<Row> rows_of(const Series &series, const std::vector<Lane> &lanes) {
         row.threads = lane.entrant->n_threads;
         row.seconds = sum_of_medians(lane, timestamps);
         row.speedup = sum_of_medians(baseline_of(lane, lanes), timestamps) / row.seconds;
-        row.is_step = lane.entrant->kind->is_step;
+        if (lane.entrant->kind->is_step) row.timed = "step";
         rows.push_back(row);
     }
     return rows;

@@ -25,8 +25,8 @@ const std::map<std::string, Preset> presets = {
     {"smoke", {"smoke", 20, 5, 2, 2, 1, {1'000}, {1'000}, {500}, {1'000}, true}},
 };
 
-const std::vector<std::string> scenario_names = {"lloyd_2d_uniform", "walk_3d", "static_2d",
-                                                 "static_3d",        "step_2d", "step_3d"};
+const std::vector<std::string> scenario_names = {"lloyd_2d_uniform", "walk_3d", "static_2d", "static_3d",
+                                                 "step_2d",          "step_3d", "lists_2d",  "lists_3d"};
 
 std::vector<std::string> all_scenario_names() {
     std::vector<std::string> names = scenario_names;

@@ -2,6 +2,7 @@
 #include "runner.hpp"
 
 #include "engine.hpp"
+#include "lists.hpp"
 #include "measure.hpp"
 #include "npy.hpp"
 #include "progress.hpp"
@@ -82,6 +83,9 @@ private:
             replay(record_walk_3d(walk_points, preset.walk_timestamps, options_.seed, progress_), effort);
         else if (scenario == "step_2d" || scenario == "step_3d")
             for (const std::size_t size : preset.step_sizes) step(scenario == "step_2d" ? 2 : 3, size);
+        else if (scenario == "lists_2d" || scenario == "lists_3d")
+            for (const std::size_t size : preset.step_sizes)
+                add(list_rows(scenario == "lists_2d" ? 2 : 3, size, options_.seed, progress_));
         else
             for (const std::size_t size : preset.static_sizes)
                 build(uniform_points(scenario == "static_2d" ? 2 : 3, size, options_.seed));

@@ -366,7 +366,7 @@ TEST_CASE("options") {
         for (std::string &word : words) pointers.push_back(&word[0]);
         return parse_options(static_cast<int>(pointers.size()), pointers.data());
     };
-    CHECK_MESSAGE(parse({}).scenarios.size() == 6, "all scenarios by default");
+    CHECK_MESSAGE(parse({}).scenarios.size() == 8, "all scenarios by default");
     CHECK_MESSAGE(parse({"--series", "x.npy"}).scenarios.empty(), "a series alone");
     CHECK_MESSAGE(parse({"--repeat", "7", "--preset", "full"}).preset.n_repeats == 7,
                   "the order of arguments does not matter");

@@ -218,9 +218,9 @@ TEST_CASE("step table") {
     const std::vector<Row> rows = rows_of({3, 1'000, 1e-3, 10, 400, 10, 20});
     REQUIRE(rows.size() == 3);
     CHECK(rows[0].scenario == "step_3d_1e-3");
-    CHECK(rows[0].is_step);
+    CHECK(rows[0].timed == "step");
     CHECK(rows[0].speedup == 1);
-    CHECK(!rows[1].is_step);
+    CHECK(rows[1].timed == "update");
     CHECK(rows[1].speedup == 0);
     CHECK(rows[2].speedup == 20);
     CHECK(std::fabs(rows[2].ns_per_vertex_timestamp() - 20) < 1e-9);

@@ -95,8 +95,7 @@ std::vector<Row> rows_of(const StepLine &line) {
         row.engine = kind.engine;
         row.algorithm = kind.algorithm;
         row.seconds = 1e-9 * ns * static_cast<double>(line.n * line.timestamps);
-        row.is_step = kind.is_step;
-        if (kind.is_step) row.speedup = line.cgal_step / ns;
+        if (kind.is_step) row.timed = "step", row.speedup = line.cgal_step / ns;
         return row;
     };
     return {row(step_kind("cgal/rebuilding"), line.cgal_step), row(engine_kind("deldrift/auto"), line.commit),

@@ -18,8 +18,6 @@ bool begins_like_a_number(const std::string &text) {
     return !text.empty() && (std::isdigit(static_cast<unsigned char>(text[0])) || text[0] == '-');
 }
 
-std::string timed(const Row &row) { return row.is_step ? "step" : "update"; }
-
 std::string speedup(const Row &row, int digits) {
     return row.speedup > 0 ? significant(row.speedup, digits) : std::string();
 }
@@ -64,7 +62,7 @@ void print_rows(std::ostream &out, const std::vector<Row> &rows) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const Row &row = rows[i];
         if (i == 0 || row.scenario != rows[i - 1].scenario || row.n != rows[i - 1].n) table.add({});
-        table.add(line_of(row.scenario, row.n, row.timestamps, row.engine, row.algorithm, timed(row), row.threads,
+        table.add(line_of(row.scenario, row.n, row.timestamps, row.engine, row.algorithm, row.timed, row.threads,
                           significant(row.seconds, 3), significant(row.ns_per_vertex_timestamp(), 3),
                           speedup(row, 3)));
     }
@@ -87,7 +85,7 @@ void write_csv(const std::string &path, const std::vector<Row> &rows) {
     for (const Row &row : rows)
         lines.push_back(line_of(row.scenario, row.dimension, row.n, row.timestamps, row.engine, row.algorithm,
                                 row.threads, significant(row.seconds, 6),
-                                significant(row.ns_per_vertex_timestamp(), 5), speedup(row, 5), timed(row)));
+                                significant(row.ns_per_vertex_timestamp(), 5), speedup(row, 5), row.timed));
     write_csv(path, lines);
 }
 

@@ -23,7 +23,7 @@ struct Row {
     unsigned threads = 1;
     double seconds = 0;  // all timed timestamps together
     double speedup = 0;  // over CGAL's rebuilding at the same timestamps, of a step over its step; 0: not known
-    bool is_step = false;
+    std::string timed = "update";  // or "step", or "lists"
 
     double ns_per_vertex_timestamp() const {
         return 1e9 * seconds / (static_cast<double>(n) * static_cast<double>(timestamps));

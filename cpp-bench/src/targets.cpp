@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "targets.hpp"
 
+#include "lists.hpp"
 #include "measure.hpp"
 #include "random.hpp"
 #include "referee.hpp"

@@ -62,10 +62,6 @@ std::vector<Target> growth_targets(unsigned dimension, const TargetSizes &sizes,
 std::vector<Target> location_targets(unsigned dimension, const TargetSizes &sizes, std::uint64_t seed,
                                      Progress &progress);
 
-/// Lists of what is near all vertices, beside linked cells, and nanoflann where that is installed. The lists are compared;
-/// throws Mismatch.
-std::vector<Target> list_targets(unsigned dimension, const TargetSizes &sizes, std::uint64_t seed, Progress &progress);
-
 /// Few vertices of many: auto beside the best of the algorithms for use, later and over the first ten timestamps, in ns
 /// per staged vertex, of which there are `n`. Throws Mismatch.
 std::vector<Target> staged_targets(unsigned dimension, const TargetSizes &sizes, std::uint64_t seed,

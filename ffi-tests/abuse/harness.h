@@ -22,9 +22,9 @@ enum { ROOM = 1024, BYTES = 16384, PLACES = 15 };
 
 #include "words.h"
 
-// The triangulations that calls are made on: with moves, insertions and removals staged; without; and that, with the cell
-// within the fence refined.
-typedef enum { WITH_EDITS, WITHOUT_EDITS, REFINED, PREPARED, N_BASES } base;
+// The triangulations that calls are made on: with moves, insertions and removals staged; without; that, with the cell
+// within the fence refined; prepared; and with changes taken.
+typedef enum { WITH_EDITS, WITHOUT_EDITS, REFINED, PREPARED, TAKEN, N_BASES } base;
 
 // The bases.
 static deldrift_triangulation *bases[N_BASES];
@@ -225,6 +225,12 @@ static void use_base(base which) {
     t = NULL;
     OK(deldrift_clone(bases[which], &t));
     if (which == PREPARED) OK(deldrift_prepare_timestamp(t, NULL));
+    if (which == TAKEN) {
+        // Of two times, as many cells were as there are.
+        deldrift_changes changes;
+        OK(deldrift_take_changes(t, &changes));
+        OK(deldrift_take_changes(t, &changes));
+    }
     OK(deldrift_id_count(t, &n_ids));
     OK(deldrift_cell_count(t, &n_cells));
     if (dimension == 2) mask_fence(t);
@@ -489,6 +495,7 @@ static void make_bases(void) {
         stage_segment(bases[0], 0, COMING_SEGMENT);
     }
     OK(deldrift_clone(bases[0], &bases[PREPARED]));
+    OK(deldrift_clone(bases[WITHOUT_EDITS], &bases[TAKEN]));
     for (base k = 0; k < N_BASES; k++) {
         use_base(k);
         look(t, &kept[k]);

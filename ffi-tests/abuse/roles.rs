@@ -91,6 +91,8 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
     match (parameter.c_type.as_str(), parameter.name.as_str()) {
         ("deldrift_triangulation *" | "const deldrift_triangulation *", "t") => Role::Handle,
         ("deldrift_released_cells *", "owner") => Role::Owner,
+        // Where no cell is gone none is read.
+        ("const double *", "positions") if function.name == "deldrift_transfer_cells" => Role::NumbersIfAny,
         ("const double *", "position" | "positions" | "centre") => Role::Points,
         ("const double *", "seeds") => Role::Points,
         ("const double *", "points") if function.name == "deldrift_in_sphere" => Role::PointsOfSphere,
@@ -134,14 +136,15 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("uint32_t", "corner") => Role::Corner,
         ("uint32_t", "level") => Role::Level,
         ("deldrift_algorithm" | "deldrift_research_algorithm", _) => Role::Algorithm,
-        ("deldrift_interpolation" | "deldrift_pairs", _) => Role::Method,
+        ("deldrift_interpolation" | "deldrift_pairs" | "deldrift_transfer_order", _) => Role::Method,
         ("deldrift_status", _) => Role::Status,
         ("uint32_t", "corners_per_simplex") => Role::Corners,
         ("double", "squared_radius" | "tolerance") => Role::Magnitude,
         ("size_t", "count") if function.name == "deldrift_commit_positions" => Role::FixedCount,
         (
             "size_t",
-            "count" | "vertex_count" | "cell_count" | "seed_count" | "box_count" | "half_space_count",
+            "count" | "vertex_count" | "cell_count" | "seed_count" | "box_count" | "half_space_count"
+            | "position_count",
         ) => Role::Count,
         ("size_t", "vertex_field_count" | "cell_field_count") => Role::Count,
         ("size_t", "value_count" | "radius_count" | "mask_count" | "offset_count" | "reference_count") => {
@@ -151,6 +154,7 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("size_t", "size") => Role::Size,
         ("size_t", "capacity" | "edge_capacity") => Role::Capacity,
         ("size_t", "limit") => Role::Limit,
+        ("deldrift_transfer_report *", _) | ("double *", "lost" | "gained") => Role::OutputIfAny,
         ("deldrift_split_report *", "report") => Role::OutputIfAny,
         ("size_t *", "undecided") => Role::Output,
         (c_type, "report") if is_commit && c_type.ends_with('*') => Role::OutputIfAny,

@@ -34,6 +34,7 @@ typedef struct {
     deldrift_conflict conflicts[8];
     deldrift_quality quality;
     deldrift_quality_report quality_report;
+    deldrift_transfer_report transfer_report;
     uint8_t bytes[BYTES];
 } outputs;
 

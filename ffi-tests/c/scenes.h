@@ -55,7 +55,7 @@ enum { N_SETTINGS = sizeof SETTINGS / sizeof *SETTINGS };
 typedef enum { CREATE, CREATE_WITH_KEYS, CREATE_PERIODIC, RELOCATE, INSERT, INSERT_WITH_KEY, REMOVE, MOVE, MOVE_SOME, MOVE_ALL,
     STAGE_INSERTIONS, STAGE_WITH_KEYS, STAGE_AT_FREE_IDS, STAGE_REMOVALS,
     STAGE_SEGMENTS, STAGE_SEGMENT_REMOVALS, COMMIT,
-    COMMIT_SOME, COMMIT_POSITIONS, PREPARE, PREPARE_SOME, WITHDRAW, CHECK_STAGED, CHECK_PASSINGS, STAGE_SPLITS, COMPACT, TAKE_CHANGES, CELLS,
+    COMMIT_SOME, COMMIT_POSITIONS, PREPARE, PREPARE_SOME, WITHDRAW, CHECK_STAGED, CHECK_PASSINGS, STAGE_SPLITS, COMPACT, TAKE_CHANGES, TRANSFER_CELLS, CELLS,
     COPY_CELLS, STAR, TOLERANCE, ANNULUS_WIDTHS,
     DELIMITER, LOCATE, LOCATE_POINTS, NEAREST, CIRCUMCENTRES, VOLUMES, MASK_BY_CIRCUMRADIUS,
     MASK_BOUNDARY, HULL_FACETS, EDGES, VERTEX_NEIGHBOURS, VERTEX_CELLS, MIRROR_INDICES, MIRROR_INDEX, ORDERED_STAR,
@@ -80,7 +80,7 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_commit_timestamp", "deldrift_commit_timestamp, some",
     "deldrift_commit_positions", "deldrift_prepare_timestamp", "deldrift_prepare_timestamp, some",
     "deldrift_withdraw_timestamp", "deldrift_check_staged", "deldrift_check_passings", "deldrift_stage_splits",
-    "deldrift_compact", "deldrift_take_changes", "deldrift_cells", "deldrift_copy_cells",
+    "deldrift_compact", "deldrift_take_changes", "deldrift_transfer_cells", "deldrift_cells", "deldrift_copy_cells",
     "deldrift_star", "deldrift_tolerance", "deldrift_research_annulus_widths", "deldrift_research_standard_delimiter",
     "deldrift_locate",
     "deldrift_locate_points", "deldrift_nearest_vertex", "deldrift_circumcentres",
@@ -143,6 +143,8 @@ typedef struct {
     size_t n_pairs;
     // Of the cell that is refined.
     double area;
+    // How many cells there were when changes were taken before.
+    size_t n_before;
 } scene;
 
 // Room for what calls give, made before.
@@ -410,6 +412,13 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
             OK(deldrift_stage_segments(s.t, (uint32_t[]){1, 2, 4, 5, 7, 8, 11, 14, 17, 20}, NULL, 5, &v));
         }
     }
+    if (call.kind == TRANSFER_CELLS) {
+        CHECK(take(&s) == NULL);
+        s.n_before = cell_count(s.t);
+        memcpy(s.points + 12 * d, s.places + 12 * d, d * sizeof *s.points);
+        OK(deldrift_relocate_vertex(s.t, 12, s.points + 12 * d));
+        CHECK(take(&s) == NULL);
+    }
     return s;
 }
 
@@ -471,6 +480,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     ids_out[0] = more_out[0] = 77;
     bytes_out[0] = 77;
     numbers_out[0] = 77;
+    for (size_t k = 0; k < s->n_before; k++) numbers_out[k] = 77;
     static const double low[] = {0.2, 0.3, 0.1}, high[] = {0.9, 0.7, 2}, at[] = {0.51, 0.5, 0.49};
     static const double squared = 0.004;
     const uint8_t *mask = all_cells();
@@ -589,6 +599,10 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case WITHDRAW: status = prepare_and_withdraw(s); break;
         case COMPACT: status = deldrift_compact(s->t, ids_out, ROOM, &count); break;
         case TAKE_CHANGES: status = deldrift_take_changes(s->t, &changes); break;
+        case TRANSFER_CELLS:
+            status = deldrift_transfer_cells(s->t, NULL, 0, DELDRIFT_TRANSFER_SECOND_ORDER, numbers_out, s->n_before, 1, ROOM,
+                                             NULL, NULL, NULL);
+            break;
         case CELLS: status = deldrift_cells(s->t, &cells); break;
         case COPY_CELLS: status = deldrift_copy_cells(s->t, ids_out, more_out, ROOM / 4, &count); break;
         case STAR: status = deldrift_star(s->t, 12, ids_out, ROOM, &count); break;
@@ -779,6 +793,9 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             renumber(&s->mirror, d + 1, ids_out);
             break;
         case TAKE_CHANGES: *wrong = follow(&s->mirror, &changes, s->t); break;
+        case TRANSFER_CELLS:
+            for (size_t i = 0; i < cell_count(s->t); i++) *given += numbers_out[i] == 77;
+            break;
         case STAGE_SPLITS: *given = digest_of(&split, sizeof split); break;
         case STAGE_AT_FREE_IDS: *given = digest_of(ids_out, 20 * sizeof *ids_out); break;
         case CELLS: *given = cells.count; break;

@@ -68,6 +68,36 @@ static void vertices_have_lists() {
     CHECK(Triangulation(3, {}).vertex_cells().offsets == Ids{0} && Triangulation(2, {}).edges().empty());
 }
 
+static void means_are_brought_over() {
+    Triangulation t(2, square);
+    t.take_changes();
+    std::vector<double> means = t.volumes(), before = means;
+    double content = 0, found = 0;
+    for (const double volume : t.volumes()) content += volume * volume;
+    t.remove_vertex(4);
+    t.insert_vertex({1.0, 2.5});
+    int thrown = 0;
+    for (int wrong = 0; wrong < 3; wrong++) {
+        try {
+            if (wrong == 0) t.transfer_cells(means);
+            if (wrong == 1) t.take_changes(), t.transfer_cells(means);
+            means.pop_back();
+            if (wrong == 2) t.transfer_cells(means, 1, square);
+        } catch (const deldrift::Error &error) {
+            static const deldrift_status wanted[] = {DELDRIFT_CHANGES_NOT_TAKEN, DELDRIFT_REMOVED_VERTEX,
+                                                     DELDRIFT_WRONG_COUNT};
+            thrown += error.status() == wanted[wrong];
+        }
+        means = before;
+    }
+    CHECK(thrown == 3);
+    const deldrift::Transfer made = t.transfer_cells(means, 1, square, DELDRIFT_TRANSFER_FIRST_ORDER);
+    const std::vector<double> volumes = t.volumes();
+    CHECK(means.size() == volumes.size() && made.report.gone == 4 && made.lost.size() == 1);
+    for (std::size_t c = 0; c < means.size(); c++) found += means[c] * volumes[c];
+    CHECK(std::abs(found - content) < 1e-12 && std::abs(made.lost[0]) + std::abs(made.gained[0]) < 1e-12);
+}
+
 static void arrays_are_kept() {
     Triangulation t(2, square);
     deldrift::Circumspheres spheres = t.circumcentres();
@@ -171,6 +201,7 @@ int main() {
     values_are_interpolated();
     cells_have_measures();
     arrays_are_kept();
+    means_are_brought_over();
     masks_have_boundaries();
     vertices_have_lists();
 }

@@ -80,7 +80,7 @@ struct RefinedWeights {
     // Enters into values, n_values numbers for each id before, those of the vertices that came.
     void carry(std::vector<double> &values, std::size_t n_values) const {
         if (empty()) return;
-        values.resize(std::max(values.size(), (ids.back() + std::size_t{1}) * n_values));
+        values.resize((std::max)(values.size(), (ids.back() + std::size_t{1}) * n_values));
         for (std::size_t k = 0; k < size(); k++) {
             for (std::size_t j = 0; j < n_values; j++) {
                 double sum = 0;

@@ -18,6 +18,14 @@ struct Circumspheres {
     std::vector<double> squared_radii;
 };
 
+// What was met as means were transferred, and by component the content that was lost and gained; see
+// deldrift_transfer_cells.
+struct Transfer {
+    deldrift_transfer_report report;
+    std::vector<double> lost;
+    std::vector<double> gained;
+};
+
 // Facets with the cell and the corner that each belongs to; see deldrift_mask_boundary.
 struct Facets {
     std::vector<std::uint32_t> vertices;  // rows of as many as the dimension says

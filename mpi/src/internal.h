@@ -365,11 +365,14 @@ enum {
 extern int deldrift_mpi_fault;
 extern long deldrift_mpi_allocations_left; // negative: no limit
 extern bool deldrift_mpi_is_preparing;     // while deldrift_prepare_timestamp runs
+extern long deldrift_mpi_asked;            // boxes that have been asked about
+#define DM_COUNT_ASKED(n)    (deldrift_mpi_asked += (long)(n))
 #define DM_SET_PREPARING(is) (deldrift_mpi_is_preparing = (is))
 #define DM_HAS_FAULT(name)   (deldrift_mpi_fault == (name))
 #else
 #define DM_HAS_FAULT(name)   false
 #define DM_SET_PREPARING(is) ((void)0)
+#define DM_COUNT_ASKED(n)    ((void)0)
 #endif
 
 #endif

@@ -8,6 +8,7 @@
 int deldrift_mpi_fault = DM_FAULT_NONE;
 long deldrift_mpi_allocations_left = -1;
 bool deldrift_mpi_is_preparing = false;
+long deldrift_mpi_asked = 0;
 
 static void *reallocate(void *old, size_t bytes) {
     if (deldrift_mpi_allocations_left == 0) return NULL;

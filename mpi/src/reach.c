@@ -82,13 +82,14 @@ static void unite_boxes_of(const deldrift_mpi *m, dm_box *all, int process) {
         if (!dm_is_empty_box(&boxes[b])) unite(m, all, &boxes[b]);
 }
 
-// Whether a process has a copy of each own vertex, so that nothing is left to be sent: so it is with points on a
-// sphere, of which each cell is in reach of all boxes.
-static bool has_all(const deldrift_mpi *m, int process) {
-    if (m->lattice.rank || m->peer_of[process] < 0) return false;
+// Whether a process has a copy of each own vertex by a translation, so that nothing is left to be sent: so it is with
+// points on a sphere or a line, of which each cell is in reach of all boxes.
+static bool has_all(const deldrift_mpi *m, int process, uint32_t period) {
+    if (m->peer_of[process] < 0) return false;
     const dm_list *sent = &m->peers[m->peer_of[process]].sent;
     size_t staying = 0;
-    for (size_t k = 0; sent->count >= m->next_count && k < sent->count; k++) staying += !sent->is_leaving[k];
+    for (size_t k = 0; sent->count >= m->next_count && k < sent->count; k++)
+        staying += sent->period[k] == period && !sent->is_leaving[k];
     return staying >= m->next_count;
 }
 
@@ -97,7 +98,7 @@ static bool has_all(const deldrift_mpi *m, int process) {
 static dm_box box_of_group(const deldrift_mpi *m, int first, int width, bool of_peers) {
     dm_box all = no_box();
     for (int process = first; process < m->size && process < first + width; process++)
-        if (process != m->rank && !(of_peers ? m->peer_of[process] < 0 : has_all(m, process)))
+        if (process != m->rank && !(of_peers ? m->peer_of[process] < 0 : has_all(m, process, 0)))
             unite_boxes_of(m, &all, process);
     return all;
 }
@@ -136,6 +137,7 @@ static deldrift_status reach_without_hull(deldrift_mpi *m, size_t boxes, size_t 
 // Lists of own vertices in reach of the boxes, in `found` and `offsets`.
 static bool search(deldrift_mpi *m, size_t boxes) {
     size_t count = 0;
+    DM_COUNT_ASKED(boxes);
 #ifdef DELDRIFT_MPI_TESTING
     if (DM_HAS_FAULT(DM_FAULT_HALF_SPACE)) return dm_took(&m->refusal, reach_without_hull(m, boxes, &count));
 #endif
@@ -226,23 +228,60 @@ static dm_box translated(const deldrift_mpi *m, const dm_box *box, uint32_t peri
     return there;
 }
 
-// The boxes of all processes in all periods that meet this one, wider by `margin` spacings. A rounded translation of a
-// box has the translations of all that is in it, as these are not rounded.
-static bool put_periods(deldrift_mpi *m, const dm_box *extent, bool of_peers, double margin, size_t *boxes) {
+// Whether what a process has in a period, in the box `all`, is asked about: it is not what is own, meets the extent,
+// wider by `margin` spacings, and, unless it is asked what peers still need, something is left to be sent. A rounded
+// translation of a box has the translations of all that is in it, as these are not rounded.
+static bool may_reach(const deldrift_mpi *m, const dm_box *extent, int process, const dm_box *all, uint32_t period,
+                      bool of_peers, double margin, dm_box *wider) {
+    dm_box there = translated(m, all, period);
+    if (DM_HAS_FAULT(DM_FAULT_NO_PERIOD) && period == m->lattice.unit[0]) return false;
+    *wider = widened(m, &there, margin);
+    return (process != m->rank || period) && meet(m, extent, wider) &&
+           (of_peers || !has_all(m, process, dm_opposite(period)));
+}
+
+// The box of a process, which is empty where nothing is asked about it.
+static dm_box box_of(const deldrift_mpi *m, int process, bool of_peers) {
+    dm_box all = no_box();
+    if (!of_peers || m->peer_of[process] >= 0) unite_boxes_of(m, &all, process);
+    return all;
+}
+
+// Asks about all that a process has in a period, in one box, if it is farther from own vertices than these are from each
+// other: in nodes, in the order of put_periods, whether something own is in reach. Of points on a line most periods are
+// far, and no half-space tells.
+static bool ask_far(deldrift_mpi *m, const dm_box *extent, const dm_box *near, bool of_peers, double margin) {
+    size_t asked = 0;
+    for (int process = 0; process < m->size; process++) {
+        dm_box all = box_of(m, process, of_peers), wider;
+        if (dm_is_empty_box(&all)) continue;
+        if (!reserve_boxes(m, asked + m->lattice.count)) return false;
+        for (uint32_t period = 0; period < m->lattice.count; period++)
+            if (may_reach(m, extent, process, &all, period, of_peers, margin, &wider) && !meet(m, near, &wider))
+                put_box(m, asked++, &wider, process, dm_opposite(period));
+    }
+    if (asked && !search(m, asked)) return false;
+    for (size_t b = 0; b < asked; b++) m->nodes[b] = m->offsets[b + 1] > m->offsets[b];
+    return true;
+}
+
+// The boxes of all processes in all periods that meet this one, wider by `margin` spacings; without those that ask_far
+// has found to be out of reach, if there is a box near which it has not asked.
+static bool put_periods(deldrift_mpi *m, const dm_box *extent, const dm_box *near, bool of_peers, double margin,
+                        size_t *boxes) {
+    size_t far = 0;
     *boxes = 0;
     for (int process = 0; process < m->size; process++) {
-        dm_box all = no_box();
-        unite_boxes_of(m, &all, process);
-        if (dm_is_empty_box(&all) || (of_peers && m->peer_of[process] < 0)) continue;
+        dm_box all = box_of(m, process, of_peers), wider;
+        if (dm_is_empty_box(&all)) continue;
         for (uint32_t period = 0; period < m->lattice.count; period++) {
-            dm_box there = translated(m, &all, period), wider = widened(m, &there, margin);
-            if ((process == m->rank && !period) || !meet(m, extent, &wider)) continue;
-            if (DM_HAS_FAULT(DM_FAULT_NO_PERIOD) && period == m->lattice.unit[0]) continue;
+            if (!may_reach(m, extent, process, &all, period, of_peers, margin, &wider)) continue;
+            if (near && !meet(m, near, &wider) && !m->nodes[far++]) continue;
             const dm_box *each = dm_boxes_now(m) + (size_t)process * m->options.boxes;
             if (!reserve_boxes(m, *boxes + m->options.boxes)) return false;
             for (uint32_t b = 0; b < m->options.boxes; b++) {
                 if (dm_is_empty_box(&each[b])) continue;
-                there = translated(m, &each[b], period);
+                dm_box there = translated(m, &each[b], period);
                 wider = widened(m, &there, margin);
                 if (meet(m, extent, &wider)) put_box(m, (*boxes)++, &wider, process, dm_opposite(period));
             }
@@ -257,8 +296,12 @@ static bool search_processes(deldrift_mpi *m, bool of_peers, double margin, size
     size_t near = 0;
     *boxes = 0;
     if (m->lattice.rank) {
-        dm_box extent;
-        if (!find_extent(m, &extent) || !put_periods(m, &extent, of_peers, margin, boxes)) return false;
+        dm_box extent, own = no_box();
+        unite_boxes_of(m, &own, m->rank);
+        dm_box beside = widened(m, &own, 1);
+        if (!find_extent(m, &extent) || !ask_far(m, &extent, &beside, of_peers, margin) ||
+            !put_periods(m, &extent, &beside, of_peers, margin, boxes))
+            return false;
         return !*boxes || search(m, *boxes);
     }
     if (!find_near(m, of_peers, margin, &near)) return false;
@@ -379,7 +422,7 @@ void dm_seed(deldrift_mpi *m) {
         own.low[k] -= width;
         own.high[k] += width;
     }
-    if (!put_periods(m, &own, false, 0, &boxes)) return;
+    if (!put_periods(m, &own, NULL, false, 0, &boxes)) return;
     for (size_t b = 0; b < boxes;) {
         group g = group_from(m, b, boxes);
         dm_list *sent = list_for(m, g.rank, m->next_count);

@@ -19,6 +19,7 @@ from ._errors import (
     AmbiguousSeed,
     Busy,
     Cancelled,
+    ChangesNotTaken,
     Closed,
     Coincident,
     ConflictError,
@@ -57,6 +58,7 @@ from ._periodic import PeriodicDelaunay, PeriodicLocations
 from ._refining import MadeVertices, RefinedWeights
 from ._segments import Chains, Segments, Splits
 from ._step import Step, Trial
+from ._transferring import Transfer
 
 __version__ = "0.1.0"
 
@@ -67,6 +69,7 @@ __all__ = [
     "Cancelled",
     "Chains",
     "Changes",
+    "ChangesNotTaken",
     "Closed",
     "Coincident",
     "ConflictError",
@@ -106,6 +109,7 @@ __all__ = [
     "StagedVertex",
     "Step",
     "TooMany",
+    "Transfer",
     "Trial",
     "VoronoiCells",
     "VoronoiDerivatives",

@@ -18,6 +18,7 @@ from ._loading import given_callbacks, made, of_bytes, of_file
 from ._motion import Motion
 from ._refining import Refining
 from ._scipy import check_scipy_options
+from ._transferring import Transferring
 from ._writing import Path
 
 _create = _library.function("create_with_keys")
@@ -27,7 +28,7 @@ _clone = _library.function("clone")
 SEGMENT_ARGUMENTS = "segments", "segment_markers"
 
 
-class Delaunay(Motion, Refining, Asking, Geometry, Files):
+class Delaunay(Motion, Refining, Transferring, Asking, Geometry, Files):
     """The Delaunay triangulation of points in the plane or in space, whose points may move.
 
     Simplices are exact, and a function of positions and keys alone, which are ids by default: ties between cocircular and

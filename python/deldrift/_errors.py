@@ -87,6 +87,10 @@ class StagedVertex(Error, ValueError):
     """The vertex is inserted, or removed, only with the end of the step that is open."""
 
 
+class ChangesNotTaken(Error, RuntimeError):
+    """Something has changed since `changes` was last called, or it never was, or ids have been given anew."""
+
+
 class Prepared(Error, RuntimeError):
     """A trial has made steps, and the call may not be made before it ends or withdraws them."""
 
@@ -232,6 +236,7 @@ KINDS = {
     34: AmbiguousSeed,
     36: Prepared,
     39: InvalidValue,
+    40: ChangesNotTaken,
 }
 """Classes by deldrift_status. What is not here comes of a defect, as a pointer of this package that is NULL."""
 

@@ -227,6 +227,17 @@ class ChangesView(ctypes.Structure):
     ]
 
 
+class TransferReport(ctypes.Structure):
+    """deldrift_transfer_report."""
+
+    _fields_ = [
+        *((name, c_uint64) for name in ("gone", "arrived", "overlaps", "turned_over", "uncovered")),
+        ("reserved", c_uint64 * 3),
+        *((name, c_double) for name in ("lost_volume", "gained_volume", "volume_error")),
+        ("reserved_numbers", c_double * 3),
+    ]
+
+
 class CellsView(ctypes.Structure):
     """deldrift_cells_view."""
 
@@ -274,6 +285,7 @@ PROTOTYPES = {
     "remove_vertex": (T, U32),
     "compact": (T, A, N, C),
     "take_changes": (T, POINTER(ChangesView)),
+    "transfer_cells": (T, A, N, U32, A, N, N, N, POINTER(TransferReport), A, A),
     "vertex_count": (T, C),
     "id_count": (T, C),
     "cell_count": (T, C),

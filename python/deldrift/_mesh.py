@@ -450,6 +450,7 @@ class Mesh:
         areas: Optional[Mapping[float, float]] = None,
         sizes: Any = None,
         is_too_large: Optional[TooLarge] = None,
+        keep: str = "none",
         margin: float = 2.0,
         share: float = 0.9,
         joins: float = 1e-9,
@@ -464,7 +465,7 @@ class Mesh:
             As of `Delaunay.coarsen`.
         areas : dict, optional
             The greatest area of triangles by the label of their region, 0 for any.
-        sizes, is_too_large, margin, share, joins, growth, is_conforming
+        sizes, is_too_large, keep, margin, share, joins, growth, is_conforming
             As of `Delaunay.coarsen`.
 
         Returns
@@ -477,6 +478,7 @@ class Mesh:
             greatest_area=greatest_area,
             sizes=sizes,
             is_too_large=is_too_large,
+            keep=keep,
             margin=margin,
             share=share,
             joins=joins,

@@ -21,6 +21,7 @@ from ._meeting import Meeting
 from ._motion import Changes, changes_of
 from ._near import Near
 from ._step import Trial
+from ._transferring import Transferring
 from ._values import Values, as_given, expect, given_values
 from ._writing import Path, Writing
 
@@ -69,7 +70,7 @@ class PeriodicLocations(NamedTuple):
     """By which multiples of the vectors the vertex is translated from its point, or the simplex from its own shifts."""
 
 
-class PeriodicDelaunay(Near, Measured, Meeting, Writing):
+class PeriodicDelaunay(Near, Measured, Meeting, Transferring, Writing):
     """The Delaunay triangulation of points that repeat, and that may move.
 
     Each point is in all places to which sums of multiples of the vectors of the box take it. Of the simplices, one of each

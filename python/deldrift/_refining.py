@@ -197,6 +197,7 @@ class Refining(Segmented):
         sizes: Any = None,
         is_too_large: Optional[TooLarge] = None,
         mask: Any = None,
+        keep: str = "none",
         margin: float = 2.0,
         share: float = 0.9,
         joins: float = 1e-9,
@@ -210,7 +211,7 @@ class Refining(Segmented):
 
         Parameters
         ----------
-        least_angle, greatest_area, areas, labels, sizes, is_too_large, mask
+        least_angle, greatest_area, areas, labels, sizes, is_too_large, mask, keep
             As of `refine`. To be called before it, with what it will be called with.
         margin : float, optional
             By how many degrees the angles of new simplices have to be above the least one, from 0 to 30.
@@ -245,6 +246,7 @@ class Refining(Segmented):
             _coarsen,
             [least_angle, greatest_area, areas, labels, sizes, is_too_large, mask],
             {
+                "keeps": choice("keep", keep, _library.KEPT),
                 "margin": real("margin", margin),
                 "share": real("share", share),
                 "joins": real("joins", joins),

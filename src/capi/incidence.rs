@@ -34,10 +34,10 @@ pub unsafe extern "C" fn deldrift_edges(
     given!(t: Reading, edges[capacity]: Buffer, count: Output);
     t.read_any(|t| match t {
         Content::Open(t) => in_its_dimension!(t => edges.fill(count, t.edge_count(), || Ok(t.edges()?))),
-        Content::Periodic(t) => {
+        Content::Periodic(t) => in_its_period!(t, t => {
             let listed = t.edges()?;
-            edges.fill(count, listed.len(), || Ok(listed.into_iter().map(|(edge, _)| edge)))
-        }
+            edges.fill(count, listed.len(), || Ok(listed.map(|(edge, _)| edge)))
+        }),
     })
 }
 

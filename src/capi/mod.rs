@@ -82,6 +82,7 @@ mod segments;
 mod splitting;
 mod state;
 mod status;
+mod transferring;
 mod triangulation;
 mod voronoi;
 
@@ -110,5 +111,6 @@ pub use segments::*;
 pub use splitting::*;
 pub use state::*;
 pub use status::*;
+pub use transferring::*;
 pub use triangulation::*;
 pub use voronoi::*;

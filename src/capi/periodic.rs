@@ -426,10 +426,10 @@ fn fill_edge_shifts<const D: usize>(
             let needed = in_its_dimension!(t => t.edge_count());
             shifts.fill(count, needed, || Ok(repeat([0; D])))
         }
-        Content::Periodic(t) => {
+        Content::Periodic(t) => in_its_period!(t, t => {
             let edges = t.edges()?;
-            shifts.fill(count, edges.len(), || Ok(edges.into_iter().map(|(_, shift)| first_of(shift))))
-        }
+            shifts.fill(count, edges.len(), || Ok(edges.map(|(_, shift)| first_of(shift))))
+        }),
     }
 }
 

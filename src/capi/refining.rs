@@ -95,8 +95,8 @@ pub struct deldrift_quality {
     /// default 0.9.
     pub share: f64,
     /// Two pieces of a segment are joined by deldrift_coarsen if the vertex between them is on the line through their other
-    /// ends, or off it by no more than this share of the distance of these: from 0 to 1. The default, 1e-9, is above what
-    /// the rounding of motions adds up to.
+    /// ends, or off it by no more than this share of the distance of these: from 0 to 1. Above 0 it may be off by 64 last
+    /// places of the greatest coordinate at least. The default, 1e-9, is above what the rounding of motions adds up to.
     pub joins: f64,
     /// How many times as many vertices as a mesh made anew the mesh may have: 1 or more, default 1.1. Where deldrift_coarsen
     /// leaves more of those that deldrift_refine has inserted, or takes many away for another quality, the next
@@ -106,8 +106,9 @@ pub struct deldrift_quality {
     /// Not 0 if deldrift_refine gives its vertices free ids, as deldrift_stage_insertions_at_free_ids does: of vertices
     /// that earlier commits have removed, the lowest first, and then new ones; deldrift_refined_vertices tells which. So
     /// deldrift_id_count does not grow for ever. From the first insertion on vertices have keys then, as if these had
-    /// been given (see deldrift_keys): those that deldrift_refine inserts the greatest one, the others their ids.
-    /// Default 0.
+    /// been given (see deldrift_keys): those that deldrift_refine inserts the greatest one, the others their ids. Who
+    /// transfers means of cells takes the changes between deldrift_coarsen and deldrift_refine as well: a cell with the
+    /// ids of one that was is not listed. Default 0.
     pub reuses_ids: u32,
 }
 
@@ -252,7 +253,7 @@ pub unsafe extern "C" fn deldrift_refine(
 ) -> deldrift_status {
     given!(t: Changing, quality: Given, mask[mask_count]: Array, report: Output);
     improve(t, quality, mask, mask_count, report, |t, given, quality, mask| {
-        coarsening_of(given).check()?;
+        coarsening_of(given)?.check()?;
         let options = RefineOptions {
             keeps: kept_of(given.keeps)?,
             limit: given.limit,
@@ -267,7 +268,8 @@ pub unsafe extern "C" fn deldrift_refine(
 /// still be of the quality, by a margin. Pieces of a segment are joined again. One commit of its own, all or nothing, of
 /// which deldrift_take_changes tells what it changed.
 ///
-/// The arguments are those of deldrift_refine. keeps, has_weights, limit and reuses_ids of the quality are not used.
+/// The arguments are those of deldrift_refine. has_weights, limit and reuses_ids of the quality are not used; keeps says
+/// what it would do.
 ///
 /// Around cells that are of lower quality already, those that come may have angles as small: call it before deldrift_refine,
 /// which then has less to insert.
@@ -276,8 +278,8 @@ pub unsafe extern "C" fn deldrift_refine(
 /// looking at the cells around it. Where no place, cell or segment has changed since this call has found nothing to remove
 /// with these numbers: comparing mask and labels.
 ///
-/// Errors: those of deldrift_refine but for keeps: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT,
-/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS for struct_size, DELDRIFT_WRONG_COUNT,
+/// Errors: those of deldrift_refine: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT,
+/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS for struct_size and keeps, DELDRIFT_WRONG_COUNT,
 /// DELDRIFT_INVALID_VALUE, DELDRIFT_STAGED_VERTEX, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED,
 /// DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING. Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
@@ -290,7 +292,7 @@ pub unsafe extern "C" fn deldrift_coarsen(
 ) -> deldrift_status {
     given!(t: Changing, quality: Given, mask[mask_count]: Array, report: Output);
     improve(t, quality, mask, mask_count, report, |t, given, quality, mask| {
-        Ok(t.coarsen(quality, &coarsening_of(given), mask)?)
+        Ok(t.coarsen(quality, &coarsening_of(given)?, mask)?)
     })
 }
 
@@ -446,8 +448,9 @@ pub unsafe extern "C" fn deldrift_refined_vertices(
 }
 
 /// What coarsening is told by a quality.
-fn coarsening_of(given: &deldrift_quality) -> CoarsenOptions {
-    CoarsenOptions { margin: given.margin, share: given.share, joins: given.joins, growth: given.growth }
+fn coarsening_of(given: &deldrift_quality) -> Result<CoarsenOptions, Failure> {
+    let deldrift_quality { margin, share, joins, growth, keeps, .. } = *given;
+    Ok(CoarsenOptions { margin, share, joins, growth, keeps: kept_of(keeps)? })
 }
 
 /// Runs a call that improves the cells of a mask.

@@ -53,8 +53,9 @@ pub unsafe extern "C" fn deldrift_clone(
 /// Saved are positions, ids, segments, removed and hidden vertices, cells with their indices, staged moves, insertions and
 /// removals, the timestamp and statistics. Not saved are the options, what the algorithm keeps between commits,
 /// which changes have been taken, the answers of deldrift_refined_weights, deldrift_refined_sizes and
-/// deldrift_refined_vertices, and what deldrift_segment_conflicts and deldrift_passings tell. docs/FORMAT.md describes the bytes. Of a periodic triangulation the vectors as
-/// deldrift_vectors tells them, those that are staged, and the periods of vertices are saved, too, and all images with their cells.
+/// deldrift_refined_vertices, and what deldrift_segment_conflicts and deldrift_passings tell. docs/FORMAT.md describes
+/// the bytes. Of a periodic triangulation the vectors as deldrift_vectors tells them, those that are staged, and the
+/// periods of vertices are saved, too, and all images with their cells.
 ///
 /// buffer: room for capacity bytes, with any alignment. count: receives the number of bytes, which is also written
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone, in constant time.
@@ -143,21 +144,49 @@ fn load(
     options: deldrift_options,
     out: &mut MaybeUninit<*mut deldrift_triangulation>,
 ) -> Result<(), Failure> {
-    let failed = |error| match error {
+    let load = if SavedPeriodic::is_of(data, data.len() as u64) { load_periodic } else { load_open };
+    load(argument, data, options, out)
+}
+
+/// Makes a periodic triangulation. No other call has room for one on the stack, as this is never a part of its caller.
+#[inline(never)]
+fn load_periodic(
+    argument: &'static str,
+    data: &[u8],
+    options: deldrift_options,
+    out: &mut MaybeUninit<*mut deldrift_triangulation>,
+) -> Result<(), Failure> {
+    let (callbacks, options) = (options.callbacks(), options.convert()?);
+    let saved = SavedPeriodic::of(data).map_err(|damage| Failure::Data { argument, damage })?;
+    reject_coincidence(&options)?;
+    match AnyPeriodic::load(&saved, options) {
+        Ok(made) => hand_out(out, memory::boxed(made)?, callbacks),
+        Err(error) => Err(of_load(argument, error)),
+    }
+}
+
+/// Makes an open triangulation, by itself for the same reason.
+#[inline(never)]
+fn load_open(
+    argument: &'static str,
+    data: &[u8],
+    options: deldrift_options,
+    out: &mut MaybeUninit<*mut deldrift_triangulation>,
+) -> Result<(), Failure> {
+    let (callbacks, options) = (options.callbacks(), options.convert()?);
+    let saved = Saved::of(data).map_err(|damage| Failure::Data { argument, damage })?;
+    match AnyTriangulation::load(&saved, options) {
+        Ok(made) => hand_out(out, made, callbacks),
+        Err(error) => Err(of_load(argument, error)),
+    }
+}
+
+/// Why the bytes of an argument make no triangulation.
+fn of_load(argument: &'static str, error: LoadError) -> Failure {
+    match error {
         LoadError::Call(error) => Failure::Call(error),
         LoadError::Data(damage) => Failure::Data { argument, damage },
-    };
-    let damaged = |damage| Failure::Data { argument, damage };
-    let callbacks = options.callbacks();
-    let options = options.convert()?;
-    if SavedPeriodic::is_of(data, data.len() as u64) {
-        let saved = SavedPeriodic::of(data).map_err(damaged)?;
-        reject_coincidence(&options)?;
-        let made = AnyPeriodic::load(&saved, options).map_err(failed)?;
-        return hand_out(out, memory::boxed(made)?, callbacks);
     }
-    let saved = Saved::of(data).map_err(damaged)?;
-    hand_out(out, AnyTriangulation::load(&saved, options).map_err(failed)?, callbacks)
 }
 
 /// The bytes of a file that begins like that of a triangulation, and is as long as it says there; not if either is

@@ -102,6 +102,9 @@ pub enum deldrift_status {
     DELDRIFT_PERIODIC = 38,
     /// The vectors of a periodic box depend on each other, or nearly so, or are more than there are axes.
     DELDRIFT_DEPENDENT_VECTORS = 39,
+    /// The call needs the lists of the latest deldrift_take_changes, and cells have changed since, or ids are not
+    /// those of then.
+    DELDRIFT_CHANGES_NOT_TAKEN = 40,
 }
 
 use deldrift_status::*;
@@ -111,7 +114,7 @@ pub type StatusCode = u32;
 
 impl deldrift_status {
     /// Every status, in the order of their values.
-    const ALL: [deldrift_status; 40] = [
+    const ALL: [deldrift_status; 41] = [
         DELDRIFT_OK,
         DELDRIFT_NULL_ARGUMENT,
         DELDRIFT_MISALIGNED_ARGUMENT,
@@ -152,6 +155,7 @@ impl deldrift_status {
         DELDRIFT_NOT_PREPARED,
         DELDRIFT_PERIODIC,
         DELDRIFT_DEPENDENT_VECTORS,
+        DELDRIFT_CHANGES_NOT_TAKEN,
     ];
 
     fn text(self) -> &'static CStr {
@@ -193,6 +197,7 @@ impl deldrift_status {
             DELDRIFT_AMBIGUOUS_SEED => c"a seed is on the boundary of several regions",
             DELDRIFT_PASSES_SEGMENT => c"a vertex would pass a segment",
             DELDRIFT_PREPARED => c"a timestamp is prepared",
+            DELDRIFT_CHANGES_NOT_TAKEN => c"changes have not been taken since the last one",
             DELDRIFT_NOT_PREPARED => c"no timestamp is prepared",
             DELDRIFT_PERIODIC => c"the function does not serve periodic triangulations",
             DELDRIFT_DEPENDENT_VECTORS => c"the vectors of a box depend on each other",
@@ -307,6 +312,7 @@ impl Failure {
                 },
                 Error::Passing { .. } => DELDRIFT_PASSES_SEGMENT,
                 Error::Prepared { .. } => DELDRIFT_PREPARED,
+                Error::ChangesNotTaken => DELDRIFT_CHANGES_NOT_TAKEN,
                 Error::NotPrepared => DELDRIFT_NOT_PREPARED,
                 Error::DuplicateMove { .. } => DELDRIFT_DUPLICATE_MOVE,
                 Error::WrongCount { .. } => DELDRIFT_WRONG_COUNT,

@@ -193,18 +193,20 @@ pub struct CoarsenOptions {
     /// The share, up to 1, of the greatest areas and lengths that cells that come may have.
     pub share: f64,
     /// Two pieces of a segment are joined if the vertex between them is on the line through their other ends, or off it
-    /// by no more than this share of the distance of these. The default, 1e-9, is above what the rounding of motions adds
-    /// up to.
+    /// by no more than this share of the distance of these; above 0 it may be off by 64 last places of the greatest
+    /// coordinate at least. The default, 1e-9, is above what the rounding of motions adds up to.
     pub joins: f64,
     /// How many times as many vertices as a mesh made anew the mesh may have, 1 or more. Where it has more, or may have, as
     /// another quality is asked for, the next refinement makes it anew, in its one commit, and takes that if it is so. Not
     /// with sizes. Infinite for never.
     pub growth: f64,
+    /// Which segments refinement keeps whole: around cells that it would mend more vertices may go.
+    pub keeps: Kept,
 }
 
 impl Default for CoarsenOptions {
     fn default() -> Self {
-        CoarsenOptions { margin: 2.0, share: 0.9, joins: 1e-9, growth: 1.1 }
+        CoarsenOptions { margin: 2.0, share: 0.9, joins: 1e-9, growth: 1.1, keeps: Kept::None }
     }
 }
 

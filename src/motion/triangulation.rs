@@ -11,7 +11,6 @@ use crate::motion::options::Options;
 use crate::motion::plan::auto::Auto;
 use crate::motion::plan::switching::Switching;
 use crate::motion::report::{CommitReport, Evaluations};
-use crate::motion::state::changes::Taken;
 use crate::motion::state::checking::{are_good, first_bad};
 use crate::motion::state::edits::Edits;
 use crate::motion::state::foreseen::Foreseen;
@@ -21,6 +20,7 @@ use crate::motion::state::mesh::Mesh;
 use crate::motion::state::repair::Repair;
 use crate::motion::state::segments::Aim;
 use crate::motion::state::staging::Staging;
+use crate::motion::state::taken::Taken;
 
 /// Greatest number of vertex ids.
 pub const MAX_VERTICES: usize = u32::MAX as usize - 1;

@@ -25,6 +25,8 @@ pub(super) type Name = [(VertexId, [i64; 3]); 4];
 pub(super) struct Base<G: Dimension> {
     pub(super) corners: Vec<G::Vertices>,
     pub(super) index_of: HashMap<Name, CellId, BuildHasherDefault<RowHasher>>,
+    /// By index, whether a name lists the corners in the opposite orientation.
+    pub(super) is_odd: Vec<bool>,
     /// Vertices that others hid, ascending.
     pub(super) hidden: Vec<VertexId>,
     /// The lattice, if changes had been taken.
@@ -34,7 +36,13 @@ pub(super) struct Base<G: Dimension> {
 impl<G: Dimension> Base<G> {
     /// That of a box in which no cell has been told yet.
     pub(super) fn none() -> Self {
-        Base { corners: Vec::new(), index_of: HashMap::default(), hidden: Vec::new(), lattice: None }
+        Base {
+            corners: Vec::new(),
+            index_of: HashMap::default(),
+            is_odd: Vec::new(),
+            hidden: Vec::new(),
+            lattice: None,
+        }
     }
 
     /// A copy in which vertices have other ids, listed by the old ones; those that have none any more are in no cell of now.
@@ -46,6 +54,7 @@ impl<G: Dimension> Base<G> {
             row
         });
         memory::collect(&mut base.corners, renumbered)?;
+        base.is_odd = memory::copy_of(&self.is_odd)?;
         memory::reserve_map(&mut base.index_of, self.index_of.len())?;
         for (name, &cell) in &self.index_of {
             let mut name = *name;
@@ -63,6 +72,7 @@ impl<G: Dimension> Base<G> {
     pub(super) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.corners)
             + self.index_of.capacity() * size_of::<(Name, CellId)>()
+            + memory::bytes_of(&self.is_odd)
             + memory::bytes_of(&self.hidden)
     }
 }
@@ -73,6 +83,10 @@ pub(super) struct Lists<G: Dimension> {
     pub(super) created: Vec<CellId>,
     pub(super) removed: Vec<CellId>,
     pub(super) removed_corners: Vec<G::Vertices>,
+    /// The names of the removed cells, with the corners in the orientation that each had.
+    pub(super) removed_names: Vec<Name>,
+    /// Cells that live and have been turned over, by index, and the names of these likewise.
+    pub(super) turned: Vec<(CellId, Name)>,
     pub(super) renumbered_from: Vec<CellId>,
     pub(super) renumbered_to: Vec<CellId>,
     pub(super) stars: Vec<VertexId>,
@@ -86,6 +100,8 @@ impl<G: Dimension> Lists<G> {
             created: Vec::new(),
             removed: Vec::new(),
             removed_corners: Vec::new(),
+            removed_names: Vec::new(),
+            turned: Vec::new(),
             renumbered_from: Vec::new(),
             renumbered_to: Vec::new(),
             stars: Vec::new(),
@@ -113,6 +129,8 @@ impl<G: Dimension> Lists<G> {
             .iter()
             .sum::<usize>()
             + memory::bytes_of(&self.removed_corners)
+            + memory::bytes_of(&self.removed_names)
+            + memory::bytes_of(&self.turned)
             + [&self.stars, &self.hidden, &self.shown].map(memory::bytes_of).iter().sum::<usize>()
     }
 }

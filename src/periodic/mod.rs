@@ -63,6 +63,7 @@ mod staging;
 mod taking;
 #[cfg(test)]
 mod tests;
+mod transferring;
 mod triangulation;
 mod validate;
 mod voronoi;

@@ -22,7 +22,8 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     pub fn take_changes(&mut self) -> Result<Changes<'_, G::Vertices>> {
         self.reject_prepared()?;
         let cells = self.read_cells()?;
-        let (lists, base) = (self.list_changes(cells)?, self.base_of(cells)?);
+        let base = self.base_of(cells)?;
+        let lists = self.list_changes(cells, &base.is_odd)?;
         let before = self.taking.as_ref().and_then(|taking| taking.base.lattice.as_ref());
         let is_strained = before.is_some_and(|lattice| !lattice.is_equal(&self.lattice));
         let timestamp = Some(self.timestamp());
@@ -69,7 +70,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let mut origins = Vec::new();
         memory::reserve_exact(&mut origins, n)?;
         for cell in 0..n {
-            origins.push(base.index_of.get(&self.name_of(&read, cell)).copied().unwrap_or(NO_CELL));
+            origins.push(base.index_of.get(&self.name_of(&read, cell).0).copied().unwrap_or(NO_CELL));
         }
         // By index, which one has it.
         let mut order = Vec::new();
@@ -85,8 +86,8 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         read.reordered(&order, &origins)
     }
 
-    /// By which a cell is known to the program.
-    fn name_of(&self, cells: &PeriodicCells<G>, cell: usize) -> Name {
+    /// By which a cell is known to the program, and whether that lists the corners in the opposite orientation.
+    fn name_of(&self, cells: &PeriodicCells<G>, cell: usize) -> (Name, bool) {
         let from = self.least_of(cells, cell);
         let mut name = [(VertexId::NONE, [0; 3]); 4];
         let row = cells.corners[cell].as_ref();
@@ -94,18 +95,23 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             *entry = (v, self.given(from, v, cells.shifts.of(cell)[i]));
         }
         let name_of_all = &mut name[..=G::D];
+        let is_before = |i: usize| name_of_all[..i].iter().filter(|entry| **entry > name_of_all[i]).count();
+        let is_odd = (0..=G::D).map(is_before).sum::<usize>() % 2 == 1;
         name_of_all.sort_unstable();
         let first = name_of_all[0].1;
         name_of_all.iter_mut().for_each(|(_, shift)| *shift = [0, 1, 2].map(|j| shift[j] - first[j]));
-        name
+        (name, is_odd)
     }
 
     fn base_of(&self, cells: &PeriodicCells<G>) -> Result<Base<G>> {
         let mut base = Base::none();
         base.corners = memory::copy_of(&cells.corners)?;
         memory::reserve_map(&mut base.index_of, cells.corners.len())?;
+        memory::reserve_exact(&mut base.is_odd, cells.corners.len())?;
         for cell in CellId::range(0..cells.corners.len()) {
-            base.index_of.insert(self.name_of(cells, cell.index()), cell);
+            let (name, is_odd) = self.name_of(cells, cell.index());
+            base.index_of.insert(name, cell);
+            base.is_odd.push(is_odd);
         }
         base.hidden = self.hidden_now()?;
         base.lattice = Some(self.lattice.copied());
@@ -119,7 +125,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         Ok(hidden)
     }
 
-    fn list_changes(&self, cells: &PeriodicCells<G>) -> Result<Lists<G>> {
+    fn list_changes(&self, cells: &PeriodicCells<G>, is_odd: &[bool]) -> Result<Lists<G>> {
         let none = Base::none();
         let base = self.taking.as_ref().map_or(&none, |taking| &taking.base);
         let mut lists = Lists::none();
@@ -133,6 +139,10 @@ impl<G: Dimension> PeriodicTriangulation<G> {
                 }
                 origin => {
                     is_there[origin] = true;
+                    if is_odd[cell.index()] != base.is_odd[origin.index()] {
+                        let (name, is_odd) = self.name_of(cells, cell.index());
+                        memory::push(&mut lists.turned, (cell, oriented(name, !is_odd)))?;
+                    }
                     if origin != cell {
                         memory::push(&mut lists.renumbered_from, origin)?;
                         memory::push(&mut lists.renumbered_to, cell)?;
@@ -146,6 +156,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             memory::push(&mut lists.removed_corners, row)?;
             memory::append(&mut lists.stars, row.as_ref())?;
         }
+        self.name_removed(base, &is_there, &mut lists)?;
         lists.stars.sort_unstable();
         lists.stars.dedup();
         let hidden = self.hidden_now()?;
@@ -159,6 +170,20 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         Ok(lists)
     }
 
+    /// Lists the names of the removed cells, in the order of these.
+    fn name_removed(&self, base: &Base<G>, is_there: &[bool], lists: &mut Lists<G>) -> Result<()> {
+        if lists.removed.is_empty() {
+            return Ok(());
+        }
+        let nothing = [(VertexId::NONE, [0; 3]); 4];
+        memory::lengthen(&mut lists.removed_names, lists.removed.len(), nothing)?;
+        for (&name, cell) in base.index_of.iter().filter(|(_, cell)| !is_there[cell.index()]) {
+            let k = lists.removed.binary_search(cell).expect("it has been listed");
+            lists.removed_names[k] = oriented(name, base.is_odd[cell.index()]);
+        }
+        Ok(())
+    }
+
     /// The cells of now are those of the base.
     fn set_origins(&mut self) -> Result<()> {
         let Some(cells) = self.cells.get_mut() else { return Ok(()) };
@@ -168,4 +193,12 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         cells.origins = origins;
         Ok(())
     }
+}
+
+/// A name with the corners in the other orientation, if they are to be.
+fn oriented(mut name: Name, is_odd: bool) -> Name {
+    if is_odd {
+        name.swap(0, 1);
+    }
+    name
 }

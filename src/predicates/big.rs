@@ -10,7 +10,7 @@
 //! below 2¹²⁶⁵. In space the greatest determinant is `insphere`. Each of its four terms is the product of a square,
 //! three products of two differences, and a volume, six of three: below 4 · 3 · 6 · 2⁵·¹²⁶⁵ < 2⁶³³², and so are all
 //! sums on the way. That fits 99 limbs of 64 bits, the sign apart. Integers of very different lengths are made on the
-//! way, so their limbs follow each other in one [`Room`] for all of a determinant.
+//! way, so their limbs follow each other in one [`Room`] for all of a determinant, or of a term of `insphere`.
 
 #![allow(unsafe_code)]
 
@@ -34,7 +34,7 @@ pub(super) fn has_room<P: AsRef<[f64]> + ?Sized, const N: usize>(points: [&P; N]
 #[cold]
 #[inline(never)]
 pub(super) fn orient2d(rounded: f64, [a, b, c]: [&[f64; 2]; 3]) -> f64 {
-    let room = Room::new();
+    let room = Room::<FEW_LIMBS>::of_any_size();
     let [u, v] = differences(&room, a, [b, c]);
     with_sign(rounded, minor(&u, &v).sign())
 }
@@ -43,7 +43,7 @@ pub(super) fn orient2d(rounded: f64, [a, b, c]: [&[f64; 2]; 3]) -> f64 {
 #[cold]
 #[inline(never)]
 pub(super) fn sign_of_cross(pairs: [[&[f64; 2]; 2]; 2]) -> Ordering {
-    let room = Room::new();
+    let room = Room::<FEW_LIMBS>::of_any_size();
     // Each in a unit of its own, which does not change the sign.
     let [[u], [v]] = pairs.map(|[p, q]| differences(&room, q, [p]));
     minor(&u, &v).sign()
@@ -53,7 +53,7 @@ pub(super) fn sign_of_cross(pairs: [[&[f64; 2]; 2]; 2]) -> Ordering {
 #[cold]
 #[inline(never)]
 pub(super) fn incircle(rounded: f64, [a, b, c, d]: [&[f64; 2]; 4]) -> f64 {
-    let room = Room::new();
+    let room = Room::<FEW_LIMBS>::of_any_size();
     let [u, v, w] = differences(&room, a, [b, c, d]);
     let det = square(&v) * minor(&u, &w) - square(&u) * minor(&v, &w) - square(&w) * minor(&u, &v);
     with_sign(rounded, det.sign())
@@ -63,7 +63,7 @@ pub(super) fn incircle(rounded: f64, [a, b, c, d]: [&[f64; 2]; 4]) -> f64 {
 #[cold]
 #[inline(never)]
 pub(super) fn orient3d(rounded: f64, [a, b, c, d]: [&[f64; 3]; 4]) -> f64 {
-    let room = Room::new();
+    let room = Room::<FEW_LIMBS>::of_any_size();
     let [u, v, w] = differences(&room, a, [b, c, d]);
     with_sign(rounded, volume(&u, &v, &w).sign())
 }
@@ -71,13 +71,26 @@ pub(super) fn orient3d(rounded: f64, [a, b, c, d]: [&[f64; 3]; 4]) -> f64 {
 /// `insphere`, of which the rounded value is given.
 #[cold]
 #[inline(never)]
-pub(super) fn insphere(rounded: f64, [a, b, c, d, e]: [&[f64; 3]; 5]) -> f64 {
-    let room = Room::new();
-    let [u, v, w, s] = differences(&room, a, [b, c, d, e]);
-    let det = square(&u) * volume(&v, &w, &s) - square(&v) * volume(&u, &w, &s)
-        + square(&w) * volume(&u, &v, &s)
-        - square(&s) * volume(&u, &v, &w);
-    with_sign(rounded, det.sign())
+pub(super) fn insphere(rounded: f64, points: [&[f64; 3]; 5]) -> f64 {
+    let room = Room::<FEW_LIMBS>::of_any_size();
+    with_sign(rounded, insphere_in(&room, points).sign())
+}
+
+fn insphere_in<'r>(room: &'r Room<FEW_LIMBS>, [a, b, c, d, e]: [&[f64; 3]; 5]) -> Integer<'r, FEW_LIMBS> {
+    let [u, v, w, s] = differences(room, a, [b, c, d, e]);
+    insphere_term(&u, [&v, &w, &s]) - insphere_term(&v, [&u, &w, &s]) + insphere_term(&w, [&u, &v, &s])
+        - insphere_term(&s, [&u, &v, &w])
+}
+
+/// A square times a volume, in the room of these; all that is made on the way is elsewhere, for the time of this call.
+#[inline(never)]
+fn insphere_term<'r, const N: usize>(
+    p: &[Integer<'r, N>; 3],
+    others: [&[Integer<'r, N>; 3]; 3],
+) -> Integer<'r, N> {
+    let room = Room::<TERM_LIMBS>::of_any_size();
+    let [u, v, w] = others.map(|q| q.map(|x| x.within(&room)));
+    (square(&p.map(|x| x.within(&room))) * volume(&u, &v, &w)).copied_to(p[0].room)
 }
 
 #[cold]
@@ -86,7 +99,7 @@ pub(super) fn compare_distance(points: [&[f64]; 3]) -> Ordering {
     // An axis without extent adds no distance.
     let in_space = |p: &[f64]| std::array::from_fn(|axis| p.get(axis).copied().unwrap_or(0.0));
     let [q, a, b]: [[f64; 3]; 3] = points.map(in_space);
-    let room = Room::new();
+    let room = Room::<FEW_LIMBS>::of_any_size();
     let [to_a, to_b] = differences(&room, &q, [&a, &b]);
     (square(&to_a) - square(&to_b)).sign()
 }
@@ -98,7 +111,7 @@ pub(super) fn is_within_distance(points: [&[f64]; 2], squared: f64) -> bool {
     // An axis without extent adds no distance.
     let in_space = |p: &[f64]| std::array::from_fn(|axis| p.get(axis).copied().unwrap_or(0.0));
     let [q, a]: [[f64; 3]; 2] = points.map(in_space);
-    let room = Room::new();
+    let room = Room::<FEW_LIMBS>::of_any_size();
     let (mantissa, exponent) = decode(squared);
     // The square of the unit must divide the given one.
     let (unit, [to_a]) = differences_in_units(&room, &q, [&a], exponent.div_euclid(2));
@@ -126,17 +139,17 @@ pub fn compare_lengths(v: &[i128; 3], w: &[i128; 3], exponents: &[i32; 3]) -> Or
 #[cold]
 #[inline(never)]
 pub(super) fn is_collinear3([a, b, c]: [&[f64; 3]; 3]) -> bool {
-    let room = Room::new();
+    let room = Room::<FEW_LIMBS>::of_any_size();
     let [[x, y, z], [p, q, r]] = differences(&room, a, [b, c]);
     x * q == y * p && y * r == z * q && z * p == x * r
 }
 
 /// The differences from `origin` to `points` in a unit of their own.
-fn differences<'r, const D: usize, const N: usize>(
-    room: &'r Room,
+fn differences<'r, const D: usize, const N: usize, const LIMBS: usize>(
+    room: &'r Room<LIMBS>,
     origin: &[f64; D],
     points: [&[f64; D]; N],
-) -> [[Integer<'r>; D]; N] {
+) -> [[Integer<'r, LIMBS>; D]; N] {
     differences_in_units(room, origin, points, i32::MAX).1
 }
 
@@ -191,12 +204,19 @@ pub(super) fn volume<T: Ring>(u: &[T; 3], v: &[T; 3], w: &[T; 3]) -> T {
     minor(v, w) * u[2] - minor(u, w) * v[2] + minor(u, v) * w[2]
 }
 
-/// Limbs of all integers that a determinant takes.
+/// Limbs of all integers that a determinant takes, but for those of comparisons with a radius or a box.
 ///
 /// A difference has 20 limbs, and a product as many as both factors; a sum takes one more than the longer term, which
-/// stays zero (see the module's documentation), and so do numbers to be shifted. 15 coordinates and 12 differences are
-/// 27 · 21. A square is 3 · 40 + 2 · 41, a minor 2 · 40 + 41, a volume three of these and 3 · 60 + 2 · 61. `insphere`
-/// has four squares, four volumes, four products of 100 and three sums of 101: 4,738 in all.
+/// stays zero (see the module's documentation), and so do numbers to be shifted. So a square is 3 · 40 + 2 · 41 in space and
+/// 2 · 40 + 41 in the plane, as is a minor, and a volume three minors and 3 · 60 + 2 · 61. `incircle` has 8 coordinates and 6
+/// differences of 21, three squares, three minors, three products of 80 and two sums of 81: 1,422. `insphere` has 15 and 12,
+/// four terms of 100 and three sums of 101: 1,270. `orient3d` has 12 and 9, and a volume: 1,106. All others have fewer.
+const FEW_LIMBS: usize = 1424;
+
+/// Limbs of a term of `insphere`: a square, a volume, and a product of 100: 967.
+const TERM_LIMBS: usize = 968;
+
+/// Limbs of all integers that any other comparison takes.
 ///
 /// The most are those of comparing the radius of a sphere (`measures.rs`). 12 coordinates and 9 differences are 21 · 21; three
 /// squares; nine minors; a volume of them, 3 · 60 + 2 · 61; a vector, three times 3 · 80 + 2 · 81; its square, 3 · 160 +
@@ -269,6 +289,21 @@ impl<'r, const N: usize> Integer<'r, N> {
         let magnitude = u128::from(x.unsigned_abs()) << (shift % 64);
         (limbs[at], limbs[at + 1]) = (magnitude as u64, (magnitude >> 64) as u64);
         Self::new(room, x < 0, limbs)
+    }
+
+    /// The same, of which what is made is in another room.
+    fn within<'s, const M: usize>(self, room: &'s Room<M>) -> Integer<'s, M>
+    where
+        'r: 's,
+    {
+        Integer { room, is_negative: self.is_negative, magnitude: self.magnitude }
+    }
+
+    /// A copy in another room.
+    fn copied_to<'s, const M: usize>(self, room: &'s Room<M>) -> Integer<'s, M> {
+        let limbs = room.zeros(self.magnitude.len());
+        limbs.copy_from_slice(self.magnitude);
+        Integer::new(room, self.is_negative, limbs)
     }
 
     /// How it compares with zero.
@@ -378,114 +413,4 @@ impl<const N: usize> Mul for Integer<'_, N> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::random::Rng;
-
-    #[test]
-    fn numbers_decode_to_themselves() {
-        for x in [1.0, -0.1, 1e57, f64::MIN_POSITIVE, f64::MIN_POSITIVE.next_down(), -f64::from_bits(1)] {
-            let (mantissa, exponent) = decode(x);
-            // In two steps, as the power of two alone may underflow.
-            let (first, second) = (exponent / 2, exponent - exponent / 2);
-            assert_eq!(mantissa as f64 * 2f64.powi(first) * 2f64.powi(second), x);
-        }
-    }
-
-    #[test]
-    fn integers_are_those_of_num_bigint() {
-        let rng = &mut Rng::new(1);
-        let mut random = || rng.next();
-        // Differences: random, or with long runs of equal bits, so that carries go far.
-        fn difference<'r>(room: &'r Room, random: &mut impl FnMut() -> u64) -> Integer<'r> {
-            let n_bits = random() as usize % 1266;
-            let limbs = room.zeros(n_bits.div_ceil(64));
-            let is_run = random().is_multiple_of(3);
-            let fill = random();
-            for (k, limb) in limbs.iter_mut().enumerate() {
-                let any = if !is_run { random() } else { 0u64.wrapping_sub(fill >> k & 1) };
-                *limb = any & u64::MAX >> (64 * (k + 1)).saturating_sub(n_bits);
-            }
-            Integer::new(room, random().is_multiple_of(2), limbs)
-        }
-        let big = |x: &Integer| {
-            let bytes: Vec<u8> = x.magnitude.iter().flat_map(|limb| limb.to_le_bytes()).collect();
-            let sign = if x.is_negative { num_bigint::Sign::Minus } else { num_bigint::Sign::Plus };
-            assert!(x.magnitude.last().is_none_or(|&limb| limb != 0));
-            num_bigint::BigInt::from_bytes_le(sign, &bytes)
-        };
-        let check = |x: &Integer, expected: &num_bigint::BigInt| {
-            assert_eq!(big(x), *expected);
-            let sign = match x.sign() {
-                Ordering::Less => num_bigint::Sign::Minus,
-                Ordering::Equal => num_bigint::Sign::NoSign,
-                Ordering::Greater => num_bigint::Sign::Plus,
-            };
-            assert_eq!(sign, expected.sign());
-        };
-        for _ in 0..40_000 {
-            let room = Room::new();
-            let [a, b, c, d, e] = std::array::from_fn(|_| difference(&room, &mut random));
-            let [p, q, r, s, t] = [&a, &b, &c, &d, &e].map(big);
-            let (ab, cde, pq, rst) = (a * b, c * d * e, &p * &q, &r * &s * &t);
-            check(&ab, &pq);
-            check(&(a + b), &(&p + &q));
-            check(&(a - b), &(&p - &q));
-            check(&(ab - c), &(&pq - &r));
-            check(&(cde + ab), &(&rst + &pq));
-            let (whole, expected) = (ab * cde, pq * rst);
-            check(&whole, &expected);
-            check(&(whole - ab), &(&expected - &p * &q));
-            check(&(whole - whole), &num_bigint::BigInt::ZERO);
-            assert!(whole == cde * b * a);
-        }
-    }
-
-    /// There is room for the determinant of the longest numbers, and its terms are not longer than they may be.
-    #[test]
-    fn there_is_room_for_the_greatest_determinant() {
-        let room = Room::new();
-        let most = room.zeros(20);
-        most.fill(u64::MAX);
-        most[19] >>= 64 * 20 - 1265;
-        let greatest = Integer::new(&room, false, most);
-        let degree_5 = greatest * greatest * greatest * greatest * greatest;
-        let doubled = |times: usize| (0..times).fold(degree_5, |x, _| x + x);
-        let sum = doubled(6) + doubled(3);
-        assert_eq!(sum.magnitude.len(), 99);
-        let corner = [crate::predicates::MAX_MAGNITUDE, -crate::predicates::MAX_MAGNITUDE];
-        let p = |k: usize| [corner[k & 1], corner[k >> 1 & 1], corner[k >> 2 & 1]];
-        // A last bit that makes the unit as small as can be, and all limbs below the highest other than zero.
-        let near = [corner[0], corner[0], f64::from_bits(1)];
-        for k in 0..8 {
-            let points = [p(k), p(k ^ 1), p(k ^ 2), p(k ^ 4), near];
-            assert_ne!(insphere(1.0, points.each_ref()), 0.0);
-            assert_eq!(insphere(1.0, [p(k), p(k ^ 1), p(k ^ 2), p(k ^ 4), p(k ^ 7)].each_ref()), 0.0);
-        }
-        let rng = &mut Rng::new(1);
-        for _ in 0..10_000 {
-            // Any coordinates, very large and very small ones in turn.
-            let points: [[f64; 3]; 5] = std::array::from_fn(|_| {
-                std::array::from_fn(|_| {
-                    let bits = rng.next();
-                    let large = (bits >> 11) as f64 / (1u64 << 53) as f64 * corner[(bits >> 8 & 1) as usize];
-                    if bits >> 63 == 0 { large } else { f64::from_bits(bits >> 60 & 7) }
-                })
-            });
-            let [a, b, c, d, e] = points.each_ref();
-            let room = Room::new();
-            let [u, v, w, s] = differences(&room, a, [b, c, d, e]);
-            let det = square(&u) * volume(&v, &w, &s) - square(&v) * volume(&u, &w, &s)
-                + square(&w) * volume(&u, &v, &s)
-                - square(&s) * volume(&u, &v, &w);
-            assert!(det.magnitude.len() <= 99 && room.n.get() <= LIMBS);
-        }
-    }
-
-    #[test]
-    fn room_depends_on_degree() {
-        assert!(has_room([&[0.0, 1.0], &[-1e-128, 1e57]], 2));
-        assert!(!has_room([&[1e-130, 1.0]], 2));
-        assert!(has_room([&[1e-56, 1.0]], 4) && !has_room([&[-1e-57, 1.0]], 4));
-    }
-}
+mod tests;

@@ -7,20 +7,25 @@
 //! e / 2V,    e = max(2V l − n, n − 2V h, 0)
 //! ```
 //!
-//! so that the closed ball meets the closed box exactly if Σ e² ≤ |n|². That is decided in three stages.
+//! so that the closed ball meets the closed box exactly if Σ e² ≤ |n|². That is decided in these stages, of which the first
+//! one is for each ball and box, and the others know the offset o of the centre from integers (`measures.rs`), which is computed
+//! once for a ball and many boxes.
 //!
 //! 1. *Rounded*: where the rounded vector o = n / 2V is sharp, it is within R / 2³⁰ of the exact one along each axis, and
 //!    |o|² within a factor 1 ± 2⁻²⁸ of R². A distance along an axis is off by that and by its own rounding, which is less
 //!    than 4 u of itself and of R. So the square of the distance is certain, up to a few u of itself, within
 //!    2 √3 R² / 2³⁰ < R² / 2²⁸ where it is near R²: where it differs from |o|² by more than a factor 1 ± 2⁻²⁶, the answer
 //!    is certain.
-//! 2. *Integers of 128 bits*: where all differences are integers of few bits in one unit, as those on a lattice are. With
-//!    differences below 2ᵇ, in space |n| along an axis is below 18 · 2⁴ᵇ, V below 6 · 2³ᵇ, hence e below 30 · 2⁴ᵇ and the
-//!    sums below 2,700 · 2⁸ᵇ: b = 14. In the plane these are 4 · 2³ᵇ, 2 · 2²ᵇ, 8 · 2³ᵇ and 128 · 2⁶ᵇ: b = 19.
-//! 3. *Big integers* (`big.rs`), for any.
-//!
-//! Of a box that extends far beyond the ball, sides behind the centre do not count. Where the centre is certainly above
-//! a low side or below a high one, that is left out, so that unbounded boxes are decided by integers of few bits, too.
+//! 2. *Corners*: a box that has a corner of the cell meets the ball, whatever is rounded.
+//! 3. *Power*: the place q of the box nearest to the centre, seen from the first corner, has the power Σ q (q − 2 o), which is
+//!    not positive exactly if they meet. A component of o is off by 2⁻⁵⁰ = 8 u of itself, and q by u of itself or, where it
+//!    is that of the centre, as much as that, which matters in second order. So a term is off by less than 12 u |q| (|q| + 2 |o|)
+//!    and the sum by three roundings more: less than 32 u Σ |q| (|q| + 2 |o|). Of a large ball and a box near its cell that is a
+//!    small part of R².
+//! 4. *Places*: where a place of the box is certainly the nearest, as along each axis the box is flat or the centre is beyond a side,
+//!    the sign is that of `incircle` or `insphere`.
+//! 5. *Big integers* (`big.rs`), for any. Sides that the centre is certainly inside of do not count: where a box is unbounded,
+//!    that leaves integers of few bits.
 //!
 //! A half-space beyond a facet with the outer normal n meets a box if Σ max(n l, n h) > 0. A component of n is a minor,
 //! off by at most 4 u of the sum P of the magnitudes of its products, to first order, and the whole by at most 8 u
@@ -40,27 +45,24 @@
 use std::cmp::Ordering;
 
 use super::StaticFilter;
-use super::big::{Integer, MOST_LIMBS, Ring, Room, differences_in_units, square};
+use super::big::{Integer, MOST_LIMBS, Room, differences_in_units, square};
 use super::filter::{
     CIRCLE_VECTOR, SPHERE_VECTOR, UNDERFLOW, UNIT, semi_static_bounds_2d, semi_static_bounds_3d,
 };
-use super::integer::Scaled;
 use super::measures::{Rounded, exact_circle, exact_offset, exact_sphere, greatest, rounded2d, rounded3d};
-use super::plane::orient2d;
-use super::space::orient3d;
+use super::plane::{incircle, orient2d};
+use super::space::{insphere, orient3d};
 use super::sphere::{circle, sphere};
 use super::vectors::{cross, dot, minus, plus};
+use crate::machine::tally;
 use crate::simd::Real;
 
 /// What the square of a distance must differ by from that of a rounded radius, relatively, to be certainly less or
 /// greater.
 const MARGIN: f64 = 1.0 / (1u64 << 26) as f64;
 
-/// By how much of the radius a rounded offset from the centre to a side must exceed zero to be certainly positive.
-const ASIDE: f64 = 1.0 / (1u64 << 28) as f64;
-
-/// Bits of differences with which a sphere and a box fit integers of 128 bits: in the plane, in space.
-const N_BITS: [u32; 2] = [19, 14];
+/// What a power is off by, in sums of magnitudes, and a distance of the centre from a side, in those of both.
+const POWER: f64 = 32.0 * UNIT;
 
 /// What the side of a half-space is off by, in sums of magnitudes: twice the first order.
 const HALF_SPACE: f64 = 16.0 * UNIT;
@@ -83,8 +85,14 @@ const NO_FILTER: StaticFilter = StaticFilter {
 /// Cells and facets against boxes. Boxes are in the range of coordinates, and not empty.
 pub trait Reach: Sized {
     /// Whether the closed ball of a positively oriented cell, given by its `D + 1` corners, and a closed box have a
-    /// place in common: exactly.
-    fn does_ball_meet(cell: &[&Self], low: &Self, high: &Self) -> bool;
+    /// place in common, where rounded numbers tell.
+    fn does_ball_surely_meet(cell: &[&Self], low: &Self, high: &Self) -> Option<bool>;
+
+    /// The way from the first corner of a cell to the centre of its ball, as [`does_ball_meet`](Self::does_ball_meet) needs it.
+    fn exact_centre(cell: &[&Self]) -> Self;
+
+    /// The same as [`does_ball_surely_meet`](Self::does_ball_surely_meet), exactly.
+    fn does_ball_meet(cell: &[&Self], centre: &Self, low: &Self, high: &Self) -> bool;
 
     /// Whether a closed box has a place that is strictly beyond a facet, given by its `D` corners in the order that
     /// makes the orientation with a place beyond positive: exactly.
@@ -97,12 +105,23 @@ pub trait Reach: Sized {
 
 impl Reach for [f64; 2] {
     #[inline(always)]
-    fn does_ball_meet(cell: &[&Self], low: &Self, high: &Self) -> bool {
+    fn does_ball_surely_meet(cell: &[&Self], low: &Self, high: &Self) -> Option<bool> {
         let &[a, b, c] = cell else { unreachable!("a triangle") };
-        match is_certainly_met(&rounded2d([a, b, c]), a, low, high) {
-            Ok(answer) => answer,
-            Err(binding) => is_exactly_met_2d([a, b, c], [low, high], binding),
-        }
+        does_surely_meet(&rounded2d([a, b, c]), a, low, high)
+    }
+
+    fn exact_centre(cell: &[&Self]) -> Self {
+        let &[a, b, c] = cell else { unreachable!("a triangle") };
+        tally::count();
+        exact_offset([a, b, c], |p| exact_circle(p))
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn does_ball_meet(cell: &[&Self], centre: &Self, low: &Self, high: &Self) -> bool {
+        let &[a, b, c] = cell else { unreachable!("a triangle") };
+        does_meet(cell, centre, [low, high], |q| incircle(&NO_FILTER, a, b, c, q))
+            .unwrap_or_else(|binding| is_exactly_met_2d([a, b, c], [low, high], binding))
     }
 
     #[inline(always)]
@@ -129,12 +148,23 @@ impl Reach for [f64; 2] {
 
 impl Reach for [f64; 3] {
     #[inline(always)]
-    fn does_ball_meet(cell: &[&Self], low: &Self, high: &Self) -> bool {
+    fn does_ball_surely_meet(cell: &[&Self], low: &Self, high: &Self) -> Option<bool> {
         let &[a, b, c, d] = cell else { unreachable!("a tetrahedron") };
-        match is_certainly_met(&rounded3d([a, b, c, d]), a, low, high) {
-            Ok(answer) => answer,
-            Err(binding) => is_exactly_met_3d([a, b, c, d], [low, high], binding),
-        }
+        does_surely_meet(&rounded3d([a, b, c, d]), a, low, high)
+    }
+
+    fn exact_centre(cell: &[&Self]) -> Self {
+        let &[a, b, c, d] = cell else { unreachable!("a tetrahedron") };
+        tally::count();
+        exact_offset([a, b, c, d], |p| exact_sphere(p))
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn does_ball_meet(cell: &[&Self], centre: &Self, low: &Self, high: &Self) -> bool {
+        let &[a, b, c, d] = cell else { unreachable!("a tetrahedron") };
+        does_meet(cell, centre, [low, high], |q| insphere(&NO_FILTER, a, b, c, d, q))
+            .unwrap_or_else(|binding| is_exactly_met_3d([a, b, c, d], [low, high], binding))
     }
 
     #[inline(always)]
@@ -164,50 +194,59 @@ impl Reach for [f64; 3] {
 /// For each axis, whether the low side of a box counts, and whether the high one does.
 type Binding<const D: usize> = [[bool; 2]; D];
 
-/// Whether a ball and a box meet, where rounded numbers decide; otherwise the sides that may count.
+/// Whether a ball and a box meet, where rounded numbers decide.
 #[inline(always)]
-fn is_certainly_met<const D: usize>(
+fn does_surely_meet<const D: usize>(
     rounded: &Rounded<D>,
     a: &[f64; D],
     low: &[f64; D],
     high: &[f64; D],
-) -> Result<bool, Binding<D>> {
-    if !rounded.is_sharp {
-        return Err([[true; 2]; D]);
-    }
+) -> Option<bool> {
     let o = rounded.offset;
     let (low, high) = (minus(low, a), minus(high, a));
     let apart: [f64; D] =
         std::array::from_fn(|axis| Real::max(Real::max(low[axis] - o[axis], o[axis] - high[axis]), 0.0));
     let (distance, squared) = (dot(&apart, &apart), dot(&o, &o));
-    if (distance < squared * (1.0 - MARGIN)) | (distance > squared * (1.0 + MARGIN)) {
-        return Ok(distance < squared);
-    }
-    let aside = ASIDE * squared.sqrt();
-    Err(std::array::from_fn(|axis| [o[axis] - low[axis] <= aside, high[axis] - o[axis] <= aside]))
+    let is_certain = (distance < squared * (1.0 - MARGIN)) | (distance > squared * (1.0 + MARGIN));
+    (rounded.is_sharp & is_certain).then_some(distance < squared)
 }
 
-/// What numbers tell that determinants are evaluated in.
-trait Signed: Ring {
-    fn sign(&self) -> Ordering;
-}
-
-impl Signed for i128 {
-    fn sign(&self) -> Ordering {
-        self.cmp(&0)
+/// Whether a ball and a box meet, where the centre and signs of single places tell; otherwise the sides that may count.
+#[inline(always)]
+fn does_meet<const D: usize>(
+    cell: &[&[f64; D]],
+    o: &[f64; D],
+    [low, high]: [&[f64; D]; 2],
+    side: impl FnOnce(&[f64; D]) -> f64,
+) -> Result<bool, Binding<D>> {
+    let is_in = |p: &[f64; D]| (0..D).all(|axis| low[axis] <= p[axis] && p[axis] <= high[axis]);
+    if cell.iter().any(|p| is_in(p)) {
+        return Ok(true);
     }
-}
-
-impl<const N: usize> Signed for Integer<'_, N> {
-    fn sign(&self) -> Ordering {
-        Integer::sign(self)
+    let (l, h) = (minus(low, cell[0]), minus(high, cell[0]));
+    let (mut power, mut bound) = (0.0, UNDERFLOW);
+    for axis in 0..D {
+        let (q, twice) = (o[axis].max(l[axis]).min(h[axis]), 2.0 * o[axis]);
+        power += q * (q - twice);
+        bound += POWER * (q.abs() * (q.abs() + twice.abs())) + UNDERFLOW * q.abs();
     }
+    if power.abs() > bound {
+        return Ok(power < 0.0);
+    }
+    let exceeds = |x: f64, y: f64| x - y > POWER * (x.abs() + y.abs()) + UNDERFLOW;
+    let is_below = |axis: usize| exceeds(l[axis], o[axis]);
+    let is_above = |axis: usize| exceeds(o[axis], h[axis]);
+    if (0..D).all(|axis| is_below(axis) || is_above(axis) || low[axis] == high[axis]) {
+        let nearest = std::array::from_fn(|axis| if is_above(axis) { high[axis] } else { low[axis] });
+        return Ok(side(&nearest) >= 0.0);
+    }
+    Err(std::array::from_fn(|axis| [!exceeds(o[axis], l[axis]), !exceeds(h[axis], o[axis])]))
 }
 
 /// Whether Σ e² ≤ |n|², with the sides that count.
-fn is_met<T: Signed, const D: usize>(
-    (n, volume): ([T; D], T),
-    [low, high]: [[T; D]; 2],
+fn is_met<const D: usize, const N: usize>(
+    (n, volume): ([Integer<'_, N>; D], Integer<'_, N>),
+    [low, high]: [[Integer<'_, N>; D]; 2],
     binding: Binding<D>,
 ) -> bool {
     let twice = volume + volume;
@@ -231,9 +270,7 @@ fn is_met<T: Signed, const D: usize>(
 fn is_exactly_met_2d([a, b, c]: [&[f64; 2]; 3], sides: [&[f64; 2]; 2], binding: Binding<2>) -> bool {
     let [low, high] = counting(a, sides, binding);
     let points = [b, c, &low, &high];
-    if let Some([u, v, low, high]) = short(a, points) {
-        return is_met(exact_circle(&[u, v]), [low, high], binding);
-    }
+    tally::count();
     let room = Room::<MOST_LIMBS>::of_any_size();
     let (_, [u, v, low, high]) = differences_in_units(&room, a, points, i32::MAX);
     is_met(exact_circle(&[u, v]), [low, high], binding)
@@ -244,9 +281,7 @@ fn is_exactly_met_2d([a, b, c]: [&[f64; 2]; 3], sides: [&[f64; 2]; 2], binding: 
 fn is_exactly_met_3d([a, b, c, d]: [&[f64; 3]; 4], sides: [&[f64; 3]; 2], binding: Binding<3>) -> bool {
     let [low, high] = counting(a, sides, binding);
     let points = [b, c, d, &low, &high];
-    if let Some([u, v, w, low, high]) = short(a, points) {
-        return is_met(exact_sphere(&[u, v, w]), [low, high], binding);
-    }
+    tally::count();
     let room = Room::<MOST_LIMBS>::of_any_size();
     let (_, [u, v, w, low, high]) = differences_in_units(&room, a, points, i32::MAX);
     is_met(exact_sphere(&[u, v, w]), [low, high], binding)
@@ -255,18 +290,6 @@ fn is_exactly_met_3d([a, b, c, d]: [&[f64; 3]; 4], sides: [&[f64; 3]; 2], bindin
 /// The corners of a box, with the coordinates of `a` in place of those that do not count.
 fn counting<const D: usize>(a: &[f64; D], sides: [&[f64; D]; 2], binding: Binding<D>) -> [[f64; D]; 2] {
     [0, 1].map(|k| std::array::from_fn(|axis| if binding[axis][k] { sides[k][axis] } else { a[axis] }))
-}
-
-/// The differences from `a` as integers in a unit of their own, if they have so few bits that [`is_met`] fits 128.
-fn short<const D: usize, const N: usize>(a: &[f64; D], points: [&[f64; D]; N]) -> Option<[[i128; D]; N]> {
-    let extent = points
-        .iter()
-        .flat_map(|p| (0..D).map(|axis| (p[axis] - a[axis]).abs()))
-        .fold(0.0, |most: f64, x| Real::max(most, x));
-    let differences = Scaled::new(a, points, extent)?.differences;
-    let bits = differences.as_flattened().iter().fold(0, |bits, x| bits | x.unsigned_abs());
-    let are_few = bits >> N_BITS[D - 2] == 0;
-    are_few.then(|| differences.map(|difference| difference.map(i128::from)))
 }
 
 /// The outer normal of a facet, rounded.

@@ -14,6 +14,9 @@ use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::predicates::{dot, minus};
 
+/// Motions round a place off a line by less than this share of the distance from which vertices touch: 64 last places.
+const ROUNDED: f64 = 1.0 / 16.0;
+
 /// How much room the triangles must have that take the place of others.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Room {
@@ -259,7 +262,10 @@ impl<'a> Coarsening<'a> {
             return true;
         }
         let u = minus::<f64, 2>(q, p);
-        self.mesh.squared_offset(vertex, [a, b]) <= self.room.offset * self.room.offset * dot(&u, &u)
+        let offset = self.room.offset * dot(&u, &u).sqrt();
+        // Far from the origin the last places of short pieces are a large share of them.
+        let most = if offset > 0.0 { offset.max(self.tests.resolution * ROUNDED) } else { 0.0 };
+        self.mesh.squared_offset(vertex, [a, b]) <= most * most
     }
 
     /// The squared cosine of the least angle that triangles in the place of those around a vertex may have: it is that of

@@ -3,7 +3,7 @@
 use super::common::{ids, point};
 use super::{Faults, Outcome, Page, REQUESTS, TRACES, arm, cloud, disarm, forked, nudge};
 use crate::common::Rng;
-use deldrift::motion::{Interpolation, Options, VertexValues};
+use deldrift::motion::{Interpolation, Options, TransferOrder, VertexValues};
 use deldrift::periodic::PeriodicTriangulation;
 use deldrift::{Dimension, Error, Plane, Result, Space, VertexId};
 use std::collections::BTreeSet;
@@ -36,9 +36,10 @@ enum Call {
     Conflicts,
     VerticesInBox,
     TakeChanges,
+    TransferCells,
 }
 
-const CALLS: [Call; 23] = [
+const CALLS: [Call; 24] = [
     Call::New,
     Call::MoveVertices,
     Call::StageInsertions,
@@ -62,6 +63,7 @@ const CALLS: [Call; 23] = [
     Call::Conflicts,
     Call::VerticesInBox,
     Call::TakeChanges,
+    Call::TransferCells,
 ];
 
 /// A box before a call.
@@ -108,6 +110,7 @@ impl<G: Dimension> Scene<G> {
             // A later read is in the order of what was taken.
             t.take_changes().expect("room");
         }
+        let mut heights: Vec<f64> = (0..100).map(f64::from).collect();
         let mut goals = points;
         nudge::<G>(&mut goals, 0.3, rng);
         vectors[0][0] += 0.01;
@@ -123,6 +126,13 @@ impl<G: Dimension> Scene<G> {
                 t.move_vertices(&ids([3, 4, 5]), &goals[3..6]).expect("moves");
             }
             Call::CommitVectors => t.stage_vectors(&vectors).expect("vectors"),
+            Call::TransferCells => {
+                t.take_changes().expect("room");
+                heights = vec![0.25; t.cell_count().expect("room")];
+                t.move_vertices(&ids([3, 4, 5]), &goals[3..6]).expect("moves");
+                t.commit_timestamp().expect("a commit");
+                t.take_changes().expect("room");
+            }
             Call::Prepare => t.move_first(&goals).expect("moves"),
             Call::PrepareAgain | Call::Withdraw => {
                 t.stage_insertions(&goals[..5]).expect("insertions");
@@ -131,7 +141,7 @@ impl<G: Dimension> Scene<G> {
             }
             _ => {}
         }
-        Scene { t, goals, vectors, heights: (0..100).map(f64::from).collect() }
+        Scene { t, goals, vectors, heights }
     }
 
     /// Makes the call, and disarms as soon as it is back; what it gives, as far as that is a number.
@@ -163,6 +173,13 @@ impl<G: Dimension> Scene<G> {
                 t.withdraw_timestamp();
                 disarm();
                 t.timestamp()
+            }
+            Call::TransferCells => {
+                let made = t.transfer_cells(None, TransferOrder::Second, 1, heights);
+                disarm();
+                assert!(heights.iter().all(|&mean| mean == 0.25), "a constant is another one");
+                made?;
+                heights.len() as u64
             }
             Call::TakeChanges => {
                 let changes = given(t.take_changes())?;

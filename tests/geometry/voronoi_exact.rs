@@ -3,7 +3,7 @@
 
 use super::exact_cells::exact_cell;
 use crate::common::{Rng, point, seeds};
-use deldrift::motion::{MovingTriangulation, Options};
+use deldrift::motion::{MovingTriangulation, Options, VoronoiCell};
 use deldrift::{Dimension, Error, Plane, Space, VertexId};
 
 /// Points of either dimension as the oracle takes them.
@@ -420,17 +420,20 @@ fn cells_of_high_degree_can_be_cancelled() {
         let t = MovingTriangulation::<Space>::new(&circle(20_000, height), Options::default());
         let t = t.expect("good points");
         let mut fractions = Vec::new();
-        let volumes = t.voronoi_volumes_monitored(Some([&low, &high]), &mut |fraction| {
+        let mut sum = 0.0;
+        let mut watch = |fraction| {
             fractions.push(fraction);
             true
-        });
-        let volumes = volumes.expect("room");
-        assert!((volumes.iter().sum::<f64>() - 0.216).abs() < 1e-9);
+        };
+        let add = &mut |_, cell: VoronoiCell<_>| sum += cell.volume;
+        t.for_voronoi(Some([&low, &high]), &[], None, &mut watch, Some(add), None).expect("room");
+        assert!((sum - 0.216).abs() < 1e-9);
         assert!(!fractions.is_empty() && fractions.is_sorted() && fractions.iter().all(|x| *x <= 1.0));
-        let stopped = t.voronoi_volumes_monitored(Some([&low, &high]), &mut |_| false);
+        let clip = Some([&low, &high]);
+        let stopped = t.for_voronoi(clip, &[], None, &mut |_| false, Some(&mut |_, _| ()), None);
         assert!(matches!(stopped, Err(Error::Cancelled)));
         if height > 0.0 {
-            let stopped = t.voronoi_facets_monitored(None, &mut |_| false);
+            let stopped = t.for_voronoi(None, &[], None, &mut |_| false, None, Some(&mut |_, _| ()));
             assert!(matches!(stopped, Err(Error::Cancelled)));
         }
     }

@@ -69,6 +69,10 @@ pub(super) fn domains() -> Vec<(&'static str, f64, Domain)> {
     let ring = |points: &[[f64; 2]]| Domain::default().with_ring(points);
     let triangle = || ring(&[[0.1, 0.0], [1.0, 0.3], [0.4, 0.9]]);
     let square = || rectangle([0.0; 2], [1.0; 2]);
+    let gear: Vec<_> = (0..24).map(|k| circle([0.0; 2], if k % 4 < 2 { 1.0 } else { 0.8 }, 24)[k]).collect();
+    let mut cross = ring(&square()).with_chain(&[[0.3, 0.3], [0.5, 0.5], [0.7, 0.3]]);
+    cross.points.push([0.5, 0.8]);
+    cross.edges.push([5, 7]);
     let angle = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [0.5, 0.5], [0.5, 1.0], [0.0, 1.0]];
     let letter =
         [[0.0, 0.0], [0.2, 0.0], [0.5, 0.8], [0.52, 0.8], [0.8, 0.0], [1.0, 0.0], [0.55, 1.0], [0.45, 1.0]];
@@ -103,6 +107,20 @@ pub(super) fn domains() -> Vec<(&'static str, f64, Domain)> {
         ("pentagon", 1.0, polygon(5, 3, 0.1)),
         ("hexagon", 1.0, polygon(6, 2, 0.4)),
         ("heptagon", 1.0, polygon(7, 4, 1.3)),
+        ("gear", 1.0, ring(&gear)),
+        (
+            "nested",
+            1.0,
+            ring(&square()).with_ring(&circle([0.5; 2], 0.3, 9)).with_ring(&circle([0.5; 2], 0.1, 5)),
+        ),
+        ("duplicates", 1.0, with_points(ring(&square()), &[[0.0, 0.0], [0.25, 0.5], [0.25, 0.5]])),
+        ("cross", 1.0, cross),
+        ("far and small", 1e-3, scaled(ring(&turned(&square(), 0.2)), 1e-3, [1e4, 2e4])),
+        (
+            "narrow",
+            1.0,
+            ring(&square()).with_chain(&[[0.2, 0.2], [0.8, 0.2]]).with_chain(&[[0.2, 0.2001], [0.8, 0.21]]),
+        ),
     ]
 }
 

@@ -163,3 +163,70 @@ fn values_are_carried_to_a_mesh_made_anew() {
     }
     assert!(n_anew > 2 && n_inserted > 1000, "{n_anew} {n_inserted}");
 }
+
+/// A motion of any domain: it is squeezed along one axis, and back, by a map that keeps segments straight.
+fn factor(step: usize) -> f64 {
+    const FORTH: usize = 25;
+    let sign = if (step / FORTH).is_multiple_of(2) { 1.0 } else { -1.0 };
+    (0.02f64 * sign).exp()
+}
+
+fn squeezed([x, y]: [f64; 2], factor: f64) -> [f64; 2] {
+    [x * factor, y / factor]
+}
+
+/// Angles and areas, by the square of the domain's size.
+const ASKED: [(f64, f64); 8] = [
+    (20.0, 0.0),
+    (25.0, 0.0),
+    (30.0, 0.0),
+    (33.0, 0.0),
+    (20.0, 0.004),
+    (25.0, 0.004),
+    (30.0, 0.004),
+    (33.0, 0.004),
+];
+
+/// After each step of a loop how many times the vertices of a mesh made anew there are, in the mean and at most, and how many
+/// more bad cells at most.
+fn squeeze(domain: &Domain, asked: &Quality, n_steps: usize) -> (f64, f64, usize) {
+    let (mut t, mut domain) = (domain.build(), domain.clone());
+    refine(&mut t, asked, LIMIT);
+    let (mut sum, mut most, mut n_bad) = (0.0, 0.0f64, 0);
+    for step in 0..n_steps {
+        let factor = factor(step);
+        domain.points.iter_mut().for_each(|p| *p = squeezed(*p, factor));
+        let present: Vec<_> = VertexId::range(0..t.id_count()).filter(|&v| t.is_present(v)).collect();
+        let goals: Vec<_> =
+            present.iter().map(|&v| squeezed(t.position(v).expect("present"), factor)).collect();
+        t.move_vertices(&present, &goals).expect("good places");
+        // Vertices that are on sides but for rounding may be on the other side after it.
+        let (Ok(_), Some(mut anew)) = (t.commit_timestamp(), domain.try_build()) else {
+            return (sum / step.max(1) as f64, most, n_bad);
+        };
+        coarsen(&mut t, asked);
+        let report = refine(&mut t, asked, LIMIT);
+        let fresh = refine(&mut anew, asked, LIMIT);
+        assert!(!report.is_cut_short && !fresh.is_cut_short);
+        let ratio = t.vertex_count() as f64 / anew.vertex_count() as f64;
+        (sum, most) = (sum + ratio, most.max(ratio));
+        n_bad = n_bad.max(report.bad_cells.saturating_sub(fresh.bad_cells));
+    }
+    (sum / n_steps as f64, most, n_bad)
+}
+
+/// The table of docs/SEGMENTS.md: `cargo test --release --test library -- growth_of_all --ignored --nocapture`.
+#[test]
+#[ignore = "takes minutes"]
+fn growth_of_all_domains() {
+    let names = ASKED.map(|(angle, area)| format!("{angle}°{}", if area > 0.0 { ", area" } else { "" }));
+    println!("| domain | {} |\n|---|{}", names.join(" | "), "---|".repeat(ASKED.len()));
+    for (name, size, domain) in domains() {
+        let cells = ASKED.map(|(angle, area)| {
+            let (mean, most, n_bad) = squeeze(&domain, &quality(angle, area * size * size), 200);
+            let bad = if n_bad > 0 { format!(", {n_bad} bad") } else { String::new() };
+            if most == 0.0 { "·".to_string() } else { format!("{mean:.2}, {most:.2}{bad}") }
+        });
+        println!("| {name} | {} |", cells.join(" | "));
+    }
+}

@@ -15,12 +15,13 @@ use crate::ids::{SegmentId, VertexId};
 use crate::machine::memory;
 use crate::motion::options::{CoarsenOptions, Quality, RefineOptions};
 use crate::motion::report::QualityReport;
+use crate::motion::state::density::Due;
 use crate::motion::state::looked::{Looking, Question};
 use crate::motion::state::made::{Inserted, Origin};
 use crate::motion::state::mesh::Standing;
 use crate::motion::state::segments::Segment;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::refine::{self, Candidate, Criteria, Kept, NONE, Origins, Refined, Room, Tests};
+use crate::refine::{self, Candidate, Criteria, NONE, Origins, Refined, Room, Tests};
 use reading::Read;
 use staging::SegmentChanges;
 
@@ -87,8 +88,11 @@ impl MovingTriangulation<Plane> {
     ) -> Result<QualityReport> {
         let asked = asked(quality)?;
         let question = self.question(&asked, quality, mask);
-        let due = self.made.as_ref().and_then(|made| made.density.due());
-        if due.is_none() && self.made.as_ref().is_some_and(|made| made.found.all_good.holds(question)) {
+        let made = self.made.as_ref().filter(|_| quality.sizes.is_none());
+        let due = made.and_then(|made| made.density.due());
+        if !due.is_some_and(|due| due.is_certain)
+            && self.made.as_ref().is_some_and(|made| made.found.all_good.holds(question))
+        {
             self.set_refined(quality, Inserted::default());
             return Ok(QualityReport::default());
         }
@@ -100,7 +104,8 @@ impl MovingTriangulation<Plane> {
         let mut report = QualityReport { bad_cells: read.bad.len(), ..Default::default() };
         let mut pace = std::mem::take(self.mesh.kernel.pace_mut());
         pace.begin();
-        let found = self.find((&mut read, mask, quality), &bounds, tests, options, &mut || pace.ask_again());
+        let found =
+            self.find((&read, mask, quality), (&bounds, tests), (options, due), &mut || pace.ask_again());
         *self.mesh.kernel.pace_mut() = pace;
         let Some(mut refined) = found? else {
             if let (Some(made), 0) = (&mut self.made, report.bad_cells) {
@@ -128,30 +133,32 @@ impl MovingTriangulation<Plane> {
     /// Finds what is to be done, if anything. `ask` is called now and then, and ends it by an error.
     fn find(
         &mut self,
-        (read, mask, quality): (&mut Read, &[u8], &Quality),
-        bounds: &Bounds,
-        tests: Tests,
-        options: &RefineOptions,
+        (read, mask, quality): (&Read, &[u8], &Quality),
+        (bounds, tests): (&Bounds, Tests),
+        (options, due): (&RefineOptions, Option<Due>),
         ask: &mut dyn FnMut() -> Result<()>,
     ) -> Result<Option<Refined>> {
-        let anew = self.find_anew((read, mask, quality), bounds, options, ask)?;
         let n = self.made_vertices().count();
-        let anew = match anew {
-            Some((anew, most)) if n > most => return Ok(Some(anew)),
-            anew => anew,
-        };
-        let refined = if read.bad.is_empty() || tests.are_none() {
-            None
-        } else {
-            let points = std::mem::take(&mut read.points);
+        let mut anew = None;
+        if let Some(due) = due.filter(|due| due.is_certain) {
+            anew = self.find_anew((read, mask, quality), bounds, (options, due), ask)?;
+        }
+        let mut refined = None;
+        if anew.as_ref().is_none_or(|&(_, most)| n <= most) && !read.bad.is_empty() && !tests.are_none() {
+            let points = memory::copy_of(&read.points)?;
             let given = read.given(self.cells()?, mask, quality.labels, self.mesh.kernel.keys());
             let origins = self.origins(read)?;
             let limit = (options.keeps, options.limit);
-            Some(refine::refine(given, points, &read.bad, tests, origins, limit, ask)?)
-        };
-        let n_inserted = refined.as_ref().map_or(0, |refined| refined.vertices.len());
+            refined = Some(refine::refine(given, points, &read.bad, tests, origins, limit, ask)?);
+        }
+        let n = n + refined.as_ref().map_or(0, |refined| refined.vertices.len());
+        if let (Some(due), None, Some(_)) = (due, &anew, &refined)
+            && self.made.as_ref().is_some_and(|made| made.density.is_grown(n, due.growth))
+        {
+            anew = self.find_anew((read, mask, quality), bounds, (options, due), ask)?;
+        }
         Ok(match anew {
-            Some((anew, most)) if n + n_inserted > most => Some(anew),
+            Some((anew, most)) if n > most => Some(anew),
             _ => refined,
         })
     }
@@ -212,7 +219,7 @@ impl MovingTriangulation<Plane> {
             [] => Vec::new(),
             _ => {
                 let (tests, points) = (bounds.tests(quality, &read), memory::copy_of(&read.points)?);
-                refine::mendable(given, points, &read.bad, tests, self.origins(&read)?, Kept::None)?
+                refine::mendable(given, points, &read.bad, tests, self.origins(&read)?, options.keeps)?
             }
         };
         // More vertices may go around these.
@@ -359,8 +366,8 @@ fn asked(quality: &Quality) -> Result<Vec<u64>> {
 fn asked_with(quality: &[u64], options: &CoarsenOptions) -> Result<Vec<u64>> {
     let mut asked = Vec::new();
     if !quality.is_empty() {
-        let CoarsenOptions { margin, share, joins, growth } = *options;
-        let numbers = [margin, share, joins, growth].map(f64::to_bits);
+        let CoarsenOptions { margin, share, joins, growth, keeps } = *options;
+        let numbers = [margin, share, joins, growth, f64::from(keeps as u8)].map(f64::to_bits);
         memory::collect(&mut asked, numbers.iter().chain(quality).copied())?;
     }
     Ok(asked)

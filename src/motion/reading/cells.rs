@@ -5,7 +5,7 @@ use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::state::cells::{Cells, OwnedCells};
-use crate::motion::state::changes::{Changes, Taken};
+use crate::motion::state::taken::{Changes, Taken};
 use crate::motion::state::views::CellsView;
 use crate::motion::triangulation::MovingTriangulation;
 

@@ -9,3 +9,4 @@ pub(in crate::motion) mod near;
 pub(in crate::motion) mod query;
 pub(in crate::motion) mod saving;
 pub(in crate::motion) mod tolerances;
+pub(in crate::motion) mod transfer;

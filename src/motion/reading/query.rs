@@ -8,11 +8,11 @@ use crate::machine::prefetch::prefetch;
 use crate::motion::algorithms::Algorithm;
 use crate::motion::report::CommitReport;
 use crate::motion::state::cells::Cells;
-use crate::motion::state::changes::Taken;
 use crate::motion::state::checking::check_position;
 use crate::motion::state::made::Made;
 use crate::motion::state::mesh::Standing;
 use crate::motion::state::repair::Repair;
+use crate::motion::state::taken::Taken;
 use crate::motion::triangulation::MovingTriangulation;
 
 /// Where a point lies.

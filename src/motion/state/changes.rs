@@ -9,7 +9,7 @@ use crate::complex::Corners;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
-use crate::machine::prefetch::{AHEAD, prefetch};
+use crate::machine::prefetch::prefetch;
 use crate::motion::state::marks::Marks;
 
 /// In place of an id: a vertex that has none any more.
@@ -21,16 +21,16 @@ pub(in crate::motion) struct Tracker<C> {
     /// By index of a cell of now, its index at the base; [`CellId::NONE`] if it has been created since.
     origin: Vec<CellId>,
     /// Indices whose origin may be another one; some may be beyond the end.
-    touched: Marks<CellId>,
+    pub(super) touched: Marks<CellId>,
     /// Cells of the base that have been removed: their indices and corners.
-    removed: Vec<(CellId, C)>,
+    pub(super) removed: Vec<(CellId, C)>,
     /// How often the arrays have been refreshed since the base: a cell that goes in one refreshment may come back in
     /// another.
     n_refreshed: u32,
     /// How many cells have been given another index since the base.
-    n_renumbered: usize,
+    pub(super) n_renumbered: usize,
     /// Cells of the base that have been turned over, and how their corners were listed before.
-    turned: Vec<Turned<C>>,
+    pub(super) turned: Vec<Turned<C>>,
 }
 
 /// Lengths and counts of a tracker, to which it can go back.
@@ -45,11 +45,11 @@ pub(in crate::motion) struct Lengths {
 
 /// A cell of the base that has been turned over.
 #[derive(Clone, Copy, Debug)]
-struct Turned<C> {
-    origin: CellId,
+pub(super) struct Turned<C> {
+    pub(super) origin: CellId,
     /// Its place in the order of the events.
     at: u32,
-    before: C,
+    pub(super) before: C,
 }
 
 impl<C: Corners<VertexId>> Tracker<C> {
@@ -244,7 +244,12 @@ impl<C: Corners<VertexId>> Tracker<C> {
 
     /// The index at the base of a cell, [`CellId::NONE`] if it is new, and which of the removed ones it is if it has
     /// come back; nothing beyond the end.
-    fn origin_of(&self, index: CellId, corners: &[C], removed: &[(C, u32)]) -> Option<(CellId, Option<u32>)> {
+    pub(super) fn origin_of(
+        &self,
+        index: CellId,
+        corners: &[C],
+        removed: &[(C, u32)],
+    ) -> Option<(CellId, Option<u32>)> {
         let origin = *self.origin.get(index.index())?;
         if origin != CellId::NONE || removed.is_empty() {
             return Some((origin, None));
@@ -253,8 +258,14 @@ impl<C: Corners<VertexId>> Tracker<C> {
         Some((returned.map_or(CellId::NONE, |k| self.removed[k as usize].0), returned))
     }
 
+    /// The row at the base of a cell that was there, given the one that was seen last.
+    pub(super) fn before(&self, origin: CellId, seen: C) -> C {
+        let found = self.turned.binary_search_by_key(&origin, |event| event.origin);
+        found.map_or(seen, |k| self.turned[k].before)
+    }
+
     /// The removed cells that may have come back, by their sorted corners, each with its position in the list.
-    fn sorted_removed(&self) -> Result<Vec<(C, u32)>> {
+    pub(super) fn sorted_removed(&self) -> Result<Vec<(C, u32)>> {
         let mut by_corners = Vec::new();
         if self.n_refreshed < 2 {
             return Ok(by_corners);
@@ -274,7 +285,7 @@ impl<C: Corners<VertexId>> Tracker<C> {
 }
 
 /// Keeps of each cell how it was before it was turned over for the first time, in the order of the cells.
-fn keep_first_turns<C>(turned: &mut Vec<Turned<C>>) {
+pub(super) fn keep_first_turns<C>(turned: &mut Vec<Turned<C>>) {
     turned.sort_unstable_by_key(|event| (event.origin, event.at));
     turned.dedup_by_key(|event| event.origin);
     turned.iter_mut().for_each(|event| event.at = 0);
@@ -296,184 +307,4 @@ fn sorted<C: Corners<VertexId>>(mut corners: C) -> C {
 fn find<C: Corners<VertexId>>(by_corners: &[(C, u32)], corners: &C) -> Option<u32> {
     let at = by_corners.binary_search_by(|(there, _)| there.cmp(corners)).ok()?;
     Some(by_corners[at].1)
-}
-
-/// What has changed since the program last took the changes. Indices are those of
-/// [`cells`](crate::motion::MovingTriangulation::cells), at that time or now; vertices are in ascending order.
-#[derive(Clone, Copy, Debug)]
-pub struct Changes<'t, C> {
-    /// Cells that exist now and did not: their indices.
-    pub created: &'t [CellId],
-    /// Cells that existed and do not now: the index that each had.
-    pub removed: &'t [CellId],
-    /// The corners of the removed cells, in the order in which each listed them when the program last took the changes.
-    /// A vertex that was removed before a [compaction](crate::motion::MovingTriangulation::compact) has no id any more:
-    /// it is [`NO_VERTEX`].
-    pub removed_corners: &'t [C],
-    /// Cells that existed and have another index now: the index that each had.
-    pub renumbered_from: &'t [CellId],
-    /// The index that each of the renumbered cells has now.
-    pub renumbered_to: &'t [CellId],
-    /// Vertices whose star has changed: those of all created and removed cells. Some may have been removed, after the
-    /// latest compaction if there was one.
-    pub stars: &'t [VertexId],
-    /// Vertices that are hidden and were not.
-    pub hidden: &'t [VertexId],
-    /// Vertices that were hidden and are not.
-    pub shown: &'t [VertexId],
-}
-
-/// The lists behind [`Changes`].
-#[derive(Debug)]
-pub(in crate::motion) struct Taken<C> {
-    created: Vec<CellId>,
-    removed: Vec<CellId>,
-    removed_corners: Vec<C>,
-    renumbered_from: Vec<CellId>,
-    renumbered_to: Vec<CellId>,
-    stars: Marks<VertexId>,
-    hidden: Vec<VertexId>,
-    shown: Vec<VertexId>,
-}
-
-impl<C> Default for Taken<C> {
-    fn default() -> Self {
-        Taken {
-            created: Vec::new(),
-            removed: Vec::new(),
-            removed_corners: Vec::new(),
-            renumbered_from: Vec::new(),
-            renumbered_to: Vec::new(),
-            stars: Marks::default(),
-            hidden: Vec::new(),
-            shown: Vec::new(),
-        }
-    }
-}
-
-impl<C: Corners<VertexId>> Taken<C> {
-    fn clear(&mut self) {
-        clear(&mut self.created);
-        clear(&mut self.removed);
-        clear(&mut self.removed_corners);
-        clear(&mut self.renumbered_from);
-        clear(&mut self.renumbered_to);
-        clear(&mut self.hidden);
-        clear(&mut self.shown);
-        let n_stars = self.stars.as_slice().len();
-        self.stars.clear();
-        self.stars.shrink_to(4 * n_stars + 1024);
-    }
-
-    /// Lists what a tracker knows of the cells, and the vertices of all cells listed; no vertex is hidden or shown yet.
-    pub(in crate::motion) fn list(
-        &mut self,
-        tracker: &mut Tracker<C>,
-        corners: &[C],
-        n_ids: usize,
-    ) -> Result<()> {
-        self.clear();
-        self.list_cells(tracker, corners)?;
-        self.list_stars(corners, n_ids)
-    }
-
-    /// Makes room for this number of vertices hidden or shown.
-    pub(in crate::motion) fn reserve_vertices(&mut self, n: usize) -> Result<()> {
-        memory::reserve(&mut self.hidden, n)?;
-        memory::reserve(&mut self.shown, n)
-    }
-
-    /// Enters a vertex that has been hidden or shown if it is not as before; there is room.
-    pub(in crate::motion) fn list_vertex(&mut self, vertex: VertexId, was_hidden: bool, is_hidden: bool) {
-        match (was_hidden, is_hidden) {
-            (false, true) => self.hidden.push(vertex),
-            (true, false) => self.shown.push(vertex),
-            _ => {}
-        }
-    }
-
-    /// The lists.
-    pub(in crate::motion) fn changes(&self) -> Changes<'_, C> {
-        Changes {
-            created: &self.created,
-            removed: &self.removed,
-            removed_corners: &self.removed_corners,
-            renumbered_from: &self.renumbered_from,
-            renumbered_to: &self.renumbered_to,
-            stars: self.stars.as_slice(),
-            hidden: &self.hidden,
-            shown: &self.shown,
-        }
-    }
-
-    /// Lists what a tracker knows.
-    fn list_cells(&mut self, tracker: &mut Tracker<C>, corners: &[C]) -> Result<()> {
-        let by_corners = tracker.sorted_removed()?;
-        let (n_touched, n_removed) = (tracker.touched.as_slice().len(), tracker.removed.len());
-        memory::reserve(&mut self.created, n_touched)?;
-        let n_renumbered = n_touched.min(tracker.n_renumbered + by_corners.len());
-        memory::reserve(&mut self.renumbered_from, n_renumbered)?;
-        memory::reserve(&mut self.renumbered_to, n_renumbered)?;
-        memory::reserve(&mut self.removed, n_removed)?;
-        memory::reserve(&mut self.removed_corners, n_removed)?;
-        let mut has_returned = Vec::new();
-        memory::reserve_exact(&mut has_returned, by_corners.len())?;
-        has_returned.resize(by_corners.len(), false);
-        tracker.touched.sort();
-        for &index in tracker.touched.as_slice() {
-            let Some((origin, returned)) = tracker.origin_of(index, corners, &by_corners) else { break };
-            if let Some(k) = returned {
-                has_returned[k as usize] = true;
-            }
-            if origin == CellId::NONE {
-                self.created.push(index);
-            } else if origin != index {
-                self.renumbered_from.push(origin);
-                self.renumbered_to.push(index);
-            }
-        }
-        keep_first_turns(&mut tracker.turned);
-        let turned = &tracker.turned;
-        for (k, &(origin, corners)) in tracker.removed.iter().enumerate() {
-            if has_returned.get(k) == Some(&true) {
-                continue;
-            }
-            let was_turned = turned.binary_search_by_key(&origin, |event| event.origin);
-            self.removed.push(origin);
-            self.removed_corners.push(was_turned.map_or(corners, |k| turned[k].before));
-        }
-        Ok(())
-    }
-
-    /// Lists the vertices of all cells that are listed.
-    fn list_stars(&mut self, corners: &[C], n_ids: usize) -> Result<()> {
-        let most = C::N * (self.created.len() + self.removed_corners.len());
-        self.stars.reserve(most.min(n_ids), n_ids)?;
-        let created = self.created.iter().enumerate().map(|(k, &index)| {
-            if let Some(&later) = self.created.get(k + AHEAD) {
-                prefetch(corners, later.index());
-            }
-            &corners[index]
-        });
-        let listed = created.chain(&self.removed_corners).flat_map(|row| row.as_ref());
-        listed.filter(|v| **v != NO_VERTEX).for_each(|&v| self.stars.insert(v));
-        self.stars.sort();
-        Ok(())
-    }
-
-    pub(in crate::motion) fn memory_bytes(&self) -> usize {
-        let cells = [&self.created, &self.removed, &self.renumbered_from, &self.renumbered_to];
-        let vertices = [&self.hidden, &self.shown];
-        cells.map(memory::bytes_of).iter().chain(&vertices.map(memory::bytes_of)).sum::<usize>()
-            + self.removed_corners.capacity() * size_of::<C>()
-            + self.stars.memory_bytes()
-    }
-}
-
-/// Empties a list; its memory is kept unless it has been of little use.
-fn clear<T>(list: &mut Vec<T>) {
-    if list.capacity() > 4 * list.len() + 1024 {
-        *list = Vec::new();
-    }
-    list.clear();
 }

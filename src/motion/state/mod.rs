@@ -25,6 +25,7 @@ pub(in crate::motion) mod repair;
 pub(in crate::motion) mod rounds;
 pub(in crate::motion) mod segments;
 pub(in crate::motion) mod staging;
+pub(in crate::motion) mod taken;
 pub(in crate::motion) mod transaction;
 pub(in crate::motion) mod views;
 pub(in crate::motion) mod visibility;

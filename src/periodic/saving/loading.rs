@@ -212,7 +212,8 @@ fn inside_of<G: Dimension>(
     if saved.plain_ids() != Some(images.len()) {
         return Err(Damage::Counts.into());
     }
-    let t = MovingTriangulation::<G>::load(&saved, options)?;
+    let loaded = MovingTriangulation::<G>::load(&saved, options);
+    let Ok(t) = &loaded else { return loaded };
     for (inside, image) in VertexId::range(0..images.len()).zip(images.as_slice()) {
         let is_right = if *image == Image::GONE {
             !t.is_present(inside)
@@ -223,7 +224,7 @@ fn inside_of<G: Dimension>(
             return Err(Damage::Image { inside, vertex: image.vertex }.into());
         }
     }
-    Ok(t)
+    loaded
 }
 
 /// What is inside, if all are where the lattice has them.

@@ -186,7 +186,7 @@ where
     [f64; D]: Reach + Measures,
 {
     let rng = &mut Rng::new(seed);
-    let (mut n_met, mut n_apart, mut n_touching) = (0, 0, 0);
+    let (mut n_met, mut n_apart, mut n_touching, mut n_sure) = (0, 0, 0, 0);
     for round in 0..6_000 {
         let Some(cell) = draw::<D>(round, rng) else { continue };
         let corners: Vec<&[f64; D]> = cell.iter().collect();
@@ -194,7 +194,12 @@ where
         for _ in 0..4 {
             let [low, high] = draw_box(&cell, rng);
             let expected = sphere.meets(&low, &high);
-            assert_eq!(Reach::does_ball_meet(&corners, &low, &high), expected, "{cell:?} {low:?} {high:?}");
+            let centre = Reach::exact_centre(&corners);
+            let exactly = Reach::does_ball_meet(&corners, &centre, &low, &high);
+            let surely = Reach::does_ball_surely_meet(&corners, &low, &high);
+            assert_eq!(exactly, expected, "{cell:?} {low:?} {high:?}");
+            assert!(surely.is_none_or(|surely| surely == expected), "{cell:?} {low:?} {high:?}");
+            n_sure += usize::from(surely.is_some());
             n_met += usize::from(expected);
             n_apart += usize::from(!expected);
             // Whether it touches in a place: with sides moved by a bit it does not any more.
@@ -211,8 +216,8 @@ where
             }
         }
     }
-    println!("{n_met} met, {n_apart} not, {n_touching} by a bit");
-    assert!(n_met > 3_000 && n_apart > 3_000 && n_touching > 300);
+    println!("{n_met} met, {n_apart} not, {n_touching} by a bit; {n_sure} are sure");
+    assert!(n_met > 3_000 && n_apart > 3_000 && n_touching > 300 && n_sure > 3_000);
 }
 
 #[test]

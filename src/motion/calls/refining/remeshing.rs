@@ -17,8 +17,10 @@ impl MovingTriangulation<Plane> {
     /// Coarsening ends: if it has left too many vertices, the next refinement compares the mesh with one made anew.
     pub(super) fn set_coarsened(&mut self, quality: &Quality, options: &CoarsenOptions, n_removed: usize) {
         let n = self.made_vertices().count();
-        let (timestamp, due) =
-            (self.statistics.timestamp, Due { growth: options.growth, joins: options.joins });
+        let (timestamp, due) = (
+            self.statistics.timestamp,
+            Due { growth: options.growth, joins: options.joins, is_certain: false },
+        );
         if let Some(made) = &mut self.made {
             made.density.set_coarsened([n, n_removed], bounds_of(quality), timestamp, due);
         }
@@ -33,18 +35,14 @@ impl MovingTriangulation<Plane> {
         }
     }
 
-    /// Finds the mesh made anew, if that is due; and how many vertices there may be at most otherwise.
+    /// Finds the mesh made anew, and how many vertices there may be at most otherwise; nothing if it would be cut short.
     pub(super) fn find_anew(
         &mut self,
         (read, mask, quality): (&Read, &[u8], &Quality),
         bounds: &Bounds,
-        options: &RefineOptions,
+        (options, due): (&RefineOptions, Due),
         ask: &mut dyn FnMut() -> Result<()>,
     ) -> Result<Option<(Refined, usize)>> {
-        let Some(due) = self.made.as_ref().and_then(|made| made.density.due()) else { return Ok(None) };
-        if quality.sizes.is_some() {
-            return Ok(None);
-        }
         let mut candidates = self.candidates(read)?;
         candidates.retain(|candidate| options.keeps == Kept::None || candidate.between.is_none());
         let (tests, no_tests) = (bounds.tests(quality, read), bounds.tests_of_none(read));

@@ -44,24 +44,10 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::NotFinite`], [`Error::OutOfRange`] and [`Error::InvalidValue`] for the box, [`Error::OutOfMemory`].
     pub fn voronoi_volumes(&self, clip: Option<[&G::Point; 2]>) -> Result<Vec<f64>> {
-        self.voronoi_volumes_monitored(clip, &mut |_| true)
-    }
-
-    /// The [`voronoi_volumes`](Self::voronoi_volumes), with a call of `monitor` now and then, which is told the
-    /// fraction done.
-    ///
-    /// # Errors
-    /// [`Error::Cancelled`] if `monitor` returns `false`; [`Error::NotFinite`], [`Error::OutOfRange`] and
-    /// [`Error::InvalidValue`] for the box, [`Error::OutOfMemory`].
-    pub fn voronoi_volumes_monitored(
-        &self,
-        clip: Option<[&G::Point; 2]>,
-        monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Vec<f64>> {
         let mut volumes = Vec::new();
         memory::lengthen(&mut volumes, self.id_count(), f64::NAN)?;
         let tell = &mut |v: VertexId, cell: VoronoiCell<G::Point>| volumes[v.index()] = cell.volume;
-        self.for_voronoi(clip, &[], None, monitor, Some(tell), None)?;
+        self.for_voronoi(clip, &[], None, &mut |_| true, Some(tell), None)?;
         Ok(volumes)
     }
 
@@ -71,24 +57,10 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::NotFinite`], [`Error::OutOfRange`] and [`Error::InvalidValue`] for the box, [`Error::OutOfMemory`].
     pub fn voronoi_facets(&self, clip: Option<[&G::Point; 2]>) -> Result<Vec<f64>> {
-        self.voronoi_facets_monitored(clip, &mut |_| true)
-    }
-
-    /// The [`voronoi_facets`](Self::voronoi_facets), with a call of `monitor` now and then, which is told the fraction
-    /// done.
-    ///
-    /// # Errors
-    /// [`Error::Cancelled`] if `monitor` returns `false`; [`Error::NotFinite`], [`Error::OutOfRange`] and
-    /// [`Error::InvalidValue`] for the box, [`Error::OutOfMemory`].
-    pub fn voronoi_facets_monitored(
-        &self,
-        clip: Option<[&G::Point; 2]>,
-        monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Vec<f64>> {
         let mut measures = Vec::new();
         memory::lengthen(&mut measures, self.edge_count(), f64::NAN)?;
         let tell = &mut |edge: usize, facet: VoronoiFacet<G::Point>| measures[edge] = facet.area;
-        self.for_voronoi(clip, &[], None, monitor, None, Some(tell))?;
+        self.for_voronoi(clip, &[], None, &mut |_| true, None, Some(tell))?;
         Ok(measures)
     }
 

@@ -19,6 +19,8 @@
 //! So a flood finds all of them from the located cell of one place of the box. In a constrained triangulation it finds
 //! those that are connected with the cells that have a place of the box; all that an insertion would remove are.
 
+use std::collections::HashMap;
+
 use crate::complex::INFINITE;
 use crate::delaunay::{Delaunay, Dimension, IndexSet, Place};
 use crate::error::{Error, Result};
@@ -68,15 +70,21 @@ fn place_near<G: Dimension>([low, high]: &[G::Point; 2], lower: &G::Point, upper
 
 /// Memory of a flood, kept from one to the next.
 #[derive(Debug, Default)]
-struct Flood {
+struct Flood<P> {
     seen: IndexSet<Slot>,
     /// Those in reach, ghost cells included.
     reached: Vec<Slot>,
+    /// Centres of cells that rounded numbers did not suffice for: there are as many boxes as are asked about at a time for
+    /// each of these cells, which may be nearly all where vertices are on a line.
+    centres: HashMap<Slot, P>,
 }
 
-impl Flood {
+impl<P: Reach + Copy> Flood<P> {
     /// Lists all cells in reach of a box, ghost cells included; `near` is where to begin to look for it.
-    fn list<G: Dimension>(&mut self, kernel: &Delaunay<G>, within: &[G::Point; 2], near: Slot) -> Result<()> {
+    fn list<G>(&mut self, kernel: &Delaunay<G>, within: &[P; 2], near: Slot) -> Result<()>
+    where
+        G: Dimension<Point = P>,
+    {
         self.seen.clear();
         self.reached.clear();
         let first = match kernel.locate(&place_near::<G>(within, &kernel.lower(), &kernel.upper()), near) {
@@ -91,7 +99,7 @@ impl Flood {
             next += 1;
             for i in 0..=G::D {
                 let across = kernel.complex().cell(cell).neighbour(i).cell();
-                if self.seen.insert(across)? && is_in_reach(kernel, across, within) {
+                if self.seen.insert(across)? && self.is_in_reach(kernel, across, within)? {
                     for j in 0..=G::D {
                         prefetch(
                             kernel.complex().cells(),
@@ -104,23 +112,36 @@ impl Flood {
         }
         Ok(())
     }
+
+    /// Whether a cell, maybe a ghost cell, is in reach of a box.
+    #[inline(always)]
+    fn is_in_reach<G>(&mut self, kernel: &Delaunay<G>, slot: Slot, [low, high]: &[P; 2]) -> Result<bool>
+    where
+        G: Dimension<Point = P>,
+    {
+        let places = kernel.places(slot);
+        if kernel.complex().cell(slot).is_ghost() {
+            return Ok(P::does_half_space_meet(&places[..G::D], low, high));
+        }
+        let cell = &places[..=G::D];
+        match P::does_ball_surely_meet(cell, low, high) {
+            Some(does) => Ok(does),
+            None => Ok(P::does_ball_meet(cell, &self.centre(slot, cell)?, low, high)),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn centre(&mut self, slot: Slot, cell: &[&P]) -> Result<P> {
+        memory::reserve_map(&mut self.centres, 1)?;
+        Ok(*self.centres.entry(slot).or_insert_with(|| P::exact_centre(cell)))
+    }
 }
 
 /// A cell, or the finite cell behind a ghost cell.
 fn behind<G: Dimension>(kernel: &Delaunay<G>, slot: Slot) -> Slot {
     let cell = kernel.complex().cell(slot);
     if cell.is_ghost() { cell.neighbour(G::D).cell() } else { slot }
-}
-
-/// Whether a cell, maybe a ghost cell, is in reach of a box.
-#[inline(always)]
-fn is_in_reach<G: Dimension>(kernel: &Delaunay<G>, slot: Slot, [low, high]: &[G::Point; 2]) -> bool {
-    let places = kernel.places(slot);
-    if kernel.complex().cell(slot).is_ghost() {
-        G::Point::does_half_space_meet(&places[..G::D], low, high)
-    } else {
-        G::Point::does_ball_meet(&places[..=G::D], low, high)
-    }
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
@@ -162,7 +183,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Ok(found);
         }
         let cells = self.cell_arrays()?;
-        let mut flood = Flood::default();
+        let mut flood = Flood::<G::Point>::default();
         for within in low.iter().zip(high).filter_map(|(low, high)| in_range::<G>(low, high)) {
             let near = flood.reached.first().copied().unwrap_or(Slot::NONE);
             flood.list(kernel, &within, near)?;
@@ -211,7 +232,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         memory::reserve_exact(&mut found.offsets, low.len() + 1)?;
         found.offsets.push(0);
         let kernel = &self.mesh.kernel;
-        let (mut flood, mut sites) = (Flood::default(), IndexSet::new());
+        let (mut flood, mut sites) = (Flood::<G::Point>::default(), IndexSet::new());
         for (low, high) in low.iter().zip(high) {
             let first = found.vertices.len();
             match in_range::<G>(low, high) {

@@ -41,7 +41,7 @@ const MADE_VERTEX: usize = 8;
 const PIECE: usize = 16;
 
 /// Bytes of a history.
-const HISTORY: usize = 88;
+const HISTORY: usize = 96;
 
 /// Bytes of the header.
 pub(super) const SIZE: usize = 72 + 8 * N_SUMS;
@@ -155,8 +155,8 @@ impl History {
         [self.n_known as u64, u64::from(self.had_keys)].into_iter().chain(self.density.numbers())
     }
 
-    /// That of eleven numbers.
-    pub(super) fn of([n_known, had_keys, density @ ..]: [u64; 11]) -> Result<Self, Damage> {
+    /// That of twelve numbers.
+    pub(super) fn of([n_known, had_keys, density @ ..]: [u64; 12]) -> Result<Self, Damage> {
         let n_known = usize::try_from(n_known).map_err(|_| Damage::Counts)?;
         let density = Density::of_numbers(density).ok_or(Damage::Counts)?;
         match had_keys {

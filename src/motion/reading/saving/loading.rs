@@ -36,7 +36,7 @@ impl Reader<'_> {
         if !header.has_history {
             return Ok(None);
         }
-        let numbers = self.entries::<8>(11);
+        let numbers = self.entries::<8>(12);
         History::of(std::array::from_fn(|k| u64::from_le_bytes(numbers[k]))).map(Some)
     }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lists of all vertices within a radius, beside a grid of linked cells, and beside nanoflann's tree where that is installed.
+#include "lists.hpp"
+
 #include "library.hpp"
 #include "random.hpp"
 #include "replay.hpp"
-#include "targets.hpp"
 #include "verify.hpp"
 
 #include <fmt/format.h>
@@ -27,8 +27,10 @@ constexpr double wanted_of_tree = 1;
 constexpr std::size_t n_turns = 3;
 /// Neighbours that a vertex has in the mean, in 2D and 3D.
 constexpr double n_neighbours[] = {19, 50};
-/// A cluster is so many times as narrow as what it is in.
+/// A cluster is so many times as narrow as what it is in, and has fewer points, as by linked cells it takes their square.
 constexpr double narrow = 1e-3;
+constexpr std::size_t fewer = 10;
+const char *const names[] = {"lists", "lists_lattice", "lists_cluster"};
 
 struct Rows {
     std::vector<std::size_t> offsets;
@@ -210,40 +212,75 @@ std::vector<double> race(const std::vector<std::function<void()>> &runners) {
     return seconds;
 }
 
+/// What one way to make lists took, for all of `n_turns`.
+struct Time {
+    const char *engine;
+    double seconds;
+};
+
+/// By linked cells, by the library, and by nanoflann where that is there.
 template <unsigned dimension>
-void measure(const std::string &name, const TargetSizes &sizes, std::uint64_t seed, std::vector<Target> &targets) {
-    const Input points = input(name, dimension, sizes.n_tested, seed);
+std::vector<Time> measure(const std::string &name, std::size_t n, std::uint64_t seed) {
+    const Input points = input(name, dimension, n, seed);
     Ours ours(points);
-    Rows cells, tree;
+    Rows cells;
+    std::vector<Time> times = {{"linked cells", 0}, {"deldrift", 0}};
     std::vector<std::function<void()>> runners = {[&] { by_linked_cells<dimension>(points, cells); },
                                                   [&] { ours.list(DELDRIFT_PAIRS_FULL); }};
 #ifdef DELDRIFT_BENCH_NANOFLANN
+    Rows tree;
+    times.push_back({"nanoflann", 0});
     runners.emplace_back([&] { by_nanoflann<dimension>(points, tree); });
 #endif
     const std::vector<double> seconds = race(runners);
     if (digest(cells, cells.entries.size()) != digest(ours.rows, ours.n_entries))
         throw Mismatch(name + ": the lists are not the same", 1);
-    const double scale = 1e9 / static_cast<double>(n_turns * points.count());
-    const auto add = [&](const char *reference, double by_reference, double wanted) {
-        targets.push_back({name, dimension, points.count(), reference, "deldrift/neighbour_lists", scale * by_reference,
-                           scale * seconds[1], wanted, 0, 0});
-    };
-    add("linked cells", seconds[0], wanted_of_cells);
-    if (runners.size() > 2) add("nanoflann", seconds[2], wanted_of_tree);
+    for (std::size_t i = 0; i < times.size(); ++i) times[i].seconds = seconds[i];
+    return times;
+}
+
+/// Measures all sets of about `n` points that are wanted, and tells what each took.
+template <typename Wanted, typename Tell>
+void for_sets(unsigned dimension, std::size_t n, std::uint64_t seed, Progress &progress, Wanted is_wanted, Tell tell) {
+    for (const std::string name : names) {
+        if (!is_wanted(name)) continue;
+        const std::size_t count = name == "lists_cluster" ? n / fewer : n;
+        progress.begin(fmt::format("{} of {} points, {}D", name, count, dimension), 1);
+        tell(name, count, dimension == 2 ? measure<2>(name, count, seed) : measure<3>(name, count, seed));
+        progress.step();
+    }
 }
 
 }  // namespace
 
 std::vector<Target> list_targets(unsigned dimension, const TargetSizes &sizes, std::uint64_t seed, Progress &progress) {
     std::vector<Target> targets;
-    const char *const names[] = {"lists", "lists_lattice", "lists_cluster"};
-    for (const char *name : names) {
-        if (!sizes.has(name)) continue;
-        progress.begin(fmt::format("{} of {} points, {}D", name, sizes.n_tested, dimension), 1);
-        dimension == 2 ? measure<2>(name, sizes, seed, targets) : measure<3>(name, sizes, seed, targets);
-        progress.step();
-    }
+    const auto is_wanted = [&](const std::string &name) { return sizes.has(name); };
+    for_sets(dimension, sizes.n_tested, seed, progress, is_wanted,
+             [&](const std::string &name, std::size_t n, const std::vector<Time> &times) {
+                 const double scale = 1e9 / static_cast<double>(n_turns * n);
+                 const auto add = [&](const Time &reference, double wanted) {
+                     targets.push_back({name, dimension, n, reference.engine, "deldrift/neighbour_lists",
+                                        scale * reference.seconds, scale * times[1].seconds, wanted, 0, 0});
+                 };
+                 add(times[0], wanted_of_cells);
+                 if (times.size() > 2) add(times[2], wanted_of_tree);
+             });
     return targets;
+}
+
+std::vector<Row> list_rows(unsigned dimension, std::size_t n, std::uint64_t seed, Progress &progress) {
+    std::vector<Row> rows;
+    for_sets(dimension, n, seed, progress, [](const std::string &) { return true; },
+             [&](const std::string &name, std::size_t count, const std::vector<Time> &times) {
+                 for (const Time &time : times) {
+                     Row row{fmt::format("{}_{}d", name, dimension), dimension, count, n_turns, time.engine, "lists"};
+                     row.seconds = time.seconds;
+                     row.timed = "lists";
+                     rows.push_back(row);
+                 }
+             });
+    return rows;
 }
 
 }  // namespace bench
