@@ -416,7 +416,6 @@ impl Cases<'_> {
     /// A member of a quality is another one; some are of use to one of the functions alone.
     fn quality(&mut self, at: usize) {
         let valid = self.row.arguments[at];
-        let refines = self.function.name == "deldrift_refine";
         for (column, given, change, status, said) in [
             ("zero", "a struct_size of 0", "struct_size = 0", "INVALID_OPTIONS", "struct_size is 0"),
             (

@@ -192,7 +192,6 @@ static void cells_are_of_the_sizes_asked_for(void) {
     static int32_t labels[ROOM];
     static uint8_t mask[ROOM];
     const double areas[] = {0, 0.001}, seed[] = {1.5, 1.5};
-    size_t n;
     OK(deldrift_label_cells(t, seed, (const int32_t[]){1}, 1, -1, labels, ROOM, &n));
     memset(mask, 1, n);
     OK(deldrift_quality_init(&quality));
