@@ -238,3 +238,34 @@ fn ends_of_originals_are_not_given_again() {
     t.commit_timestamp().expect("no conflict");
     assert_eq!(free(&mut t), end);
 }
+
+/// Where all ids that are free are below those of the vertices that are there, ties in a lattice are as was foreseen.
+#[test]
+fn low_ids_decide_no_ties() {
+    const N_FREE: usize = 60;
+    let lattice = (0..25).map(|k| [(k % 5) as f64, (k / 5) as f64]);
+    let free = (0..N_FREE).map(|k| [0.3 + 0.05 * k as f64, 1.1 + 0.03 * (k * k % 17) as f64]);
+    let points: Vec<_> = free.chain(lattice).collect();
+    for (angle, area) in [(0.0, 0.4), (0.0, 0.2), (0.0, 0.1), (20.0, 0.2), (26.0, 0.15), (30.0, 0.1)] {
+        let mut t = Triangulation::new(&points, Options::default()).expect("good points");
+        (0..N_FREE).for_each(|k| t.remove_vertex(VertexId::at(k)).expect("present"));
+        let corners = [0, 4, 24, 20];
+        let sides = (0..4).flat_map(|k| {
+            let (a, b) = (corners[k] as i32, corners[(k + 1) % 4] as i32);
+            (0..4).map(move |j| [a + (b - a) / 4 * j, a + (b - a) / 4 * (j + 1)])
+        });
+        let segments: Vec<_> = sides
+            .map(|ends| Segment { ends: ends.map(|v| VertexId::at(N_FREE + v as usize)), marker: 0 })
+            .collect();
+        t.stage_segments(segments.into_iter()).expect("present");
+        t.commit_timestamp().expect("no conflict");
+        let asked = quality(angle, area);
+        let report = refine(&mut t, &asked);
+        assert!(report.inserted > 10 && t.refined_vertices()[0] == VertexId::new(0), "{angle}, {area}");
+        check_fresh(&t, &|| format!("{angle}, {area}"));
+        assert_eq!((report.bad_cells, count_bad(&t, &asked)), (0, 0), "{angle}, {area}");
+        let saved = bytes(&t);
+        assert_eq!(refine(&mut t, &asked).inserted, 0, "{angle}, {area}");
+        assert!(bytes(&t) == saved, "{angle}, {area}");
+    }
+}
