@@ -11,7 +11,7 @@ enum { INSULATED, HEATED, COOLED };  // markers
 static const double ANGLE = 0.02, HEATING = 5, TIME = 2e-5, TURN = 6.283185307179586;
 
 static double areas[2 * ROOM], weights[3 * ROOM], lengths[3], area, total, least_angle;
-static uint32_t ids[3 * ROOM], ends[2 * ROOM];
+static uint32_t from[3 * ROOM], come[ROOM], ends[2 * ROOM];
 static int32_t markers[ROOM];
 
 // The scalar product of the ways from a vertex to two others.
@@ -60,22 +60,17 @@ static void advance(deldrift_triangulation *t) {
     check(status);
 }
 
-// Gives the mesh its quality again, and new vertices the heat of what they were put into; uses ids again.
+// Gives the mesh its quality again, and new vertices, which have ids of those removed, the heat of what they were put into.
 static void mend(deldrift_triangulation *t, const deldrift_quality *quality) {
-    size_t n, n_new, n_present;
+    size_t n_new;
     check(deldrift_coarsen(t, quality, NULL, 0, NULL));
     check(deldrift_refine(t, quality, NULL, 0, NULL));
-    check(deldrift_id_count(t, &n));
-    check(deldrift_refined_weights(t, ids, weights, ROOM, &n_new));
+    check(deldrift_refined_vertices(t, come, ROOM, &n_new));
+    check(deldrift_refined_weights(t, from, weights, ROOM, &n_new));
     for (size_t k = 0; k < 3 * n_new; k++) {
-        double *const sum = heat + n - n_new + k / 3;
-        *sum = (k % 3 == 0 ? 0 : *sum) + weights[k] * heat[ids[k]];
+        double *const sum = heat + come[k / 3];
+        *sum = (k % 3 == 0 ? 0 : *sum) + weights[k] * heat[from[k]];
     }
-    check(deldrift_vertex_count(t, &n_present));
-    if (n < 2 * n_present) return;
-    check(deldrift_compact(t, ids, ROOM, &n));  // ids become lower, in their order
-    for (size_t v = 0; v < n; v++)
-        if (ids[v] != DELDRIFT_NONE) heat[ids[v]] = heat[v];
 }
 
 // Reads the cells, and measures those of the domain.
@@ -127,7 +122,7 @@ int main(int argc, char **argv) {
     deldrift_triangulation *t = build();
     deldrift_quality quality;
     check(deldrift_quality_init(&quality));
-    quality.least_angle = 25, quality.greatest_area = 0.005, quality.has_weights = 1;
+    quality.least_angle = 25, quality.greatest_area = 0.005, quality.has_weights = quality.reuses_ids = 1;
     const double exact = 6 - ROTOR / 2 * 0.5 * 0.15 * sin(TURN / ROTOR) - PIPE / 2 * 0.2 * 0.2 * sin(TURN / PIPE);
     double of_area = 0, of_heat = 0, of_carrying = 0, angle = 180;  // the worst of all steps
     for (int step = 0; step <= n_steps; step++) {

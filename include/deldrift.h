@@ -761,11 +761,19 @@ typedef struct deldrift_quality {
     /// deldrift_refine finds the mesh made anew, and if it has fewer by this factor takes it: in its one commit, the report of
     /// which tells what was removed. Infinity for never. Not done with sizes.
     double growth;
+    /// Not 0 if deldrift_refine gives its vertices free ids, as deldrift_stage_insertions_at_free_ids does: of vertices
+    /// that earlier commits have removed, the lowest first, and then new ones; deldrift_refined_vertices tells which. So
+    /// deldrift_id_count does not grow for ever. From the first insertion on vertices have keys then, as if these had
+    /// been given (see deldrift_keys): those that deldrift_refine inserts the greatest one, the others their ids. Who
+    /// transfers means of cells takes the changes between deldrift_coarsen and deldrift_refine as well: a cell with the
+    /// ids of one that was is not listed. Default 0.
+    uint32_t reuses_ids;
 } deldrift_quality;
 
 /// What deldrift_refine or deldrift_coarsen did.
 typedef struct deldrift_quality_report {
-    /// Vertices inserted. Their ids are the last ones below deldrift_id_count.
+    /// Vertices inserted. Their ids are the last ones below deldrift_id_count, or those of deldrift_refined_vertices if
+    /// quality.reuses_ids was set.
     uint64_t inserted;
     /// How many of them are on segments.
     uint64_t on_segments;
@@ -1233,14 +1241,13 @@ deldrift_status deldrift_stage_insertions_with_keys(deldrift_triangulation *t,
 /// commit of that, until it is given here; deldrift_discard_moves makes those that are staged free again.
 ///
 /// Who has kept an id of a removed vertex sees another vertex under it. In lists of changes it is as if the vertex had
-/// moved: cells that have the same ids as before are not listed, whether or not an id is that of another vertex. Where there
-/// have been segments, or deldrift_refine has made vertices, ids are not given again: what is known of those by id lasts
-/// longer than they do.
+/// moved: cells that have the same ids as before are not listed, whether or not an id is that of another vertex. Not
+/// given again are ends of staged segments, and those of segments that have been split, as long as there are pieces of them.
 ///
 /// keys: count keys, or NULL for the ids. vertices: room for count ids, receives that of each vertex, ascending; both may be
 /// NULL if count is 0. The others are as in deldrift_stage_insertions.
 ///
-/// Cost: n + count, a pass over 4 bytes for each id.
+/// Cost: n + count, a pass over 4 bytes for each id; and the segments.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
 /// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_OUT_OF_MEMORY. Not to
@@ -2517,7 +2524,8 @@ deldrift_status deldrift_refine(deldrift_triangulation *t,
 /// still be of the quality, by a margin. Pieces of a segment are joined again. One commit of its own, all or nothing, of
 /// which deldrift_take_changes tells what it changed.
 ///
-/// The arguments are those of deldrift_refine. has_weights and limit of the quality are not used; keeps says what it would do.
+/// The arguments are those of deldrift_refine. has_weights, limit and reuses_ids of the quality are not used; keeps says
+/// what it would do.
 ///
 /// Around cells that are of lower quality already, those that come may have angles as small: call it before deldrift_refine,
 /// which then has less to insert.
@@ -2572,10 +2580,12 @@ deldrift_status deldrift_original_segments(const deldrift_triangulation *t,
 /// For each vertex that the last deldrift_refine inserted, in the order of their ids, how linear values there follow from
 /// those at the vertices before: the sum of the values of three vertices by their weights. So
 ///
-///   value(id_count - inserted + k) = sum of weights(3 k + i) * value(vertices(3 k + i)) for i = 0, 1, 2
+///   value(new(k)) = sum of weights(3 k + i) * value(vertices(3 k + i)) for i = 0, 1, 2
 ///
-/// carries values at vertices over. It has to have been called with has_weights, and neither a commit nor a compaction must
-/// have come since; otherwise there are none.
+/// carries values at vertices over, where new(k) is what deldrift_refined_vertices tells, or, without reuses_ids,
+/// id_count - inserted + k. Those on the right may have been removed by the call, which has not given their ids again. It
+/// has to have been called with has_weights, and neither a commit nor a compaction must have come since; otherwise there
+/// are none.
 ///
 /// vertices: a buffer with room for capacity rows of 3 ids, those of the corners of the cell that the vertex was put into;
 /// on a segment its two ends, the first one twice. weights: for as many rows of 3 numbers, from 0 to 1, with a sum of 1 but
@@ -2593,9 +2603,9 @@ deldrift_status deldrift_refined_weights(const deldrift_triangulation *t,
                                          size_t *count);
 
 /// For each vertex that the last deldrift_refine inserted, in the order of their ids, the greatest length of edges that it had
-/// there, from those given in quality.sizes at the vertices before. With these behind the others a second call finds nothing
-/// to do. It has to have been called with sizes, and neither a commit nor a compaction must have come since; otherwise there
-/// are none.
+/// there, from those given in quality.sizes at the vertices before. With these by id, behind the others unless reuses_ids
+/// was set, a second call finds nothing to do. It has to have been called with sizes, and neither a commit nor a
+/// compaction must have come since; otherwise there are none.
 ///
 /// sizes: a buffer with room for capacity numbers. count: receives the number of vertices, which is also written when the
 /// buffer is too small. NULL with capacity 0 asks for the count alone.
@@ -2608,6 +2618,22 @@ deldrift_status deldrift_refined_sizes(const deldrift_triangulation *t,
                                        double *sizes,
                                        size_t capacity,
                                        size_t *count);
+
+/// The vertices that the last deldrift_refine inserted, ascending by id: those of which deldrift_refined_weights and
+/// deldrift_refined_sizes tell, in this order. Neither a commit nor a compaction must have come since; otherwise there are
+/// none.
+///
+/// vertices: a buffer with room for capacity ids. count: receives the number of vertices, which is also written when the
+/// buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Cost: the vertices inserted.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL.
+deldrift_status deldrift_refined_vertices(const deldrift_triangulation *t,
+                                          uint32_t *vertices,
+                                          size_t capacity,
+                                          size_t *count);
 
 // ---------------------------------------------------------------------------------------------------------------------
 // What meets what: edges, neighbours and cells of vertices, mirror indices, ordered stars.
@@ -3255,7 +3281,8 @@ deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
 /// deldrift_segments_of_cells, deldrift_cells_of_segments, deldrift_nesting_levels, deldrift_crossing_numbers,
 /// deldrift_label_cells, deldrift_update_labels, deldrift_boundary_chains, deldrift_refine, deldrift_coarsen,
 /// deldrift_made_vertices, deldrift_original_segments, deldrift_refined_weights, deldrift_refined_sizes,
-/// deldrift_find_simplices and deldrift_ordered_star. Cells are numbered anew by each commit, unless changes are taken.
+/// deldrift_refined_vertices, deldrift_find_simplices and deldrift_ordered_star. Cells are numbered anew by each
+/// commit, unless changes are taken.
 ///
 /// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves,
 /// or of other vectors that are near those in force, costs what it costs in an open triangulation of as many, and reading the
@@ -3483,9 +3510,10 @@ deldrift_status deldrift_clone(const deldrift_triangulation *t,
 ///
 /// Saved are positions, ids, segments, removed and hidden vertices, cells with their indices, staged moves, insertions and
 /// removals, the timestamp and statistics. Not saved are the options, what the algorithm keeps between commits,
-/// which changes have been taken, the answers of deldrift_refined_weights and deldrift_refined_sizes, and what deldrift_segment_conflicts and
-/// deldrift_passings tell. docs/FORMAT.md describes the bytes. Of a periodic triangulation the vectors as
-/// deldrift_vectors tells them, those that are staged, and the periods of vertices are saved, too, and all images with their cells.
+/// which changes have been taken, the answers of deldrift_refined_weights, deldrift_refined_sizes and
+/// deldrift_refined_vertices, and what deldrift_segment_conflicts and deldrift_passings tell. docs/FORMAT.md describes
+/// the bytes. Of a periodic triangulation the vectors as deldrift_vectors tells them, those that are staged, and the
+/// periods of vertices are saved, too, and all images with their cells.
 ///
 /// buffer: room for capacity bytes, with any alignment. count: receives the number of bytes, which is also written
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone, in constant time.

@@ -290,6 +290,23 @@ public:
         require_ok(deldrift_compact(native(), map.data(), count, &count));
         return map;
     }
+    // Renumbers arrays as well, of one entry or more for each id:
+    //     t.compact(temperatures, velocities);
+    template <class T, class... Others>
+    std::vector<std::uint32_t> compact(std::vector<T> &values, std::vector<Others> &...others) {
+        const std::size_t n = id_count();
+        for (const std::size_t size : {values.size(), others.size()...}) {
+            if (n == 0 ? size != 0 : size % n != 0) {
+                throw Error(DELDRIFT_WRONG_COUNT, "an array has " + std::to_string(size) +
+                                                      " entries, but must have as many for each of " +
+                                                      std::to_string(n) + " ids");
+            }
+        }
+        const std::vector<std::uint32_t> map = compact();
+        detail::renumber(values, map);
+        (detail::renumber(others, map), ...);
+        return map;
+    }
 
     std::size_t vertex_count() const { return ask<std::size_t>(deldrift_vertex_count); }
     std::size_t id_count() const { return ask<std::size_t>(deldrift_id_count); }
@@ -577,14 +594,23 @@ public:
         require_ok(deldrift_refined_weights(native(), nullptr, nullptr, 0, &count));
         RefinedWeights rows;
         if (count == 0) return rows;
+        rows.ids = refined_vertices();
         rows.vertices.resize(count);
         rows.weights.resize(count);
         require_ok(deldrift_refined_weights(native(), rows.vertices.front().data(), rows.weights.front().data(), count,
                                             &count));
         return rows;
     }
-    // The sizes of the vertices that the last change, a refine() with sizes, inserted: behind those given, a second one finds
-    // nothing to do.
+    // Those that the last change, a refine(), inserted, ascending.
+    std::vector<std::uint32_t> refined_vertices() const {
+        std::size_t count = 0;
+        require_ok(deldrift_refined_vertices(native(), nullptr, 0, &count));
+        std::vector<std::uint32_t> vertices(count);
+        require_ok(deldrift_refined_vertices(native(), vertices.data(), count, &count));
+        return vertices;
+    }
+    // The sizes of the vertices that the last change, a refine() with sizes, inserted: with those given a second one
+    // finds nothing to do.
     std::vector<double> refined_sizes() const {
         std::size_t count = 0;
         require_ok(deldrift_refined_sizes(native(), nullptr, 0, &count));
@@ -592,14 +618,18 @@ public:
         require_ok(deldrift_refined_sizes(native(), sizes.data(), count, &count));
         return sizes;
     }
-    // Appends to values, n_values numbers for each id that there was before the last refine(), those of the vertices that
-    // it has inserted. Numbers that are linear in the position stay so.
+    // Enters into values, n_values numbers for each id that there was before the last refine(), those of the vertices
+    // that it has inserted. Numbers that are linear in the position stay so.
     void carry(std::vector<double> &values, std::size_t n_values = 1) const {
         const RefinedWeights rows = refined_weights();
-        const std::size_t wanted = (id_count() - rows.size()) * n_values;
-        if (values.size() != wanted) {
+        const std::size_t most = id_count();
+        // Vertices that have new ids have the last ones.
+        std::size_t least = most;
+        for (std::size_t k = rows.size(); k-- > 0 && rows.ids[k] + 1 == least;) least--;
+        if (values.size() < least * n_values || values.size() > most * n_values || values.size() % n_values != 0) {
             throw Error(DELDRIFT_WRONG_COUNT, "values has " + std::to_string(values.size()) +
-                                                  " numbers, but must have " + std::to_string(wanted) +
+                                                  " numbers, but must have " + std::to_string(n_values) + " for each id that there was, from " +
+                                                  std::to_string(least) + " to " + std::to_string(most) +
                                                   ", as weights are known of " + std::to_string(rows.size()) +
                                                   " new vertices");
         }

@@ -2,6 +2,7 @@
 
 mod coarsening;
 mod conforming;
+mod ids;
 mod lives;
 mod loops;
 
@@ -164,13 +165,18 @@ fn has_large_area(p: [&[f64; 2]; 3], bound: f64) -> bool {
     twice > ((integer(bound) * 2) << 200)
 }
 
-/// Checks the cells against those of a fresh build with the same ids, positions and segments.
+/// Checks the cells against those of a fresh build with the same ids, keys, positions and segments.
 fn check_fresh(t: &Triangulation, context: &dyn Fn() -> String) {
     check_adjacency(t, context);
     t.validate(Level::Delaunay).unwrap_or_else(|violation| panic!("{}: {violation:?}", context()));
     let ids = VertexId::range(0..t.id_count());
     let points: Vec<_> = ids.clone().map(|v| t.position(v).unwrap_or([9e4, 9e4])).collect();
-    let mut fresh = Triangulation::new(&points, Options::default()).expect("good points");
+    let keys: Vec<_> = ids.clone().map(|v| t.key_of_id(v)).collect();
+    let fresh = match t.has_keys() {
+        true => Triangulation::with_keys(&points, &keys, Options::default()),
+        false => Triangulation::new(&points, Options::default()),
+    };
+    let mut fresh = fresh.expect("good points");
     for v in ids.filter(|&v| !t.is_present(v)) {
         fresh.remove_vertex(v).expect("present");
     }
@@ -334,7 +340,7 @@ fn random_domains_are_refined() {
         };
         let keeps = *rng.pick(&[Kept::None, Kept::None, Kept::Outer, Kept::All]);
         let limit = if rng.one_in(4) { rng.below(60) } else { 100_000 };
-        let options = RefineOptions { keeps, limit, has_weights: rng.one_in(2) };
+        let options = RefineOptions { keeps, limit, has_weights: rng.one_in(2), reuses_ids: rng.one_in(2) };
         let before: BTreeSet<Vec<VertexId>> = cells_of(&t, &selected, 0);
         let ends: BTreeSet<SegmentId> = t.segments().map(|(id, _)| id).collect();
         let mut twin = t.try_clone(None).expect("room");
@@ -394,7 +400,7 @@ fn areas_are_reached_beside_sides_that_stay_whole() {
     ] {
         for (keeps, least_angle) in [(Kept::Outer, 0.0), (Kept::Outer, 25.0), (Kept::All, 30.0)] {
             let quality = Quality { least_angle, greatest_area: 0.05, ..Quality::default() };
-            let options = RefineOptions { keeps, limit: 20_000, has_weights: false };
+            let options = RefineOptions { keeps, limit: 20_000, ..RefineOptions::default() };
             let context = || format!("{keeps:?}, {least_angle}, {domain:?}");
             let mut t = domain.build();
             let selected = mask(&t, |_| true);

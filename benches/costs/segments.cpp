@@ -243,6 +243,14 @@ std::vector<Call> segment_calls() {
                  return deldrift_refined_sizes(c.t, to, room, count);
              });
          }, 2},
+        {"deldrift_refined_vertices", "as many vertices as there were", [](Context &c) {
+             bound(c);
+             const deldrift_quality quality = quality_of(c);
+             deldrift_refine(c.t, &quality, nullptr, 0, nullptr);
+             fill<1, std::uint32_t>(c, c.n, [&](std::uint32_t *to, std::size_t room, std::size_t *count) {
+                 return deldrift_refined_vertices(c.t, to, room, count);
+             });
+         }, 2},
         {"deldrift_original_segments", "one edge in eight", [](Context &c) {
              fill<1, std::uint32_t>(c, lay(c), [&](std::uint32_t *to, std::size_t room, std::size_t *count) {
                  return deldrift_original_segments(c.t, to, room, count);

@@ -8,7 +8,7 @@ use super::roles::{Role, is_of_bytes, role};
 use super::rows::{ROWS, Row};
 
 /// Functions for triangulations of the plane alone.
-const OF_PLANE: [&str; 21] = [
+const OF_PLANE: [&str; 22] = [
     "deldrift_update_labels",
     "deldrift_ordered_star",
     "deldrift_stage_segments",
@@ -30,6 +30,7 @@ const OF_PLANE: [&str; 21] = [
     "deldrift_original_segments",
     "deldrift_refined_weights",
     "deldrift_refined_sizes",
+    "deldrift_refined_vertices",
 ];
 
 /// Functions that list what there is not.
@@ -448,6 +449,7 @@ impl Cases<'_> {
             ("infinite", "a growth", "growth = INFINITY", "OK", ""),
             ("zero", "a limit of 0", "limit = 0", "OK", ""),
             ("value", "circles, any number", "is_conforming = 999", "OK", ""),
+            ("value", "ids given again, any number", "reuses_ids = 999", "OK", ""),
             ("huge", "labels, SIZE_MAX", "label_count = SIZE_MAX", "NULL_ARGUMENT", "labels is NULL"),
             ("null", "labels", "label_count = n_cells", "NULL_ARGUMENT", "labels is NULL"),
             ("null", "areas", "area_count = 2", "NULL_ARGUMENT", "areas is NULL"),

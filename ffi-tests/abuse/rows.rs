@@ -194,6 +194,7 @@ pub const ROWS: &[Row] = &[
     refined("deldrift_original_segments", &["t", "out.ids", "ROOM", "&out.count"]),
     refined("deldrift_refined_weights", &["t", "out.ids", "out.numbers", "ROOM / 3", "&out.count"]),
     refined("deldrift_refined_sizes", &["t", "out.numbers", "ROOM", "&out.count"]),
+    refined("deldrift_refined_vertices", &["t", "out.ids", "ROOM", "&out.count"]),
     row("deldrift_edges", &["t", "out.ids", "n_edges", "&out.count"]),
     row(
         "deldrift_vertex_neighbours",

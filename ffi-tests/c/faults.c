@@ -245,6 +245,7 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     OK(deldrift_original_segments(refined.t, ids_out, ROOM, &n_segments));
     OK(deldrift_refined_weights(refined.t, ids_out, numbers_out, ROOM / 3, &n_weights));
     OK(deldrift_refined_sizes(refined.t, numbers_out, ROOM, &count));
+    OK(deldrift_refined_vertices(refined.t, ids_out, ROOM, &count));
     deldrift_quality quality;
     OK(deldrift_quality_init(&quality));
     int32_t sign;

@@ -83,9 +83,11 @@ static double linear(const double *p) { return 3 + 2 * p[0] - p[1]; }
 
 // A linear function is carried over by the weights.
 static void check_weights(const deldrift_triangulation *t, size_t n_before, size_t inserted) {
-    static uint32_t vertices[ROOM][3];
+    static uint32_t vertices[ROOM][3], ids[ROOM];
     static double weights[ROOM][3];
     size_t n;
+    OK(deldrift_refined_vertices(t, ids, ROOM, &n));
+    CHECK(n == inserted);
     OK(deldrift_refined_weights(t, vertices[0], weights[0], ROOM, &n));
     CHECK(n == inserted);
     for (size_t k = 0; k < n; k++) {
@@ -95,7 +97,7 @@ static void check_weights(const deldrift_triangulation *t, size_t n_before, size
             value += weights[k][i] * linear(positions + 2 * vertices[k][i]);
             sum += weights[k][i];
         }
-        CHECK(fabs(sum - 1) < 1e-12 && fabs(value - linear(positions + 2 * (n_before + k))) < 1e-12);
+        CHECK(fabs(sum - 1) < 1e-12 && fabs(value - linear(positions + 2 * ids[k])) < 1e-12);
     }
 }
 
@@ -128,11 +130,27 @@ static void a_domain_gets_the_quality_asked_for(void) {
     // With a coarser quality most of them go, and no angle gets too small.
     quality.greatest_area = 0.5;
     quality.least_angle = 20;
+    quality.growth = INFINITY;
     OK(deldrift_coarsen(t, &quality, NULL, 0, &report));
     CHECK(report.removed > ids / 10 * 8 && report.inserted == 0);
     measure(t);
     CHECK(least_angle >= 20 && greatest_area <= 0.5 && fabs(area - 15) < 1e-12);
     check_pieces(t);
+    // As fine again, with the ids of those that have gone.
+    const uint64_t n_free = report.removed;
+    quality.greatest_area = 0.03;
+    quality.reuses_ids = 1;
+    OK(deldrift_refine(t, &quality, NULL, 0, &report));
+    measure(t);
+    OK(deldrift_id_count(t, &n));
+    CHECK(report.inserted > 300 && n == ids + (report.inserted > n_free ? report.inserted - n_free : 0));
+    check_weights(t, n, report.inserted);
+    check_pieces(t);
+    OK(deldrift_refined_vertices(t, NULL, 0, &n));
+    CHECK(n == report.inserted);
+    OK(deldrift_compact(t, NULL, 0, &n));
+    OK(deldrift_refined_vertices(t, NULL, 0, &n));
+    CHECK(n == 0);
     deldrift_destroy(t);
 }
 
@@ -174,7 +192,6 @@ static void cells_are_of_the_sizes_asked_for(void) {
     static int32_t labels[ROOM];
     static uint8_t mask[ROOM];
     const double areas[] = {0, 0.001}, seed[] = {1.5, 1.5};
-    size_t n;
     OK(deldrift_label_cells(t, seed, (const int32_t[]){1}, 1, -1, labels, ROOM, &n));
     memset(mask, 1, n);
     OK(deldrift_quality_init(&quality));
@@ -399,6 +416,7 @@ static void what_has_no_meaning_is_refused(void) {
     CHECK_STATUS(deldrift_original_segments(solid, NULL, 0, &n), DELDRIFT_INVALID_DIMENSION);
     CHECK_STATUS(deldrift_refined_weights(solid, NULL, NULL, 0, &n), DELDRIFT_INVALID_DIMENSION);
     CHECK_STATUS(deldrift_refined_sizes(solid, NULL, 0, &n), DELDRIFT_INVALID_DIMENSION);
+    CHECK_STATUS(deldrift_refined_vertices(solid, NULL, 0, &n), DELDRIFT_INVALID_DIMENSION);
     CHECK_STATUS(deldrift_quality_init(NULL), DELDRIFT_NULL_ARGUMENT);
     OK(deldrift_move_vertex(t, 0, PLACES));
     CHECK_STATUS(deldrift_refine(t, &good, NULL, 0, NULL), DELDRIFT_STAGED_VERTEX);

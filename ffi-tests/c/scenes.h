@@ -503,7 +503,10 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     deldrift_quality_report improved = {.inserted = 77};
     OK(deldrift_quality_init(&quality));
     // Without a criterion all goes that has been made.
-    if (s->call.kind == REFINE) quality.greatest_area = s->area / 40;
+    if (s->call.kind == REFINE) {
+        quality.greatest_area = s->area / 40;
+        quality.reuses_ids = 1;
+    }
     quality.has_weights = 1;
     const char *file = file_of_test();
     static deldrift_location locations_out[ROOM];

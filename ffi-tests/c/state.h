@@ -60,13 +60,14 @@ static inline uint64_t digest_of_segments(const deldrift_triangulation *t, uint3
 
 // Vertices that refinement has inserted, with their weights, and what segments are pieces of; in space there are none.
 static inline uint64_t digest_of_made(const deldrift_triangulation *t, uint32_t dimension) {
-    size_t n_made = 0, n_segments = 0, n_weights = 0, n_sizes = 0;
+    size_t n_made = 0, n_segments = 0, n_weights = 0, n_sizes = 0, n_new = 0;
     if (dimension != 2) return 0;
     OK(deldrift_made_vertices(t, NULL, NULL, 0, &n_made));
     OK(deldrift_original_segments(t, NULL, 0, &n_segments));
     OK(deldrift_refined_weights(t, NULL, NULL, 0, &n_weights));
     OK(deldrift_refined_sizes(t, NULL, 0, &n_sizes));
-    const size_t n_ids = 2 * n_made + n_segments + 3 * n_weights, bytes = n_ids * sizeof(uint32_t);
+    OK(deldrift_refined_vertices(t, NULL, 0, &n_new));
+    const size_t n_ids = 2 * n_made + n_segments + 3 * n_weights + n_new, bytes = n_ids * sizeof(uint32_t);
     uint32_t *ids = malloc(bytes + 1);
     const size_t n_numbers = 3 * n_weights + n_sizes;
     double *weights = malloc(n_numbers * sizeof *weights + 1);
@@ -75,6 +76,7 @@ static inline uint64_t digest_of_made(const deldrift_triangulation *t, uint32_t 
     OK(deldrift_original_segments(t, ids + 2 * n_made, n_segments, &n_segments));
     OK(deldrift_refined_weights(t, ids + 2 * n_made + n_segments, weights, n_weights, &n_weights));
     OK(deldrift_refined_sizes(t, weights + 3 * n_weights, n_sizes, &n_sizes));
+    OK(deldrift_refined_vertices(t, ids + n_ids - n_new, n_new, &n_new));
     const uint64_t digest = mixed(digest_of(ids, bytes), digest_of(weights, n_numbers * sizeof *weights));
     free(ids);
     free(weights);

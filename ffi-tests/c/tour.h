@@ -181,6 +181,8 @@ static void ask_what_was_made(const deldrift_triangulation *t) {
     note(tour_out.numbers, count * 3 * sizeof *tour_out.numbers);
     TRY(deldrift_refined_sizes(t, tour_out.numbers, TOUR_ROOM, &count));
     note(tour_out.numbers, count * sizeof *tour_out.numbers);
+    TRY(deldrift_refined_vertices(t, ids, TOUR_ROOM, &count));
+    note(ids, count * sizeof *ids);
     if (deldrift_copy_positions(t, tour_out.numbers, TOUR_ROOM / 3, &count) == DELDRIFT_OK) {
         note(tour_out.numbers, count * 2 * sizeof *tour_out.numbers);
     }

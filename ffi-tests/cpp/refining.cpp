@@ -114,7 +114,13 @@ static void cells_have_the_quality() {
         CHECK(std::abs(values[v] - linear(positions[v])) < 1e-12);
         CHECK(std::abs(pairs[2 * v] - positions[v][0]) < 1e-12 && std::abs(pairs[2 * v + 1] - positions[v][1]) < 1e-12);
     }
-    CHECK_THROWS(t.carry(values), DELDRIFT_WRONG_COUNT, "values has ");
+    // Once more they are what they are.
+    t.carry(pairs, 2);
+    CHECK(pairs.size() == 2 * positions.size());
+    CHECK_THROWS(t.carry(pairs), DELDRIFT_WRONG_COUNT, "values has ");
+    std::vector<double> few(7);
+    CHECK_THROWS(t.carry(few), DELDRIFT_WRONG_COUNT,
+                 "values has 7 numbers, but must have 1 for each id that there was, from 8 to");
     // Nothing to insert, and nothing to carry over.
     CHECK(t.refine(quality).inserted == 0);
     t.carry(values);
@@ -126,6 +132,45 @@ static void cells_have_the_quality() {
     CHECK(removed > 100 && t.made_vertices().size() == report.inserted - removed);
     cells = cells_in_domain(t);
     CHECK(greatest(cells, area_of) <= 0.5 && std::abs(sum_of_areas(cells) - 15) < 1e-12);
+}
+
+// Vertices get free ids, and values are by id; a compaction renumbers arrays.
+static void ids_are_given_again() {
+    Triangulation t = domain();
+    Quality fine;
+    fine.greatest_area = 0.05;
+    fine.has_weights = fine.reuses_ids = true;
+    Quality coarse = fine;
+    coarse.greatest_area = 0.5;
+    std::vector<double> values;
+    for (const auto &p : corners) values.push_back(linear(p));
+    std::size_t most = 0;
+    for (int round = 0; round < 5; round++) {
+        const std::size_t before = t.id_count();
+        const std::uint64_t inserted = t.refine(fine).inserted;
+        const std::vector<std::uint32_t> ids = t.refined_vertices();
+        CHECK(ids.size() == inserted && inserted > 50 && t.refined_weights().ids == ids);
+        CHECK(round == 0 ? ids.front() == 8 && ids.size() == t.id_count() - 8 : ids.front() < before);
+        t.carry(values);
+        CHECK(values.size() == t.id_count());
+        for (std::uint32_t v = 0; v < values.size(); v++) {
+            if (t.is_present(v)) CHECK(std::abs(values[v] - linear(t.position<2>(v))) < 1e-12);
+        }
+        most = std::max(most, t.vertex_count());
+        CHECK(t.coarsen(coarse).removed > 50 && t.refined_vertices().empty());
+    }
+    CHECK(t.id_count() <= most + most / 4);
+
+    std::vector<std::uint64_t> twice;
+    for (std::uint64_t v = 0; v < t.id_count(); v++) twice.insert(twice.end(), {v, v});
+    std::vector<double> odd(t.id_count() + 1);
+    CHECK_THROWS(t.compact(values, odd), DELDRIFT_WRONG_COUNT, "an array has ");
+    const std::vector<std::uint32_t> map = t.compact(values, twice);
+    CHECK(values.size() == t.vertex_count() && twice.size() == 2 * values.size() && map.size() > values.size());
+    for (std::uint32_t v = 0; v < values.size(); v++) {
+        CHECK(std::abs(values[v] - linear(t.position<2>(v))) < 1e-12);
+        CHECK(map[twice[2 * v]] == v && twice[2 * v] == twice[2 * v + 1]);
+    }
 }
 
 static void sizes_and_labels_are_taken() {
@@ -146,15 +191,16 @@ static void sizes_and_labels_are_taken() {
         CHECK(longest_edge(c) <= 0.2 + 0.1 * (c[0][0] + c[1][0] + c[2][0]) / 3 + 1e-9);
     }
 
-    // The hole alone: with its sides whole a vertex in the middle is all that fits.
+    // The hole alone: its sides stay whole, and the first vertex is in the middle.
     t = domain();
     Quality in_hole;
     in_hole.labels = t.label_cells({1.5, 1.5}, {1}, -1);
     in_hole.areas = {0, 0.01};
     in_hole.keeps = DELDRIFT_KEPT_ALL;
-    CHECK(t.refine(in_hole, std::vector<std::uint8_t>(t.cell_count(), 1)).bad_cells == 4);
+    CHECK(t.refine(in_hole, std::vector<std::uint8_t>(t.cell_count(), 1)).bad_cells == 0);
     CHECK(t.segments().size() == 8 && t.position<2>(8) == (std::array<double, 2>{1.5, 1.5}));
     in_hole.labels = t.label_cells({1.5, 1.25}, {1}, -1);
+    in_hole.areas = {0, 0.002};
     in_hole.keeps = DELDRIFT_KEPT_NONE;
     CHECK(t.refine(in_hole, std::vector<std::uint8_t>(t.cell_count(), 1)).inserted > 50);
     for (const std::array<double, 2> &p : t.positions<2>()) {
@@ -243,6 +289,7 @@ static void what_fails_has_no_effect() {
 
 int main() {
     cells_have_the_quality();
+    ids_are_given_again();
     sizes_and_labels_are_taken();
     functions_are_asked_and_may_throw();
     cells_are_delaunay_on_request();

@@ -44,7 +44,8 @@ static bool is_of(size_t k, const char *function) { return strcmp(calls[k].funct
 // Answers of what a saved triangulation does not have with it.
 static bool is_not_saved(size_t k) {
     return is_of(k, "deldrift_take_changes") || is_of(k, "deldrift_clone") || is_of(k, "deldrift_segment_conflicts") ||
-           is_of(k, "deldrift_passings") || is_of(k, "deldrift_refined_weights");
+           is_of(k, "deldrift_passings") || is_of(k, "deldrift_refined_weights") ||
+           is_of(k, "deldrift_refined_vertices");
 }
 
 // What is rounded in an order that follows from slots of the kernel, which are not saved.

@@ -2,6 +2,7 @@
 #ifndef DELDRIFT_REFINING_HPP
 #define DELDRIFT_REFINING_HPP
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -32,7 +33,7 @@ public:
     std::vector<std::int32_t> labels{};
     // By label.
     std::vector<double> areas{};
-    // By vertex id; append what refined_sizes() gives for new vertices.
+    // By vertex id; refined_sizes() gives those of refined_vertices(), which are to be appended unless ids are reused.
     std::vector<double> sizes{};
     // What it throws comes out of refine() or coarsen(), which has had no effect then.
     std::function<bool(const Corners &)> is_too_large{};
@@ -41,6 +42,8 @@ public:
     bool has_weights = false;
     // Whether segments are split until all cells are Delaunay, segments or not.
     bool is_conforming = false;
+    // Whether refine() gives its vertices free ids: refined_vertices() tells which.
+    bool reuses_ids = false;
     std::size_t limit;
     double margin, share, joins, growth;
 
@@ -65,28 +68,41 @@ struct MadeVertices {
     bool empty() const noexcept { return vertices.empty(); }
 };
 
-// For each vertex that the last refinement inserted, three vertices and their weights; see deldrift_refined_weights.
+// The vertices that the last refinement inserted, ascending, and for each three others and their weights; see
+// deldrift_refined_weights.
 struct RefinedWeights {
+    std::vector<std::uint32_t> ids{};
     std::vector<std::array<std::uint32_t, 3>> vertices{};
     std::vector<std::array<double, 3>> weights{};
     std::size_t size() const noexcept { return vertices.size(); }
     bool empty() const noexcept { return vertices.empty(); }
 
-    // Appends to values, n_values numbers for each id before, those of the vertices that came.
+    // Enters into values, n_values numbers for each id before, those of the vertices that came.
     void carry(std::vector<double> &values, std::size_t n_values) const {
-        const std::size_t before = values.size();
-        values.resize(before + size() * n_values);
+        if (empty()) return;
+        values.resize((std::max)(values.size(), (ids.back() + std::size_t{1}) * n_values));
         for (std::size_t k = 0; k < size(); k++) {
             for (std::size_t j = 0; j < n_values; j++) {
                 double sum = 0;
                 for (std::size_t i = 0; i < 3; i++) sum += weights[k][i] * values[vertices[k][i] * n_values + j];
-                values[before + k * n_values + j] = sum;
+                values[ids[k] * n_values + j] = sum;
             }
         }
     }
 };
 
 namespace detail {
+
+// Gives the entries of an array by id, as many for each, their places by new ids, which ascend.
+template <class T>
+void renumber(std::vector<T> &values, const std::vector<std::uint32_t> &new_ids) {
+    const std::size_t n_each = new_ids.empty() ? 0 : values.size() / new_ids.size();
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < values.size(); k++) {
+        if (new_ids[k / n_each] != DELDRIFT_NONE) values[n++] = values[k];
+    }
+    values.resize(n);
+}
 
 // A quality as C reads it, and the exception that its function has thrown.
 class GivenQuality {
@@ -110,6 +126,7 @@ class GivenQuality {
         given_.share = quality.share;
         given_.joins = quality.joins;
         given_.growth = quality.growth;
+        given_.reuses_ids = quality.reuses_ids ? 1 : 0;
         if (quality_.is_too_large) {
             given_.is_too_large = ask;
             given_.user_data = this;

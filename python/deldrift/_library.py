@@ -140,6 +140,7 @@ class Quality(ctypes.Structure):
         ("share", c_double),
         ("joins", c_double),
         ("growth", c_double),
+        ("reuses_ids", c_uint32),
     ]
 
 
@@ -349,6 +350,7 @@ PROTOTYPES = {
     "original_segments": (T, A, N, C),
     "refined_weights": (T, A, A, N, C),
     "refined_sizes": (T, A, N, C),
+    "refined_vertices": (T, A, N, C),
     "update_circumcentres": (T, A, N, A, A, N),
     "update_volumes": (T, A, N, A, N),
     "update_mask_by_circumradius": (T, A, N, F64, A, N),

@@ -396,6 +396,7 @@ class Mesh:
         keep: str = "none",
         limit: Optional[int] = None,
         is_conforming: bool = False,
+        reuse_ids: bool = False,
         values: Any = None,
     ) -> QualityReport:
         """Inserts vertices until the triangles of the domain are of a quality, and makes that the next timestamp.
@@ -409,7 +410,7 @@ class Mesh:
             As of `Delaunay.refine`.
         areas : dict, optional
             The greatest area of triangles by the label of their region, 0 for any.
-        sizes, is_too_large, keep, limit, is_conforming, values
+        sizes, is_too_large, keep, limit, is_conforming, reuse_ids, values
             As of `Delaunay.refine`.
 
         Returns
@@ -436,6 +437,7 @@ class Mesh:
             keep=keep,
             limit=limit,
             is_conforming=is_conforming,
+            reuse_ids=reuse_ids,
             values=values,
             **self._selected(areas),
         )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, NamedTuple, Optional, cast
+from typing import Any, NamedTuple, Optional, Union, cast, overload
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from ._errors import InvalidOption, WrongCount
 from ._library import Report
 from ._segments import Segmented
 from ._step import Step, Trial
+from ._values import Values, as_given, expect, given_values
 
 _move_vertices = _library.function("move_vertices")
 _commit_positions = _library.function("commit_positions")
@@ -326,27 +327,42 @@ class Motion(Segmented):
         with self._changing as t:
             self._check(_remove_vertex(t, number), vertex="vertex!")
 
-    def compact(self) -> np.ndarray:
+    @overload
+    def compact(self) -> np.ndarray: ...
+    @overload
+    def compact(self, values: Any) -> tuple[np.ndarray, Values]: ...
+    def compact(self, values: Any = None) -> Union[np.ndarray, tuple[np.ndarray, Values]]:
         """Gives vertices the ids 0, 1, ... in the order of those that they have, and frees what removed ones used.
+
+        Parameters
+        ----------
+        values : array_like or dict of array_like, optional
+            Values by vertex id, to be renumbered as well.
 
         Returns
         -------
         ndarray of int
-            The new id of each old one, -1 for removed vertices.
+            The new id of each old one, -1 for removed vertices. With values these follow in a tuple: by the new
+            ids.
 
         Examples
         --------
         >>> import deldrift
         >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3]])
         >>> tri.remove(1)
-        >>> tri.compact()
-        array([ 0, -1,  1,  2], dtype=int32)
+        >>> tri.compact(values=[5, 6, 7, 8])
+        (array([ 0, -1,  1,  2], dtype=int32), array([5, 7, 8]))
         """
+        given = given_values(values, lambda _, one: np.asarray(one))
         with self._changing as t:
             new_ids = np.empty(id_count(t), I32)
+            for name, array in given.items():
+                expect(name, array, len(new_ids), "ids")
             count = ctypes.c_size_t()
             self._check(_compact(t, address(new_ids), len(new_ids), count))
-        return new_ids
+        if values is None:
+            return new_ids
+        return new_ids, as_given(values, [array[new_ids >= 0] for array in given.values()])
 
     def changes(self) -> Changes:
         """What has changed since this was last called; the first call lists all simplices as created.

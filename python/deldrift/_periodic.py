@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Callable, NamedTuple, Optional
+from typing import Any, Callable, NamedTuple, Optional, Union, overload
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from ._motion import Changes, changes_of
 from ._near import Near
 from ._step import Trial
 from ._transferring import Transferring
+from ._values import Values, as_given, expect, given_values
 from ._writing import Path, Writing
 
 _create_periodic = _library.function("create_periodic")
@@ -762,18 +763,33 @@ class PeriodicDelaunay(Near, Measured, Meeting, Transferring, Writing):
             self._check(_take_changes(t, view))
             return changes_of(view, self.ndim + 1)
 
-    def compact(self) -> np.ndarray:
+    @overload
+    def compact(self) -> np.ndarray: ...
+    @overload
+    def compact(self, values: Any) -> tuple[np.ndarray, Values]: ...
+    def compact(self, values: Any = None) -> Union[np.ndarray, tuple[np.ndarray, Values]]:
         """Gives vertices the ids 0, 1, ... in the order of those that they have, and frees what removed ones used.
+
+        Parameters
+        ----------
+        values : array_like or dict of array_like, optional
+            Values by vertex id, to be renumbered as well.
 
         Returns
         -------
         ndarray of int
-            The new id of each old one, -1 for removed vertices. Simplices may have other indices.
+            The new id of each old one, -1 for removed vertices. Simplices may have other indices. With
+            values these follow in a tuple: by the new ids.
         """
+        given = given_values(values, lambda _, one: np.asarray(one))
         with self._changing as t:
             new_ids = np.empty(id_count(t), I32)
+            for name, array in given.items():
+                expect(name, array, len(new_ids), "ids")
             self._check(_compact(t, address(new_ids), len(new_ids), ctypes.c_size_t()))
-        return new_ids
+        if values is None:
+            return new_ids
+        return new_ids, as_given(values, [array[new_ids >= 0] for array in given.values()])
 
     def _commit(self, t: int, report: Report) -> int:
         """Makes what is staged the next timestamp, or, in a trial, a round of it."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Callable, Mapping, NamedTuple, Optional, Union
+from typing import Any, Callable, Mapping, NamedTuple, Optional
 
 import numpy as np
 
@@ -11,9 +11,10 @@ from . import _library
 from ._arrays import F64, I32, address, choice, contiguous, floats, mask as mask_of, numbers, real, whole
 from ._callbacks import Asked, calling
 from ._core import cell_count, count_of, id_count
-from ._errors import InvalidShape, InvalidValue, WrongCount
+from ._errors import InvalidShape, InvalidValue
 from ._library import QualityReport
 from ._segments import Segmented
+from ._values import as_given, entered, expect, given_values
 
 _quality_init = _library.function("quality_init")
 _refine = _library.function("refine")
@@ -22,9 +23,9 @@ _made_vertices = _library.function("made_vertices")
 _original_segments = _library.function("original_segments")
 _refined_weights = _library.function("refined_weights")
 _refined_sizes = _library.function("refined_sizes")
+_refined_vertices = _library.function("refined_vertices")
 
 TooLarge = Callable[[np.ndarray], bool]
-Values = Union[np.ndarray, dict[str, np.ndarray], None]
 
 
 class MadeVertices(NamedTuple):
@@ -43,9 +44,11 @@ class RefinedWeights(NamedTuple):
     """For each new vertex, in the order of their ids, a row of three vertices."""
     weights: np.ndarray
     """For as many rows their weights, from 0 to 1."""
+    ids: np.ndarray
+    """The new vertices, ascending."""
 
     def carried(self, values: np.ndarray) -> np.ndarray:
-        """Values by id, with those of the new vertices behind them.
+        """Values by id, with those of the new vertices.
 
         Parameters
         ----------
@@ -55,9 +58,9 @@ class RefinedWeights(NamedTuple):
         Returns
         -------
         ndarray
-            As many entries more as there are new vertices.
+            As many entries more as there are new ids.
         """
-        return np.concatenate([values, np.einsum("ki,ki...->k...", self.weights, values[self.vertices])])
+        return entered(values, self.ids, np.einsum("ki,ki...->k...", self.weights, values[self.vertices]))
 
 
 class _Wanted:
@@ -88,7 +91,7 @@ class _Wanted:
 
     def enter(self, quality: _library.Quality, cells: int, ids: int) -> tuple[Optional[int], int]:
         """Enters all into what the library reads; the mask, and how long it is."""
-        _expect("mask", self.mask, cells, "simplices")
+        expect("mask", self.mask, cells, "simplices")
         if self.labels is not None:
             self.labels = numbers("labels", self.labels, cells, "simplices")
         if self.sizes is not None:
@@ -117,6 +120,7 @@ class Refining(Segmented):
         keep: str = "none",
         limit: Optional[int] = None,
         is_conforming: bool = False,
+        reuse_ids: bool = False,
         values: Any = None,
     ) -> QualityReport:
         """Inserts vertices until simplices are of a quality, in 2D, and makes that the next timestamp.
@@ -150,6 +154,9 @@ class Refining(Segmented):
         is_conforming : bool, optional
             Whether segments are split until all these simplices are Delaunay, segments or not: no corner of one is
             inside the circle around a segment at it.
+        reuse_ids : bool, optional
+            Whether new vertices get the ids of those that earlier timestamps have removed, the lowest first, before new
+            ones. Vertices have keys from the first insertion on: the new ones the greatest, the others their ids.
         values : array_like or dict of array_like, optional
             Values by vertex id, to be carried over to the new vertices: linear in each simplex.
 
@@ -175,6 +182,7 @@ class Refining(Segmented):
                 "limit": _library.NO_LIMIT if limit is None else _count("limit", limit),
                 "has_weights": 1,
                 "is_conforming": bool(is_conforming),
+                "reuses_ids": bool(reuse_ids),
             },
             values,
         )
@@ -250,7 +258,7 @@ class Refining(Segmented):
 
     def _improve(self, call: Any, criteria: list[Any], options: Mapping[str, Any], values: Any) -> QualityReport:
         self._check_plane()
-        wanted, given, report = _Wanted(*criteria), _given_values(values), QualityReport()
+        wanted, given, report = _Wanted(*criteria), given_values(values, floats), QualityReport()
         is_too_large = wanted.is_too_large
         quality = _library.Quality()
         self._check(_quality_init(quality))
@@ -259,7 +267,7 @@ class Refining(Segmented):
         with self._changing as t:
             ids = id_count(t)
             for name, array in given.items():
-                _expect(name, array, ids, "ids")
+                expect(name, array, ids, "ids")
             mask, count = wanted.enter(quality, cell_count(t), ids)
             asked = None
             try:
@@ -276,9 +284,9 @@ class Refining(Segmented):
         if given:
             rows = self.refined_weights()
             carried = [rows.carried(array) for array in given.values()]
-            report.values = dict(zip(values, carried)) if isinstance(values, Mapping) else carried[0]
+            report.values = as_given(values, carried)
         if wanted.sizes is not None and call is _refine:
-            report.sizes = np.concatenate([wanted.sizes, self._refined_sizes()])
+            report.sizes = entered(wanted.sizes, self.refined_vertices(), self._refined_sizes())
         return report
 
     def _refined_sizes(self) -> np.ndarray:
@@ -334,14 +342,30 @@ class Refining(Segmented):
         Returns
         -------
         RefinedWeights
-            `vertices` and `weights`, rows of three for each; none if the triangulation has been changed since.
+            `vertices` and `weights`, rows of three for each of `ids`; none if the triangulation has been changed since.
         """
         self._check_plane()
         with self._reading as t:
             n = count_of(lambda t, count: _refined_weights(t, None, None, 0, count), t)
-            rows = RefinedWeights(np.empty((n, 3), I32), np.empty((n, 3), F64))
+            rows = RefinedWeights(np.empty((n, 3), I32), np.empty((n, 3), F64), np.empty(n, I32))
             self._check(_refined_weights(t, address(rows.vertices), address(rows.weights), n, ctypes.c_size_t()))
+            self._check(_refined_vertices(t, address(rows.ids), n, ctypes.c_size_t()))
         return rows
+
+    def refined_vertices(self) -> np.ndarray:
+        """The vertices that the last `refine` inserted, ascending, in 2D.
+
+        Returns
+        -------
+        ndarray of int
+            None if the triangulation has been changed since.
+        """
+        self._check_plane()
+        with self._reading as t:
+            n = count_of(lambda t, count: _refined_vertices(t, None, 0, count), t)
+            ids = np.empty(n, I32)
+            self._check(_refined_vertices(t, address(ids), n, ctypes.c_size_t()))
+        return ids
 
 
 def _count(argument: str, value: Any) -> int:
@@ -364,25 +388,5 @@ def _by_id(argument: str, values: np.ndarray, ids: int) -> np.ndarray:
         raise InvalidShape(f"{argument} has the shape {values.shape}, and must be a number or a list", argument)
     if values.ndim == 0:
         return contiguous(np.broadcast_to(values, (ids,)), F64)
-    _expect(argument, values, ids, "ids")
+    expect(argument, values, ids, "ids")
     return values
-
-
-def _given_values(values: Any) -> dict[str, np.ndarray]:
-    """Values to carry over, by what messages call them."""
-    if values is None:
-        return {}
-    is_one = not isinstance(values, Mapping)
-    named = {"values": values} if is_one else {f"values[{name!r}]": one for name, one in values.items()}
-    given = {name: floats(name, one) for name, one in named.items()}
-    for name, array in given.items():
-        if array.ndim == 0:
-            raise InvalidShape(f"{name} is a single number, and must have an entry for each id", name)
-    return given
-
-
-def _expect(argument: str, array: Optional[np.ndarray], count: int, entries: str) -> None:
-    if array is not None and len(array) != count:
-        raise WrongCount(
-            f"{argument} has {len(array)} entries, and there are {count} {entries}", argument, None, len(array)
-        )

@@ -91,3 +91,27 @@ def test_switches_of_triangle():
     by_region = deldrift.Mesh.from_triangle(data, "paYY")
     assert len(by_region.segments.ids) == 8 and len(by_region.triangles) > 100
     assert len(deldrift.Mesh.from_triangle(data, "pq30a0.1S5").points) == 13
+
+
+def test_ids_are_given_again_and_values_follow():
+    tri = deldrift.Delaunay(SQUARE + HOLE, segments=SIDES)
+    values = {"f": tri.points @ [2.0, -1.0] + 3, "x": tri.points}
+    most = 0
+    for turn in range(5):
+        before = tri.npoints
+        report = tri.refine(greatest_area=0.05, reuse_ids=True, sizes=5.0, values=values)
+        values, ids, there = report.values, tri.refined_vertices(), ~np.isnan(tri.points[:, 0])
+        assert len(ids) == report.inserted > 50 and len(values["f"]) == len(report.sizes) == tri.npoints
+        assert (ids == tri.refined_weights().ids).all() and (ids[0] < before) == (turn > 0)
+        np.testing.assert_allclose(values["f"][there], (tri.points @ [2.0, -1.0] + 3)[there], rtol=0, atol=1e-12)
+        np.testing.assert_allclose(values["x"][there], tri.points[there], rtol=0, atol=1e-12)
+        np.testing.assert_allclose(report.sizes, 5, rtol=1e-12)
+        most = max(most, tri.nvertices)
+        assert tri.coarsen(greatest_area=0.5).removed > 50 and len(tri.refined_vertices()) == 0
+    assert tri.npoints <= 1.25 * most
+    new_ids, kept = tri.compact(values={**values, "id": np.arange(tri.npoints)})
+    assert tri.npoints == tri.nvertices == len(kept["x"]) and kept["id"].dtype == np.arange(1).dtype
+    assert (new_ids[kept["id"]] == np.arange(tri.npoints)).all()
+    np.testing.assert_allclose(kept["x"], tri.points, rtol=0, atol=1e-12)
+    mesh = deldrift.Mesh(SQUARE, SIDES[:4])
+    assert mesh.refine(greatest_area=0.5, reuse_ids=True).inserted > 10

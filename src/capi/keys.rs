@@ -80,14 +80,13 @@ pub unsafe extern "C" fn deldrift_stage_insertions_with_keys(
 /// commit of that, until it is given here; deldrift_discard_moves makes those that are staged free again.
 ///
 /// Who has kept an id of a removed vertex sees another vertex under it. In lists of changes it is as if the vertex had
-/// moved: cells that have the same ids as before are not listed, whether or not an id is that of another vertex. Where there
-/// have been segments, or deldrift_refine has made vertices, ids are not given again: what is known of those by id lasts
-/// longer than they do.
+/// moved: cells that have the same ids as before are not listed, whether or not an id is that of another vertex. Not
+/// given again are ends of staged segments, and those of segments that have been split, as long as there are pieces of them.
 ///
 /// keys: count keys, or NULL for the ids. vertices: room for count ids, receives that of each vertex, ascending; both may be
 /// NULL if count is 0. The others are as in deldrift_stage_insertions.
 ///
-/// Cost: n + count, a pass over 4 bytes for each id.
+/// Cost: n + count, a pass over 4 bytes for each id; and the segments.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
 /// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_OUT_OF_MEMORY. Not to

@@ -103,6 +103,13 @@ pub struct deldrift_quality {
     /// deldrift_refine finds the mesh made anew, and if it has fewer by this factor takes it: in its one commit, the report of
     /// which tells what was removed. Infinity for never. Not done with sizes.
     pub growth: f64,
+    /// Not 0 if deldrift_refine gives its vertices free ids, as deldrift_stage_insertions_at_free_ids does: of vertices
+    /// that earlier commits have removed, the lowest first, and then new ones; deldrift_refined_vertices tells which. So
+    /// deldrift_id_count does not grow for ever. From the first insertion on vertices have keys then, as if these had
+    /// been given (see deldrift_keys): those that deldrift_refine inserts the greatest one, the others their ids. Who
+    /// transfers means of cells takes the changes between deldrift_coarsen and deldrift_refine as well: a cell with the
+    /// ids of one that was is not listed. Default 0.
+    pub reuses_ids: u32,
 }
 
 impl Growing for deldrift_quality {
@@ -126,6 +133,7 @@ impl Growing for deldrift_quality {
         share: 0.9,
         joins: 1e-9,
         growth: 1.1,
+        reuses_ids: 0,
     };
     const ENDS: &'static [usize] = &[
         offset_of!(deldrift_quality, greatest_area),
@@ -145,6 +153,7 @@ impl Growing for deldrift_quality {
         offset_of!(deldrift_quality, share),
         offset_of!(deldrift_quality, joins),
         offset_of!(deldrift_quality, growth),
+        offset_of!(deldrift_quality, reuses_ids),
         size_of::<deldrift_quality>(),
     ];
     const SIZE: &'static str = "quality.struct_size";
@@ -155,7 +164,8 @@ impl Growing for deldrift_quality {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct deldrift_quality_report {
-    /// Vertices inserted. Their ids are the last ones below deldrift_id_count.
+    /// Vertices inserted. Their ids are the last ones below deldrift_id_count, or those of deldrift_refined_vertices if
+    /// quality.reuses_ids was set.
     pub inserted: u64,
     /// How many of them are on segments.
     pub on_segments: u64,
@@ -248,6 +258,7 @@ pub unsafe extern "C" fn deldrift_refine(
             keeps: kept_of(given.keeps)?,
             limit: given.limit,
             has_weights: given.has_weights != 0,
+            reuses_ids: given.reuses_ids != 0,
         };
         Ok(t.refine(quality, &options, mask)?)
     })
@@ -257,7 +268,8 @@ pub unsafe extern "C" fn deldrift_refine(
 /// still be of the quality, by a margin. Pieces of a segment are joined again. One commit of its own, all or nothing, of
 /// which deldrift_take_changes tells what it changed.
 ///
-/// The arguments are those of deldrift_refine. has_weights and limit of the quality are not used; keeps says what it would do.
+/// The arguments are those of deldrift_refine. has_weights, limit and reuses_ids of the quality are not used; keeps says
+/// what it would do.
 ///
 /// Around cells that are of lower quality already, those that come may have angles as small: call it before deldrift_refine,
 /// which then has less to insert.
@@ -346,10 +358,12 @@ pub unsafe extern "C" fn deldrift_original_segments(
 /// For each vertex that the last deldrift_refine inserted, in the order of their ids, how linear values there follow from
 /// those at the vertices before: the sum of the values of three vertices by their weights. So
 ///
-///   value(id_count - inserted + k) = sum of weights(3 k + i) * value(vertices(3 k + i)) for i = 0, 1, 2
+///   value(new(k)) = sum of weights(3 k + i) * value(vertices(3 k + i)) for i = 0, 1, 2
 ///
-/// carries values at vertices over. It has to have been called with has_weights, and neither a commit nor a compaction must
-/// have come since; otherwise there are none.
+/// carries values at vertices over, where new(k) is what deldrift_refined_vertices tells, or, without reuses_ids,
+/// id_count - inserted + k. Those on the right may have been removed by the call, which has not given their ids again. It
+/// has to have been called with has_weights, and neither a commit nor a compaction must have come since; otherwise there
+/// are none.
 ///
 /// vertices: a buffer with room for capacity rows of 3 ids, those of the corners of the cell that the vertex was put into;
 /// on a segment its two ends, the first one twice. weights: for as many rows of 3 numbers, from 0 to 1, with a sum of 1 but
@@ -383,9 +397,9 @@ pub unsafe extern "C" fn deldrift_refined_weights(
 }
 
 /// For each vertex that the last deldrift_refine inserted, in the order of their ids, the greatest length of edges that it had
-/// there, from those given in quality.sizes at the vertices before. With these behind the others a second call finds nothing
-/// to do. It has to have been called with sizes, and neither a commit nor a compaction must have come since; otherwise there
-/// are none.
+/// there, from those given in quality.sizes at the vertices before. With these by id, behind the others unless reuses_ids
+/// was set, a second call finds nothing to do. It has to have been called with sizes, and neither a commit nor a
+/// compaction must have come since; otherwise there are none.
 ///
 /// sizes: a buffer with room for capacity numbers. count: receives the number of vertices, which is also written when the
 /// buffer is too small. NULL with capacity 0 asks for the count alone.
@@ -405,6 +419,31 @@ pub unsafe extern "C" fn deldrift_refined_sizes(
     t.read(|t| {
         let all = of_the_plane(t)?.refined_sizes();
         sizes.fill(count, all.len(), || Ok(all.iter().copied()))
+    })
+}
+
+/// The vertices that the last deldrift_refine inserted, ascending by id: those of which deldrift_refined_weights and
+/// deldrift_refined_sizes tell, in this order. Neither a commit nor a compaction must have come since; otherwise there are
+/// none.
+///
+/// vertices: a buffer with room for capacity ids. count: receives the number of vertices, which is also written when the
+/// buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Cost: the vertices inserted.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_refined_vertices(
+    t: *const deldrift_triangulation,
+    vertices: *mut u32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    given!(t: Reading, vertices[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        let all = of_the_plane(t)?.refined_vertices();
+        vertices.fill(count, all.len(), || Ok(all.iter().map(|v| v.get())))
     })
 }
 

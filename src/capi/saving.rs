@@ -52,9 +52,10 @@ pub unsafe extern "C" fn deldrift_clone(
 ///
 /// Saved are positions, ids, segments, removed and hidden vertices, cells with their indices, staged moves, insertions and
 /// removals, the timestamp and statistics. Not saved are the options, what the algorithm keeps between commits,
-/// which changes have been taken, the answers of deldrift_refined_weights and deldrift_refined_sizes, and what deldrift_segment_conflicts and
-/// deldrift_passings tell. docs/FORMAT.md describes the bytes. Of a periodic triangulation the vectors as
-/// deldrift_vectors tells them, those that are staged, and the periods of vertices are saved, too, and all images with their cells.
+/// which changes have been taken, the answers of deldrift_refined_weights, deldrift_refined_sizes and
+/// deldrift_refined_vertices, and what deldrift_segment_conflicts and deldrift_passings tell. docs/FORMAT.md describes
+/// the bytes. Of a periodic triangulation the vectors as deldrift_vectors tells them, those that are staged, and the
+/// periods of vertices are saved, too, and all images with their cells.
 ///
 /// buffer: room for capacity bytes, with any alignment. count: receives the number of bytes, which is also written
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone, in constant time.

@@ -173,11 +173,15 @@ pub struct RefineOptions {
     pub limit: usize,
     /// Whether [`refined_weights`](super::MovingTriangulation::refined_weights) is to be known.
     pub has_weights: bool,
+    /// Whether new vertices get free ids, as those of
+    /// [`stage_insertions_at_free_ids`](super::MovingTriangulation::stage_insertions_at_free_ids). Then vertices have
+    /// keys from the first insertion on: what is cocircular has cells that do not depend on which ids are free.
+    pub reuses_ids: bool,
 }
 
 impl Default for RefineOptions {
     fn default() -> Self {
-        RefineOptions { keeps: Kept::None, limit: usize::MAX, has_weights: false }
+        RefineOptions { keeps: Kept::None, limit: usize::MAX, has_weights: false, reuses_ids: false }
     }
 }
 

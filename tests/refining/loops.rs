@@ -6,8 +6,8 @@ use deldrift::VertexId;
 use deldrift::motion::{CoarsenOptions, Level, Options, Quality, RefineOptions, Saved};
 
 /// A ring whose inner polygon turns.
-struct Rotor {
-    t: Triangulation,
+pub(super) struct Rotor {
+    pub(super) t: Triangulation,
     turn: f64,
 }
 
@@ -21,12 +21,12 @@ impl Rotor {
             .with_ring(&turned(&circle([0.0; 2], INNER, 8), 0.3 + turn))
     }
 
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         Rotor { t: Self::domain(0.0).build(), turn: 0.0 }
     }
 
     /// All vertices turn, the less the nearer they are to the outer polygon.
-    fn step(&mut self, angle: f64) {
+    pub(super) fn step(&mut self, angle: f64) {
         self.turn += angle;
         for v in (0..self.t.id_count()).map(VertexId::at) {
             let Ok(p) = self.t.position(v) else { continue };

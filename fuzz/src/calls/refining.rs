@@ -345,6 +345,9 @@ impl History<'_> {
             .copied(77, 3, |to, room, count| c!(deldrift_refined_weights(t, to, null_mut(), room, count)));
         let weights = self
             .copied(77.0, 3, |to, room, count| c!(deldrift_refined_weights(t, null_mut(), to, room, count)));
+        let inserted =
+            self.copied(77, 1, |to, room, count| c!(deldrift_refined_vertices(t, to, room, count)));
+        assert!(inserted.iter().copied().eq(first..first + report.inserted as u32), "ids of those inserted");
         let n = if has_weights { report.inserted as usize } else { 0 };
         assert_eq!(rows.len(), 3 * n, "weights");
         let extent = self.m.positions.iter().flatten().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
@@ -440,6 +443,7 @@ impl History<'_> {
             self.expect(wanted, || c!(deldrift_original_segments(t, none, 0, &mut count)));
             self.expect(wanted, || c!(deldrift_refined_weights(t, none, null_mut(), 0, &mut count)));
             self.expect(wanted, || c!(deldrift_refined_sizes(t, null_mut(), 0, &mut count)));
+            self.expect(wanted, || c!(deldrift_refined_vertices(t, none, 0, &mut count)));
         }
         assert_eq!((report.inserted, count), (77, 77), "an output of a call that failed");
     }

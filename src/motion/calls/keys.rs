@@ -26,7 +26,7 @@ pub(in crate::motion) enum Coming<'k> {
 
 /// Ids of vertices that come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Ids {
+pub(in crate::motion) enum Ids {
     /// Those above the highest that has been given.
     Next,
     /// Those of removed vertices, the lowest first, then those above.
@@ -86,11 +86,11 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// vertices, the lowest first; where there are no more, those above the highest given follow. `given` is told the id of
     /// each. With keys the vertices have these.
     ///
-    /// Where there have been segments, or vertices that the library has made, ids are not given again, as these are known
-    /// by them for longer than they are present. Nor are those of vertices that have been removed for the timestamp that is
-    /// being prepared.
+    /// Not given again are ids by which something is still known: ends of staged segments, ends of segments that have
+    /// been split, as long as there are pieces, and vertices that have been removed for the timestamp that is being
+    /// prepared.
     ///
-    /// Cost: a pass over all ids.
+    /// Cost: a pass over all ids and segments.
     ///
     /// ```
     /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
@@ -132,18 +132,19 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// The ids for `n` vertices that come, ascending.
-    fn coming_ids(&self, n: usize, from: Ids) -> Result<Vec<VertexId>> {
+    pub(in crate::motion) fn coming_ids(&self, n: usize, from: Ids) -> Result<Vec<VertexId>> {
         let mut ids = Vec::new();
         let n_ids = self.mesh.site_of.len();
         if from == Ids::Next && n > MAX_VERTICES - n_ids {
             return Err(Error::TooManyVertices { given: n_ids.saturating_add(n), limit: MAX_VERTICES });
         }
         memory::reserve_exact(&mut ids, n)?;
-        let has_segments = self.mesh.segments.as_ref().is_some_and(|segments| segments.n_ids() > 0);
-        let has_made = self.made.as_ref().is_some_and(|made| !made.vertices().is_empty());
-        if from == Ids::Free && !has_segments && !has_made {
-            let is_free = |v| self.mesh.is_absent(v) && !self.edits.is_coming(v) && !self.mesh.is_withheld(v);
-            ids.extend(VertexId::range(0..n_ids).filter(|&v| is_free(v)).take(n));
+        if from == Ids::Free {
+            let named = self.absent_ends()?;
+            let is_waiting = |v| self.edits.is_coming(v) || self.mesh.is_withheld(v);
+            let is_free =
+                |&v: &VertexId| self.mesh.is_absent(v) && !is_waiting(v) && named.binary_search(&v).is_err();
+            ids.extend(VertexId::range(0..n_ids).filter(is_free).take(n));
         }
         let n_new = n - ids.len();
         if n_new > MAX_VERTICES - n_ids {
@@ -153,9 +154,29 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(ids)
     }
 
+    /// The vertices that are not present and by which segments, or those that pieces come from, are known; ascending.
+    fn absent_ends(&self) -> Result<Vec<VertexId>> {
+        let mut absent = Vec::new();
+        let Some(segments) = &self.mesh.segments else { return Ok(absent) };
+        let all = segments.all();
+        let pieces = self.made.iter().flat_map(|made| made.pieces());
+        let origins = pieces.filter(|(piece, _)| all[*piece].is_some()).map(|(_, origin)| origin.ends);
+        let ends = all.iter().flatten().map(|segment| segment.ends).chain(origins).flatten();
+        for v in ends.filter(|&v| v != VertexId::NONE && self.mesh.is_absent(v)) {
+            memory::push(&mut absent, v)?;
+        }
+        absent.sort_unstable();
+        Ok(absent)
+    }
+
     /// Stages the insertion of vertices with these ids, ascending, of which those that have not been given before follow
     /// each other.
-    fn stage_at(&mut self, positions: &[G::Point], keys: Coming<'_>, ids: &[VertexId]) -> Result<()> {
+    pub(in crate::motion) fn stage_at(
+        &mut self,
+        positions: &[G::Point],
+        keys: Coming<'_>,
+        ids: &[VertexId],
+    ) -> Result<()> {
         let n_ids = ids.last().map_or(0, |last| last.index() + 1).max(self.mesh.site_of.len());
         let n_new = n_ids - self.mesh.site_of.len();
         if let Coming::Keys(keys) = keys {
@@ -179,6 +200,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.edits.insert(id, checked);
         }
         self.edits.sort_insertions();
+        if let (Some(made), true) = (&mut self.made, n_new < ids.len()) {
+            made.forget(ids);
+        }
         self.mesh.site_of.resize(n_ids, SiteId::NONE);
         self.staging.grow(n_ids);
         Ok(())

@@ -9,15 +9,15 @@ mod reading;
 mod remeshing;
 mod staging;
 
-use crate::delaunay::Plane;
+use crate::delaunay::{Keys, Plane};
 use crate::error::Result;
 use crate::ids::{SegmentId, VertexId};
 use crate::machine::memory;
 use crate::motion::options::{CoarsenOptions, Quality, RefineOptions};
-use crate::motion::report::{QualityReport, VertexWeights};
+use crate::motion::report::QualityReport;
 use crate::motion::state::density::Due;
 use crate::motion::state::looked::{Looking, Question};
-use crate::motion::state::made::Origin;
+use crate::motion::state::made::{Inserted, Origin};
 use crate::motion::state::mesh::Standing;
 use crate::motion::state::segments::Segment;
 use crate::motion::triangulation::MovingTriangulation;
@@ -65,6 +65,27 @@ impl MovingTriangulation<Plane> {
         self.reject_prepared()?;
         self.mesh.last_found.begin();
         self.check_quality(quality, mask)?;
+        if !options.reuses_ids || self.has_keys() {
+            return self.refine_checked(quality, options, mask);
+        }
+        // With keys the cells that will be are foreseen without the ids that vertices will have.
+        let n_ids = self.id_count();
+        self.mesh.kernel.keys_mut().reserve(n_ids)?;
+        let before = self.statistics.timestamp;
+        let done = self.refine_checked(quality, options, mask);
+        if self.statistics.timestamp == before {
+            *self.mesh.kernel.keys_mut() = Keys::default();
+        }
+        done
+    }
+
+    /// Refines, with keys if ids are given again.
+    fn refine_checked(
+        &mut self,
+        quality: &Quality,
+        options: &RefineOptions,
+        mask: &[u8],
+    ) -> Result<QualityReport> {
         let asked = asked(quality)?;
         let question = self.question(&asked, quality, mask);
         let made = self.made.as_ref().filter(|_| quality.sizes.is_none());
@@ -72,7 +93,7 @@ impl MovingTriangulation<Plane> {
         if !due.is_some_and(|due| due.is_certain)
             && self.made.as_ref().is_some_and(|made| made.found.all_good.holds(question))
         {
-            self.set_refined(quality, 0, Default::default());
+            self.set_refined(quality, Inserted::default());
             return Ok(QualityReport::default());
         }
         let mut read = self.read_vertices()?;
@@ -91,7 +112,7 @@ impl MovingTriangulation<Plane> {
                 made.found.all_good.set(question)?;
             }
             // Nothing fails from here on.
-            self.set_refined(quality, 0, Default::default());
+            self.set_refined(quality, Inserted::default());
             return Ok(report);
         };
         report.inserted = refined.vertices.len();
@@ -100,47 +121,13 @@ impl MovingTriangulation<Plane> {
         report.unsplit = refined.n_unsplit;
         report.is_cut_short = refined.is_cut_short;
         report.bad_cells = refined.n_bad;
-        let mut weights = Vec::new();
-        let mut sizes = std::mem::take(&mut refined.sizes);
-        sizes.iter_mut().for_each(|size| *size /= read.scale);
+        let mut inserted = Inserted { sizes: std::mem::take(&mut refined.sizes), ..Inserted::default() };
+        inserted.sizes.iter_mut().for_each(|size| *size /= read.scale);
         if report.inserted > 0 || report.removed > 0 {
-            weights = self.commit_refined(&read, &refined, options, &mut report)?;
+            self.commit_refined(&read, &refined, options, &mut inserted, &mut report)?;
         }
-        self.set_refined(quality, report.inserted, (weights, sizes));
+        self.set_refined(quality, inserted);
         Ok(report)
-    }
-
-    /// Makes what has been found in a commit; returns the weights of the new vertices, if they are wanted.
-    fn commit_refined(
-        &mut self,
-        read: &Read,
-        refined: &Refined,
-        options: &RefineOptions,
-        report: &mut QualityReport,
-    ) -> Result<Vec<VertexWeights>> {
-        let mut changes = SegmentChanges::default();
-        let mut start = 0;
-        for &(edge, end) in &refined.replaced {
-            for pair in refined.chain[start..end].windows(2) {
-                self.replace_at(read, edge, [pair[0], pair[1]], &mut changes)?;
-            }
-            changes.leave(read.segments_at(edge as usize))?;
-            start = end;
-        }
-        let mut points = Vec::new();
-        memory::collect(&mut points, refined.vertices.iter().map(|&(p, _)| p.map(|x| x / read.scale)))?;
-        let on = |edge: u32| match edge {
-            NONE => SegmentId::NONE,
-            edge => self.origin_of(read.segments_at(edge as usize)[0].1).segment,
-        };
-        let mut on_segments = Vec::new();
-        memory::collect(&mut on_segments, refined.vertices.iter().map(|&(_, edge)| on(edge)))?;
-        let weights = match options.has_weights {
-            true => self.weights_of(&points, &self.edges_under(read, refined)?)?,
-            false => Vec::new(),
-        };
-        self.commit_quality(&points, &on_segments, &refined.removed, changes, report)?;
-        Ok(weights)
     }
 
     /// Finds what is to be done, if anything. `ask` is called now and then, and ends it by an error.
@@ -271,7 +258,7 @@ impl MovingTriangulation<Plane> {
         for &edge in &coarsened.replaced {
             changes.leave(read.segments_at(edge as usize))?;
         }
-        self.commit_quality(&[], &[], &coarsened.vertices, changes, &mut report)?;
+        self.commit_quality((&[], &[], &[]), &coarsened.vertices, changes, &mut report)?;
         self.set_coarsened(quality, options, report.removed);
         Ok(report)
     }

@@ -7,6 +7,7 @@ use crate::ids::{Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::filters::barycentric::barycentric;
 use crate::motion::report::VertexWeights;
+use crate::motion::state::made::Inserted;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::minus;
 
@@ -15,14 +16,24 @@ impl MovingTriangulation<Plane> {
     /// follow from those at the vertices before: if [`has_weights`](crate::motion::RefineOptions::has_weights) was set, and
     /// neither a commit nor a compaction has come since. Otherwise empty.
     pub fn refined_weights(&self) -> &[VertexWeights] {
-        self.made.as_ref().map_or(&[], |made| made.weights(self.statistics.timestamp))
+        self.last_inserted().map_or(&[], |inserted| &inserted.weights)
     }
 
     /// For each vertex that the last [`refine`](Self::refine) inserted, in the order of their ids, the size that it had there,
     /// if it was called with [sizes](crate::motion::Quality::sizes), and neither a commit nor a compaction has come since.
     /// Otherwise empty. With these sizes a second call finds nothing to do.
     pub fn refined_sizes(&self) -> &[f64] {
-        self.made.as_ref().map_or(&[], |made| made.sizes(self.statistics.timestamp))
+        self.last_inserted().map_or(&[], |inserted| &inserted.sizes)
+    }
+
+    /// The vertices that the last [`refine`](Self::refine) inserted, ascending, if neither a commit nor a compaction has
+    /// come since. Otherwise empty.
+    pub fn refined_vertices(&self) -> &[VertexId] {
+        self.last_inserted().map_or(&[], |inserted| &inserted.vertices)
+    }
+
+    fn last_inserted(&self) -> Option<&Inserted> {
+        self.made.as_ref()?.inserted(self.statistics.timestamp)
     }
 
     /// Weights of places that are on an edge of two vertices, or in the closure of a cell.

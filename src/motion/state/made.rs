@@ -3,7 +3,7 @@
 //! Vertices that splitting has added, where segments cross, are not listed: they are on several originals, and refinement
 //! must not take them away.
 //!
-//! What has been removed since stays listed until the next refinement or coarsening; its ids are not given again.
+//! What has been removed since stays listed until the next refinement or coarsening, or until its id is given again.
 
 use crate::error::Result;
 use crate::ids::{SegmentId, VertexId};
@@ -26,6 +26,17 @@ fn origin_in(pieces: &[(SegmentId, Origin)], piece: SegmentId) -> Option<Origin>
     Some(pieces[at].1)
 }
 
+/// The vertices that a refinement has inserted.
+#[derive(Debug, Default)]
+pub(in crate::motion) struct Inserted {
+    /// Ascending.
+    pub(in crate::motion) vertices: Vec<VertexId>,
+    /// How values there follow from others; empty if that was not asked for.
+    pub(in crate::motion) weights: Vec<VertexWeights>,
+    /// The sizes there; empty if none were given.
+    pub(in crate::motion) sizes: Vec<f64>,
+}
+
 /// What has been made.
 #[derive(Debug, Default)]
 pub(in crate::motion) struct Made {
@@ -35,10 +46,8 @@ pub(in crate::motion) struct Made {
     pieces: Vec<(SegmentId, Origin)>,
     /// Those that are staged, ascending, above the others, for which there is room among them.
     coming: Vec<(SegmentId, Origin)>,
-    /// Those of the vertices that the last refinement inserted.
-    weights: Vec<VertexWeights>,
-    /// Sizes of these.
-    sizes: Vec<f64>,
+    /// By the last refinement.
+    inserted: Inserted,
     /// How dense the mesh is.
     pub(in crate::motion) density: Density,
     /// Copies know nothing of it.
@@ -120,19 +129,14 @@ impl Made {
         self.pieces.append(&mut self.coming);
     }
 
-    /// How values at the vertices that the refinement of a timestamp inserted follow from others, if that was the last one.
-    pub(in crate::motion) fn weights(&self, timestamp: u64) -> &[VertexWeights] {
-        if self.density.refined_at() == timestamp { &self.weights } else { &[] }
+    /// What the refinement of a timestamp inserted, if that was the last one.
+    pub(in crate::motion) fn inserted(&self, timestamp: u64) -> Option<&Inserted> {
+        (self.density.refined_at() == timestamp).then_some(&self.inserted)
     }
 
-    /// The sizes that the refinement of a timestamp had for the vertices that it inserted, if that was the last one.
-    pub(in crate::motion) fn sizes(&self, timestamp: u64) -> &[f64] {
-        if self.density.refined_at() == timestamp { &self.sizes } else { &[] }
-    }
-
-    /// Remembers weights and sizes of the last refinement.
-    pub(in crate::motion) fn set_values(&mut self, (weights, sizes): (Vec<VertexWeights>, Vec<f64>)) {
-        (self.weights, self.sizes) = (weights, sizes);
+    /// Remembers what the last refinement inserted.
+    pub(in crate::motion) fn set_inserted(&mut self, inserted: Inserted) {
+        self.inserted = inserted;
     }
 
     /// Makes room for more.
@@ -141,9 +145,18 @@ impl Made {
         memory::reserve(&mut self.pieces, n_pieces)
     }
 
-    /// Enters a vertex of a higher id than the others; there is room.
-    pub(in crate::motion) fn enter_vertex(&mut self, vertex: VertexId, on: SegmentId) {
-        self.vertices.push((vertex, on));
+    /// Enters vertices that are not listed; there is room.
+    pub(in crate::motion) fn enter_vertices(
+        &mut self,
+        vertices: impl Iterator<Item = (VertexId, SegmentId)>,
+    ) {
+        self.vertices.extend(vertices);
+        self.vertices.sort_unstable();
+    }
+
+    /// The ids of vertices that are no more, ascending, will be those of others.
+    pub(in crate::motion) fn forget(&mut self, ids: &[VertexId]) {
+        self.vertices.retain(|(v, _)| ids.binary_search(v).is_err());
     }
 
     /// Enters a piece of a higher id than the others; there is room.
@@ -167,8 +180,12 @@ impl Made {
         memory::reserve_exact(&mut copy.pieces, self.pieces.len() + self.coming.len())?;
         copy.pieces.extend_from_slice(&self.pieces);
         copy.coming = memory::copy_of(&self.coming)?;
-        copy.weights = memory::copy_of(&self.weights)?;
-        copy.sizes = memory::copy_of(&self.sizes)?;
+        let Inserted { vertices, weights, sizes } = &self.inserted;
+        copy.inserted = Inserted {
+            vertices: memory::copy_of(vertices)?,
+            weights: memory::copy_of(weights)?,
+            sizes: memory::copy_of(sizes)?,
+        };
         copy.density = self.density;
         Ok(copy)
     }
@@ -176,7 +193,7 @@ impl Made {
     /// A copy in which the vertices have other ids, in their order: by the old ones, [`VertexId::NONE`] for those removed.
     pub(in crate::motion) fn renumbered(&self, ids: &[VertexId]) -> Result<Self> {
         let mut copy = self.copied()?;
-        (copy.weights, copy.sizes) = (Vec::new(), Vec::new());
+        copy.inserted = Inserted::default();
         copy.vertices.iter_mut().for_each(|(v, _)| *v = ids[*v]);
         copy.vertices.retain(|&(v, _)| v != VertexId::NONE);
         copy.pieces.iter_mut().chain(&mut copy.coming).for_each(|(_, origin)| {
@@ -189,8 +206,9 @@ impl Made {
         memory::bytes_of(&self.vertices)
             + memory::bytes_of(&self.pieces)
             + memory::bytes_of(&self.coming)
-            + memory::bytes_of(&self.weights)
-            + memory::bytes_of(&self.sizes)
+            + memory::bytes_of(&self.inserted.vertices)
+            + memory::bytes_of(&self.inserted.weights)
+            + memory::bytes_of(&self.inserted.sizes)
             + self.looked.memory_bytes()
             + self.found.memory_bytes()
     }

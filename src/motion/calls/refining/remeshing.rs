@@ -7,8 +7,8 @@ use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::options::{CoarsenOptions, Quality, RefineOptions};
-use crate::motion::report::VertexWeights;
 use crate::motion::state::density::{Asked, Due};
+use crate::motion::state::made::Inserted;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::minus;
 use crate::refine::{self, Kept, Refined};
@@ -26,17 +26,12 @@ impl MovingTriangulation<Plane> {
         }
     }
 
-    /// Refinement ends, and is remembered with weights and sizes of the vertices that it has inserted.
-    pub(super) fn set_refined(
-        &mut self,
-        quality: &Quality,
-        n_inserted: usize,
-        values: (Vec<VertexWeights>, Vec<f64>),
-    ) {
+    /// Refinement ends, and is remembered with the vertices that it has inserted.
+    pub(super) fn set_refined(&mut self, quality: &Quality, inserted: Inserted) {
         let (n, timestamp) = (self.made_vertices().count(), self.statistics.timestamp);
         if let Some(made) = &mut self.made {
-            made.density.set_refined([n, n_inserted], bounds_of(quality), timestamp);
-            made.set_values(values);
+            made.density.set_refined([n, inserted.vertices.len()], bounds_of(quality), timestamp);
+            made.set_inserted(inserted);
         }
     }
 
