@@ -45,7 +45,8 @@ static bool is_of(size_t k, const char *function) { return strcmp(calls[k].funct
 static bool is_not_saved(size_t k) {
     return is_of(k, "deldrift_take_changes") || is_of(k, "deldrift_clone") || is_of(k, "deldrift_segment_conflicts") ||
            is_of(k, "deldrift_passings") || is_of(k, "deldrift_refined_weights") ||
-           is_of(k, "deldrift_refined_vertices");
+           is_of(k, "deldrift_refined_vertices") || is_of(k, "deldrift_refined_sizes") ||
+           is_of(k, "deldrift_transfer_cells");
 }
 
 // What is rounded in an order that follows from slots of the kernel, which are not saved.
@@ -63,9 +64,9 @@ static bool is_rounded_by_slots(size_t k) {
 }
 
 // Whether a call tells what the latest call that changes or checks has found: not what a triangulation is, and nothing that
-// clones have. tests/last_found.rs has what each call leaves.
+// clones have. tests/last_found.rs has what each call leaves. Changes that have been taken belong to the original alone, too.
 static bool is_of_latest_call(size_t k) {
-    return is_of(k, "deldrift_segment_conflicts") || is_of(k, "deldrift_passings");
+    return is_of(k, "deldrift_transfer_cells") || is_of(k, "deldrift_segment_conflicts") || is_of(k, "deldrift_passings");
 }
 
 #endif

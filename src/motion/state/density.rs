@@ -99,7 +99,9 @@ impl Density {
             || asked.is_coarser_than(&self.refined) && asked.is_coarser_than(&self.coarsened);
         let is_grown = self.is_grown(n, due.growth) || self.churn > CHURN * n as u64;
         let may_have_grown = (is_grown || n <= FEW) && timestamp != self.refined_at;
-        let due = Due { is_certain: is_other || may_have_grown, ..due };
+        // What one call has found another one, of which it is no news, does not take back.
+        let was_certain = self.due.is_some_and(|due| due.is_certain);
+        let due = Due { is_certain: was_certain || is_other || may_have_grown, ..due };
         self.due = (due.growth < f64::INFINITY).then_some(due);
         self.n_fresh = self.n_fresh.min(n as u64);
         self.coarsened = asked;
