@@ -251,7 +251,7 @@ fn low_ids_decide_no_ties() {
         (0..N_FREE).for_each(|k| t.remove_vertex(VertexId::at(k)).expect("present"));
         let corners = [0, 4, 24, 20];
         let sides = (0..4).flat_map(|k| {
-            let (a, b) = (corners[k] as i32, corners[(k + 1) % 4] as i32);
+            let (a, b) = (corners[k], corners[(k + 1) % 4]);
             (0..4).map(move |j| [a + (b - a) / 4 * j, a + (b - a) / 4 * (j + 1)])
         });
         let segments: Vec<_> = sides
