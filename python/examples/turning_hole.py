@@ -57,8 +57,9 @@ class Stirrer:
     def improve(self):
         """Vertices go and come. Dye stays with its vertices; those that come have what is between others."""
         self.mesh.coarsen(**self.quality)
-        self.dye = self.dye[self.mesh.delaunay.compact() >= 0]
-        self.dye = self.mesh.refine(**self.quality, values=self.dye).values
+        dye = self.mesh.refine(**self.quality, values=self.dye).values
+        # Where there are too many vertices refinement has taken some away, too.
+        self.dye = self.mesh.delaunay.compact(dye)[1]
 
 
 def run(angles, turn=0.02):

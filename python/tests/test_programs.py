@@ -96,9 +96,10 @@ def test_the_hole_turns_and_the_mesh_stays_good():
         spread.append(len(mesh.triangles))
     assert stirrer.angle > 2.9 and max(spread) < 1.3 * count and min(spread) > 0.8 * count
     np.testing.assert_allclose(mesh.points[30:54], stirrer.hole_at(stirrer.angle), atol=1e-12)
-    # The dye has gone around: what is beside the hole was on its other side.
+    # The dye has gone around: what is beside the hole was on its other side, but for what was mixed where the mesh was made
+    # anew.
     beside = [stirrer.dye[mesh.delaunay.nearest_vertices([[0.0, y]])[0]] for y in (0.3, -0.3)]
-    assert beside == [0, 1]
+    np.testing.assert_allclose(beside, [0, 1], atol=1e-3)
 
 
 def cells_between_walls(frame):
