@@ -407,7 +407,9 @@ impl History<'_> {
         let mut quality = *quality;
         let sizes = [sizes, &new].concat();
         assert_eq!(sizes.len(), if quality.sizes.is_null() { 0 } else { self.m.positions.len() }, "sizes");
-        (quality.sizes, quality.size_count) = (sizes.as_ptr(), sizes.len());
+        if !quality.sizes.is_null() {
+            (quality.sizes, quality.size_count) = (sizes.as_ptr(), sizes.len());
+        }
         self.ok(|| c!(deldrift_refine(t, &quality, null(), 0, &mut report)));
         assert_eq!(report, deldrift_quality_report::default(), "where all is good");
         self.check();
