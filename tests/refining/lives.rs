@@ -64,6 +64,27 @@ fn five() -> Domain {
     )
 }
 
+/// Koch's curve around a triangle, divided twice: corners of 60 and 240 degrees.
+fn snowflake() -> Vec<[f64; 2]> {
+    let mut corners = circle([0.0; 2], 1.0, 3);
+    for _ in 0..2 {
+        let ends: Vec<_> =
+            (0..corners.len()).map(|k| [corners[k], corners[(k + 1) % corners.len()]]).collect();
+        corners = ends
+            .into_iter()
+            .flat_map(|[a, b]| {
+                let third = [0, 1].map(|axis| (b[axis] - a[axis]) / 3.0);
+                let at = |n: f64, p: [f64; 2]| [0, 1].map(|axis| p[axis] + n * third[axis]);
+                let [side, height] = [0.5, 0.75f64.sqrt()];
+                let out = [side * third[0] + height * third[1], side * third[1] - height * third[0]];
+                let first = at(1.0, a);
+                [a, first, [first[0] + out[0], first[1] + out[1]], at(2.0, a)]
+            })
+            .collect();
+    }
+    corners
+}
+
 /// Domains, each with its name and its size.
 pub(super) fn domains() -> Vec<(&'static str, f64, Domain)> {
     let ring = |points: &[[f64; 2]]| Domain::default().with_ring(points);
@@ -108,6 +129,7 @@ pub(super) fn domains() -> Vec<(&'static str, f64, Domain)> {
         ("hexagon", 1.0, polygon(6, 2, 0.4)),
         ("heptagon", 1.0, polygon(7, 4, 1.3)),
         ("gear", 1.0, ring(&gear)),
+        ("snowflake", 1.0, ring(&turned(&snowflake(), 0.39))),
         (
             "nested",
             1.0,

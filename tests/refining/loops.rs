@@ -2,8 +2,10 @@
 
 use super::lives::{LIMIT, coarsen, count_bad, domain_of, domains, quality, refine, turned};
 use super::{Domain, Triangulation, circle};
-use deldrift::VertexId;
-use deldrift::motion::{CoarsenOptions, Level, Options, Quality, RefineOptions, Saved};
+use deldrift::motion::{CoarsenOptions, Level, Monitor, Options, Quality, RefineOptions, Saved};
+use deldrift::{Error, VertexId};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 /// A ring whose inner polygon turns.
 pub(super) struct Rotor {
@@ -126,6 +128,43 @@ fn copies_are_made_anew_alike() {
         }
     }
     assert!(n_anew > 3 && n_alike > 3, "{n_anew} {n_alike}");
+}
+
+/// A refinement that is broken off, while it finds the mesh made anew or in its commit, leaves what is saved as it was.
+#[test]
+fn nothing_is_known_of_a_mesh_made_anew_in_vain() {
+    let (mut n_broken, mut n_anew) = (0, 0);
+    for (angle, area) in [(33.0, 0.0), (33.0, 0.02), (25.0, 0.02)] {
+        let asked = quality(angle, area);
+        let mut rotor = Rotor::new();
+        refine(&mut rotor.t, &asked, LIMIT);
+        for _ in 0..60 {
+            rotor.step(0.05);
+            coarsen(&mut rotor.t, &asked);
+            let before = rotor.t.saved().expect("room");
+            let mask = domain_of(&rotor.t);
+            for most in 0.. {
+                let n_told = Arc::new(AtomicUsize::new(0));
+                let told = n_told.clone();
+                let monitor: Monitor = Box::new(move |_| told.fetch_add(1, Relaxed) < most);
+                let mut t = rotor.t.try_clone(Some(monitor)).expect("room");
+                n_told.store(0, Relaxed);
+                match t.refine(&asked, &RefineOptions::default(), &mask) {
+                    Err(error) => {
+                        n_broken += 1;
+                        assert_eq!(error, Error::Cancelled);
+                        assert!(t.saved().expect("room") == before, "{angle} {area}, after {most}");
+                    }
+                    Ok(report) => {
+                        n_anew += usize::from(report.removed > 0);
+                        break;
+                    }
+                }
+            }
+            refine(&mut rotor.t, &asked, LIMIT);
+        }
+    }
+    assert!(n_broken > 100 && n_anew > 5, "{n_broken} {n_anew}");
 }
 
 /// Values of a linear function are carried over to a mesh made anew; without growth there is none.

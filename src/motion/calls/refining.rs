@@ -35,6 +35,10 @@ impl MovingTriangulation<Plane> {
     /// Cells where the quality cannot be had stay: between segments at a small angle, at segments that stay whole, and where
     /// there is no room for a vertex. The report tells how many.
     ///
+    /// After a [`coarsen`](Self::coarsen) it may make the mesh anew, in its one commit, where that has fewer vertices by the
+    /// factor [`growth`](CoarsenOptions::growth): then it removes vertices that it has made, too, and weights tell how values
+    /// follow from those that there were. The report tells how many have gone.
+    ///
     /// Where all is good already: a pass over the cells, and a sort of the segments.
     ///
     /// ```
@@ -93,13 +97,13 @@ impl MovingTriangulation<Plane> {
         if !due.is_some_and(|due| due.is_certain)
             && self.made.as_ref().is_some_and(|made| made.found.all_good.holds(question))
         {
-            self.set_refined(quality, Inserted::default());
+            self.set_refined(quality, Inserted::default(), None);
             return Ok(QualityReport::default());
         }
         let mut read = self.read_vertices()?;
         let bounds = Bounds::new(quality, read.scale)?;
         let tests = bounds.tests(quality, &read);
-        self.read_cells(&mut read, &tests, mask, quality.labels, due.is_some())?;
+        self.read_cells(&mut read, &tests, mask, quality.labels, false)?;
         tests.check_stop()?;
         let mut report = QualityReport { bad_cells: read.bad.len(), ..Default::default() };
         let mut pace = std::mem::take(self.mesh.kernel.pace_mut());
@@ -107,12 +111,13 @@ impl MovingTriangulation<Plane> {
         let found =
             self.find((&read, mask, quality), (&bounds, tests), (options, due), &mut || pace.ask_again());
         *self.mesh.kernel.pace_mut() = pace;
-        let Some(mut refined) = found? else {
+        let (refined, n_fresh) = found?;
+        let Some(mut refined) = refined else {
             if let (Some(made), 0) = (&mut self.made, report.bad_cells) {
                 made.found.all_good.set(question)?;
             }
             // Nothing fails from here on.
-            self.set_refined(quality, Inserted::default());
+            self.set_refined(quality, Inserted::default(), n_fresh);
             return Ok(report);
         };
         report.inserted = refined.vertices.len();
@@ -126,40 +131,44 @@ impl MovingTriangulation<Plane> {
         if report.inserted > 0 || report.removed > 0 {
             self.commit_refined(&read, &refined, options, &mut inserted, &mut report)?;
         }
-        self.set_refined(quality, inserted);
+        self.set_refined(quality, inserted, n_fresh);
         Ok(report)
     }
 
-    /// Finds what is to be done, if anything. `ask` is called now and then, and ends it by an error.
+    /// Finds what is to be done, if anything, and how many vertices a mesh made anew has, if that has been found. `ask` is
+    /// called now and then, and ends it by an error.
     fn find(
-        &mut self,
+        &self,
         (read, mask, quality): (&Read, &[u8], &Quality),
         (bounds, tests): (&Bounds, Tests),
         (options, due): (&RefineOptions, Option<Due>),
         ask: &mut dyn FnMut() -> Result<()>,
-    ) -> Result<Option<Refined>> {
+    ) -> Result<(Option<Refined>, Option<usize>)> {
         let n = self.made_vertices().count();
-        let mut anew = None;
-        if let Some(due) = due.filter(|due| due.is_certain) {
-            anew = self.find_anew((read, mask, quality), bounds, (options, due), ask)?;
-        }
+        let mut anew = match due {
+            Some(due) if due.is_certain => {
+                self.find_anew((read, mask, quality), bounds, options, due, ask)?
+            }
+            _ => None,
+        };
         let mut refined = None;
-        if anew.as_ref().is_none_or(|&(_, most)| n <= most) && !read.bad.is_empty() && !tests.are_none() {
+        let is_enough = anew.as_ref().is_some_and(|anew| n > anew.most);
+        if !is_enough && !read.bad.is_empty() && !tests.are_none() {
             let points = memory::copy_of(&read.points)?;
             let given = read.given(self.cells()?, mask, quality.labels, self.mesh.kernel.keys());
-            let origins = self.origins(read)?;
-            let limit = (options.keeps, options.limit);
+            let (origins, limit) = (self.origins(read)?, (options.keeps, options.limit));
             refined = Some(refine::refine(given, points, &read.bad, tests, origins, limit, ask)?);
         }
         let n = n + refined.as_ref().map_or(0, |refined| refined.vertices.len());
         if let (Some(due), None, Some(_)) = (due, &anew, &refined)
             && self.made.as_ref().is_some_and(|made| made.density.is_grown(n, due.growth))
         {
-            anew = self.find_anew((read, mask, quality), bounds, (options, due), ask)?;
+            anew = self.find_anew((read, mask, quality), bounds, options, due, ask)?;
         }
         Ok(match anew {
-            Some((anew, most)) if n > most => Some(anew),
-            _ => refined,
+            Some(anew) if n > anew.most => (Some(anew.refined), Some(anew.n)),
+            Some(anew) => (refined, Some(anew.n)),
+            None => (refined, None),
         })
     }
 
@@ -227,6 +236,7 @@ impl MovingTriangulation<Plane> {
             mendable.iter().flat_map(|&cell| cells.corners[cell as usize]).for_each(|v| known[v] = false);
         }
         let mut candidates = self.candidates(&read)?;
+        read.sort_by_cell(&mut candidates, |candidate| candidate.vertex)?;
         for candidate in &mut candidates {
             let is_inside = candidate.between.is_none();
             let is_known = is_inside && known.get(candidate.vertex.index()) == Some(&true);
@@ -313,7 +323,7 @@ impl MovingTriangulation<Plane> {
         Ok(origins)
     }
 
-    /// The vertices that may go, in the order of cells.
+    /// The vertices that may go.
     fn candidates(&self, read: &Read) -> Result<Vec<Candidate>> {
         let n = self.id_count();
         let (mut before, mut behind) = (Vec::new(), Vec::new());
@@ -338,7 +348,6 @@ impl MovingTriangulation<Plane> {
                 memory::push(&mut candidates, Candidate { vertex, between, is_kept: false })?;
             }
         }
-        read.sort_by_cell(&mut candidates, |candidate| candidate.vertex)?;
         Ok(candidates)
     }
 
@@ -419,21 +428,6 @@ impl Bounds {
             sizes: &self.sizes,
             is_too_large: quality.is_too_large,
             is_conforming: quality.is_conforming,
-            scale: read.scale,
-        };
-        Tests::new(criteria, lower, upper)
-    }
-
-    /// Tests that all cells pass.
-    fn tests_of_none<'a>(&'a self, read: &Read) -> Tests<'a> {
-        let [lower, upper] = read.extent();
-        let criteria = Criteria {
-            least_angle: 0.0,
-            greatest_area: f64::INFINITY,
-            areas: &[],
-            sizes: &[],
-            is_too_large: None,
-            is_conforming: false,
             scale: read.scale,
         };
         Tests::new(criteria, lower, upper)

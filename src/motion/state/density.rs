@@ -107,10 +107,11 @@ impl Density {
         self.coarsened = asked;
     }
 
-    /// Refinement has ended with `n` vertices, at a timestamp.
+    /// Refinement has ended with `n` vertices, at a timestamp; `n_fresh` if it has compared with a mesh made anew.
     pub(in crate::motion) fn set_refined(
         &mut self,
         [n, n_inserted]: [usize; 2],
+        n_fresh: Option<usize>,
         asked: Asked,
         timestamp: u64,
     ) {
@@ -120,19 +121,14 @@ impl Density {
         }
         let has_changed = self.has_changed(asked, n_inserted, n);
         self.churn += n_inserted as u64;
-        if has_changed || n_inserted == n {
-            self.set_fresh(n);
+        if let Some(fresh) = n_fresh.or((has_changed || n_inserted == n).then_some(n)) {
+            (self.n_fresh, self.churn) = (fresh as u64, 0);
         }
         self.n_fresh = self.n_fresh.min(n as u64);
         if n > 0 {
             (self.refined, self.refined_at) = (asked, timestamp);
         }
         self.due = None;
-    }
-
-    /// A mesh made anew has this many vertices.
-    pub(in crate::motion) fn set_fresh(&mut self, n: usize) {
-        (self.n_fresh, self.churn) = (n as u64, 0);
     }
 
     /// As it is saved.

@@ -58,6 +58,11 @@ impl Read {
         &self.by_edge[self.starts[edge]..self.starts[edge + 1]]
     }
 
+    /// A cell of a vertex, [`NONE`] if it is in none.
+    pub(super) fn cell_at(&self, vertex: VertexId) -> u32 {
+        self.at[vertex]
+    }
+
     /// Multiplies places by a power of two, which is exact, where their coordinates are very small.
     fn scale_up(&mut self) {
         let greatest = self.lower.iter().chain(&self.upper).fold(0.0, |most: f64, x| most.max(x.abs()));

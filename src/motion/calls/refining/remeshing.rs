@@ -13,50 +13,61 @@ use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::minus;
 use crate::refine::{self, Kept, Refined};
 
+/// A mesh made anew.
+pub(super) struct Anew {
+    pub(super) refined: Refined,
+    /// How many vertices it has that refinement has made.
+    pub(super) n: usize,
+    /// How many of them there may be otherwise.
+    pub(super) most: usize,
+}
+
 impl MovingTriangulation<Plane> {
     /// Coarsening ends: if it has left too many vertices, the next refinement compares the mesh with one made anew.
     pub(super) fn set_coarsened(&mut self, quality: &Quality, options: &CoarsenOptions, n_removed: usize) {
         let n = self.made_vertices().count();
-        let (timestamp, due) = (
-            self.statistics.timestamp,
-            Due { growth: options.growth, joins: options.joins, is_certain: false },
-        );
+        let CoarsenOptions { growth, joins, .. } = *options;
+        let (timestamp, due) = (self.statistics.timestamp, Due { growth, joins, is_certain: false });
         if let Some(made) = &mut self.made {
             made.density.set_coarsened([n, n_removed], bounds_of(quality), timestamp, due);
         }
     }
 
-    /// Refinement ends, and is remembered with the vertices that it has inserted.
-    pub(super) fn set_refined(&mut self, quality: &Quality, inserted: Inserted) {
+    /// Refinement ends, and is remembered with the vertices that it has inserted, and how many there are in a mesh made anew,
+    /// if it has compared.
+    pub(super) fn set_refined(&mut self, quality: &Quality, inserted: Inserted, n_fresh: Option<usize>) {
         let (n, timestamp) = (self.made_vertices().count(), self.statistics.timestamp);
         if let Some(made) = &mut self.made {
-            made.density.set_refined([n, inserted.vertices.len()], bounds_of(quality), timestamp);
+            made.density.set_refined([n, inserted.vertices.len()], n_fresh, bounds_of(quality), timestamp);
             made.set_inserted(inserted);
         }
     }
 
-    /// Finds the mesh made anew, and how many vertices there may be at most otherwise; nothing if it would be cut short.
+    /// Finds the mesh made anew; nothing if it would be cut short.
     pub(super) fn find_anew(
-        &mut self,
+        &self,
         (read, mask, quality): (&Read, &[u8], &Quality),
         bounds: &Bounds,
-        (options, due): (&RefineOptions, Due),
+        options: &RefineOptions,
+        due: Due,
         ask: &mut dyn FnMut() -> Result<()>,
-    ) -> Result<Option<(Refined, usize)>> {
+    ) -> Result<Option<Anew>> {
         let mut candidates = self.candidates(read)?;
         candidates.retain(|candidate| options.keeps == Kept::None || candidate.between.is_none());
-        let (tests, no_tests) = (bounds.tests(quality, read), bounds.tests_of_none(read));
+        // Those near each other are mostly soon after each other.
+        candidates.sort_unstable_by_key(|candidate| read.cell_at(candidate.vertex));
+        let no_bounds = Bounds::new(&Quality::default(), read.scale)?;
+        let (tests, no_tests) = (bounds.tests(quality, read), no_bounds.tests(&Quality::default(), read));
         let points = memory::copy_of(&read.points)?;
         let given = read.given(self.cells()?, mask, quality.labels, self.mesh.kernel.keys());
         let (origins, limit) = (self.origins(read)?, (options.keeps, options.limit));
         let made = (&candidates[..], no_tests, due.joins);
-        let anew = refine::remesh(given, points, made, tests, origins, limit, ask)?;
-        if anew.is_cut_short {
+        let refined = refine::remesh(given, points, made, tests, origins, limit, ask)?;
+        if refined.is_cut_short {
             return Ok(None);
         }
-        let n_anew = self.made_vertices().count() - anew.removed.len() + anew.vertices.len();
-        self.made.as_mut().expect("there is something due").density.set_fresh(n_anew);
-        Ok(Some((anew, (due.growth * n_anew as f64) as usize)))
+        let n = self.made_vertices().count() - refined.removed.len() + refined.vertices.len();
+        Ok(Some(Anew { refined, n, most: (due.growth * n as f64) as usize }))
     }
 
     /// For each new vertex the edge that it has been put on, of those that there were.
