@@ -32,11 +32,12 @@ pub static REFUSED: Count = Count::new("bad calls refused");
 pub static REFINED: Count = Count::new("vertices added by refinement");
 pub static COARSENED: Count = Count::new("taken away by coarsening");
 pub static REACHED: Count = Count::new("qualities reached");
+pub static TRANSFERS: Count = Count::new("transfers");
 pub static LOADED: Count = Count::new("data loaded");
 pub static DAMAGED: Count = Count::new("data refused");
 
 /// All of them.
-pub static ALL: [&Count; 16] = [
+pub static ALL: [&Count; 17] = [
     &SIGNS,
     &TIES,
     &LONG,
@@ -51,6 +52,7 @@ pub static ALL: [&Count; 16] = [
     &REFINED,
     &COARSENED,
     &REACHED,
+    &TRANSFERS,
     &LOADED,
     &DAMAGED,
 ];

@@ -211,7 +211,13 @@ impl History<'_> {
         self.ok(|| c!(deldrift_take_changes(t, changes.as_mut_ptr())));
         // SAFETY: the call has succeeded; zeroes would do, too.
         let list = unsafe { changes.assume_init() };
+        let before = self.carried.rows.clone();
         self.follow(&list);
+        if self.s.below(2) == 0 {
+            let corners = self.m.d + 1;
+            let removed = rows(slice(list.removed_vertices, list.removed_count * corners), corners);
+            self.transfer(&before, &removed);
+        }
         // SAFETY: as above.
         let again = unsafe {
             self.is_ok(c!(deldrift_take_changes(t, changes.as_mut_ptr())));

@@ -14,6 +14,7 @@ mod read;
 mod refining;
 mod refuse;
 mod segments;
+mod transferring;
 
 use super::allocator::Fault;
 use super::source::Source;

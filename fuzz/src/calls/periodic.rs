@@ -1,8 +1,8 @@
 //! The positions of a history in a box that repeats: moved, edited and given another box, beside what is made anew.
 
-use super::History;
 use super::called::{c, note};
 use super::check::slice;
+use super::{History, message};
 use deldrift::capi::deldrift_status::*;
 use deldrift::capi::*;
 use std::collections::BTreeSet;
@@ -127,7 +127,7 @@ impl History<'_> {
             // What is near vertices depends on the periods in which they are, so that only its number is as in another one.
             let mut n_near = 0;
             let none = (null(), 0, null_mut(), null_mut());
-            self.is_ok(c!(deldrift_neighbour_lists(
+            let status = c!(deldrift_neighbour_lists(
                 t,
                 &squared,
                 1,
@@ -140,7 +140,10 @@ impl History<'_> {
                 none.3,
                 0,
                 &mut n_near
-            )));
+            ));
+            // A radius may take in images that are so many periods away that their places are rounded.
+            assert!(matches!(status, DELDRIFT_OK | DELDRIFT_INVALID_VALUE), "{status:?}: {}", message());
+            n_near = if status == DELDRIFT_OK { n_near } else { usize::MAX };
             let (of, to) = (values.as_ptr(), results.as_mut_ptr());
             self.is_ok(c!(deldrift_interpolate(t, 0, of, n, 1, at, 4, null(), null(), to)));
             let cells = locations.map(|location| match location.kind {

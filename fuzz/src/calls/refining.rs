@@ -5,7 +5,7 @@ use super::super::tally;
 use super::History;
 use super::called::{c, note};
 use super::message;
-use super::model::{NONE, Place, Row};
+use super::model::{NONE, Place, Row, sorted};
 use deldrift::capi::deldrift_status::*;
 use deldrift::capi::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -106,17 +106,19 @@ impl History<'_> {
     }
 
     fn surround_a_cell(&mut self) {
-        let (rows, _) = self.cells();
+        // Copies have their cells in another order.
+        let rows: BTreeSet<Row> = self.cells().0.into_iter().map(sorted).collect();
         if rows.is_empty() {
             return;
         }
-        let [a, b, c, _] = rows[self.s.below(rows.len())];
+        let &[a, b, c, _] = rows.iter().nth(self.s.below(rows.len())).expect("there are as many");
         self.lay(&[a, b, b, c, c, a]);
     }
 
     /// Segments between vertices that have an edge.
     fn lay(&mut self, ends: &[u32]) {
-        let ends: Vec<[u32; 2]> = ends.chunks_exact(2).map(|ends| [ends[0], ends[1]]).collect();
+        let mut ends: Vec<[u32; 2]> = ends.chunks_exact(2).map(|ends| [ends[0], ends[1]]).collect();
+        ends.sort_unstable();
         self.stage_these(&ends);
         self.check();
         self.commit();
