@@ -29,6 +29,7 @@ impl Mesh<'_> {
             memory::push(&mut hole.around, t)?;
             memory::push(&mut hole.polygon, corners[next(i)])?;
             if corners[previous(i)] == first {
+                hole.begin_at_lowest();
                 return Ok(label);
             }
             match self.beyond(t, next(i)) {
@@ -48,7 +49,7 @@ impl Mesh<'_> {
         let cell = t & !UNREAD;
         match self.copy_of(cell) {
             Some(copy) => (self.triangle(copy).corners, self.triangle(copy).label),
-            None => (self.given.corners[cell as usize], self.given.label(cell)),
+            None => (self.given.row(cell), self.given.label(cell)),
         }
     }
 
@@ -85,7 +86,7 @@ impl Mesh<'_> {
                 (across != Side::NONE).then_some(across.triangle())
             }
             None => {
-                let across = self.given.neighbours[(t & !UNREAD) as usize][i];
+                let across = self.given.across(t & !UNREAD)[i];
                 (across != CellId::NONE).then_some(across.get() | UNREAD)
             }
         }

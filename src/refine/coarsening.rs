@@ -138,7 +138,7 @@ impl<'a> Coarsening<'a> {
         Ok(first)
     }
 
-    /// Lists those that may go, each with the square of a short edge.
+    /// Lists those that may go, each with the square of its shortest edge.
     fn list_able(&mut self, candidates: &[Candidate]) -> Result<Vec<(f64, Candidate)>> {
         let mut able = Vec::new();
         for &candidate in candidates {
@@ -187,11 +187,12 @@ impl<'a> Coarsening<'a> {
         Ok(())
     }
 
-    /// Squared length of a short edge at a vertex: one of those of a triangle at it.
-    fn shortest_edge(&self, v: VertexId) -> f64 {
-        let (corners, _) = self.mesh.corners_of(self.mesh.at[v]);
-        let squares = corners.into_iter().filter(|&w| w != v).map(|w| {
-            let u = minus::<f64, 2>(self.mesh.point(w), self.mesh.point(v));
+    /// Squared length of the shortest edge at a vertex that [may go](Self::may_go), and was looked at last: to the corners of
+    /// what takes its place. The order of the cells does not matter to it, which copies do not keep.
+    fn shortest_edge(&self, vertex: VertexId) -> f64 {
+        let corners = self.hole.triangles.iter().flat_map(|&(corners, _)| corners);
+        let squares = corners.map(|w| {
+            let u = minus::<f64, 2>(self.mesh.point(w), self.mesh.point(vertex));
             dot(&u, &u)
         });
         squares.fold(f64::INFINITY, f64::min)

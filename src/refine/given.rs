@@ -1,6 +1,6 @@
 //! A triangulation that is to be refined.
 
-use super::parts::{NONE, NOT_SELECTED};
+use super::parts::{NONE, NOT_SELECTED, turn_of, turned};
 use crate::delaunay::Keys;
 use crate::ids::{CellId, VertexId};
 
@@ -40,9 +40,22 @@ impl Given<'_> {
         }
     }
 
-    /// The segments at the edges of a cell.
+    /// The corners of a cell, the lowest first: copies of a triangulation have them in other orders.
+    #[inline(always)]
+    pub(crate) fn row(&self, cell: u32) -> [VertexId; 3] {
+        let row = self.corners[cell as usize];
+        turned(row, turn_of(&row))
+    }
+
+    /// The cells across its edges, in the order of its [row](Self::row).
+    #[inline(always)]
+    pub(crate) fn across(&self, cell: u32) -> [CellId; 3] {
+        turned(self.neighbours[cell as usize], turn_of(&self.corners[cell as usize]))
+    }
+
+    /// The segments at its edges, in the order of its [row](Self::row).
     pub(crate) fn sides_of(&self, cell: u32) -> [u32; 3] {
         let found = self.sides.binary_search_by_key(&cell, |&(cell, _)| cell);
-        found.map_or([NONE; 3], |k| self.sides[k].1)
+        found.map_or([NONE; 3], |k| turned(self.sides[k].1, turn_of(&self.corners[cell as usize])))
     }
 }

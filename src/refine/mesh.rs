@@ -121,8 +121,7 @@ impl<'a> Mesh<'a> {
 
     fn copy_one(&mut self, cell: u32) -> Result<()> {
         let given = self.given;
-        let (corners, neighbours) = (given.corners[cell as usize], given.neighbours[cell as usize]);
-        let pieces = given.sides_of(cell);
+        let (corners, neighbours, pieces) = (given.row(cell), given.across(cell), given.sides_of(cell));
         let t = self.triangles.len() as u32;
         memory::reserve(&mut self.triangles, 1)?;
         memory::reserve(&mut self.to_copy, 3)?;

@@ -71,10 +71,10 @@
 //! above that: at angles below 1e-8 or so vertices on two segments are in each other's circles until the last bits.
 //!
 //! A bad triangle waits again only after a piece has been split, and vertices on pieces stay. Pieces that cannot be split,
-//! since they are kept whole or there is no room, are left, and so are triangles that need it. But one of too large an area gets
-//! its centroid where pieces that are kept whole are in the way of its centre. With area A and longest edge L that is 2A / 3L away
-//! from its sides, so there can only be so many. When nothing waits, all that
-//! was left is looked at again, until a pass over all of it changes nothing. So a second call has nothing to do.
+//! since they are kept whole or there is no room, are left, and so are triangles that need it. But one of too large an area
+//! gets its centroid where pieces that are kept whole are in the way of its centre. With area A and longest edge L that is
+//! 2A / 3L away from its sides, so there can only be so many. When nothing waits, all that was left is looked at again, until
+//! a pass over all of it changes nothing. So a second call has nothing to do.
 //!
 //! # At rest
 //!
@@ -82,6 +82,13 @@
 //! would mend may they be as bad as those there: whether it would is found by its own rules ([`mendable`]). After a
 //! refinement there are none, so what coarsening then leaves is good, or was left by refinement too, and neither of the
 //! two finds anything to do.
+
+//! # Made anew
+//!
+//! A mesh that is refined and coarsened again and again gets denser than one that is made at once: vertices stay that no
+//! single removal can spare. [`remesh`] takes all vertices away that refinement has made, by the removals of coarsening
+//! without its criteria, and refines what is left. What cannot be removed, as a vertex on a side that has been bent, stays a
+//! vertex as those given.
 
 mod around;
 mod coarsening;

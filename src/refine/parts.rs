@@ -68,6 +68,30 @@ pub(super) fn previous(i: usize) -> usize {
     [2, 0, 1][i]
 }
 
+/// By how many places a row of corners is turned so that the lowest is first: whatever order copies have, they are then
+/// the same, and so is what is rounded.
+#[inline(always)]
+pub(crate) fn turn_of(corners: &[VertexId; 3]) -> usize {
+    let [a, b, c] = *corners;
+    if a < b && a < c {
+        0
+    } else if b < c {
+        1
+    } else {
+        2
+    }
+}
+
+/// What belongs to the corners of a triangle, turned by so many places.
+#[inline(always)]
+pub(crate) fn turned<T: Copy>([a, b, c]: [T; 3], by: usize) -> [T; 3] {
+    match by {
+        0 => [a, b, c],
+        1 => [b, c, a],
+        _ => [c, a, b],
+    }
+}
+
 /// A triangle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Triangle {

@@ -2,7 +2,7 @@
 
 use super::criteria::{Flaw, Measured, Tests, distance, size_between};
 use super::mesh::Mesh;
-use super::parts::{NONE, Rim, Side, next, previous};
+use super::parts::{NONE, Rim, Side, next, previous, turn_of, turned};
 use super::queue::{Queues, Waiting};
 use super::removal::Hole;
 use super::walking::Place;
@@ -145,8 +145,16 @@ impl<'a> Refinement<'a> {
         }
     }
 
+    /// Examines all triangles that have been copied or made, in the order of their corners.
     pub(super) fn examine_all(&mut self) -> Result<()> {
-        (0..self.mesh.triangles.len() as u32).try_for_each(|t| self.examine(t))
+        let row = |t: u32| {
+            let corners = self.mesh.triangle(t).corners;
+            turned(corners, turn_of(&corners))
+        };
+        let mut by_corners = Vec::new();
+        memory::collect(&mut by_corners, (0..self.mesh.triangles.len() as u32).map(|t| (row(t), t)))?;
+        by_corners.sort_unstable();
+        by_corners.into_iter().try_for_each(|(_, t)| self.examine(t))
     }
 
     /// Adds vertices for what waits; whether there would be more than the limit.

@@ -32,9 +32,19 @@ pub(super) struct Hole {
     pub(super) polygon: Vec<VertexId>,
 }
 
+impl Hole {
+    /// Begins the polygon, and the triangles at its sides, at the lowest corner, wherever the vertex was looked at first.
+    pub(super) fn begin_at_lowest(&mut self) {
+        let first = (0..self.polygon.len()).min_by_key(|&k| self.polygon[k]).unwrap_or(0);
+        self.polygon.rotate_left(first);
+        self.around.rotate_left(first);
+    }
+}
+
 impl Mesh<'_> {
     /// Gathers the triangles around a vertex as the cavity; whether that can be removed: it has no segments at it but for
-    /// the two pieces, and is not on the hull without them. With pieces the sides begin behind the second one.
+    /// the two pieces, and is not on the hull without them. With pieces the sides begin behind the second one, else at the
+    /// lowest corner.
     fn gather(&mut self, v: VertexId, pieces: Option<[u32; 2]>) -> Result<bool> {
         self.cells.clear();
         self.rim.clear();
@@ -77,6 +87,11 @@ impl Mesh<'_> {
             }
             t = across.triangle();
             if t == first {
+                if pieces.is_none() {
+                    let lowest = (0..self.rim.len()).min_by_key(|&k| self.rim[k].ends[0]).unwrap_or(0);
+                    self.rim.rotate_left(lowest);
+                    self.cells.rotate_left(lowest);
+                }
                 return Ok(true);
             }
         }

@@ -47,7 +47,11 @@ pub(crate) fn refine(
     ask: &mut dyn FnMut() -> Result<()>,
 ) -> Result<Refined> {
     let mut refinement = Refinement::new(Mesh::new(given, points)?, tests, origins, kept)?;
-    for &cell in bad {
+    // What is added depends on the order, and copies of a triangulation have their cells in another one.
+    let mut by_corners = Vec::new();
+    memory::collect(&mut by_corners, bad.iter().map(|&cell| (given.row(cell), cell)))?;
+    by_corners.sort_unstable();
+    for &(_, cell) in &by_corners {
         let t = refinement.mesh.copy(cell)?;
         refinement.examine(t)?;
     }

@@ -28,7 +28,7 @@ fn loaded(bytes: &[u8]) -> Triangulation {
 }
 
 /// Whether two have the same vertices, cells and segments, and tell the same of those inserted last.
-fn assert_same(s: &Triangulation, t: &Triangulation, context: &dyn Fn() -> String) {
+pub(super) fn assert_same(s: &Triangulation, t: &Triangulation, context: &dyn Fn() -> String) {
     assert_eq!(s.refined_vertices(), t.refined_vertices(), "{}", context());
     assert_eq!(s.refined_weights(), t.refined_weights(), "{}", context());
     let places =

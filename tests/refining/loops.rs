@@ -1,5 +1,6 @@
 //! Loops of moves, commits, coarsening and refinement, beside meshes made anew.
 
+use super::ids::assert_same;
 use super::lives::{LIMIT, coarsen, count_bad, domain_of, domains, quality, refine, turned};
 use super::{Domain, Triangulation, circle};
 use deldrift::motion::{CoarsenOptions, Level, Monitor, Options, Quality, RefineOptions, Saved};
@@ -100,34 +101,33 @@ fn meshes_for_larger_cells_have_as_few_vertices_as_new_ones() {
     }
 }
 
-/// Loaded copies and clones are made anew in the same steps.
+/// Loaded copies, whose cells are in another order, and clones go on as the original does, to the last bit, made anew or not.
 #[test]
-fn copies_are_made_anew_alike() {
-    let asked = quality(33.0, 0.02);
-    let mut rotor = Rotor::new();
-    refine(&mut rotor.t, &asked, LIMIT);
-    let (mut n_anew, mut n_alike) = (0, 0);
-    for step in 0..150 {
-        rotor.step(0.02);
-        let bytes = rotor.t.saved().expect("room");
-        let loaded =
-            Triangulation::load(&Saved::of(&bytes).expect("saved"), Options::default()).expect("saved");
-        let cloned = rotor.t.try_clone(None).expect("room");
-        let ends = [loaded, cloned].map(|mut copy| {
-            // What has changed is in another order in a loaded copy, so that other vertices may come.
-            let is_same = coarsen(&mut copy, &asked).removed == 0;
-            refine(&mut copy, &asked, LIMIT);
-            is_same.then(|| copy.saved().expect("room"))
-        });
-        coarsen(&mut rotor.t, &asked);
-        let report = refine(&mut rotor.t, &asked, LIMIT);
-        n_anew += usize::from(report.removed > 0);
-        for end in ends.into_iter().flatten() {
-            n_alike += usize::from(report.removed > 0);
-            assert_eq!(end.len(), rotor.t.saved().expect("room").len(), "{step}");
+fn copies_are_refined_alike() {
+    for (angle, area) in [(33.0, 0.02), (25.0, 0.004)] {
+        let asked = quality(angle, area);
+        let mut rotor = Rotor::new();
+        refine(&mut rotor.t, &asked, LIMIT);
+        let (mut n_anew, mut n_removed, mut n_inserted) = (0, 0, 0);
+        for step in 0..150 {
+            rotor.step(0.02);
+            let bytes = rotor.t.saved().expect("room");
+            let loaded =
+                Triangulation::load(&Saved::of(&bytes).expect("saved"), Options::default()).expect("saved");
+            let cloned = rotor.t.try_clone(None).expect("room");
+            let goes_on = |t: &mut Triangulation| [coarsen(t, &asked), refine(t, &asked, LIMIT)];
+            let wanted = goes_on(&mut rotor.t);
+            for mut copy in [loaded, cloned] {
+                assert_eq!(goes_on(&mut copy), wanted, "{angle} degrees, step {step}");
+                assert_same(&copy, &rotor.t, &|| format!("{angle} degrees, step {step}"));
+            }
+            let [coarsened, refined] = wanted;
+            n_anew += usize::from(refined.removed > 0);
+            n_removed += coarsened.removed;
+            n_inserted += refined.inserted;
         }
+        assert!(n_anew > 0 && n_removed > 20 && n_inserted > 100, "{n_anew} {n_removed} {n_inserted}");
     }
-    assert!(n_anew > 3 && n_alike > 3, "{n_anew} {n_alike}");
 }
 
 /// A refinement that is broken off, while it finds the mesh made anew or in its commit, leaves what is saved as it was.

@@ -256,7 +256,8 @@ impl MovingTriangulation<Plane> {
             let is_encroached = |(i, &[j, k]): (usize, &[usize; 2])| {
                 edges[i] != NONE && tests.is_encroached([points[j], points[k]], points[i])
             };
-            if tests.is_flawed(points, label, row)
+            let corners = given.row(cell);
+            if tests.is_flawed(corners.map(|v| &read.points[v]), label, &corners)
                 || edges != [NONE; 3] && OTHERS.iter().enumerate().any(is_encroached)
             {
                 memory::push(&mut bad, cell)?;
