@@ -284,6 +284,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         for &v in self.edits.removals() {
             next.discard_site(self.mesh.own_site(&spread, v))?;
+            // Its id may become that of another one before changes are taken.
+            if self.mesh.is_hidden(v) {
+                self.mesh.note_visibility(v, true)?;
+            }
         }
         for &(id, q) in self.edits.insertions() {
             next.add_site(q, id)?;
