@@ -1567,7 +1567,7 @@ deldrift_status deldrift_take_changes(deldrift_triangulation *t,
 /// deldrift_take_changes, if there was none, or if ids have been given anew since the one before,
 /// DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_NO_SUCH_VERTEX for a vertex beyond position_count,
 /// DELDRIFT_REMOVED_VERTEX for one where positions are NULL, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
-/// DELDRIFT_PREPARED, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
+/// DELDRIFT_PREPARED, DELDRIFT_CANCELLED, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
 deldrift_status deldrift_transfer_cells(const deldrift_triangulation *t,
                                         const double *positions,
                                         size_t position_count,
@@ -2496,12 +2496,15 @@ deldrift_status deldrift_quality_init(deldrift_quality *quality);
 /// deldrift_cell_count): cells are refined if their byte is not 0. They have to end at segments: at an edge beyond which
 /// there is no cell, or one that is not refined, there has to be one. NULL with mask_count 0 for the domain: the cells that
 /// have an odd nesting level (see deldrift_nesting_levels). Read during the call only. report: receives what was done; may
-/// be NULL. Ends all views if anything was inserted.
+/// be NULL. Ends all views if anything was inserted or removed.
 ///
 /// A segment that gets a vertex is removed, and pieces take its place, with its marker: see deldrift_original_segments. The
 /// places of new vertices are rounded, and pieces are straight between their own ends. Cells where the quality cannot be had
 /// stay: between segments at a small angle, at segments that stay whole, and where there is no room for a vertex. The report
 /// tells how many.
+///
+/// After a deldrift_coarsen it may make the mesh anew, where that has fewer vertices by a factor (see growth): then it removes
+/// vertices that it has inserted, too, in its one commit.
 ///
 /// Where all is good already, nothing is committed.
 ///

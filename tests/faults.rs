@@ -601,12 +601,12 @@ impl<G: Dimension> Scene<G> {
                 Given::Nothing
             }
             Call::TransferCells => {
-                let mut made = t.transfer_cells(None, TransferOrder::Second, 1, values);
+                let mut made = t.transfer_cells(None, TransferOrder::Second, 1, values, &mut |_| true);
                 if let Err(Error::WrongCount { wanted, .. }) = made {
                     // Changes have been taken again, to compare what there is.
                     disarm();
                     values.resize(wanted, 0.25);
-                    made = t.transfer_cells(None, TransferOrder::Second, 1, values);
+                    made = t.transfer_cells(None, TransferOrder::Second, 1, values, &mut |_| true);
                 }
                 disarm();
                 assert!(values.iter().all(|&mean| mean == 0.25), "a constant is another one");

@@ -61,6 +61,33 @@ static void in_a_box(const places *p) {
     CHECK(unlink(tour_path()) == 0);
 }
 
+// A transfer of many cells: all vertices go a hundredth of the way to other places.
+static void in_a_transfer(const places *p) {
+    static double goals[3 * TOUR_SIZE];
+    deldrift_options options;
+    deldrift_options_init(&options);
+    options.cancel = tour_cancel;
+    options.progress = tour_progress;
+    deldrift_triangulation *t = NULL;
+    deldrift_changes changes;
+    const uint32_t d = p->dimension;
+    size_t n_before = 0, n_cells = 0;
+    tour_record->count = 0;
+    GO(deldrift_create(d, p->at, p->n, &options, &t));
+    GO(deldrift_take_changes(t, &changes));
+    GO(deldrift_cell_count(t, &n_before));
+    for (size_t k = 0; k < p->n * d; k++) goals[k] = p->at[k] + 0.01 * (p->then[k] - p->at[k]);
+    GO(deldrift_commit_positions(t, goals, p->n, NULL));
+    GO(deldrift_take_changes(t, &changes));
+    GO(deldrift_cell_count(t, &n_cells));
+    const size_t room = n_before > n_cells ? n_before : n_cells;
+    double *const values = calloc(room, sizeof *values);
+    CHECK(values != NULL);
+    GO(deldrift_transfer_cells(t, goals, p->n, DELDRIFT_TRANSFER_SECOND_ORDER, values, n_before, 1, room, NULL, NULL, NULL));
+    free(values);
+    DO(deldrift_destroy(t));
+}
+
 int main(void) {
     static places p;
     static record made;
@@ -72,6 +99,7 @@ int main(void) {
             make_tour(&p, &made);
         }
         in_a_box(&p);
+        in_a_transfer(&p);
     }
     return 0;
 }

@@ -286,16 +286,17 @@ class Refining(Segmented):
             carried = [rows.carried(array) for array in given.values()]
             report.values = as_given(values, carried)
         if wanted.sizes is not None and call is _refine:
-            report.sizes = entered(wanted.sizes, self.refined_vertices(), self._refined_sizes())
+            report.sizes = entered(wanted.sizes, self.refined_vertices(), self._told(_refined_sizes, F64))
         return report
 
-    def _refined_sizes(self) -> np.ndarray:
-        """The sizes that the last `refine` had for the vertices that it inserted."""
+    def _told(self, call: Any, kind: Any) -> np.ndarray:
+        """What a call tells that fills one array."""
+        self._check_plane()
         with self._reading as t:
-            n = count_of(lambda t, count: _refined_sizes(t, None, 0, count), t)
-            sizes = np.empty(n, F64)
-            self._check(_refined_sizes(t, address(sizes), n, ctypes.c_size_t()))
-        return sizes
+            n = count_of(lambda t, count: call(t, None, 0, count), t)
+            told = np.empty(n, kind)
+            self._check(call(t, address(told), n, ctypes.c_size_t()))
+        return told
 
     def made_vertices(self) -> MadeVertices:
         """The vertices that `refine` has inserted and that are there, ascending, in 2D.
@@ -329,12 +330,7 @@ class Refining(Segmented):
         >>> bool((tri.original_segments() + 5 == tri.segments.markers).all())
         True
         """
-        self._check_plane()
-        with self._reading as t:
-            n = count_of(lambda t, count: _original_segments(t, None, 0, count), t)
-            originals = np.empty(n, I32)
-            self._check(_original_segments(t, address(originals), n, ctypes.c_size_t()))
-        return originals
+        return self._told(_original_segments, I32)
 
     def refined_weights(self) -> RefinedWeights:
         """How values at the vertices that the last `refine` inserted follow from those at others, in 2D.
@@ -360,12 +356,7 @@ class Refining(Segmented):
         ndarray of int
             None if the triangulation has been changed since.
         """
-        self._check_plane()
-        with self._reading as t:
-            n = count_of(lambda t, count: _refined_vertices(t, None, 0, count), t)
-            ids = np.empty(n, I32)
-            self._check(_refined_vertices(t, address(ids), n, ctypes.c_size_t()))
-        return ids
+        return self._told(_refined_vertices, I32)
 
 
 def _count(argument: str, value: Any) -> int:

@@ -110,7 +110,7 @@ impl From<&TransferReport> for deldrift_transfer_report {
 /// deldrift_take_changes, if there was none, or if ids have been given anew since the one before,
 /// DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_NO_SUCH_VERTEX for a vertex beyond position_count,
 /// DELDRIFT_REMOVED_VERTEX for one where positions are NULL, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
-/// DELDRIFT_PREPARED, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
+/// DELDRIFT_PREPARED, DELDRIFT_CANCELLED, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_transfer_cells(
     t: *const deldrift_triangulation,
@@ -128,7 +128,7 @@ pub unsafe extern "C" fn deldrift_transfer_cells(
     let n_places = capacity.saturating_mul(n_values);
     given!(t: Reading, positions[position_count]: Points, values[n_places]: Buffer, report: Output);
     given!(lost[n_values]: Buffer, gained[n_values]: Buffer);
-    t.read_any(|t| {
+    t.read_any_watched(|t, monitor| {
         let order = order_of(order)?;
         in_any!(t => {
             let positions = positions.if_any(t)?;
@@ -146,7 +146,7 @@ pub unsafe extern "C" fn deldrift_transfer_cells(
             // SAFETY: the header has the caller promise that the rows of cells that were are numbers, and no others
             // are asked for before they are written.
             let known = |before: u32, c: usize| unsafe { places[before as usize * n_values + c].assume_init() };
-            let made = t.transferred(positions, order, n_values, &known)?;
+            let made = t.transferred(positions, order, n_values, &known, monitor)?;
             made.tell(n_values, |entry, mean| _ = places[entry].write(mean));
             if let Some(report) = report {
                 report.write((&made.report).into());

@@ -41,9 +41,9 @@ impl Default for Waiting {
 }
 
 impl<G: Dimension> Delaunay<G> {
-    /// Checks every certificate of the finite cells once, and lists the ghosts; `false`, before the end,
-    /// when more than `most` cells have failed; then no sign is counted. What has been listed before an error is of no use. Where it is known
-    /// where all vertices were `before`, by id, certificates of those that have not moved are not evaluated again in
+    /// Checks every certificate of the finite cells once, and lists the ghosts; `false`, before the end, when more than
+    /// `most` cells have failed; then no sign is counted. What has been listed before an error is of no use. Where it is
+    /// known where all vertices were `before`, by id, certificates of those that have not moved are not evaluated again in
     /// exact arithmetic.
     pub(crate) fn sweep(
         &mut self,

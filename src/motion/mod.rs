@@ -48,21 +48,20 @@ pub(crate) use reading::chunks::Chunks;
 pub use reading::domain::ChainEdge;
 pub use reading::exporting::Field;
 pub(crate) use reading::exporting::{Drawn, check_references};
-pub(crate) use reading::geometry::{
-    Asked, Edge, Progress, Ridges, first_cells, list_boundary, nowhere, tell_all,
-};
+pub(crate) use reading::geometry::{Asked, Edge, Ridges, first_cells, list_boundary, nowhere, tell_all};
 pub use reading::geometry::{
     BoundaryFacet, Interpolation, OrderedStar, Rows, TellCell, TellFacet, VertexValues, VoronoiCell,
     VoronoiCells, VoronoiFacet, VoronoiFacets,
 };
 pub(crate) use reading::near::{Entry, Lists, Placed, Search, Tree};
 pub use reading::near::{InReach, ListsOf, NeighbourLists, VerticesInReach};
+pub(crate) use reading::progress::Progress;
 pub use reading::query::Location;
 pub(crate) use reading::query::cells_at;
 pub use reading::saving::Saved;
 pub(crate) use reading::saving::header::Beginning;
 pub(crate) use reading::saving::reader::Reader;
-pub(crate) use reading::transfer::{Extent, Facet, Gone, Now, Transferred, transfer};
+pub(crate) use reading::transfer::{Extent, Facet, Gone, Now, Transferred, in_place, transfer};
 pub use reading::transfer::{TransferOrder, TransferReport};
 pub use report::{CommitReport, QualityReport, SplitReport, VertexWeights};
 pub use state::cells::{NO_CELL, NO_CORNER, OwnedCells};

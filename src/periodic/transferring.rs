@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::{
-    Extent, Facet, Gone, NO_CELL, Now, TransferOrder, TransferReport, Transferred, transfer,
+    Extent, Facet, Gone, NO_CELL, Now, TransferOrder, TransferReport, Transferred, in_place, transfer,
 };
 use crate::periodic::cells::PeriodicCells;
 use crate::periodic::changes::Lists;
@@ -32,18 +32,12 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         order: TransferOrder,
         n_values: usize,
         values: &mut Vec<f64>,
+        monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<TransferReport> {
-        let (before, now) = (self.count_before()?, self.cell_count()?);
-        if Some(values.len()) != before.checked_mul(n_values) {
-            let (given, wanted) = (values.len(), before.saturating_mul(n_values));
-            return Err(Error::WrongCount { argument: "values", given, wanted, coming: 0 });
-        }
-        let known = |before: u32, c: usize| values[before as usize * n_values + c];
-        let made = self.transferred(positions, order, n_values, &known)?;
-        memory::lengthen(values, before.max(now) * n_values, 0.0)?;
-        made.tell(n_values, |entry, mean| values[entry] = mean);
-        values.truncate(now * n_values);
-        Ok(made.report)
+        let counts = [self.count_before()?, self.cell_count()?];
+        in_place(values, n_values, counts, |value| {
+            self.transferred(positions, order, n_values, &value, monitor)
+        })
     }
 
     /// How many cells there were when changes were taken before.
@@ -65,6 +59,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         order: TransferOrder,
         n_values: usize,
         value: &impl Fn(u32, usize) -> f64,
+        monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Transferred> {
         let (lists, cells) = (self.fresh_lists()?, self.read_cells()?);
         let now = Repeating { t: self, cells, lists };
@@ -92,7 +87,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         memory::append(&mut arrived, &lists.created)?;
         lists.turned.iter().try_for_each(|&(cell, _)| memory::push(&mut arrived, cell))?;
         let renumbered = [&lists.renumbered_from[..], &lists.renumbered_to];
-        transfer(&now, gone, arrived, renumbered, order, n_values, value)
+        transfer(&now, gone, arrived, renumbered, (order, n_values), value, monitor)
     }
 
     /// Where a vertex of a cell that was is, or was at last: its place in the unit cell, and in which period it is.
@@ -175,8 +170,8 @@ impl<G: Dimension> Now for Repeating<'_, G> {
         (other != NO_CELL).then(|| (other, self.t.translated(&G::Point::default(), &shift)))
     }
 
-    fn copies(&self, gone: &[Gone], within: &Extent) -> Result<Vec<(u32, Place)>> {
-        let mut copies = Vec::new();
+    fn copies(&self, gone: &[Gone], cells: impl Iterator<Item = CellId>) -> Result<Vec<(u32, Place)>> {
+        let (mut copies, within) = (Vec::new(), &self.extent_of(cells));
         let multiples = |extent: &Extent| {
             let [low, high] = [extent.low, extent.high];
             [0, 1, 2].map(|j| {

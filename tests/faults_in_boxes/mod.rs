@@ -175,7 +175,7 @@ impl<G: Dimension> Scene<G> {
                 t.timestamp()
             }
             Call::TransferCells => {
-                let made = t.transfer_cells(None, TransferOrder::Second, 1, heights);
+                let made = t.transfer_cells(None, TransferOrder::Second, 1, heights, &mut |_| true);
                 disarm();
                 assert!(heights.iter().all(|&mean| mean == 0.25), "a constant is another one");
                 made?;

@@ -61,7 +61,9 @@ fn history<G: Dimension>(seed: u64, n: usize, steps: usize) -> usize {
         }
         t.take_changes().expect("room");
         let before = values.clone();
-        let report = t.transfer_cells(Some(&places[..n_before]), order, 2, &mut values).expect("a transfer");
+        let report = t
+            .transfer_cells(Some(&places[..n_before]), order, 2, &mut values, &mut |_| true)
+            .expect("a transfer");
         turned_over += report.turned_over;
         let told = [report.lost_volume, report.gained_volume].map(f64::abs);
         assert!(told.iter().all(|&x| x <= report.volume_error), "{name}, step {step}: {report:?}");

@@ -8,7 +8,7 @@ mod orders;
 
 use crate::common::{Rng, point, seeds, vertex};
 use deldrift::motion::{MovingTriangulation, Options, TransferOrder, TransferReport};
-use deldrift::{Dimension, Plane, Space, VertexId};
+use deldrift::{Dimension, Error, Plane, Space, VertexId};
 use exact::{Ratio, common, place, volume};
 
 /// A constant, whose sums round.
@@ -151,8 +151,10 @@ impl<G: Dimension> History<G> {
         self.t.take_changes().expect("room");
         let before = self.values.clone();
         let places = self.places[..n_ids].to_vec();
-        let report =
-            self.t.transfer_cells(Some(&places), self.order, N, &mut self.values).expect("a transfer");
+        let report = self
+            .t
+            .transfer_cells(Some(&places), self.order, N, &mut self.values, &mut |_| true)
+            .expect("a transfer");
         counts.takes += 1;
         counts.turned_over += report.turned_over;
         counts.uncovered += report.uncovered;
@@ -282,4 +284,35 @@ fn exact_rational_numbers_say_the_same_in_the_plane() {
 fn exact_rational_numbers_say_the_same_in_space() {
     let counts = histories::<Space>(12, 8, 2, true);
     assert!(counts.compared > 50, "{counts:?}");
+}
+
+/// A transfer that is broken off leaves the values as they were; each cell meets all others here.
+#[test]
+fn a_transfer_may_be_broken_off() {
+    let mut rng = Rng::new(7);
+    let places: Vec<[f64; 2]> = (0..600).map(|_| [rng.unit(), rng.unit()]).collect();
+    let mut goals = places.clone();
+    goals.rotate_left(1);
+    let mut t = MovingTriangulation::<Plane>::new(&places, Options::default()).expect("good places");
+    t.take_changes().expect("room");
+    let given: Vec<f64> = (0..t.cell_count()).map(|k| k as f64).collect();
+    t.commit_positions(&goals).expect("good places");
+    t.take_changes().expect("room");
+    let mut n_asked = 0;
+    let mut values = given.clone();
+    let mut told = 0.0;
+    let whole = t.transfer_cells(Some(&goals), TransferOrder::Second, 1, &mut values, &mut |share| {
+        assert!((0.0..=1.0).contains(&share) && share >= told, "{share} after {told}");
+        (n_asked, told) = (n_asked + 1, share);
+        true
+    });
+    assert!(whole.is_ok() && n_asked > 3 && values != given, "{n_asked}");
+    for most in 0..n_asked {
+        let (mut values, mut left) = (given.clone(), most);
+        let broken = t.transfer_cells(Some(&goals), TransferOrder::Second, 1, &mut values, &mut |_| {
+            left -= 1;
+            left >= 0
+        });
+        assert_eq!((broken.map(drop), values == given), (Err(Error::Cancelled), true), "after {most}");
+    }
 }

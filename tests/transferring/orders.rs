@@ -51,7 +51,7 @@ fn errors<G: Dimension>(m: usize, order: TransferOrder) -> (f64, f64) {
     t.stage_insertions(&coming).expect("insertions");
     t.commit_timestamp().expect("a commit");
     let created = t.take_changes().expect("room").created.to_vec();
-    let report = t.transfer_cells(Some(&places), order, 2, &mut values).expect("a transfer");
+    let report = t.transfer_cells(Some(&places), order, 2, &mut values, &mut |_| true).expect("a transfer");
     assert!(report.lost_volume.abs() < 1e-12 && report.turned_over == 0, "{report:?}");
     let (cells, volumes) = (t.cells().expect("room"), t.volumes().expect("room").collect::<Vec<_>>());
     let (mut error, mut volume, mut n_inner, mut n_other) = (0.0, 0.0, 0.0, 0.0);

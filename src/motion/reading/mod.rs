@@ -6,6 +6,7 @@ pub(in crate::motion) mod domain;
 pub(in crate::motion) mod exporting;
 pub(in crate::motion) mod geometry;
 pub(in crate::motion) mod near;
+pub(in crate::motion) mod progress;
 pub(in crate::motion) mod query;
 pub(in crate::motion) mod saving;
 pub(in crate::motion) mod tolerances;

@@ -19,9 +19,9 @@ use crate::motion::reading::geometry::cut_cells::BoxCorner;
 use crate::motion::reading::geometry::half_spaces::{Bounds, HalfSpaces};
 use crate::motion::reading::geometry::incidence::Neighbours;
 use crate::motion::reading::geometry::polytopes::Polytope;
-use crate::motion::reading::geometry::progress::Progress;
 use crate::motion::reading::geometry::sums::Sums;
 use crate::motion::reading::geometry::voronoi::Voronoi;
+use crate::motion::reading::progress::Progress;
 use crate::motion::state::cells::NO_CELL;
 use crate::motion::triangulation::MovingTriangulation;
 

@@ -22,9 +22,9 @@ use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::reading::geometry::clipping::{Clip, Face, Vector, cross, dot, in_space, minus, times};
 use crate::motion::reading::geometry::incidence::Neighbours;
-use crate::motion::reading::geometry::progress::Progress;
 use crate::motion::reading::geometry::sums::{LEAST_SQUARE, Sums};
 use crate::motion::reading::geometry::voronoi::Voronoi;
+use crate::motion::reading::progress::Progress;
 use crate::motion::reading::query::cells_at;
 use crate::predicates::compare_distance;
 

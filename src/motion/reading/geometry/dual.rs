@@ -59,9 +59,9 @@ use crate::motion::reading::geometry::cells_within::Region;
 use crate::motion::reading::geometry::centres::{Numbering, SHARED_AT_LEAST, ask_for};
 use crate::motion::reading::geometry::clipping::{Vector, cross, dot, in_space, minus, times};
 use crate::motion::reading::geometry::incidence::Neighbours;
-use crate::motion::reading::geometry::progress::Progress;
 use crate::motion::reading::geometry::sums::{LEAST_SQUARE, Sums};
 use crate::motion::reading::geometry::voronoi::Voronoi;
+use crate::motion::reading::progress::Progress;
 use crate::motion::state::cells::NO_CELL;
 
 /// What a vertex has so far.

@@ -32,9 +32,9 @@ use crate::motion::reading::geometry::clipping::{
 };
 use crate::motion::reading::geometry::incidence::Edge;
 use crate::motion::reading::geometry::polytopes::Polytope;
-use crate::motion::reading::geometry::progress::Progress;
 use crate::motion::reading::geometry::sums::LEAST_SQUARE;
 use crate::motion::reading::geometry::voronoi::Voronoi;
+use crate::motion::reading::progress::Progress;
 use crate::motion::triangulation::MovingTriangulation;
 
 /// The Voronoi facets of edges in a box.

@@ -20,9 +20,9 @@ use crate::motion::reading::geometry::cut_cells::BoxCorner;
 use crate::motion::reading::geometry::cut_facets::CutFacet;
 use crate::motion::reading::geometry::incidence::Neighbours;
 use crate::motion::reading::geometry::polytopes::Polytope;
-use crate::motion::reading::geometry::progress::Progress;
 use crate::motion::reading::geometry::rings::Ring;
 use crate::motion::reading::geometry::sums::Sums;
+use crate::motion::reading::progress::Progress;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::sign_of_cross;
 

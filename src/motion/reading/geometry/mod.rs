@@ -11,7 +11,7 @@
 //! | `simplices` | cells that have given vertices as corners |
 //! | `star` | stars in circulation order |
 //! | `rings` | what is around an edge, in order |
-//! | `voronoi_cells`, `voronoi_lists`, `pass`, `voronoi`, `progress` | Voronoi cells and facets: what programs ask, what is computed together |
+//! | `voronoi_cells`, `voronoi_lists`, `pass`, `voronoi` | Voronoi cells and facets: what programs ask, what is computed together |
 //! | `voronoi_changes` | which Voronoi cells have changed |
 //! | `centres` | circumcentres for these, of all cells or of chosen ones |
 //! | `dual`, `dual_cells`, `dual_facets`, `sums` | volumes, boundaries and centroids of Voronoi cells; their facets, with derivatives |
@@ -46,7 +46,6 @@ mod measures;
 mod natural;
 mod pass;
 mod polytopes;
-mod progress;
 mod rings;
 mod simplices;
 mod star;
@@ -71,6 +70,5 @@ pub use interpolation::{Interpolation, VertexValues};
 pub(crate) use measures::tell_all;
 pub(crate) use natural::Ridges;
 pub(crate) use pass::Asked;
-pub(crate) use progress::Progress;
 pub use star::OrderedStar;
 pub use voronoi_cells::{TellCell, TellFacet};

@@ -16,10 +16,10 @@ use crate::motion::reading::geometry::dual::{Target, Targets};
 use crate::motion::reading::geometry::dual_cells::{VoronoiCell, cell_of, nowhere};
 use crate::motion::reading::geometry::dual_facets::{Facet, VoronoiFacet, of_space};
 use crate::motion::reading::geometry::incidence::Edge;
-use crate::motion::reading::geometry::progress::Progress;
 use crate::motion::reading::geometry::sums::Sums;
 use crate::motion::reading::geometry::voronoi::Voronoi;
 use crate::motion::reading::geometry::whole_cells::whole_cell;
+use crate::motion::reading::progress::Progress;
 use crate::motion::state::mesh::Standing;
 use crate::motion::triangulation::MovingTriangulation;
 

@@ -14,7 +14,7 @@ use crate::motion::reading::geometry::dual_facets::{VoronoiFacet, of_space};
 use crate::motion::reading::geometry::half_spaces::HalfSpaces;
 use crate::motion::reading::geometry::incidence::{Edge, Neighbours};
 use crate::motion::reading::geometry::pass::Asked;
-use crate::motion::reading::geometry::progress::Progress;
+use crate::motion::reading::progress::Progress;
 use crate::motion::state::checking::check_position;
 use crate::motion::state::mesh::Standing;
 use crate::motion::triangulation::MovingTriangulation;

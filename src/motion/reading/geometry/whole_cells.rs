@@ -14,9 +14,9 @@ use crate::motion::reading::geometry::dual::{Target, Targets};
 use crate::motion::reading::geometry::dual_cells::{VoronoiCell, nowhere};
 use crate::motion::reading::geometry::dual_facets::of_space;
 use crate::motion::reading::geometry::incidence::Neighbours;
-use crate::motion::reading::geometry::progress::Progress;
 use crate::motion::reading::geometry::sums::Sums;
 use crate::motion::reading::geometry::voronoi::Voronoi;
+use crate::motion::reading::progress::Progress;
 
 impl<G: Dimension> Voronoi<'_, G> {
     /// Puts the cells of those of some vertices together from facets of which pieces do not tell all. Their sums are the

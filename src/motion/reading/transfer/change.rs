@@ -1,11 +1,12 @@
 //! The cells of a change: which are gone, which have come, and which count as both.
 
 use super::boxes::Extent;
-use super::overlap::{Facets, Place, centroid, plus};
+use super::overlap::{Place, centroid, is_turned_over, plus};
 use super::{Arrived, Beyond, Facet, Gone, Meeting, TransferOrder, Transferred};
 use crate::error::{Error, Result};
 use crate::ids::CellId;
 use crate::machine::memory;
+use crate::motion::reading::progress::Progress;
 
 /// The cells of now.
 pub(crate) trait Now {
@@ -25,8 +26,15 @@ pub(crate) trait Now {
     /// The cell across the facet opposite a corner, and by how much it is translated from where its corners are told.
     fn beyond(&self, cell: CellId, corner: usize) -> Option<(CellId, Place)>;
 
-    /// Where each of these is that may meet what is in a box: its number, and by how much it is translated.
-    fn copies(&self, gone: &[Gone], within: &Extent) -> Result<Vec<(u32, Place)>>;
+    /// Where each of these is that may meet some cells of now: its number, and by how much it is translated.
+    fn copies(&self, gone: &[Gone], cells: impl Iterator<Item = CellId>) -> Result<Vec<(u32, Place)>>;
+
+    /// The box of some cells.
+    fn extent_of(&self, cells: impl Iterator<Item = CellId>) -> Extent {
+        let mut all = Extent::of(&[]);
+        cells.for_each(|cell| all.enter(&Extent::of(&self.corners(cell)[..=Self::D])));
+        all
+    }
 }
 
 /// Transfers means from the cells that are gone to those that have come; `renumbered` are the cells that live and have
@@ -36,15 +44,15 @@ pub(crate) fn transfer<T: Now>(
     gone: Vec<Gone>,
     arrived: Vec<CellId>,
     renumbered: [&[CellId]; 2],
-    order: TransferOrder,
-    n_values: usize,
+    (order, n_values): (TransferOrder, usize),
     value: &impl Fn(u32, usize) -> f64,
+    monitor: &mut dyn FnMut(f64) -> bool,
 ) -> Result<Transferred> {
-    let change = Change { now, gone, arrived };
+    let (change, progress) = (Change { now, gone, arrived }, &mut Progress::new(monitor, 1));
     if T::D == 2 {
-        change.transfer::<2>(renumbered, order, n_values, value)
+        change.transfer::<2>(renumbered, order, n_values, value, progress)
     } else {
-        change.transfer::<3>(renumbered, order, n_values, value)
+        change.transfer::<3>(renumbered, order, n_values, value, progress)
     }
 }
 
@@ -56,30 +64,23 @@ struct Change<'t, T> {
 }
 
 impl<T: Now> Change<'_, T> {
-    fn meeting<'a, const D: usize>(
-        &self,
-        gone: &'a [Gone],
-        cells: impl Iterator<Item = CellId>,
-    ) -> Result<Meeting<'a>> {
-        let mut within = Extent::of(&[]);
-        cells.for_each(|cell| within.enter(&Extent::of(&self.now.corners(cell)[..=D])));
-        Meeting::of::<D>(gone, self.now.copies(gone, &within)?)
-    }
-
     /// Where a cell that is gone is turned over, cells that live and that it meets are both gone and come.
-    fn enter_met<const D: usize>(&mut self) -> Result<()> {
+    fn enter_met<const D: usize>(&mut self, progress: &mut Progress) -> Result<()> {
         self.arrived.sort_unstable();
-        let is_turned_over = |cell: &Gone| Facets::of::<D>(&cell.corners).determinant < 0.0;
         let mut turned_over = Vec::new();
-        memory::collect(&mut turned_over, self.gone.iter().copied().filter(is_turned_over))?;
+        let all = self.gone.iter().copied();
+        memory::collect(&mut turned_over, all.filter(|cell| is_turned_over::<D>(&cell.corners)))?;
         if turned_over.is_empty() {
             return Ok(());
         }
         let all = CellId::range(0..self.now.len());
-        let (meeting, n) = (self.meeting::<D>(&turned_over, all.clone())?, self.arrived.len());
+        let meeting = Meeting::of::<D>(&turned_over, self.now.copies(&turned_over, all.clone())?)?;
+        let n = self.arrived.len();
+        progress.expect_more(self.now.len() + n);
         for cell in all {
+            progress.advance(1)?;
             let corners = self.now.corners(cell);
-            if self.arrived[..n].binary_search(&cell).is_err() && meeting.meets::<D>(&corners)? {
+            if meeting.meets::<D>(&corners)? && self.arrived[..n].binary_search(&cell).is_err() {
                 let (facets, before) = (self.now.facets(cell), self.now.before(cell).get());
                 memory::push(&mut self.gone, Gone { corners, facets, before })?;
                 memory::push(&mut self.arrived, cell)?;
@@ -111,8 +112,9 @@ impl<T: Now> Change<'_, T> {
         order: TransferOrder,
         n_values: usize,
         value: &impl Fn(u32, usize) -> f64,
+        progress: &mut Progress,
     ) -> Result<Transferred> {
-        self.enter_met::<D>()?;
+        self.enter_met::<D>(progress)?;
         let mut arrived = Vec::new();
         let cells = self.arrived.iter().map(|&index| Arrived {
             index,
@@ -128,8 +130,9 @@ impl<T: Now> Change<'_, T> {
         for before in self.gone.iter().map(|cell| cell.before).chain(living) {
             (0..n_values).try_for_each(|c| check_value(before as usize * n_values + c, value(before, c)))?;
         }
-        let meeting = self.meeting::<D>(&self.gone, self.arrived.iter().copied())?;
-        let mut made = meeting.overlay::<D>(&arrived)?.transfer::<D>(order, n_values, value)?;
+        let copies = self.now.copies(&self.gone, self.arrived.iter().copied())?;
+        let overlay = Meeting::of::<D>(&self.gone, copies)?.overlay::<D>(&arrived, progress)?;
+        let mut made = overlay.transfer::<D>(order, n_values, value)?;
         memory::append(&mut made.cells, to)?;
         memory::reserve(&mut made.means, to.len() * n_values)?;
         // A cell that counts as come may have another index as well: the last entry, with what has come of it, is in

@@ -1,7 +1,7 @@
 //! Means of cells from what they have in common with others.
 
 use super::beside::{Besides, Fit};
-use super::overlap::{Place, dot};
+use super::overlap::{Place, dot, is_turned_over};
 use super::{Beyond, Overlay, Pair, TransferOrder, TransferReport, Transferred};
 use crate::error::Result;
 use crate::machine::memory;
@@ -85,7 +85,7 @@ impl Overlay<'_> {
             }
         };
         let gradients = besides.as_ref().map(|besides| (besides, &fits[..]));
-        let mut report = self.report(&covers)?;
+        let mut report = self.report::<D>(&covers)?;
         memory::lengthen(&mut report.lost, n_values, 0.0)?;
         memory::lengthen(&mut report.gained, n_values, 0.0)?;
         let (mut cells, mut means) = (Vec::new(), Vec::new());
@@ -166,7 +166,7 @@ impl Overlay<'_> {
         Ok(sources)
     }
 
-    fn report(&self, covers: &[Cover]) -> Result<TransferReport> {
+    fn report<const D: usize>(&self, covers: &[Cover]) -> Result<TransferReport> {
         let (mut lost, mut gained) = (Sum::default(), Sum::default());
         self.volumes_gone.iter().for_each(|&volume| lost.add(volume));
         self.volumes_arrived.iter().for_each(|&volume| gained.add(volume));
@@ -179,7 +179,7 @@ impl Overlay<'_> {
             gone: self.gone.len(),
             arrived: self.arrived.len(),
             overlaps: self.pairs.len(),
-            turned_over: self.volumes_gone.iter().filter(|&&volume| volume < 0.0).count(),
+            turned_over: self.gone.iter().filter(|cell| is_turned_over::<D>(&cell.corners)).count(),
             uncovered: covers.iter().filter(|cover| cover.whole <= 0.0).count(),
             lost_volume: lost.value(),
             gained_volume: gained.value(),

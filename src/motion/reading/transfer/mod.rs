@@ -45,9 +45,10 @@ mod means;
 mod open;
 mod overlap;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::ids::CellId;
 use crate::machine::memory;
+use crate::motion::reading::progress::Progress;
 use boxes::Boxes;
 pub(crate) use boxes::Extent;
 pub(crate) use change::{Now, transfer};
@@ -166,22 +167,22 @@ struct Overlay<'a> {
 /// Cells that are gone, to be met.
 struct Meeting<'a> {
     gone: &'a [Gone],
-    /// Where each of them is: its number, and by how much it is translated.
-    copies: Vec<(u32, Place)>,
+    /// Where each of them is: its number, by how much it is translated, and its facets there.
+    copies: Vec<(u32, Place, Facets)>,
     boxes: Boxes,
 }
 
 impl<'a> Meeting<'a> {
     /// That of some cells with their translations.
-    fn of<const D: usize>(gone: &'a [Gone], copies: Vec<(u32, Place)>) -> Result<Self> {
-        let mut extents = Vec::new();
-        memory::collect(
-            &mut extents,
-            copies.iter().map(|&(k, offset)| {
-                let corners = gone[k as usize].corners.map(|corner| plus(&corner, &offset));
-                Extent::of(&corners[..=D])
-            }),
-        )?;
+    fn of<const D: usize>(gone: &'a [Gone], places: Vec<(u32, Place)>) -> Result<Self> {
+        let (mut copies, mut extents) = (Vec::new(), Vec::new());
+        memory::reserve_exact(&mut copies, places.len())?;
+        memory::reserve_exact(&mut extents, places.len())?;
+        for (k, offset) in places {
+            let corners = gone[k as usize].corners.map(|corner| plus(&corner, &offset));
+            copies.push((k, offset, Facets::of::<D>(&corners)));
+            extents.push(Extent::of(&corners[..=D]));
+        }
         Ok(Meeting { gone, copies, boxes: Boxes::new(extents)? })
     }
 
@@ -194,12 +195,11 @@ impl<'a> Meeting<'a> {
     ) -> Result<()> {
         let its_extent = extent(&corners[..=D]);
         self.boxes.meeting(&Extent::of(&corners[..=D]), &mut |copy| {
-            let (k, offset) = self.copies[copy as usize];
-            let facets = Facets::of::<D>(&self.gone[k as usize].corners.map(|corner| plus(&corner, &offset)));
+            let (k, offset, facets) = &self.copies[copy as usize];
             let found = facets.overlap::<D>(corners, its_extent);
             let sign = facets.determinant.signum();
             let signed = Overlap { share: sign * found.share, moment: found.moment.map(|x| sign * x) };
-            tell(k, &offset, signed, facets.error::<D>(its_extent))
+            tell(*k, offset, signed, facets.error::<D>(its_extent))
         })
     }
 
@@ -213,7 +213,7 @@ impl<'a> Meeting<'a> {
         Ok(is_met)
     }
 
-    fn overlay<const D: usize>(self, arrived: &'a [Arrived]) -> Result<Overlay<'a>> {
+    fn overlay<const D: usize>(self, arrived: &'a [Arrived], progress: &mut Progress) -> Result<Overlay<'a>> {
         let gone = self.gone;
         let (mut volumes_gone, mut volumes_arrived, mut pairs) = (Vec::new(), Vec::new(), Vec::new());
         memory::collect(&mut volumes_gone, gone.iter().map(|cell| volume::<D>(&cell.corners)))?;
@@ -221,8 +221,10 @@ impl<'a> Meeting<'a> {
         let of_volume = |corners: &[Place; 4]| error_of_volume::<D>(extent(&corners[..=D]));
         let all = gone.iter().map(|cell| &cell.corners).chain(arrived.iter().map(|cell| &cell.corners));
         let mut volume_error: f64 = all.map(of_volume).sum();
+        progress.expect_more(arrived.len());
         for (i, cell) in (0..).zip(arrived) {
             self.for_each::<D>(&cell.corners, &mut |k, offset, Overlap { share, moment }, error| {
+                progress.advance(1)?;
                 volume_error += error;
                 if share == 0.0 {
                     return Ok(());
@@ -236,6 +238,25 @@ impl<'a> Meeting<'a> {
         }
         Ok(Overlay { gone, arrived, volumes_gone, volumes_arrived, pairs, volume_error })
     }
+}
+
+/// Transfers the means in an array, of the cells that were, which has those of the cells of now then; `counts` is how many
+/// there are of both.
+pub(crate) fn in_place(
+    values: &mut Vec<f64>,
+    n_values: usize,
+    [before, now]: [usize; 2],
+    transferred: impl FnOnce(&dyn Fn(u32, usize) -> f64) -> Result<Transferred>,
+) -> Result<TransferReport> {
+    if Some(values.len()) != before.checked_mul(n_values) {
+        let (given, wanted) = (values.len(), before.saturating_mul(n_values));
+        return Err(Error::WrongCount { argument: "values", given, wanted, coming: 0 });
+    }
+    let made = transferred(&|before, c| values[before as usize * n_values + c])?;
+    memory::lengthen(values, before.max(now) * n_values, 0.0)?;
+    made.tell(n_values, |entry, mean| values[entry] = mean);
+    values.truncate(now * n_values);
+    Ok(made.report)
 }
 
 impl Transferred {

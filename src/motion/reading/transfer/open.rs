@@ -1,9 +1,8 @@
 //! The transfer of means in a triangulation that is open.
 
-use super::boxes::Extent;
 use super::change::{Now, transfer};
 use super::overlap::Place;
-use super::{Facet, Gone, TransferOrder, TransferReport, Transferred};
+use super::{Facet, Gone, TransferOrder, TransferReport, Transferred, in_place};
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
@@ -25,7 +24,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// `positions` has by id where the vertices of the cells that were are now, or where they were when they were
     /// removed: what a program has that has committed them, before it reads those of new vertices. Where none of them
-    /// has been removed it may be none, for where they are.
+    /// has been removed it may be none, for where they are. `monitor` is asked now and then, with the share of the work that
+    /// is done, and breaks the call off.
     ///
     /// ```
     /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options, TransferOrder}};
@@ -37,7 +37,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// t.remove_vertex(VertexId::new(4))?;
     /// t.insert_vertex(&[1.0, 2.0])?;
     /// t.take_changes()?;
-    /// let report = t.transfer_cells(Some(&places), TransferOrder::First, 1, &mut heat)?;
+    /// let report = t.transfer_cells(Some(&places), TransferOrder::First, 1, &mut heat, &mut |_| true)?;
     /// let content: f64 = heat.iter().zip(t.volumes()?).map(|(mean, volume)| mean * volume).sum();
     /// assert!((content - 40.0).abs() < 1e-14 && report.lost[0].abs() < 1e-14);
     /// # Ok::<(), deldrift::Error>(())
@@ -48,26 +48,20 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// that are gone have no id any more; [`Error::WrongCount`] unless there are as many values as there were cells;
     /// [`Error::InvalidValue`] for a value that is needed and no number up to 10³⁰⁰ in magnitude;
     /// [`Error::RemovedVertex`] and [`Error::NoSuchVertex`] for a vertex of which `positions` has none;
-    /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::Prepared`], [`Error::OutOfMemory`]. Then the values are
-    /// as before.
+    /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::Prepared`], [`Error::OutOfMemory`], [`Error::Cancelled`].
+    /// Then the values are as before.
     pub fn transfer_cells(
         &self,
         positions: Option<&[G::Point]>,
         order: TransferOrder,
         n_values: usize,
         values: &mut Vec<f64>,
+        monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<TransferReport> {
-        let (before, now) = (self.count_before()?, self.cell_count());
-        if Some(values.len()) != before.checked_mul(n_values) {
-            let (given, wanted) = (values.len(), before.saturating_mul(n_values));
-            return Err(Error::WrongCount { argument: "values", given, wanted, coming: 0 });
-        }
-        let known = |before: u32, c: usize| values[before as usize * n_values + c];
-        let made = self.transferred(positions, order, n_values, &known)?;
-        memory::lengthen(values, before.max(now) * n_values, 0.0)?;
-        made.tell(n_values, |entry, mean| values[entry] = mean);
-        values.truncate(now * n_values);
-        Ok(made.report)
+        let counts = [self.count_before()?, self.cell_count()];
+        in_place(values, n_values, counts, |value| {
+            self.transferred(positions, order, n_values, &value, monitor)
+        })
     }
 
     /// How many cells there were when changes were taken before.
@@ -92,6 +86,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         order: TransferOrder,
         n_values: usize,
         value: &impl Fn(u32, usize) -> f64,
+        monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Transferred> {
         let (cells, taken) = self.fresh_lists()?;
         let (changes, turned) = (taken.changes(), taken.turned());
@@ -110,7 +105,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         memory::append(&mut arrived, changes.created)?;
         turned.iter().try_for_each(|&(cell, _)| memory::push(&mut arrived, cell))?;
         let renumbered = [changes.renumbered_from, changes.renumbered_to];
-        transfer(&now, gone, arrived, renumbered, order, n_values, value)
+        transfer(&now, gone, arrived, renumbered, (order, n_values), value, monitor)
     }
 
     /// Where a vertex of a cell that was is, or was at last.
@@ -172,7 +167,7 @@ impl<G: Dimension> Now for Open<'_, G> {
         (other != NO_CELL).then_some((other, [0.0; 3]))
     }
 
-    fn copies(&self, gone: &[Gone], _within: &Extent) -> Result<Vec<(u32, Place)>> {
+    fn copies(&self, gone: &[Gone], _cells: impl Iterator<Item = CellId>) -> Result<Vec<(u32, Place)>> {
         let mut copies = Vec::new();
         memory::collect(&mut copies, (0..gone.len() as u32).map(|k| (k, [0.0; 3])))?;
         Ok(copies)

@@ -62,6 +62,20 @@ pub(super) fn volume<const D: usize>(corners: &[Place; 4]) -> f64 {
     if D == 2 { (u[0] * v[1] - u[1] * v[0]) / 2.0 } else { dot(&cross(&u, &v), &w) / 6.0 }
 }
 
+/// The determinant of a cell in units of its extent, which does not underflow: its sign is that of the volume, its
+/// magnitude at most 6.
+fn determinant<const D: usize>(corners: &[Place; 4], extent: f64) -> f64 {
+    let scale = power_below(extent);
+    let [u, v, w] = [1, 2, 3].map(|i| minus(&corners[i], &corners[0]).map(|x| x / scale));
+    let scaled = if D == 2 { u[0] * v[1] - u[1] * v[0] } else { dot(&cross(&u, &v), &w) };
+    if extent > 0.0 { scaled / (extent / scale).powi(D as i32) } else { 0.0 }
+}
+
+/// Whether a cell is turned over, so that what it has counts as negative.
+pub(super) fn is_turned_over<const D: usize>(corners: &[Place; 4]) -> bool {
+    determinant::<D>(corners, extent(&corners[..=D])) < 0.0
+}
+
 /// By how much at most the volume of a cell of this extent is off.
 pub(super) fn error_of_volume<const D: usize>(extent: f64) -> f64 {
     BOUND_OF_CELL * UNIT * extent.powi(D as i32)
@@ -80,7 +94,7 @@ pub(super) struct Facets {
     /// Of the facet opposite each corner: towards it, of about the length of the facet in units of the cell's extent.
     normals: [Place; 4],
     extent: f64,
-    /// The determinant in units of the extent: its sign is that of the volume, its magnitude at most 6.
+    /// In units of the extent, see [`determinant`].
     pub(super) determinant: f64,
 }
 
@@ -89,11 +103,7 @@ impl Facets {
         let extent = extent(&corners[..=D]);
         let scale = power_below(extent);
         let seen = |i: usize, from: usize| minus(&corners[i], &corners[from]).map(|x| x / scale);
-        let determinant = {
-            let [u, v] = [seen(1, 0), seen(2, 0)];
-            let scaled = if D == 2 { u[0] * v[1] - u[1] * v[0] } else { dot(&cross(&u, &v), &seen(3, 0)) };
-            if extent > 0.0 { scaled / (extent / scale).powi(D as i32) } else { 0.0 }
-        };
+        let determinant = determinant::<D>(corners, extent);
         let mut normals = [[0.0; 3]; 4];
         for (k, normal) in normals.iter_mut().enumerate().take(D + 1) {
             let [p, q, r] = others::<D>(k);
@@ -124,7 +134,6 @@ impl Facets {
     /// common part is as seen from the cell's first corner.
     pub(super) fn overlap<const D: usize>(&self, other: &[Place; 4], its_extent: f64) -> Overlap {
         let mut sum = Overlap::default();
-        // Not so for NaN either.
         let is_solid = self.determinant.abs() > LEAST * UNIT * (1.0 + its_extent / self.extent);
         if !is_solid {
             return sum;
@@ -190,7 +199,8 @@ fn others<const D: usize>(k: usize) -> [usize; 3] {
     std::array::from_fn(|_| rest.next().unwrap_or(0))
 }
 
-/// A power of two that is at most a length and more than half of it, 1 for none.
+/// A power of two that is at most a length and more than half of it; the least normal one for shorter lengths, as
+/// powers of these would be 0.
 fn power_below(length: f64) -> f64 {
-    if length.is_normal() { f64::from_bits(length.to_bits() & 0x7ff0_0000_0000_0000) } else { 1.0 }
+    f64::from_bits(length.max(f64::MIN_POSITIVE).to_bits() & 0x7ff0_0000_0000_0000)
 }

@@ -1,0 +1,125 @@
+//! From a quality in C to a call that improves cells.
+
+use std::ops::ControlFlow;
+
+use super::{KeptCode, deldrift_kept, deldrift_quality, deldrift_quality_report};
+use crate::capi::guard;
+use crate::capi::handle::Changing;
+use crate::capi::options::{Given, invalid};
+use crate::capi::pointers::{Array, Output};
+use crate::capi::status::{Failure, deldrift_status};
+use crate::delaunay::Plane;
+use crate::either::AnyTriangulation;
+use crate::error::Error;
+use crate::machine::memory;
+use crate::machine::tally;
+use crate::motion::{CoarsenOptions, Kept, MovingTriangulation, Quality, QualityReport, TooLarge};
+
+/// What coarsening is told by a quality.
+pub(super) fn coarsening_of(given: &deldrift_quality) -> Result<CoarsenOptions, Failure> {
+    let deldrift_quality { margin, share, joins, growth, keeps, .. } = *given;
+    Ok(CoarsenOptions { margin, share, joins, growth, keeps: kept_of(keeps)? })
+}
+
+/// Runs a call that improves the cells of a mask.
+pub(super) fn improve(
+    t: Changing<'_>,
+    quality: Given<'_, deldrift_quality>,
+    mask: Array<'_, u8>,
+    mask_count: usize,
+    report: Output<'_, deldrift_quality_report>,
+    body: impl FnOnce(
+        &mut MovingTriangulation<Plane>,
+        &deldrift_quality,
+        &Quality,
+        &[u8],
+    ) -> Result<QualityReport, Failure>,
+) -> deldrift_status {
+    t.change(|t| {
+        let AnyTriangulation::Plane(t) = t else { return Err(Failure::NotOfThePlane) };
+        let given = quality.get()?;
+        let report = report.if_any()?;
+        let is_whole_domain = mask.is_null() && mask_count == 0;
+        if !is_whole_domain {
+            t.check_mask(mask_count)?;
+        }
+        let domain = if is_whole_domain { domain_of(t)? } else { Vec::new() };
+        let mask = if is_whole_domain { &domain } else { mask.get()? };
+        let is_too_large = given.is_too_large.map(|is_too_large| {
+            move |corners: [[f64; 2]; 3]| {
+                // SAFETY: the caller set both, the one for the other, and the corners are 6 numbers.
+                let ask = || unsafe { is_too_large(given.user_data, corners.as_ptr().cast()) };
+                match tally::uncounted(|| guard::call_back(ask)) {
+                    answer if answer < 0 => ControlFlow::Break(()),
+                    answer => ControlFlow::Continue(answer != 0),
+                }
+            }
+        });
+        let quality = Quality {
+            least_angle: given.least_angle,
+            greatest_area: given.greatest_area,
+            labels: array("quality.labels", given.labels.cast(), given.label_count)?,
+            areas: array("quality.areas", given.areas, given.area_count)?.unwrap_or_default(),
+            sizes: array("quality.sizes", given.sizes, given.size_count)?,
+            is_too_large: is_too_large.as_ref().map(|is_too_large| is_too_large as TooLarge),
+            is_conforming: given.is_conforming != 0,
+        };
+        let done = body(t, &given, &quality, mask).map_err(of_quality)?;
+        if let Some(report) = report {
+            report.write(done.into());
+        }
+        Ok(())
+    })
+}
+
+/// An array that a quality names: none if its pointer is NULL and its count 0.
+fn array<'a, T>(argument: &'static str, pointer: *const T, count: usize) -> Result<Option<&'a [T]>, Failure> {
+    if pointer.is_null() && count == 0 {
+        return Ok(None);
+    }
+    // SAFETY: the header has the caller promise that it is NULL, misaligned, or to so many values.
+    let values = unsafe { Array::new(argument, pointer, count) }.get()?;
+    Ok(Some(values))
+}
+
+/// The cells of an odd nesting level.
+fn domain_of(t: &MovingTriangulation<Plane>) -> Result<Vec<u8>, Failure> {
+    let mut mask = Vec::new();
+    memory::collect(&mut mask, t.nesting_levels()?.into_iter().map(|level| (level % 2) as u8))?;
+    Ok(mask)
+}
+
+pub(super) fn kept_of(code: KeptCode) -> Result<Kept, Failure> {
+    use deldrift_kept::*;
+    [(DELDRIFT_KEPT_NONE, Kept::None), (DELDRIFT_KEPT_OUTER, Kept::Outer), (DELDRIFT_KEPT_ALL, Kept::All)]
+        .into_iter()
+        .find(|&(known, _)| known as u32 == code)
+        .map(|(_, kept)| kept)
+        .ok_or_else(|| invalid("quality.keeps", code, "a deldrift_kept"))
+}
+
+/// An error about a quality, in the names of its fields.
+fn of_quality(failure: Failure) -> Failure {
+    let name = |argument: &'static str, is_count: bool| match (argument, is_count) {
+        ("labels", true) => "quality.label_count",
+        ("sizes", true) => "quality.size_count",
+        ("sizes", false) => "quality.sizes",
+        ("areas", false) => "quality.areas",
+        ("least_angle", false) => "quality.least_angle",
+        ("greatest_area", false) => "quality.greatest_area",
+        ("margin", false) => "quality.margin",
+        ("share", false) => "quality.share",
+        ("joins", false) => "quality.joins",
+        ("growth", false) => "quality.growth",
+        (other, _) => other,
+    };
+    match failure {
+        Failure::Call(Error::InvalidValue { argument, index, value, wanted }) => {
+            Error::InvalidValue { argument: name(argument, false), index, value, wanted }.into()
+        }
+        Failure::Call(Error::WrongCount { argument, given, wanted, coming }) => {
+            Error::WrongCount { argument: name(argument, true), given, wanted, coming }.into()
+        }
+        other => other,
+    }
+}
