@@ -43,6 +43,7 @@ const MAIN: Header = Header {
         "reach",
         "geometry",
         "domain",
+        "regions",
         "refining",
         "incidence",
         "listed",

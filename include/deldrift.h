@@ -126,6 +126,8 @@
  *         deldrift_circumcentres
  *     What segments divide the plane into: levels, labels, and boundaries in chains.
  *         deldrift_segments_of_cells
+ *     Labels of regions that follow: the sides of segments keep them.
+ *         deldrift_set_regions
  *     Refinement and coarsening of the cells of a domain.
  *         deldrift_quality_init
  *     What meets what: edges, neighbours and cells of vertices, mirror indices, ordered stars.
@@ -160,6 +162,9 @@
 /// No cell, no vertex: the neighbour of a cell across a facet of the convex hull, the nearest vertex of
 /// an empty triangulation.
 #define DELDRIFT_NONE UINT32_MAX
+
+/// No label.
+#define DELDRIFT_NO_LABEL (-2147483647 - 1)
 
 /// Outcome of a call. DELDRIFT_OK is 0, and a call that gives any other status has had no effect.
 ///
@@ -258,6 +263,9 @@ enum
     /// The call needs the lists of the latest deldrift_take_changes, and cells have changed since, or ids are not
     /// those of then.
     DELDRIFT_CHANGES_NOT_TAKEN = 40,
+    /// The call works on regions by their labels, and the sides of one have none, or several; deldrift_regions counts the
+    /// cells.
+    DELDRIFT_UNDECIDED_REGIONS = 41,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -696,6 +704,9 @@ typedef struct deldrift_location {
     uint32_t index;
 } deldrift_location;
 
+/// Which cells are the domain as it arrives from C, where any number may be passed.
+typedef uint32_t DomainCode;
+
 /// What deldrift_refine and deldrift_coarsen work towards, and how. Initialise it with deldrift_quality_init, then set what
 /// should differ from the defaults: without a criterion nothing is done.
 ///
@@ -712,7 +723,8 @@ typedef struct deldrift_quality {
     double least_angle;
     /// The greatest area of a cell; 0, the default, for any.
     double greatest_area;
-    /// A label for each cell, in the order of deldrift_cells, as deldrift_label_cells gives them; NULL, the default, for 0.
+    /// A label for each cell, in the order of deldrift_cells, as deldrift_label_cells gives them; NULL, the default, for those
+    /// of deldrift_regions, with 0 for other.
     const int32_t *labels;
     /// How many labels there are: as many as cells, or 0.
     size_t label_count;
@@ -768,6 +780,8 @@ typedef struct deldrift_quality {
     /// transfers means of cells takes the changes between deldrift_coarsen and deldrift_refine as well: a cell with the
     /// ids of one that was is not listed. Default 0.
     uint32_t reuses_ids;
+    /// Which cells are refined without a mask: default DELDRIFT_DOMAIN_NESTING.
+    DomainCode domain;
 } deldrift_quality;
 
 /// What deldrift_refine or deldrift_coarsen did.
@@ -2478,6 +2492,70 @@ deldrift_status deldrift_boundary_chains(const deldrift_triangulation *t,
                                          size_t *count);
 
 // ---------------------------------------------------------------------------------------------------------------------
+// Labels of regions that follow: the sides of segments keep them.
+// ---------------------------------------------------------------------------------------------------------------------
+
+/// Gives regions labels that follow them: a domain is described once, and deldrift_regions tells the label of each cell from
+/// then on. A region is a set of cells that can be reached from each other without crossing a segment.
+///
+/// labels: a number for each cell, in the order of deldrift_cells, one for each region: those of deldrift_label_cells,
+/// deldrift_nesting_levels or deldrift_crossing_numbers, or others. label_count: deldrift_cell_count. NULL and 0 take all labels
+/// away. Read during the call only.
+///
+/// Both sides of each segment in force get the label of the cell there, DELDRIFT_NO_LABEL beyond the hull. They keep it while
+/// segments move with their ends, and hand it on to the pieces that deldrift_refine, deldrift_coarsen and deldrift_stage_splits
+/// make; clones, and what is saved and loaded, have it. So labels follow through all calls, as long as no vertex passes a
+/// segment (see deldrift_check_passings). A segment that is added later has none: the regions on both sides keep theirs if they
+/// have other segments, or are given some by deldrift_set_segment_sides. Ends no views.
+///
+/// Cost: m, and for each segment the cells around an end.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
+/// DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE for a cell with another label than one of its region beside it,
+/// DELDRIFT_PREPARED, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
+deldrift_status deldrift_set_regions(deldrift_triangulation *t,
+                                     const int32_t *labels,
+                                     size_t label_count);
+
+/// Gives the sides of segments labels, as deldrift_set_regions does for all by the labels of cells: for a domain that is
+/// described by what is on the left and on the right of each segment, and for segments that are added to one.
+///
+/// segments: count ids, in force or staged; of one that is listed twice the last row counts. sides: a row of 2 labels for each:
+/// on the left, as seen from its first end along it, and on the right; DELDRIFT_NO_LABEL for none. Both are read during the call
+/// only, and may be NULL if count is 0. Ends no views.
+///
+/// Cost: count.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
+/// DELDRIFT_NO_SUCH_SEGMENT, DELDRIFT_PREPARED; then none is changed. Not to be called at the same time as any other call
+/// on t.
+deldrift_status deldrift_set_segment_sides(deldrift_triangulation *t,
+                                           const uint32_t *segments,
+                                           const int32_t *sides,
+                                           size_t count);
+
+/// The label of the region of each cell, in the order of deldrift_cells: that of the sides of its segments, which
+/// deldrift_set_regions and deldrift_set_segment_sides have given.
+///
+/// other: the label of cells in regions whose sides have none, as mostly outside of a domain, and of undecided ones. labels: a
+/// buffer with room for capacity numbers. count: receives the number of cells, which is also written when the buffer is too
+/// small. NULL with capacity 0 asks for the count alone. undecided: receives the number of cells in regions whose sides have
+/// several labels, and in regions that are closed off by segments whose sides have none; may be NULL. If it is not 0, segments
+/// have been added or removed, or vertices have passed segments, and it is time for deldrift_set_regions.
+///
+/// Exact. Cost: m, and for each segment the cells around an end. After a change the first call also does what the first
+/// deldrift_cells does.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_regions(const deldrift_triangulation *t,
+                                 int32_t other,
+                                 int32_t *labels,
+                                 size_t capacity,
+                                 size_t *count,
+                                 size_t *undecided);
+
+// ---------------------------------------------------------------------------------------------------------------------
 // Refinement and coarsening of the cells of a domain.
 // ---------------------------------------------------------------------------------------------------------------------
 
@@ -2494,8 +2572,8 @@ deldrift_status deldrift_quality_init(deldrift_quality *quality);
 ///
 /// quality: what is wanted. mask: mask_count bytes, one for each cell in the order of deldrift_cells (mask_count must be
 /// deldrift_cell_count): cells are refined if their byte is not 0. They have to end at segments: at an edge beyond which
-/// there is no cell, or one that is not refined, there has to be one. NULL with mask_count 0 for the domain: the cells that
-/// have an odd nesting level (see deldrift_nesting_levels). Read during the call only. report: receives what was done; may
+/// there is no cell, or one that is not refined, there has to be one. NULL with mask_count 0 for the domain (see deldrift_domain):
+/// by default the cells that have an odd nesting level. Read during the call only. report: receives what was done; may
 /// be NULL. Ends all views if anything was inserted or removed.
 ///
 /// A segment that gets a vertex is removed, and pieces take its place, with its marker: see deldrift_original_segments. The
@@ -2512,9 +2590,9 @@ deldrift_status deldrift_quality_init(deldrift_quality *quality);
 /// has changed since this call, or deldrift_coarsen, has found all to be good with these numbers: comparing mask and labels.
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
-/// DELDRIFT_INVALID_OPTIONS for struct_size and keeps, DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE for a number of quality
+/// DELDRIFT_INVALID_OPTIONS for struct_size, keeps and domain, DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE for a number of quality
 /// that has no meaning, those for deldrift_coarsen included, and for a mask that does not end at segments,
-/// DELDRIFT_STAGED_VERTEX if anything is staged, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY,
+/// DELDRIFT_UNDECIDED_REGIONS where labels of regions are used, DELDRIFT_STAGED_VERTEX if anything is staged, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY,
 /// DELDRIFT_CANCELLED, and DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING where pieces that are bent by rounding would touch
 /// others (see deldrift_segment_conflicts). Not to be called at the same time as any other call on t.
 deldrift_status deldrift_refine(deldrift_triangulation *t,
@@ -2538,8 +2616,8 @@ deldrift_status deldrift_refine(deldrift_triangulation *t,
 /// with these numbers: comparing mask and labels.
 ///
 /// Errors: those of deldrift_refine: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT,
-/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS for struct_size and keeps, DELDRIFT_WRONG_COUNT,
-/// DELDRIFT_INVALID_VALUE, DELDRIFT_STAGED_VERTEX, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED,
+/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS for struct_size, keeps and domain, DELDRIFT_WRONG_COUNT,
+/// DELDRIFT_INVALID_VALUE, DELDRIFT_UNDECIDED_REGIONS, DELDRIFT_STAGED_VERTEX, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED,
 /// DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING. Not to be called at the same time as any other call on t.
 deldrift_status deldrift_coarsen(deldrift_triangulation *t,
                                  const deldrift_quality *quality,

@@ -98,6 +98,11 @@ pub enum Error {
         /// Which entry of `seeds`.
         index: usize,
     },
+    /// The sides of a region have no label, or several.
+    UndecidedRegions {
+        /// How many cells are in such regions.
+        cells: usize,
+    },
     /// A position is outside the convex hull of a set that repeats and is open somewhere, where the call does not serve it.
     OutsideOfPeriodic {
         /// Parameter at fault.
@@ -336,11 +341,14 @@ impl fmt::Display for Error {
             Error::NoSuchSegment { argument, index, segment, ids } => {
                 write!(
                     f,
-                    "{argument}[{index}] is {segment}, which is no segment that can be removed; {ids} ids have been given"
+                    "{argument}[{index}] is {segment}, which is no segment, or one whose removal is staged; {ids} ids have been given"
                 )
             }
             Error::AmbiguousSeed { index } => {
                 write!(f, "seeds[{index}] is on the boundary of several regions, so it names none of them")
+            }
+            Error::UndecidedRegions { cells } => {
+                write!(f, "{cells} cells are in regions whose sides have no label, or several")
             }
             Error::NoSuchCell { argument, index, cell, cells } => {
                 write!(f, "{argument}[{index}] is {cell}, but there are {cells} cells")

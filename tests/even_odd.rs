@@ -19,7 +19,7 @@ fn triangulated(chains: &[Chain]) -> Triangulation {
         sides.extend((0..n).map(|k| [first + k, first + (k + 1) % n]));
         first += n;
     }
-    let segment = |ends: [u32; 2]| Segment { ends: ends.map(VertexId::new), marker: 0 };
+    let segment = |ends: [u32; 2]| Segment { ends: ends.map(VertexId::new), marker: 0, ..Segment::default() };
     t.stage_segments(sides.into_iter().map(segment)).expect("present");
     t.stage_splits(usize::MAX).expect("no ends meet");
     t.commit_timestamp().expect("nothing is in the way");
@@ -147,7 +147,11 @@ fn crossing_numbers_are_odd_where_those_of_rays_are() {
 fn open_chains_and_pieces_are_crossed_where_that_is_least() {
     let mut t =
         triangulated(&[rectangle([0, 0], [8, 8]), rectangle([2, 2], [4, 4]), rectangle([2, 2], [4, 4])]);
-    let more = [[0, 4], [2, 6], [3, 1]].map(|ends| Segment { ends: ends.map(VertexId::new), marker: 0 });
+    let more = [[0, 4], [2, 6], [3, 1]].map(|ends| Segment {
+        ends: ends.map(VertexId::new),
+        marker: 0,
+        ..Segment::default()
+    });
     t.stage_segments(more.into_iter()).expect("present");
     t.stage_splits(usize::MAX).expect("no ends meet");
     t.commit_timestamp().expect("nothing is in the way");

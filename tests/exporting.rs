@@ -321,11 +321,15 @@ fn with_segments() -> (MovingTriangulation<Plane>, Vec<(i32, [usize; 2])>) {
     t.remove_vertex(vertex(0)).expect("a removal");
     let given: [(u32, u32, i32); 6] =
         [(1, 7, -5), (2, 3, i32::MAX), (3, 4, 0), (4, 1, i32::MIN), (8, 6, 4), (5, 6, 12)];
-    let segments = given.map(|(a, b, marker)| Segment { ends: [vertex(a), vertex(b)], marker });
+    let segments =
+        given.map(|(a, b, marker)| Segment { ends: [vertex(a), vertex(b)], marker, ..Segment::default() });
     t.stage_segments(segments.into_iter()).expect("present");
     t.commit_timestamp().expect("no conflict");
     // What is staged is in no file.
-    t.stage_segments([Segment { ends: [vertex(1), vertex(3)], marker: 99 }].into_iter()).expect("present");
+    t.stage_segments(
+        [Segment { ends: [vertex(1), vertex(3)], marker: 99, ..Segment::default() }].into_iter(),
+    )
+    .expect("present");
     let leaving = t.segments().nth(1).expect("six").0;
     t.stage_segment_removals(&[leaving]).expect("in force");
     // Vertex 7 is at the place of 2, 8 at that of 5, and the first number is that of vertex 1.

@@ -604,13 +604,17 @@ fn ids_are_given_again_where_nothing_knows_them() {
     t.commit_timestamp().expect("room");
     assert_eq!((t.vertex_count(), t.validate(Level::Delaunay)), (6, Ok(())));
     t.remove_vertex(VertexId::new(4)).expect("present");
-    t.stage_segments([Segment { ends: [VertexId::new(0), VertexId::new(2)], marker: 0 }].into_iter())
-        .expect("room");
+    t.stage_segments(
+        [Segment { ends: [VertexId::new(0), VertexId::new(2)], marker: 0, ..Segment::default() }].into_iter(),
+    )
+    .expect("room");
     assert_eq!(given(&mut t, 1), [4]);
     t.discard_moves();
     // The end of a segment that is staged may be gone, and is not another vertex then.
-    t.stage_segments([Segment { ends: [VertexId::new(0), VertexId::new(3)], marker: 0 }].into_iter())
-        .expect("room");
+    t.stage_segments(
+        [Segment { ends: [VertexId::new(0), VertexId::new(3)], marker: 0, ..Segment::default() }].into_iter(),
+    )
+    .expect("room");
     t.remove_vertex(VertexId::new(3)).expect("present");
     assert_eq!(given(&mut t, 2), [4, 6]);
 }

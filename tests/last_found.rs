@@ -18,7 +18,7 @@ fn v(id: u32) -> VertexId {
 }
 
 fn segment(ends: [u32; 2]) -> Segment {
-    Segment { ends: ends.map(VertexId::new), marker: 7 }
+    Segment { ends: ends.map(VertexId::new), marker: 7, ..Segment::default() }
 }
 
 fn with_policy(passing: PassingPolicy) -> Options {

@@ -30,6 +30,7 @@ mod predicates_suites;
 mod preparing;
 mod reach;
 mod refining;
+mod regions;
 mod repair;
 mod same;
 mod saving;

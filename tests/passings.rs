@@ -119,7 +119,7 @@ fn run(kind: Kind, algorithm: Algorithm, seed: u64) -> [usize; 2] {
     let mut t = Triangulation::new(&draw::<Plane>(kind, n, rng), options).expect("good points");
     for _ in 0..n {
         let ends = [0; 2].map(|_| VertexId::at(rng.below(n)));
-        t.stage_segments([Segment { ends, marker: 0 }].into_iter()).expect("present");
+        t.stage_segments([Segment { ends, marker: 0, ..Segment::default() }].into_iter()).expect("present");
         if t.commit_timestamp().is_err() {
             t.discard_moves();
         }
@@ -164,7 +164,8 @@ fn run(kind: Kind, algorithm: Algorithm, seed: u64) -> [usize; 2] {
         if rng.one_in(3) {
             let ends = [0; 2].map(|_| VertexId::at(rng.below(before.len())));
             if ends.iter().all(|v| paths[v.index()].is_some()) {
-                t.stage_segments([Segment { ends, marker: 0 }].into_iter()).expect("present");
+                t.stage_segments([Segment { ends, marker: 0, ..Segment::default() }].into_iter())
+                    .expect("present");
             }
         }
         let expected = all_passings(&paths, &segments, |_, _| true);
@@ -201,7 +202,10 @@ fn ring(n: usize, first: u32, centre: Place, radius: f64, turn: f64) -> (Vec<Pla
         [centre[0] + radius * cos, centre[1] + radius * sin]
     };
     let id = |k: usize| vertex(first + (k % n) as u32);
-    ((0..n).map(at).collect(), (0..n).map(|k| Segment { ends: [id(k), id(k + 1)], marker: 0 }).collect())
+    (
+        (0..n).map(at).collect(),
+        (0..n).map(|k| Segment { ends: [id(k), id(k + 1)], marker: 0, ..Segment::default() }).collect(),
+    )
 }
 
 /// Whether boxes that cover the ways meet.
@@ -277,7 +281,8 @@ fn near_pairs_are_found_at_all_sizes() {
         let mut t = Triangulation::new(&points, Options::default()).expect("good points");
         for _ in 0..60 {
             let ends = [0; 2].map(|_| VertexId::at(rng.below(60)));
-            t.stage_segments([Segment { ends, marker: 0 }].into_iter()).expect("present");
+            t.stage_segments([Segment { ends, marker: 0, ..Segment::default() }].into_iter())
+                .expect("present");
             if t.commit_timestamp().is_err() {
                 t.discard_moves();
             }
@@ -357,7 +362,7 @@ fn with_slit() -> Triangulation {
         [-3.0, 7.0],
     ];
     let mut t = Triangulation::new(&points, Options::default()).expect("good points");
-    let slit = Segment { ends: ids([4, 5]), marker: 0 };
+    let slit = Segment { ends: ids([4, 5]), marker: 0, ..Segment::default() };
     t.stage_segments([slit].into_iter()).expect("present");
     t.commit_timestamp().expect("nothing is in the way");
     t
@@ -406,7 +411,8 @@ fn what_comes_or_goes_is_not_looked_at() {
     let slit = SegmentId::new(0);
     t.stage_segment_removals(&[slit]).expect("in force");
     assert_eq!(passings_of(&mut t, &[vertex(6)], &[[1.0, 0.0]]), []);
-    t.stage_segments([Segment { ends: ids([6, 8]), marker: 0 }].into_iter()).expect("present");
+    t.stage_segments([Segment { ends: ids([6, 8]), marker: 0, ..Segment::default() }].into_iter())
+        .expect("present");
     assert_eq!(passings_of(&mut t, &[vertex(0)], &[[0.0, 9.0]]), []);
     t.stage_insertions(&[[0.5, 0.0]]).expect("a good place");
     assert_eq!(t.check_passings(), Ok(()));

@@ -458,7 +458,7 @@ fn drawn_segments(t: &MovingTriangulation<Plane>, rng: &mut Rng) -> StagedSegmen
         for marker in 0..rng.below(4) as i32 {
             let ends = [*rng.pick(&present), *rng.pick(&present)];
             if ends[0] != ends[1] {
-                coming.push(Segment { ends, marker });
+                coming.push(Segment { ends, marker, ..Segment::default() });
             }
         }
     }

@@ -358,7 +358,7 @@ fn constrained_cells_that_insertions_remove_are_in_reach() {
         let mut n = 0;
         for _ in 0..200 {
             let ends = [rng.below(100), rng.below(100)].map(VertexId::at);
-            let segment = deldrift::motion::Segment { ends, marker: 0 };
+            let segment = deldrift::motion::Segment { ends, marker: 0, ..Default::default() };
             if ends[0] != ends[1] && t.stage_segments([segment].into_iter()).is_ok() {
                 if t.commit_timestamp().is_ok() { n += 1 } else { _ = t.discard_moves() }
             }

@@ -49,7 +49,7 @@ impl Domain {
         let mut t = Triangulation::new(&self.points, Options::default()).expect("good points");
         let segments: Vec<_> = (0..)
             .zip(&self.edges)
-            .map(|(marker, edge)| Segment { ends: edge.map(VertexId::at), marker })
+            .map(|(marker, edge)| Segment { ends: edge.map(VertexId::at), marker, ..Segment::default() })
             .collect();
         t.stage_segments(segments.into_iter()).expect("present");
         t.commit_timestamp().ok().map(|_| t)
@@ -326,7 +326,11 @@ fn random_domains_are_refined() {
         let (domain, n_loops) = random_domain(rng);
         let context = || format!("seed {seed}, {domain:?}");
         let mut t = Triangulation::new(&domain.points, Options::default()).expect("good points");
-        let segment = |k: usize| Segment { ends: domain.edges[k].map(VertexId::at), marker: k as i32 };
+        let segment = |k: usize| Segment {
+            ends: domain.edges[k].map(VertexId::at),
+            marker: k as i32,
+            ..Segment::default()
+        };
         t.stage_segments((0..domain.edges.len()).map(segment)).expect("present");
         if t.commit_timestamp().is_err() {
             continue;

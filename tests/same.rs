@@ -166,7 +166,7 @@ fn segments(sums: &mut Sums, name: &str, algorithm: Algorithm) {
     let mut t = MovingTriangulation::<Plane>::new(&now, options).expect("points");
     let chain = |first: u32, k: u32| [first + k, first + (k + 1) % 4].map(VertexId::new);
     let ends = (0..4).map(|k| chain(0, k)).chain((0..4).map(|k| chain(4, k)));
-    let rows: Vec<Segment> = ends.map(|ends| Segment { ends, marker: 1 }).collect();
+    let rows: Vec<Segment> = ends.map(|ends| Segment { ends, marker: 1, ..Segment::default() }).collect();
     t.stage_segments(rows.into_iter()).expect("present");
     t.commit_timestamp().expect("segments that do not cross");
     read(sums, &format!("{name} laid"), &mut t, true, rng);

@@ -691,7 +691,11 @@ fn absent_ids_have_no_position() {
 fn refined_domains_go_on_as_before() {
     let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0], [1.0, 0.5]];
     let mut t = MovingTriangulation::<Plane>::new(&corners, Options::default()).expect("a build");
-    let side = |k: u32| Segment { ends: [k, (k + 1) % 4].map(VertexId::new), marker: k as i32 };
+    let side = |k: u32| Segment {
+        ends: [k, (k + 1) % 4].map(VertexId::new),
+        marker: k as i32,
+        ..Segment::default()
+    };
     t.stage_segments((0..4).map(side)).expect("present");
     t.commit_timestamp().expect("no conflict");
     let mask = |t: &MovingTriangulation<Plane>| vec![1; t.cell_count()];

@@ -432,7 +432,7 @@ fn run(kind: Kind, algorithm: Algorithm, seed: u64) -> [usize; 3] {
         for _ in 0..rng.below(4) {
             let ends = [0; 2].map(|_| VertexId::at(rng.below(goals.len())));
             if ends.iter().all(|v| goals[v.index()].is_some()) {
-                let segment = Segment { ends, marker: step };
+                let segment = Segment { ends, marker: step, ..Segment::default() };
                 let id = t.stage_segments([segment].into_iter()).expect("present");
                 segments.push((id, segment));
             }
@@ -499,7 +499,7 @@ fn segments_are_kept_through_random_histories() {
 fn conflicts_name_what_is_in_the_way() {
     let points = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [2.0, 2.0], [1.0, 3.0]];
     let mut t = Triangulation::new(&points, Options::default()).expect("good points");
-    let ids = |ends: [u32; 2]| Segment { ends: ends.map(VertexId::new), marker: 7 };
+    let ids = |ends: [u32; 2]| Segment { ends: ends.map(VertexId::new), marker: 7, ..Segment::default() };
     t.stage_segments([ids([0, 2]), ids([3, 1]), ids([5, 1])].into_iter()).expect("present");
     let refused = t.commit_timestamp().expect_err("there are conflicts");
     let [first, second, third] = [0, 1, 2].map(SegmentId::new);
@@ -530,7 +530,8 @@ fn segments_go_with_hidden_vertices() {
         let mut t =
             Triangulation::new(&points, Options { algorithm, ..Options::default() }).expect("good points");
         let [left, _, right, _, hidden] = [0, 1, 2, 3, 4].map(VertexId::new);
-        t.stage_segments([Segment { ends: [hidden, right], marker: 0 }].into_iter()).expect("present");
+        t.stage_segments([Segment { ends: [hidden, right], marker: 0, ..Segment::default() }].into_iter())
+            .expect("present");
         t.commit_timestamp().expect("an edge of the outline");
         t.move_vertices(&[hidden], &[points[0]]).expect("a good place");
         t.commit_timestamp().expect("nothing is in the way");
@@ -562,8 +563,10 @@ fn random_domain(n: usize, n_segments: usize, rng: &mut Rng) -> Triangulation {
     for _ in 0..n_segments {
         let ends = [rng.below(n), rng.below(n)];
         if ends[0] != ends[1] {
-            t.stage_segments([Segment { ends: ends.map(VertexId::at), marker: 0 }].into_iter())
-                .expect("present");
+            t.stage_segments(
+                [Segment { ends: ends.map(VertexId::at), marker: 0, ..Segment::default() }].into_iter(),
+            )
+            .expect("present");
             if t.commit_timestamp().is_err() {
                 t.discard_moves();
             }
@@ -630,7 +633,7 @@ fn a_cell_between_segments_has_the_tolerance_of_its_orientation() {
     ];
     let mut t = Triangulation::new(&points, Options::default()).expect("good points");
     let ends = [[0, 1], [1, 2], [2, 0], [0, 4], [1, 4], [2, 4]];
-    let sides = ends.map(|ends| Segment { ends: ends.map(VertexId::new), marker: 0 });
+    let sides = ends.map(|ends| Segment { ends: ends.map(VertexId::new), marker: 0, ..Segment::default() });
     t.stage_segments(sides.into_iter()).expect("present");
     t.commit_timestamp().expect("no conflict");
     // The two other cells of vertex 2 have heights of more than 2.
@@ -698,7 +701,11 @@ fn labels_go_with_their_regions() {
         };
         points.extend((0..600).map(|_| [rng.unit(), rng.unit()]).filter(is_free));
         let mut t = Triangulation::new(&points, Options::default()).expect("good points");
-        let side = |k: u32| Segment { ends: [k, k / 7 * 7 + (k + 1) % 7].map(VertexId::new), marker: 0 };
+        let side = |k: u32| Segment {
+            ends: [k, k / 7 * 7 + (k + 1) % 7].map(VertexId::new),
+            marker: 0,
+            ..Segment::default()
+        };
         t.stage_segments((0..14).map(side)).expect("present");
         t.commit_timestamp().expect("no vertex is exactly on a segment");
         t.take_changes().expect("room");
@@ -743,7 +750,11 @@ fn labels_go_with_their_regions() {
 fn labels_that_nothing_tells_are_undecided() {
     let points = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [1.5, 2.5], [2.5, 1.5]];
     let mut t = Triangulation::new(&points, Options::default()).expect("good points");
-    let wall = [[0, 2], [0, 1], [1, 2]].map(|ends| Segment { ends: ends.map(VertexId::new), marker: 0 });
+    let wall = [[0, 2], [0, 1], [1, 2]].map(|ends| Segment {
+        ends: ends.map(VertexId::new),
+        marker: 0,
+        ..Segment::default()
+    });
     t.stage_segments(wall.into_iter()).expect("present");
     t.commit_timestamp().expect("no conflict");
     t.take_changes().expect("room");
@@ -774,7 +785,8 @@ fn calls_at_once_are_refused_on_a_line() {
     let points = [[0.0, 0.0], [2.0, 0.0], [4.0, 0.0], [2.0, 0.0]];
     let mut t = Triangulation::new(&points, Options::default()).expect("good points");
     let [left, middle, right, hidden] = [0, 1, 2, 3].map(VertexId::new);
-    t.stage_segments([Segment { ends: [left, middle], marker: 0 }].into_iter()).expect("present");
+    t.stage_segments([Segment { ends: [left, middle], marker: 0, ..Segment::default() }].into_iter())
+        .expect("present");
     t.commit_timestamp().expect("nothing is in the way");
     let before = t.saved().expect("room");
     let check = |t: &Triangulation, refused: deldrift::Result<()>| {
@@ -806,7 +818,7 @@ fn conflicts_are_those_of_the_latest_refusal() {
     let points = [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]];
     let options = Options { coincidence: CoincidencePolicy::Reject, ..Options::default() };
     let mut t = Triangulation::new(&points, options).expect("good points");
-    let segment = Segment { ends: [VertexId::new(1); 2], marker: 0 };
+    let segment = Segment { ends: [VertexId::new(1); 2], marker: 0, ..Segment::default() };
     for call in 0..2 {
         t.stage_segments([segment].into_iter()).expect("present");
         t.commit_timestamp().expect_err("the ends meet");
@@ -826,7 +838,10 @@ fn conflicts_are_those_of_the_latest_refusal() {
 fn staged_segments_without_an_end_go_through_compactions() {
     let points = [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [4.0, 4.0]];
     let mut t = Triangulation::new(&points, Options::default()).expect("good points");
-    t.stage_segments([Segment { ends: [1, 2].map(VertexId::new), marker: 5 }].into_iter()).expect("present");
+    t.stage_segments(
+        [Segment { ends: [1, 2].map(VertexId::new), marker: 5, ..Segment::default() }].into_iter(),
+    )
+    .expect("present");
     t.remove_vertex(VertexId::new(1)).expect("present");
     for _ in 0..3 {
         t.compact().expect("room");

@@ -194,7 +194,7 @@ fn random_segments(kind: usize, n_ids: usize, n: usize, rng: &mut Rng) -> Vec<Se
             let pair = rng.below(n_ids / 2);
             let are_pairs = kind == 3 || kind == 4;
             let ends = if are_pairs { [2 * pair, 2 * pair + 1] } else { [0; 2].map(|_| rng.below(n_ids)) };
-            Segment { ends: ends.map(VertexId::at), marker: k as i32 - 3 }
+            Segment { ends: ends.map(VertexId::at), marker: k as i32 - 3, ..Segment::default() }
         })
         .collect()
 }
@@ -360,7 +360,7 @@ fn square() -> Triangulation {
 }
 
 fn between(ends: [u32; 2], marker: i32) -> Segment {
-    Segment { ends: ends.map(VertexId::new), marker }
+    Segment { ends: ends.map(VertexId::new), marker, ..Segment::default() }
 }
 
 #[test]

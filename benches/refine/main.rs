@@ -40,8 +40,11 @@ fn poly(domain: &Domain) -> String {
 fn build(domain: &Domain) -> MovingTriangulation<Plane> {
     let mut t = MovingTriangulation::new(&domain.points, Options { threads: 1, ..Options::default() })
         .expect("good points");
-    let segment =
-        |(k, edge): (usize, &[usize; 2])| Segment { ends: edge.map(VertexId::at), marker: k as i32 };
+    let segment = |(k, edge): (usize, &[usize; 2])| Segment {
+        ends: edge.map(VertexId::at),
+        marker: k as i32,
+        ..Segment::default()
+    };
     let segments: Vec<_> = domain.edges.iter().enumerate().map(segment).collect();
     t.stage_segments(segments.into_iter()).expect("present");
     t.commit_timestamp().expect("no conflict");

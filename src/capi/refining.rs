@@ -31,6 +31,23 @@ pub enum deldrift_kept {
 /// Which segments are kept whole as it arrives from C, where any number may be passed.
 pub type KeptCode = u32;
 
+/// Which cells deldrift_refine and deldrift_coarsen work on where they are given no mask.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum deldrift_domain {
+    /// Those with an odd nesting level: see deldrift_nesting_levels.
+    DELDRIFT_DOMAIN_NESTING = 0,
+    /// Those with an odd crossing number, as the even-odd rule has it: see deldrift_crossing_numbers.
+    DELDRIFT_DOMAIN_EVEN_ODD = 1,
+    /// All within closed chains of segments: those with a nesting level above 0.
+    DELDRIFT_DOMAIN_INSIDE = 2,
+    /// Those in regions with a label above 0: see deldrift_regions.
+    DELDRIFT_DOMAIN_REGIONS = 3,
+}
+
+/// Which cells are the domain as it arrives from C, where any number may be passed.
+pub type DomainCode = u32;
+
 /// What deldrift_refine and deldrift_coarsen work towards, and how. Initialise it with deldrift_quality_init, then set what
 /// should differ from the defaults: without a criterion nothing is done.
 ///
@@ -49,7 +66,8 @@ pub struct deldrift_quality {
     pub least_angle: f64,
     /// The greatest area of a cell; 0, the default, for any.
     pub greatest_area: f64,
-    /// A label for each cell, in the order of deldrift_cells, as deldrift_label_cells gives them; NULL, the default, for 0.
+    /// A label for each cell, in the order of deldrift_cells, as deldrift_label_cells gives them; NULL, the default, for those
+    /// of deldrift_regions, with 0 for other.
     pub labels: *const i32,
     /// How many labels there are: as many as cells, or 0.
     pub label_count: usize,
@@ -105,6 +123,8 @@ pub struct deldrift_quality {
     /// transfers means of cells takes the changes between deldrift_coarsen and deldrift_refine as well: a cell with the
     /// ids of one that was is not listed. Default 0.
     pub reuses_ids: u32,
+    /// Which cells are refined without a mask: default DELDRIFT_DOMAIN_NESTING.
+    pub domain: DomainCode,
 }
 
 impl Growing for deldrift_quality {
@@ -129,6 +149,7 @@ impl Growing for deldrift_quality {
         joins: 1e-9,
         growth: 1.1,
         reuses_ids: 0,
+        domain: 0,
     };
     const ENDS: &'static [usize] = &[
         offset_of!(deldrift_quality, greatest_area),
@@ -149,6 +170,7 @@ impl Growing for deldrift_quality {
         offset_of!(deldrift_quality, joins),
         offset_of!(deldrift_quality, growth),
         offset_of!(deldrift_quality, reuses_ids),
+        offset_of!(deldrift_quality, domain),
         size_of::<deldrift_quality>(),
     ];
     const SIZE: &'static str = "quality.struct_size";
@@ -218,8 +240,8 @@ pub unsafe extern "C" fn deldrift_quality_init(quality: *mut deldrift_quality) -
 ///
 /// quality: what is wanted. mask: mask_count bytes, one for each cell in the order of deldrift_cells (mask_count must be
 /// deldrift_cell_count): cells are refined if their byte is not 0. They have to end at segments: at an edge beyond which
-/// there is no cell, or one that is not refined, there has to be one. NULL with mask_count 0 for the domain: the cells that
-/// have an odd nesting level (see deldrift_nesting_levels). Read during the call only. report: receives what was done; may
+/// there is no cell, or one that is not refined, there has to be one. NULL with mask_count 0 for the domain (see deldrift_domain):
+/// by default the cells that have an odd nesting level. Read during the call only. report: receives what was done; may
 /// be NULL. Ends all views if anything was inserted or removed.
 ///
 /// A segment that gets a vertex is removed, and pieces take its place, with its marker: see deldrift_original_segments. The
@@ -236,9 +258,9 @@ pub unsafe extern "C" fn deldrift_quality_init(quality: *mut deldrift_quality) -
 /// has changed since this call, or deldrift_coarsen, has found all to be good with these numbers: comparing mask and labels.
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
-/// DELDRIFT_INVALID_OPTIONS for struct_size and keeps, DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE for a number of quality
+/// DELDRIFT_INVALID_OPTIONS for struct_size, keeps and domain, DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE for a number of quality
 /// that has no meaning, those for deldrift_coarsen included, and for a mask that does not end at segments,
-/// DELDRIFT_STAGED_VERTEX if anything is staged, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY,
+/// DELDRIFT_UNDECIDED_REGIONS where labels of regions are used, DELDRIFT_STAGED_VERTEX if anything is staged, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY,
 /// DELDRIFT_CANCELLED, and DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING where pieces that are bent by rounding would touch
 /// others (see deldrift_segment_conflicts). Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
@@ -277,8 +299,8 @@ pub unsafe extern "C" fn deldrift_refine(
 /// with these numbers: comparing mask and labels.
 ///
 /// Errors: those of deldrift_refine: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT,
-/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS for struct_size and keeps, DELDRIFT_WRONG_COUNT,
-/// DELDRIFT_INVALID_VALUE, DELDRIFT_STAGED_VERTEX, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED,
+/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS for struct_size, keeps and domain, DELDRIFT_WRONG_COUNT,
+/// DELDRIFT_INVALID_VALUE, DELDRIFT_UNDECIDED_REGIONS, DELDRIFT_STAGED_VERTEX, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED,
 /// DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING. Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_coarsen(

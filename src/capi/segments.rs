@@ -96,10 +96,11 @@ pub unsafe extern "C" fn deldrift_stage_segments(
         let ends = ends.get()?;
         let markers = if markers.is_null() { None } else { Some(markers.get()?) };
         let marker = |k: usize| markers.map_or(0, |markers| markers[k]);
-        let segments = ends
-            .iter()
-            .enumerate()
-            .map(|(k, ends)| Segment { ends: ends.map(VertexId::new), marker: marker(k) });
+        let segments = ends.iter().enumerate().map(|(k, ends)| Segment {
+            ends: ends.map(VertexId::new),
+            marker: marker(k),
+            ..Segment::default()
+        });
         place.write(t.stage_segments(segments)?.get());
         Ok(())
     })

@@ -105,6 +105,9 @@ pub enum deldrift_status {
     /// The call needs the lists of the latest deldrift_take_changes, and cells have changed since, or ids are not
     /// those of then.
     DELDRIFT_CHANGES_NOT_TAKEN = 40,
+    /// The call works on regions by their labels, and the sides of one have none, or several; deldrift_regions counts the
+    /// cells.
+    DELDRIFT_UNDECIDED_REGIONS = 41,
 }
 
 use deldrift_status::*;
@@ -114,7 +117,7 @@ pub type StatusCode = u32;
 
 impl deldrift_status {
     /// Every status, in the order of their values.
-    const ALL: [deldrift_status; 41] = [
+    const ALL: [deldrift_status; 42] = [
         DELDRIFT_OK,
         DELDRIFT_NULL_ARGUMENT,
         DELDRIFT_MISALIGNED_ARGUMENT,
@@ -156,6 +159,7 @@ impl deldrift_status {
         DELDRIFT_PERIODIC,
         DELDRIFT_DEPENDENT_VECTORS,
         DELDRIFT_CHANGES_NOT_TAKEN,
+        DELDRIFT_UNDECIDED_REGIONS,
     ];
 
     fn text(self) -> &'static CStr {
@@ -198,6 +202,7 @@ impl deldrift_status {
             DELDRIFT_PASSES_SEGMENT => c"a vertex would pass a segment",
             DELDRIFT_PREPARED => c"a timestamp is prepared",
             DELDRIFT_CHANGES_NOT_TAKEN => c"changes have not been taken since the last one",
+            DELDRIFT_UNDECIDED_REGIONS => c"a region has no label, or several",
             DELDRIFT_NOT_PREPARED => c"no timestamp is prepared",
             DELDRIFT_PERIODIC => c"the function does not serve periodic triangulations",
             DELDRIFT_DEPENDENT_VECTORS => c"the vectors of a box depend on each other",
@@ -312,6 +317,7 @@ impl Failure {
                 },
                 Error::Passing { .. } => DELDRIFT_PASSES_SEGMENT,
                 Error::Prepared { .. } => DELDRIFT_PREPARED,
+                Error::UndecidedRegions { .. } => DELDRIFT_UNDECIDED_REGIONS,
                 Error::ChangesNotTaken => DELDRIFT_CHANGES_NOT_TAKEN,
                 Error::NotPrepared => DELDRIFT_NOT_PREPARED,
                 Error::DuplicateMove { .. } => DELDRIFT_DUPLICATE_MOVE,

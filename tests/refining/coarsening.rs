@@ -125,7 +125,11 @@ fn no_vertex_stays_that_could_go() {
         let domain = Domain { edges: domain.edges[..n_loops].to_vec(), ..domain };
         let context = || format!("seed {seed}, {quality:?}, {domain:?}");
         let mut t = Triangulation::new(&domain.points, Options::default()).expect("good points");
-        let segment = |k: usize| Segment { ends: domain.edges[k].map(VertexId::at), marker: k as i32 };
+        let segment = |k: usize| Segment {
+            ends: domain.edges[k].map(VertexId::at),
+            marker: k as i32,
+            ..Segment::default()
+        };
         t.stage_segments((0..n_loops).map(segment)).expect("present");
         if t.commit_timestamp().is_err() {
             // The inner loop crosses the outer one.
@@ -264,7 +268,7 @@ fn lay_or_take_away(t: &mut Triangulation, rng: &mut Rng) {
     if edges.is_empty() {
         return;
     }
-    let segment = Segment { ends: *rng.pick(&edges), marker: OWN };
+    let segment = Segment { ends: *rng.pick(&edges), marker: OWN, ..Segment::default() };
     t.stage_segments(std::iter::once(segment)).expect("present");
     t.commit_timestamp().expect("it is an edge");
 }

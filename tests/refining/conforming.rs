@@ -90,7 +90,11 @@ fn no_corner_is_in_the_circle_around_a_segment() {
         let rng = &mut Rng::new(k as u64);
         let context = || format!("domain {k}: {domain:?}");
         let mut t = Triangulation::new(&domain.points, Options::default()).expect("good points");
-        let segment = |k: usize| Segment { ends: domain.edges[k].map(VertexId::at), marker: k as i32 };
+        let segment = |k: usize| Segment {
+            ends: domain.edges[k].map(VertexId::at),
+            marker: k as i32,
+            ..Segment::default()
+        };
         t.stage_segments((0..domain.edges.len()).map(segment)).expect("present");
         if t.commit_timestamp().is_err() || has_tiny_angle(&domain) {
             continue;

@@ -196,7 +196,11 @@ fn ends_of_originals_are_not_given_again() {
     let square = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [1.0, 1.0], [3.0, 1.0]];
     let mut t = Triangulation::new(&square, Options::default()).expect("good points");
     let ends = [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5]];
-    let segment = |(marker, ends): (i32, [usize; 2])| Segment { ends: ends.map(VertexId::at), marker };
+    let segment = |(marker, ends): (i32, [usize; 2])| Segment {
+        ends: ends.map(VertexId::at),
+        marker,
+        ..Segment::default()
+    };
     t.stage_segments(ends.map(|ends| segment((0, ends))).into_iter()).expect("present");
     t.commit_timestamp().expect("no conflict");
     refine(&mut t, &quality(20.0, 0.1));
@@ -255,7 +259,11 @@ fn low_ids_decide_no_ties() {
             (0..4).map(move |j| [a + (b - a) / 4 * j, a + (b - a) / 4 * (j + 1)])
         });
         let segments: Vec<_> = sides
-            .map(|ends| Segment { ends: ends.map(|v| VertexId::at(N_FREE + v as usize)), marker: 0 })
+            .map(|ends| Segment {
+                ends: ends.map(|v| VertexId::at(N_FREE + v as usize)),
+                marker: 0,
+                ..Segment::default()
+            })
             .collect();
         t.stage_segments(segments.into_iter()).expect("present");
         t.commit_timestamp().expect("no conflict");

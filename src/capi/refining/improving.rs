@@ -2,7 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use super::{KeptCode, deldrift_kept, deldrift_quality, deldrift_quality_report};
+use super::{
+    DomainCode, KeptCode, deldrift_domain, deldrift_kept, deldrift_quality, deldrift_quality_report,
+};
 use crate::capi::guard;
 use crate::capi::handle::Changing;
 use crate::capi::options::{Given, invalid};
@@ -43,8 +45,15 @@ pub(super) fn improve(
         if !is_whole_domain {
             t.check_mask(mask_count)?;
         }
-        let domain = if is_whole_domain { domain_of(t)? } else { Vec::new() };
-        let mask = if is_whole_domain { &domain } else { mask.get()? };
+        let has_own_labels = !(given.labels.is_null() && given.label_count == 0);
+        let domain = domain_named(given.domain)?;
+        let by_region = is_whole_domain && domain == deldrift_domain::DELDRIFT_DOMAIN_REGIONS;
+        let labels = match t.has_regions() && (by_region || !has_own_labels) {
+            true => decided_labels(t)?,
+            false => Vec::new(),
+        };
+        let cells = if is_whole_domain { cells_of(t, domain, &labels)? } else { Vec::new() };
+        let mask = if is_whole_domain { &cells } else { mask.get()? };
         let is_too_large = given.is_too_large.map(|is_too_large| {
             move |corners: [[f64; 2]; 3]| {
                 // SAFETY: the caller set both, the one for the other, and the corners are 6 numbers.
@@ -58,7 +67,10 @@ pub(super) fn improve(
         let quality = Quality {
             least_angle: given.least_angle,
             greatest_area: given.greatest_area,
-            labels: array("quality.labels", given.labels.cast(), given.label_count)?,
+            labels: match has_own_labels {
+                true => array("quality.labels", given.labels.cast(), given.label_count)?,
+                false => (!labels.is_empty()).then_some(&labels),
+            },
             areas: array("quality.areas", given.areas, given.area_count)?.unwrap_or_default(),
             sizes: array("quality.sizes", given.sizes, given.size_count)?,
             is_too_large: is_too_large.as_ref().map(|is_too_large| is_too_large as TooLarge),
@@ -82,11 +94,50 @@ fn array<'a, T>(argument: &'static str, pointer: *const T, count: usize) -> Resu
     Ok(Some(values))
 }
 
-/// The cells of an odd nesting level.
-fn domain_of(t: &MovingTriangulation<Plane>) -> Result<Vec<u8>, Failure> {
+/// The labels of the regions of all cells, as numbers without a sign.
+fn decided_labels(t: &MovingTriangulation<Plane>) -> Result<Vec<u32>, Failure> {
+    let (found, cells) = t.region_labels(0)?;
+    if cells > 0 {
+        return Err(Error::UndecidedRegions { cells }.into());
+    }
+    let mut labels = Vec::new();
+    memory::collect(&mut labels, found.into_iter().map(|label| label as u32))?;
+    Ok(labels)
+}
+
+/// The cells of a domain, for which `labels` has those of their regions if it needs them; none if no region has one.
+fn cells_of(
+    t: &MovingTriangulation<Plane>,
+    domain: deldrift_domain,
+    labels: &[u32],
+) -> Result<Vec<u8>, Failure> {
+    use deldrift_domain::*;
     let mut mask = Vec::new();
-    memory::collect(&mut mask, t.nesting_levels()?.into_iter().map(|level| (level % 2) as u8))?;
+    match domain {
+        DELDRIFT_DOMAIN_NESTING => {
+            memory::collect(&mut mask, t.nesting_levels()?.into_iter().map(|level| (level % 2) as u8))?;
+        }
+        DELDRIFT_DOMAIN_EVEN_ODD => {
+            memory::collect(&mut mask, t.crossing_numbers()?.into_iter().map(|number| (number % 2) as u8))?;
+        }
+        DELDRIFT_DOMAIN_INSIDE => {
+            memory::collect(&mut mask, t.nesting_levels()?.into_iter().map(|level| u8::from(level > 0)))?;
+        }
+        DELDRIFT_DOMAIN_REGIONS => {
+            memory::collect(&mut mask, labels.iter().map(|&label| u8::from(label as i32 > 0)))?;
+            memory::lengthen(&mut mask, t.cell_count(), 0)?;
+        }
+    }
     Ok(mask)
+}
+
+/// The domain of a number.
+fn domain_named(code: DomainCode) -> Result<deldrift_domain, Failure> {
+    use deldrift_domain::*;
+    [DELDRIFT_DOMAIN_NESTING, DELDRIFT_DOMAIN_EVEN_ODD, DELDRIFT_DOMAIN_INSIDE, DELDRIFT_DOMAIN_REGIONS]
+        .into_iter()
+        .find(|&known| known as u32 == code)
+        .ok_or_else(|| invalid("quality.domain", code, "a deldrift_domain"))
 }
 
 pub(super) fn kept_of(code: KeptCode) -> Result<Kept, Failure> {

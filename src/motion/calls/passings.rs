@@ -21,7 +21,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// let points = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [2.0, 1.0], [2.0, 3.0], [1.0, 2.0]];
     /// let mut t = MovingTriangulation::<Plane>::new(&points, Options::default())?;
-    /// let slit = Segment { ends: [4, 5].map(VertexId::new), marker: 0 };
+    /// let slit = Segment { ends: [4, 5].map(VertexId::new), marker: 0, ..Segment::default() };
     /// t.stage_segments([slit].into_iter())?;
     /// t.commit_timestamp()?;
     /// t.move_vertices(&[VertexId::new(6)], &[[3.0, 2.0]])?;

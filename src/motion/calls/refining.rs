@@ -46,7 +46,7 @@ impl MovingTriangulation<Plane> {
     ///
     /// let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     /// let mut t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
-    /// let side = |k: u32| Segment { ends: [k, (k + 1) % 4].map(VertexId::new), marker: 0 };
+    /// let side = |k: u32| Segment { ends: [k, (k + 1) % 4].map(VertexId::new), marker: 0, ..Segment::default() };
     /// t.stage_segments((0..4).map(side))?;
     /// t.commit_timestamp()?;
     /// let quality = Quality { least_angle: 30.0, greatest_area: 0.01, ..Quality::default() };

@@ -100,7 +100,7 @@ impl MovingTriangulation<Plane> {
     ///
     /// let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     /// let mut t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
-    /// let diagonals = [[0, 2], [1, 3]].map(|ends| Segment { ends: ends.map(VertexId::new), marker: 7 });
+    /// let diagonals = [[0, 2], [1, 3]].map(|ends| Segment { ends: ends.map(VertexId::new), marker: 7, ..Segment::default() });
     /// let first = t.stage_segments(diagonals.into_iter())?;
     /// let report = t.stage_splits(1)?;
     /// assert_eq!((report.inserted, report.pieces), (1, 4));
@@ -320,8 +320,8 @@ impl MovingTriangulation<Plane> {
         segments.restore_staged(&before.staged, &before.leaving);
         let mut n_replaced = 0;
         for pieces in pieces.chunk_by(|a, b| a.of == b.of) {
-            let marker = segments.take_out(pieces[0].of)?.marker;
-            segments.stage(pieces.iter().map(|piece| Segment { ends: piece.ends, marker }))?;
+            let whole = segments.take_out(pieces[0].of)?;
+            segments.stage(pieces.iter().map(|piece| Segment { ends: piece.ends, ..whole }))?;
             n_replaced += 1;
         }
         Ok(n_replaced)

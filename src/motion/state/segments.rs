@@ -17,6 +17,9 @@ use crate::ids::{SegmentId, SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::state::last_found::{LastFound, refuse_conflicts};
 
+/// What stands for the label of a side of a segment that has none.
+pub const NO_LABEL: i32 = i32::MIN;
+
 /// A segment between two vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Segment {
@@ -24,6 +27,25 @@ pub struct Segment {
     pub ends: [VertexId; 2],
     /// What the program knows it by: any number.
     pub marker: i32,
+    /// The labels of the regions on its left and on its right, as seen from its first end along it; [`NO_LABEL`] for none.
+    pub sides: [i32; 2],
+}
+
+impl Segment {
+    /// Between no vertices.
+    pub(in crate::motion) const NOTHING: Self =
+        Segment { ends: [VertexId::NONE; 2], marker: 0, sides: [NO_LABEL; 2] };
+
+    /// Whether a side has a label.
+    pub(in crate::motion) fn has_labels(&self) -> bool {
+        self.sides != [NO_LABEL; 2]
+    }
+}
+
+impl Default for Segment {
+    fn default() -> Self {
+        Segment::NOTHING
+    }
 }
 
 /// What a change is made for.
@@ -144,6 +166,16 @@ impl<G: Dimension> Segments<G> {
         Ok(first)
     }
 
+    /// The segment of an id that is in force or staged, to be changed.
+    pub(in crate::motion) fn get_mut(&mut self, segment: SegmentId) -> Option<&mut Segment> {
+        self.all.get_mut(segment.index())?.as_mut()
+    }
+
+    /// Whether a side of any of them, staged ones included, has a label.
+    pub(in crate::motion) fn have_labels(&self) -> bool {
+        self.all.iter().flatten().any(Segment::has_labels)
+    }
+
     /// Stages the removal of a segment that is in force, if it is not.
     pub(in crate::motion) fn stage_removal(&mut self, segment: SegmentId) -> Result<()> {
         if let Err(at) = self.leaving.binary_search(&segment) {
@@ -254,6 +286,17 @@ impl<G: Dimension> Segments<G> {
         SegmentId::range(0..self.n_laid)
             .zip(all)
             .filter_map(|(id, segment)| segment.map(|segment| (id, segment)))
+    }
+
+    /// The segments in force, with their ids, ascending, to be changed.
+    pub(in crate::motion) fn laid_mut(&mut self) -> impl Iterator<Item = (SegmentId, &mut Segment)> {
+        let ids = SegmentId::range(0..self.n_laid);
+        ids.zip(&mut self.all[..self.n_laid]).filter_map(|(id, segment)| Some((id, segment.as_mut()?)))
+    }
+
+    /// Takes the labels away from all sides.
+    pub(in crate::motion) fn forget_labels(&mut self) {
+        self.all.iter_mut().flatten().for_each(|segment| segment.sides = Segment::NOTHING.sides);
     }
 
     /// Whether some cell is not of the Delaunay triangulation.

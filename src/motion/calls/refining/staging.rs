@@ -43,8 +43,7 @@ impl MovingTriangulation<Plane> {
             let ends = if shown(segment.ends[0]) == start { [v, w] } else { [w, v] };
             // A vertex that shares its place stays the end that it was.
             let ends = ends.map(|v| segment.ends.into_iter().find(|&end| shown(end) == v).unwrap_or(v));
-            let marker = segment.marker;
-            memory::push(&mut changes.coming, (Segment { ends, marker }, self.origin_of(id)))?;
+            memory::push(&mut changes.coming, (Segment { ends, ..segment }, self.origin_of(id)))?;
         }
         Ok(())
     }

@@ -7,16 +7,16 @@ use crate::machine::memory;
 use crate::motion::state::cells::NO_CELL;
 use crate::motion::triangulation::MovingTriangulation;
 
-/// What is known of listed cells that are reached from each other.
+/// What is known of the label of cells that are reached from each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Found {
+pub(super) enum Found {
     Nothing,
     One(i32),
     Several,
 }
 
 impl Found {
-    fn and(self, label: i32) -> Self {
+    pub(super) fn and(self, label: i32) -> Self {
         match self {
             Found::Nothing => Found::One(label),
             Found::One(other) if other == label => self,

@@ -110,7 +110,7 @@ impl MovingTriangulation<Plane> {
 
     /// The number of the region of each cell, in the order of [`cells`](Self::cells), and for each region whether the
     /// outside of the hull is reached from it without crossing a segment.
-    fn regions(&self) -> Result<(Vec<u32>, Vec<bool>)> {
+    pub(super) fn regions(&self) -> Result<(Vec<u32>, Vec<bool>)> {
         let cells = self.cell_arrays()?;
         let at_edges = self.segments_of_cells()?;
         let (mut regions, mut waiting, mut is_open) = (Vec::new(), Vec::new(), Vec::new());

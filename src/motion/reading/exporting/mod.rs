@@ -165,7 +165,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn lines(&self) -> impl Iterator<Item = Segment> + '_ {
         let shown = |v: VertexId| self.mesh.kernel.site(self.mesh.site_of[v]).id;
         let segments = self.mesh.segments.iter().flat_map(|segments| segments.laid());
-        segments.map(move |(_, Segment { ends, marker })| Segment { ends: ends.map(shown), marker })
+        segments.map(move |(_, segment)| Segment { ends: segment.ends.map(shown), ..segment })
     }
 
     /// Whether files have lines.

@@ -10,15 +10,17 @@ use crate::motion::state::segments::Segment;
 /// on its way.
 const MAGIC: [u8; 8] = *b"\x89DLD\r\n\x1a\n";
 
-/// The version of the format, without segments and keys, with segments, with keys, and of what repeats; and without keys and
-/// with some where there is a [history](History).
+/// The version of the format, without segments and keys, with segments, with keys, and of what repeats; without keys and
+/// with some where there is a [history](History); and the two with it where sides of segments have labels.
 const VERSION: u32 = 1;
 const WITH_SEGMENTS: u32 = 2;
 const WITH_KEYS: u32 = 3;
 const PERIODIC: u32 = 4;
 const WITH_HISTORY: u32 = 5;
 const WITH_KEYS_AND_HISTORY: u32 = 6;
-const LATEST: u32 = WITH_KEYS_AND_HISTORY;
+const WITH_LABELS: u32 = 7;
+const WITH_KEYS_AND_LABELS: u32 = 8;
+const LATEST: u32 = WITH_KEYS_AND_LABELS;
 
 /// Bytes of a key.
 const KEY: usize = 8;
@@ -26,13 +28,14 @@ const KEY: usize = 8;
 /// Bytes that segments begin with: their five counts.
 const SEGMENT_COUNTS: usize = 40;
 
-/// Bytes of a segment: its ends and its marker.
-const SEGMENT: usize = 12;
+/// Numbers of a segment: its ends and its marker; with the labels of its sides.
+pub(super) const SEGMENT: usize = 3;
+pub(super) const LABELLED_SEGMENT: usize = 5;
 
 /// What stands for a staged segment that pieces are staged for: its second end is the id of no vertex, and not that of none,
 /// which ends have that were removed before a compaction.
 pub(super) const GIVEN_UP: Segment =
-    Segment { ends: [VertexId::NONE, VertexId::new(u32::MAX - 1)], marker: 0 };
+    Segment { ends: [VertexId::NONE, VertexId::new(u32::MAX - 1)], ..Segment::NOTHING };
 
 /// Bytes of a vertex that refinement has made: its id, and the segment that it is on.
 const MADE_VERTEX: usize = 8;
@@ -177,8 +180,10 @@ pub(super) struct Header {
     pub(super) removals: usize,
     /// Whether vertices have keys of the program's.
     pub(super) has_keys: bool,
-    /// Whether there is a history, as it does not follow from the rest.
+    /// Whether there is a history: where it does not follow from the rest, or sides of segments have labels.
     pub(super) has_history: bool,
+    /// Whether sides of segments have labels.
+    pub(super) has_labels: bool,
     /// Bytes about segments, 0 without any.
     pub(super) segment_bytes: usize,
     /// All but the number of hidden vertices.
@@ -204,6 +209,8 @@ impl Header {
     /// Its bytes.
     pub(super) fn bytes(&self) -> [u8; SIZE] {
         let version = match (self.has_history, self.has_keys, self.segment_bytes > 0) {
+            (true, true, _) if self.has_labels => WITH_KEYS_AND_LABELS,
+            (true, false, _) if self.has_labels => WITH_LABELS,
             (true, true, _) => WITH_KEYS_AND_HISTORY,
             (true, false, _) => WITH_HISTORY,
             (false, true, _) => WITH_KEYS,
@@ -223,16 +230,17 @@ impl Header {
             return Err(Damage::Periodic { is_periodic: true });
         }
         let [ids, cells, moves, insertions, removals] = counts;
-        let has_keys = matches!(version, WITH_KEYS | WITH_KEYS_AND_HISTORY);
-        let has_history = matches!(version, WITH_HISTORY | WITH_KEYS_AND_HISTORY);
+        let has_keys = matches!(version, WITH_KEYS | WITH_KEYS_AND_HISTORY | WITH_KEYS_AND_LABELS);
+        let has_history = version >= WITH_HISTORY;
+        let has_labels = version >= WITH_LABELS;
         let counts = Header { dimension, ids, cells, moves, insertions, removals, ..Header::default() };
-        let mut header = Header { has_keys, has_history, ..counts };
+        let mut header = Header { has_keys, has_history, has_labels, ..counts };
         if version != VERSION {
             // All that is left is about segments; how much that has to be is told there.
             let left = header.size().and_then(|known| size.checked_sub(known)).ok_or(Damage::Counts)?;
             header.segment_bytes = usize::try_from(left).map_err(|_| Damage::Counts)?;
         }
-        let may_lack_segments = version != WITH_SEGMENTS && header.segment_bytes == 0;
+        let may_lack_segments = version != WITH_SEGMENTS && !has_labels && header.segment_bytes == 0;
         let has_counts = may_lack_segments || header.segment_bytes >= SEGMENT_COUNTS;
         if header.size() != Some(size) || !has_counts {
             return Err(Damage::Counts);
@@ -251,9 +259,16 @@ pub(super) struct SegmentCounts {
     pub(super) removals: usize,
     pub(super) made_vertices: usize,
     pub(super) pieces: usize,
+    /// Whether sides have labels.
+    pub(super) has_labels: bool,
 }
 
 impl SegmentCounts {
+    /// How many numbers a segment takes.
+    pub(super) fn numbers_of_one(&self) -> usize {
+        if self.has_labels { LABELLED_SEGMENT } else { SEGMENT }
+    }
+
     /// In the order in which they are saved.
     pub(super) fn numbers(&self) -> [u64; 5] {
         [self.ids, self.laid, self.removals, self.made_vertices, self.pieces].map(|n| n as u64)
@@ -261,21 +276,23 @@ impl SegmentCounts {
 
     /// Bytes of all that is about segments.
     pub(super) fn bytes(&self) -> usize {
-        let entries = SEGMENT * self.ids + 4 * self.removals;
+        let entries = 4 * (self.numbers_of_one() * self.ids + self.removals);
         SEGMENT_COUNTS + entries + MADE_VERTEX * self.made_vertices + PIECE * self.pieces
     }
 
-    /// Those of five numbers, if they take as many bytes as there are.
-    pub(super) fn of(numbers: [u64; 5], bytes: usize) -> Result<Self, Damage> {
+    /// Those of five numbers, if they take as many bytes as a header tells.
+    pub(super) fn of(numbers: [u64; 5], header: &Header) -> Result<Self, Damage> {
+        let has_labels = header.has_labels;
+        let segment = 4 * if has_labels { LABELLED_SEGMENT } else { SEGMENT };
         let [ids, _, removals, made_vertices, pieces] = numbers;
-        let sizes = [(ids, SEGMENT), (removals, 4), (made_vertices, MADE_VERTEX), (pieces, PIECE)];
+        let sizes = [(ids, segment), (removals, 4), (made_vertices, MADE_VERTEX), (pieces, PIECE)];
         let entries: u128 = sizes.iter().map(|&(n, size)| u128::from(n) * size as u128).sum();
         // As many entries as fit into so many bytes are no more than a number can tell.
         let [ids, laid, removals, made_vertices, pieces] = numbers.map(|n| n as usize);
-        if entries + SEGMENT_COUNTS as u128 != bytes as u128 || laid > ids {
+        if entries + SEGMENT_COUNTS as u128 != header.segment_bytes as u128 || laid > ids {
             return Err(Damage::Counts);
         }
-        Ok(SegmentCounts { ids, laid, removals, made_vertices, pieces })
+        Ok(SegmentCounts { ids, laid, removals, made_vertices, pieces, has_labels })
     }
 }
 

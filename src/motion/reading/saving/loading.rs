@@ -15,7 +15,7 @@ use crate::motion::state::cells::Cells;
 use crate::motion::state::checking::check_position;
 use crate::motion::state::hidden::Hidden;
 use crate::motion::state::made::{Made, Origin};
-use crate::motion::state::segments::{Segment, Segments};
+use crate::motion::state::segments::{NO_LABEL, Segment, Segments};
 use crate::motion::triangulation::{MAX_VERTICES, MovingTriangulation};
 use crate::predicates::is_in_range;
 
@@ -66,14 +66,16 @@ impl Reader<'_> {
         }
         let numbers = self.entries::<8>(5);
         let counts = [0, 1, 2, 3, 4].map(|k| u64::from_le_bytes(numbers[k]));
-        let counts = SegmentCounts::of(counts, header.segment_bytes)?;
-        let SegmentCounts { ids, laid, removals, .. } = counts;
+        let counts = SegmentCounts::of(counts, header)?;
+        let (SegmentCounts { ids, laid, removals, .. }, n) = (counts, counts.numbers_of_one());
         let mut all = Vec::new();
         memory::reserve_exact(&mut all, ids)?;
-        for (id, row) in SegmentId::range(0..ids).zip(self.entries::<4>(3 * ids).chunks_exact(3)) {
+        for (id, row) in SegmentId::range(0..ids).zip(self.entries::<4>(n * ids).chunks_exact(n)) {
             let [v, w] = [row[0], row[1]].map(|bytes| VertexId::new(u32::from_le_bytes(bytes)));
             let is_staged = id.index() >= laid;
-            let segment = Segment { ends: [v, w], marker: i32::from_le_bytes(row[2]) };
+            let side = |k: usize| row.get(3 + k).map_or(NO_LABEL, |&bytes| i32::from_le_bytes(bytes));
+            let (marker, sides) = (i32::from_le_bytes(row[2]), [side(0), side(1)]);
+            let segment = Segment { ends: [v, w], marker, sides };
             if is_staged && segment == GIVEN_UP {
                 all.push(None);
                 continue;
@@ -81,7 +83,7 @@ impl Reader<'_> {
             // A staged one may have an end that was removed before a compaction.
             let is_known = |v: VertexId| v.index() < header.ids || (is_staged && v == VertexId::NONE);
             let is_there = is_staged || v != VertexId::NONE;
-            let is_nothing = w == VertexId::NONE && segment.marker == 0;
+            let is_nothing = w == VertexId::NONE && segment.marker == 0 && !segment.has_labels();
             if !(if is_there { is_known(v) && is_known(w) } else { is_nothing }) {
                 return Err(Damage::Segment { segment: id }.into());
             }
@@ -95,6 +97,9 @@ impl Reader<'_> {
             return Err(Damage::Segment { segment }.into());
         }
         let segments = memory::boxed(Segments::of_saved(all, laid, leaving))?;
+        if header.has_labels && !segments.have_labels() {
+            return Err(Damage::Counts.into());
+        }
         let made = self.made(counts, header.ids, &segments)?;
         Ok(Some((segments, made)))
     }
@@ -320,7 +325,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         let is_known =
             (usual.n_known..=self.mesh.site_of.len()).contains(&n_known) && had_keys <= self.has_keys();
         let is_compared = density == usual.density || self.made_vertices().next().is_some();
-        if history == Some(usual) || !(is_staged && is_known && is_compared) {
+        let is_told_in_vain = history == Some(usual) && !header.has_labels;
+        if is_told_in_vain || !(is_staged && is_known && is_compared) {
             return Err(Damage::Counts.into());
         }
         if let Some(made) = &mut self.made {

@@ -12,7 +12,8 @@ use crate::motion::state::segments::{Segment, Segments};
 use crate::motion::state::views::CellsView;
 use crate::motion::triangulation::MovingTriangulation;
 
-/// Writes segments: how many there are, the ends and the marker of each, and which are to go.
+/// Writes segments: how many there are, the ends and the marker of each, and the labels of its sides if there are some, and
+/// which are to go.
 fn save_segments<G: Dimension, E>(
     segments: &Segments<G>,
     counts: SegmentCounts,
@@ -21,11 +22,11 @@ fn save_segments<G: Dimension, E>(
     for count in counts.numbers() {
         chunks.numbers(&[count as u32, (count >> 32) as u32])?;
     }
-    let removed = Segment { ends: [VertexId::NONE; 2], marker: 0 };
     for (k, segment) in segments.all().iter().enumerate() {
-        let none = if k < segments.n_laid() { removed } else { GIVEN_UP };
-        let Segment { ends, marker } = segment.unwrap_or(none);
-        chunks.numbers(&[ends[0].get(), ends[1].get(), marker as u32])?;
+        let none = if k < segments.n_laid() { Segment::NOTHING } else { GIVEN_UP };
+        let Segment { ends, marker, sides } = segment.unwrap_or(none);
+        let numbers = [ends[0].get(), ends[1].get(), marker as u32, sides[0] as u32, sides[1] as u32];
+        chunks.numbers(&numbers[..counts.numbers_of_one()])?;
     }
     chunks.numbers(SegmentId::numbers_of(segments.leaving()))
 }
@@ -42,6 +43,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             removals,
             has_keys: !self.mesh.kernel.keys().are_ids(),
             has_history: self.history_to_save().is_some(),
+            has_labels: self.has_labels(),
             segment_bytes: self.segments_to_save().map_or(0, |segments| self.counts_of(segments).bytes()),
             statistics: self.statistics(),
         }
@@ -151,7 +153,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         if self.made_vertices().next().is_some() {
             history.density = self.made.as_ref().map_or(usual.density, |made| made.density);
         }
-        (history != usual).then_some(history)
+        (history != usual || self.has_labels()).then_some(history)
+    }
+
+    /// Whether sides of segments have labels.
+    fn has_labels(&self) -> bool {
+        self.segments_to_save().is_some_and(Segments::have_labels)
     }
 
     /// How many segments there are to be saved.
@@ -162,6 +169,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             removals: segments.n_leaving(),
             made_vertices: self.made_vertices().count(),
             pieces: self.pieces_of(segments).count(),
+            has_labels: segments.have_labels(),
         }
     }
 

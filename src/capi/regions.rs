@@ -1,0 +1,115 @@
+//! Labels of regions that follow: the sides of segments keep them.
+
+use super::domain::of_the_plane;
+use super::handle::{Changing, Reading, deldrift_triangulation};
+use super::pointers::{Array, Buffer, Output, given};
+use super::status::{Failure, deldrift_status};
+use crate::either::AnyTriangulation;
+use crate::ids::SegmentId;
+use crate::motion::NO_LABEL;
+
+/// No label.
+pub const DELDRIFT_NO_LABEL: i32 = -2147483647 - 1;
+
+const _: () = assert!(DELDRIFT_NO_LABEL == NO_LABEL);
+
+/// Gives regions labels that follow them: a domain is described once, and deldrift_regions tells the label of each cell from
+/// then on. A region is a set of cells that can be reached from each other without crossing a segment.
+///
+/// labels: a number for each cell, in the order of deldrift_cells, one for each region: those of deldrift_label_cells,
+/// deldrift_nesting_levels or deldrift_crossing_numbers, or others. label_count: deldrift_cell_count. NULL and 0 take all labels
+/// away. Read during the call only.
+///
+/// Both sides of each segment in force get the label of the cell there, DELDRIFT_NO_LABEL beyond the hull. They keep it while
+/// segments move with their ends, and hand it on to the pieces that deldrift_refine, deldrift_coarsen and deldrift_stage_splits
+/// make; clones, and what is saved and loaded, have it. So labels follow through all calls, as long as no vertex passes a
+/// segment (see deldrift_check_passings). A segment that is added later has none: the regions on both sides keep theirs if they
+/// have other segments, or are given some by deldrift_set_segment_sides. Ends no views.
+///
+/// Cost: m, and for each segment the cells around an end.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
+/// DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE for a cell with another label than one of its region beside it,
+/// DELDRIFT_PREPARED, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_set_regions(
+    t: *mut deldrift_triangulation,
+    labels: *const i32,
+    label_count: usize,
+) -> deldrift_status {
+    given!(t: Changing, labels[label_count]: Array);
+    t.change(|t| {
+        let AnyTriangulation::Plane(t) = t else { return Err(Failure::NotOfThePlane) };
+        if labels.is_null() && label_count == 0 {
+            return Ok(t.forget_regions()?);
+        }
+        Ok(t.set_regions(labels.get()?)?)
+    })
+}
+
+/// Gives the sides of segments labels, as deldrift_set_regions does for all by the labels of cells: for a domain that is
+/// described by what is on the left and on the right of each segment, and for segments that are added to one.
+///
+/// segments: count ids, in force or staged; of one that is listed twice the last row counts. sides: a row of 2 labels for each:
+/// on the left, as seen from its first end along it, and on the right; DELDRIFT_NO_LABEL for none. Both are read during the call
+/// only, and may be NULL if count is 0. Ends no views.
+///
+/// Cost: count.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
+/// DELDRIFT_NO_SUCH_SEGMENT, DELDRIFT_PREPARED; then none is changed. Not to be called at the same time as any other call
+/// on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_set_segment_sides(
+    t: *mut deldrift_triangulation,
+    segments: *const u32,
+    sides: *const i32,
+    count: usize,
+) -> deldrift_status {
+    let sides = sides.cast::<[i32; 2]>();
+    given!(t: Changing, segments[count]: Array, sides[count]: Array);
+    t.change(|t| {
+        let AnyTriangulation::Plane(t) = t else { return Err(Failure::NotOfThePlane) };
+        Ok(t.set_sides(SegmentId::of_numbers(segments.get()?), sides.get()?)?)
+    })
+}
+
+/// The label of the region of each cell, in the order of deldrift_cells: that of the sides of its segments, which
+/// deldrift_set_regions and deldrift_set_segment_sides have given.
+///
+/// other: the label of cells in regions whose sides have none, as mostly outside of a domain, and of undecided ones. labels: a
+/// buffer with room for capacity numbers. count: receives the number of cells, which is also written when the buffer is too
+/// small. NULL with capacity 0 asks for the count alone. undecided: receives the number of cells in regions whose sides have
+/// several labels, and in regions that are closed off by segments whose sides have none; may be NULL. If it is not 0, segments
+/// have been added or removed, or vertices have passed segments, and it is time for deldrift_set_regions.
+///
+/// Exact. Cost: m, and for each segment the cells around an end. After a change the first call also does what the first
+/// deldrift_cells does.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_regions(
+    t: *const deldrift_triangulation,
+    other: i32,
+    labels: *mut i32,
+    capacity: usize,
+    count: *mut usize,
+    undecided: *mut usize,
+) -> deldrift_status {
+    given!(t: Reading, labels[capacity]: Buffer, count: Output, undecided: Output);
+    t.read(|t| {
+        let t = of_the_plane(t)?;
+        let undecided = undecided.if_any()?;
+        let mut n_undecided = 0;
+        labels.fill(count, t.cell_count(), || {
+            let (labels, n) = t.region_labels(other)?;
+            n_undecided = n;
+            Ok(labels)
+        })?;
+        if let Some(undecided) = undecided {
+            undecided.write(n_undecided);
+        }
+        Ok(())
+    })
+}

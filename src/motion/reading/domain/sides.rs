@@ -1,0 +1,121 @@
+//! Labels of regions that follow: the sides of segments keep them.
+//!
+//! A region is bounded by segments, which move with their ends, keep their sides, and hand them on to the pieces that
+//! refinement and splitting make of them. So a label at a side is that of the region there, whatever happens to the cells:
+//! nothing has to be kept up to date, and saved data and copies have it.
+
+use super::labels::Found;
+use crate::delaunay::Plane;
+use crate::error::{Error, Result};
+use crate::ids::SegmentId;
+use crate::machine::memory;
+use crate::motion::state::cells::NO_CELL;
+use crate::motion::state::segments::NO_LABEL;
+use crate::motion::triangulation::MovingTriangulation;
+
+impl MovingTriangulation<Plane> {
+    /// Gives each side of each segment in force the label of the cell there, in the order of [`cells`](Self::cells);
+    /// [`NO_LABEL`] beyond the hull. Segments that are staged keep theirs.
+    ///
+    /// # Errors
+    /// [`Error::WrongCount`]; [`Error::InvalidValue`] if a region has two labels; [`Error::OutOfMemory`].
+    pub fn set_regions(&mut self, labels: &[i32]) -> Result<()> {
+        self.reject_prepared()?;
+        let cells = self.cell_arrays()?;
+        let wanted = cells.corners().len();
+        if labels.len() != wanted {
+            return Err(Error::WrongCount { argument: "labels", given: labels.len(), wanted, coming: 0 });
+        }
+        let at_edges = self.segments_of_cells()?;
+        for (index, row) in at_edges.iter().enumerate() {
+            let across = cells.neighbours()[index].into_iter().zip(row);
+            let mut reached =
+                across.filter(|&(_, &segment)| segment == SegmentId::NONE).map(|(cell, _)| cell);
+            if reached.any(|cell| cell != NO_CELL && labels[cell.index()] != labels[index]) {
+                let wanted = "that of the cells that are reached from there without crossing a segment";
+                let value = f64::from(labels[index]);
+                return Err(Error::InvalidValue { argument: "labels", index, value, wanted });
+            }
+        }
+        let beside = self.cells_of_segments()?;
+        // Nothing fails from here on.
+        let mut rows = beside.iter();
+        for (_, segment) in self.mesh.segments.iter_mut().flat_map(|segments| segments.laid_mut()) {
+            let row = rows.next().expect("a row for each");
+            segment.sides = row.map(|cell| labels.get(cell.index()).copied().unwrap_or(NO_LABEL));
+        }
+        Ok(())
+    }
+
+    /// Gives the sides of segments in force, or staged, labels: that on the left, as seen from the first end along it, and
+    /// that on the right; [`NO_LABEL`] for none. All of them or, on an error, none.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchSegment`].
+    pub fn set_sides(&mut self, given: &[SegmentId], sides: &[[i32; 2]]) -> Result<()> {
+        self.reject_prepared()?;
+        let (all, ids) = match &self.mesh.segments {
+            Some(segments) => (segments.all(), segments.n_ids()),
+            None => (&[][..], 0),
+        };
+        let is_none = |segment: &SegmentId| all.get(segment.index()).is_none_or(Option::is_none);
+        if let Some(index) = given.iter().position(is_none) {
+            return Err(Error::NoSuchSegment { argument: "segments", index, segment: given[index], ids });
+        }
+        let Some(segments) = &mut self.mesh.segments else { return Ok(()) };
+        for (&id, &sides) in given.iter().zip(sides) {
+            segments.get_mut(id).expect("it has been looked at").sides = sides;
+        }
+        Ok(())
+    }
+
+    /// Takes all labels away from sides, of staged segments as well.
+    ///
+    /// # Errors
+    /// [`Error::Prepared`].
+    pub fn forget_regions(&mut self) -> Result<()> {
+        self.reject_prepared()?;
+        if let Some(segments) = &mut self.mesh.segments {
+            segments.forget_labels();
+        }
+        Ok(())
+    }
+
+    /// Whether a side of a segment, staged ones included, has a label.
+    pub fn has_regions(&self) -> bool {
+        self.mesh.segments.as_ref().is_some_and(|segments| segments.have_labels())
+    }
+
+    /// The label of the region of each cell, in the order of [`cells`](Self::cells): that of the sides of its segments;
+    /// `other` where they have none, or several. Also, how many cells are undecided: in regions whose sides have several
+    /// labels, or that segments are all around and whose sides have none.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn region_labels(&self, other: i32) -> Result<(Vec<i32>, usize)> {
+        let (regions, is_open) = self.regions()?;
+        let (mut found, mut labels) = (Vec::new(), Vec::new());
+        memory::lengthen(&mut found, is_open.len(), Found::Nothing)?;
+        for ((_, segment), cells) in self.segments().zip(self.cells_of_segments()?) {
+            for (label, cell) in segment.sides.into_iter().zip(cells) {
+                if label != NO_LABEL && cell != NO_CELL {
+                    let found = &mut found[regions[cell.index()] as usize];
+                    *found = found.and(label);
+                }
+            }
+        }
+        let mut n_undecided = 0;
+        memory::collect(
+            &mut labels,
+            regions.iter().map(|&region| match found[region as usize] {
+                Found::One(label) => label,
+                Found::Nothing if is_open[region as usize] => other,
+                Found::Nothing | Found::Several => {
+                    n_undecided += 1;
+                    other
+                }
+            }),
+        )?;
+        Ok((labels, n_undecided))
+    }
+}
