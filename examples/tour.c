@@ -433,6 +433,13 @@ static void refine_a_domain(void) {
     labels[0] = 0;
     check(deldrift_update_labels(t, (uint32_t[]){0}, 1, 0, labels, ROOM, &undecided));
     expect(undecided == 0 && labels[0] == label, "a cell has the label of those around it");
+    check(deldrift_set_regions(t, labels, n_cells));
+    check(deldrift_set_segment_sides(t, &first, (int32_t[]){DELDRIFT_NO_LABEL, DELDRIFT_NO_LABEL}, 1));
+    quality.domain = DELDRIFT_DOMAIN_REGIONS;
+    quality.greatest_area = 0.005;
+    check(deldrift_refine(t, &quality, NULL, 0, &report));
+    check(deldrift_regions(t, 0, labels, ROOM, &n_cells, &undecided));
+    expect(report.inserted > 0 && undecided == 0 && labels[0] > 0, "labels of regions follow by themselves");
     for (size_t c = 0; c < n_cells; c++) mask[c] = labels[c] == 1;
     check(deldrift_boundary_chains(t, mask, n_cells, vertices, of_vertices, NULL, NULL, NULL, ROOM, &count));
     expect(count > 4 && of_vertices[count - 1] == 0, "and the boundary of one half is one chain");

@@ -2534,13 +2534,14 @@ deldrift_status deldrift_set_segment_sides(deldrift_triangulation *t,
                                            const int32_t *sides,
                                            size_t count);
 
-/// The label of the region of each cell, in the order of deldrift_cells: that of the sides of its segments, which
-/// deldrift_set_regions and deldrift_set_segment_sides have given.
+/// The label of the region of each cell, in the order of deldrift_cells: that of the sides of its outer boundary, which
+/// deldrift_set_regions and deldrift_set_segment_sides have given; where these have none, that of the sides around islands in
+/// it. So a region keeps its label when an island jumps into it, or out of it.
 ///
-/// other: the label of cells in regions whose sides have none, as mostly outside of a domain, and of undecided ones. labels: a
-/// buffer with room for capacity numbers. count: receives the number of cells, which is also written when the buffer is too
-/// small. NULL with capacity 0 asks for the count alone. undecided: receives the number of cells in regions whose sides have
-/// several labels, and in regions that are closed off by segments whose sides have none; may be NULL. If it is not 0, segments
+/// other: the label of cells from which the outside of the hull is reached without crossing a segment, and of undecided ones.
+/// labels: a buffer with room for capacity numbers. count: receives the number of cells, which is also written when the buffer is too
+/// small. NULL with capacity 0 asks for the count alone. undecided: receives the number of cells in other regions whose
+/// sides have several labels, or none; may be NULL. If it is not 0, segments
 /// have been added or removed, or vertices have passed segments, and it is time for deldrift_set_regions.
 ///
 /// Exact. Cost: m, and for each segment the cells around an end. After a change the first call also does what the first
@@ -3360,7 +3361,8 @@ deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
 /// deldrift_stage_splits, deldrift_release_cells, deldrift_tolerance, deldrift_cells_in_reach,
 /// deldrift_hull_facets_in_reach, deldrift_vertices_in_reach, deldrift_mask_without_flat_cells,
 /// deldrift_segments_of_cells, deldrift_cells_of_segments, deldrift_nesting_levels, deldrift_crossing_numbers,
-/// deldrift_label_cells, deldrift_update_labels, deldrift_boundary_chains, deldrift_refine, deldrift_coarsen,
+/// deldrift_label_cells, deldrift_update_labels, deldrift_set_regions, deldrift_set_segment_sides, deldrift_regions,
+/// deldrift_boundary_chains, deldrift_refine, deldrift_coarsen,
 /// deldrift_made_vertices, deldrift_original_segments, deldrift_refined_weights, deldrift_refined_sizes,
 /// deldrift_refined_vertices, deldrift_find_simplices and deldrift_ordered_star. Cells are numbered anew by each
 /// commit, unless changes are taken.

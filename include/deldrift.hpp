@@ -529,6 +529,27 @@ public:
                                         count, &count));
         return label_of;
     }
+    // Labels that follow the regions from now on, one for each cell, such as label_cells() gives; none takes them away.
+    //     t.set_regions(t.label_cells({0.5, 0.5, 3.0, 1.0}, {STEEL, WATER}, AIR));
+    //     const std::vector<std::int32_t> materials = t.regions(AIR).labels;  // after any number of steps
+    void set_regions(span<const std::int32_t> labels) {
+        require_ok(deldrift_set_regions(native(), labels.size() == 0 ? nullptr : labels.data(), labels.size()));
+    }
+    // Labels of the sides of segments: on the left, as seen from the first end, and on the right.
+    void set_segment_sides(span<const std::uint32_t> segments, span<const std::array<std::int32_t, 2>> sides) {
+        expect("sides", sides.size(), segments.size());
+        require_ok(deldrift_set_segment_sides(native(), segments.data(), sides.size() == 0 ? nullptr : sides.data()->data(),
+                                              segments.size()));
+    }
+    // The label of the region of each cell, the other one where the sides of its segments have none, and of how many cells
+    // these do not tell.
+    Regions regions(std::int32_t other = 0) const {
+        std::size_t count = cell_count();
+        Regions found;
+        found.labels.resize(count);
+        require_ok(deldrift_regions(native(), other, found.labels.data(), count, &count, &found.undecided));
+        return found;
+    }
     // Of the cells listed alone, in an array for all cells: the label of those of the others that each is reached from without
     // crossing a segment, or the other one. Returns for how many labels cannot tell: if it is not 0, label anew. The cells
     // are those that take_changes() tells as created, and those whose rows list the corners in the other order around.

@@ -180,7 +180,7 @@ fn sides_decide_or_do_not() {
     t.set_sides(&[id(1)], &[[4, 0]]).expect("in force");
     let (mut labels, n_undecided) = t.region_labels(-1).expect("room");
     labels.sort_unstable();
-    assert_eq!((labels, n_undecided), (vec![-1, -1, 0], 2));
+    assert_eq!((labels, n_undecided), (vec![-1; 3], 2));
     t.set_sides(&[id(0), id(1), id(1), id(2)], &[[5, 5], [6, 6], [NO_LABEL, 0], [5, NO_LABEL]])
         .expect("in force");
     assert!(is_told(&t, 5));
@@ -219,6 +219,40 @@ fn sides_decide_or_do_not() {
     t.stage_segment_removals(&[id(4)]).expect("in force");
     t.commit_timestamp().expect("no conflict");
     assert_eq!(t.region_labels(0).expect("room").1, 2);
+}
+
+/// An island that jumps from a region to another one leaves both their labels, and takes its own along.
+#[test]
+fn islands_may_jump() {
+    let ring = |[x, y]: [f64; 2], size: f64| [[x, y], [x + size, y], [x + size, y + size], [x, y + size]];
+    // The corner of the second square is the leftmost place of its region, and a slit begins there.
+    let mut points = ring([0.0, 0.0], 4.0).to_vec();
+    points.extend(ring([10.0, 0.0], 4.0));
+    points.extend(ring([1.0, 1.0], 1.0));
+    points.push([12.0, 2.5]);
+    let mut t = Triangulation::new(&points, Options::default()).expect("good points");
+    let ends = (0..12).map(|k: u32| [k, k / 4 * 4 + (k + 1) % 4]).chain([[7, 12]]);
+    let segments: Vec<_> =
+        ends.map(|ends| Segment { ends: ends.map(VertexId::new), ..Segment::default() }).collect();
+    t.stage_segments(segments.into_iter()).expect("present");
+    t.commit_timestamp().expect("no conflict");
+    let labels = |t: &Triangulation, island: [f64; 2]| {
+        t.label_cells(&[island, [0.5, 0.5], [10.5, 0.5]], &[3, 1, 2], 9).expect("within regions")
+    };
+    t.set_regions(&labels(&t, [1.5, 1.5])).expect("labels of regions");
+    let goals = [[11.0, 1.0], [12.0, 1.0], [12.0, 2.0], [11.0, 2.0]];
+    t.move_vertices(&[8, 9, 10, 11].map(VertexId::new), &goals).expect("present");
+    t.commit_timestamp().expect("no conflict");
+    assert_eq!(t.region_labels(9).expect("room"), (labels(&t, [11.5, 1.5]), 0));
+    // Where the outer boundary tells nothing the island does: it says what was around it.
+    t.set_sides(&(4..8).chain([12]).map(SegmentId::at).collect::<Vec<_>>(), &[[NO_LABEL; 2]; 5])
+        .expect("in force");
+    let (found, n_undecided) = t.region_labels(9).expect("room");
+    let at = |seed: [f64; 2]| {
+        let here = t.label_cells(&[seed], &[1], 0).expect("within a region");
+        found[here.iter().position(|&label| label == 1).expect("a cell")]
+    };
+    assert_eq!((at([11.5, 1.5]), at([10.5, 0.5]), at([0.5, 0.5]), n_undecided), (3, 1, 1, 0));
 }
 
 /// Data with labels that are changed are refused, or are those of other labels.

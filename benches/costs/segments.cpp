@@ -182,6 +182,30 @@ std::vector<Call> segment_calls() {
                  return status == DELDRIFT_AMBIGUOUS_SEED ? DELDRIFT_OK : status;
              });
          }, 2},
+        {"deldrift_set_regions", "one edge in eight", [](Context &c) {
+             lay(c);
+             const std::vector<std::int32_t> labels(c.cells() + 1, 1);
+             c.meter.time([&] { must(deldrift_set_regions(c.t, labels.data(), c.cells())); });
+             c.meter.count(double(c.cells()));
+         }, 2},
+        {"deldrift_set_segment_sides", "one edge in eight", [](Context &c) {
+             const std::size_t n = lay(c);
+             Ids segments(n + 1);
+             std::size_t count;
+             must(deldrift_segments(c.t, segments.data(), nullptr, nullptr, n, &count));
+             const std::vector<std::int32_t> sides(2 * n + 1, 1);
+             c.meter.reset();
+             c.meter.time([&] { must(deldrift_set_segment_sides(c.t, segments.data(), sides.data(), count)); });
+             c.meter.count(double(count));
+         }, 2},
+        {"deldrift_regions", "one edge in eight", [](Context &c) {
+             lay(c);
+             const std::vector<std::int32_t> labels(c.cells() + 1, 1);
+             must(deldrift_set_regions(c.t, labels.data(), c.cells()));
+             fill<1, std::int32_t>(c, c.cells(), [&](std::int32_t *to, std::size_t room, std::size_t *count) {
+                 return deldrift_regions(c.t, 0, to, room, count, nullptr);
+             });
+         }, 2},
         {"deldrift_update_labels", "one edge in eight, and one cell in eight", [](Context &c) {
              lay(c);
              std::vector<std::int32_t> labels(c.cells() + 1);

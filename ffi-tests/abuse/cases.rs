@@ -8,7 +8,10 @@ use super::roles::{Role, is_of_bytes, role};
 use super::rows::{ROWS, Row};
 
 /// Functions for triangulations of the plane alone.
-const OF_PLANE: [&str; 22] = [
+const OF_PLANE: [&str; 25] = [
+    "deldrift_set_regions",
+    "deldrift_set_segment_sides",
+    "deldrift_regions",
     "deldrift_update_labels",
     "deldrift_ordered_star",
     "deldrift_stage_segments",
@@ -320,6 +323,10 @@ impl Cases<'_> {
             Role::Wholes | Role::WholesIfAny => {
                 self.legal("value", at, "the least number", "bad_wholes(1, INT32_MIN)");
             }
+            Role::LabelsOfRegions => {
+                let message = "\"labels[0] is -1, \"";
+                self.refused("value", at, "two in a region", "two_in_a_region()", "INVALID_VALUE", message);
+            }
             Role::KeysIfAny => {
                 self.legal("value", at, "the greatest number, more than once", "greatest_keys")
             }
@@ -611,6 +618,12 @@ impl Cases<'_> {
             ("removed", "one to be laid", "COMING_SEGMENT"),
             ("value", "one twice", "segments[0]"),
         ] {
+            let may_be = self.function.name == "deldrift_set_segment_sides"
+                && ["one to be removed", "one to be laid", "one twice"].contains(&given);
+            if may_be {
+                self.legal(column, at, given, &format!("bad_segments({value})"));
+                continue;
+            }
             let message = format!("\"segments[1] is %u\", (unsigned){value}");
             self.refused(column, at, given, &format!("bad_segments({value})"), "NO_SUCH_SEGMENT", &message);
         }

@@ -105,6 +105,11 @@ static uint32_t *bad_segments(uint32_t value) {
     return made;
 }
 
+static int32_t *two_in_a_region(void) {
+    one_region[0] = -1;
+    return one_region;
+}
+
 static int32_t *bad_wholes(size_t at, int32_t value) {
     static int32_t made[ROOM];
     memcpy(made, wholes, sizeof made);

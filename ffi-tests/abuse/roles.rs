@@ -63,6 +63,8 @@ pub enum Role {
     /// A number that is not negative, and may be infinite; an array of them.
     Magnitude,
     Magnitudes,
+    /// A number for each cell, one for each region.
+    LabelsOfRegions,
     /// How much may be made at most: any number.
     Limit,
     /// How many corners each of several simplices has.
@@ -111,7 +113,8 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("const uint32_t *", "vertices") => Role::Ids,
         ("const uint32_t *", "ends") => Role::Ends,
         ("const uint32_t *", "segments") => Role::SegmentIds,
-        ("const int32_t *", "labels" | "references") => Role::Wholes,
+        ("const int32_t *", "labels") if function.name == "deldrift_set_regions" => Role::LabelsOfRegions,
+        ("const int32_t *", "labels" | "references" | "sides") => Role::Wholes,
         ("const int32_t *", "markers") => Role::WholesIfAny,
         ("int32_t", "other") => Role::Whole,
         ("const uint64_t *", "keys") => Role::KeysIfAny,
@@ -147,15 +150,18 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
             | "position_count",
         ) => Role::Count,
         ("size_t", "vertex_field_count" | "cell_field_count") => Role::Count,
-        ("size_t", "value_count" | "radius_count" | "mask_count" | "offset_count" | "reference_count") => {
-            Role::FixedCount
-        }
+        (
+            "size_t",
+            "value_count" | "label_count" | "radius_count" | "mask_count" | "offset_count"
+            | "reference_count",
+        ) => Role::FixedCount,
         ("size_t", "n_values" | "k") => Role::CountOfEach,
         ("size_t", "size") => Role::Size,
         ("size_t", "capacity" | "edge_capacity") => Role::Capacity,
         ("size_t", "limit") => Role::Limit,
         ("deldrift_transfer_report *", _) | ("double *", "lost" | "gained") => Role::OutputIfAny,
         ("deldrift_split_report *", "report") => Role::OutputIfAny,
+        ("size_t *", "undecided") if function.name == "deldrift_regions" => Role::OutputIfAny,
         ("size_t *", "undecided") => Role::Output,
         (c_type, "report") if is_commit && c_type.ends_with('*') => Role::OutputIfAny,
         (c_type, name) if c_type.ends_with('*') && !c_type.starts_with("const") => {

@@ -171,6 +171,9 @@ pub const ROWS: &[Row] = &[
     row("deldrift_nesting_levels", &["t", "out.ids", "n_cells", "&out.count"]),
     row("deldrift_crossing_numbers", &["t", "out.ids", "n_cells", "&out.count"]),
     row("deldrift_label_cells", &["t", "inside", "wholes", "3", "-1", "out.labels", "n_cells", "&out.count"]),
+    row("deldrift_set_regions", &["t", "one_region", "n_cells"]),
+    row("deldrift_set_segment_sides", &["t", "segments", "wholes", "2"]),
+    row("deldrift_regions", &["t", "-1", "out.labels", "n_cells", "&out.count", "&out.edge_count"]),
     row("deldrift_update_labels", &["t", "ids", "3", "-1", "out.labels", "n_cells", "&out.count"]),
     row(
         "deldrift_boundary_chains",

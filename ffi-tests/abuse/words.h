@@ -54,7 +54,7 @@ static uint32_t inner_cell, inner_corner;
 static double points[PLACES * 3], moved[PLACES * 3], values[PLACES * 3], inside[PLACES * 3];
 static double outside[ROOM], low[ROOM], high[ROOM], vectors[PLACES * 3], half_spaces[PLACES * 3];
 static uint32_t ids[3], ends[6], segments[2];
-static int32_t wholes[ROOM];
+static int32_t wholes[ROOM], one_region[ROOM];
 static uint64_t keys[COUNT];
 static uint8_t mask[ROOM], fenced[ROOM];
 static deldrift_options options;
@@ -109,7 +109,7 @@ static void make_arguments(void) {
         high[i] = 2;
         ids[i] = (uint32_t[]){0, 1, 4}[i];
     }
-    for (size_t i = 0; i < ROOM; i++) wholes[i] = -5 * (int32_t)i;
+    for (size_t i = 0; i < ROOM; i++) wholes[i] = -5 * (int32_t)i, one_region[i] = 3;
     for (size_t i = 0; i < COUNT; i++) keys[i] = 7 * i % 5;
     for (size_t i = 0; i < 6; i++) ends[i] = (uint32_t[]){0, 1, 4, 2, 8, 11}[i];
     for (size_t i = 0; i < 2; i++) segments[i] = (uint32_t)(2 - 2 * i);

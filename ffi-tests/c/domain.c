@@ -362,13 +362,83 @@ static void labels_follow_the_changes(void) {
     deldrift_destroy(t);
 }
 
+// Labels that the library keeps are those of seeds, without any changes, through refinement, a clone and saved data.
+static void labels_of_regions_follow(void) {
+    deldrift_triangulation *t = domain(), *other = NULL;
+    static int32_t labels[ROOM], anew[ROOM];
+    static uint8_t bytes[1 << 20];
+    const double seeds[] = {2, 2, 0.01, 0.02};
+    const int32_t of_seeds[] = {-7, 1};
+    const double areas[] = {0, 0.3};
+    deldrift_quality quality;
+    deldrift_quality_report report;
+    uint64_t inserted = 0;
+    size_t n, size, undecided;
+    OK(deldrift_quality_init(&quality));
+    quality.domain = DELDRIFT_DOMAIN_REGIONS;
+    quality.areas = areas;
+    quality.area_count = 2;
+    // Without labels no cell is in it.
+    OK(deldrift_refine(t, &quality, NULL, 0, &report));
+    CHECK(report.inserted == 0 && report.bad_cells == 0);
+    OK(deldrift_label_cells(t, seeds, of_seeds, 2, 0, labels, ROOM, &n));
+    OK(deldrift_set_regions(t, labels, n));
+    for (int step = 1; step <= 60; step++) {
+        turn_hole(0.01 * step);
+        for (uint32_t v = 0; v < COUNT; v++) OK(deldrift_move_vertex(t, v, places + 2 * v));
+        if (deldrift_commit_timestamp(t, NULL) != DELDRIFT_OK) {
+            OK(deldrift_discard_moves(t));
+            continue;
+        }
+        OK(deldrift_coarsen(t, &quality, NULL, 0, &report));
+        OK(deldrift_refine(t, &quality, NULL, 0, &report));
+        inserted += report.inserted;
+        OK(deldrift_label_cells(t, seeds, of_seeds, 2, 0, anew, ROOM, &n));
+        OK(deldrift_regions(t, 0, labels, ROOM, &n, &undecided));
+        CHECK(undecided == 0 && memcmp(labels, anew, n * sizeof *anew) == 0);
+        if (step % 20 != 0) continue;
+        OK(deldrift_clone(t, &other));
+        OK(deldrift_regions(other, 0, labels, ROOM, &n, NULL));
+        CHECK(memcmp(labels, anew, n * sizeof *anew) == 0);
+        deldrift_destroy(other);
+        OK(deldrift_save(t, bytes, sizeof bytes, &size));
+        OK(deldrift_load(bytes, size, NULL, &other));
+        OK(deldrift_regions(other, 0, labels, ROOM, &n, &undecided));
+        CHECK(undecided == 0 && memcmp(labels, anew, n * sizeof *anew) == 0);
+        deldrift_destroy(other);
+    }
+    CHECK(inserted > 20);
+    // Labels that are taken away leave regions undecided; where some sides have labels, refinement says so.
+    OK(deldrift_set_regions(t, NULL, 0));
+    OK(deldrift_regions(t, 0, labels, ROOM, &n, &undecided));
+    CHECK(undecided > 0);
+    static uint32_t ids[ROOM];
+    static int32_t markers[ROOM];
+    OK(deldrift_segments(t, ids, NULL, markers, ROOM, &n));
+    int32_t label = 4;
+    for (size_t k = 0; k < n; k++) {
+        if (markers[k] != WALL) continue;
+        OK(deldrift_set_segment_sides(t, ids + k, (const int32_t[]){label, label}, 1));
+        label = 5;
+    }
+    OK(deldrift_regions(t, 0, labels, ROOM, &n, &undecided));
+    CHECK(undecided > 0);
+    CHECK_STATUS(deldrift_refine(t, &quality, NULL, 0, &report), DELDRIFT_UNDECIDED_REGIONS);
+    CHECK_MESSAGE("cells are in regions whose sides have no label, or several");
+    CHECK_STATUS(deldrift_coarsen(t, &quality, NULL, 0, &report), DELDRIFT_UNDECIDED_REGIONS);
+    quality.domain = (deldrift_domain)4;
+    CHECK_STATUS(deldrift_refine(t, &quality, NULL, 0, &report), DELDRIFT_INVALID_OPTIONS);
+    CHECK_MESSAGE("quality.domain is 4");
+    deldrift_destroy(t);
+}
+
 static void arguments_are_checked(void) {
     const double corners[] = {0, 0, 4, 0, 4, 4, 0, 4, 1, 2};
     deldrift_triangulation *t = create(2, corners, 5, NULL), *solid = create(3, TETRAHEDRON, TETRAHEDRON_COUNT, NULL);
     const uint8_t mask[] = {1, 0, 1, 0};
     const int32_t label = 3;
     uint32_t ids[8], first;
-    int32_t told[8];
+    int32_t told[8] = {0};
     size_t count;
     OK(deldrift_stage_segments(t, (uint32_t[]){0, 4, 4, 2}, NULL, 2, &first));
     OK(deldrift_commit_timestamp(t, NULL));
@@ -397,6 +467,15 @@ static void arguments_are_checked(void) {
     CHECK_MESSAGE("cells[0] is 9");
     CHECK_STATUS(deldrift_update_labels(t, NULL, 0, 0, told, 0, &count), DELDRIFT_BUFFER_TOO_SMALL);
     CHECK_STATUS(deldrift_update_labels(t, NULL, 0, 0, told, 8, NULL), DELDRIFT_NULL_ARGUMENT);
+    CHECK_BUFFER(int32_t, 4, 1, deldrift_regions(t, 0, buffer, capacity, &count, NULL));
+    CHECK_STATUS(deldrift_set_regions(t, (const int32_t[]){1, 2, 1, 1}, 4), DELDRIFT_INVALID_VALUE);
+    CHECK_STATUS(deldrift_set_regions(t, (const int32_t[]){1, 1, 1}, 3), DELDRIFT_WRONG_COUNT);
+    CHECK_MESSAGE("labels");
+    CHECK_STATUS(deldrift_set_regions(solid, NULL, 0), DELDRIFT_INVALID_DIMENSION);
+    CHECK_STATUS(deldrift_regions(solid, 0, told, 8, &count, NULL), DELDRIFT_INVALID_DIMENSION);
+    CHECK_STATUS(deldrift_set_segment_sides(solid, NULL, NULL, 0), DELDRIFT_INVALID_DIMENSION);
+    CHECK_STATUS(deldrift_set_segment_sides(t, (const uint32_t[]){0, 9}, told, 2), DELDRIFT_NO_SUCH_SEGMENT);
+    CHECK_MESSAGE("segments[1] is 9");
     CHECK_STATUS(deldrift_nesting_levels(solid, ids, 8, &count), DELDRIFT_INVALID_DIMENSION);
     CHECK_STATUS(deldrift_crossing_numbers(solid, ids, 8, &count), DELDRIFT_INVALID_DIMENSION);
     CHECK_STATUS(deldrift_segments_of_cells(solid, ids, 2, &count), DELDRIFT_INVALID_DIMENSION);
@@ -414,6 +493,7 @@ int main(void) {
     shared_sides_count_each();
     without_cells_there_is_nothing();
     labels_follow_the_changes();
+    labels_of_regions_follow();
     arguments_are_checked();
     return 0;
 }

@@ -241,6 +241,7 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
         OK(deldrift_segments(s.t, ids_out, NULL, NULL, ROOM, &count));
         OK(deldrift_segment_conflicts(s.t, NULL, 0, &count));
         OK(deldrift_passings(s.t, NULL, NULL, 0, &count));
+        OK(deldrift_set_segment_sides(s.t, NULL, NULL, 0));
     }
     OK(deldrift_made_vertices(refined.t, ids_out, more_out, ROOM, &n_made));
     OK(deldrift_original_segments(refined.t, ids_out, ROOM, &n_segments));

@@ -66,7 +66,7 @@ typedef enum { CREATE, CREATE_WITH_KEYS, CREATE_PERIODIC, RELOCATE, INSERT, INSE
     CELLS_IN_REACH, HULL_FACETS_IN_REACH, VERTICES_IN_REACH, FIND_SIMPLICES, FIND_SIMPLICES_ALL,
     CELL_OF_EACH_VERTEX, BARYCENTRIC, MASK_WITHOUT_FLAT_CELLS, SEGMENTS_OF_CELLS, CELLS_OF_SEGMENTS, NESTING_LEVELS,
     CROSSING_NUMBERS,
-    LABEL_CELLS, UPDATE_LABELS, BOUNDARY_CHAINS, REFINE, COARSEN, RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT,
+    LABEL_CELLS, SET_REGIONS, REGIONS, UPDATE_LABELS, BOUNDARY_CHAINS, REFINE, COARSEN, RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT,
     PERIODIC_POSITIONS, STAGE_VECTORS, CELL_SHIFTS, EDGE_SHIFTS, PERIODIC_CELLS, PERIODIC_FACETS, PERIODIC_CENTRES,
     LOCATE_IN_PERIOD, PERIODIC_NEAREST, PERIODIC_BALL, PERIODIC_LISTS, PERIODIC_LINEAR, PERIODIC_WEIGHTS, PERIODIC_CLONE, PERIODIC_LOAD,
     PERIODIC_VTU, PERIODIC_NEIGHBOURS, PERIODIC_CHECK, PERIODIC_COMPACT, PERIODIC_HIDDEN, WRAP_POSITIONS, N_KINDS } kind;
@@ -95,7 +95,7 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_cells_in_reach", "deldrift_hull_facets_in_reach", "deldrift_vertices_in_reach",
     "deldrift_find_simplices", "deldrift_find_simplices, all", "deldrift_cell_of_each_vertex", "deldrift_barycentric",
     "deldrift_mask_without_flat_cells", "deldrift_segments_of_cells", "deldrift_cells_of_segments",
-    "deldrift_nesting_levels", "deldrift_crossing_numbers", "deldrift_label_cells", "deldrift_update_labels", "deldrift_boundary_chains",
+    "deldrift_nesting_levels", "deldrift_crossing_numbers", "deldrift_label_cells", "deldrift_set_regions", "deldrift_regions", "deldrift_update_labels", "deldrift_boundary_chains",
     "deldrift_refine", "deldrift_coarsen",
     "deldrift_release_cells", "deldrift_clone", "deldrift_save", "deldrift_load", "deldrift_save_file",
     "deldrift_load_file", "deldrift_write_vtu", "deldrift_write_medit",
@@ -153,6 +153,9 @@ static uint32_t ids_out[ROOM], more_out[ROOM];
 static double numbers_out[ROOM];
 static int64_t shifts_out[ROOM];
 static uint8_t bytes_out[8 * ROOM];
+
+// One label for all cells.
+static const int32_t one_region[ROOM] = {0};
 
 // What is loaded.
 static uint8_t saved[8 * ROOM];
@@ -697,6 +700,8 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case NESTING_LEVELS: status = deldrift_nesting_levels(s->t, ids_out, ROOM, &count); break;
         case CROSSING_NUMBERS: status = deldrift_crossing_numbers(s->t, ids_out, ROOM, &count); break;
         case LABEL_CELLS: status = deldrift_label_cells(s->t, at, (int32_t[]){5}, 1, 2, labels, ROOM, &count); break;
+        case SET_REGIONS: status = deldrift_set_regions(s->t, one_region, n_cells); break;
+        case REGIONS: status = deldrift_regions(s->t, 2, labels, ROOM, &count, NULL); break;
         case UPDATE_LABELS:
             status = deldrift_update_labels(s->t, numbers, n_cells, 3, labels, ROOM, &count);
             break;

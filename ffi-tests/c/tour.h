@@ -153,6 +153,8 @@ static void ask_about_segments(const deldrift_triangulation *t, const places *p,
     note(ids, count * 2 * sizeof *ids);
     TRY(deldrift_label_cells(t, p->later, (const int32_t[]){5, -6, 7}, 3, 8, tour_out.labels, TOUR_ROOM, &count));
     note(tour_out.labels, count * sizeof *tour_out.labels);
+    TRY(deldrift_regions(t, 8, tour_out.labels, TOUR_ROOM, &count, NULL));
+    note(tour_out.labels, count * sizeof *tour_out.labels);
     TRY(deldrift_update_labels(t, (const uint32_t[]){0}, n_cells > 0, 8, tour_out.labels, TOUR_ROOM, &count));
     note(tour_out.labels, n_cells * sizeof *tour_out.labels);
     TRY(deldrift_crossing_numbers(t, ids, TOUR_ROOM, &count));
@@ -228,6 +230,10 @@ static void improve(const deldrift_triangulation *of) {
     TRY(deldrift_stage_segments(t, tour_out.ids, NULL, n_ids, &segment));
     TRY(deldrift_commit_timestamp(t, NULL));
     if (tour_status != DELDRIFT_OK) GO(deldrift_discard_moves(t));
+    for (size_t k = 0; k < TOUR_ROOM; k++) tour_out.labels[k] = 1;
+    GO(deldrift_cell_count(t, &n_ids));
+    TRY(deldrift_set_regions(t, tour_out.labels, n_ids));
+    TRY(deldrift_set_segment_sides(t, &segment, (const int32_t[]){1, DELDRIFT_NO_LABEL}, 1));
     GO(deldrift_quality_init(&quality));
     note(&quality.share, sizeof quality.share);
     GO(deldrift_id_count(t, &n_ids));
@@ -244,6 +250,7 @@ static void improve(const deldrift_triangulation *of) {
     quality.size_count = 0;
     quality.least_angle = 30;
     quality.is_too_large = tour_is_too_large;
+    quality.domain = DELDRIFT_DOMAIN_REGIONS;
     TRY(deldrift_refine(t, &quality, NULL, 0, &report));
     note(&report, sizeof report);
     ask_what_was_made(t);

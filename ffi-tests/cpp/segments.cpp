@@ -225,6 +225,15 @@ static void domains_are_known() {
     CHECK_THROWS(t.label_cells({4.0, 2.0}, {1, 2}, 0), DELDRIFT_WRONG_COUNT, "labels has 2 numbers");
     CHECK_THROWS(t.label_cells({2.0, 1.0}, {1}, 0), DELDRIFT_AMBIGUOUS_SEED, "seeds[0]");
     CHECK_THROWS(t.boundary_chains({1, 0}), DELDRIFT_WRONG_COUNT, "mask_count is 2");
+    // The labels of regions follow.
+    const std::vector<std::int32_t> of_regions(levels.begin(), levels.end());
+    t.set_regions(of_regions);
+    CHECK(t.regions().labels == of_regions && t.regions().undecided == 0);
+    const std::vector<std::array<std::int32_t, 2>> none(t.segments().size(), {DELDRIFT_NO_LABEL, DELDRIFT_NO_LABEL});
+    t.set_segment_sides(t.segments().ids, none);
+    CHECK(t.regions(-1).labels == std::vector<std::int32_t>(levels.size(), -1) && t.regions().undecided > 0);
+    CHECK_THROWS(t.set_segment_sides({0u}, none), DELDRIFT_WRONG_COUNT, "sides has");
+    CHECK_THROWS(t.set_regions({1}), DELDRIFT_WRONG_COUNT, "label_count is 1");
 }
 
 // Cells that come have the labels of those around, as if labelled anew.

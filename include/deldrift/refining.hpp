@@ -29,7 +29,7 @@ class Triangulation;
 class Quality {
 public:
     double least_angle = 0, greatest_area = 0;
-    // For each cell, as label_cells() gives them.
+    // For each cell, as label_cells() gives them; none for those of regions().
     std::vector<std::int32_t> labels{};
     // By label.
     std::vector<double> areas{};
@@ -38,6 +38,8 @@ public:
     // What it throws comes out of refine() or coarsen(), which has had no effect then.
     std::function<bool(const Corners &)> is_too_large{};
     deldrift_kept keeps = DELDRIFT_KEPT_NONE;
+    // Which cells are refined without a mask.
+    deldrift_domain domain = DELDRIFT_DOMAIN_NESTING;
     // Whether refined_weights() and carry() are to know the vertices that refine() inserts.
     bool has_weights = false;
     // Whether segments are split until all cells are Delaunay, segments or not.
@@ -119,6 +121,7 @@ class GivenQuality {
         given_.sizes = begin_of(quality.sizes);
         given_.size_count = quality.sizes.size();
         given_.keeps = quality.keeps;
+        given_.domain = quality.domain;
         given_.has_weights = quality.has_weights ? 1 : 0;
         given_.is_conforming = quality.is_conforming ? 1 : 0;
         given_.limit = quality.limit;

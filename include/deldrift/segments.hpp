@@ -100,6 +100,14 @@ struct Segments {
     indexed_iterator<Rows> end() const noexcept { return {{this}, size()}; }
 };
 
+// The labels of the regions of cells; see deldrift_regions.
+struct Regions {
+    // In the order of cells().
+    std::vector<std::int32_t> labels{};
+    // How many cells are in regions whose sides have no label, or several.
+    std::size_t undecided = 0;
+};
+
 // An edge of the boundary of some cells: it goes from vertex to next, and the cell is on its left.
 struct ChainEdge {
     std::uint32_t vertex, next;

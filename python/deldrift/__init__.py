@@ -47,6 +47,7 @@ from ._errors import (
     RemovedVertex,
     StagedVertex,
     TooMany,
+    UndecidedRegions,
     WrongCount,
 )
 from ._geometry import VoronoiCells, VoronoiDerivatives
@@ -56,7 +57,7 @@ from ._mesh import Mesh
 from ._motion import Changes
 from ._periodic import PeriodicDelaunay, PeriodicLocations
 from ._refining import MadeVertices, RefinedWeights
-from ._segments import Chains, Segments, Splits
+from ._segments import Chains, Regions, Segments, Splits
 from ._step import Step, Trial
 from ._transferring import Transfer
 
@@ -102,6 +103,7 @@ __all__ = [
     "Prepared",
     "QualityReport",
     "RefinedWeights",
+    "Regions",
     "RemovedVertex",
     "Report",
     "Segments",
@@ -111,6 +113,7 @@ __all__ = [
     "TooMany",
     "Transfer",
     "Trial",
+    "UndecidedRegions",
     "VoronoiCells",
     "VoronoiDerivatives",
     "WrongCount",

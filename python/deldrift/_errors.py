@@ -115,6 +115,10 @@ class AmbiguousSeed(Error, ValueError):
     """A seed is on the boundary of several regions, so that it names none of them."""
 
 
+class UndecidedRegions(Error, RuntimeError):
+    """The sides of a region have no label, or several, where refinement goes by them: see `Delaunay.regions`."""
+
+
 class ConflictKind(enum.IntEnum):
     """Why a segment cannot be an edge; what the field `other` of a conflict has."""
 
@@ -237,6 +241,7 @@ KINDS = {
     36: Prepared,
     39: InvalidValue,
     40: ChangesNotTaken,
+    41: UndecidedRegions,
 }
 """Classes by deldrift_status. What is not here comes of a defect, as a pointer of this package that is NULL."""
 

@@ -19,6 +19,9 @@ COINCIDENCES = ("merge", "reject")
 PASSINGS = ("ignore", "tell", "refuse")
 INTERPOLATIONS = ("linear", "natural")
 KEPT = ("none", "outer", "all")
+DOMAINS = ("nesting", "even-odd", "inside", "regions")
+NO_LABEL = -(2**31)
+"""DELDRIFT_NO_LABEL: a side of a segment has no label."""
 NO_LIMIT = 2 * sys.maxsize + 1
 """SIZE_MAX."""
 FIRST_CONFLICT = 30
@@ -141,6 +144,7 @@ class Quality(ctypes.Structure):
         ("joins", c_double),
         ("growth", c_double),
         ("reuses_ids", c_uint32),
+        ("domain", c_uint32),
     ]
 
 
@@ -342,6 +346,9 @@ PROTOTYPES = {
     "crossing_numbers": (T, A, N, C),
     "label_cells": (T, A, A, N, c_int32, A, N, C),
     "update_labels": (T, A, N, c_int32, A, N, C),
+    "set_regions": (T, A, N),
+    "set_segment_sides": (T, A, A, N),
+    "regions": (T, c_int32, A, N, C, C),
     "boundary_chains": (T, A, N, A, A, A, A, A, N, C),
     "quality_init": (POINTER(Quality),),
     "refine": (T, POINTER(Quality), A, N, POINTER(QualityReport)),

@@ -11,7 +11,7 @@ import numpy as np
 from ._arrays import array_of, floats, ids as listed_ids, numbers, pairs, points as point_rows, real
 from ._core import fixed
 from ._delaunay import Delaunay
-from ._errors import ConflictError, InvalidOption, InvalidShape, InvalidValue, NoSuchSegment, PassingError
+from ._errors import ConflictError, InvalidOption, InvalidShape, InvalidValue, PassingError
 from ._library import QualityReport, Report
 from ._refining import TooLarge
 from ._segments import Chains, Segments
@@ -19,21 +19,6 @@ from ._segments import Chains, Segments
 # What PyPI's triangle has in its dictionaries and a mesh makes anew.
 RESULTS = frozenset({"triangles", "triangle_attributes", "neighbors", "edges", "edge_markers"})
 USED = frozenset({"vertices", "segments", "segment_markers", "holes", "regions"})
-
-
-FEW = 8
-"""Up to how many simplices are worked on one by one."""
-
-
-class _Side(NamedTuple):
-    """What a region is known by while its segments move: a segment of its outer boundary, and on which side it is."""
-
-    segment: int
-    """By the id that it had before pieces were made of it."""
-    start: int
-    """The vertex at which the piece beside the region begins, which stays one's first end when that is split again."""
-    column: int
-    """0 for the left, as seen from the segment's first end along it, 1 for the right."""
 
 
 class _Domain(NamedTuple):
@@ -131,13 +116,19 @@ class Mesh:
             tri._stage_segments(segments, markers, "segments", "markers")
             if split:
                 step.split()
-        self._holes = None if places is None else [side for side in self._sides(places, "holes") if side is not None]
-        sides = self._sides(np.ascontiguousarray(labelled[:, :2]), "regions")
-        # Which of the regions given have a side.
-        self._named = [k for k, side in enumerate(sides) if side is not None]
-        self._regions = [side for side in sides if side is not None]
+        hole_of = None if places is None else self._inside(places, "holes")
+        region_of = self._inside(np.ascontiguousarray(labelled[:, :2]), "regions")
+        self._has_holes = places is not None
+        # Which of the regions given are not in that of another one, nor outside.
+        named = np.unique(region_of[region_of >= 0])
+        self._named = named.tolist()
         # The last entry is that of triangles without a region.
         self._labels = np.append(labelled[self._named, 2], 0.0)
+        # A number for each pair of what is said of a region, which the library keeps: 0 for nothing.
+        codes = np.where(region_of >= 0, np.searchsorted(named, region_of) + 1, 0)
+        if hole_of is not None:
+            codes += np.where(hole_of >= 0, len(self._labels), 0)
+        tri.set_regions(codes)
 
     @classmethod
     def from_triangle(cls, data: Mapping[str, Any], switches: str = "", **options: Any) -> "Mesh":
@@ -205,8 +196,8 @@ class Mesh:
             mesh._tri.refine(**{"mask": mesh.mask, **wanted})
         return mesh
 
-    def _sides(self, places: np.ndarray, argument: str) -> list[Optional[_Side]]:
-        """What the regions around some places are known by; None for those outside, and in the region of another."""
+    def _inside(self, places: np.ndarray, argument: str) -> np.ndarray:
+        """For each simplex the first of some places that is in its region; -1 outside, and for none."""
         tri = self._tri
         region_of = tri._labels_at(places, np.arange(len(places), dtype=np.int32), -1, argument)
         is_outside = tri.nesting_levels() == 0
@@ -216,65 +207,18 @@ class Mesh:
             warnings.warn(
                 f"{argument}[{k}] is outside of all closed chains of segments, and has no effect", stacklevel=3
             )
-        beyond = np.append(region_of, -1)[tri.neighbors]
-        cells, corners = np.nonzero((region_of >= 0)[:, None] & (beyond != region_of[:, None]))
-        # An edge at the leftmost vertex of a region is one of its outer boundary.
-        x, y = tri.points[tri.simplices[cells, (corners + 1) % 3]].T
-        order = np.lexsort((y, x, region_of[cells]))
-        regions, first = np.unique(region_of[cells[order]], return_index=True)
-        cells, corners = cells[order[first]], corners[order[first]]
-        segments = tri.segments_of_cells()[cells, corners]
-        rows = np.searchsorted(tri.segments.ids, segments)
-        beside = tri.cells_of_segments()[rows]
-        sides: list[Optional[_Side]] = [None] * len(places)
-        originals, starts = tri.original_segments()[rows], tri.segments.ends[rows, 0]
-        for region, segment, start, column in zip(regions, originals, starts, beside[:, 1] == cells):
-            sides[region] = _Side(int(segment), int(start), int(column))
-        return sides
+        return region_of
 
     def _domain(self) -> _Domain:
-        levels = self._tri.nesting_levels()
-        if self._holes is None:
-            mask = (self._tri.crossing_numbers() if self._keep == "even-odd" else levels) % 2 == 1
+        levels, codes = self._tri.nesting_levels(), self._tri.regions().labels
+        if self._has_holes:
+            mask = (levels > 0) & (codes < len(self._labels))
         else:
-            mask = (levels > 0) & (self._reached(self._beside(self._holes)) < 0)
-        return _Domain(fixed(mask), fixed(self._reached(self._beside(self._regions))))
+            mask = (self._tri.crossing_numbers() if self._keep == "even-odd" else levels) % 2 == 1
+        return _Domain(fixed(mask), fixed(codes % len(self._labels) - 1))
 
     def _found(self) -> _Domain:
         return self._tri._once("domain", self._domain)
-
-    def _beside(self, sides: list[_Side]) -> list[int]:
-        """A simplex of each region; -1 if it is now outside of the convex hull."""
-        if not sides:
-            return []
-        beside = self._tri.cells_of_segments()
-        rows = self._rows_of(sides)
-        if (rows < 0).any():
-            segment = sides[int(np.argmax(rows < 0))].segment
-            raise NoSuchSegment(f"segment {segment}, by which a hole or region of the mesh is known, has been removed")
-        return list(map(int, beside[rows, [side.column for side in sides]]))
-
-    def _rows_of(self, sides: list[_Side]) -> np.ndarray:
-        """For each side the index of its segment, or of the piece that begins where it did; -1 if there is none."""
-        pieces = _joined(self._tri.original_segments(), self._tri.segments.ends[:, 0])
-        order = np.argsort(pieces, kind="stable")
-        wanted = _joined(*np.array([side[:2] for side in sides], np.int32).T)
-        # The last entry is that of segments behind all others.
-        rows = np.append(order, -1)[np.searchsorted(pieces, wanted, sorter=order)]
-        return np.where(np.append(pieces, -1)[rows] == wanted, rows, -1)
-
-    def _reached(self, starts: list[int]) -> np.ndarray:
-        """For each simplex from which start, an index, it is reached without crossing a segment; -1 from none."""
-        neighbours = self._tri.neighbors
-        # The last entry is that of the neighbour -1, the outside.
-        reached_from = np.full(len(neighbours) + 1, -1, np.int32)
-        if starts:
-            reached_from[-1] = len(starts)
-            segments = self._tri.segments_of_cells()
-            for k, start in enumerate(starts):
-                if reached_from[start] < 0:
-                    _flood(k, start, neighbours, segments, reached_from)
-        return reached_from[:-1]
 
     @property
     def delaunay(self) -> Delaunay:
@@ -504,7 +448,7 @@ class Mesh:
     def _selected_by_region(self, areas: Any) -> dict[str, Any]:
         """`areas`: for each region, and at the end for triangles without one."""
         region_of = self._found().region_of
-        labels = np.where(region_of < 0, len(self._regions), region_of)
+        labels = np.where(region_of < 0, len(self._named), region_of)
         return {"mask": self.mask, "labels": labels, "areas": areas}
 
     def to_dict(self) -> dict[str, np.ndarray]:
@@ -530,9 +474,9 @@ class Mesh:
         holes = [self._place_in(hole) for hole in self._hole_masks(mask)]
         if holes:
             data["holes"] = np.array(holes)
-        of_regions = [(k, region_of == k) for k in range(len(self._regions))]
+        of_regions = [(k, region_of == k) for k in range(len(self._named))]
         regions = [(*self._place_in(of), self._labels[k], 0) for k, of in of_regions if of.any()]
-        if self._regions:
+        if self._named:
             data["regions"] = np.array(regions, np.float64).reshape(-1, 4)
             data["triangle_attributes"] = self.labels.reshape(-1, 1).copy()
         return data
@@ -541,7 +485,8 @@ class Mesh:
         """The simplices of each hole: of each region within chains of segments that is not in the domain."""
         masks, is_left = [], ~mask & (self._tri.nesting_levels() > 0)
         while is_left.any():
-            masks.append(self._reached([int(np.argmax(is_left))]) == 0)
+            place = np.array([self._place_in(is_left)])
+            masks.append(self._tri._labels_at(place, np.zeros(1, np.int32), -1, "holes") == 0)
             is_left &= ~masks[-1]
         return masks
 
@@ -632,35 +577,3 @@ def _rows(argument: str, values: Any, width: int) -> np.ndarray:
     if array.ndim != 2 or array.shape[1] != width:
         raise InvalidShape(f"{argument} has the shape {array.shape}, and must have rows of {width} numbers", argument)
     return array
-
-
-def _flood(k: int, start: int, neighbours: np.ndarray, segments: np.ndarray, reached_from: np.ndarray) -> None:
-    """Writes k for all simplices that are reached from one without crossing a segment, in rounds of neighbours.
-
-    Rounds within a hole are many, of one or two simplices each, which a loop does in a fraction of the time that NumPy
-    takes for a round.
-    """
-    reached_from[start] = k
-    few, many = [start], np.empty(0, np.int32)
-    while few or len(many):
-        if few:
-            front = _beyond_few(k, few, neighbours, segments, reached_from)
-            few, many = (front, many) if len(front) <= FEW else ([], np.array(front, np.int32))
-        else:
-            many = neighbours[many][segments[many] < 0]
-            many = np.unique(many[reached_from[many] < 0])
-            reached_from[many] = k
-            few, many = (many.tolist(), many[:0]) if len(many) <= FEW else ([], many)
-
-
-def _beyond_few(
-    k: int, front: list[int], neighbours: np.ndarray, segments: np.ndarray, reached_from: np.ndarray
-) -> list[int]:
-    """The simplices of the next round, for which it writes k."""
-    beyond = []
-    for cell in front:
-        for across, segment in zip(neighbours[cell].tolist(), segments[cell].tolist()):
-            if segment < 0 and reached_from[across] < 0:
-                reached_from[across] = k
-                beyond.append(across)
-    return beyond

@@ -117,6 +117,7 @@ class Refining(Segmented):
         sizes: Any = None,
         is_too_large: Optional[TooLarge] = None,
         mask: Any = None,
+        domain: str = "nesting",
         keep: str = "none",
         limit: Optional[int] = None,
         is_conforming: bool = False,
@@ -137,7 +138,7 @@ class Refining(Segmented):
         areas : array_like, optional
             The greatest area by label, 0 for any: that of label k is `areas[k]`, and other labels have none.
         labels : array_like of int, optional
-            A label for each simplex, as `label_cells` gives them; 0 by default.
+            A label for each simplex, as `label_cells` gives them; those of `regions` by default.
         sizes : float or array_like, optional
             The greatest length of edges, above 0, by vertex id: no edge is longer than the mean at the corners of its
             simplex. New vertices have what is between.
@@ -146,7 +147,10 @@ class Refining(Segmented):
             give the same answer for the same corners. An exception in it comes out of the call, which has no effect
             then.
         mask : array_like of bool, optional
-            The simplices to refine, which have to end at segments; those of an odd nesting level by default.
+            The simplices to refine, which have to end at segments; those of `domain` by default.
+        domain : {"nesting", "even-odd", "inside", "regions"}, optional
+            Which simplices without a mask: those with an odd nesting level, those with an odd crossing number, all within
+            closed chains of segments, or those in regions with a label above 0.
         keep : {"none", "outer", "all"}, optional
             Which segments stay whole: none, those at the boundary of what is refined, or all.
         limit : int, optional
@@ -178,6 +182,7 @@ class Refining(Segmented):
             _refine,
             [least_angle, greatest_area, areas, labels, sizes, is_too_large, mask],
             {
+                "domain": choice("domain", domain, _library.DOMAINS),
                 "keeps": choice("keep", keep, _library.KEPT),
                 "limit": _library.NO_LIMIT if limit is None else _count("limit", limit),
                 "has_weights": 1,
@@ -197,6 +202,7 @@ class Refining(Segmented):
         sizes: Any = None,
         is_too_large: Optional[TooLarge] = None,
         mask: Any = None,
+        domain: str = "nesting",
         keep: str = "none",
         margin: float = 2.0,
         share: float = 0.9,
@@ -211,7 +217,7 @@ class Refining(Segmented):
 
         Parameters
         ----------
-        least_angle, greatest_area, areas, labels, sizes, is_too_large, mask, keep
+        least_angle, greatest_area, areas, labels, sizes, is_too_large, mask, domain, keep
             As of `refine`. To be called before it, with what it will be called with.
         margin : float, optional
             By how many degrees the angles of new simplices have to be above the least one, from 0 to 30.
@@ -246,6 +252,7 @@ class Refining(Segmented):
             _coarsen,
             [least_angle, greatest_area, areas, labels, sizes, is_too_large, mask],
             {
+                "domain": choice("domain", domain, _library.DOMAINS),
                 "keeps": choice("keep", keep, _library.KEPT),
                 "margin": real("margin", margin),
                 "share": real("share", share),

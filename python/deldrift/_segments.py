@@ -11,7 +11,7 @@ from . import _library
 from ._arrays import I32, address, array_of, check_output, ids, numbers, one_number, pairs, simplex_ids, whole
 from ._arrays import mask as mask_of, points as point_rows
 from ._core import PASSING, Core, cell_count, count_of, fixed
-from ._errors import InvalidDimension, InvalidValue, NoSuchSegment, WrongCount
+from ._errors import InvalidDimension, InvalidShape, InvalidValue, NoSuchSegment, WrongCount
 
 _stage_segments = _library.function("stage_segments")
 _stage_segment_removals = _library.function("stage_segment_removals")
@@ -25,6 +25,9 @@ _nesting_levels = _library.function("nesting_levels")
 _crossing_numbers = _library.function("crossing_numbers")
 _label_cells = _library.function("label_cells")
 _update_labels = _library.function("update_labels")
+_set_regions = _library.function("set_regions")
+_set_segment_sides = _library.function("set_segment_sides")
+_regions = _library.function("regions")
 _boundary_chains = _library.function("boundary_chains")
 
 
@@ -37,6 +40,15 @@ class Segments(NamedTuple):
     """Rows of two vertex ids, as they were given."""
     markers: np.ndarray
     """The number that was given with each, 0 by default."""
+
+
+class Regions(NamedTuple):
+    """The labels of regions, which follow them."""
+
+    labels: np.ndarray
+    """For each simplex that of its region."""
+    undecided: int
+    """How many simplices are in regions whose sides have several labels, or that are closed and have none."""
 
 
 class Splits(NamedTuple):
@@ -304,6 +316,80 @@ class Segmented(Core):
             )
             self._check(status, positions=name, seeds=name)
         return found
+
+    def set_regions(self, labels: Any) -> None:
+        """Gives regions labels that follow them: `regions` tells the label of each simplex from then on.
+
+        The sides of segments keep them, and hand them on to pieces: while vertices move, come and go, and through `refine`,
+        `coarsen`, `copy`, `tobytes` and `save`, as long as no vertex passes a segment.
+
+        Parameters
+        ----------
+        labels : array_like of int or None
+            A number of 32 bits for each simplex, one for each region: such as `label_cells` or `nesting_levels` gives.
+            None takes all labels away.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> square, free = [[0, 0], [4, 0], [4, 4], [0, 4]], [[3, 1], [3.5, 2]]
+        >>> tri = deldrift.Delaunay(square + free, segments=[[0, 2], [0, 1], [1, 2], [2, 3], [3, 0]])
+        >>> tri.set_regions(tri.label_cells([[2, 1], [1, 3]], [5, 6]))
+        >>> report = tri.refine(greatest_area=0.5, domain="regions")
+        >>> labels, undecided = tri.regions()
+        >>> bool((labels == tri.label_cells([[2, 1], [1, 3]], [5, 6])).all()), undecided
+        (True, 0)
+        """
+        self._check_plane()
+        with self._changing as t:
+            if labels is None:
+                self._check(_set_regions(t, None, 0))
+                return
+            values = numbers("labels", labels, cell_count(t), "simplices")
+            # Without simplices there are no regions, and no pointer would take labels away from sides.
+            if len(values):
+                self._check(_set_regions(t, address(values), len(values)))
+
+    def set_segment_sides(self, segments: Any, sides: Any) -> None:
+        """Gives the sides of segments labels, as `set_regions` does by those of simplices.
+
+        Parameters
+        ----------
+        segments : array_like of int
+            Ids of segments.
+        sides : array_like of int
+            For each the label on its left, as seen from its first end along it, and that on its right; -2147483648 for none.
+        """
+        self._check_plane()
+        listed = ids("segments", segments)
+        rows = array_of("sides", sides)
+        if rows.shape != (len(listed), 2):
+            raise InvalidShape(
+                f"sides has the shape {rows.shape}, and must have two labels for each of {len(listed)} segments", "sides"
+            )
+        values = numbers("sides", rows.reshape(-1), 2 * len(listed), "labels")
+        with self._changing as t:
+            self._check(_set_segment_sides(t, address(listed), address(values), len(listed)))
+
+    def regions(self, other: int = 0) -> Regions:
+        """The label of the region of each simplex, as `set_regions` and `set_segment_sides` have given them.
+
+        Parameters
+        ----------
+        other : int, optional
+            The label where the sides of a region have none, or several.
+
+        Returns
+        -------
+        Regions
+            `labels`, and how many are `undecided`: then segments have been added or removed, or vertices have passed some.
+        """
+        self._check_plane()
+        rest = one_number("other", other)
+        with self._reading as t:
+            labels, undecided = np.empty(cell_count(t), I32), ctypes.c_size_t()
+            self._check(_regions(t, rest, address(labels), len(labels), ctypes.c_size_t(), undecided))
+        return Regions(labels, undecided.value)
 
     def update_labels(self, simplices: Any, labels: np.ndarray, other: int = 0) -> int:
         """Computes entries of an array again that `label_cells` or `nesting_levels` gave, or that follows it.

@@ -502,6 +502,43 @@ def test_slits_divide_nothing(rng):
     assert (refused.value.argument, refused.value.index) == ("seeds", 1)
 
 
+def test_regions_follow(rng):
+    """Labels that are given once are those of seeds after moves, refinement, a copy and saved data."""
+    square, ring = [[0, 0], [4, 0], [4, 4], [0, 4]], [[1, 1], [2, 1], [2, 2], [1, 2]]
+    tri = deldrift.Delaunay(square + ring, segments=[[k, (k + 1) % 4] for k in range(4)] + [[4 + k, 4 + (k + 1) % 4] for k in range(4)])
+    assert (tri.regions(7).labels == 7).all() and tri.regions().undecided == tri.nsimplex
+    seeds = np.array([[0.5, 0.5], [1.5, 1.5]])
+    tri.set_regions(tri.label_cells(seeds, [1, 2]))
+    for step in range(5):
+        tri.move(np.array(ring) + 0.1 * (step + 1), ids=[4, 5, 6, 7]) if step < 1 else None
+        report = tri.refine(greatest_area=0.5, areas=[0, 0.3, 0.01][: 3 if step else 2], domain="regions")
+        assert report.bad_cells == 0
+        for other in tri, tri.copy(), deldrift.frombytes(tri.tobytes()):
+            labels, undecided = other.regions()
+            assert undecided == 0
+            np.testing.assert_array_equal(labels, other.label_cells(seeds + [[0, 0], [0.1, 0.1]], [1, 2]))
+    assert report.inserted == 0 and np.sum(labels == 2) > 4 * np.sum(labels == 1) / 15
+    areas = tri.volumes()
+    assert areas[labels == 2].max() <= 0.01 and areas[labels == 1].max() <= 0.3
+    inner = tri.segments.ids[: 1]
+    tri.set_segment_sides(inner, [[5, 5]])
+    assert tri.regions().undecided > 0
+    with pytest.raises(deldrift.UndecidedRegions, match="sides have no label, or several"):
+        tri.refine(greatest_area=0.5, domain="regions")
+    tri.set_regions(None)
+    assert tri.refine(greatest_area=0.5, domain="regions").inserted == 0
+    for wrong, error, name in (
+        (lambda: tri.set_regions([1, 2]), deldrift.WrongCount, "labels"),
+        (lambda: tri.set_regions(np.arange(tri.nsimplex)), deldrift.InvalidValue, "labels"),
+        (lambda: tri.set_segment_sides([0], [1, 2]), deldrift.InvalidShape, "sides"),
+        (lambda: tri.set_segment_sides([10**6], [[1, 2]]), deldrift.NoSuchSegment, "segments"),
+        (lambda: tri.refine(domain="all"), deldrift.InvalidValue, "domain"),
+    ):
+        with pytest.raises(error) as refused:
+            wrong()
+        assert refused.value.argument == name
+
+
 @pytest.mark.parametrize("seed", range(10))
 def test_boundary_chains_of_masks(seed):
     rng = np.random.default_rng(seed)

@@ -5,6 +5,7 @@ use super::handle::{Changing, Reading, deldrift_triangulation};
 use super::pointers::{Array, Buffer, Output, given};
 use super::status::{Failure, deldrift_status};
 use crate::either::AnyTriangulation;
+use crate::error::Error;
 use crate::ids::SegmentId;
 use crate::motion::NO_LABEL;
 
@@ -43,6 +44,11 @@ pub unsafe extern "C" fn deldrift_set_regions(
         if labels.is_null() && label_count == 0 {
             return Ok(t.forget_regions()?);
         }
+        let wanted = t.cell_count();
+        if label_count != wanted {
+            let (argument, given) = ("label_count", label_count);
+            return Err(Error::WrongCount { argument, given, wanted, coming: 0 }.into());
+        }
         Ok(t.set_regions(labels.get()?)?)
     })
 }
@@ -74,13 +80,14 @@ pub unsafe extern "C" fn deldrift_set_segment_sides(
     })
 }
 
-/// The label of the region of each cell, in the order of deldrift_cells: that of the sides of its segments, which
-/// deldrift_set_regions and deldrift_set_segment_sides have given.
+/// The label of the region of each cell, in the order of deldrift_cells: that of the sides of its outer boundary, which
+/// deldrift_set_regions and deldrift_set_segment_sides have given; where these have none, that of the sides around islands in
+/// it. So a region keeps its label when an island jumps into it, or out of it.
 ///
-/// other: the label of cells in regions whose sides have none, as mostly outside of a domain, and of undecided ones. labels: a
-/// buffer with room for capacity numbers. count: receives the number of cells, which is also written when the buffer is too
-/// small. NULL with capacity 0 asks for the count alone. undecided: receives the number of cells in regions whose sides have
-/// several labels, and in regions that are closed off by segments whose sides have none; may be NULL. If it is not 0, segments
+/// other: the label of cells from which the outside of the hull is reached without crossing a segment, and of undecided ones.
+/// labels: a buffer with room for capacity numbers. count: receives the number of cells, which is also written when the buffer is too
+/// small. NULL with capacity 0 asks for the count alone. undecided: receives the number of cells in other regions whose
+/// sides have several labels, or none; may be NULL. If it is not 0, segments
 /// have been added or removed, or vertices have passed segments, and it is time for deldrift_set_regions.
 ///
 /// Exact. Cost: m, and for each segment the cells around an end. After a change the first call also does what the first

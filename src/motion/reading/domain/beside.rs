@@ -11,7 +11,7 @@ use crate::motion::triangulation::MovingTriangulation;
 impl MovingTriangulation<Plane> {
     /// The cells to the left and to the right of each segment in force, as seen from its first end, in the order of
     /// [`segments`](Self::segments); `None` for the outside, and while there are no cells.
-    fn facets_beside_segments(&self) -> Result<Vec<(SegmentId, [Option<Facet>; 2])>> {
+    pub(super) fn facets_beside_segments(&self) -> Result<Vec<(SegmentId, [Option<Facet>; 2])>> {
         let (mut facets, kernel) = (Vec::new(), &self.mesh.kernel);
         memory::reserve(&mut facets, self.segments().count())?;
         for (id, segment) in self.segments() {

@@ -23,6 +23,15 @@ impl Found {
             _ => Found::Several,
         }
     }
+
+    /// What is known by both.
+    pub(super) fn or(self, other: Self) -> Self {
+        match other {
+            Found::Nothing => self,
+            Found::One(label) => self.and(label),
+            Found::Several => other,
+        }
+    }
 }
 
 impl MovingTriangulation<Plane> {

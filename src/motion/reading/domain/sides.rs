@@ -7,7 +7,7 @@
 use super::labels::Found;
 use crate::delaunay::Plane;
 use crate::error::{Error, Result};
-use crate::ids::SegmentId;
+use crate::ids::{CellId, SegmentId};
 use crate::machine::memory;
 use crate::motion::state::cells::NO_CELL;
 use crate::motion::state::segments::NO_LABEL;
@@ -86,30 +86,43 @@ impl MovingTriangulation<Plane> {
         self.mesh.segments.as_ref().is_some_and(|segments| segments.have_labels())
     }
 
-    /// The label of the region of each cell, in the order of [`cells`](Self::cells): that of the sides of its segments;
-    /// `other` where they have none, or several. Also, how many cells are undecided: in regions whose sides have several
-    /// labels, or that segments are all around and whose sides have none.
+    /// The label of the region of each cell, in the order of [`cells`](Self::cells): that of the sides of its outer boundary,
+    /// or, where these have none, of those around islands; `other` where they have none either, or several, and where the
+    /// outside of the hull is reached without crossing a segment. Also, how many cells are undecided: in regions that are
+    /// closed, and of which the sides have several labels, or none.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`].
     pub fn region_labels(&self, other: i32) -> Result<(Vec<i32>, usize)> {
         let (regions, is_open) = self.regions()?;
+        let walls = self.walls()?;
         let (mut found, mut labels) = (Vec::new(), Vec::new());
         memory::lengthen(&mut found, is_open.len(), Found::Nothing)?;
-        for ((_, segment), cells) in self.segments().zip(self.cells_of_segments()?) {
-            for (label, cell) in segment.sides.into_iter().zip(cells) {
-                if label != NO_LABEL && cell != NO_CELL {
-                    let found = &mut found[regions[cell.index()] as usize];
-                    *found = found.and(label);
+        for (start, found) in self.outer_edges(&walls, &regions, &is_open)?.into_iter().zip(&mut found) {
+            let Some(start) = start else { continue };
+            let mut edge = start;
+            loop {
+                *found = found.or(walls[edge.0.index()][edge.1].unwrap_or(Found::Nothing));
+                edge = self.next_edge(&walls, edge)?;
+                if edge == start {
+                    break;
                 }
+            }
+        }
+        // Where nothing has been found so far; labels of islands are not those of the region they have come to.
+        let mut within = memory::copy_of(&found)?;
+        for (row, &region) in walls.iter().zip(&regions) {
+            let region = region as usize;
+            if found[region] == Found::Nothing {
+                within[region] = row.iter().flatten().fold(within[region], |found, &wall| found.or(wall));
             }
         }
         let mut n_undecided = 0;
         memory::collect(
             &mut labels,
-            regions.iter().map(|&region| match found[region as usize] {
+            regions.iter().map(|&region| match within[region as usize] {
+                _ if is_open[region as usize] => other,
                 Found::One(label) => label,
-                Found::Nothing if is_open[region as usize] => other,
                 Found::Nothing | Found::Several => {
                     n_undecided += 1;
                     other
@@ -117,5 +130,66 @@ impl MovingTriangulation<Plane> {
             }),
         )?;
         Ok((labels, n_undecided))
+    }
+
+    /// For each edge of each cell, opposite its corners, what the sides of segments there say of the cell; `None` where there
+    /// is no segment.
+    fn walls(&self) -> Result<Vec<[Option<Found>; 3]>> {
+        let (cells, mut walls) = (self.cell_arrays()?, Vec::new());
+        memory::lengthen(&mut walls, cells.corners().len(), [None; 3])?;
+        for ((_, facets), (_, segment)) in self.facets_beside_segments()?.into_iter().zip(self.segments()) {
+            for (label, facet) in segment.sides.into_iter().zip(facets) {
+                let Some(facet) = facet else { continue };
+                let (cell, corner) = cells.shown(facet);
+                let wall = walls[cell.index()][corner].get_or_insert(Found::Nothing);
+                if label != NO_LABEL {
+                    *wall = wall.and(label);
+                }
+            }
+        }
+        Ok(walls)
+    }
+
+    /// For each closed region an edge of its outer boundary, as a cell and the corner opposite: one at its leftmost vertex.
+    fn outer_edges(
+        &self,
+        walls: &[[Option<Found>; 3]],
+        regions: &[u32],
+        is_open: &[bool],
+    ) -> Result<Vec<Option<(CellId, usize)>>> {
+        let (cells, mut edges) = (self.cell_arrays()?, Vec::new());
+        memory::lengthen(&mut edges, is_open.len(), None)?;
+        let mut leftmost = Vec::new();
+        memory::lengthen(&mut leftmost, is_open.len(), [f64::INFINITY; 2])?;
+        for (cell, row) in CellId::range(0..walls.len()).zip(walls) {
+            let region = regions[cell.index()] as usize;
+            for i in (0..3).filter(|&i| row[i].is_some() && !is_open[region]) {
+                for end in [(i + 1) % 3, (i + 2) % 3] {
+                    let place = self.position(cells.corners()[cell][end])?;
+                    if edges[region].is_none() || place < leftmost[region] {
+                        (edges[region], leftmost[region]) = (Some((cell, i)), place);
+                    }
+                }
+            }
+        }
+        Ok(edges)
+    }
+
+    /// The next edge with a segment around a region, with that on the left.
+    fn next_edge(
+        &self,
+        walls: &[[Option<Found>; 3]],
+        (cell, corner): (CellId, usize),
+    ) -> Result<(CellId, usize)> {
+        let cells = self.cell_arrays()?;
+        let end = cells.corners()[cell][(corner + 2) % 3];
+        let (mut cell, mut corner) = (cell, (corner + 1) % 3);
+        while walls[cell.index()][corner].is_none() {
+            let across = cells.neighbours()[cell][corner];
+            let row = cells.corners()[across];
+            corner = (0..3).find(|&k| row[k] == end).map_or(0, |k| (k + 2) % 3);
+            cell = across;
+        }
+        Ok((cell, corner))
     }
 }
