@@ -1,28 +1,63 @@
-//! What more threads bring: build, sweep and commits of random points, in ns per vertex.
+//! What more threads bring, and what it costs to divide work into parts: build, sweep and commits, in ns per vertex.
 //!
 //! ```text
-//! cargo run --release --example thread_scaling [points [threads...]]
+//! cargo run --release --example thread_scaling [kind] [points [threads[:parts]...]]
 //! ```
 //!
-//! By default 1,000,000 points and 1 and 2 threads. The points are uniform in a square or cube. *Build* creates the
-//! triangulation. *Sweep*, *repair* and *mending* are commits by repair in which all vertices move, by up to half of a
+//! By default 1,000,000 points and 1 and 2 threads, with a part for each. The points are about 1 apart: *random* ones,
+//! uniform in a square or cube, or those of a *lattice* or a *sphere*. *Build* creates the triangulation. *Sorting* is by
+//! what the first repair after it takes longer than the second one: the first sorts the cells, if they are many, and gets
+//! memory. *Sweep*, *repair* and *mending* are commits by repair in which all vertices move, by up to half of a
 //! billionth, a thousandth and a fiftieth of a spacing along each axis: in the first every certificate is checked and
 //! nothing mended, in the last most of the time goes into flips. *Leaps* are placements of one vertex in a hundred,
 //! anywhere, in ns per vertex that moves, and *jumps* those of one vertex in 33, up to half a spacing away; both are done
 //! by one thread.
-//! *Rebuilding* moves no vertex, and triangulates all again. Thread counts take turns, so that whatever else the
+//! *Rebuilding* moves no vertex, and triangulates all again. Divisions take turns, so that whatever else the
 //! machine does falls upon all alike; printed are the median of all rounds, the least, and how many times faster the
-//! medians and the least are than with the first thread count.
+//! medians and the least are than with the first division.
 
 mod common;
 
 use common::Rng;
 use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options};
 use deldrift::{Dimension, Plane, Space, VertexId};
+use std::f64::consts::TAU;
 use std::time::Instant;
 
 const ROUNDS: usize = 7;
-const STEPS: [&str; 7] = ["build", "sweep", "repair", "mending", "leaps", "jumps", "rebuilding"];
+const STEPS: [&str; 8] = ["build", "sorting", "sweep", "repair", "mending", "leaps", "jumps", "rebuilding"];
+
+/// Threads, and parts into which work is divided; 0 for one for each thread.
+type Division = (u32, usize);
+
+/// So many points, about 1 apart; of a lattice, as many as make it a square or cube.
+fn draw<G: Dimension>(kind: &str, n: usize, random: &mut Rng) -> Vec<G::Point> {
+    let side = (n as f64).powf(1.0 / G::D as f64);
+    let mut points = vec![G::Point::default(); n];
+    match kind {
+        "lattice" => {
+            let side = side.round() as usize;
+            points.resize(side.pow(G::D as u32), G::Point::default());
+            for (i, p) in points.iter_mut().enumerate() {
+                (0..G::D).for_each(|k| p[k] = (i / side.pow(k as u32) % side) as f64);
+            }
+        }
+        "sphere" => {
+            let radius = if G::D == 2 { n as f64 / TAU } else { (n as f64 / (2.0 * TAU)).sqrt() };
+            for p in &mut points {
+                let squared = |p: &G::Point| (0..G::D).map(|k| p[k] * p[k]).sum::<f64>();
+                while !(1e-6..0.25).contains(&squared(p)) {
+                    (0..G::D).for_each(|k| p[k] = random.unit() - 0.5);
+                }
+                let to_sphere = radius / squared(p).sqrt();
+                (0..G::D).for_each(|k| p[k] *= to_sphere);
+            }
+        }
+        "random" => shake::<G>(&mut points, side, random),
+        _ => panic!("the kinds are random, lattice and sphere"),
+    }
+    points
+}
 
 /// Moves each coordinate by up to half of `size` either way.
 fn shake<G: Dimension>(points: &mut [G::Point], size: f64, random: &mut Rng) {
@@ -68,19 +103,18 @@ fn commit_few<G: Dimension>(
 }
 
 /// One round: the figures of all steps.
-fn round<G: Dimension>(points: &[G::Point], threads: u32) -> [f64; STEPS.len()] {
+fn round<G: Dimension>(points: &[G::Point], (threads, parts): Division) -> [f64; STEPS.len()] {
     let mut random = Rng::new(1);
     let mut points = points.to_vec();
-    let options = Options { algorithm: Algorithm::Repair, threads, ..Options::default() };
+    let options = Options { algorithm: Algorithm::Repair, threads, parts, ..Options::default() };
     let start = Instant::now();
     let mut t = MovingTriangulation::<G>::new(&points, options).expect("finite positions");
     let build = start.elapsed().as_secs_f64() * 1e9 / points.len() as f64;
-    // The first repair after a build sorts the cells.
-    for _ in 0..2 {
+    let [first, second] = [(); 2].map(|()| {
         shake::<G>(&mut points, 1e-3, &mut random);
         t.move_all(&points).expect("finite positions");
-        commit(&mut t);
-    }
+        commit(&mut t)
+    });
     let mut commit_all = |algorithm, size, points: &mut [G::Point]| {
         shake::<G>(points, size, &mut random);
         t.move_all(points).expect("finite positions");
@@ -100,32 +134,31 @@ fn round<G: Dimension>(points: &[G::Point], threads: u32) -> [f64; STEPS.len()] 
     if points.len() <= 100_000 {
         t.validate(Level::Delaunay).expect("a Delaunay triangulation");
     }
-    [build, sweep, repair, mending, leaps, jumps, rebuilding]
+    [build, first - second, sweep, repair, mending, leaps, jumps, rebuilding]
 }
 
-fn print<G: Dimension>(n: usize, threads: &[u32]) {
-    let mut random = Rng::new(7);
-    let side = (n as f64).powf(1.0 / G::D as f64);
-    let mut points = vec![G::Point::default(); n];
-    shake::<G>(&mut points, side, &mut random);
-    let mut figures = vec![[(); STEPS.len()].map(|()| Vec::new()); threads.len()];
+fn print<G: Dimension>(kind: &str, n: usize, divisions: &[Division]) {
+    let points = draw::<G>(kind, n, &mut Rng::new(7));
+    let mut figures = vec![[(); STEPS.len()].map(|()| Vec::new()); divisions.len()];
     for _ in 0..ROUNDS {
-        for (figures, &threads) in figures.iter_mut().zip(threads) {
-            for (figures, figure) in figures.iter_mut().zip(round::<G>(&points, threads)) {
+        for (figures, &division) in figures.iter_mut().zip(divisions) {
+            for (figures, figure) in figures.iter_mut().zip(round::<G>(&points, division)) {
                 figures.push(figure);
             }
         }
     }
     for (step, name) in STEPS.iter().enumerate() {
         let mut first = None;
-        for (figures, threads) in figures.iter_mut().zip(threads) {
+        for (figures, (threads, parts)) in figures.iter_mut().zip(divisions) {
             let figures = &mut figures[step];
             figures.sort_by(f64::total_cmp);
             let (median, least) = (figures[ROUNDS / 2], figures[0]);
             let first = first.get_or_insert([median, least]);
             println!(
-                "{}D {n} points, {name:10} {threads:2} threads: {median:8.1} ns, least {least:8.1}; {:.2} and {:.2} times as fast",
+                "{}D {} {kind} points, {name:10} {threads:2} threads, {parts:2} parts: \
+                 {median:8.1} ns, least {least:8.1}; {:.2} and {:.2} times as fast",
                 G::D,
+                points.len(),
                 first[0] / median,
                 first[1] / least
             );
@@ -134,12 +167,19 @@ fn print<G: Dimension>(n: usize, threads: &[u32]) {
 }
 
 fn main() {
-    let numbers: Vec<usize> = std::env::args().skip(1).map(|arg| arg.parse().expect("numbers")).collect();
-    let n = numbers.first().copied().unwrap_or(1_000_000);
-    let threads: Vec<u32> = match numbers.get(1..) {
-        Some(threads) if !threads.is_empty() => threads.iter().map(|&t| t as u32).collect(),
-        _ => vec![1, 2],
-    };
-    print::<Plane>(n, &threads);
-    print::<Space>(n, &threads);
+    let mut args = std::env::args().skip(1).peekable();
+    let is_kind = |arg: &String| arg.starts_with(char::is_alphabetic);
+    let kind = args.next_if(is_kind).unwrap_or("random".to_string());
+    let n = args.next().map_or(1_000_000, |n| n.parse().expect("a number of points"));
+    let mut divisions: Vec<Division> = args
+        .map(|division| {
+            let (threads, parts) = division.split_once(':').unwrap_or((&division, "0"));
+            (threads.parse().expect("a number of threads"), parts.parse().expect("a number of parts"))
+        })
+        .collect();
+    if divisions.is_empty() {
+        divisions = vec![(1, 0), (2, 0)];
+    }
+    print::<Plane>(&kind, n, &divisions);
+    print::<Space>(&kind, n, &divisions);
 }

@@ -1,6 +1,6 @@
 //! The same calls give the same answers, to the last bit and in the same order, on every processor, and, where the number of
-//! parts is given, on any number of threads: checksums of all that programs read, over histories, compared with those
-//! recorded in `results/same`.
+//! parts is given or work is too little to be divided, on any number of threads: checksums of all that programs read, over
+//! histories, compared with those recorded in `results/same`.
 //!
 //! Each history runs with the lanes of the processor and in a second process with those of numbers (`DELDRIFT_SCALAR`).
 //! Those in parts run on one thread, two and three. `DELDRIFT_RECORD` writes the files again. A line of them is a history, a
@@ -320,15 +320,19 @@ fn same<G: Dimension>(name: &str, parts: usize, threads: &[u32]) {
     if is_second {
         return;
     }
-    let mut second = Command::new(std::env::current_exe().expect("this program"));
-    second.args(["--exact", name]).env(SECOND, "1");
-    match std::env::var_os("DELDRIFT_SCALAR") {
+    in_second_process(name, |second| match std::env::var_os("DELDRIFT_SCALAR") {
         Some(_) => second.env_remove("DELDRIFT_SCALAR"),
         None => second.env("DELDRIFT_SCALAR", "1"),
-    };
-    let output = second.output().expect("it runs");
+    });
+}
+
+/// Runs a test alone in a process of its own, in another environment.
+fn in_second_process(name: &str, change: impl FnOnce(&mut Command) -> &mut Command) {
+    let mut second = Command::new(std::env::current_exe().expect("this program"));
+    second.args(["--exact", name]).env(SECOND, "1");
+    let output = change(&mut second).output().expect("it runs");
     let said = String::from_utf8_lossy(&output.stdout);
-    assert!(output.status.success() && said.contains("1 passed"), "with other lanes: {said}");
+    assert!(output.status.success() && said.contains("1 passed"), "in a second process: {said}");
 }
 
 fn recorded_in(path: &Path) -> Vec<(String, u64)> {
@@ -365,6 +369,31 @@ fn answers_in_space_in_parts_are_the_same_on_any_number_of_threads() {
     use_all_threads();
     let name = "same::answers_in_space_in_parts_are_the_same_on_any_number_of_threads";
     same::<Space>(name, PARTS, &[1, 2, 3, 5]);
+}
+
+/// Sets that are not quite large enough to be divided have one order on any number of threads, without a number of parts.
+/// In a second process, as no other test may have asked for all threads there.
+#[test]
+fn small_sets_are_the_same_on_any_number_of_threads() {
+    fn check<G: Dimension>(n: usize) {
+        let on = |threads| {
+            let mut sums = Sums { rows: Vec::new(), threads, parts: 0 };
+            let points = draw::<G>(Kind::Random, n, &mut Rng::new(2));
+            open::<G>(&mut sums, "small", &points, Algorithm::Auto, 3);
+            in_box::<G>(&mut sums, 500);
+            sums
+        };
+        let one = on(1);
+        for threads in [2, 3] {
+            assert_same(&on(threads), &one.rows);
+        }
+    }
+    if std::env::var_os(SECOND).is_none() {
+        let name = "same::small_sets_are_the_same_on_any_number_of_threads";
+        return in_second_process(name, |second| second.env_remove("DELDRIFT_ALL_THREADS"));
+    }
+    check::<Plane>(9_900);
+    check::<Space>(4_500);
 }
 
 /// What is compared tells orders and last bits apart: what is not divided shows in each kind of history.
