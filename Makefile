@@ -155,6 +155,7 @@ examples: library ## all examples, and their pictures in docs; particle finite e
 	build/examples/stirred
 	build/examples/periodic docs/periodic.svg
 	build/examples/domain 10000 docs/domain.svg build/examples/domain.html
+	build/examples/overnight 100000 docs/overnight.svg
 	build/examples/heat 4000 100 docs/heat.svg
 	build/examples/smoothing 60 docs/smoothing.svg
 	build/examples/densities 1225 docs/densities.svg

@@ -160,6 +160,22 @@ fn the_domain_with_a_rotor_keeps_its_area_its_heat_and_its_mesh() {
     assert!(drawn.starts_with("<!doctype html>") && drawn.ends_with("</html>\n") && drawn.len() < 5_000_000);
 }
 
+/// Vertices, ids and memory do not grow, as the program checks; all its dye is between none and full.
+#[test]
+fn a_mesh_lives_through_a_night() {
+    let folder = fresh_folder("overnight");
+    let program = build(&repository("examples/overnight.c"), &folder, Linkage::Static, &[]);
+    let picture = folder.join("picture.svg");
+    let said = succeed(command(program).arg("2000").arg(&picture));
+    assert_eq!(said.lines().filter(|line| line.starts_with("step ")).count(), 11, "{said}");
+    assert!(said.ends_with("0 bad cells in 2000 steps, dye from 0.00 to 1.00\n"), "{said}");
+    let drawn = std::fs::read_to_string(&picture).expect("the example has written it");
+    assert!(drawn.starts_with("<svg ") && drawn.ends_with("</svg>\n") && drawn.len() < 200_000);
+    assert_eq!(drawn.matches("<g ").count(), 3);
+    // Fewer steps than there are lines are none.
+    assert_eq!(command(folder.join("overnight")).arg("9").status().expect("it runs").code(), Some(2));
+}
+
 #[test]
 fn algorithms_of_research_have_the_same_triangles() {
     let folder = fresh_folder("comparison");

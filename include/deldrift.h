@@ -1361,7 +1361,7 @@ deldrift_status deldrift_stage_segment_removals(deldrift_triangulation *t,
 /// count: receives the number of segments, which is also written when the buffers are too small.
 /// NULL for all with capacity 0 asks for the count alone.
 ///
-/// Cost: the ids of segments given so far.
+/// Cost: the segments in force.
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
 /// DELDRIFT_BUFFER_TOO_SMALL.
@@ -2650,7 +2650,7 @@ deldrift_status deldrift_made_vertices(const deldrift_triangulation *t,
 /// originals: a buffer with room for capacity ids. count: receives the number of segments, which is also written when the
 /// buffer is too small. NULL with capacity 0 asks for the count alone.
 ///
-/// Cost: the ids of segments given so far, and of s segments s log s.
+/// Cost: of s segments in force s log s.
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
 /// DELDRIFT_BUFFER_TOO_SMALL.
@@ -2670,9 +2670,9 @@ deldrift_status deldrift_original_segments(const deldrift_triangulation *t,
 /// are none.
 ///
 /// vertices: a buffer with room for capacity rows of 3 ids, those of the corners of the cell that the vertex was put into;
-/// on a segment its two ends, the first one twice. weights: for as many rows of 3 numbers, from 0 to 1, with a sum of 1 but
-/// for rounding. One that is NULL is not filled. count: receives the number of vertices, which is also written when the
-/// buffers are too small. NULL for both with capacity 0 asks for the count alone.
+/// on a segment, or an edge, its two ends, the first one twice. weights: for as many rows of 3 numbers, from 0 to 1,
+/// with a sum of 1 but for rounding. One that is NULL is not filled. count: receives the number of vertices, which is
+/// also written when the buffers are too small. NULL for both with capacity 0 asks for the count alone.
 ///
 /// Cost: the vertices inserted.
 ///

@@ -20,7 +20,8 @@
 //! on the seeds alone, not on the time, the threads, the build or the processor.
 //!
 //! One history in five behind those that are recorded is of a box that repeats, whose cells are compared with those of what
-//! is made anew, in other periods and by other vectors, and of copies: `--from 44 --step 5` runs these alone.
+//! is made anew, in other periods and by other vectors, and of copies: `--from 44 --step 5` runs these alone. One in
+//! ten is of a domain that is coarsened and refined while it moves (histories/meshes): `--from 42 --step 10`.
 //!
 //! A process that dies has printed the seeds that were running up to a minute before; `--from` goes on from there.
 
@@ -102,8 +103,11 @@ fn work(arguments: &Arguments, shared: &Shared) {
             break;
         }
         shared.summary.lock().expect("no panic").begin(seed);
-        // What has failed has been printed by then.
         let outcome = catch_unwind(AssertUnwindSafe(|| histories::run(seed, false))).ok();
+        if outcome.is_none() {
+            // Where the library has panicked, what has been printed by then does not tell.
+            eprintln!("seed {seed} has failed");
+        }
         shared.summary.lock().expect("no panic").end(seed, outcome);
     }
     shared.summary.lock().expect("no panic").working -= 1;

@@ -126,3 +126,25 @@ fn histories_in_boxes() {
     let rare = sum.rebuilds.min(sum.insertions).min(sum.removals).min(sum.validations);
     assert!(rare > 0 && sum.moves > sum.commits && sum.rebuilds < sum.commits, "{sum:?}");
 }
+
+/// Of meshes that are coarsened and refined: those of the first seeds that have one.
+#[test]
+fn histories_of_meshes() {
+    let mut sum = histories::Tally::default();
+    for k in seeds(30) {
+        sum.add(&histories::run(42 + 10 * k, false).tally);
+    }
+    // They do what they are for.
+    let rare = sum.loads.min(sum.clones).min(sum.compactions).min(sum.insertions).min(sum.removals);
+    let of_meshes = sum.made_anew.min(sum.rests).min(sum.refusals);
+    assert!(rare.min(of_meshes) > 0 && sum.refined > 10 * sum.commits, "{sum:?}");
+}
+
+/// Those of meshes that have found something: pieces that were joined beside flat cells, of which the cells beyond were
+/// not told, and pieces that were joined up to a vertex that shared the place of their end.
+#[test]
+fn histories_of_meshes_that_have_found_defects() {
+    for seed in [1872, 2102, 2152, 2252, 2752, 2812, 3542, 5962, 13_082] {
+        assert!(histories::run(seed, false).tally.refined > 0);
+    }
+}

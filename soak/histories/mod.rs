@@ -6,6 +6,7 @@ mod boxes;
 mod family;
 mod fingerprint;
 mod history;
+mod meshes;
 mod mirror;
 mod motion;
 mod tally;
@@ -14,6 +15,7 @@ use boxes::BoxHistory;
 use deldrift::{Plane, Space};
 pub use fingerprint::mixed;
 use history::History;
+use meshes::MeshHistory;
 pub use tally::Tally;
 
 /// What a history has come to.
@@ -78,6 +80,11 @@ fn is_in_a_box(seed: u64) -> bool {
     seed >= RECORDED.len() as u64 && seed % 5 == 4
 }
 
+/// Whether the history of a seed is one of a mesh that lives: one in ten behind the recorded ones, in the plane.
+fn is_of_a_mesh(seed: u64) -> bool {
+    seed >= RECORDED.len() as u64 && seed % 10 == 2
+}
+
 /// Runs the history of a seed; panics at the first mismatch, with what there is to know about it. A loud one prints
 /// what it does before it does it.
 pub fn run(seed: u64, is_loud: bool) -> Outcome {
@@ -85,6 +92,7 @@ pub fn run(seed: u64, is_loud: bool) -> Outcome {
     match dimension_of(seed) {
         2 if is_in_a_box(seed) => BoxHistory::<Plane>::new(seed, is_loud).run(),
         _ if is_in_a_box(seed) => BoxHistory::<Space>::new(seed, is_loud).run(),
+        _ if is_of_a_mesh(seed) => MeshHistory::new(seed, is_loud).run(),
         2 => History::<Plane>::new(seed, is_loud).run(),
         _ => History::<Space>::new(seed, is_loud).run(),
     }

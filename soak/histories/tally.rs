@@ -40,6 +40,17 @@ tally! {
     clones,
     compactions,
     algorithm_changes,
+    /// Calls that segments were in the way of.
+    refusals,
+    /// Vertices that refinement has made.
+    refined,
+    /// Refinements that have not ended before the limit of those without one.
+    cut_short,
+    /// Refinements that have made the mesh anew.
+    made_anew,
+    /// Times that a mesh was coarsened and refined again at rest, and how many of these had something to do.
+    rests,
+    changed_at_rest,
     /// What commits have reported, from here on.
     flips,
     placements,

@@ -138,7 +138,7 @@ pub unsafe extern "C" fn deldrift_stage_segment_removals(
 /// count: receives the number of segments, which is also written when the buffers are too small.
 /// NULL for all with capacity 0 asks for the count alone.
 ///
-/// Cost: the ids of segments given so far.
+/// Cost: the segments in force.
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
 /// DELDRIFT_BUFFER_TOO_SMALL.

@@ -94,7 +94,7 @@ impl Evaluations {
 /// vertices that were there: the sum of their values by these weights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VertexWeights {
-    /// The corners of the cell that it was put into; on a segment its two ends, the first one twice.
+    /// The corners of the cell that it was put into; on a segment, or an edge, its two ends, the first one twice.
     pub vertices: [VertexId; 3],
     /// From 0 to 1, with a sum of 1 but for rounding.
     pub weights: [f64; 3],

@@ -302,6 +302,10 @@ impl Mesh<'_> {
         if let Some(&Rim { across, mut piece, .. }) = self.rim.iter().find(|rim| rim.ends == [u, w]) {
             if joined != NONE {
                 piece = joined;
+                // Nothing has been made beyond.
+                if across != Side::NONE {
+                    self.triangles[across.triangle() as usize].pieces[across.index()] = piece;
+                }
             }
             let triangle = &mut self.triangles[side.triangle() as usize];
             triangle.across[side.index()] = across;

@@ -296,3 +296,37 @@ fn a_vertex_that_sticks_out_of_the_hull_stays() {
         }
     }
 }
+
+/// A vertex that comes to the place of an end, and has a lower id, does not become the end when pieces are joined
+/// there: the segment stays with its own when they part again.
+#[test]
+fn joined_pieces_keep_their_ends_where_vertices_share_a_place() {
+    let mut domain = Domain::default();
+    domain.points.push([0.5, 0.4]);
+    let mut domain = domain.with_ring(&rectangle([0.0, 0.0], [1.0, 1.0]));
+    domain.points.push([0.4, 0.6]);
+    let end = VertexId::new(2);
+    for anew in [false, true] {
+        let mut t = domain.build();
+        let [fine, coarse] =
+            [0.002, 0.5].map(|greatest_area| Quality { greatest_area, ..Quality::default() });
+        let selected = mask(&t, |_| true);
+        refine(&mut t, &fine, &RefineOptions::default(), &selected);
+        let goes_to = |t: &mut Triangulation, place| {
+            t.move_vertices(&[VertexId::new(0)], &[place]).expect("present");
+            t.commit_timestamp().expect("no conflict");
+        };
+        goes_to(&mut t, domain.points[end.index()]);
+        let selected = mask(&t, |_| true);
+        let growth = if anew { 1.0 } else { f64::INFINITY };
+        let options = CoarsenOptions { growth, ..CoarsenOptions::default() };
+        assert!(t.coarsen(&coarse, &options, &selected).expect("a domain").new_segments > 0);
+        let selected = mask(&t, |_| true);
+        refine(&mut t, &coarse, &RefineOptions::default(), &selected);
+        goes_to(&mut t, domain.points[0]);
+        check_fresh(&t, &|| format!("made anew: {anew}"));
+        let at_end = t.segments().filter(|(_, segment)| segment.ends.contains(&end)).count();
+        let at_other = t.segments().filter(|(_, segment)| segment.ends.contains(&VertexId::new(0))).count();
+        assert_eq!((at_end, at_other), (2, 0), "made anew: {anew}");
+    }
+}

@@ -2,7 +2,7 @@
 
 use super::ids::assert_same;
 use super::lives::{LIMIT, coarsen, count_bad, domain_of, domains, quality, refine, turned};
-use super::{Domain, Triangulation, circle};
+use super::{Domain, Triangulation, check_fresh, circle};
 use deldrift::motion::{CoarsenOptions, Level, Monitor, Options, Quality, RefineOptions, Saved};
 use deldrift::{Error, VertexId};
 use std::sync::Arc;
@@ -115,7 +115,11 @@ fn copies_are_refined_alike() {
             let loaded =
                 Triangulation::load(&Saved::of(&bytes).expect("saved"), Options::default()).expect("saved");
             let cloned = rotor.t.try_clone(None).expect("room");
-            let goes_on = |t: &mut Triangulation| [coarsen(t, &asked), refine(t, &asked, LIMIT)];
+            let options = RefineOptions { has_weights: true, limit: LIMIT, ..RefineOptions::default() };
+            let goes_on = |t: &mut Triangulation| {
+                let (coarsened, mask) = (coarsen(t, &asked), domain_of(t));
+                [coarsened, t.refine(&asked, &options, &mask).expect("a domain")]
+            };
             let wanted = goes_on(&mut rotor.t);
             for mut copy in [loaded, cloned] {
                 assert_eq!(goes_on(&mut copy), wanted, "{angle} degrees, step {step}");
@@ -128,6 +132,26 @@ fn copies_are_refined_alike() {
         }
         assert!(n_anew > 0 && n_removed > 20 && n_inserted > 100, "{n_anew} {n_removed} {n_inserted}");
     }
+}
+
+/// Pieces come and go at every step, and what is held stays as large: nothing is kept of those that have gone.
+#[test]
+fn memory_of_a_loop_does_not_grow() {
+    let asked = quality(25.0, 0.02);
+    let mut rotor = Rotor::new();
+    let options = RefineOptions { limit: LIMIT, reuses_ids: true, ..RefineOptions::default() };
+    let (mut most, mut n_pieces) = ([0; 2], 0);
+    for step in 0..2_500 {
+        rotor.step(0.05);
+        coarsen(&mut rotor.t, &asked);
+        let mask = domain_of(&rotor.t);
+        n_pieces += rotor.t.refine(&asked, &options, &mask).expect("a domain").new_segments;
+        let half = usize::from(step >= 500);
+        most[half] = most[half].max(rotor.t.memory_bytes());
+    }
+    println!("{most:?} bytes, {n_pieces} pieces");
+    assert!(n_pieces > 5_000 && most[1] as f64 <= 1.1 * most[0] as f64, "{most:?} bytes, {n_pieces} pieces");
+    check_fresh(&rotor.t, &|| "in the end".to_owned());
 }
 
 /// A refinement that is broken off, while it finds the mesh made anew or in its commit, leaves what is saved as it was.

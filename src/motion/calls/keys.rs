@@ -158,10 +158,13 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn absent_ends(&self) -> Result<Vec<VertexId>> {
         let mut absent = Vec::new();
         let Some(segments) = &self.mesh.segments else { return Ok(absent) };
-        let all = segments.all();
         let pieces = self.made.iter().flat_map(|made| made.pieces());
-        let origins = pieces.filter(|(piece, _)| all[*piece].is_some()).map(|(_, origin)| origin.ends);
-        let ends = all.iter().flatten().map(|segment| segment.ends).chain(origins).flatten();
+        let origins = pieces
+            .filter(|(piece, _)| segments.laid_or_staged(*piece).is_some())
+            .map(|(_, origin)| origin.ends);
+        let all =
+            segments.laid().map(|(_, segment)| segment).chain(segments.staged().iter().copied().flatten());
+        let ends = all.map(|segment| segment.ends).chain(origins).flatten();
         for v in ends.filter(|&v| v != VertexId::NONE && self.mesh.is_absent(v)) {
             memory::push(&mut absent, v)?;
         }

@@ -141,7 +141,7 @@ impl MovingTriangulation<Plane> {
         let n_insertions = self.staged_edits().0;
         let segments = memory::made(&mut self.mesh.segments)?;
         Ok(Before {
-            staged: memory::copy_of(&segments.all()[segments.n_laid()..])?,
+            staged: memory::copy_of(segments.staged())?,
             leaving: memory::copy_of(segments.leaving())?,
             n_insertions,
             conflicts: memory::copy_of(self.mesh.last_found.conflicts())?,
@@ -211,8 +211,9 @@ impl MovingTriangulation<Plane> {
 
     /// The vertices between which a segment is, in force or staged, and their places.
     fn ends_after(&self, segment: SegmentId) -> ([VertexId; 2], [[f64; 2]; 2]) {
-        let all = self.mesh.segments.as_ref().map_or(&[][..], |segments| segments.all());
-        let ends = all[segment].expect("a segment with a conflict").ends;
+        let segments = self.mesh.segments.as_ref();
+        let found = segments.and_then(|segments| segments.laid_or_staged(segment));
+        let ends = found.expect("a segment with a conflict").ends;
         (ends, ends.map(|v| self.place_after(v).expect("a segment that has its ends")))
     }
 

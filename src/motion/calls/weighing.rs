@@ -3,7 +3,7 @@
 use crate::complex::INFINITE;
 use crate::delaunay::{Place, Plane};
 use crate::error::Result;
-use crate::ids::{Slot, VertexId};
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::filters::barycentric::barycentric;
 use crate::motion::report::VertexWeights;
@@ -60,7 +60,7 @@ impl MovingTriangulation<Plane> {
                         let mut ends =
                             (0..3).map(|i| ends[i]).filter(|&s| s != INFINITE).map(|s| kernel.site(s).id);
                         let mut end = || ends.next().expect("an edge of the hull");
-                        self.weights_on([end(), end()], point)
+                        self.weights_on(ascending([end(), end()]), point)
                     }
                     Place::Site(s) => {
                         VertexWeights { vertices: [kernel.site(s).id; 3], weights: [1.0, 0.0, 0.0] }
@@ -82,14 +82,27 @@ impl MovingTriangulation<Plane> {
         VertexWeights { vertices: [a, b, a], weights: [1.0 - share, share, 0.0] }
     }
 
-    /// A place that is in a cell.
+    /// A place that is in a cell. Neither the order of corners counts nor, on an edge, which of the two cells there it
+    /// is, as copies that have been loaded have others.
     fn weights_in(&self, slot: Slot, point: &[f64; 2]) -> VertexWeights {
         let kernel = &self.mesh.kernel;
         let corners = kernel.complex().cell(slot).corners;
-        let sites = [0, 1, 2].map(|i| corners[i]);
+        let mut sites = [0, 1, 2].map(|i| corners[i]);
+        let vertex = |s: SiteId| kernel.site(s).id;
+        let first = (0..3).min_by_key(|&i| vertex(sites[i])).expect("three corners");
+        sites.rotate_left(first);
         let [x, y, z, _] = barycentric(kernel, &sites.map(|s| kernel.place(s)), point);
+        let vertices = sites.map(vertex);
+        // A weight is 0 on the edge opposite alone.
+        if let Some(opposite) = [x, y, z].iter().position(|&weight| weight == 0.0) {
+            let ends = [1, 2].map(|k| vertices[(opposite + k) % 3]);
+            return self.weights_on(ascending(ends), point);
+        }
         // Rounding may take one above 1.
-        let weights = [x, y, z].map(|weight| weight.min(1.0));
-        VertexWeights { vertices: sites.map(|s| kernel.site(s).id), weights }
+        VertexWeights { vertices, weights: [x, y, z].map(|weight| weight.min(1.0)) }
     }
+}
+
+fn ascending([v, w]: [VertexId; 2]) -> [VertexId; 2] {
+    [v.min(w), v.max(w)]
 }

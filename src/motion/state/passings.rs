@@ -129,7 +129,7 @@ impl<G: Dimension> Step<'_, G> {
     fn segments(&self) -> Result<Vec<Swept>> {
         let mut swept = Vec::new();
         let Some(segments) = &self.mesh.segments else { return Ok(swept) };
-        memory::reserve(&mut swept, segments.n_laid())?;
+        memory::reserve(&mut swept, segments.laid().len())?;
         for (id, segment) in segments.laid().filter(|&(id, _)| !segments.is_leaving(id)) {
             if let [Some(a), Some(b)] = segment.ends.map(|v| self.walker(v)) {
                 let place = segment.ends.map(|v| self.mesh.site_of[v].get());

@@ -71,10 +71,13 @@ impl Aim {
 /// The segments of a mesh.
 #[derive(Debug)]
 pub(in crate::motion) struct Segments<G: Dimension> {
-    /// By id; `None` for those removed. Those that are staged come behind; `None` for those that pieces are staged for.
-    all: Vec<Option<Segment>>,
-    /// How many of them are in force; those behind are staged.
+    /// Those in force, ascending: refinement gives ids for ever, so there is no array by id. There is room for all that
+    /// are staged.
+    laid: Vec<(SegmentId, Segment)>,
+    /// How many ids have been given to those that are, or were, in force.
     n_laid: usize,
+    /// Those that are staged, whose ids follow; `None` for those that pieces are staged for.
+    staged: Vec<Option<Segment>>,
     /// Those that the next commit removes.
     leaving: Vec<SegmentId>,
     replaced: Replaced<G>,
@@ -99,8 +102,9 @@ pub(in crate::motion) struct Segments<G: Dimension> {
 impl<G: Dimension> Default for Segments<G> {
     fn default() -> Self {
         Segments {
-            all: Vec::new(),
+            laid: Vec::new(),
             n_laid: 0,
+            staged: Vec::new(),
             leaving: Vec::new(),
             replaced: Replaced::default(),
             next: Replaced::default(),
@@ -160,20 +164,31 @@ impl<G: Dimension> Segments<G> {
         &mut self,
         segments: impl ExactSizeIterator<Item = Segment>,
     ) -> Result<SegmentId> {
-        let first = SegmentId::at(self.all.len());
-        memory::reserve(&mut self.all, segments.len())?;
-        self.all.extend(segments.map(Some));
+        let first = SegmentId::at(self.n_ids());
+        memory::reserve(&mut self.laid, self.staged.len() + segments.len())?;
+        memory::reserve(&mut self.staged, segments.len())?;
+        self.staged.extend(segments.map(Some));
         Ok(first)
     }
 
     /// The segment of an id that is in force or staged, to be changed.
     pub(in crate::motion) fn get_mut(&mut self, segment: SegmentId) -> Option<&mut Segment> {
-        self.all.get_mut(segment.index())?.as_mut()
+        match segment.index().checked_sub(self.n_laid) {
+            Some(k) => self.staged.get_mut(k)?.as_mut(),
+            None => {
+                let at = self.laid.binary_search_by_key(&segment, |&(id, _)| id).ok()?;
+                Some(&mut self.laid[at].1)
+            }
+        }
     }
 
     /// Whether a side of any of them, staged ones included, has a label.
     pub(in crate::motion) fn have_labels(&self) -> bool {
-        self.all.iter().flatten().any(Segment::has_labels)
+        self.laid
+            .iter()
+            .map(|(_, segment)| segment)
+            .chain(self.staged.iter().flatten())
+            .any(Segment::has_labels)
     }
 
     /// Stages the removal of a segment that is in force, if it is not.
@@ -201,26 +216,25 @@ impl<G: Dimension> Segments<G> {
 
     /// Forgets what is staged.
     pub(in crate::motion) fn discard(&mut self) {
-        self.all.truncate(self.n_laid);
+        self.staged.clear();
         self.leaving.clear();
     }
 
     /// Puts what is staged back to what it was once.
     pub(in crate::motion) fn restore_staged(&mut self, staged: &[Option<Segment>], leaving: &[SegmentId]) {
         // There is room, as arrays never shrink.
-        self.all.truncate(self.n_laid);
-        self.all.extend_from_slice(staged);
+        self.staged.clear();
+        self.staged.extend_from_slice(staged);
         self.leaving.clear();
         self.leaving.extend_from_slice(leaving);
     }
 
     /// Takes a segment out of those that will be in force, and returns it: one that is staged is not there any more.
     pub(in crate::motion) fn take_out(&mut self, segment: SegmentId) -> Result<Segment> {
-        let taken = self.all[segment].expect("a segment that is to be in force");
-        if segment.index() < self.n_laid {
-            self.stage_removal(segment)?;
-        } else {
-            self.all[segment] = None;
+        let taken = self.laid_or_staged(segment).expect("a segment that is to be in force");
+        match segment.index().checked_sub(self.n_laid) {
+            Some(k) => self.staged[k] = None,
+            None => self.stage_removal(segment)?,
         }
         Ok(taken)
     }
@@ -235,9 +249,24 @@ impl<G: Dimension> Segments<G> {
         &self.leaving
     }
 
-    /// All by id, staged ones included; `None` for those removed.
-    pub(in crate::motion) fn all(&self) -> &[Option<Segment>] {
-        &self.all
+    /// Those that are staged, by id from [`n_laid`](Self::n_laid) on; `None` for those that pieces are staged for.
+    pub(in crate::motion) fn staged(&self) -> &[Option<Segment>] {
+        &self.staged
+    }
+
+    /// By id from 0 to [`n_laid`](Self::n_laid), with `None` for those removed.
+    pub(in crate::motion) fn laid_by_id(&self) -> impl Iterator<Item = Option<Segment>> {
+        let mut laid = self.laid.iter().peekable();
+        SegmentId::range(0..self.n_laid)
+            .map(move |id| laid.next_if(|&&(next, _)| next == id).map(|&(_, segment)| segment))
+    }
+
+    /// A segment that is in force or staged.
+    pub(in crate::motion) fn laid_or_staged(&self, segment: SegmentId) -> Option<Segment> {
+        match segment.index().checked_sub(self.n_laid) {
+            Some(k) => self.staged.get(k).copied().flatten(),
+            None => self.get(segment),
+        }
     }
 
     /// How many ids have been given to segments that are, or were, in force: those behind are staged.
@@ -245,13 +274,15 @@ impl<G: Dimension> Segments<G> {
         self.n_laid
     }
 
-    /// Segments as they were saved: those behind the first `n_laid` are staged.
+    /// Segments as they were saved, those in force ascending and of ids below `n_laid`.
     pub(in crate::motion) fn of_saved(
-        all: Vec<Option<Segment>>,
+        mut laid: Vec<(SegmentId, Segment)>,
         n_laid: usize,
+        staged: Vec<Option<Segment>>,
         leaving: Vec<SegmentId>,
-    ) -> Self {
-        Segments { all, n_laid, leaving, ..Segments::default() }
+    ) -> Result<Self> {
+        memory::reserve(&mut laid, staged.len())?;
+        Ok(Segments { laid, n_laid, staged, leaving, ..Segments::default() })
     }
 
     /// A kernel has cells that were saved with these segments: it has to have them, and to be told what cells they have
@@ -272,31 +303,37 @@ impl<G: Dimension> Segments<G> {
 
     /// The ids that have been given.
     pub(in crate::motion) fn n_ids(&self) -> usize {
-        self.all.len()
+        self.n_laid + self.staged.len()
     }
 
     /// A segment that is in force.
     pub(in crate::motion) fn get(&self, segment: SegmentId) -> Option<Segment> {
-        self.all[..self.n_laid].get(segment.index()).copied().flatten()
+        // Where none has been removed it is found at once, and it is nowhere behind.
+        let n = self.laid.len().min(segment.index() + 1);
+        match self.laid[..n].last() {
+            Some(&(id, found)) if id == segment => Some(found),
+            _ => {
+                let at = self.laid[..n].binary_search_by_key(&segment, |&(id, _)| id).ok()?;
+                Some(self.laid[at].1)
+            }
+        }
     }
 
     /// The segments in force, with their ids, ascending.
-    pub(in crate::motion) fn laid(&self) -> impl Iterator<Item = (SegmentId, Segment)> {
-        let all = self.all[..self.n_laid].iter();
-        SegmentId::range(0..self.n_laid)
-            .zip(all)
-            .filter_map(|(id, segment)| segment.map(|segment| (id, segment)))
+    pub(in crate::motion) fn laid(&self) -> impl ExactSizeIterator<Item = (SegmentId, Segment)> {
+        self.laid.iter().copied()
     }
 
-    /// The segments in force, with their ids, ascending, to be changed.
-    pub(in crate::motion) fn laid_mut(&mut self) -> impl Iterator<Item = (SegmentId, &mut Segment)> {
-        let ids = SegmentId::range(0..self.n_laid);
-        ids.zip(&mut self.all[..self.n_laid]).filter_map(|(id, segment)| Some((id, segment.as_mut()?)))
+    /// The segments in force, ascending, to be changed.
+    pub(in crate::motion) fn laid_mut(&mut self) -> impl Iterator<Item = &mut Segment> {
+        self.laid.iter_mut().map(|(_, segment)| segment)
     }
 
     /// Takes the labels away from all sides.
     pub(in crate::motion) fn forget_labels(&mut self) {
-        self.all.iter_mut().flatten().for_each(|segment| segment.sides = Segment::NOTHING.sides);
+        let staged = self.staged.iter_mut().flatten();
+        let laid = self.laid.iter_mut().map(|(_, segment)| segment);
+        laid.chain(staged).for_each(|segment| segment.sides = Segment::NOTHING.sides);
     }
 
     /// Whether some cell is not of the Delaunay triangulation.
@@ -323,7 +360,7 @@ impl<G: Dimension> Segments<G> {
 
     /// Whether some are staged, or the removal of some.
     pub(in crate::motion) fn are_staged(&self) -> bool {
-        self.all.len() > self.n_laid || !self.leaving.is_empty()
+        !self.staged.is_empty() || !self.leaving.is_empty()
     }
 
     /// Whether nothing that a segment depends on has changed, where no row of the kernel's cells has, and no vertex has
@@ -386,23 +423,24 @@ impl<G: Dimension> Segments<G> {
     /// Whether the list of edges is still the right one.
     fn are_listed(&self, site_of: &[SiteId]) -> bool {
         let is_right = |&(edge, id): &([SiteId; 2], SegmentId)| {
-            let segment = self.all.get(id.index()).copied().flatten();
-            segment.is_some_and(|segment| ordered(segment.ends.map(|v| site_of[v.index()])) == edge)
+            self.laid_or_staged(id)
+                .is_some_and(|segment| ordered(segment.ends.map(|v| site_of[v.index()])) == edge)
         };
         !(self.aim.takes_staged() && self.are_staged())
-            && self.edges.len() == self.laid().count()
+            && self.edges.len() == self.laid.len()
             && self.edges.iter().all(is_right)
     }
 
     /// Lists the edges that have to be there, and the conflicts of ends alone.
     fn list_edges(&mut self, site_of: &[SiteId], conflicts: &mut Vec<Conflict>) -> Result<()> {
-        let Segments { all, n_laid, leaving, edges, is_end, seen, .. } = self;
+        let Segments { laid, n_laid, staged, leaving, edges, is_end, seen, .. } = self;
         let takes_staged = self.aim.takes_staged();
         edges.clear();
-        let n = if takes_staged { all.len() } else { *n_laid };
-        memory::reserve(edges, n)?;
-        for (id, segment) in SegmentId::range(0..n).zip(&*all) {
-            let Some(segment) = segment else { continue };
+        let staged = if takes_staged { &staged[..] } else { &[] };
+        memory::reserve(edges, laid.len() + staged.len())?;
+        let ids = SegmentId::range(*n_laid..*n_laid + staged.len());
+        let coming = ids.zip(staged).filter_map(|(id, &segment)| Some((id, segment?)));
+        for (id, segment) in laid.iter().copied().chain(coming) {
             if takes_staged && leaving.binary_search(&id).is_ok() {
                 continue;
             }
@@ -534,7 +572,7 @@ impl<G: Dimension> Segments<G> {
     /// What is to be known, before a change, to take it back once it has been [settled](Self::settle).
     pub(in crate::motion) fn before_settling(&self) -> Result<SegmentsBefore> {
         let mut removed = Vec::new();
-        let leaving = self.leaving.iter().filter_map(|&id| Some((id, self.all[id]?)));
+        let leaving = self.leaving.iter().filter_map(|&id| Some((id, self.get(id)?)));
         memory::collect(&mut removed, leaving)?;
         Ok(SegmentsBefore { is_of_rest: false, n_laid: self.n_laid, removed })
     }
@@ -563,8 +601,11 @@ impl<G: Dimension> Segments<G> {
         if !before.is_of_rest {
             std::mem::swap(&mut self.replaced, &mut self.next);
         }
+        // There is room, as there was before.
         self.n_laid = before.n_laid;
-        before.removed.into_iter().for_each(|(id, segment)| self.all[id] = Some(segment));
+        self.laid.retain(|&(id, _)| id.index() < before.n_laid);
+        self.laid.extend(before.removed);
+        self.laid.sort_unstable_by_key(|&(id, _)| id);
     }
 
     /// Forgets what was before changes that have been settled.
@@ -584,10 +625,14 @@ impl<G: Dimension> Segments<G> {
 
     /// A commit has laid what was staged.
     pub(in crate::motion) fn end_staging(&mut self) {
-        for segment in self.leaving.drain(..) {
-            self.all[segment.index()] = None;
+        let Segments { laid, n_laid, staged, leaving, .. } = self;
+        if !leaving.is_empty() {
+            laid.retain(|(id, _)| leaving.binary_search(id).is_err());
+            leaving.clear();
         }
-        self.n_laid = self.all.len();
+        let ids = SegmentId::range(*n_laid..*n_laid + staged.len());
+        *n_laid += staged.len();
+        laid.extend(ids.zip(staged.drain(..)).filter_map(|(id, segment)| Some((id, segment?))));
     }
 
     /// The cells have other slots now, by their old ones.
@@ -604,7 +649,8 @@ impl<G: Dimension> Segments<G> {
         site_of: &[SiteId],
     ) -> Result<Self> {
         let mut copy = self.copied()?;
-        for segment in copy.all.iter_mut().flatten() {
+        let laid = copy.laid.iter_mut().map(|(_, segment)| segment);
+        for segment in laid.chain(copy.staged.iter_mut().flatten()) {
             // An end of a staged one may have been removed before an earlier compaction.
             segment.ends = segment.ends.map(|v| if v == VertexId::NONE { v } else { ids[v.index()] });
         }
@@ -630,9 +676,13 @@ impl<G: Dimension> Segments<G> {
     }
 
     pub(in crate::motion) fn copied(&self) -> Result<Self> {
+        let mut laid = Vec::new();
+        memory::reserve_exact(&mut laid, self.laid.len() + self.staged.len())?;
+        laid.extend_from_slice(&self.laid);
         Ok(Segments {
-            all: memory::copy_of(&self.all)?,
+            laid,
             n_laid: self.n_laid,
+            staged: memory::copy_of(&self.staged)?,
             leaving: memory::copy_of(&self.leaving)?,
             replaced: self.replaced.copied()?,
             ..Segments::default()
@@ -640,7 +690,8 @@ impl<G: Dimension> Segments<G> {
     }
 
     pub(in crate::motion) fn memory_bytes(&self) -> usize {
-        memory::bytes_of(&self.all)
+        memory::bytes_of(&self.laid)
+            + memory::bytes_of(&self.staged)
             + memory::bytes_of(&self.leaving)
             + self.replaced.memory_bytes()
             + self.next.memory_bytes()

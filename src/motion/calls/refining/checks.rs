@@ -9,8 +9,7 @@ use crate::motion::triangulation::MovingTriangulation;
 impl MovingTriangulation<Plane> {
     /// Whether a call can be made with these arguments.
     pub(super) fn check_quality(&self, quality: &Quality, mask: &[u8]) -> Result<()> {
-        let segments =
-            self.mesh.segments.as_ref().map_or(0, |s| s.all().len() - s.n_laid() + s.leaving().len());
+        let segments = self.mesh.segments.as_ref().map_or(0, |s| s.staged().len() + s.leaving().len());
         let (moves, (coming, leaving)) = (self.staged_count(), self.staged_edits());
         if moves + coming + leaving + segments > 0 {
             return Err(Error::Staged { moves, edits: coming + leaving, segments });

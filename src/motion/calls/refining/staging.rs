@@ -41,11 +41,21 @@ impl MovingTriangulation<Plane> {
         for &(_, id) in read.segments_at(edge as usize) {
             let segment = self.segment_in_force(id);
             let ends = if shown(segment.ends[0]) == start { [v, w] } else { [w, v] };
+            let origin = self.origin_of(id);
             // A vertex that shares its place stays the end that it was.
-            let ends = ends.map(|v| segment.ends.into_iter().find(|&end| shown(end) == v).unwrap_or(v));
-            memory::push(&mut changes.coming, (Segment { ends, ..segment }, self.origin_of(id)))?;
+            let own = |v: VertexId| segment.ends.into_iter().find(|&end| shown(end) == v);
+            let ends = ends.map(|v| own(v).or_else(|| self.end_at(v, origin)).unwrap_or(v));
+            memory::push(&mut changes.coming, (Segment { ends, ..segment }, origin))?;
         }
         Ok(())
+    }
+
+    /// The vertex that shares the place of this one, and is an end of a piece of this origin: pieces have been joined
+    /// up to it.
+    fn end_at(&self, v: VertexId, origin: Origin) -> Option<VertexId> {
+        let s = self.mesh.site(v).filter(|&s| self.mesh.is_shared(s))?;
+        let pieces = self.segments().filter(|&(id, _)| self.origin_of(id) == origin);
+        pieces.flat_map(|(_, piece)| piece.ends).find(|&end| self.mesh.site(end) == Some(s))
     }
 
     /// Makes what has been found in a commit; `inserted` gets the new vertices, and their weights if they are wanted.

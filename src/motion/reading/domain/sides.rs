@@ -39,9 +39,8 @@ impl MovingTriangulation<Plane> {
         }
         let beside = self.cells_of_segments()?;
         // Nothing fails from here on.
-        let mut rows = beside.iter();
-        for (_, segment) in self.mesh.segments.iter_mut().flat_map(|segments| segments.laid_mut()) {
-            let row = rows.next().expect("a row for each");
+        let laid = self.mesh.segments.iter_mut().flat_map(|segments| segments.laid_mut());
+        for (segment, row) in laid.zip(beside) {
             segment.sides = row.map(|cell| labels.get(cell.index()).copied().unwrap_or(NO_LABEL));
         }
         Ok(())
@@ -54,12 +53,11 @@ impl MovingTriangulation<Plane> {
     /// [`Error::NoSuchSegment`].
     pub fn set_sides(&mut self, given: &[SegmentId], sides: &[[i32; 2]]) -> Result<()> {
         self.reject_prepared()?;
-        let (all, ids) = match &self.mesh.segments {
-            Some(segments) => (segments.all(), segments.n_ids()),
-            None => (&[][..], 0),
-        };
-        let is_none = |segment: &SegmentId| all.get(segment.index()).is_none_or(Option::is_none);
-        if let Some(index) = given.iter().position(is_none) {
+        let segments = self.mesh.segments.as_deref();
+        let is_there =
+            |&id: &SegmentId| segments.is_some_and(|segments| segments.laid_or_staged(id).is_some());
+        if let Some(index) = given.iter().position(|id| !is_there(id)) {
+            let ids = segments.map_or(0, |segments| segments.n_ids());
             return Err(Error::NoSuchSegment { argument: "segments", index, segment: given[index], ids });
         }
         let Some(segments) = &mut self.mesh.segments else { return Ok(()) };

@@ -68,8 +68,7 @@ impl Reader<'_> {
         let counts = [0, 1, 2, 3, 4].map(|k| u64::from_le_bytes(numbers[k]));
         let counts = SegmentCounts::of(counts, header)?;
         let (SegmentCounts { ids, laid, removals, .. }, n) = (counts, counts.numbers_of_one());
-        let mut all = Vec::new();
-        memory::reserve_exact(&mut all, ids)?;
+        let (mut in_force, mut staged) = (Vec::new(), Vec::new());
         for (id, row) in SegmentId::range(0..ids).zip(self.entries::<4>(n * ids).chunks_exact(n)) {
             let [v, w] = [row[0], row[1]].map(|bytes| VertexId::new(u32::from_le_bytes(bytes)));
             let is_staged = id.index() >= laid;
@@ -77,7 +76,7 @@ impl Reader<'_> {
             let (marker, sides) = (i32::from_le_bytes(row[2]), [side(0), side(1)]);
             let segment = Segment { ends: [v, w], marker, sides };
             if is_staged && segment == GIVEN_UP {
-                all.push(None);
+                memory::push(&mut staged, None)?;
                 continue;
             }
             // A staged one may have an end that was removed before a compaction.
@@ -87,16 +86,20 @@ impl Reader<'_> {
             if !(if is_there { is_known(v) && is_known(w) } else { is_nothing }) {
                 return Err(Damage::Segment { segment: id }.into());
             }
-            all.push(is_there.then_some(segment));
+            match (is_staged, is_there) {
+                (true, _) => memory::push(&mut staged, Some(segment))?,
+                (false, true) => memory::push(&mut in_force, (id, segment))?,
+                (false, false) => {}
+            }
         }
         let mut leaving = self.numbers::<SegmentId>(removals)?;
         leaving.sort_unstable();
-        let is_bad = |&&id: &&SegmentId| id.index() >= laid || all[id.index()].is_none();
+        let is_bad = |&&id: &&SegmentId| in_force.binary_search_by_key(&id, |&(id, _)| id).is_err();
         let twice = leaving.windows(2).find(|pair| pair[0] == pair[1]).map(|pair| &pair[0]);
         if let Some(&segment) = leaving.iter().find(is_bad).or(twice) {
             return Err(Damage::Segment { segment }.into());
         }
-        let segments = memory::boxed(Segments::of_saved(all, laid, leaving))?;
+        let segments = memory::boxed(Segments::of_saved(in_force, laid, staged, leaving)?)?;
         if header.has_labels && !segments.have_labels() {
             return Err(Damage::Counts.into());
         }
@@ -130,7 +133,7 @@ impl Reader<'_> {
             let (piece, segment) = (SegmentId::new(piece), SegmentId::new(segment));
             let ends = [v, w].map(VertexId::new);
             let follows = pieces.last().is_none_or(|&(last, _)| last < piece);
-            let is_there = segments.all().get(piece.index()).is_some_and(Option::is_some);
+            let is_there = segments.laid_or_staged(piece).is_some();
             let is_piece = is_there && segment.index() < piece.index();
             let are_known = ends.iter().all(|&v| v == VertexId::NONE || v.index() < n_vertices);
             if !follows || !is_piece || !are_known {

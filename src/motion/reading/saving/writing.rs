@@ -22,9 +22,9 @@ fn save_segments<G: Dimension, E>(
     for count in counts.numbers() {
         chunks.numbers(&[count as u32, (count >> 32) as u32])?;
     }
-    for (k, segment) in segments.all().iter().enumerate() {
-        let none = if k < segments.n_laid() { Segment::NOTHING } else { GIVEN_UP };
-        let Segment { ends, marker, sides } = segment.unwrap_or(none);
+    let laid = segments.laid_by_id().map(|segment| segment.unwrap_or(Segment::NOTHING));
+    let staged = segments.staged().iter().map(|segment| segment.unwrap_or(GIVEN_UP));
+    for Segment { ends, marker, sides } in laid.chain(staged) {
         let numbers = [ends[0].get(), ends[1].get(), marker as u32, sides[0] as u32, sides[1] as u32];
         chunks.numbers(&numbers[..counts.numbers_of_one()])?;
     }
@@ -176,7 +176,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// The pieces in force, and those that are staged, with where they come from.
     fn pieces_of<'a>(&'a self, segments: &'a Segments<G>) -> impl Iterator<Item = (SegmentId, Origin)> + 'a {
         let all = self.made.iter().flat_map(|made| made.pieces());
-        all.copied().filter(|&(piece, _)| segments.all()[piece.index()].is_some())
+        all.copied().filter(|&(piece, _)| segments.laid_or_staged(piece).is_some())
     }
 
     /// The segments, if there ever was one that was not discarded.
