@@ -1,12 +1,22 @@
 //! The cells of a change: which are gone, which have come, and which count as both.
 
 use super::boxes::Extent;
+use super::near::near;
 use super::overlap::{Place, centroid, is_turned_over, plus};
 use super::{Arrived, Beyond, Facet, Gone, Meeting, TransferOrder, Transferred};
 use crate::error::{Error, Result};
 use crate::ids::CellId;
 use crate::machine::memory;
 use crate::motion::reading::progress::Progress;
+
+#[cfg(test)]
+pub(crate) mod tests;
+
+/// Multiples of vectors.
+pub(crate) type Shift = [i64; 3];
+
+/// A cell, and by what it is translated from where its corners are told.
+pub(crate) type CellAt = (CellId, Shift);
 
 /// The cells of now.
 pub(crate) trait Now {
@@ -23,8 +33,17 @@ pub(crate) trait Now {
 
     fn facets(&self, cell: CellId) -> [Facet; 4];
 
-    /// The cell across the facet opposite a corner, and by how much it is translated from where its corners are told.
-    fn beyond(&self, cell: CellId, corner: usize) -> Option<(CellId, Place)>;
+    /// The cell across the facet opposite a corner, where the cell is as its corners are told.
+    fn across(&self, cell: CellId, corner: usize) -> Option<CellAt>;
+
+    /// By how much what has a shift is translated.
+    fn offset(&self, shift: &Shift) -> Place;
+
+    /// A cell that has a place, of which it may be a corner.
+    fn at(&self, place: &Place) -> Result<Option<CellAt>>;
+
+    /// By how much more, at least, than corners of a cell with this box, and those of cells there, are off by rounding.
+    fn rounding(&self, extent: &Extent) -> Place;
 
     /// Where each of these is that may meet some cells of now: its number, and by how much it is translated.
     fn copies(&self, gone: &[Gone], cells: impl Iterator<Item = CellId>) -> Result<Vec<(u32, Place)>>;
@@ -73,31 +92,60 @@ impl<T: Now> Change<'_, T> {
         if turned_over.is_empty() {
             return Ok(());
         }
-        let all = CellId::range(0..self.now.len());
-        let meeting = Meeting::of::<D>(&turned_over, self.now.copies(&turned_over, all.clone())?)?;
-        let n = self.arrived.len();
-        progress.expect_more(self.now.len() + n);
-        for cell in all {
-            progress.advance(1)?;
-            let corners = self.now.corners(cell);
-            if meeting.meets::<D>(&corners)? && self.arrived[..n].binary_search(&cell).is_err() {
-                let (facets, before) = (self.now.facets(cell), self.now.before(cell).get());
-                memory::push(&mut self.gone, Gone { corners, facets, before })?;
-                memory::push(&mut self.arrived, cell)?;
-            }
+        progress.expect_more(self.now.len() + self.arrived.len());
+        let met = match near::<D, T>(self.now, &turned_over, progress)? {
+            Some(near) => self.met::<D>(&turned_over, &near, progress)?,
+            None => self.met_of_all::<D>(&turned_over, progress)?,
+        };
+        memory::reserve(&mut self.gone, met.len())?;
+        for &cell in &met {
+            let (corners, facets) = (self.now.corners(cell), self.now.facets(cell));
+            self.gone.push(Gone { corners, facets, before: self.now.before(cell).get() });
         }
+        memory::append(&mut self.arrived, &met)?;
         self.arrived.sort_unstable();
         Ok(())
+    }
+
+    /// Which cells of now, but for those that have come, meet some that are turned over.
+    fn met_of_all<const D: usize>(
+        &self,
+        turned_over: &[Gone],
+        progress: &mut Progress,
+    ) -> Result<Vec<CellId>> {
+        let mut all = Vec::new();
+        memory::collect(&mut all, CellId::range(0..self.now.len()))?;
+        self.met::<D>(turned_over, &all, progress)
+    }
+
+    /// Which of these cells do so.
+    fn met<const D: usize>(
+        &self,
+        turned_over: &[Gone],
+        cells: &[CellId],
+        progress: &mut Progress,
+    ) -> Result<Vec<CellId>> {
+        let copies = self.now.copies(turned_over, cells.iter().copied())?;
+        let (meeting, mut met) = (Meeting::of::<D>(turned_over, copies)?, Vec::new());
+        progress.expect_more(cells.len() + self.arrived.len());
+        for &cell in cells {
+            progress.advance(1)?;
+            let is_met = meeting.meets::<D>(&self.now.corners(cell))?;
+            if is_met && self.arrived.binary_search(&cell).is_err() {
+                memory::push(&mut met, cell)?;
+            }
+        }
+        Ok(met)
     }
 
     fn beyond<const D: usize>(&self, cell: CellId) -> [Beyond; 4] {
         let mut beyond = [Beyond::Nothing; 4];
         for (k, entry) in beyond.iter_mut().enumerate().take(D + 1) {
-            let Some((other, offset)) = self.now.beyond(cell, k) else { continue };
+            let Some((other, shift)) = self.now.across(cell, k) else { continue };
             *entry = match self.arrived.binary_search(&other) {
                 Ok(k) => Beyond::Arrived(k as u32),
                 Err(_) => {
-                    let corners = self.now.corners(other);
+                    let (corners, offset) = (self.now.corners(other), self.now.offset(&shift));
                     let centre = plus(&plus(&corners[0], &offset), &centroid::<D>(&corners));
                     Beyond::Living { before: self.now.before(other).get(), centre }
                 }
