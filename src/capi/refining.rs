@@ -359,8 +359,8 @@ pub unsafe extern "C" fn deldrift_original_segments(
 ///   value(new(k)) = sum of weights(3 k + i) * value(vertices(3 k + i)) for i = 0, 1, 2
 ///
 /// carries values at vertices over, where new(k) is what deldrift_refined_vertices tells, or, without reuses_ids,
-/// id_count - inserted + k. Those on the right may have been removed by the call, which has not given their ids again. It
-/// has to have been called with has_weights, and neither a commit nor a compaction must have come since; otherwise there
+/// id_count - inserted + k. Those on the right may have been removed by the call, which has not given their ids again, and
+/// by no deldrift_coarsen before it: one pass with values from before both carries them over both. It has to have been called with has_weights, and neither a commit nor a compaction must have come since; otherwise there
 /// are none.
 ///
 /// vertices: a buffer with room for capacity rows of 3 ids, those of the corners of the cell that the vertex was put into;
