@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, Optional
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional
 
 import numpy as np
 
@@ -29,10 +29,16 @@ class MeshCells:
     """What carries means in triangles of a domain."""
 
     _tri: Delaunay
-    mask: np.ndarray
-    triangles: np.ndarray
     _before: Optional[_Taken] = None
     _taken: Optional[_Taken] = None
+
+    if TYPE_CHECKING:
+
+        @property
+        def mask(self) -> np.ndarray: ...
+
+        @property
+        def triangles(self) -> np.ndarray: ...
 
     def changes(self) -> Changes:
         """What has changed in `delaunay` since this was last called, and which of its simplices are `triangles` now.
@@ -58,7 +64,9 @@ class MeshCells:
         `coarsen`, `refine` and all else, by conservative transfer.
 
         A mean rides with its triangle, as with `Delaunay.transfer_cells`. What is beyond the boundary of the domain
-        counts as if it had the mean of the nearest triangle: gradients there are less than they should be.
+        counts as if it had the mean of the nearest triangle: gradients there are less than they should be. With
+        `reuse_ids` of `refine` both are to be called between `coarsen` and `refine` as well, as a triangle with the ids
+        of one that was would pass for that.
 
         Parameters
         ----------
