@@ -44,6 +44,7 @@ mod boxes;
 mod change;
 mod means;
 mod near;
+mod now;
 mod open;
 mod overlap;
 
@@ -55,7 +56,8 @@ use boxes::Boxes;
 pub(crate) use boxes::Extent;
 #[cfg(test)]
 pub(crate) use change::tests::finds_as_by_a_look_at_all;
-pub(crate) use change::{CellAt, Now, Shift, transfer};
+pub(crate) use change::transfer;
+pub(crate) use now::{CellAt, Now, Shift};
 pub(crate) use overlap::Place;
 use overlap::{Facets, Overlap, centroid, error_of_volume, extent, minus, plus, volume};
 

@@ -25,10 +25,10 @@
 //! In a set that repeats, cells are told from corners that may be rounded, and so are those that are turned over: boxes
 //! are wider by more than that, and heights are compared only where they cannot change by V/16 for that.
 
+use super::Gone;
 use super::boxes::{Boxes, Extent};
-use super::change::CellAt;
+use super::now::{CellAt, Now};
 use super::overlap::{Facets, Place, extent, plus};
-use super::{Gone, Now};
 use crate::delaunay::Mix;
 use crate::error::Result;
 use crate::ids::CellId;
@@ -119,8 +119,8 @@ pub(super) fn near<const D: usize, T: Now>(
 /// The box of a cell, with half of its extent more on each side, and so much for rounding.
 fn widened(corners: &[Place], rounding: &Place) -> Extent {
     let mut all = Extent::of(corners);
-    for j in 0..3 {
-        let more = extent(corners) / 2.0 + rounding[j];
+    for (j, rounding) in rounding.iter().enumerate() {
+        let more = extent(corners) / 2.0 + rounding;
         all.low[j] = (all.low[j] - more).next_down();
         all.high[j] = (all.high[j] + more).next_up();
     }

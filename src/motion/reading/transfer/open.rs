@@ -1,7 +1,8 @@
 //! The transfer of means in a triangulation that is open.
 
 use super::boxes::Extent;
-use super::change::{CellAt, Now, Shift, transfer};
+use super::change::transfer;
+use super::now::{CellAt, Now, Shift};
 use super::overlap::Place;
 use super::{Facet, Gone, TransferOrder, TransferReport, Transferred, in_place};
 use crate::delaunay::Dimension;
