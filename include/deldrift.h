@@ -2532,7 +2532,8 @@ deldrift_status deldrift_refine(deldrift_triangulation *t,
 /// what it would do.
 ///
 /// Around cells that are of lower quality already, those that come may have angles as small: call it before deldrift_refine,
-/// which then has less to insert.
+/// which then has less to insert. Ids of the vertices that stay are as they were, and so are values by id: one pass after
+/// deldrift_refine carries them over both, see deldrift_refined_weights.
 ///
 /// Cost: that of deldrift_refine where all is good, and for each vertex that deldrift_refine has inserted at most that of
 /// looking at the cells around it. Where no place, cell or segment has changed since this call has found nothing to remove
@@ -2588,8 +2589,8 @@ deldrift_status deldrift_original_segments(const deldrift_triangulation *t,
 ///
 /// carries values at vertices over, where new(k) is what deldrift_refined_vertices tells, or, without reuses_ids,
 /// id_count - inserted + k. Those on the right may have been removed by the call, which has not given their ids again, and
-/// by no deldrift_coarsen before it: one pass with values from before both carries them over both. It has to have been called with has_weights, and neither a commit nor a compaction must have come since; otherwise there
-/// are none.
+/// by no deldrift_coarsen before it: one pass with values from before both carries them over both. It has to have been
+/// called with has_weights, and neither a commit nor a compaction must have come since; otherwise there are none.
 ///
 /// vertices: a buffer with room for capacity rows of 3 ids, those of the corners of the cell that the vertex was put into;
 /// on a segment its two ends, the first one twice. weights: for as many rows of 3 numbers, from 0 to 1, with a sum of 1 but
