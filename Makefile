@@ -152,7 +152,7 @@ examples: library ## all examples, and their pictures in docs; particle finite e
 	build/examples/comparison
 	build/examples/plate
 	build/examples/rejecting
-	build/examples/stirred
+	build/examples/stirred docs/stirred.svg
 	build/examples/periodic docs/periodic.svg
 	build/examples/domain 10000 docs/domain.svg build/examples/domain.html
 	build/examples/overnight 100000 docs/overnight.svg

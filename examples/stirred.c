@@ -1,14 +1,14 @@
 // Dye in a square that is stirred: a mean for each triangle of a mesh that is coarsened and refined at every step. No
 // dye is lost, and nowhere is more of it than there was.
 //
-//   cc examples/stirred.c -Iinclude target/release/libdeldrift.a -lm -lpthread -ldl -o stirred && ./stirred
+//   cc examples/stirred.c -Iinclude target/release/libdeldrift.a -lm -lpthread -ldl -o stirred && ./stirred picture.svg
 #include <deldrift.h>
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { MOST = 20000, STEPS = 200 };
+enum { MOST = 20000, STEPS = 200, SHADES = 16 };
 
 static double positions[2 * MOST], volumes[MOST], dye[MOST];
 
@@ -41,7 +41,35 @@ static void stir(size_t n) {
     }
 }
 
-int main(void) {
+// The triangles, the redder the more dye they have, at a place in a row of pictures.
+static void draw(FILE *file, const deldrift_triangulation *t, int place) {
+    deldrift_cells_view cells;
+    check(deldrift_cells(t, &cells));
+    fprintf(file, "<g transform='translate(%.1f 1) scale(1 -1)'>\n", 1.1 * place);
+    for (int shade = 0; shade < SHADES; shade++) {
+        fprintf(file, "<path fill='hsl(%d,60%%,50%%)' d='", 220 + 140 * shade / (SHADES - 1));
+        for (size_t c = 0; c < cells.count; c++) {
+            if ((int)(dye[c] * (SHADES - 1) + 0.5) != shade) continue;
+            for (size_t i = 0; i < 3; i++) {
+                const double *p = positions + 2 * cells.vertices[3 * c + i];
+                fprintf(file, "%c%.3f %.3f", i == 0 ? 'M' : 'L', p[0], p[1]);
+            }
+        }
+        fprintf(file, "'/>\n");
+    }
+    fprintf(file, "</g>\n");
+}
+
+int main(int argc, char **argv) {
+    FILE *picture = argc > 1 ? fopen(argv[1], "w") : NULL;
+    if (argc > 1 && picture == NULL) {
+        perror(argv[1]);
+        return 1;
+    }
+    if (picture != NULL) {
+        fprintf(picture, "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 3.2 1'>"
+                         "<style>path{stroke:#fff;stroke-width:.001}</style>\n");
+    }
     static const double corners[8] = {0, 0, 1, 0, 1, 1, 0, 1};
     static const uint32_t sides[8] = {0, 1, 1, 2, 2, 3, 3, 0};
     deldrift_triangulation *t;
@@ -73,6 +101,7 @@ int main(void) {
             printf("step %3d: %zu triangles, dye %.6f from %.3f to %.3f; lost %.0e, gained %.0e\n", step, n_cells, sum,
                    least, greatest, lost, gained);
         }
+        if (picture != NULL && step % (STEPS / 2) == 0) draw(picture, t, step / (STEPS / 2));
         check(deldrift_cell_count(t, &n_cells));
         stir(n);
         check(deldrift_commit_positions(t, positions, n, NULL));
@@ -87,4 +116,12 @@ int main(void) {
         check(deldrift_copy_positions(t, positions, MOST, &n));
     }
     deldrift_destroy(t);
+    if (picture != NULL) {
+        fprintf(picture, "</svg>\n");
+        if (fclose(picture) != 0) {
+            perror(argv[1]);
+            return 1;
+        }
+    }
+    return 0;
 }

@@ -92,8 +92,7 @@ fn the_turned_plate_has_its_temperature_without_flat_cells() {
 /// No dye is lost or gained but what rounding makes of it, and no more of it is anywhere than there was.
 #[test]
 fn stirred_dye_stays() {
-    let folder = fresh_folder("stirred");
-    let said = succeed(&mut command(build(&repository("examples/stirred.c"), &folder, Linkage::Static, &[])));
+    let said = run("stirred", "examples/stirred.c", &[], true);
     assert_eq!(said.lines().count(), 6, "{said}");
     for row in said.lines() {
         let [dye, least, greatest] = [" dye ", " from ", " to "].map(|word| number_after(word, row));

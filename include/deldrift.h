@@ -1572,8 +1572,9 @@ deldrift_status deldrift_take_changes(deldrift_triangulation *t,
 /// means of neighbours. Linear functions are kept but for rounding where that does not limit them, as it may at the
 /// hull.
 ///
-/// Cost: n log n for n cells in the list of changes and what they have in common, times n_values; if one of them is
-/// turned over, also m; in a periodic triangulation also n + m.
+/// Cost: n log n for n cells in the list of changes and what they have in common, times n_values. For those that are
+/// turned over also log m each, and the cells of now that they meet, or would if they were half as large again; m, if no
+/// corner of one is in the convex hull, or they meet an eighth of all. In a periodic triangulation also n + m.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for an
 /// order that there is not, for a value that is used and is no number or a greater one, and for positions that take a
@@ -2610,7 +2611,8 @@ deldrift_status deldrift_refine(deldrift_triangulation *t,
 /// what it would do.
 ///
 /// Around cells that are of lower quality already, those that come may have angles as small: call it before deldrift_refine,
-/// which then has less to insert.
+/// which then has less to insert. Ids of the vertices that stay are as they were, and so are values by id: one pass after
+/// deldrift_refine carries them over both, see deldrift_refined_weights.
 ///
 /// Cost: that of deldrift_refine where all is good, and for each vertex that deldrift_refine has inserted at most that of
 /// looking at the cells around it. Where no place, cell or segment has changed since this call has found nothing to remove
@@ -2665,9 +2667,9 @@ deldrift_status deldrift_original_segments(const deldrift_triangulation *t,
 ///   value(new(k)) = sum of weights(3 k + i) * value(vertices(3 k + i)) for i = 0, 1, 2
 ///
 /// carries values at vertices over, where new(k) is what deldrift_refined_vertices tells, or, without reuses_ids,
-/// id_count - inserted + k. Those on the right may have been removed by the call, which has not given their ids again. It
-/// has to have been called with has_weights, and neither a commit nor a compaction must have come since; otherwise there
-/// are none.
+/// id_count - inserted + k. Those on the right may have been removed by the call, which has not given their ids again, and
+/// by no deldrift_coarsen before it: one pass with values from before both carries them over both. It has to have been
+/// called with has_weights, and neither a commit nor a compaction must have come since; otherwise there are none.
 ///
 /// vertices: a buffer with room for capacity rows of 3 ids, those of the corners of the cell that the vertex was put into;
 /// on a segment, or an edge, its two ends, the first one twice. weights: for as many rows of 3 numbers, from 0 to 1,

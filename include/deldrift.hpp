@@ -640,7 +640,7 @@ public:
         return sizes;
     }
     // Enters into values, n_values numbers for each id that there was before the last refine(), those of the vertices
-    // that it has inserted. Numbers that are linear in the position stay so.
+    // that it has inserted. Numbers that are linear in the position stay so, those from before a coarsen() ahead of it, too.
     void carry(std::vector<double> &values, std::size_t n_values = 1) const {
         const RefinedWeights rows = refined_weights();
         const std::size_t most = id_count();

@@ -158,6 +158,13 @@ static void ids_are_given_again() {
         }
         most = std::max(most, t.vertex_count());
         CHECK(t.coarsen(coarse).removed > 50 && t.refined_vertices().empty());
+        // Values from before both, whether the mesh is made anew or not.
+        t.refine(coarse);
+        t.carry(values);
+        CHECK(values.size() == t.id_count());
+        for (std::uint32_t v = 0; v < values.size(); v++) {
+            if (t.is_present(v)) CHECK(std::abs(values[v] - linear(t.position<2>(v))) < 1e-12);
+        }
     }
     CHECK(t.id_count() <= most + most / 4);
 

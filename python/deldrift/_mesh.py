@@ -13,6 +13,7 @@ from ._core import fixed
 from ._delaunay import Delaunay
 from ._errors import ConflictError, InvalidOption, InvalidShape, InvalidValue, PassingError
 from ._library import QualityReport, Report
+from ._mesh_cells import MeshCells
 from ._refining import TooLarge
 from ._segments import Chains, Segments
 
@@ -29,7 +30,7 @@ class _Domain(NamedTuple):
     """For each simplex the region, an index; -1 for none."""
 
 
-class Mesh:
+class Mesh(MeshCells):
     """The triangles of a domain of the plane, whose vertices may move.
 
     Segments bound the domain: they are edges, and move with their ends. The triangles are those of the constrained
@@ -507,7 +508,7 @@ class Mesh:
             After the same moves it has the same triangles.
         """
         made = type(self).__new__(type(self))
-        made.__dict__.update(self.__dict__)
+        made.__dict__.update(self.__getstate__())
         made._tri = self._tri.copy()
         return made
 

@@ -162,7 +162,8 @@ class Refining(Segmented):
             Whether new vertices get the ids of those that earlier timestamps have removed, the lowest first, before new
             ones. Vertices have keys from the first insertion on: the new ones the greatest, the others their ids.
         values : array_like or dict of array_like, optional
-            Values by vertex id, to be carried over to the new vertices: linear in each simplex.
+            Values by vertex id, to be carried over to the new vertices: linear in each simplex. They may be those from
+            before a `coarsen` ahead of this: ids stay, and what it has removed is not used.
 
         Returns
         -------

@@ -321,6 +321,8 @@ Mesh.from_triangle({"vertices": SQUARE, "segments": AROUND, "segment_markers": [
 mesh.move(POINTS)
 mesh.move([[9, 9]], ids=[7])
 mesh.move([[2, 0]], ids=[4])
+mesh.transfer_cells(1.0)
+mesh.transfer_cells([1, 2, 3])
 mesh.advance([[2, inf]], ids=[4])
 mesh.advance([[2, 0]], ids=[4], cut=1)
 mesh.advance([[2, 0]], ids=[4], cut="a half")

@@ -108,6 +108,10 @@ def test_ids_are_given_again_and_values_follow():
         np.testing.assert_allclose(report.sizes, 5, rtol=1e-12)
         most = max(most, tri.nvertices)
         assert tri.coarsen(greatest_area=0.5).removed > 50 and len(tri.refined_vertices()) == 0
+        # Values from before both, whether the mesh is made anew or not.
+        values = tri.refine(greatest_area=0.5, reuse_ids=True, values=values).values
+        there = ~np.isnan(tri.points[:, 0])
+        np.testing.assert_allclose(values["x"][there], tri.points[there], rtol=0, atol=1e-12)
     assert tri.npoints <= 1.25 * most
     new_ids, kept = tri.compact(values={**values, "id": np.arange(tri.npoints)})
     assert tri.npoints == tri.nvertices == len(kept["x"]) and kept["id"].dtype == np.arange(1).dtype

@@ -1,5 +1,7 @@
 """Means in simplices that are brought over."""
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -66,3 +68,70 @@ def test_nothing_is_lost_in_boxes(rng):
     transfer = box.transfer_cells(dye)
     assert abs(transfer.lost_volume) <= transfer.volume_error and abs(transfer.gained_volume) <= transfer.volume_error
     assert (box.transfer_cells(np.full(len(dye), 0.1), was).values == 0.1).all()
+
+
+def stirred(points, angle):
+    """Points that turn around the middle of a square with a side of 2, the less the nearer they are to its sides."""
+    x, y = points.T
+    angles = angle * np.clip(2 * (0.9 - np.maximum(abs(x), abs(y))), 0, 1)
+    c, s = np.cos(angles), np.sin(angles)
+    return np.stack([c * x - s * y, s * x + c * y], axis=1)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("has_hole", [False, True])
+@pytest.mark.parametrize("reuse_ids", [False, True])
+def test_a_mesh_carries_means_through_its_steps(rng, order, has_hole, reuse_ids):
+    ring = np.array([[0, 1], [1, 2], [2, 3], [3, 0]])
+    square = np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])
+    holes = {"holes": [[0, 0]]} if has_hole else {}
+    quality = dict(least_angle=25, greatest_area=0.02)
+    vertices, segments = square, ring
+    if has_hole:
+        vertices, segments = np.concatenate([square, 0.3 * square]), np.concatenate([ring, ring + 4])
+    mesh = deldrift.Mesh(vertices, segments, **holes)
+    with pytest.raises(deldrift.ChangesNotTaken):
+        mesh.transfer_cells(np.ones(len(mesh.triangles)))
+    mesh.refine(**quality)
+    mesh.changes()
+    with pytest.raises(deldrift.ChangesNotTaken):
+        mesh.transfer_cells(np.ones(len(mesh.triangles)))
+    values = np.column_stack([np.full(len(mesh.triangles), 0.1), rng.random(len(mesh.triangles))])
+    n_changed = 0
+    for step in range(20):
+        goals, least, greatest = stirred(mesh.points, 0.03), values.min(), values.max()
+        content = values[:, 1] @ areas_of(goals, mesh.triangles)
+        mesh.move(goals)
+        mesh.coarsen(**quality)
+        if reuse_ids:
+            n_changed += len(mesh.changes().created)
+            values, goals = mesh.transfer_cells(values, goals, order=order).values, mesh.points
+        mesh.refine(**quality, reuse_ids=reuse_ids)
+        n_changed += len(mesh.changes().created)
+        with pytest.raises(deldrift.WrongCount):
+            mesh.transfer_cells(values[1:], goals)
+        transfer = mesh.transfer_cells(values, goals, order=order)
+        assert transfer.values.shape == (len(mesh.triangles), 2) and (transfer.values[:, 0] == 0.1).all()
+        values = transfer.values
+        assert least <= values.min() <= values.max() <= greatest or transfer.turned_over
+        assert values[:, 1] @ areas_of(mesh.points, mesh.triangles) == pytest.approx(content, abs=1e-8)
+        assert max(abs(transfer.lost).max(), abs(transfer.gained).max(), transfer.lost_volume) < 1e-8
+        one = mesh.transfer_cells(np.full(len(mesh._before.triangles), 0.1), goals).values
+        assert one.shape == (len(mesh.triangles),) and (one == 0.1).all()
+    assert n_changed > 200
+    # What has been taken is the triangulation's own.
+    for copy in mesh.copy(), pickle.loads(pickle.dumps(mesh)):
+        copy.changes()
+        with pytest.raises(deldrift.ChangesNotTaken):
+            copy.transfer_cells(values)
+        copy.coarsen(greatest_area=0.05)
+        was = values[:, 1] @ areas_of(mesh.points, mesh.triangles)
+        copy.changes()
+        made = copy.transfer_cells(values, mesh.points).values
+        assert len(made) < len(values) and made[:, 1] @ areas_of(copy.points, copy.triangles) == pytest.approx(was, abs=1e-8)
+
+
+def areas_of(points, triangles):
+    a, b, c = np.moveaxis(points[triangles], 1, 0)
+    (x, y), (z, w) = (b - a).T, (c - a).T
+    return (x * w - y * z) / 2

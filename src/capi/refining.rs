@@ -292,7 +292,8 @@ pub unsafe extern "C" fn deldrift_refine(
 /// what it would do.
 ///
 /// Around cells that are of lower quality already, those that come may have angles as small: call it before deldrift_refine,
-/// which then has less to insert.
+/// which then has less to insert. Ids of the vertices that stay are as they were, and so are values by id: one pass after
+/// deldrift_refine carries them over both, see deldrift_refined_weights.
 ///
 /// Cost: that of deldrift_refine where all is good, and for each vertex that deldrift_refine has inserted at most that of
 /// looking at the cells around it. Where no place, cell or segment has changed since this call has found nothing to remove
@@ -381,9 +382,9 @@ pub unsafe extern "C" fn deldrift_original_segments(
 ///   value(new(k)) = sum of weights(3 k + i) * value(vertices(3 k + i)) for i = 0, 1, 2
 ///
 /// carries values at vertices over, where new(k) is what deldrift_refined_vertices tells, or, without reuses_ids,
-/// id_count - inserted + k. Those on the right may have been removed by the call, which has not given their ids again. It
-/// has to have been called with has_weights, and neither a commit nor a compaction must have come since; otherwise there
-/// are none.
+/// id_count - inserted + k. Those on the right may have been removed by the call, which has not given their ids again, and
+/// by no deldrift_coarsen before it: one pass with values from before both carries them over both. It has to have been
+/// called with has_weights, and neither a commit nor a compaction must have come since; otherwise there are none.
 ///
 /// vertices: a buffer with room for capacity rows of 3 ids, those of the corners of the cell that the vertex was put into;
 /// on a segment, or an edge, its two ends, the first one twice. weights: for as many rows of 3 numbers, from 0 to 1,

@@ -101,8 +101,9 @@ impl From<&TransferReport> for deldrift_transfer_report {
 /// means of neighbours. Linear functions are kept but for rounding where that does not limit them, as it may at the
 /// hull.
 ///
-/// Cost: n log n for n cells in the list of changes and what they have in common, times n_values; if one of them is
-/// turned over, also m; in a periodic triangulation also n + m.
+/// Cost: n log n for n cells in the list of changes and what they have in common, times n_values. For those that are
+/// turned over also log m each, and the cells of now that they meet, or would if they were half as large again; m, if no
+/// corner of one is in the convex hull, or they meet an eighth of all. In a periodic triangulation also n + m.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for an
 /// order that there is not, for a value that is used and is no number or a greater one, and for positions that take a

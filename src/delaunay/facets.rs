@@ -26,9 +26,9 @@ pub(super) fn facet_of<C: Corners>(corners: &C, i: usize) -> (C, bool) {
     (facet, is_odd)
 }
 
-/// Hash of a facet: products and rotations are enough for indices.
+/// Hash of a facet, or of indices and small numbers: products and rotations are enough for these.
 #[derive(Default)]
-pub(super) struct Mix(u64);
+pub(crate) struct Mix(u64);
 
 impl Hasher for Mix {
     fn write(&mut self, bytes: &[u8]) {

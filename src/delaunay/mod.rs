@@ -88,6 +88,7 @@ pub use build::Merge;
 pub use cavity::Insertion;
 pub(crate) use certify::Waiting;
 pub use dimension::Dimension;
+pub(crate) use facets::Mix;
 pub use failures::Failures;
 pub(crate) use flips::CERTIFICATES_PER_EXACT;
 pub(crate) use keys::Keys;

@@ -61,7 +61,11 @@ pub(crate) use reading::query::cells_at;
 pub use reading::saving::Saved;
 pub(crate) use reading::saving::header::Beginning;
 pub(crate) use reading::saving::reader::Reader;
-pub(crate) use reading::transfer::{Extent, Facet, Gone, Now, Transferred, in_place, transfer};
+#[cfg(test)]
+pub(crate) use reading::transfer::finds_as_by_a_look_at_all;
+pub(crate) use reading::transfer::{
+    CellAt, Extent, Facet, Gone, Now, Shift, Transferred, in_place, transfer,
+};
 pub use reading::transfer::{TransferOrder, TransferReport};
 pub use report::{CommitReport, QualityReport, SplitReport, VertexWeights};
 pub use state::cells::{NO_CELL, NO_CORNER, OwnedCells};

@@ -21,6 +21,7 @@ mod preparing;
 mod staged;
 mod telling;
 mod times;
+mod transferring;
 mod zone;
 
 /// Made anew of those vertices that are there.

@@ -6,13 +6,19 @@ use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::{
-    Extent, Facet, Gone, NO_CELL, Now, TransferOrder, TransferReport, Transferred, in_place, transfer,
+    CellAt, Extent, Facet, Gone, NO_CELL, Now, Shift, TransferOrder, TransferReport, Transferred, in_place,
+    transfer,
 };
 use crate::periodic::cells::PeriodicCells;
 use crate::periodic::changes::Lists;
+use crate::periodic::lattice::plus;
+use crate::periodic::locating::Spot;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
 type Place = [f64; 3];
+
+/// Much more than what a few sums and products are off, as a share of what is summed up.
+const ROUNDING: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// Through how many periods a cell that is gone may reach at the new positions.
 const MOST_PERIODS: i64 = 64;
@@ -25,7 +31,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     ///
     /// # Errors
     /// Those of the open triangulation, [`Error::Prepared`], and [`Error::InvalidValue`] for positions that take a
-    /// cell through more than 64 periods.
+    /// cell through more than 64 periods of a reduced vector.
     pub fn transfer_cells(
         &self,
         positions: Option<&[G::Point]>,
@@ -61,33 +67,14 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         value: &impl Fn(u32, usize) -> f64,
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Transferred> {
-        let (lists, cells) = (self.fresh_lists()?, self.read_cells()?);
-        let now = Repeating { t: self, cells, lists };
-        let mut of_caller = [[0; 3]; 3];
-        for (row, vector) in of_caller.iter_mut().zip(self.lattice.given()) {
-            *row = self.lattice.multiples(vector).map(|x| x.round_ties_even() as i64);
-        }
-        let (mut gone, mut arrived) = (Vec::new(), Vec::new());
-        let turned = lists.turned.iter().map(|(cell, name)| (now.before(*cell), name));
-        for (before, name) in lists.removed.iter().copied().zip(&lists.removed_names).chain(turned) {
-            let mut places = [(VertexId::NONE, G::Point::default(), [0; 3]); 4];
-            for (entry, &(v, shift)) in places.iter_mut().zip(&name[..=G::D]) {
-                let (place, wrap) = self.place_before(positions, v)?;
-                let total = |j: usize| wrap[j] + (0..3).map(|i| shift[i] * of_caller[i][j]).sum::<i64>();
-                *entry = (v, place, [0, 1, 2].map(total));
-            }
-            let first = places[0].2;
-            for (_, _, shift) in &mut places[..=G::D] {
-                *shift = [0, 1, 2].map(|j| shift[j] - first[j]);
-            }
-            let corners = places.map(|(_, place, shift)| self.translated(&place, &shift));
-            let facets = facets_of(&places.map(|(v, _, shift)| (v, shift))[..=G::D]);
-            memory::push(&mut gone, Gone { corners, facets, before: before.get() })?;
-        }
-        memory::append(&mut arrived, &lists.created)?;
-        lists.turned.iter().try_for_each(|&(cell, _)| memory::push(&mut arrived, cell))?;
-        let renumbered = [&lists.renumbered_from[..], &lists.renumbered_to];
+        let now = self.now()?;
+        let (gone, arrived) = now.gone_and_arrived(positions)?;
+        let renumbered = [&now.lists.renumbered_from[..], &now.lists.renumbered_to];
         transfer(&now, gone, arrived, renumbered, (order, n_values), value, monitor)
+    }
+
+    pub(super) fn now(&self) -> Result<Repeating<'_, G>> {
+        Ok(Repeating { t: self, lists: self.fresh_lists()?, cells: self.read_cells()? })
     }
 
     /// Where a vertex of a cell that was is, or was at last: its place in the unit cell, and in which period it is.
@@ -117,13 +104,45 @@ impl<G: Dimension> PeriodicTriangulation<G> {
 }
 
 /// The cells of now.
-struct Repeating<'t, G: Dimension> {
+pub(super) struct Repeating<'t, G: Dimension> {
     t: &'t PeriodicTriangulation<G>,
     cells: &'t PeriodicCells<G>,
     lists: &'t Lists<G>,
 }
 
 impl<G: Dimension> Repeating<'_, G> {
+    /// The cells that are gone and those that have come, those that were turned over are both.
+    pub(super) fn gone_and_arrived(
+        &self,
+        positions: Option<&[G::Point]>,
+    ) -> Result<(Vec<Gone>, Vec<CellId>)> {
+        let mut of_caller = [[0; 3]; 3];
+        for (row, vector) in of_caller.iter_mut().zip(self.t.lattice.given()) {
+            *row = self.t.lattice.multiples(vector).map(|x| x.round_ties_even() as i64);
+        }
+        let (mut gone, mut arrived) = (Vec::new(), Vec::new());
+        let turned = self.lists.turned.iter().map(|(cell, name)| (self.before(*cell), name));
+        for (before, name) in self.lists.removed.iter().copied().zip(&self.lists.removed_names).chain(turned)
+        {
+            let mut places = [(VertexId::NONE, G::Point::default(), [0; 3]); 4];
+            for (entry, &(v, shift)) in places.iter_mut().zip(&name[..=G::D]) {
+                let (place, wrap) = self.t.place_before(positions, v)?;
+                let total = |j: usize| wrap[j] + (0..3).map(|i| shift[i] * of_caller[i][j]).sum::<i64>();
+                *entry = (v, place, [0, 1, 2].map(total));
+            }
+            let first = places[0].2;
+            for (_, _, shift) in &mut places[..=G::D] {
+                *shift = [0, 1, 2].map(|j| shift[j] - first[j]);
+            }
+            let corners = places.map(|(_, place, shift)| self.t.translated(&place, &shift));
+            let facets = facets_of(&places.map(|(v, _, shift)| (v, shift))[..=G::D]);
+            memory::push(&mut gone, Gone { corners, facets, before: before.get() })?;
+        }
+        memory::append(&mut arrived, &self.lists.created)?;
+        self.lists.turned.iter().try_for_each(|&(cell, _)| memory::push(&mut arrived, cell))?;
+        Ok((gone, arrived))
+    }
+
     /// Where a vertex is at home.
     fn home(&self, v: VertexId) -> G::Point {
         let inside = &self.t.inside;
@@ -164,10 +183,42 @@ impl<G: Dimension> Now for Repeating<'_, G> {
         facets_of(&row[..=G::D])
     }
 
-    fn beyond(&self, cell: CellId, corner: usize) -> Option<(CellId, Place)> {
+    fn across(&self, cell: CellId, corner: usize) -> Option<CellAt> {
         let other = self.cells.neighbours[cell].as_ref()[corner];
         let shift = self.cells.neighbour_shifts.of(cell.index())[corner].map(i64::from);
-        (other != NO_CELL).then(|| (other, self.t.translated(&G::Point::default(), &shift)))
+        (other != NO_CELL).then_some((other, shift))
+    }
+
+    fn offset(&self, shift: &Shift) -> Place {
+        self.t.translated(&G::Point::default(), shift)
+    }
+
+    fn at(&self, place: &Place) -> Result<Option<CellAt>> {
+        let (t, mut position) = (self.t, G::Point::default());
+        (0..G::D).for_each(|axis| position[axis] = place[axis]);
+        let Ok((home, wrap)) = t.lattice.wrapped("positions", 0, &position) else { return Ok(None) };
+        let (cell, shift) = match t.spot(self.cells, &home, t.inside.t.locate(&home)?)? {
+            Spot::Vertex(image) => {
+                let Some(cell) = t.inside.t.a_cell_at(t.inside.images.home(image.vertex))? else {
+                    return Ok(None);
+                };
+                let (class, by) = t.placed(self.cells, cell)?;
+                (class, plus(by, image.shift))
+            }
+            Spot::Cell(placed) => placed,
+            Spot::Outside(_) | Spot::NoCells => return Ok(None),
+        };
+        Ok(Some((cell, [0, 1, 2].map(|j| i64::from(shift[j]) + wrap[j]))))
+    }
+
+    fn rounding(&self, extent: &Extent) -> Place {
+        let mut rounding = [0.0; 3];
+        for axis in 0..G::D {
+            let of_vectors: f64 = self.t.lattice.reduced().iter().map(|vector| vector[axis].abs()).sum();
+            let greatest = extent.low[axis].abs().max(extent.high[axis].abs());
+            rounding[axis] = ROUNDING * (greatest + MOST_PERIODS as f64 * of_vectors);
+        }
+        rounding
     }
 
     fn copies(&self, gone: &[Gone], cells: impl Iterator<Item = CellId>) -> Result<Vec<(u32, Place)>> {
@@ -192,11 +243,10 @@ impl<G: Dimension> Now for Repeating<'_, G> {
             {
                 // One period more at both ends, as multiples are rounded.
                 ranges[j] = ((other.0 - own.1).floor() as i64, (other.1 - own.0).ceil() as i64);
-                let periods = ranges[j].1.saturating_sub(ranges[j].0);
-                if periods > MOST_PERIODS {
+                let value = own.1 - own.0;
+                if value > MOST_PERIODS as f64 {
                     let wanted = "such that no cell reaches through more than 64 periods";
-                    let (argument, value) = ("positions", periods as f64);
-                    return Err(Error::InvalidValue { argument, index: 0, value, wanted });
+                    return Err(Error::InvalidValue { argument: "positions", index: 0, value, wanted });
                 }
             }
             for a in ranges[0].0..=ranges[0].1 {

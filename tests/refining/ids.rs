@@ -277,3 +277,58 @@ fn low_ids_decide_no_ties() {
         assert!(bytes(&t) == saved, "{angle}, {area}");
     }
 }
+
+/// Values that a program has by id before it coarsens are carried once, after it has refined: ids of vertices that
+/// coarsening has removed are given again, pieces are joined, and meshes are made anew, and linear functions stay.
+#[test]
+fn values_are_carried_over_both() {
+    let (mut n_reused, mut n_anew, mut n_joined, mut n_inserted) = (0, 0, 0, 0);
+    for (name, size, domain) in domains() {
+        for (reuses_ids, growth, joins) in
+            [(false, 1.1, 1e-9), (true, 1.1, 1e-9), (true, f64::INFINITY, 0.01), (true, 1.0, 0.01)]
+        {
+            let mut t = domain.build();
+            let options = RefineOptions { reuses_ids, ..OPTIONS };
+            let coarsening = CoarsenOptions { growth, joins, ..CoarsenOptions::default() };
+            let qualities =
+                [(25.0, 0.004), (30.0, 0.03), (20.0, 0.002), (0.0, 0.05), (25.0, 0.05), (33.0, 0.01)];
+            for (round, (angle, area)) in qualities.into_iter().cycle().take(9).enumerate() {
+                let asked = quality(angle, area * size * size);
+                let origin = t.position(present(&t).pop_first().expect("there are some")).expect("present");
+                let linear = |p: [f64; 2]| 3.0 + (2.0 * (p[0] - origin[0]) - 0.5 * (p[1] - origin[1])) / size;
+                let places: Vec<_> = VertexId::range(0..t.id_count()).map(|v| t.position(v)).collect();
+                // Nothing is carried from a vertex that there was not.
+                let mut values: Vec<f64> =
+                    places.iter().map(|place| place.as_ref().map_or(f64::NAN, |&p| linear(p))).collect();
+                let n_segments = t.segments().count();
+                let mask = domain_of(&t);
+                let coarsened = t.coarsen(&asked, &coarsening, &mask).expect("a domain");
+                n_joined += n_segments - t.segments().count();
+                let mask = domain_of(&t);
+                let refined = t.refine(&asked, &options, &mask).expect("a domain");
+                n_reused += t.refined_vertices().iter().filter(|v| v.index() < places.len()).count();
+                n_inserted += refined.inserted;
+                n_anew += usize::from(refined.removed > 0);
+                values.resize(t.id_count(), f64::NAN);
+                // One after the other, in place, as the bindings do it.
+                for (v, row) in t.refined_vertices().iter().zip(t.refined_weights()) {
+                    let terms = row.vertices.iter().zip(row.weights);
+                    values[v.index()] = terms.map(|(&v, weight)| values[v.index()] * weight).sum();
+                }
+                for v in present(&t) {
+                    let (is, p) = (values[v.index()], t.position(v).expect("present"));
+                    let magnitude = 1.0 + (p[0].abs() + p[1].abs()) / size;
+                    assert!(
+                        (is - linear(p)).abs() <= 1e-12 * magnitude,
+                        "{name}, round {round}, {coarsening:?}, {v}: {is} {} {coarsened:?} {refined:?}",
+                        linear(p)
+                    );
+                }
+            }
+        }
+    }
+    println!(
+        "{n_inserted} inserted, {n_reused} at ids given again, {n_anew} made anew, {n_joined} pieces joined"
+    );
+    assert!(n_reused > 1000 && n_anew > 20 && n_joined > 500, "{n_reused} {n_anew} {n_joined}");
+}

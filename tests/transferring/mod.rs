@@ -4,6 +4,7 @@
 
 mod boxes;
 mod exact;
+mod exact_boxes;
 mod orders;
 
 use crate::common::{Rng, point, seeds, vertex};

@@ -86,6 +86,30 @@ impl Boxes {
         self.divide(2 * node + 2, from + half, to);
     }
 
+    /// Whether any is as it is wanted of those that meet a box.
+    pub(super) fn has_one(&self, wanted: &Extent, is: &impl Fn(u32) -> bool) -> bool {
+        self.has_one_from(0, 0, self.order.len(), wanted, is)
+    }
+
+    fn has_one_from(
+        &self,
+        node: usize,
+        from: usize,
+        to: usize,
+        wanted: &Extent,
+        is: &impl Fn(u32) -> bool,
+    ) -> bool {
+        if !self.nodes[node].meets(wanted) {
+            return false;
+        }
+        if 2 * node + 2 >= self.nodes.len() {
+            return self.order[from..to].iter().any(|&k| self.extents[k as usize].meets(wanted) && is(k));
+        }
+        let half = (to - from) / 2;
+        self.has_one_from(2 * node + 1, from, from + half, wanted, is)
+            || self.has_one_from(2 * node + 2, from + half, to, wanted, is)
+    }
+
     /// Tells the numbers of those that meet a box.
     pub(super) fn meeting(&self, wanted: &Extent, tell: &mut impl FnMut(u32) -> Result<()>) -> Result<()> {
         self.search(0, 0, self.order.len(), wanted, tell)

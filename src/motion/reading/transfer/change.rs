@@ -1,41 +1,16 @@
 //! The cells of a change: which are gone, which have come, and which count as both.
 
-use super::boxes::Extent;
-use super::overlap::{Place, centroid, is_turned_over, plus};
-use super::{Arrived, Beyond, Facet, Gone, Meeting, TransferOrder, Transferred};
+use super::near::near;
+use super::now::Now;
+use super::overlap::{centroid, is_turned_over, plus};
+use super::{Arrived, Beyond, Gone, Meeting, TransferOrder, Transferred};
 use crate::error::{Error, Result};
 use crate::ids::CellId;
 use crate::machine::memory;
 use crate::motion::reading::progress::Progress;
 
-/// The cells of now.
-pub(crate) trait Now {
-    /// The dimension.
-    const D: usize;
-
-    /// How many there are.
-    fn len(&self) -> usize;
-
-    /// The index that one had that was there.
-    fn before(&self, cell: CellId) -> CellId;
-
-    fn corners(&self, cell: CellId) -> [Place; 4];
-
-    fn facets(&self, cell: CellId) -> [Facet; 4];
-
-    /// The cell across the facet opposite a corner, and by how much it is translated from where its corners are told.
-    fn beyond(&self, cell: CellId, corner: usize) -> Option<(CellId, Place)>;
-
-    /// Where each of these is that may meet some cells of now: its number, and by how much it is translated.
-    fn copies(&self, gone: &[Gone], cells: impl Iterator<Item = CellId>) -> Result<Vec<(u32, Place)>>;
-
-    /// The box of some cells.
-    fn extent_of(&self, cells: impl Iterator<Item = CellId>) -> Extent {
-        let mut all = Extent::of(&[]);
-        cells.for_each(|cell| all.enter(&Extent::of(&self.corners(cell)[..=Self::D])));
-        all
-    }
-}
+#[cfg(test)]
+pub(crate) mod tests;
 
 /// Transfers means from the cells that are gone to those that have come; `renumbered` are the cells that live and have
 /// other indices, of before and now, and `value` tells a component of the mean of a cell that was.
@@ -73,31 +48,60 @@ impl<T: Now> Change<'_, T> {
         if turned_over.is_empty() {
             return Ok(());
         }
-        let all = CellId::range(0..self.now.len());
-        let meeting = Meeting::of::<D>(&turned_over, self.now.copies(&turned_over, all.clone())?)?;
-        let n = self.arrived.len();
-        progress.expect_more(self.now.len() + n);
-        for cell in all {
-            progress.advance(1)?;
-            let corners = self.now.corners(cell);
-            if meeting.meets::<D>(&corners)? && self.arrived[..n].binary_search(&cell).is_err() {
-                let (facets, before) = (self.now.facets(cell), self.now.before(cell).get());
-                memory::push(&mut self.gone, Gone { corners, facets, before })?;
-                memory::push(&mut self.arrived, cell)?;
-            }
+        progress.expect_more(self.now.len() + self.arrived.len());
+        let met = match near::<D, T>(self.now, &turned_over, progress)? {
+            Some(near) => self.met::<D>(&turned_over, &near, progress)?,
+            None => self.met_of_all::<D>(&turned_over, progress)?,
+        };
+        memory::reserve(&mut self.gone, met.len())?;
+        for &cell in &met {
+            let (corners, facets) = (self.now.corners(cell), self.now.facets(cell));
+            self.gone.push(Gone { corners, facets, before: self.now.before(cell).get() });
         }
+        memory::append(&mut self.arrived, &met)?;
         self.arrived.sort_unstable();
         Ok(())
+    }
+
+    /// Which cells of now, but for those that have come, meet some that are turned over.
+    fn met_of_all<const D: usize>(
+        &self,
+        turned_over: &[Gone],
+        progress: &mut Progress,
+    ) -> Result<Vec<CellId>> {
+        let mut all = Vec::new();
+        memory::collect(&mut all, CellId::range(0..self.now.len()))?;
+        self.met::<D>(turned_over, &all, progress)
+    }
+
+    /// Which of these cells do so.
+    fn met<const D: usize>(
+        &self,
+        turned_over: &[Gone],
+        cells: &[CellId],
+        progress: &mut Progress,
+    ) -> Result<Vec<CellId>> {
+        let copies = self.now.copies(turned_over, cells.iter().copied())?;
+        let (meeting, mut met) = (Meeting::of::<D>(turned_over, copies)?, Vec::new());
+        progress.expect_more(cells.len() + self.arrived.len());
+        for &cell in cells {
+            progress.advance(1)?;
+            let is_met = meeting.meets::<D>(&self.now.corners(cell))?;
+            if is_met && self.arrived.binary_search(&cell).is_err() {
+                memory::push(&mut met, cell)?;
+            }
+        }
+        Ok(met)
     }
 
     fn beyond<const D: usize>(&self, cell: CellId) -> [Beyond; 4] {
         let mut beyond = [Beyond::Nothing; 4];
         for (k, entry) in beyond.iter_mut().enumerate().take(D + 1) {
-            let Some((other, offset)) = self.now.beyond(cell, k) else { continue };
+            let Some((other, shift)) = self.now.across(cell, k) else { continue };
             *entry = match self.arrived.binary_search(&other) {
                 Ok(k) => Beyond::Arrived(k as u32),
                 Err(_) => {
-                    let corners = self.now.corners(other);
+                    let (corners, offset) = (self.now.corners(other), self.now.offset(&shift));
                     let centre = plus(&plus(&corners[0], &offset), &centroid::<D>(&corners));
                     Beyond::Living { before: self.now.before(other).get(), centre }
                 }

@@ -28,8 +28,9 @@
 //! too.
 //!
 //! # Cost
-//! For n cells in the change list n log n and the pairs that meet, times the number of components. If one is turned
-//! over, also a look at all cells.
+//! For n cells in the change list n log n and the pairs that meet, times the number of components. For those that are
+//! turned over also a search for a corner each, and the cells of now that they would meet if they were half as large
+//! again; or a look at all cells, where no corner of one is in the hull, or an eighth of all is reached (`near`).
 //!
 //! # Sources
 //! P. E. Farrell and J. R. Maddison, "Conservative interpolation between volume meshes by local Galerkin projection",
@@ -42,6 +43,8 @@ mod beside;
 mod boxes;
 mod change;
 mod means;
+mod near;
+mod now;
 mod open;
 mod overlap;
 
@@ -51,7 +54,10 @@ use crate::machine::memory;
 use crate::motion::reading::progress::Progress;
 use boxes::Boxes;
 pub(crate) use boxes::Extent;
-pub(crate) use change::{Now, transfer};
+#[cfg(test)]
+pub(crate) use change::tests::finds_as_by_a_look_at_all;
+pub(crate) use change::transfer;
+pub(crate) use now::{CellAt, Now, Shift};
 pub(crate) use overlap::Place;
 use overlap::{Facets, Overlap, centroid, error_of_volume, extent, minus, plus, volume};
 

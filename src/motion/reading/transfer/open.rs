@@ -1,12 +1,15 @@
 //! The transfer of means in a triangulation that is open.
 
-use super::change::{Now, transfer};
+use super::boxes::Extent;
+use super::change::transfer;
+use super::now::{CellAt, Now, Shift};
 use super::overlap::Place;
 use super::{Facet, Gone, TransferOrder, TransferReport, Transferred, in_place};
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
+use crate::motion::reading::query::Location;
 use crate::motion::state::cells::{Cells, NO_CELL};
 use crate::motion::state::changes::NO_VERTEX;
 use crate::motion::state::checking::check_position;
@@ -88,24 +91,27 @@ impl<G: Dimension> MovingTriangulation<G> {
         value: &impl Fn(u32, usize) -> f64,
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Transferred> {
-        let (cells, taken) = self.fresh_lists()?;
-        let (changes, turned) = (taken.changes(), taken.turned());
-        let place = |v| self.place_before(positions, v);
-        let now = Open { t: self, cells, changes };
-        let (mut gone, mut arrived) = (Vec::new(), Vec::new());
-        let turned_rows = turned.iter().map(|(cell, row)| (now.before(*cell), row));
-        for (before, row) in changes.removed.iter().copied().zip(changes.removed_corners).chain(turned_rows) {
-            let mut corners = [[0.0; 3]; 4];
-            for (corner, &v) in corners.iter_mut().zip(row.as_ref()) {
-                *corner = place(v)?;
-            }
-            let facets = facets_of(row.as_ref());
-            memory::push(&mut gone, Gone { corners, facets, before: before.get() })?;
-        }
-        memory::append(&mut arrived, changes.created)?;
-        turned.iter().try_for_each(|&(cell, _)| memory::push(&mut arrived, cell))?;
-        let renumbered = [changes.renumbered_from, changes.renumbered_to];
+        let now = self.now()?;
+        let (gone, arrived) = now.gone_and_arrived(positions)?;
+        let renumbered = [now.changes.renumbered_from, now.changes.renumbered_to];
         transfer(&now, gone, arrived, renumbered, (order, n_values), value, monitor)
+    }
+
+    pub(super) fn now(&self) -> Result<Open<'_, G>> {
+        let (cells, taken) = self.fresh_lists()?;
+        Ok(Open { t: self, cells, changes: taken.changes(), turned: taken.turned() })
+    }
+
+    /// One of the cells at the place of a vertex; none if there are no cells.
+    pub(crate) fn a_cell_at(&self, vertex: VertexId) -> Result<Option<CellId>> {
+        let (cells, kernel) = (self.cell_arrays()?, &self.mesh.kernel);
+        if self.cell_count() == 0 {
+            return Ok(None);
+        }
+        let slot = kernel.site(self.present_site("vertex", 0, vertex)?).cell;
+        let around = kernel.complex().cell(slot);
+        let finite = if around.is_ghost() { around.neighbour(G::D).cell() } else { slot };
+        Ok(Some(cells.index_of()[finite]))
     }
 
     /// Where a vertex of a cell that was is, or was at last.
@@ -131,10 +137,36 @@ fn place_of<G: Dimension>(point: &G::Point) -> Place {
 }
 
 /// The cells of now.
-struct Open<'t, G: Dimension> {
+pub(super) struct Open<'t, G: Dimension> {
     t: &'t MovingTriangulation<G>,
     cells: &'t Cells<G>,
     changes: Changes<'t, G::Vertices>,
+    /// Cells that were turned over, and the corners that each had.
+    turned: &'t [(CellId, G::Vertices)],
+}
+
+impl<G: Dimension> Open<'_, G> {
+    /// The cells that are gone and those that have come, those that were turned over are both.
+    pub(super) fn gone_and_arrived(
+        &self,
+        positions: Option<&[G::Point]>,
+    ) -> Result<(Vec<Gone>, Vec<CellId>)> {
+        let (changes, turned) = (&self.changes, self.turned);
+        let place = |v| self.t.place_before(positions, v);
+        let (mut gone, mut arrived) = (Vec::new(), Vec::new());
+        let turned_rows = turned.iter().map(|(cell, row)| (self.before(*cell), row));
+        for (before, row) in changes.removed.iter().copied().zip(changes.removed_corners).chain(turned_rows) {
+            let mut corners = [[0.0; 3]; 4];
+            for (corner, &v) in corners.iter_mut().zip(row.as_ref()) {
+                *corner = place(v)?;
+            }
+            let facets = facets_of(row.as_ref());
+            memory::push(&mut gone, Gone { corners, facets, before: before.get() })?;
+        }
+        memory::append(&mut arrived, changes.created)?;
+        turned.iter().try_for_each(|&(cell, _)| memory::push(&mut arrived, cell))?;
+        Ok((gone, arrived))
+    }
 }
 
 impl<G: Dimension> Now for Open<'_, G> {
@@ -162,9 +194,28 @@ impl<G: Dimension> Now for Open<'_, G> {
         facets_of(self.cells.corners()[cell].as_ref())
     }
 
-    fn beyond(&self, cell: CellId, corner: usize) -> Option<(CellId, Place)> {
+    fn across(&self, cell: CellId, corner: usize) -> Option<CellAt> {
         let other = self.cells.neighbours()[cell].as_ref()[corner];
-        (other != NO_CELL).then_some((other, [0.0; 3]))
+        (other != NO_CELL).then_some((other, [0; 3]))
+    }
+
+    fn offset(&self, _shift: &Shift) -> Place {
+        [0.0; 3]
+    }
+
+    fn at(&self, place: &Place) -> Result<Option<CellAt>> {
+        let mut point = G::Point::default();
+        (0..G::D).for_each(|axis| point[axis] = place[axis]);
+        let found = match self.t.locate(&point)? {
+            Location::Vertex(v) => self.t.a_cell_at(v)?,
+            Location::Cell(cell) => Some(cell),
+            Location::Outside(_) | Location::NoCells => None,
+        };
+        Ok(found.map(|cell| (cell, [0; 3])))
+    }
+
+    fn rounding(&self, _extent: &Extent) -> Place {
+        [0.0; 3]
     }
 
     fn copies(&self, gone: &[Gone], _cells: impl Iterator<Item = CellId>) -> Result<Vec<(u32, Place)>> {

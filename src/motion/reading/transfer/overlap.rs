@@ -125,6 +125,26 @@ impl Facets {
         dot(&self.normals[k], &minus(place, &self.corners[on_facet[0]]))
     }
 
+    /// Whether heights of a cell of this extent mean anything.
+    fn is_solid(&self, its_extent: f64) -> bool {
+        self.determinant.abs() > LEAST * UNIT * (1.0 + its_extent / self.extent)
+    }
+
+    /// Whether all of a cell is certainly beyond one facet by more than an eighth of the height above it, though its
+    /// corners may be off by four times a `rounding` from where they are told.
+    pub(super) fn is_beyond<const D: usize>(
+        &self,
+        other: &[Place; 4],
+        its_extent: f64,
+        rounding: f64,
+    ) -> bool {
+        let per_unit = self.extent / power_below(self.extent);
+        let whole = self.determinant.abs() * self.extent * per_unit.powi(D as i32 - 1);
+        self.is_solid(its_extent)
+            && whole >= 1024.0 * rounding
+            && (0..=D).any(|k| other[..=D].iter().all(|p| self.height::<D>(k, p) < -whole / 4.0))
+    }
+
     /// By how much at most the volume in common with a cell of this extent is off, but for that of the cell.
     pub(super) fn error<const D: usize>(&self, its_extent: f64) -> f64 {
         BOUND * UNIT * (its_extent + self.extent) * self.extent.powi(D as i32 - 1)
@@ -134,8 +154,7 @@ impl Facets {
     /// common part is as seen from the cell's first corner.
     pub(super) fn overlap<const D: usize>(&self, other: &[Place; 4], its_extent: f64) -> Overlap {
         let mut sum = Overlap::default();
-        let is_solid = self.determinant.abs() > LEAST * UNIT * (1.0 + its_extent / self.extent);
-        if !is_solid {
+        if !self.is_solid(its_extent) {
             return sum;
         }
         let corners = [0, 1, 2, 3].map(|i| {
