@@ -125,7 +125,7 @@ fn cells_near_by_are_those_of_a_look_at_all_in_the_plane() {
             let ends = [0; 2].map(|_| VertexId::at(rng.below(t.id_count())));
             // Two may be one, or a vertex may be between.
             _ = t
-                .stage_segments([Segment { ends, marker: 0 }].into_iter())
+                .stage_segments([Segment { ends, marker: 0, ..Segment::default() }].into_iter())
                 .and_then(|_| t.commit_timestamp());
             t.discard_moves();
         }
