@@ -65,6 +65,7 @@ impl History<'_> {
         quality.has_weights = self.s.below(2) as u32;
         quality.keeps = self.s.pick(&[0, 0, 1, 2]);
         quality.growth = self.s.pick(&[1.1, 1.0, f64::INFINITY]);
+        quality.domain = self.s.pick(&[0, 0, 0, 1, 2, 3]);
         let kind = self.s.below(4);
         let n = self.m.positions.len();
         let sizes: Vec<f64> =
@@ -140,7 +141,7 @@ impl History<'_> {
     /// Makes the call, by which pieces that are bent may come in the way of each other; whether it has done something.
     fn has_improved(
         &mut self,
-        mask: &Option<Vec<u8>>,
+        (mask, by_region): (&Option<Vec<u8>>, bool),
         wanted: deldrift_status,
         mut call: impl FnMut(*const u8, usize) -> deldrift_status,
     ) -> bool {
@@ -148,16 +149,23 @@ impl History<'_> {
         let (start, n) = mask.as_ref().map_or((null(), 0), |mask| (mask.as_ptr(), mask.len()));
         let status = self.call(|| call(start, n));
         let is_bent = wanted == DELDRIFT_OK && matches!(status, DELDRIFT_CROSSING | DELDRIFT_ON_SEGMENT);
-        assert!(status == wanted || is_bent, "{status:?}, not {wanted:?}: {}", message());
+        let is_undecided = mask.is_none() && status == DELDRIFT_UNDECIDED_REGIONS;
+        assert!(
+            status == wanted || is_bent || by_region && is_undecided,
+            "{status:?}, not {wanted:?}: {}",
+            message()
+        );
         status == DELDRIFT_OK
     }
 
     fn refine(&mut self, quality: &deldrift_quality, sizes: &[f64]) {
         let (t, (mask, wanted)) = (self.t, self.choose_mask());
         let (before, first) = (self.pieces(), self.m.positions.len() as u32);
+        let by_region = quality.domain == 3;
         let mut report = deldrift_quality_report { inserted: 77, ..Default::default() };
-        if !self.has_improved(&mask, wanted, |mask, n| c!(deldrift_refine(t, quality, mask, n, &mut report)))
-        {
+        if !self.has_improved((&mask, by_region), wanted, |mask, n| {
+            c!(deldrift_refine(t, quality, mask, n, &mut report))
+        }) {
             assert_eq!(report.inserted, 77, "an output of a call that failed");
             return self.check();
         }
@@ -183,7 +191,7 @@ impl History<'_> {
         self.check_made(&places, &report, quality.has_weights != 0);
         if mask.is_none() && bad_cells == 0 && is_cut_short == 0 {
             // Fourth powers of lengths are in the range of numbers then.
-            if self.is_moderate() {
+            if self.is_moderate() && quality.domain == 0 {
                 self.check_quality(quality);
             }
             if report.unsplit == 0 {
@@ -194,12 +202,13 @@ impl History<'_> {
 
     fn coarsen(&mut self, quality: &deldrift_quality) {
         let (t, (mask, wanted)) = (self.t, self.choose_mask());
-        let before = self.pieces();
+        let (before, by_region) = (self.pieces(), quality.domain == 3);
         // Whether the mask is looked at where nothing is left of what has been made is not said.
         let (mask, wanted) = if self.m.made.is_empty() { (None, DELDRIFT_OK) } else { (mask, wanted) };
         let mut report = deldrift_quality_report { inserted: 77, ..Default::default() };
-        if !self.has_improved(&mask, wanted, |mask, n| c!(deldrift_coarsen(t, quality, mask, n, &mut report)))
-        {
+        if !self.has_improved((&mask, by_region), wanted, |mask, n| {
+            c!(deldrift_coarsen(t, quality, mask, n, &mut report))
+        }) {
             assert_eq!(report.inserted, 77, "an output of a call that failed");
             return self.check();
         }

@@ -474,6 +474,43 @@ impl History<'_> {
             assert_eq!(label, seed.map_or(9, |k| labels[k]), "label of cell {cell}");
         }
         self.update_labels(&told, &neighbours, &sides);
+        self.label_regions(&rows, &region);
+    }
+
+    /// Regions get labels, as a rule of the lowest vertex in each, and have them; but not the other cells of a region.
+    fn label_regions(&mut self, rows: &[Row], region: &[usize]) {
+        let (t, n) = (self.t, rows.len());
+        let rule = 1 + self.s.below(5) as i32;
+        let mut lowest = vec![NONE; n + 1];
+        for (row, &region) in rows.iter().zip(region) {
+            lowest[region] = lowest[region].min(row[0]).min(row[1]).min(row[2]);
+        }
+        let labels: Vec<i32> = region.iter().map(|&region| lowest[region] as i32 % rule - 1).collect();
+        if self.s.below(3) == 0 {
+            self.ok(|| c!(deldrift_set_regions(t, std::ptr::null(), 0)));
+        }
+        let wrong: Vec<i32> = (0..n as i32).collect();
+        let has_two = (0..n).any(|cell| region[..cell].contains(&region[cell]));
+        let status = if has_two { DELDRIFT_INVALID_VALUE } else { DELDRIFT_OK };
+        if n > 0 {
+            self.expect(status, || c!(deldrift_set_regions(t, wrong.as_ptr(), n)));
+            self.ok(|| c!(deldrift_set_regions(t, labels.as_ptr(), n)));
+        }
+        let mut undecided = 77;
+        let told = self.copied(77, 1, |to: *mut i32, room, count| {
+            c!(deldrift_regions(t, 9, to, room, count, &mut undecided))
+        });
+        // Cells from which the outside is reached, and no others.
+        let levels = self.copied(77, 1, |to, room, count| c!(deldrift_nesting_levels(t, to, room, count)));
+        for (cell, &label) in told.iter().enumerate() {
+            let wanted = if levels[cell] == 0 { 9 } else { labels[cell] };
+            assert_eq!(label, wanted, "label of cell {cell}");
+        }
+        let laid = self.m.segments.laid().map(|(id, _)| id).next();
+        if let Some(id) = laid {
+            let sides = [self.s.pick(&[DELDRIFT_NO_LABEL, 4]), 5];
+            self.ok(|| c!(deldrift_set_segment_sides(t, &id, sides.as_ptr(), 1)));
+        }
     }
 
     /// Some of the cells get their labels from others of their regions, if there are any, or else from the outside.

@@ -48,7 +48,8 @@ pub(super) fn improve(
         let has_own_labels = !(given.labels.is_null() && given.label_count == 0);
         let domain = domain_named(given.domain)?;
         let by_region = is_whole_domain && domain == deldrift_domain::DELDRIFT_DOMAIN_REGIONS;
-        let labels = match t.has_regions() && (by_region || !has_own_labels) {
+        let needs_labels = by_region || !has_own_labels && given.area_count > 0;
+        let labels = match needs_labels && t.has_regions() {
             true => decided_labels(t)?,
             false => Vec::new(),
         };
