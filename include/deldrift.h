@@ -382,6 +382,29 @@ typedef uint32_t deldrift_coincidence;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+/// Which cells deldrift_refine and deldrift_coarsen work on where they are given no mask.
+enum
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  deldrift_domain : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /// Those with an odd nesting level: see deldrift_nesting_levels.
+    DELDRIFT_DOMAIN_NESTING = 0,
+    /// Those with an odd crossing number, as the even-odd rule has it: see deldrift_crossing_numbers.
+    DELDRIFT_DOMAIN_EVEN_ODD = 1,
+    /// All within closed chains of segments: those with a nesting level above 0.
+    DELDRIFT_DOMAIN_INSIDE = 2,
+    /// Those in regions with a label above 0: see deldrift_regions.
+    DELDRIFT_DOMAIN_REGIONS = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum deldrift_domain deldrift_domain;
+#else
+typedef uint32_t deldrift_domain;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
 /// How values between vertices follow from those at vertices.
 enum
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -704,9 +727,6 @@ typedef struct deldrift_location {
     uint32_t index;
 } deldrift_location;
 
-/// Which cells are the domain as it arrives from C, where any number may be passed.
-typedef uint32_t DomainCode;
-
 /// What deldrift_refine and deldrift_coarsen work towards, and how. Initialise it with deldrift_quality_init, then set what
 /// should differ from the defaults: without a criterion nothing is done.
 ///
@@ -781,7 +801,7 @@ typedef struct deldrift_quality {
     /// ids of one that was is not listed. Default 0.
     uint32_t reuses_ids;
     /// Which cells are refined without a mask: default DELDRIFT_DOMAIN_NESTING.
-    DomainCode domain;
+    deldrift_domain domain;
 } deldrift_quality;
 
 /// What deldrift_refine or deldrift_coarsen did.
