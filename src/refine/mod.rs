@@ -82,7 +82,7 @@
 //! would mend may they be as bad as those there: whether it would is found by its own rules ([`mendable`]). After a
 //! refinement there are none, so what coarsening then leaves is good, or was left by refinement too, and neither of the
 //! two finds anything to do.
-
+//!
 //! # Made anew
 //!
 //! A mesh that is refined and coarsened again and again gets denser than one that is made at once: vertices stay that no
