@@ -434,7 +434,8 @@ static void refine_a_domain(void) {
     check(deldrift_update_labels(t, (uint32_t[]){0}, 1, 0, labels, ROOM, &undecided));
     expect(undecided == 0 && labels[0] == label, "a cell has the label of those around it");
     check(deldrift_set_regions(t, labels, n_cells));
-    check(deldrift_set_segment_sides(t, &first, (int32_t[]){DELDRIFT_NO_LABEL, DELDRIFT_NO_LABEL}, 1));
+    check(deldrift_segments(t, originals, NULL, NULL, ROOM, &count));
+    check(deldrift_set_segment_sides(t, originals, (int32_t[]){DELDRIFT_NO_LABEL, DELDRIFT_NO_LABEL}, 1));
     quality.domain = DELDRIFT_DOMAIN_REGIONS;
     quality.greatest_area = 0.005;
     check(deldrift_refine(t, &quality, NULL, 0, &report));

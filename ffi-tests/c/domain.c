@@ -364,12 +364,13 @@ static void labels_follow_the_changes(void) {
 
 // Labels that the library keeps are those of seeds, without any changes, through refinement, a clone and saved data.
 static void labels_of_regions_follow(void) {
+    enum { REFINED = 4096 };
     deldrift_triangulation *t = domain(), *other = NULL;
-    static int32_t labels[ROOM], anew[ROOM];
+    static int32_t labels[REFINED], anew[REFINED];
     static uint8_t bytes[1 << 20];
     const double seeds[] = {2, 2, 0.01, 0.02};
     const int32_t of_seeds[] = {-7, 1};
-    const double areas[] = {0, 0.3};
+    const double areas[] = {0, 0.1};
     deldrift_quality quality;
     deldrift_quality_report report;
     uint64_t inserted = 0;
@@ -381,7 +382,7 @@ static void labels_of_regions_follow(void) {
     // Without labels no cell is in it.
     OK(deldrift_refine(t, &quality, NULL, 0, &report));
     CHECK(report.inserted == 0 && report.bad_cells == 0);
-    OK(deldrift_label_cells(t, seeds, of_seeds, 2, 0, labels, ROOM, &n));
+    OK(deldrift_label_cells(t, seeds, of_seeds, 2, 0, labels, REFINED, &n));
     OK(deldrift_set_regions(t, labels, n));
     for (int step = 1; step <= 60; step++) {
         turn_hole(0.01 * step);
@@ -393,35 +394,35 @@ static void labels_of_regions_follow(void) {
         OK(deldrift_coarsen(t, &quality, NULL, 0, &report));
         OK(deldrift_refine(t, &quality, NULL, 0, &report));
         inserted += report.inserted;
-        OK(deldrift_label_cells(t, seeds, of_seeds, 2, 0, anew, ROOM, &n));
-        OK(deldrift_regions(t, 0, labels, ROOM, &n, &undecided));
+        OK(deldrift_label_cells(t, seeds, of_seeds, 2, 0, anew, REFINED, &n));
+        OK(deldrift_regions(t, 0, labels, REFINED, &n, &undecided));
         CHECK(undecided == 0 && memcmp(labels, anew, n * sizeof *anew) == 0);
         if (step % 20 != 0) continue;
         OK(deldrift_clone(t, &other));
-        OK(deldrift_regions(other, 0, labels, ROOM, &n, NULL));
+        OK(deldrift_regions(other, 0, labels, REFINED, &n, NULL));
         CHECK(memcmp(labels, anew, n * sizeof *anew) == 0);
         deldrift_destroy(other);
         OK(deldrift_save(t, bytes, sizeof bytes, &size));
         OK(deldrift_load(bytes, size, NULL, &other));
-        OK(deldrift_regions(other, 0, labels, ROOM, &n, &undecided));
+        OK(deldrift_regions(other, 0, labels, REFINED, &n, &undecided));
         CHECK(undecided == 0 && memcmp(labels, anew, n * sizeof *anew) == 0);
         deldrift_destroy(other);
     }
     CHECK(inserted > 20);
     // Labels that are taken away leave regions undecided; where some sides have labels, refinement says so.
     OK(deldrift_set_regions(t, NULL, 0));
-    OK(deldrift_regions(t, 0, labels, ROOM, &n, &undecided));
+    OK(deldrift_regions(t, 0, labels, REFINED, &n, &undecided));
     CHECK(undecided > 0);
-    static uint32_t ids[ROOM];
-    static int32_t markers[ROOM];
-    OK(deldrift_segments(t, ids, NULL, markers, ROOM, &n));
+    static uint32_t ids[REFINED];
+    static int32_t markers[REFINED];
+    OK(deldrift_segments(t, ids, NULL, markers, REFINED, &n));
     int32_t label = 4;
     for (size_t k = 0; k < n; k++) {
         if (markers[k] != WALL) continue;
         OK(deldrift_set_segment_sides(t, ids + k, (const int32_t[]){label, label}, 1));
         label = 5;
     }
-    OK(deldrift_regions(t, 0, labels, ROOM, &n, &undecided));
+    OK(deldrift_regions(t, 0, labels, REFINED, &n, &undecided));
     CHECK(undecided > 0);
     CHECK_STATUS(deldrift_refine(t, &quality, NULL, 0, &report), DELDRIFT_UNDECIDED_REGIONS);
     CHECK_MESSAGE("cells are in regions whose sides have no label, or several");
@@ -470,7 +471,7 @@ static void arguments_are_checked(void) {
     CHECK_BUFFER(int32_t, 4, 1, deldrift_regions(t, 0, buffer, capacity, &count, NULL));
     CHECK_STATUS(deldrift_set_regions(t, (const int32_t[]){1, 2, 1, 1}, 4), DELDRIFT_INVALID_VALUE);
     CHECK_STATUS(deldrift_set_regions(t, (const int32_t[]){1, 1, 1}, 3), DELDRIFT_WRONG_COUNT);
-    CHECK_MESSAGE("labels");
+    CHECK_MESSAGE("label_count is 3, but must be 4");
     CHECK_STATUS(deldrift_set_regions(solid, NULL, 0), DELDRIFT_INVALID_DIMENSION);
     CHECK_STATUS(deldrift_regions(solid, 0, told, 8, &count, NULL), DELDRIFT_INVALID_DIMENSION);
     CHECK_STATUS(deldrift_set_segment_sides(solid, NULL, NULL, 0), DELDRIFT_INVALID_DIMENSION);
