@@ -2,6 +2,7 @@
 
 use super::family::{Frame, Source};
 use super::fingerprint::Fingerprint;
+use super::log::Log;
 use super::mirror::Mirror;
 use super::motion::Phase;
 use super::{Outcome, RECORDED, Tally};
@@ -10,10 +11,7 @@ use deldrift::motion::{
     Algorithm, CommitReport, Commits, Level, MovingTriangulation, NO_CELL, Options, Saved,
 };
 use deldrift::{CellId, Dimension, Error, VertexId};
-use std::collections::{BTreeSet, VecDeque};
-
-/// So many of the last operations are told after a mismatch.
-const TOLD: usize = 24;
+use std::collections::BTreeSet;
 
 pub struct History<G: Dimension> {
     t: MovingTriangulation<G>,
@@ -31,10 +29,7 @@ pub struct History<G: Dimension> {
     /// Whether vertices come and go. While ids are missing no commit is of all vertices.
     has_edits: bool,
     rng: Rng,
-    seed: u64,
-    name: String,
-    log: VecDeque<String>,
-    is_loud: bool,
+    log: Log,
     tally: Tally,
     checksum: u64,
 }
@@ -84,9 +79,7 @@ impl<G: Dimension> History<G> {
             source.family,
             source.n
         );
-        if is_loud {
-            println!("{name}");
-        }
+        let log = Log::new(seed, name, is_loud);
         let places: Vec<G::Point> = now.iter().map(|p| frame.place(p)).collect();
         let options = Options { algorithm, threads, ..Options::default() };
         let keys = KeySource::of(seed).map(|mut source| {
@@ -97,7 +90,7 @@ impl<G: Dimension> History<G> {
             Some((keys, _)) => MovingTriangulation::with_keys(&places, keys, options),
             None => MovingTriangulation::new(&places, options),
         };
-        let t = made.unwrap_or_else(|error| panic!("{name}: {error}"));
+        let t = made.unwrap_or_else(|error| panic!("{}: {error}", log.name()));
         History {
             t,
             spacing: spacing_of::<G>(&now),
@@ -110,10 +103,7 @@ impl<G: Dimension> History<G> {
             algorithm,
             has_edits: rng.one_in(2),
             rng,
-            seed,
-            name,
-            log: VecDeque::new(),
-            is_loud,
+            log,
             tally: Tally { histories: 1, ..Tally::default() },
             checksum: 0,
         }
@@ -499,25 +489,12 @@ impl<G: Dimension> History<G> {
     }
 
     fn note(&mut self, what: impl FnOnce() -> String) {
-        let line = format!("commit {}: {}", self.tally.commits, what());
-        if self.is_loud {
-            println!("{line}");
-        }
-        self.log.push_back(line);
-        if self.log.len() > TOLD {
-            self.log.pop_front();
-        }
+        self.log.note(self.tally.commits, what());
     }
 
     /// What to tell of a mismatch.
     fn context(&self, what: &str) -> String {
-        let log: Vec<&str> = self.log.iter().map(String::as_str).collect();
-        format!(
-            "{}\n  ... {}\n  {what}\n  replay: make soak ARGS=\"--seed {}\"",
-            self.name,
-            log.join("\n  ... "),
-            self.seed
-        )
+        self.log.context("", what)
     }
 }
 

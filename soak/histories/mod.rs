@@ -6,6 +6,7 @@ mod boxes;
 mod family;
 mod fingerprint;
 mod history;
+mod log;
 mod meshes;
 mod mirror;
 mod motion;

@@ -240,9 +240,9 @@ pub unsafe extern "C" fn deldrift_quality_init(quality: *mut deldrift_quality) -
 ///
 /// quality: what is wanted. mask: mask_count bytes, one for each cell in the order of deldrift_cells (mask_count must be
 /// deldrift_cell_count): cells are refined if their byte is not 0. They have to end at segments: at an edge beyond which
-/// there is no cell, or one that is not refined, there has to be one. NULL with mask_count 0 for the domain (see deldrift_domain):
-/// by default the cells that have an odd nesting level. Read during the call only. report: receives what was done; may
-/// be NULL. Ends all views if anything was inserted or removed.
+/// there is no cell, or one that is not refined, there has to be one. NULL with mask_count 0 for the domain (see
+/// deldrift_domain): by default the cells that have an odd nesting level. Read during the call only. report: receives what was
+/// done; may be NULL. Ends all views if anything was inserted or removed.
 ///
 /// A segment that gets a vertex is removed, and pieces take its place, with its marker: see deldrift_original_segments. The
 /// places of new vertices are rounded, and pieces are straight between their own ends. Cells where the quality cannot be had
@@ -258,9 +258,10 @@ pub unsafe extern "C" fn deldrift_quality_init(quality: *mut deldrift_quality) -
 /// has changed since this call, or deldrift_coarsen, has found all to be good with these numbers: comparing mask and labels.
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
-/// DELDRIFT_INVALID_OPTIONS for struct_size, keeps and domain, DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE for a number of quality
-/// that has no meaning, those for deldrift_coarsen included, and for a mask that does not end at segments,
-/// DELDRIFT_UNDECIDED_REGIONS where labels of regions are used, DELDRIFT_STAGED_VERTEX if anything is staged, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY,
+/// DELDRIFT_INVALID_OPTIONS for struct_size, keeps and domain, DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE for a number of
+/// quality that has no meaning, those for deldrift_coarsen included, and for a mask that does not end at segments,
+/// DELDRIFT_UNDECIDED_REGIONS where the labels of regions are used: for the domain, and for areas without labels of cells,
+/// DELDRIFT_STAGED_VERTEX if anything is staged, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY,
 /// DELDRIFT_CANCELLED, and DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING where pieces that are bent by rounding would touch
 /// others (see deldrift_segment_conflicts). Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
@@ -300,8 +301,9 @@ pub unsafe extern "C" fn deldrift_refine(
 /// with these numbers: comparing mask and labels.
 ///
 /// Errors: those of deldrift_refine: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT,
-/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS for struct_size, keeps and domain, DELDRIFT_WRONG_COUNT,
-/// DELDRIFT_INVALID_VALUE, DELDRIFT_UNDECIDED_REGIONS, DELDRIFT_STAGED_VERTEX, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED,
+/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS for struct_size, keeps and domain,
+/// DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE, DELDRIFT_UNDECIDED_REGIONS, DELDRIFT_STAGED_VERTEX, DELDRIFT_TOO_MANY_CELLS,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED,
 /// DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING. Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_coarsen(

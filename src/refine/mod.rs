@@ -50,8 +50,9 @@
 //! than that length by the square root of 3. So no vertex comes within r of another one, and there can only be so many: that
 //! is proved, with rounding, for all angles, sizes and domains. It is no number that a program could wait for.
 //!
-//! How many there are in fact follows from the *local feature size* of the input, as long as it is above r. Without input angles below 60 degrees between segments, and for a least angle up to 26.5 degrees, Chew's second algorithm
-//! ends by Shewchuk's proof: no edge becomes shorter than the *local feature size* of the input there allows. The order of
+//! How many there are in fact follows from the *local feature size* of the input, as long as it is above r. Without input
+//! angles below 60 degrees between segments, and for a least angle up to 26.5 degrees, Chew's second algorithm ends by
+//! Shewchuk's proof: no edge becomes shorter than the *local feature size* of the input there allows. The order of
 //! the queue and off-centres keep that: an off-centre is no nearer to other vertices than the shortest edge of its
 //! triangle is long. Above, it ends in practice up to some 34 degrees, which is why more is refused.
 //!

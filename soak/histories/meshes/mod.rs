@@ -17,6 +17,7 @@ mod checks;
 mod domain;
 mod motion;
 
+use super::log::Log;
 use super::mirror::Mirror;
 use super::{Outcome, Tally};
 use crate::common::Rng;
@@ -27,10 +28,7 @@ use deldrift::motion::{
 use deldrift::{Error, Plane, SegmentId, VertexId};
 use domain::{Domain, direction, turned};
 use motion::Motion;
-use std::collections::{BTreeMap, VecDeque};
-
-/// So many of the last operations are told after a mismatch.
-const TOLD: usize = 24;
+use std::collections::BTreeMap;
 
 /// Histories end when there are more vertices.
 const MOST: usize = 4_000;
@@ -57,10 +55,7 @@ pub struct MeshHistory {
     passing: PassingPolicy,
     mirror: Mirror<Plane>,
     rng: Rng,
-    name: String,
-    log: VecDeque<String>,
-    seed: u64,
-    is_loud: bool,
+    log: Log,
     tally: Tally,
     checksum: u64,
 }
@@ -117,9 +112,7 @@ impl MeshHistory {
             let ids = SegmentId::range(first.index()..first.index() + domain.edges.len());
             break (t, ids.zip(domain.edges.iter().enumerate().map(original)).collect(), name);
         };
-        if is_loud {
-            println!("{name}");
-        }
+        let log = Log::new(seed, name, is_loud);
         let asked = Asked::new(size, &mut rng);
         let n = t.id_count();
         let mut history = MeshHistory {
@@ -133,10 +126,7 @@ impl MeshHistory {
             passing,
             mirror: Mirror::default(),
             rng,
-            name,
-            log: VecDeque::new(),
-            seed,
-            is_loud,
+            log,
             tally: Tally { histories: 1, ..Tally::default() },
             checksum: 0,
         };
@@ -453,25 +443,11 @@ impl MeshHistory {
     }
 
     fn note(&mut self, what: impl FnOnce() -> String) {
-        let line = format!("commit {}: {}", self.tally.commits, what());
-        if self.is_loud {
-            println!("{line}");
-        }
-        self.log.push_back(line);
-        if self.log.len() > TOLD {
-            self.log.pop_front();
-        }
+        self.log.note(self.tally.commits, what());
     }
 
     /// What to tell of a mismatch.
     fn context(&self, what: &str) -> String {
-        let log: Vec<&str> = self.log.iter().map(String::as_str).collect();
-        format!(
-            "{}\n  {:?}\n  ... {}\n  {what}\n  replay: make soak ARGS=\"--seed {}\"",
-            self.name,
-            self.asked,
-            log.join("\n  ... "),
-            self.seed
-        )
+        self.log.context(&format!("\n  {:?}", self.asked), what)
     }
 }

@@ -113,22 +113,16 @@ fn cells_of(
     labels: &[u32],
 ) -> Result<Vec<u8>, Failure> {
     use deldrift_domain::*;
+    let (numbers, is_in): (Vec<u32>, fn(u32) -> bool) = match domain {
+        DELDRIFT_DOMAIN_NESTING => (t.nesting_levels()?, |level| level % 2 == 1),
+        DELDRIFT_DOMAIN_EVEN_ODD => (t.crossing_numbers()?, |number| number % 2 == 1),
+        DELDRIFT_DOMAIN_INSIDE => (t.nesting_levels()?, |level| level > 0),
+        DELDRIFT_DOMAIN_REGIONS => (memory::copy_of(labels)?, |label| label as i32 > 0),
+    };
     let mut mask = Vec::new();
-    match domain {
-        DELDRIFT_DOMAIN_NESTING => {
-            memory::collect(&mut mask, t.nesting_levels()?.into_iter().map(|level| (level % 2) as u8))?;
-        }
-        DELDRIFT_DOMAIN_EVEN_ODD => {
-            memory::collect(&mut mask, t.crossing_numbers()?.into_iter().map(|number| (number % 2) as u8))?;
-        }
-        DELDRIFT_DOMAIN_INSIDE => {
-            memory::collect(&mut mask, t.nesting_levels()?.into_iter().map(|level| u8::from(level > 0)))?;
-        }
-        DELDRIFT_DOMAIN_REGIONS => {
-            memory::collect(&mut mask, labels.iter().map(|&label| u8::from(label as i32 > 0)))?;
-            memory::lengthen(&mut mask, t.cell_count(), 0)?;
-        }
-    }
+    memory::collect(&mut mask, numbers.into_iter().map(|number| u8::from(is_in(number))))?;
+    // Without labels there are no numbers.
+    memory::lengthen(&mut mask, t.cell_count(), 0)?;
     Ok(mask)
 }
 

@@ -109,13 +109,16 @@ impl MovingTriangulation<Plane> {
     }
 
     /// The number of the region of each cell, in the order of [`cells`](Self::cells), and for each region whether the
-    /// outside of the hull is reached from it without crossing a segment.
-    pub(super) fn regions(&self) -> Result<(Vec<u32>, Vec<bool>)> {
+    /// outside of the hull is reached from it without crossing a segment. `has_segment` tells of the edge of a cell that is
+    /// opposite a corner.
+    pub(super) fn regions(
+        &self,
+        has_segment: impl Fn(CellId, usize) -> bool,
+    ) -> Result<(Vec<u32>, Vec<bool>)> {
         let cells = self.cell_arrays()?;
-        let at_edges = self.segments_of_cells()?;
         let (mut regions, mut waiting, mut is_open) = (Vec::new(), Vec::new(), Vec::new());
-        memory::lengthen(&mut regions, at_edges.len(), UNKNOWN)?;
-        for first in CellId::range(0..at_edges.len()) {
+        memory::lengthen(&mut regions, cells.corners().len(), UNKNOWN)?;
+        for first in CellId::range(0..cells.corners().len()) {
             if regions[first.index()] != UNKNOWN {
                 continue;
             }
@@ -124,8 +127,8 @@ impl MovingTriangulation<Plane> {
             regions[first.index()] = n as u32;
             memory::push(&mut waiting, first)?;
             while let Some(cell) = waiting.pop() {
-                for (across, segment) in cells.neighbours()[cell].into_iter().zip(at_edges[cell.index()]) {
-                    if segment != SegmentId::NONE {
+                for (i, across) in cells.neighbours()[cell].into_iter().enumerate() {
+                    if has_segment(cell, i) {
                         continue;
                     }
                     if across == NO_CELL {
@@ -177,7 +180,8 @@ impl MovingTriangulation<Plane> {
     /// [`Error::NotFinite`], [`Error::OutOfRange`]; [`Error::AmbiguousSeed`] for one on the boundary of several regions, of
     /// which the outside is one; [`Error::OutOfMemory`].
     pub fn label_cells(&self, seeds: &[[f64; 2]], labels: &[i32], other: i32) -> Result<Vec<i32>> {
-        let (regions, is_open) = self.regions()?;
+        let at_edges = self.segments_of_cells()?;
+        let (regions, is_open) = self.regions(|cell, i| at_edges[cell.index()][i] != SegmentId::NONE)?;
         let (mut label_of_region, mut places) = (Vec::new(), Vec::new());
         memory::lengthen(&mut label_of_region, is_open.len(), None)?;
         memory::reserve(&mut places, seeds.len())?;

@@ -9,7 +9,7 @@ use crate::delaunay::Plane;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, SegmentId};
 use crate::machine::memory;
-use crate::motion::state::cells::NO_CELL;
+use crate::motion::state::cells::{Cells, NO_CELL};
 use crate::motion::state::segments::NO_LABEL;
 use crate::motion::triangulation::MovingTriangulation;
 
@@ -26,12 +26,10 @@ impl MovingTriangulation<Plane> {
         if labels.len() != wanted {
             return Err(Error::WrongCount { argument: "labels", given: labels.len(), wanted, coming: 0 });
         }
-        let at_edges = self.segments_of_cells()?;
-        for (index, row) in at_edges.iter().enumerate() {
-            let across = cells.neighbours()[index].into_iter().zip(row);
-            let mut reached =
-                across.filter(|&(_, &segment)| segment == SegmentId::NONE).map(|(cell, _)| cell);
-            if reached.any(|cell| cell != NO_CELL && labels[cell.index()] != labels[index]) {
+        for (index, segments) in self.segments_of_cells()?.into_iter().enumerate() {
+            let mut across = cells.neighbours()[index].into_iter().zip(segments);
+            let is_other = |cell: CellId| cell != NO_CELL && labels[cell.index()] != labels[index];
+            if across.any(|(cell, segment)| segment == SegmentId::NONE && is_other(cell)) {
                 let wanted = "that of the cells that are reached from there without crossing a segment";
                 let value = f64::from(labels[index]);
                 return Err(Error::InvalidValue { argument: "labels", index, value, wanted });
@@ -92,33 +90,34 @@ impl MovingTriangulation<Plane> {
     /// # Errors
     /// [`Error::OutOfMemory`].
     pub fn region_labels(&self, other: i32) -> Result<(Vec<i32>, usize)> {
-        let (regions, is_open) = self.regions()?;
-        let walls = self.walls()?;
-        let (mut found, mut labels) = (Vec::new(), Vec::new());
-        memory::lengthen(&mut found, is_open.len(), Found::Nothing)?;
-        for (start, found) in self.outer_edges(&walls, &regions, &is_open)?.into_iter().zip(&mut found) {
+        let cells = self.cell_arrays()?;
+        let told = self.labels_at_edges()?;
+        let (regions, is_open) = self.regions(|cell, i| told[cell.index()][i].is_some())?;
+        let (mut outer, mut labels) = (Vec::new(), Vec::new());
+        memory::lengthen(&mut outer, is_open.len(), Found::Nothing)?;
+        for (start, found) in self.outer_edges(&told, &regions, &is_open)?.into_iter().zip(&mut outer) {
             let Some(start) = start else { continue };
             let mut edge = start;
             loop {
-                *found = found.or(walls[edge.0.index()][edge.1].unwrap_or(Found::Nothing));
-                edge = self.next_edge(&walls, edge)?;
+                *found = found.or(told[edge.0.index()][edge.1].expect("there is a segment"));
+                edge = next_edge(cells, &told, edge);
                 if edge == start {
                     break;
                 }
             }
         }
-        // Where nothing has been found so far; labels of islands are not those of the region they have come to.
-        let mut within = memory::copy_of(&found)?;
-        for (row, &region) in walls.iter().zip(&regions) {
+        // Where the outer boundary tells nothing, all sides do.
+        let mut found = memory::copy_of(&outer)?;
+        for (row, &region) in told.iter().zip(&regions) {
             let region = region as usize;
-            if found[region] == Found::Nothing {
-                within[region] = row.iter().flatten().fold(within[region], |found, &wall| found.or(wall));
+            if outer[region] == Found::Nothing {
+                found[region] = row.iter().flatten().fold(found[region], |found, &label| found.or(label));
             }
         }
         let mut n_undecided = 0;
         memory::collect(
             &mut labels,
-            regions.iter().map(|&region| match within[region as usize] {
+            regions.iter().map(|&region| match found[region as usize] {
                 _ if is_open[region as usize] => other,
                 Found::One(label) => label,
                 Found::Nothing | Found::Several => {
@@ -130,41 +129,36 @@ impl MovingTriangulation<Plane> {
         Ok((labels, n_undecided))
     }
 
-    /// For each edge of each cell, opposite its corners, what the sides of segments there say of the cell; `None` where there
-    /// is no segment.
-    fn walls(&self) -> Result<Vec<[Option<Found>; 3]>> {
-        let (cells, mut walls) = (self.cell_arrays()?, Vec::new());
-        memory::lengthen(&mut walls, cells.corners().len(), [None; 3])?;
+    /// For each edge of each cell, opposite its corners, what the sides of the segments there tell of the cell; `None` where
+    /// there is no segment.
+    fn labels_at_edges(&self) -> Result<Vec<Row>> {
+        let (cells, mut told) = (self.cell_arrays()?, Vec::new());
+        memory::lengthen(&mut told, cells.corners().len(), [None; 3])?;
         for ((_, facets), (_, segment)) in self.facets_beside_segments()?.into_iter().zip(self.segments()) {
             for (label, facet) in segment.sides.into_iter().zip(facets) {
                 let Some(facet) = facet else { continue };
                 let (cell, corner) = cells.shown(facet);
-                let wall = walls[cell.index()][corner].get_or_insert(Found::Nothing);
+                let found = told[cell.index()][corner].get_or_insert(Found::Nothing);
                 if label != NO_LABEL {
-                    *wall = wall.and(label);
+                    *found = found.and(label);
                 }
             }
         }
-        Ok(walls)
+        Ok(told)
     }
 
-    /// For each closed region an edge of its outer boundary, as a cell and the corner opposite: one at its leftmost vertex.
-    fn outer_edges(
-        &self,
-        walls: &[[Option<Found>; 3]],
-        regions: &[u32],
-        is_open: &[bool],
-    ) -> Result<Vec<Option<(CellId, usize)>>> {
+    /// For each region but the open ones an edge of its outer boundary: one at its leftmost vertex, the lowest of those.
+    fn outer_edges(&self, told: &[Row], regions: &[u32], is_open: &[bool]) -> Result<Vec<Option<Edge>>> {
         let (cells, mut edges) = (self.cell_arrays()?, Vec::new());
         memory::lengthen(&mut edges, is_open.len(), None)?;
         let mut leftmost = Vec::new();
         memory::lengthen(&mut leftmost, is_open.len(), [f64::INFINITY; 2])?;
-        for (cell, row) in CellId::range(0..walls.len()).zip(walls) {
+        for (cell, row) in CellId::range(0..told.len()).zip(told) {
             let region = regions[cell.index()] as usize;
             for i in (0..3).filter(|&i| row[i].is_some() && !is_open[region]) {
                 for end in [(i + 1) % 3, (i + 2) % 3] {
                     let place = self.position(cells.corners()[cell][end])?;
-                    if edges[region].is_none() || place < leftmost[region] {
+                    if place < leftmost[region] {
                         (edges[region], leftmost[region]) = (Some((cell, i)), place);
                     }
                 }
@@ -172,22 +166,22 @@ impl MovingTriangulation<Plane> {
         }
         Ok(edges)
     }
+}
 
-    /// The next edge with a segment around a region, with that on the left.
-    fn next_edge(
-        &self,
-        walls: &[[Option<Found>; 3]],
-        (cell, corner): (CellId, usize),
-    ) -> Result<(CellId, usize)> {
-        let cells = self.cell_arrays()?;
-        let end = cells.corners()[cell][(corner + 2) % 3];
-        let (mut cell, mut corner) = (cell, (corner + 1) % 3);
-        while walls[cell.index()][corner].is_none() {
-            let across = cells.neighbours()[cell][corner];
-            let row = cells.corners()[across];
-            corner = (0..3).find(|&k| row[k] == end).map_or(0, |k| (k + 2) % 3);
-            cell = across;
-        }
-        Ok((cell, corner))
+/// What is told at the edges of a cell, opposite its corners.
+type Row = [Option<Found>; 3];
+
+/// An edge of a cell, by the corner opposite.
+type Edge = (CellId, usize);
+
+/// The next edge with a segment around a region, with that on the left: the cells around the end of the edge are crossed.
+fn next_edge(cells: &Cells<Plane>, told: &[Row], (cell, corner): Edge) -> Edge {
+    let end = cells.corners()[cell][(corner + 2) % 3];
+    let (mut cell, mut corner) = (cell, (corner + 1) % 3);
+    while told[cell.index()][corner].is_none() {
+        cell = cells.neighbours()[cell][corner];
+        let at = cells.corners()[cell].iter().position(|&v| v == end).expect("a cell around the end");
+        corner = (at + 2) % 3;
     }
+    (cell, corner)
 }

@@ -28,9 +28,10 @@ const KEY: usize = 8;
 /// Bytes that segments begin with: their five counts.
 const SEGMENT_COUNTS: usize = 40;
 
-/// Numbers of a segment: its ends and its marker; with the labels of its sides.
-pub(super) const SEGMENT: usize = 3;
-pub(super) const LABELLED_SEGMENT: usize = 5;
+/// How many numbers a segment takes: its ends and its marker, and the labels of its sides if there are some.
+fn numbers_of_segment(has_labels: bool) -> usize {
+    if has_labels { 5 } else { 3 }
+}
 
 /// What stands for a staged segment that pieces are staged for: its second end is the id of no vertex, and not that of none,
 /// which ends have that were removed before a compaction.
@@ -266,7 +267,7 @@ pub(super) struct SegmentCounts {
 impl SegmentCounts {
     /// How many numbers a segment takes.
     pub(super) fn numbers_of_one(&self) -> usize {
-        if self.has_labels { LABELLED_SEGMENT } else { SEGMENT }
+        numbers_of_segment(self.has_labels)
     }
 
     /// In the order in which they are saved.
@@ -283,7 +284,7 @@ impl SegmentCounts {
     /// Those of five numbers, if they take as many bytes as a header tells.
     pub(super) fn of(numbers: [u64; 5], header: &Header) -> Result<Self, Damage> {
         let has_labels = header.has_labels;
-        let segment = 4 * if has_labels { LABELLED_SEGMENT } else { SEGMENT };
+        let segment = 4 * numbers_of_segment(has_labels);
         let [ids, _, removals, made_vertices, pieces] = numbers;
         let sizes = [(ids, segment), (removals, 4), (made_vertices, MADE_VERTEX), (pieces, PIECE)];
         let entries: u128 = sizes.iter().map(|&(n, size)| u128::from(n) * size as u128).sum();
