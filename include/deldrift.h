@@ -206,7 +206,7 @@ enum
     DELDRIFT_WRONG_COUNT = 13,
     /// Two vertices would be at the same place, and the options reject that.
     DELDRIFT_COINCIDENT = 14,
-    /// There would be more vertices than 32-bit ids can name.
+    /// There would be more vertices than 32-bit ids can name, or more segments have been given ids.
     DELDRIFT_TOO_MANY_VERTICES = 15,
     /// There would be more cells than the library can link to each other.
     DELDRIFT_TOO_MANY_CELLS = 16,
@@ -1351,7 +1351,8 @@ deldrift_status deldrift_keys(const deldrift_triangulation *t,
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
 /// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX (the message counts ids in ends: that of row
-/// k is ends[2 k] or ends[2 k + 1]), DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
+/// k is ends[2 k] or ends[2 k + 1]), DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as
+/// any other call on t.
 deldrift_status deldrift_stage_segments(deldrift_triangulation *t,
                                         const uint32_t *ends,
                                         const int32_t *markers,
@@ -2641,8 +2642,8 @@ deldrift_status deldrift_refine(deldrift_triangulation *t,
 ///
 /// Errors: those of deldrift_refine: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT,
 /// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS for struct_size, keeps and domain,
-/// DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE, DELDRIFT_UNDECIDED_REGIONS, DELDRIFT_STAGED_VERTEX, DELDRIFT_TOO_MANY_CELLS,
-/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED,
+/// DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE, DELDRIFT_UNDECIDED_REGIONS, DELDRIFT_STAGED_VERTEX,
+/// DELDRIFT_TOO_MANY_VERTICES for ids of segments, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED,
 /// DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING. Not to be called at the same time as any other call on t.
 deldrift_status deldrift_coarsen(deldrift_triangulation *t,
                                  const deldrift_quality *quality,

@@ -215,6 +215,13 @@ pub enum Error {
         /// Greatest number possible.
         limit: usize,
     },
+    /// More segments, those removed included, than ids of 32 bits can name.
+    TooManySegments {
+        /// Number asked for.
+        given: usize,
+        /// Greatest number possible.
+        limit: usize,
+    },
     /// More cells than 32-bit links can join (2^30).
     TooManyCells {
         /// Greatest number possible.
@@ -413,6 +420,9 @@ impl fmt::Display for Error {
             }
             Error::TooManyVertices { given, limit } => {
                 write!(f, "{given} vertices are asked for, and {limit} is the limit")
+            }
+            Error::TooManySegments { given, limit } => {
+                write!(f, "{given} ids of segments are asked for, and {limit} is the limit")
             }
             Error::TooManyCells { limit } => write!(f, "the triangulation needs more than {limit} cells"),
             Error::OutOfMemory { bytes } => write!(f, "no memory for {bytes} more bytes"),

@@ -1,17 +1,16 @@
 //! Triangulations that are saved and loaded, or cloned, are like the first, and go on like it; data that are not those
 //! of a triangulation are refused. Oracles: a fresh build, and a reader and writer of the format of the tests' own.
 
+mod segments;
+
 use crate::common::history::{History, Snapshot};
 use crate::common::inputs::{KINDS, Kind, draw};
 use crate::common::{
     Rng, assert_same_cells, carried, cell_set, fresh_cells, ids, point, seeds, vertex, vertices,
 };
 use crate::saving_format::{Parts, forged, seal};
-use deldrift::motion::{
-    Algorithm, CoarsenOptions, CoincidencePolicy, Level, MovingTriangulation, NO_CELL, Options, Quality,
-    RefineOptions, Saved, Segment,
-};
-use deldrift::{CellId, Damage, Dimension, Error, LoadError, Plane, SegmentId, Space, VertexId};
+use deldrift::motion::{Algorithm, CoincidencePolicy, Level, MovingTriangulation, NO_CELL, Options, Saved};
+use deldrift::{CellId, Damage, Dimension, Error, LoadError, Plane, Space, VertexId};
 
 fn load<G: Dimension>(bytes: &[u8]) -> Result<MovingTriangulation<G>, LoadError> {
     MovingTriangulation::load(&Saved::of(bytes)?, Options::default())
@@ -684,79 +683,4 @@ fn absent_ids_have_no_position() {
         parts.positions[3 * absent + axis] = -f64::NAN;
         assert!(load::<Space>(&parts.bytes()).is_ok());
     }
-}
-
-/// What refinement has made is saved: after loading, the same vertices leave, and pieces are joined.
-#[test]
-fn refined_domains_go_on_as_before() {
-    let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0], [1.0, 0.5]];
-    let mut t = MovingTriangulation::<Plane>::new(&corners, Options::default()).expect("a build");
-    let side = |k: u32| Segment {
-        ends: [k, (k + 1) % 4].map(VertexId::new),
-        marker: k as i32,
-        ..Segment::default()
-    };
-    t.stage_segments((0..4).map(side)).expect("present");
-    t.commit_timestamp().expect("no conflict");
-    let mask = |t: &MovingTriangulation<Plane>| vec![1; t.cell_count()];
-    let fine = Quality { least_angle: 20.0, greatest_area: 0.01, ..Quality::default() };
-    let inside = mask(&t);
-    t.refine(&fine, &RefineOptions::default(), &inside).expect("a domain");
-    // One that has been made is gone, and its id is not given again.
-    let (gone, _) = t.made_vertices().find(|&(_, on)| on == SegmentId::NONE).expect("one within");
-    t.remove_vertex(gone).expect("present");
-
-    let bytes = t.saved().expect("room");
-    let mut loaded = load::<Plane>(&bytes).expect("saved");
-    assert!(loaded.saved().expect("room") == bytes);
-    let mut copy = t.try_clone(None).expect("room");
-    let made = |t: &MovingTriangulation<Plane>| t.made_vertices().collect::<Vec<_>>();
-    let originals = |t: &MovingTriangulation<Plane>| {
-        t.segments().map(|(id, _)| t.original_segment(id)).collect::<Vec<_>>()
-    };
-    let coarse = Quality { greatest_area: 0.2, ..fine };
-    let (inside, options) = (mask(&t), CoarsenOptions::default());
-    let report = t.coarsen(&coarse, &options, &inside).expect("a domain");
-    assert!(report.removed > 50 && report.replaced_segments > report.new_segments, "{report:?}");
-    for other in [&mut loaded, &mut copy] {
-        assert!(other.made_vertices().count() > 100 && originals(other).iter().any(|&id| id.index() < 4));
-        assert_eq!(other.coarsen(&coarse, &options, &inside).expect("a domain"), report);
-        assert_eq!(cell_set(other), cell_set(&t));
-        assert_eq!((made(other), originals(other)), (made(&t), originals(&t)));
-    }
-
-    // At the end of the data: pieces, of 16 bytes each, and the checksum; before them vertices, of 8 bytes.
-    let n_pieces = originals(&load::<Plane>(&bytes).expect("saved")).len();
-    let last_vertex = bytes.len() - 4 - 16 * n_pieces - 8;
-    let number = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes"));
-    let damaged = |at: usize, value: u32| {
-        let mut bytes = bytes.clone();
-        bytes[at..at + 4].copy_from_slice(&value.to_le_bytes());
-        seal(&mut bytes);
-        match load::<Plane>(&bytes) {
-            Err(LoadError::Data(damage)) => damage,
-            other => panic!("{:?}", other.map(|t| t.cell_count())),
-        }
-    };
-    let last = number(last_vertex);
-    for wrong in [u32::MAX, t.id_count() as u32, number(last_vertex - 8), gone.get()] {
-        assert_eq!(damaged(last_vertex, wrong), Damage::Made { vertex: vertex(wrong) });
-    }
-    assert_eq!(damaged(last_vertex + 4, 100_000), Damage::Made { vertex: vertex(last) });
-    let last_piece = bytes.len() - 4 - 16;
-    let piece = SegmentId::new(number(last_piece));
-    for wrong in [u32::MAX, 0, number(last_piece - 16)] {
-        assert_eq!(damaged(last_piece, wrong), Damage::Segment { segment: SegmentId::new(wrong) });
-    }
-    for wrong in [u32::MAX, piece.get()] {
-        assert_eq!(damaged(last_piece + 4, wrong), Damage::Segment { segment: piece });
-    }
-    assert_eq!(damaged(last_piece + 8, t.id_count() as u32), Damage::Segment { segment: piece });
-    // Segments are before the vertices that have been made, 12 bytes each: one that has been replaced has no marker.
-    let n_made = made(&load::<Plane>(&bytes).expect("saved")).len();
-    let end = last_vertex + 8 - 8 * n_made;
-    let mut rows = (1..).map(|k| end - 12 * k);
-    let replaced = rows.find(|&at| number(at) == u32::MAX && number(at + 4) == u32::MAX).expect("one");
-    assert_eq!(number(replaced + 8), 0);
-    assert!(matches!(damaged(replaced + 8, 7), Damage::Segment { .. }));
 }

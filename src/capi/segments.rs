@@ -79,7 +79,8 @@ impl From<&Conflict> for deldrift_conflict {
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
 /// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX (the message counts ids in ends: that of row
-/// k is ends[2 k] or ends[2 k + 1]), DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
+/// k is ends[2 k] or ends[2 k + 1]), DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as
+/// any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_stage_segments(
     t: *mut deldrift_triangulation,

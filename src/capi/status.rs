@@ -48,7 +48,7 @@ pub enum deldrift_status {
     DELDRIFT_WRONG_COUNT = 13,
     /// Two vertices would be at the same place, and the options reject that.
     DELDRIFT_COINCIDENT = 14,
-    /// There would be more vertices than 32-bit ids can name.
+    /// There would be more vertices than 32-bit ids can name, or more segments have been given ids.
     DELDRIFT_TOO_MANY_VERTICES = 15,
     /// There would be more cells than the library can link to each other.
     DELDRIFT_TOO_MANY_CELLS = 16,
@@ -327,7 +327,7 @@ impl Failure {
                 Error::OutsideOfPeriodic { .. } => DELDRIFT_PERIODIC,
                 Error::InvalidName { .. } => DELDRIFT_INVALID_FIELD,
                 Error::Coincident { .. } => DELDRIFT_COINCIDENT,
-                Error::TooManyVertices { .. } => DELDRIFT_TOO_MANY_VERTICES,
+                Error::TooManyVertices { .. } | Error::TooManySegments { .. } => DELDRIFT_TOO_MANY_VERTICES,
                 Error::TooManyCells { .. } => DELDRIFT_TOO_MANY_CELLS,
                 Error::OutOfMemory { .. } => DELDRIFT_OUT_OF_MEMORY,
                 Error::Cancelled => DELDRIFT_CANCELLED,

@@ -22,6 +22,9 @@ use crate::motion::state::last_found::{LastFound, refuse_conflicts};
 /// What stands for the label of a side of a segment that has none.
 pub const NO_LABEL: i32 = i32::MIN;
 
+/// How many ids of segments there are: all numbers but that of [`SegmentId::NONE`].
+pub(in crate::motion) const MAX_SEGMENTS: usize = u32::MAX as usize;
+
 /// A segment between two vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Segment {

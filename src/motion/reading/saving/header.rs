@@ -1,37 +1,33 @@
 //! The first bytes: what the data are, and how much of each kind there is.
 
 use crate::damage::Damage;
-use crate::ids::VertexId;
+use crate::ids::{SegmentId, VertexId};
 use crate::motion::report::CommitReport;
 use crate::motion::state::density::Density;
-use crate::motion::state::segments::Segment;
+use crate::motion::state::segments::{MAX_SEGMENTS, Segment};
 
 /// What data begin with. A byte above 127, and ends of lines of either kind, tell a file that has been taken for text
 /// on its way.
 const MAGIC: [u8; 8] = *b"\x89DLD\r\n\x1a\n";
 
 /// The version of the format, without segments and keys, with segments, with keys, and of what repeats; without keys and
-/// with some where there is a [history](History); and the two with it where sides of segments have labels.
+/// with some where there is a [history](History); and the two with it that list the segments in force, with the labels of
+/// their sides.
 const VERSION: u32 = 1;
 const WITH_SEGMENTS: u32 = 2;
 const WITH_KEYS: u32 = 3;
 const PERIODIC: u32 = 4;
 const WITH_HISTORY: u32 = 5;
 const WITH_KEYS_AND_HISTORY: u32 = 6;
-const WITH_LABELS: u32 = 7;
-const WITH_KEYS_AND_LABELS: u32 = 8;
-const LATEST: u32 = WITH_KEYS_AND_LABELS;
+const WITH_LIST: u32 = 7;
+const WITH_KEYS_AND_LIST: u32 = 8;
+const LATEST: u32 = WITH_KEYS_AND_LIST;
 
 /// Bytes of a key.
 const KEY: usize = 8;
 
-/// Bytes that segments begin with: their five counts.
-const SEGMENT_COUNTS: usize = 40;
-
-/// How many numbers a segment takes: its ends and its marker, and the labels of its sides if there are some.
-fn numbers_of_segment(has_labels: bool) -> usize {
-    if has_labels { 5 } else { 3 }
-}
+/// Bytes of a count.
+const COUNT: usize = 8;
 
 /// What stands for a staged segment that pieces are staged for: its second end is the id of no vertex, and not that of none,
 /// which ends have that were removed before a compaction.
@@ -181,10 +177,10 @@ pub(super) struct Header {
     pub(super) removals: usize,
     /// Whether vertices have keys of the program's.
     pub(super) has_keys: bool,
-    /// Whether there is a history: where it does not follow from the rest, or sides of segments have labels.
+    /// Whether there is a history: where it does not follow from the rest, or the segments in force are listed.
     pub(super) has_history: bool,
-    /// Whether sides of segments have labels.
-    pub(super) has_labels: bool,
+    /// Whether the segments in force are listed.
+    pub(super) has_list: bool,
     /// Bytes about segments, 0 without any.
     pub(super) segment_bytes: usize,
     /// All but the number of hidden vertices.
@@ -210,8 +206,8 @@ impl Header {
     /// Its bytes.
     pub(super) fn bytes(&self) -> [u8; SIZE] {
         let version = match (self.has_history, self.has_keys, self.segment_bytes > 0) {
-            (true, true, _) if self.has_labels => WITH_KEYS_AND_LABELS,
-            (true, false, _) if self.has_labels => WITH_LABELS,
+            (true, true, _) if self.has_list => WITH_KEYS_AND_LIST,
+            (true, false, _) if self.has_list => WITH_LIST,
             (true, true, _) => WITH_KEYS_AND_HISTORY,
             (true, false, _) => WITH_HISTORY,
             (false, true, _) => WITH_KEYS,
@@ -231,18 +227,19 @@ impl Header {
             return Err(Damage::Periodic { is_periodic: true });
         }
         let [ids, cells, moves, insertions, removals] = counts;
-        let has_keys = matches!(version, WITH_KEYS | WITH_KEYS_AND_HISTORY | WITH_KEYS_AND_LABELS);
+        let has_keys = matches!(version, WITH_KEYS | WITH_KEYS_AND_HISTORY | WITH_KEYS_AND_LIST);
         let has_history = version >= WITH_HISTORY;
-        let has_labels = version >= WITH_LABELS;
+        let has_list = version >= WITH_LIST;
         let counts = Header { dimension, ids, cells, moves, insertions, removals, ..Header::default() };
-        let mut header = Header { has_keys, has_history, has_labels, ..counts };
+        let mut header = Header { has_keys, has_history, has_list, ..counts };
         if version != VERSION {
             // All that is left is about segments; how much that has to be is told there.
             let left = header.size().and_then(|known| size.checked_sub(known)).ok_or(Damage::Counts)?;
             header.segment_bytes = usize::try_from(left).map_err(|_| Damage::Counts)?;
         }
-        let may_lack_segments = version != WITH_SEGMENTS && !has_labels && header.segment_bytes == 0;
-        let has_counts = may_lack_segments || header.segment_bytes >= SEGMENT_COUNTS;
+        let may_lack_segments = version != WITH_SEGMENTS && !has_list && header.segment_bytes == 0;
+        let has_counts =
+            may_lack_segments || header.segment_bytes >= COUNT * SegmentCounts::n_counts(has_list);
         if header.size() != Some(size) || !has_counts {
             return Err(Damage::Counts);
         }
@@ -251,8 +248,8 @@ impl Header {
     }
 }
 
-/// How many segments there are in saved data: ids given, those in force among them, which are the first, and removals that
-/// are staged; vertices that refinement has made, and pieces.
+/// How many segments there are in saved data: ids given, those that have been committed, which are the first, and removals
+/// that are staged; vertices that refinement has made, and pieces; and, where they are listed, the segments in force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct SegmentCounts {
     pub(super) ids: usize,
@@ -260,40 +257,75 @@ pub(super) struct SegmentCounts {
     pub(super) removals: usize,
     pub(super) made_vertices: usize,
     pub(super) pieces: usize,
-    /// Whether sides have labels.
-    pub(super) has_labels: bool,
+    pub(super) listed: Option<usize>,
 }
 
 impl SegmentCounts {
-    /// How many numbers a segment takes.
+    /// How many counts there are.
+    pub(super) fn n_counts(has_list: bool) -> usize {
+        if has_list { 6 } else { 5 }
+    }
+
+    /// How many numbers a segment takes: its ends and its marker; in a list its id before, and the labels of its sides behind.
     pub(super) fn numbers_of_one(&self) -> usize {
-        numbers_of_segment(self.has_labels)
+        if self.listed.is_some() { 6 } else { 3 }
+    }
+
+    /// How many segments have a row: those of all ids, or those in force and those that are staged.
+    pub(super) fn rows(&self) -> usize {
+        self.listed.map_or(self.ids, |listed| listed + (self.ids - self.laid))
+    }
+
+    /// The segment of the numbers of a row, and its id.
+    pub(super) fn row(&self, k: usize, numbers: &[[u8; 4]]) -> (SegmentId, Segment) {
+        let number = |k: usize| u32::from_le_bytes(numbers[k]);
+        let of = |k: usize, sides: [u32; 2]| Segment {
+            ends: [number(k), number(k + 1)].map(VertexId::new),
+            marker: number(k + 2) as i32,
+            sides: sides.map(|label| label as i32),
+        };
+        match self.listed {
+            Some(_) => (SegmentId::new(number(0)), of(1, [number(4), number(5)])),
+            None => (SegmentId::at(k), of(0, Segment::NOTHING.sides.map(|label| label as u32))),
+        }
     }
 
     /// In the order in which they are saved.
-    pub(super) fn numbers(&self) -> [u64; 5] {
-        [self.ids, self.laid, self.removals, self.made_vertices, self.pieces].map(|n| n as u64)
+    pub(super) fn numbers(&self) -> impl Iterator<Item = u64> {
+        let all = [self.ids, self.laid, self.removals, self.made_vertices, self.pieces];
+        all.into_iter().chain(self.listed).map(|n| n as u64)
     }
 
     /// Bytes of all that is about segments.
-    pub(super) fn bytes(&self) -> usize {
-        let entries = 4 * (self.numbers_of_one() * self.ids + self.removals);
-        SEGMENT_COUNTS + entries + MADE_VERTEX * self.made_vertices + PIECE * self.pieces
+    pub(super) fn bytes(&self) -> u128 {
+        let sizes = [
+            (Self::n_counts(self.listed.is_some()), COUNT),
+            (self.rows(), 4 * self.numbers_of_one()),
+            (self.removals, 4),
+            (self.made_vertices, MADE_VERTEX),
+            (self.pieces, PIECE),
+        ];
+        sizes.iter().map(|&(n, size)| n as u128 * size as u128).sum()
     }
 
-    /// Those of five numbers, if they take as many bytes as a header tells.
-    pub(super) fn of(numbers: [u64; 5], header: &Header) -> Result<Self, Damage> {
-        let has_labels = header.has_labels;
-        let segment = 4 * numbers_of_segment(has_labels);
-        let [ids, _, removals, made_vertices, pieces] = numbers;
-        let sizes = [(ids, segment), (removals, 4), (made_vertices, MADE_VERTEX), (pieces, PIECE)];
-        let entries: u128 = sizes.iter().map(|&(n, size)| u128::from(n) * size as u128).sum();
-        // As many entries as fit into so many bytes are no more than a number can tell.
-        let [ids, laid, removals, made_vertices, pieces] = numbers.map(|n| n as usize);
-        if entries + SEGMENT_COUNTS as u128 != header.segment_bytes as u128 || laid > ids {
-            return Err(Damage::Counts);
+    /// Those of five or six numbers, if they take as many bytes as a header tells.
+    pub(super) fn of(numbers: &[u64], header: &Header) -> Result<Self, Damage> {
+        let number = |k: usize| usize::try_from(numbers[k]).map_err(|_| Damage::Counts);
+        let counts = SegmentCounts {
+            ids: number(0)?,
+            laid: number(1)?,
+            removals: number(2)?,
+            made_vertices: number(3)?,
+            pieces: number(4)?,
+            listed: (numbers.len() > 5).then(|| number(5)).transpose()?,
+        };
+        let SegmentCounts { ids, laid, listed, .. } = counts;
+        let are_in_order = listed.unwrap_or(0) <= laid && laid <= ids && ids <= MAX_SEGMENTS;
+        if are_in_order && counts.bytes() == header.segment_bytes as u128 {
+            Ok(counts)
+        } else {
+            Err(Damage::Counts)
         }
-        Ok(SegmentCounts { ids, laid, removals, made_vertices, pieces, has_labels })
     }
 }
 

@@ -15,7 +15,7 @@ use crate::motion::state::cells::Cells;
 use crate::motion::state::checking::check_position;
 use crate::motion::state::hidden::Hidden;
 use crate::motion::state::made::{Made, Origin};
-use crate::motion::state::segments::{NO_LABEL, Segment, Segments};
+use crate::motion::state::segments::{Segment, Segments};
 use crate::motion::triangulation::{MAX_VERTICES, MovingTriangulation};
 use crate::predicates::is_in_range;
 
@@ -64,32 +64,39 @@ impl Reader<'_> {
         if G::D != 2 {
             return Err(Damage::Counts.into());
         }
-        let numbers = self.entries::<8>(5);
-        let counts = [0, 1, 2, 3, 4].map(|k| u64::from_le_bytes(numbers[k]));
+        let numbers = self.entries::<8>(SegmentCounts::n_counts(header.has_list));
+        let mut counts = [0; 6];
+        let counts = &mut counts[..numbers.len()];
+        counts.iter_mut().zip(numbers).for_each(|(count, &bytes)| *count = u64::from_le_bytes(bytes));
         let counts = SegmentCounts::of(counts, header)?;
-        let (SegmentCounts { ids, laid, removals, .. }, n) = (counts, counts.numbers_of_one());
+        let (SegmentCounts { laid, removals, .. }, n) = (counts, counts.numbers_of_one());
         let (mut in_force, mut staged) = (Vec::new(), Vec::new());
-        for (id, row) in SegmentId::range(0..ids).zip(self.entries::<4>(n * ids).chunks_exact(n)) {
-            let [v, w] = [row[0], row[1]].map(|bytes| VertexId::new(u32::from_le_bytes(bytes)));
-            let is_staged = id.index() >= laid;
-            let side = |k: usize| row.get(3 + k).map_or(NO_LABEL, |&bytes| i32::from_le_bytes(bytes));
-            let (marker, sides) = (i32::from_le_bytes(row[2]), [side(0), side(1)]);
-            let segment = Segment { ends: [v, w], marker, sides };
+        for (k, row) in self.entries::<4>(n * counts.rows()).chunks_exact(n).enumerate() {
+            let (id, segment) = counts.row(k, row);
+            let is_staged = k >= counts.listed.unwrap_or(laid);
+            let follows = match counts.listed {
+                Some(listed) if is_staged => id.index() == laid + (k - listed),
+                Some(_) => id.index() < laid && in_force.last().is_none_or(|&(last, _)| last < id),
+                None => true,
+            };
+            if !follows {
+                return Err(Damage::Segment { segment: id }.into());
+            }
             if is_staged && segment == GIVEN_UP {
                 memory::push(&mut staged, None)?;
                 continue;
             }
             // A staged one may have an end that was removed before a compaction.
             let is_known = |v: VertexId| v.index() < header.ids || (is_staged && v == VertexId::NONE);
-            let is_there = is_staged || v != VertexId::NONE;
-            let is_nothing = w == VertexId::NONE && segment.marker == 0 && !segment.has_labels();
-            if !(if is_there { is_known(v) && is_known(w) } else { is_nothing }) {
+            if !is_staged && !header.has_list && segment == Segment::NOTHING {
+                continue;
+            }
+            if !segment.ends.into_iter().all(is_known) {
                 return Err(Damage::Segment { segment: id }.into());
             }
-            match (is_staged, is_there) {
-                (true, _) => memory::push(&mut staged, Some(segment))?,
-                (false, true) => memory::push(&mut in_force, (id, segment))?,
-                (false, false) => {}
+            match is_staged {
+                true => memory::push(&mut staged, Some(segment))?,
+                false => memory::push(&mut in_force, (id, segment))?,
             }
         }
         let mut leaving = self.numbers::<SegmentId>(removals)?;
@@ -100,7 +107,7 @@ impl Reader<'_> {
             return Err(Damage::Segment { segment }.into());
         }
         let segments = memory::boxed(Segments::of_saved(in_force, laid, staged, leaving)?)?;
-        if header.has_labels && !segments.have_labels() {
+        if header.has_list && !segments.are_to_be_listed() {
             return Err(Damage::Counts.into());
         }
         let made = self.made(counts, header.ids, &segments)?;
@@ -328,7 +335,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let is_known =
             (usual.n_known..=self.mesh.site_of.len()).contains(&n_known) && had_keys <= self.has_keys();
         let is_compared = density == usual.density || self.made_vertices().next().is_some();
-        let is_told_in_vain = history == Some(usual) && !header.has_labels;
+        let is_told_in_vain = history == Some(usual) && !header.has_list;
         if is_told_in_vain || !(is_staged && is_known && is_compared) {
             return Err(Damage::Counts.into());
         }

@@ -12,8 +12,8 @@ use crate::motion::state::segments::{Segment, Segments};
 use crate::motion::state::views::CellsView;
 use crate::motion::triangulation::MovingTriangulation;
 
-/// Writes segments: how many there are, the ends and the marker of each, and the labels of its sides if there are some, and
-/// which are to go.
+/// Writes segments: how many there are, the ends and the marker of each, in a list with its id and the labels of its sides,
+/// and which are to go.
 fn save_segments<G: Dimension, E>(
     segments: &Segments<G>,
     counts: SegmentCounts,
@@ -22,11 +22,17 @@ fn save_segments<G: Dimension, E>(
     for count in counts.numbers() {
         chunks.numbers(&[count as u32, (count >> 32) as u32])?;
     }
-    let laid = segments.laid_by_id().map(|segment| segment.unwrap_or(Segment::NOTHING));
     let staged = segments.staged().iter().map(|segment| segment.unwrap_or(GIVEN_UP));
-    for Segment { ends, marker, sides } in laid.chain(staged) {
-        let numbers = [ends[0].get(), ends[1].get(), marker as u32, sides[0] as u32, sides[1] as u32];
-        chunks.numbers(&numbers[..counts.numbers_of_one()])?;
+    if counts.listed.is_some() {
+        let staged = SegmentId::range(counts.laid..counts.ids).zip(staged);
+        for (id, Segment { ends: [v, w], marker, sides: [left, right] }) in segments.laid().chain(staged) {
+            chunks.numbers(&[id.get(), v.get(), w.get(), marker as u32, left as u32, right as u32])?;
+        }
+    } else {
+        let laid = segments.laid_by_id().map(|segment| segment.unwrap_or(Segment::NOTHING));
+        for Segment { ends: [v, w], marker, .. } in laid.chain(staged) {
+            chunks.numbers(&[v.get(), w.get(), marker as u32])?;
+        }
     }
     chunks.numbers(SegmentId::numbers_of(segments.leaving()))
 }
@@ -43,8 +49,10 @@ impl<G: Dimension> MovingTriangulation<G> {
             removals,
             has_keys: !self.mesh.kernel.keys().are_ids(),
             has_history: self.history_to_save().is_some(),
-            has_labels: self.has_labels(),
-            segment_bytes: self.segments_to_save().map_or(0, |segments| self.counts_of(segments).bytes()),
+            has_list: self.has_list(),
+            segment_bytes: self
+                .segments_to_save()
+                .map_or(0, |segments| self.counts_of(segments).bytes() as usize),
             statistics: self.statistics(),
         }
     }
@@ -153,12 +161,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         if self.made_vertices().next().is_some() {
             history.density = self.made.as_ref().map_or(usual.density, |made| made.density);
         }
-        (history != usual || self.has_labels()).then_some(history)
+        (history != usual || self.has_list()).then_some(history)
     }
 
-    /// Whether sides of segments have labels.
-    fn has_labels(&self) -> bool {
-        self.segments_to_save().is_some_and(Segments::have_labels)
+    /// Whether the segments in force are listed.
+    fn has_list(&self) -> bool {
+        self.segments_to_save().is_some_and(Segments::are_to_be_listed)
     }
 
     /// How many segments there are to be saved.
@@ -169,7 +177,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             removals: segments.n_leaving(),
             made_vertices: self.made_vertices().count(),
             pieces: self.pieces_of(segments).count(),
-            has_labels: segments.have_labels(),
+            listed: segments.are_to_be_listed().then(|| segments.laid().len()),
         }
     }
 

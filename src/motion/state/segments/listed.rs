@@ -1,8 +1,8 @@
 //! The list of segments: those in force, those that are staged, and those that are to go.
 
-use super::{Segment, Segments};
+use super::{MAX_SEGMENTS, Segment, Segments};
 use crate::delaunay::Dimension;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::ids::SegmentId;
 use crate::machine::memory;
 
@@ -12,6 +12,10 @@ impl<G: Dimension> Segments<G> {
         &mut self,
         segments: impl ExactSizeIterator<Item = Segment>,
     ) -> Result<SegmentId> {
+        let given = self.n_ids() + segments.len();
+        if given > MAX_SEGMENTS {
+            return Err(Error::TooManySegments { given, limit: MAX_SEGMENTS });
+        }
         let first = SegmentId::at(self.n_ids());
         memory::reserve(&mut self.laid, self.staged.len() + segments.len())?;
         memory::reserve(&mut self.staged, segments.len())?;
@@ -37,6 +41,12 @@ impl<G: Dimension> Segments<G> {
             .map(|(_, segment)| segment)
             .chain(self.staged.iter().flatten())
             .any(Segment::has_labels)
+    }
+
+    /// Whether saved data list those in force, by what takes less: where sides have labels, and where those in force have
+    /// fewer than half of the ids that were given.
+    pub(in crate::motion) fn are_to_be_listed(&self) -> bool {
+        2 * self.laid.len() < self.n_laid || self.have_labels()
     }
 
     /// Stages the removal of a segment that is in force, if it is not.
