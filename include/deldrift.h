@@ -1793,7 +1793,8 @@ deldrift_status deldrift_star(const deldrift_triangulation *t,
 /// It is a certified lower bound: rounding can make it smaller, but never too large. It is 0 where nothing
 /// is certain and for vertices that share their place, and infinite, without a meaning, while there are no
 /// cells. Computed from the star of the vertex, whatever the algorithm in force. At segments it is what the orientation of
-/// the cells on both sides allows.
+/// the cells on both sides allows. In a periodic triangulation images move as their vertices do, and the vectors stay; there
+/// a vertex that alone makes a side of a slab has 0, as it is on one line with its images.
 ///
 /// Cost: the cells of the star.
 ///
@@ -2832,7 +2833,7 @@ deldrift_status deldrift_cell_of_each_vertex(const deldrift_triangulation *t,
 ///
 /// corners_per_simplex: 1 (a cell of each vertex), 2 (edges), 3 (triangles) or, in 3D, 4. vertices: count rows of as
 /// many ids, in any order; NULL if count is 0. A hidden vertex stands for the one that represents it. A simplex with
-/// two corners at the same place is in no cell. cells: receives count indices; NULL if count is 0.
+/// two corners at the same place is in no cell, unless t is periodic and a cell has them in different periods. cells: receives count indices; NULL if count is 0.
 ///
 /// Cost: for each simplex the least number of cells that a corner of it has, or, where there are more simplices than an
 /// eighth of the vertices, n + m and that. After a change the first call also does what the first deldrift_cells does.
@@ -3379,17 +3380,16 @@ deldrift_status deldrift_voronoi_changed(const deldrift_triangulation *t,
 /// L away across the vectors, else they are out of range. Vectors that on their grid depend on each other, or nearly so, are
 /// refused.
 ///
-/// All functions serve a periodic triangulation but those of segments, refinement, keys, reach, and a few others, which
-/// return DELDRIFT_PERIODIC: deldrift_stage_insertions_with_keys, deldrift_stage_insertions_at_free_ids,
+/// All functions serve a periodic triangulation but those of segments, refinement, keys and reach, which return
+/// DELDRIFT_PERIODIC: deldrift_stage_insertions_with_keys, deldrift_stage_insertions_at_free_ids,
 /// deldrift_insert_vertex_with_key, deldrift_keys, deldrift_stage_segments, deldrift_stage_segment_removals,
 /// deldrift_segments, deldrift_check_staged, deldrift_segment_conflicts, deldrift_check_passings, deldrift_passings,
-/// deldrift_stage_splits, deldrift_release_cells, deldrift_tolerance, deldrift_cells_in_reach,
-/// deldrift_hull_facets_in_reach, deldrift_vertices_in_reach, deldrift_mask_without_flat_cells,
+/// deldrift_stage_splits, deldrift_cells_in_reach, deldrift_hull_facets_in_reach, deldrift_vertices_in_reach,
 /// deldrift_segments_of_cells, deldrift_cells_of_segments, deldrift_nesting_levels, deldrift_crossing_numbers,
 /// deldrift_label_cells, deldrift_update_labels, deldrift_set_regions, deldrift_set_segment_sides, deldrift_regions,
 /// deldrift_boundary_chains, deldrift_refine, deldrift_coarsen, deldrift_made_vertices, deldrift_original_segments,
-/// deldrift_refined_weights, deldrift_refined_sizes, deldrift_refined_vertices, deldrift_find_simplices and
-/// deldrift_ordered_star. Cells are numbered anew by each commit, unless changes are taken.
+/// deldrift_refined_weights, deldrift_refined_sizes and deldrift_refined_vertices. Cells are numbered anew by each commit,
+/// unless changes are taken.
 ///
 /// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves,
 /// or of other vectors that are near those in force, costs what it costs in an open triangulation of as many, and reading the

@@ -17,13 +17,12 @@ from ._arrays import (
     id_rows,
     mask as mask_of,
     one_id,
-    one_point,
     places,
     points as point_rows,
     whole,
 )
 from ._core import check, count_of, id_count
-from ._errors import InvalidDimension, InvalidShape, InvalidValue, WrongCount
+from ._errors import InvalidDimension, InvalidShape, WrongCount
 from ._scipy import Scipy
 
 _vertex_count = _library.function("vertex_count")
@@ -32,7 +31,6 @@ _keys = _library.function("keys")
 _is_present = _library.function("is_present")
 _star = _library.function("star")
 _ordered_star = _library.function("ordered_star")
-_tolerance = _library.function("tolerance")
 _locate_points = _library.function("locate_points")
 _cells_in_reach = _library.function("cells_in_reach")
 _hull_facets_in_reach = _library.function("hull_facets_in_reach")
@@ -130,25 +128,6 @@ class Asking(Scipy):
         with self._reading as t:
             found = ctypes.c_uint32()
             self._check(_coincident_representative(t, number, found), vertex="vertex!")
-        return found.value
-
-    def tolerance(self, vertex: int) -> float:
-        """How far every vertex may move without a change of simplices at this one: a certified lower bound.
-
-        Parameters
-        ----------
-        vertex : int
-            The id.
-
-        Returns
-        -------
-        float
-            The distance; infinite while there are no simplices.
-        """
-        number = one_id("vertex", vertex)
-        with self._reading as t:
-            found = ctypes.c_double()
-            self._check(_tolerance(t, number, found), vertex="vertex!")
         return found.value
 
     def star(self, vertex: int, ordered: bool = False) -> np.ndarray:

@@ -44,17 +44,16 @@ use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 /// L away across the vectors, else they are out of range. Vectors that on their grid depend on each other, or nearly so, are
 /// refused.
 ///
-/// All functions serve a periodic triangulation but those of segments, refinement, keys, reach, and a few others, which
-/// return DELDRIFT_PERIODIC: deldrift_stage_insertions_with_keys, deldrift_stage_insertions_at_free_ids,
+/// All functions serve a periodic triangulation but those of segments, refinement, keys and reach, which return
+/// DELDRIFT_PERIODIC: deldrift_stage_insertions_with_keys, deldrift_stage_insertions_at_free_ids,
 /// deldrift_insert_vertex_with_key, deldrift_keys, deldrift_stage_segments, deldrift_stage_segment_removals,
 /// deldrift_segments, deldrift_check_staged, deldrift_segment_conflicts, deldrift_check_passings, deldrift_passings,
-/// deldrift_stage_splits, deldrift_release_cells, deldrift_tolerance, deldrift_cells_in_reach,
-/// deldrift_hull_facets_in_reach, deldrift_vertices_in_reach, deldrift_mask_without_flat_cells,
+/// deldrift_stage_splits, deldrift_cells_in_reach, deldrift_hull_facets_in_reach, deldrift_vertices_in_reach,
 /// deldrift_segments_of_cells, deldrift_cells_of_segments, deldrift_nesting_levels, deldrift_crossing_numbers,
 /// deldrift_label_cells, deldrift_update_labels, deldrift_set_regions, deldrift_set_segment_sides, deldrift_regions,
 /// deldrift_boundary_chains, deldrift_refine, deldrift_coarsen, deldrift_made_vertices, deldrift_original_segments,
-/// deldrift_refined_weights, deldrift_refined_sizes, deldrift_refined_vertices, deldrift_find_simplices and
-/// deldrift_ordered_star. Cells are numbered anew by each commit, unless changes are taken.
+/// deldrift_refined_weights, deldrift_refined_sizes and deldrift_refined_vertices. Cells are numbered anew by each commit,
+/// unless changes are taken.
 ///
 /// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves,
 /// or of other vectors that are near those in force, costs what it costs in an open triangulation of as many, and reading the
