@@ -181,8 +181,8 @@ fn side_of_power_sphere(points: &[[f64; 3]; 5], weights: &[f64; 5]) -> Result<f6
 }
 
 fn check_weights(weights: &[f64]) -> Result<()> {
-    // NaN is no more legal than what is too large.
-    match weights.iter().position(|weight| !(weight.abs() <= MAX_WEIGHT)) {
+    // NaN is in no range.
+    match weights.iter().position(|weight| !(-MAX_WEIGHT..=MAX_WEIGHT).contains(weight)) {
         None => Ok(()),
         Some(index) => {
             let (value, wanted) = (weights[index], "a number of magnitude 1e114 at most");

@@ -30,9 +30,9 @@ fn check_simplices<G: Dimension>(seed: u64, n: usize, basis: &[G::Point]) -> usi
             // Half of them are of a cell.
             let cell = corners[rng.below(corners.len())].as_ref();
             let is_of_cell = rng.below(2) == 0;
-            for k in 0..n_corners {
-                all.push(if is_of_cell { cell[k] } else { VertexId::at(rng.below(n)) });
-            }
+            all.extend(
+                cell[..n_corners].iter().map(|&v| if is_of_cell { v } else { VertexId::at(rng.below(n)) }),
+            );
         }
         let shown: Vec<_> = all.iter().map(|&v| t.coincident_representative(v).unwrap()).collect();
         let mut check = |asked: &[VertexId], shown: &[VertexId]| {
