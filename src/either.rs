@@ -45,7 +45,7 @@ impl AnyTriangulation {
     /// Makes the triangulation that has been saved, as [`MovingTriangulation::load`] does, in its dimension.
     ///
     /// # Errors
-    /// Those of [`MovingTriangulation::load`].
+    /// The errors of [`MovingTriangulation::load`].
     pub fn load(saved: &Saved<'_>, options: Options) -> Result<Self, LoadError> {
         if saved.dimension() == 2 {
             MovingTriangulation::load(saved, options).map(Self::Plane)
@@ -57,7 +57,7 @@ impl AnyTriangulation {
     /// A copy with a monitor of its own, as [`MovingTriangulation::try_clone`] makes it.
     ///
     /// # Errors
-    /// Those of [`MovingTriangulation::try_clone`].
+    /// The errors of [`MovingTriangulation::try_clone`].
     pub fn try_clone(&self, monitor: Option<Monitor>) -> Result<Self> {
         Ok(match self {
             Self::Plane(t) => Self::Plane(t.try_clone(monitor)?),

@@ -239,9 +239,9 @@ pub enum Error {
 /// What is staged for a vertex beside a move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StagedEdit {
-    /// It is inserted by the next commit.
+    /// The vertex is inserted by the next commit.
     Insertion,
-    /// It is removed by the next commit.
+    /// The vertex is removed by the next commit.
     Removal,
 }
 

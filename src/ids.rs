@@ -59,7 +59,7 @@ macro_rules! ids {
                 self.0 as usize
             }
 
-            /// Those at a range of positions.
+            /// The ids at a range of positions.
             #[inline(always)]
             pub fn range(
                 positions: Range<usize>,
@@ -67,7 +67,7 @@ macro_rules! ids {
                 (positions.start as u32..positions.end as u32).map(Self)
             }
 
-            /// Those of some numbers, in the same memory.
+            /// The ids of some numbers, in the same memory.
             #[inline(always)]
             pub const fn of_numbers(numbers: &[u32]) -> &[Self] {
                 // SAFETY: the type is transparent: a number and nothing else.

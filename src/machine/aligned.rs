@@ -300,7 +300,7 @@ mod tests {
         first.reserve_exact(50).expect("room");
         assert!(!first.is_followed_by(&middle));
         drop(first);
-        // It is not the first, and has no more than its part.
+        // The middle part is not the first, and has no more than its share.
         middle.reclaim();
         assert_eq!((&middle[..], middle.capacity()), (&[Wide(2); 20][..], 20));
     }

@@ -1,7 +1,7 @@
 //! What the code asks of the machine: memory that may be refused, threads, the floating-point environment, and entries
 //! of arrays before they are used.
 //!
-//! It uses [`simd`](crate::simd) and [`error`](crate::error) alone: all else is above.
+//! The room uses [`simd`](crate::simd) and [`error`](crate::error) alone: all else is above.
 
 pub(crate) mod aligned;
 pub(crate) mod counted;

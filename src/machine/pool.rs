@@ -74,10 +74,10 @@ struct Shared {
     /// The oldest one.
     offers: Cell<Option<&'static Offer>>,
     n_offers: Cell<usize>,
-    /// Those that are not to end.
+    /// The workers that are not to end.
     workers: Cell<Option<&'static Worker>>,
     n_workers: Cell<usize>,
-    /// Those of them that are started, and not among `workers` yet.
+    /// How many workers are started, and not among `workers` yet.
     n_starting: Cell<usize>,
     n_asleep: Cell<usize>,
     /// How often there was a fork on the way to this process.
@@ -332,7 +332,7 @@ fn start_thread(run: extern "C" fn(*mut c_void) -> *mut c_void) -> bool {
         }
         libc::pthread_attr_setstacksize(attributes.as_mut_ptr(), STACK);
         libc::sigfillset(blocked.as_mut_ptr());
-        // Those by which a thread learns of its own errors stay.
+        // Signals by which a thread learns of its own errors are not blocked.
         for signal in [libc::SIGSEGV, libc::SIGBUS, libc::SIGILL, libc::SIGFPE, libc::SIGTRAP, libc::SIGABRT]
         {
             libc::sigdelset(blocked.as_mut_ptr(), signal);

@@ -63,7 +63,7 @@ impl Threads {
         Threads { most, parts, all: false }
     }
 
-    /// This number wherever the work can be divided, whether or not that pays.
+    /// `n` threads wherever the work can be divided, whether or not that pays.
     pub(crate) fn exactly(n: u32) -> Self {
         let most = n as usize;
         if most > 1 {
@@ -105,7 +105,7 @@ impl Crew {
         self.0.fetch_update(Relaxed, Relaxed, |idle| idle.checked_sub(1)).is_ok()
     }
 
-    /// It may join in elsewhere.
+    /// Ends the work of a thread here: the thread may join in elsewhere.
     pub(crate) fn leave(&self) {
         self.0.fetch_add(1, Relaxed);
     }

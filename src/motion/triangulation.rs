@@ -190,7 +190,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Makes the sites and builds the cells for the first time. After an error the triangulation can only be dropped.
     ///
     /// # Errors
-    /// Those of [`new`](Self::new).
+    /// The errors of [`new`](Self::new).
     pub(crate) fn build_first(&mut self, positions: &[G::Point]) -> Result<()> {
         if positions.len() > MAX_VERTICES {
             return Err(Error::TooManyVertices { given: positions.len(), limit: MAX_VERTICES });

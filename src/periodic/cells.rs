@@ -53,7 +53,7 @@ pub(super) struct Shifts {
 impl Shifts {
     const NOWHERE: u32 = u32::MAX;
 
-    /// Those of a cell.
+    /// The shifts of the corners of a cell.
     #[inline(always)]
     pub(super) fn of(&self, cell: usize) -> &[Shift; 4] {
         match self.row_of[cell] {
@@ -86,7 +86,7 @@ impl Shifts {
         memory::push(&mut self.rows, row)
     }
 
-    /// Those of the cells in this order.
+    /// The shifts of the cells in this order.
     pub(super) fn reordered(self, order: &[CellId]) -> Result<Self> {
         let mut row_of = Vec::new();
         memory::collect(&mut row_of, order.iter().map(|&cell| self.row_of[cell.index()]))?;
@@ -168,7 +168,7 @@ impl<G: Dimension> PeriodicCells<G> {
         let mut read = Self::none();
         let cells = inside.t.cells()?;
         memory::lengthen(&mut read.class_of, cells.corners.len(), NO_CELL)?;
-        // Those that are translations of others that have been chosen, or will be, and by which shift.
+        // The cells that are translations of others that have been chosen, or will be, and by which shift.
         let mut others = Vec::new();
         let mut straddling = Straddling::default();
         for (cell, row) in cells.corners.iter().enumerate() {

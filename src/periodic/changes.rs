@@ -34,7 +34,7 @@ pub(super) struct Base<G: Dimension> {
 }
 
 impl<G: Dimension> Base<G> {
-    /// That of a box in which no cell has been told yet.
+    /// The base of a box of which no cell has been reported yet.
     pub(super) fn none() -> Self {
         Base {
             corners: Vec::new(),

@@ -20,7 +20,7 @@ impl AnyPeriodic {
     /// Makes the triangulation that has been saved, as [`PeriodicTriangulation::load`] does, in its dimension.
     ///
     /// # Errors
-    /// Those of [`PeriodicTriangulation::load`].
+    /// The errors of [`PeriodicTriangulation::load`].
     pub fn load(saved: &SavedPeriodic<'_>, options: Options) -> Result<Self, LoadError> {
         if saved.dimension() == 2 {
             PeriodicTriangulation::load(saved, options).map(Self::Plane)

@@ -102,7 +102,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// points have three coordinates, the third being 0 in the plane.
     ///
     /// # Errors
-    /// Those of [`MovingTriangulation::write_vtu`](crate::motion::MovingTriangulation::write_vtu).
+    /// The errors of [`MovingTriangulation::write_vtu`](crate::motion::MovingTriangulation::write_vtu).
     pub fn write_vtu<E: From<Error>>(
         &self,
         vertex_fields: &[Field<'_>],
@@ -117,7 +117,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// the number given for it, or 1 if none are given.
     ///
     /// # Errors
-    /// Those of [`MovingTriangulation::write_medit`](crate::motion::MovingTriangulation::write_medit).
+    /// The errors of [`MovingTriangulation::write_medit`](crate::motion::MovingTriangulation::write_medit).
     pub fn write_medit<E: From<Error>>(
         &self,
         references: Option<&[i32]>,

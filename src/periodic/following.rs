@@ -212,7 +212,7 @@ impl<G: Dimension> Inside<G> {
         Needed::of_all(self, lattice)
     }
 
-    /// Those that are missing by the balls of cells which are not consistent; none if that does not tell.
+    /// The images that are missing by the balls of inconsistent cells; none if these do not decide it.
     fn missing_at_changes(&self, lattice: &Lattice<G>, n_before: usize) -> Result<Option<Needed>> {
         let cells = self.t.cells()?;
         let Some(rows) = self.t.rows_since_taken()? else { return Ok(None) };

@@ -48,7 +48,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// at most 10⁻⁹, and of a few last bits unless the cell is nearly flat.
     ///
     /// # Errors
-    /// Those of [`for_circumspheres`](Self::for_circumspheres).
+    /// The errors of [`for_circumspheres`](Self::for_circumspheres).
     pub fn for_volumes(&self, cells: Option<&[CellId]>, tell: impl FnMut(CellId, f64)) -> Result<()> {
         self.with_inside(cells, |inside| {
             tell_all(cells, self.inside.t.volumes_of(inside)?, tell);

@@ -53,7 +53,7 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// That of these vectors, of two or three coordinates, all of three; none if they depend on each other, or nearly so.
+    /// The grid of vectors of two or three coordinates, all of three; none if they depend on each other, or nearly so.
     pub(super) fn new(basis: &[[f64; 3]]) -> Option<Self> {
         let first = Reduced::new(basis)?.first()?;
         let mut unit = unit_of(&first);

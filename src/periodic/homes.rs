@@ -140,7 +140,7 @@ impl<G: Shape> Lattice<G> {
         is_short.then_some(place)
     }
 
-    /// That of a position which is far away, or has come a long way.
+    /// The home of a position which is far away, or has come a long way.
     #[cold]
     #[inline(never)]
     fn wrapped_far(

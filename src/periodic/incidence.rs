@@ -65,7 +65,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// The cells around the place of a vertex, ascending: one for each corner that is the vertex.
     ///
     /// # Errors
-    /// Those of [`position`](Self::position), and [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    /// The errors of [`position`](Self::position), and [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn star(&self, vertex: VertexId) -> Result<Vec<CellId>> {
         let mut star = Vec::new();
         self.enter_star(self.coincident_representative(vertex)?, &mut star)?;
@@ -87,7 +87,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`MovingTriangulation::find_simplices`](crate::motion::MovingTriangulation::find_simplices).
+    /// The errors of [`MovingTriangulation::find_simplices`](crate::motion::MovingTriangulation::find_simplices).
     pub fn find_simplices(
         &self,
         vertices: &[VertexId],
@@ -202,7 +202,7 @@ impl PeriodicTriangulation<Plane> {
     /// vertex when the hull is passed counter-clockwise.
     ///
     /// # Errors
-    /// Those of [`star`](Self::star).
+    /// The errors of [`star`](Self::star).
     pub fn ordered_star(&self, vertex: VertexId) -> Result<impl Iterator<Item = CellId> + Clone + '_> {
         let (vertex, cells) = (self.coincident_representative(vertex)?, self.read_cells()?);
         let first = self.star(vertex)?.first().copied();

@@ -128,7 +128,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`locate`](Self::locate), before anything is told.
+    /// The errors of [`locate`](Self::locate), before anything is told.
     pub fn locate_in_period(
         &self,
         positions: &[G::Point],

@@ -259,7 +259,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let mut best = self.nearest_image(q, start);
         tied.insert(start)?;
         memory::push(&mut nearest, (start, best))?;
-        // Those before this one have been looked around.
+        // The stars of the vertices before this index have been looked at.
         let mut next = 0;
         while let Some(&(vertex, _)) = nearest.get(next) {
             next += 1;

@@ -27,7 +27,7 @@ pub(super) struct Needed {
 }
 
 impl Needed {
-    /// Those that are missing, by a look at all cells.
+    /// The images that are missing, by a look at all cells.
     pub(super) fn of_all<G: Dimension>(inside: &Inside<G>, lattice: &Lattice<G>) -> Result<Self> {
         let mut needed = Needed::default();
         if inside.t.cell_count() == 0 {
@@ -46,7 +46,7 @@ impl Needed {
         Ok(needed.each_once())
     }
 
-    /// Those that the cells of a range of indices ask for.
+    /// The images that the cells of a range of indices ask for.
     fn of_range<G: Dimension>(
         inside: &Inside<G>,
         lattice: &Lattice<G>,
@@ -62,8 +62,8 @@ impl Needed {
         Ok(needed)
     }
 
-    /// Those that are missing by a look at the cells that have come since changes were taken, where before none was missing but what
-    /// has been inserted since then.
+    /// The images that are missing, by a look at the cells that have come since changes were taken, where before none
+    /// was missing but what has been inserted since then.
     pub(super) fn of_new<G: Dimension>(inside: &Inside<G>, lattice: &Lattice<G>) -> Result<Self> {
         let Some(rows) = inside.t.rows_since_taken()? else { return Self::of_all(inside, lattice) };
         let mut needed = Needed::default();

@@ -33,7 +33,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`commit_timestamp`](Self::commit_timestamp), [`Error::OutOfMemory`] among them.
+    /// The errors of [`commit_timestamp`](Self::commit_timestamp), [`Error::OutOfMemory`] among them.
     pub fn prepare_timestamp(&mut self) -> Result<CommitReport> {
         if self.former.is_none() {
             self.set_aside()?;

@@ -213,7 +213,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// The vertex of lowest id of those that share a place with this one, in any period.
     ///
     /// # Errors
-    /// Those of [`position`](Self::position).
+    /// The errors of [`position`](Self::position).
     pub fn coincident_representative(&self, vertex: VertexId) -> Result<VertexId> {
         self.position(vertex)?;
         let shown = self.inside.t.coincident_representative(self.inside.images.home(vertex))?;
@@ -226,7 +226,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// line with its images.
     ///
     /// # Errors
-    /// Those of [`position`](Self::position).
+    /// The errors of [`position`](Self::position).
     pub fn tolerance(&self, vertex: VertexId) -> Result<f64> {
         self.position(vertex)?;
         self.inside.t.tolerance(self.inside.images.home(vertex))

@@ -196,7 +196,7 @@ impl Reduced {
         compare_lengths(one, other, &exponents).then_with(|| upwards(one).cmp(&upwards(other)))
     }
 
-    /// Those sums that are together a basis, in their order, until one is enough.
+    /// Finds the sums that are together a basis, in their order, until one is enough.
     fn find_basis(&self, sums: &[Sum], mut is_enough: impl FnMut([usize; 3]) -> bool) {
         let after = |j: usize, index: usize| if j < self.rank { index + 1..sums.len() } else { 0..1 };
         for i in 0..sums.len() {
@@ -269,7 +269,7 @@ impl Reduced {
         Some(first)
     }
 
-    /// This one, if it is one of the shortest bases, or nearly so, and else the first one of these.
+    /// The basis itself, if it is one of the shortest ones, or nearly so, and else the first one of these.
     fn or_the_first(self) -> Option<Self> {
         let (sums, n) = self.sums();
         let mut is_one = false;

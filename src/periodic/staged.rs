@@ -156,7 +156,7 @@ impl<G: Dimension> Staged<G> {
         }
     }
 
-    /// The same edits, of vertices under these ids; `n_vertices` of them are there.
+    /// The edits with the vertices under new ids; there are `n_vertices` vertices.
     pub(super) fn renumbered(&self, new_ids: &[VertexId], n_vertices: usize) -> Result<Self> {
         let mut new = self.copied()?;
         new.marks.clear();

@@ -12,7 +12,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// Stages a move of `vertices[i]` to `positions[i]` for each `i`; all of them or, on an error, none.
     ///
     /// # Errors
-    /// Those of [`MovingTriangulation::move_vertices`](crate::motion::MovingTriangulation::move_vertices).
+    /// The errors of [`MovingTriangulation::move_vertices`](crate::motion::MovingTriangulation::move_vertices).
     pub fn move_vertices(&mut self, vertices: &[VertexId], positions: &[G::Point]) -> Result<()> {
         if vertices.len() != positions.len() {
             let (given, wanted) = (positions.len(), vertices.len());
@@ -35,7 +35,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// inserted there. Entries of removed vertices are not read, nor are those of vertices whose removal is staged.
     ///
     /// # Errors
-    /// Those of [`move_vertices`](Self::move_vertices), and [`Error::WrongCount`] if there are more than ids.
+    /// The errors of [`move_vertices`](Self::move_vertices), and [`Error::WrongCount`] if there are more than ids.
     pub fn move_first(&mut self, positions: &[G::Point]) -> Result<()> {
         let (given, wanted) = (positions.len(), self.id_count());
         if given > wanted {
@@ -96,7 +96,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// Stages another lattice, with as many vectors. Vertices stay where they were given, unless they move.
     ///
     /// # Errors
-    /// Those of [`new`](Self::new) for vectors, and [`Error::WrongCount`] for another number of them.
+    /// The errors of [`new`](Self::new) for vectors, and [`Error::WrongCount`] for another number of them.
     pub fn stage_vectors(&mut self, vectors: &[G::Point]) -> Result<()> {
         let (given, wanted) = (vectors.len(), self.lattice.rank());
         if given != wanted {

@@ -30,7 +30,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// with the vectors of now.
     ///
     /// # Errors
-    /// Those of the open triangulation, [`Error::Prepared`], and [`Error::InvalidValue`] for positions that take a
+    /// The errors of the open triangulation, [`Error::Prepared`], and [`Error::InvalidValue`] for positions that take a
     /// cell through more than 64 periods of a reduced vector.
     pub fn transfer_cells(
         &self,

@@ -67,7 +67,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// Triangulates `positions` and all places to which sums of multiples of `vectors` take them.
     ///
     /// # Errors
-    /// Those of [`MovingTriangulation::new`]; [`Error::DependentVectors`] for vectors that depend on each other,
+    /// The errors of [`MovingTriangulation::new`]; [`Error::DependentVectors`] for vectors that depend on each other,
     /// [`Error::InvalidValue`] for options that reject coincident vertices.
     pub fn new(positions: &[G::Point], vectors: &[G::Point], options: Options) -> Result<Self> {
         check_options(&options)?;

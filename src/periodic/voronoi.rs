@@ -75,7 +75,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// h P / L times the sum of d and the distance from the vertex to the centroid.
     ///
     /// # Errors
-    /// Those of [`for_voronoi_cells`](Self::for_voronoi_cells).
+    /// The errors of [`for_voronoi_cells`](Self::for_voronoi_cells).
     pub fn for_voronoi_facets(
         &self,
         mask: Option<&[u8]>,

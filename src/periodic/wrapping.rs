@@ -85,7 +85,7 @@ fn check<G: Dimension>(seed: u64, rank: usize) {
         let is_inside = multiples[..rank].iter().all(|m| (0..=size).contains(m));
         assert!(is_inside || is_open, "seed {seed}: {multiples:?}");
     }
-    // Those near others: to the nearest period, or as without.
+    // Positions near others: to the nearest period, or as without.
     let mut near = places.clone();
     rng.shuffle(&mut near);
     for (index, (place, shift)) in empty.wrap_positions(&positions, Some(&near)).unwrap().iter().enumerate() {

@@ -351,7 +351,7 @@ impl<'r, const N: usize> Integer<'r, N> {
         Self::new(room, x < 0, limbs)
     }
 
-    /// The same, of which what is made is in another room.
+    /// The integer itself, with another room for what is made of it.
     fn within<'s, const M: usize>(self, room: &'s Room<M>) -> Integer<'s, M>
     where
         'r: 's,

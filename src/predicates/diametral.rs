@@ -8,8 +8,8 @@ use super::vectors::minus;
 /// Whether a place is strictly inside the circle of which two others are opposite ends: it sees them under more than 90
 /// degrees.
 ///
-/// That is the sign of a dot product of differences, which is their cross product after a quarter turn of one of them, as
-/// exact as that is.
+/// The answer is the sign of a dot product of differences, which is their cross product after a quarter turn of one of
+/// them, as exact as that is.
 #[inline]
 pub fn is_in_diametral_circle([a, b]: [&[f64; 2]; 2], p: &[f64; 2]) -> bool {
     let turned = |[x, y]: &[f64; 2]| [-y, *x];

@@ -22,7 +22,7 @@
 //! - last sum: its rounding cannot change the sign, so it is only accounted for by comparing with fl(t)
 //!   instead of t, where |t| ≥ (1 − u)·|fl(t)|.
 //!
-//! These are carried out by the compiler, second-order terms included, on the operation order of
+//! The rules are carried out by the compiler, second-order terms included, on the operation order of
 //! `plane.rs`, `space.rs` and `vectors.rs`. To first order they give 6 u, 72 u, 40 u and 756 u. Keeping the
 //! last rounding would give 8 u, 80 u and 46 u for the first three, as found in CGAL, Geogram and HXT; those
 //! have 1122 u for the in-sphere determinant, which they expand into four products of a lift instead of

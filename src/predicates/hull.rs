@@ -1,6 +1,6 @@
 //! Orientations at hull facets, several with one facet: for numbers in lanes, which have the bits of single ones.
 //!
-//! They have the signs of [`orient2d`](super::orient2d) and [`orient3d`](super::orient3d), and each is open if its
+//! Results have the signs of [`orient2d`](super::orient2d) and [`orient3d`](super::orient3d), and each is open if its
 //! magnitude is not above [`StaticFilter::orient`](super::StaticFilter): the bound holds for any of the points to take
 //! differences from, and for any order of the columns. In space that is a sum of three products of a minor and a
 //! difference, in the plane a minor.

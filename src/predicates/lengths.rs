@@ -122,7 +122,7 @@ mod tests {
                 let by_lengths = product([c, x, x, x, y, y]) + product([c, 0.6, x, x, x, x, x]);
                 let found = prepared_bound_by_length_3d(x * x, x * x * x, y * y);
                 assert!(product([found]).is_close_to(&by_lengths, 48), "{x:e}, {y:e}");
-                // It covers what underflow adds.
+                // The bound covers what underflow adds.
                 assert!(found > underflow * (1.0 + y * y * y), "{x:e}, {y:e}");
 
                 let c = CIRCLE_BY_LENGTHS;

@@ -28,7 +28,7 @@
 //!
 //! # Cost
 //!
-//! That of the in-sphere test, then, on ties only, one orientation as a rule. In the plane it is exactly
+//! The cost of the in-sphere test, then, on ties only, one orientation as a rule. In the plane it is exactly
 //! one (three of four distinct cocircular points are never collinear); in space more are needed when four
 //! of the points are coplanar.
 

@@ -91,7 +91,7 @@ pub trait Reach: Sized {
     /// The way from the first corner of a cell to the centre of its ball, as [`does_ball_meet`](Self::does_ball_meet) needs it.
     fn exact_centre(cell: &[&Self]) -> Self;
 
-    /// The same as [`does_ball_surely_meet`](Self::does_ball_surely_meet), exactly.
+    /// Whether the ball of a cell meets a box, exactly.
     fn does_ball_meet(cell: &[&Self], centre: &Self, low: &Self, high: &Self) -> bool;
 
     /// Whether a closed box has a place that is strictly beyond a facet, given by its `D` corners in the order that
@@ -388,7 +388,7 @@ fn length<const D: usize>(v: &[f64; D]) -> f64 {
     if squared > 1e-280 && squared < 1e300 { squared.sqrt() } else { length_of_scaled(v) }
 }
 
-/// That of a vector whose square is not in the range of numbers.
+/// The length of a vector whose square is not in the range of numbers.
 #[cold]
 #[inline(never)]
 fn length_of_scaled<const D: usize>(v: &[f64; D]) -> f64 {

@@ -11,12 +11,12 @@
 //!
 //! # The in-circle determinant of `plane.rs`
 //!
-//! It is a difference of two products C D. Each is off by at most |C| e(D) + e(C) (|D| + e(D)) + u |C D|.
+//! The determinant is a difference of two products C D. Each is off by at most |C| e(D) + e(C) (|D| + e(D)) + u |C D|.
 //!
 //! # The in-circle determinant of `lifted.rs`
 //!
-//! It is a sum of three products S C of a square of a distance and a cross product. S is off by 4 u S, for two
-//! differences, a product and a sum. With its own rounding S C is off by u S (3 m + 6 |C|), and the sum of three by
+//! The determinant is a sum of three products S C of a square of a distance and a cross product. S is off by 4 u S, for
+//! two differences, a product and a sum. With its own rounding S C is off by u S (3 m + 6 |C|), and the sum of three by
 //! what they are off together and, for the first of its two roundings, by u S |C| of two of them.
 //!
 //! Second-order terms that are not there are less than 10 u of the bound, and left to [`ROUND_UP`]. Underflow adds what

@@ -3,7 +3,7 @@
 //! Bounds of rounding errors are those of an order of operations, so the order of each function is part of what it
 //! promises, and all operations are rounded.
 //!
-//! They are written out for both dimensions: with loops over the axes `insphere` compiles to 7 % more instructions.
+//! All are written out for both dimensions: with loops over the axes `insphere` compiles to 7 % more instructions.
 
 use crate::simd::Real;
 

@@ -15,8 +15,8 @@
 //! products would spare a build in space 2 % of its instructions.) Code that takes another way without lanes, or that asks
 //! which token there is, would break this.
 //!
-//! If the environment variable `DELDRIFT_SCALAR` is set, to any value, everything runs as on a processor without AVX2.
-//! This is for tests. The variable is read once.
+//! If the environment variable `DELDRIFT_SCALAR` is set, to any value, everything runs as on a processor without AVX2,
+//! which tests use. The variable is read once.
 //!
 //! A token for other processors needs a file with [`Simd`] for the token and [`Lanes`] for its lanes, and an arm in
 //! [`in_lanes!`]. The tests here compare it with numbers, bit by bit.
@@ -116,7 +116,7 @@ pub trait Simd: Copy {
 
     /// Calls `work` with these arguments, compiled for the processor.
     fn run_with<A, B, C, R>(self, a: A, b: B, c: C, work: impl FnOnce(A, B, C) -> R) -> R;
-    /// The same number in all lanes.
+    /// One number in all lanes.
     fn splat(self, x: f64) -> Self::Lanes;
     /// One number for each lane.
     fn load(self, x: &[f64; LANES]) -> Self::Lanes;
@@ -168,7 +168,7 @@ pub trait Lanes:
     fn low_with_low(self, y: Self) -> Self;
     /// Lanes 2 and 3 of each.
     fn high_with_high(self, y: Self) -> Self;
-    /// These, with the last lane of `y`.
+    /// The lanes of `self`, but the last one of `y`.
     fn with_last_of(self, y: Self) -> Self;
     /// Lanes 1, 2, 3 and 0.
     fn rotated(self) -> Self;

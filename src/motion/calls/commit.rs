@@ -92,8 +92,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// staged, nothing is looked at.
     ///
     /// # Errors
-    /// Those of [`commit_timestamp`](Self::commit_timestamp), but [`Error::Prepared`]: what has been prepared is where
-    /// the check begins.
+    /// The errors of [`commit_timestamp`](Self::commit_timestamp), but [`Error::Prepared`]: what has been prepared is
+    /// where the check begins.
     pub fn check_staged(&mut self) -> Result<()> {
         self.mesh.last_found.begin();
         self.heed_staged_passings()?;
@@ -253,7 +253,7 @@ mod tests {
             for movers in [Movers::All, Movers::Listed(&vertices)] {
                 let options = Options { algorithm, ..Options::default() };
                 let mut t = MovingTriangulation::<G>::new(&here, options).expect("room");
-                // These count as checked.
+                // Staged goals count as checked.
                 let refused = t.commit(&mut Moves::staged(&goals, movers)).expect_err("one is no number");
                 assert!(matches!(refused, Error::NotFinite { index: 200, .. }), "{algorithm:?}: {refused:?}");
                 assert!(vertices.iter().all(|&v| t.position(v) == Ok(here[v.index()])), "{algorithm:?}");

@@ -95,7 +95,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Inserts a vertex, as [`insert_vertex`](Self::insert_vertex) does, with a key.
     ///
     /// # Errors
-    /// Those of [`insert_vertex`](Self::insert_vertex).
+    /// The errors of [`insert_vertex`](Self::insert_vertex).
     pub fn insert_vertex_with_key(&mut self, position: &G::Point, key: u64) -> Result<VertexId> {
         self.insert_coming(position, Coming::Keys(&[key]))
     }
@@ -131,7 +131,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         self.mesh.n_present += 1;
         self.staging.grow(self.mesh.site_of.len());
-        // Those of staged insertions are forgotten with them.
+        // The keys of staged insertions are forgotten with them.
         let has_keys = self.edits.had_keys() || matches!(key, Coming::Keys(_));
         self.edits.know(self.mesh.site_of.len(), has_keys);
         self.enter_evaluations(&mut report, before);

@@ -17,7 +17,7 @@ use crate::motion::triangulation::{MAX_VERTICES, MovingTriangulation};
 pub(in crate::motion) enum Coming<'k> {
     /// Their ids.
     Ids,
-    /// These, in the order of the vertices.
+    /// Keys that the program gives, in the order of the vertices.
     Keys(&'k [u64]),
     /// For all the greatest key if vertices have keys, else their ids: of vertices that the library makes, so that it need
     /// not know their ids to foresee the cells.
@@ -27,9 +27,9 @@ pub(in crate::motion) enum Coming<'k> {
 /// Ids of vertices that come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::motion) enum Ids {
-    /// Those above the highest that has been given.
+    /// The ids above the highest that has been given.
     Next,
-    /// Those of removed vertices, the lowest first, then those above.
+    /// The ids of removed vertices, the lowest first, then those above.
     Free,
 }
 
@@ -53,7 +53,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`new`](Self::new), and [`Error::WrongCount`] if there are not as many keys as positions.
+    /// The errors of [`new`](Self::new), and [`Error::WrongCount`] if there are not as many keys as positions.
     pub fn with_keys(positions: &[G::Point], keys: &[u64], options: Options) -> Result<Self> {
         let mut t = Self::unbuilt(options);
         t.build_first_with_keys(positions, keys)?;
@@ -63,7 +63,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Builds the cells for the first time, as [`build_first`](Self::build_first) does, of vertices with these keys.
     ///
     /// # Errors
-    /// Those of [`with_keys`](Self::with_keys).
+    /// The errors of [`with_keys`](Self::with_keys).
     pub(crate) fn build_first_with_keys(&mut self, positions: &[G::Point], keys: &[u64]) -> Result<()> {
         check_count(keys, positions.len())?;
         if positions.len() > MAX_VERTICES {
@@ -76,8 +76,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Stages the insertion of vertices, as [`stage_insertions`](Self::stage_insertions) does, with these keys.
     ///
     /// # Errors
-    /// Those of [`stage_insertions`](Self::stage_insertions), and [`Error::WrongCount`] if there are not as many keys as
-    /// positions.
+    /// The errors of [`stage_insertions`](Self::stage_insertions), and [`Error::WrongCount`] if there are not as many keys
+    /// as positions.
     pub fn stage_insertions_with_keys(&mut self, positions: &[G::Point], keys: &[u64]) -> Result<VertexId> {
         self.stage_coming(positions, Coming::Keys(keys))
     }
@@ -105,7 +105,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`stage_insertions_with_keys`](Self::stage_insertions_with_keys).
+    /// The errors of [`stage_insertions_with_keys`](Self::stage_insertions_with_keys).
     pub fn stage_insertions_at_free_ids(
         &mut self,
         positions: &[G::Point],

@@ -29,8 +29,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`commit_timestamp`](Self::commit_timestamp). Passings of vertices are looked at on the way of the round,
-    /// from where the round before has left the vertices.
+    /// The errors of [`commit_timestamp`](Self::commit_timestamp). Passings of vertices are looked at on the way of the
+    /// round, from where the round before has left the vertices.
     pub fn prepare_timestamp(&mut self) -> Result<CommitReport> {
         self.mesh.last_found.begin();
         self.heed_staged_passings()?;

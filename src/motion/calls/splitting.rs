@@ -18,7 +18,7 @@
 //! at neither end, and a place that is an end of one of two segments that cross is at no end of the other. So the number of
 //! pieces grows up to the lengths at most.
 //!
-//! That bound is out of reach. It is cuts at ends that are passed that keep the numbers small: otherwise chains that are nearly
+//! The bound is out of reach. Cuts at ends that are passed keep the numbers small: otherwise chains that are nearly
 //! one, as those of two segments that cross at an angle of last places, cross anew wherever they have been bent, and get ever
 //! more vertices. So they are joined at the vertices that they have, as in snap rounding (Hobby,
 //! 10.1016/S0925-7721(99)00021-8), where a segment goes through all vertices that it passes.

@@ -1,6 +1,6 @@
 //! Stores of regions: what lets a vertex move without a look at its certificates (report, sections 2.3, 2.4).
 //!
-//! They know the kernel, and nothing of the triangulation or of the commits that use them.
+//! Stores know the kernel, and nothing of the triangulation or of the commits that use them.
 
 pub(in crate::motion) mod barycentric;
 pub(in crate::motion) mod bicell;

@@ -30,7 +30,7 @@ pub(in crate::motion) trait Store<G: Dimension> {
         relocated: &[VertexId],
     ) -> Result<u64>;
 
-    /// These cells have changed, or are free.
+    /// Forgets what is kept of cells that have changed, or are free.
     fn forget_cells(&mut self, _cells: &[Slot]) {}
 
     /// Makes the kernel's static filter as sharp as what the regions may let pass allows.

@@ -22,7 +22,7 @@ impl Switching {
         self.rule = rule;
     }
 
-    /// It is rebuilding's turn again, with the first commit of a group.
+    /// Makes it rebuilding's turn again, with the first commit of a group.
     pub(in crate::motion) fn start_over(&mut self) {
         *self = Switching { rule: self.rule, ..Switching::default() };
     }

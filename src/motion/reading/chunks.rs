@@ -62,7 +62,7 @@ impl<E, P: FnMut(&[u8]) -> Result<(), E>> Chunks<P> {
     /// Writes a text.
     pub(crate) fn text(&mut self, text: fmt::Arguments<'_>) -> Result<(), E> {
         let mut writer = Text { chunks: self, failed: Ok(()) };
-        // It fails where a chunk cannot be handed on.
+        // Writing fails where a chunk cannot be handed on.
         let _ = writer.write_fmt(text);
         writer.failed
     }

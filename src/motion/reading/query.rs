@@ -165,7 +165,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// `near`, if that is near it. This is only where to begin: it need not be right, nor name anything.
     ///
     /// # Errors
-    /// Those of [`locate`](Self::locate), before any location is told.
+    /// The errors of [`locate`](Self::locate), before any location is told.
     pub fn locate_points(
         &self,
         positions: &[G::Point],

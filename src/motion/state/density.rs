@@ -50,7 +50,7 @@ pub(in crate::motion) struct Density {
     due: Option<Due>,
 }
 
-/// That the next refinement may take vertices away.
+/// On which terms the next refinement may take vertices away.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::motion) struct Due {
     /// The factor by which there may be more vertices: 1 or more.

@@ -18,7 +18,7 @@ use crate::motion::state::checking::{are_good, check_position, first_bad};
 pub(in crate::motion) enum Movers<'p> {
     /// Every vertex; none has been removed.
     All,
-    /// These.
+    /// The vertices of a list.
     Listed(&'p [VertexId]),
 }
 

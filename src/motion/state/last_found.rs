@@ -7,7 +7,7 @@ use crate::machine::memory;
 /// one has found is never told of a later one. Calls that stage, discard, publish, withdraw or ask keep them.
 #[derive(Debug, Default)]
 pub(in crate::motion) struct LastFound {
-    /// Those for which the call was refused, sorted.
+    /// The conflicts for which the call was refused, sorted.
     conflicts: Vec<Conflict>,
     /// The vertices that pass segments in the step that the call has looked at.
     passings: Vec<Passing>,

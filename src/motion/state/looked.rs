@@ -65,7 +65,7 @@ impl Finding {
             && self.labels == question.labels
     }
 
-    /// It has been found.
+    /// Remembers that the answer to a question is known.
     pub(in crate::motion) fn set(&mut self, question: Question) -> Result<()> {
         // What is remembered in part is not to be taken for anything.
         self.n_changes = None;
@@ -113,7 +113,7 @@ impl Looked {
         let mut has_moved = Vec::new();
         memory::reserve_exact(&mut has_moved, n)?;
         has_moved.extend(self.points.iter().zip(now.points).map(|(before, p)| before != p));
-        // Those behind have come since; they may be corners of cells that only seem to be the same.
+        // The vertices behind have come since; they may be corners of cells that only seem to be the same.
         has_moved.resize(n, true);
         for (c, row) in now.corners.iter().enumerate() {
             let is_same = self.corners.get(c) == Some(row)

@@ -44,7 +44,7 @@ pub(in crate::motion) struct Made {
     vertices: Vec<(VertexId, SegmentId)>,
     /// Ascending.
     pieces: Vec<(SegmentId, Origin)>,
-    /// Those that are staged, ascending, above the others, for which there is room among them.
+    /// The staged pieces, ascending, above the others, for which there is room among them.
     coming: Vec<(SegmentId, Origin)>,
     /// By the last refinement.
     inserted: Inserted,
@@ -66,7 +66,7 @@ impl Made {
         self.pieces.iter().chain(&self.coming)
     }
 
-    /// Those of saved lists, each ascending: pieces from `n_laid` on are staged.
+    /// What saved lists say, each ascending: pieces from `n_laid` on are staged.
     pub(in crate::motion) fn of_lists(
         vertices: Vec<(VertexId, SegmentId)>,
         mut pieces: Vec<(SegmentId, Origin)>,

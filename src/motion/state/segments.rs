@@ -76,14 +76,14 @@ impl Aim {
 /// The segments of a mesh.
 #[derive(Debug)]
 pub(in crate::motion) struct Segments<G: Dimension> {
-    /// Those in force, ascending: refinement gives ids for ever, so there is no array by id. There is room for all that
-    /// are staged.
+    /// The segments in force, ascending: refinement gives ids for ever, so there is no array by id. There is room for all
+    /// staged ones.
     laid: Vec<(SegmentId, Segment)>,
     /// How many ids have been given to those that are, or were, in force.
     n_laid: usize,
-    /// Those that are staged, whose ids follow; `None` for those that pieces are staged for.
+    /// The staged segments, whose ids follow; `None` for those that pieces are staged for.
     staged: Vec<Option<Segment>>,
-    /// Those that the next commit removes.
+    /// The segments that the next commit removes.
     leaving: Vec<SegmentId>,
     replaced: Replaced<G>,
     /// What will be `replaced` after the change.
@@ -131,7 +131,7 @@ pub(in crate::motion) struct SegmentsBefore {
     /// Whether nothing was lifted.
     is_of_rest: bool,
     n_laid: usize,
-    /// Those that the change has removed.
+    /// The segments that the change has removed.
     removed: Vec<(SegmentId, Segment)>,
 }
 
@@ -403,7 +403,7 @@ impl<G: Dimension> Segments<G> {
         if let Some(mut before) = self.before.take() {
             kernel.exchange_required(&mut before);
         }
-        // They are those of the change.
+        // What is in `edges` is of the change.
         self.edges.clear();
         kernel.set_constrained(!self.replaced.is_empty());
     }

@@ -17,11 +17,11 @@ pub(in crate::motion) struct VertexBefore {
 /// What a vertex has done.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::motion) enum Event {
-    /// It has got a site of its own, or lost it.
+    /// The vertex has got a site of its own, or lost it.
     Alone,
-    /// It has joined those that this one represented.
+    /// The vertex has joined those that this one represented.
     Joined { representative: VertexId },
-    /// It has parted from those that this one represents.
+    /// The vertex has parted from those that this one represents.
     Parted { representative: VertexId },
 }
 

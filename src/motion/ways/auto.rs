@@ -85,7 +85,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             match self.mesh.outlook(moves, is_way_due) {
                 Outlook::AtRest => return Ok(()),
                 Outlook::Together => return self.commit_together(moves, report),
-                // They do not tell how all will move.
+                // Few moves do not tell how all will move.
                 Outlook::FewMove => return self.commit_by_repair(Start::AtOrigins, moves, report),
                 Outlook::Unknown => {}
             }

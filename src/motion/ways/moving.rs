@@ -47,7 +47,7 @@ const BLOCK: usize = 16 * LANES;
 #[must_use]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::motion) enum Advance {
-    /// They have moved, this number of them to another position; those beyond are queued.
+    /// How many have moved to another position; those beyond are queued.
     Moved(u64),
     /// Too many are beyond; none has moved, and none is queued.
     TooManyBeyond,
@@ -114,7 +114,7 @@ impl<G: Dimension> Mesh<G> {
     /// Moves the vertices that are within their tolerance, or all if `MOVES_ALL`, and queues those that are not. None
     /// moves if those to be queued are more than `most`.
     ///
-    /// This loop is what a timestamp costs that changes nothing.
+    /// A timestamp that changes nothing costs the loop of this function.
     ///
     /// The origins of all are known afterwards, also after the error that one of the goals is bad, when some vertices
     /// have stayed where they were.
@@ -213,14 +213,14 @@ impl<G: Dimension> Mesh<G> {
         let n_moved = movers.n_moved;
         let Some((end, room)) = ended else {
             if !MOVES_ALL {
-                // Those that are queued have been left where they are, and their goals where origins are to be.
+                // Queued vertices have been left where they are, and their goals where origins are to be.
                 movers.queue.iter().for_each(|&v| origins[v] = movers.sites[self.site_of[v]].point);
             }
             self.transaction.origins_mut().note_all();
             return Ok(Advance::Moved(n_moved));
         };
         let not_moved = if MOVES_ALL { &[] } else { &movers.queue[..] };
-        // Those that have not moved are exchanged in vain.
+        // Vertices that have not moved are exchanged in vain.
         for v in VertexId::range(0..end).chain(not_moved.iter().copied()) {
             std::mem::swap(&mut movers.sites[self.site_of[v]].point, &mut origins[v]);
         }
@@ -276,7 +276,7 @@ fn bits_of<G: Dimension>(fixed: &[Fixed<G>], places: &[G::Point]) -> u32 {
 /// Several sites.
 ///
 /// # Safety
-/// These are indices of the `n` sites that begin there, no two the same, and nothing else uses them meanwhile.
+/// `sites_of` are indices of the `n` sites that begin at `start`, all different, and nothing else uses these meanwhile.
 #[inline(always)]
 unsafe fn sites_at<'s, G: Dimension>(
     start: *mut Site<G>,

@@ -80,7 +80,7 @@ fn check<G: Dimension>(seed: u64, n: usize, step: f64, case: &Case<G>) {
     let total: f64 = found.iter().map(|cell| cell.volume).sum();
     assert!((total - case.measure).abs() < 1e-12 * case.measure.max(1.0), "{context}: {total}");
 
-    // The same in the open, with faces of the box that are far away in place of none.
+    // Cells of an open triangulation of the images, with faces of the box that are far away in place of none.
     let (mut places, mut of) = (Vec::new(), Vec::new());
     let range = |j: usize| if j < case.basis.len() { -4..=4 } else { 0..=0 };
     for x in range(0) {

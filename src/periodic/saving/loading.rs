@@ -28,7 +28,8 @@ struct Waiting<G: Dimension> {
 impl<G: Dimension> PeriodicTriangulation<G> {
     /// The triangulation that has been saved, under other options. The cells have the indices that they had.
     ///
-    /// It gives the same cells as the one that was saved, after the same calls: cells created by them may have other indices.
+    /// After the same calls the loaded triangulation has the same cells as the saved one: cells created by these calls may
+    /// have other indices.
     ///
     /// Cost: that of [`MovingTriangulation::load`] for all vertices that are inside, images included, and a pass over the cells.
     /// Where that does not show that all images are there, as after some commits, those that are missing are inserted in a copy:

@@ -151,7 +151,7 @@ fn check_cells<G: Dimension>(
         assert_eq!(cell.volume.is_infinite(), cell.area.is_infinite(), "{context}: {v}");
         assert_eq!(cell.volume.is_finite(), cell.centroid[0].is_finite(), "{context}: {v}");
         if !is_close(boxed.volumes[k], whole[k], whole[k]) {
-            // It reaches out of the box, in which it is compared.
+            // The cell reaches out of the box, in which it is compared.
             continue;
         }
         assert!(is_close(cell.area, boxed.areas[k], boxed.areas[k]), "{context}: {v}");

@@ -7,9 +7,9 @@ use crate::predicates::{BiCellTolerances, LANES};
 
 /// Whether bi-cells that are computed are checked before.
 pub(super) enum Check<'c, G: Dimension> {
-    /// They are known to hold.
+    /// All are known to hold.
     Not,
-    /// They are checked after a motion. In turn: where the vertices were before, by id; a distance that none has
+    /// All are checked after a motion. In turn: where the vertices were before, by id; a distance that none has
     /// exceeded; where failures are listed; and the error, if the check fails.
     Moved(&'c [G::Point], f64, &'c mut Failures, &'c mut Result<()>),
 }

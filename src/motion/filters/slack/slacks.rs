@@ -52,9 +52,9 @@ const AHEAD: usize = 8;
 #[must_use]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::motion) enum Expired {
-    /// They are checked, this number of them; those that hold have slack again.
+    /// How many have been checked, which are all; those that hold have slack again.
     Checked(u64),
-    /// They are in too many cells, and none is checked.
+    /// Too many cells have some, and none is checked.
     TooMany,
 }
 

@@ -1,6 +1,6 @@
 //! Files for programs that draw and mesh: positions and cells, without a way back.
 //!
-//! They hold the vertices that are present, hidden ones included, in the order of their ids and numbered without gaps;
+//! A file holds the vertices that are present, also hidden ones, in the order of their ids and numbered without gaps;
 //! the id of each is kept beside it.
 //!
 //! Segments in force are lines behind the cells, in the order of their ids, so that the cell of an index is there where

@@ -54,7 +54,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(shown)
     }
 
-    /// Those of the stars.
+    /// The cells around vertices, from their stars.
     fn list_around(&self, cells: &Cells<G>, vertices: &[VertexId]) -> Result<Vec<CellId>> {
         let index_of = cells.index_of();
         let (mut list, mut star) = (Vec::new(), IndexSet::new());
@@ -75,7 +75,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(list)
     }
 
-    /// Those that a pass over all cells finds.
+    /// The cells around vertices, by a pass over all cells.
     fn find_around(&self, cells: &Cells<G>, vertices: &[VertexId]) -> Result<Vec<CellId>> {
         let mut is_listed = Bits::default();
         is_listed.grow(self.id_count())?;

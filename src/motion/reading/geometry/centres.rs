@@ -101,7 +101,7 @@ impl<P: AsRef<[f64]>> Centre<P> {
     }
 }
 
-/// Those of all cells, or of chosen ones.
+/// The circumcentres of all cells, or of chosen ones.
 #[derive(Debug)]
 pub(super) struct Centres<'c, P> {
     pub(super) list: Vec<Centre<P>>,
@@ -113,7 +113,7 @@ impl<P> Centres<'_, P> {
     /// There are none.
     pub(super) const NONE: Self = Centres { list: Vec::new(), chosen: None };
 
-    /// That of a cell, which is one of the chosen ones.
+    /// The circumcentre of a cell, which is one of the chosen ones.
     #[inline(always)]
     pub(super) fn of(&self, cell: CellId) -> &Centre<P> {
         match &self.chosen {

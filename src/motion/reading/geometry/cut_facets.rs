@@ -8,8 +8,8 @@
 //! is a new corner on the face.
 //!
 //! A corner is known by the two sides that meet in it, so that whether it is beyond a face is a sign of a polynomial in
-//! the coordinates of vertices and the box. These signs are exact ([`Meeting`]). A corner *on* a face is not beyond it.
-//! That is to say, the faces are a little farther out, each by more than all before it: no other corner is as close to
+//! the coordinates of vertices and the box. These signs are exact ([`Meeting`]). A corner *on* a face is not beyond it:
+//! the faces are in effect a little farther out, each by more than all before it, and no other corner is as close to
 //! one. So nothing but what is convex is cut, a cut crosses two sides or none, and all facets agree about the box.
 //!
 //! Coordinates are computed at the end, of the corners that are left, each from the vertices and faces that define it,
@@ -229,7 +229,7 @@ impl CutFacet {
                 Side::AtInfinity | Side::None => {}
             }
         }
-        // The same in all facets at the corner, to the last bit.
+        // One order, so that the answer is alike in all facets at the corner.
         others[..n].sort_unstable_by(|p, q| p.partial_cmp(q).expect("numbers"));
         then(Meeting { others: &others[..n], ..meeting })
     }
@@ -267,7 +267,7 @@ impl CutFacet {
         } else if others.iter().all(|&k| self.normal[k] == 0) {
             others.iter().for_each(|&k| also[k] = Some(self.at[k]));
         } else {
-            // It is open.
+            // The sign is open.
             return 0;
         }
         self.meet(corner.sides, clip, also, from, |meeting| meeting.sign(axis))

@@ -74,7 +74,7 @@ pub(super) struct Target {
 }
 
 impl Target {
-    /// That of a cell without an end.
+    /// The sums of an unbounded Voronoi cell.
     pub(super) const ENDLESS: Self = Target {
         sums: Sums { volume: f64::INFINITY, facets: f64::INFINITY, wall: 0.0, moment: [0.0; 3] },
         is_cut: true,

@@ -11,7 +11,7 @@ use crate::motion::reading::geometry::sums::Sums;
 pub(super) enum Piece {
     /// An edge of the facet; in the plane, the facet.
     Edge([Vector; 2]),
-    /// The same in space, which is on a face of the box.
+    /// An edge of the facet in space, which is on a face of the box.
     On(Face, [Vector; 2]),
     /// The end of what the cell has of an edge of the box, where these faces meet; in the plane there is one face.
     End {
@@ -91,7 +91,7 @@ impl CutFacet {
         let (mut sum, mut moment) = (0.0, [0.0; 3]);
         for pair in others.windows(2) {
             let [p, q] = [0, 1].map(|k| minus(&pair[k], &first));
-            // It is convex, so that what is below zero is rounding.
+            // The facet is convex, so that what is below zero is rounding.
             let weight = dot(&cross(&p, &q), &normal).max(0.0);
             sum += weight;
             moment = [0, 1, 2].map(|axis| moment[axis] + weight * (p[axis] + q[axis]));

@@ -1,6 +1,6 @@
 //! Values between vertices.
 //!
-//! They are sums of the values of some vertices, with weights: by the barycentric coordinates of the cell that holds
+//! Each is a sum of the values of some vertices, with weights: by the barycentric coordinates of the cell that holds
 //! the place ([`linear`](super::linear)), or by natural neighbours ([`natural`](super::natural)).
 
 use crate::delaunay::{Dimension, Place};

@@ -1,6 +1,6 @@
 //! The weights of linear interpolation: the barycentric coordinates of the cell that holds a place.
 //!
-//! They come from elimination with pivots, whose result leaves a small residual however flat the cell, so linear
+//! Weights come from elimination with pivots, whose result leaves a small residual however flat the cell, so linear
 //! functions are reproduced; where that makes one clearly negative they are quotients of volumes, which are exact but
 //! for their last bits.
 

@@ -32,7 +32,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         })
     }
 
-    /// Those of all cells, in the order of [`cells`](Self::cells).
+    /// The measures of all cells, in the order of [`cells`](Self::cells).
     #[inline(always)]
     fn measures_of_all<'t, T: 't>(
         &'t self,
@@ -42,7 +42,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(self.measures(slots.iter().copied(), |k| slots.get(k).copied(), measure))
     }
 
-    /// Those of the cells of these indices.
+    /// The measures of the cells of these indices.
     #[inline(always)]
     fn measures_of<'t, T: 't>(
         &'t self,
@@ -74,7 +74,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.measures_of_all(G::Point::circumsphere)
     }
 
-    /// Those of the cells of a range of indices that there are.
+    /// The circumspheres of the cells of a range of indices that there are.
     pub(crate) fn circumspheres_in(
         &self,
         cells: Range<usize>,

@@ -22,8 +22,8 @@
 //! | `interpolation`, `linear`, `natural` | values between vertices: linear, or of natural neighbours |
 //! | `weights` | barycentric coordinates of places |
 //!
-//! What depends on signs (masks, facets, neighbours) is exact. Numbers are rounded; each function says by how much.
-//! They are computed the same way on every processor.
+//! What depends on signs (masks, facets, neighbours) is exact. Numbers are rounded, and alike on every
+//! processor; each function says by how much.
 
 mod around;
 mod boundary;

@@ -27,9 +27,9 @@ use crate::motion::triangulation::MovingTriangulation;
 pub(crate) struct Asked<'a> {
     /// Vertices that have all cells at those below; none if all cells may be looked at.
     pub(crate) around: Option<&'a [VertexId]>,
-    /// Those of which the cells are asked for, if any are. All of them are in cells, unless there are none.
+    /// The vertices whose cells are asked for, if any are. All of them are in cells, unless there are none.
     pub(crate) vertices: Option<&'a [VertexId]>,
-    /// Those of which the facets are asked for, if any are.
+    /// The edges whose facets are asked for, if any are.
     pub(crate) edges: Option<&'a [Edge]>,
 }
 

@@ -324,7 +324,7 @@ fn measure_and_centroid<G: Dimension>(edges: &[Edge], normal: &Vector) -> (f64, 
     let (mut doubled, mut moment) = (0.0, [0.0; 3]);
     for [p, q] in edges {
         let [p, q] = [minus(p, first), minus(q, first)];
-        // It is convex, so that what is below zero is rounding.
+        // The polygon is convex, so that what is below zero is rounding.
         let weight = dot(normal, &cross(&p, &q)).max(0.0);
         doubled += weight;
         (0..3).for_each(|axis| moment[axis] += weight * (p[axis] + q[axis]));

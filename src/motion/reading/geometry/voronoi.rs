@@ -1,8 +1,8 @@
 //! The Voronoi facet of an edge, as what is around it says.
 //!
-//! It has the circumcentres of the cells around the edge for corners. If all of them are in the box it is their polygon (in the
-//! plane a segment); otherwise it is cut (`cut_facets.rs`), and so are the cells of both vertices (`cut_cells.rs`). Which
-//! circumcentres are in the box is exact.
+//! The corners of the facet are the circumcentres of the cells around the edge. If all of them are in the box it is their
+//! polygon (in the plane a segment); otherwise it is cut (`cut_facets.rs`), and so are the cells of both vertices
+//! (`cut_cells.rs`). Which circumcentres are in the box is exact.
 
 use crate::delaunay::Dimension;
 use crate::error::Result;

@@ -96,8 +96,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`voronoi_cells_within`](Self::voronoi_cells_within), also [`Error::WrongCount`] for half-spaces without a
-    /// box; then nothing has been told.
+    /// The errors of [`voronoi_cells_within`](Self::voronoi_cells_within), also [`Error::WrongCount`] for half-spaces
+    /// without a box; then nothing has been told.
     pub fn for_voronoi(
         &self,
         clip: Option<[&G::Point; 2]>,

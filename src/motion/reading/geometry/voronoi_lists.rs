@@ -68,7 +68,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`voronoi_cells`](Self::voronoi_cells), also [`NotFinite`](crate::Error::NotFinite) and
+    /// The errors of [`voronoi_cells`](Self::voronoi_cells), also [`NotFinite`](crate::Error::NotFinite) and
     /// [`InvalidValue`](crate::Error::InvalidValue) for a normal that is zero, and
     /// [`WrongCount`](crate::Error::WrongCount) if the numbers do not make up rows.
     pub fn voronoi_cells_within(
@@ -116,7 +116,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`voronoi_cells`](Self::voronoi_cells).
+    /// The errors of [`voronoi_cells`](Self::voronoi_cells).
     pub fn voronoi_derivatives(
         &self,
         clip: [&G::Point; 2],
@@ -134,7 +134,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// not.
     ///
     /// # Errors
-    /// Those of [`voronoi_cells_within`](Self::voronoi_cells_within).
+    /// The errors of [`voronoi_cells_within`](Self::voronoi_cells_within).
     pub fn voronoi_derivatives_within(
         &self,
         clip: [&G::Point; 2],

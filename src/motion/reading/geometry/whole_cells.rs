@@ -1,8 +1,8 @@
 //! Voronoi cells of some vertices that no box cuts: areas or volumes, boundaries and centroids.
 //!
-//! They are sums of pieces, as `dual` says, in a unit that the caller chooses. Where pieces do not tell all, as on the hull,
-//! where an edge is too short for products in the unit, or numbers too large, a cell is put together from its facets, each in
-//! a unit of its own (`whole_facets`).
+//! Measures are sums of pieces, as `dual` says, in a unit that the caller chooses. Where pieces do not suffice, as on the
+//! hull, where an edge is too short for products in the unit, or numbers too large, a cell is put together from its
+//! facets, each in a unit of its own (`whole_facets`).
 
 use crate::delaunay::Dimension;
 use crate::error::Result;

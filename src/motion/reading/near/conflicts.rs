@@ -1,6 +1,7 @@
 //! The cells that a new vertex would remove: those in conflict with a place.
 //!
-//! They are connected by facets, and among them is the one that holds the place, or beyond whose facet it is.
+//! Cells in conflict are connected by facets. The cell that holds the place is among them, or one beyond whose facet it
+//! is.
 
 use crate::complex::Corners;
 use crate::delaunay::{Delaunay, Dimension, IndexSet, Place};

@@ -190,7 +190,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         };
         nearest.insert(best)?;
         let mut around = Around::default();
-        // Those before this one have been looked around.
+        // The stars of the sites before this index have been looked at.
         let (mut next, mut n_stars) = (0, 0);
         while let Some(&s) = nearest.as_slice().get(next) {
             next += 1;

@@ -72,7 +72,7 @@ fn place_near<G: Dimension>([low, high]: &[G::Point; 2], lower: &G::Point, upper
 #[derive(Debug, Default)]
 struct Flood<P> {
     seen: IndexSet<Slot>,
-    /// Those in reach, ghost cells included.
+    /// The cells in reach, ghost cells included.
     reached: Vec<Slot>,
     /// Centres of cells that rounded numbers did not suffice for: there are as many boxes as are asked about at a time for
     /// each of these cells, which may be nearly all where vertices are on a line.
@@ -219,7 +219,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`cells_in_reach`](Self::cells_in_reach).
+    /// The errors of [`cells_in_reach`](Self::cells_in_reach).
     pub fn vertices_in_reach(
         &self,
         low: &[G::Point],

@@ -155,7 +155,7 @@ impl History {
         [self.n_known as u64, u64::from(self.had_keys)].into_iter().chain(self.density.numbers())
     }
 
-    /// That of twelve numbers.
+    /// The history that twelve numbers give.
     pub(super) fn of([n_known, had_keys, density @ ..]: [u64; 12]) -> Result<Self, Damage> {
         let n_known = usize::try_from(n_known).map_err(|_| Damage::Counts)?;
         let density = Density::of_numbers(density).ok_or(Damage::Counts)?;
@@ -308,7 +308,7 @@ impl SegmentCounts {
         sizes.iter().map(|&(n, size)| n as u128 * size as u128).sum()
     }
 
-    /// Those of five or six numbers, if they take as many bytes as a header tells.
+    /// The counts that five or six numbers give, if all takes as many bytes as the header says.
     pub(super) fn of(numbers: &[u64], header: &Header) -> Result<Self, Damage> {
         let number = |k: usize| usize::try_from(numbers[k]).map_err(|_| Damage::Counts);
         let counts = SegmentCounts {

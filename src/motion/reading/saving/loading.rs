@@ -217,8 +217,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// The triangulation that has been saved, under other options. The cells have the indices that they
     /// had, and are as [`cells`](Self::cells) shows them; no changes have been taken.
     ///
-    /// It gives the same cells as the one that was saved, after the same calls: cells created by them may have other
-    /// indices.
+    /// After the same calls the loaded triangulation has the same cells as the saved one: cells created by these calls may
+    /// have other indices.
     ///
     /// Cost: the sort of a fresh build, and a few passes over the data, whatever they hold; memory for at most 16 times
     /// as many bytes. The monitor of the options is called.

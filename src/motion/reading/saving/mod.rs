@@ -43,7 +43,7 @@ impl<'d> Saved<'d> {
     /// What is wrong with the header.
     pub fn size_by(header: &[u8], given: u64) -> Result<usize, Damage> {
         let header = Header::read(header, given)?;
-        // It is one that is given.
+        // The size is `given`, and that of bytes in memory.
         Ok(header.size().and_then(|size| usize::try_from(size).ok()).unwrap_or(usize::MAX))
     }
 

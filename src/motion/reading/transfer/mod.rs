@@ -153,7 +153,7 @@ struct Pair {
     gone: u32,
     /// Of the volume of the one that has come, below 0 where the one that is gone is turned over.
     share: f64,
-    /// That times the way from the centroid of the one that is gone to the centroid of what is in common.
+    /// The share times the way from the centroid of the one that is gone to the centroid of what is in common.
     moment: Place,
 }
 
@@ -179,7 +179,7 @@ struct Meeting<'a> {
 }
 
 impl<'a> Meeting<'a> {
-    /// That of some cells with their translations.
+    /// The meeting of some cells with their translations.
     fn of<const D: usize>(gone: &'a [Gone], places: Vec<(u32, Place)>) -> Result<Self> {
         let (mut copies, mut extents) = (Vec::new(), Vec::new());
         memory::reserve_exact(&mut copies, places.len())?;

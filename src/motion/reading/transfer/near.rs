@@ -1,6 +1,6 @@
 //! Which cells of now may meet those that are turned over, without a look at all.
 //!
-//! They are found from neighbour to neighbour, from a cell that has a corner of one that is turned over, across all
+//! Cells are found from neighbour to neighbour, from a cell that has a corner of one that is turned over, across all
 //! that are not certainly apart from each of these: whose boxes do not meet, where that of the one that is turned over
 //! is widened by half of its extent on each side, or all of whose corners are beyond one of its facets by a fourth of
 //! the height above it.

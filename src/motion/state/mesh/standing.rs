@@ -10,11 +10,11 @@ use crate::motion::state::mesh::Mesh;
 /// What a vertex is to the cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::motion) enum Standing {
-    /// It is what is seen at its site: a corner of cells, while there are any.
+    /// What is seen at its site: a corner of cells, while there are any.
     Shown(SiteId),
-    /// It shares its site with a vertex of lower key, or of equal key and lower id, which is seen.
+    /// At the site of a vertex of lower key, or of equal key and lower id, which is seen.
     Hidden(SiteId),
-    /// It has been removed, is to be inserted by the next commit, or never was.
+    /// Removed, to be inserted by the next commit, or never there.
     Gone,
 }
 

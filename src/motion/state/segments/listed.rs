@@ -102,12 +102,12 @@ impl<G: Dimension> Segments<G> {
         self.leaving.len()
     }
 
-    /// Those whose removal is staged.
+    /// The segments whose removal is staged.
     pub(in crate::motion) fn leaving(&self) -> &[SegmentId] {
         &self.leaving
     }
 
-    /// Those that are staged, by id from [`n_laid`](Self::n_laid) on; `None` for those that pieces are staged for.
+    /// The staged segments, by id from [`n_laid`](Self::n_laid) on; `None` for those that pieces are staged for.
     pub(in crate::motion) fn staged(&self) -> &[Option<Segment>] {
         &self.staged
     }

@@ -8,7 +8,7 @@ mod taking_back;
 #[must_use]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::motion) enum Mending {
-    /// They are the triangulation of the vertices where these are now. Vertices taken back are queued, to be placed.
+    /// The cells are the triangulation of the vertices where these are now. Vertices taken back are queued.
     Mended,
     /// Too many vertices would have to be placed, or flips took too long: they have to be built again. They are neither
     /// the cells from before nor those of the vertices where these are now; vertices taken back are queued all the
@@ -20,7 +20,7 @@ pub(in crate::motion) enum Mending {
 #[must_use]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::motion) enum Prospect {
-    /// They can be mended; what has to be is listed.
+    /// The cells can be mended; what has to be is listed.
     Mendable,
     /// To take all vertices back that have moved, and place them, would take less time.
     Placeable,
