@@ -37,6 +37,7 @@
 
 #![allow(unsafe_code)]
 
+mod around;
 mod build;
 mod cavity;
 mod cavity_plane;
@@ -54,6 +55,8 @@ mod flip;
 mod flipper;
 mod flips;
 mod high_degree;
+mod hole;
+mod inserting;
 mod keys;
 mod landmarks;
 mod lane_tests;
@@ -115,8 +118,8 @@ use cavity::Cavity;
 use dimension::Insert;
 use flat::Flat;
 use flip::AllFlips;
+use hole::Hole;
 use parts::Parts;
-use remove::Hole;
 use wrapping::Wrapping;
 
 /// What the ghost vertex has for an id.

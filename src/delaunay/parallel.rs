@@ -210,7 +210,7 @@ impl<G: Dimension> Build<'_, G> {
             return Err(Error::Cancelled);
         }
         let mut monitor = |fraction: f64| monitor(self.share_triangulated(fraction));
-        let coincident = t.triangulate_unmerged(&order, self.n_sites_of(part), &mut monitor)?;
+        let coincident = t.triangulate(&order, self.n_sites_of(part), &mut monitor)?;
         self.done.fetch_add(1, Relaxed);
         Ok(coincident)
     }
