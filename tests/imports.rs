@@ -2,6 +2,7 @@
 mod calls;
 mod crates;
 mod graph;
+mod others;
 mod tokens;
 
 use crates::Sources;
@@ -10,6 +11,24 @@ use std::path::Path;
 
 fn src() -> Sources {
     Sources::read(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/src")))
+}
+
+#[test]
+fn others() {
+    let c = circles("mpi/src", &others::in_c(&others::files("mpi/src", "c")));
+    let d = circles("python/deldrift", &others::in_python(&others::files("python/deldrift", "py")));
+    assert!(c.is_empty() && d.is_empty(), "{}\n{}", c.join("\n"), d.join("\n"));
+}
+
+#[test]
+fn fuzz() {
+    let sources = Sources::read(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/fuzz/src")));
+    let c: Vec<_> = sources
+        .folders()
+        .iter()
+        .flat_map(|f| circles(&format!("fuzz/{}", f.join("/")), &sources.arrows(f)))
+        .collect();
+    assert!(c.is_empty(), "{}", c.join("\n"));
 }
 
 #[test]

@@ -11,40 +11,10 @@ use std::collections::{BTreeMap, BTreeSet};
 pub type Type = (Module, String);
 
 /// Names that types of the standard library have, too: alone they tell nothing.
-const COMMON: [&str; 32] = [
-    "all",
-    "any",
-    "chain",
-    "clear",
-    "clone",
-    "contains",
-    "count",
-    "extend",
-    "fill",
-    "find",
-    "first",
-    "get",
-    "insert",
-    "is_empty",
-    "iter",
-    "last",
-    "len",
-    "map",
-    "max",
-    "min",
-    "new",
-    "next",
-    "position",
-    "push",
-    "remove",
-    "reserve",
-    "sort",
-    "take",
-    "sum",
-    "lock",
-    "split",
-    "is_finite",
-];
+const COMMON: &str = "all any append chain chunks clear clone cloned collect contains copied count enumerate extend \
+                      fill filter find first flatten fold get insert is_empty is_finite iter last len lock map max min \
+                      new next parse peek pop position product push read remove repeat replace reserve resize rev skip \
+                      sort split sum swap take truncate update windows write zip";
 
 /// What gives the value in an `Option` or a `Box`, or a reference to it.
 const WITHIN: [&str; 12] = [
@@ -274,7 +244,7 @@ impl<'k> Body<'k> {
                         called.insert((ty, name.to_owned()));
                     }
                 }
-                None if tokens[at - 1] == "." && !COMMON.contains(&name) => {
+                None if tokens[at - 1] == "." && !COMMON.split_whitespace().any(|common| common == name) => {
                     let owners = self.known.owners.get(name);
                     if let Some(ty) = owners.filter(|owners| owners.len() == 1).and_then(BTreeSet::first)
                         && self.known.methods.get(ty).is_some_and(|methods| methods.contains_key(name))

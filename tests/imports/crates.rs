@@ -113,9 +113,12 @@ fn read_folder(folder: &Path, module: &Module, texts: &mut BTreeMap<Module, Stri
         let path = entry.expect("an entry").path();
         let name = path.file_stem().expect("a name").to_str().expect("UTF-8").to_owned();
         let inner = [module.as_slice(), std::slice::from_ref(&name)].concat();
+        if name == "tests" {
+            continue;
+        }
         if path.is_dir() {
             read_folder(&path, &inner, texts);
-        } else if name != "tests" && path.extension().is_some_and(|extension| extension == "rs") {
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
             let module = if name == "mod" { module.clone() } else { inner };
             texts.insert(module, fs::read_to_string(&path).expect("a source file"));
         }
