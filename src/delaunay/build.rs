@@ -221,9 +221,4 @@ impl<G: Dimension> Delaunay<G> {
         }
         if n > 0.0 { sum / n } else { 0.0 }
     }
-
-    /// Mean number of cells crossed by the walk of an insertion, in the latest build.
-    pub fn mean_walk(&self) -> f64 {
-        self.cavity.steps as f64 / self.sites.len() as f64
-    }
 }

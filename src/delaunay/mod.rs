@@ -10,11 +10,13 @@
 //! | `signs`, `lane_tests`, `exchange`, `dimension` | what differs between them, by what it is for |
 //! | `plane`, `space` | how they do it |
 //! | `order` | Hilbert curve and insertion rounds |
+//! | `inserting` | many sites, one after the other |
 //! | `build` | all sites at once |
 //! | `parts`, `parallel`, `unite` | the same on several threads |
-//! | `locate`, `landmarks` | the walk, and where it begins |
+//! | `locate`, `straight`, `landmarks` | the walk, and where it begins |
+//! | `around`, `star` | the cells around a site, for questions and for changes |
 //! | `cavity`, `cavity_plane`, `cavity_space` | insertion: dig the conflict zone, fill it |
-//! | `remove`, `wrapping` | removal: fill the star by gift wrapping, in lanes where that is certain |
+//! | `remove`, `hole`, `wrapping` | removal: fill the star by gift wrapping, in lanes where that is certain |
 //! | `high_degree` | removal of a vertex of high degree |
 //! | `relocate` | one site to a new place |
 //! | `flip`, `flipper`, `flips` | flips, on several threads, and undoing them |

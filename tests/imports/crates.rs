@@ -1,6 +1,6 @@
 //! The sources of a crate: what each file defines, imports and calls.
 
-use super::calls::{self, Type};
+use super::calls::{self, Method, Methods};
 use super::graph::Arrows;
 use super::tokens::{Tokens, before_tests, behind, is_name, tokens};
 use std::collections::{BTreeMap, BTreeSet};
@@ -10,17 +10,14 @@ use std::path::Path;
 /// A module's path below the crate.
 pub type Module = Vec<String>;
 
-/// A method, and its type.
-pub type Method = (Type, String);
-
 /// What a file has.
 #[derive(Default)]
 pub struct Source {
-    /// Paths of items from the crate's root on, by their names here.
+    /// Paths of items that it imports, from the crate's root on, by their names here.
     pub names: BTreeMap<String, Module>,
-    /// Paths of items that are written out where they are used.
+    /// Paths that are written out where they are used, and of imports without a name.
     paths: Vec<Module>,
-    /// The methods that it calls, of types with methods in several files.
+    /// The methods that it calls.
     called: BTreeSet<Method>,
 }
 
@@ -29,14 +26,14 @@ pub struct Source {
 pub struct Sources {
     pub files: BTreeMap<Module, Source>,
     /// The files that define methods of a type, by the method.
-    pub methods: BTreeMap<Type, BTreeMap<String, BTreeSet<Module>>>,
+    methods: Methods,
 }
 
 impl Sources {
     /// Reads the crate whose root is this folder.
-    pub fn read(folder: &Path) -> Self {
+    pub fn read(folder: &str) -> Self {
         let mut texts = BTreeMap::new();
-        read_folder(folder, &Module::new(), &mut texts);
+        read_folder(&Path::new(env!("CARGO_MANIFEST_DIR")).join(folder), &Module::new(), &mut texts);
         Self::of(&texts)
     }
 
@@ -56,13 +53,17 @@ impl Sources {
         sources
     }
 
-    /// The types with methods in more than this number of files.
-    pub fn spread(&self, n_files: usize) -> impl Iterator<Item = (&Type, usize, usize)> {
-        let files = |methods: &BTreeMap<String, BTreeSet<Module>>| {
-            methods.values().flatten().collect::<BTreeSet<_>>().len()
-        };
-        let all = self.methods.iter().map(move |(ty, methods)| (ty, methods.len(), files(methods)));
+    /// The types with methods in more than this number of files: the path of each, how many methods, in how many files.
+    pub fn spread(&self, n_files: usize) -> impl Iterator<Item = (String, usize, usize)> {
+        let all = self.methods.iter().map(|((module, name), methods)| {
+            let path = [module.as_slice(), std::slice::from_ref(name)].concat().join("::");
+            (path, methods.len(), calls::n_files(methods))
+        });
         all.filter(move |&(_, _, n)| n > n_files)
+    }
+
+    pub fn n_files(&self) -> usize {
+        self.files.len()
     }
 
     /// The module with a file that defines what a path names, and the rest of the path.
@@ -130,17 +131,17 @@ impl Source {
         let mut source = Source::default();
         let mut at = 0;
         while at < tokens.len() {
-            if tokens[at] == "use" {
+            if tokens[at] == "use" && tokens[at + 1] != "<" {
                 let end = at + tokens[at..].iter().position(|&t| t == ";").expect("a declaration ends");
                 for (name, path) in leaves(&tokens[at + 1..end]) {
-                    let Some(absolute) = absolute(&path, module) else { continue };
-                    source.names.insert(name, absolute);
+                    match (absolute(&path, module), is_name(&name) && name != "_") {
+                        (Some(path), true) => drop(source.names.insert(name, path)),
+                        (Some(path), false) => source.paths.push(path),
+                        (None, _) => {}
+                    }
                 }
                 at = end;
-            } else if ["crate", "super", "self"].contains(&tokens[at])
-                && tokens.get(at + 1) == Some(&"::")
-                && tokens[at - 1] != "("
-            {
+            } else if is_start_of_path(tokens, at) {
                 let path = path_at(tokens, &mut at);
                 source.paths.extend(absolute(&path, module));
             }
@@ -148,6 +149,13 @@ impl Source {
         }
         source
     }
+}
+
+/// Whether a path from the root or a module above begins at a token, and is not that for which something is visible.
+fn is_start_of_path(tokens: &[&str], at: usize) -> bool {
+    ["crate", "super", "self"].contains(&tokens[at])
+        && tokens.get(at + 1) == Some(&"::")
+        && tokens[at.saturating_sub(2)..at] != ["(", "in"]
 }
 
 /// The path that begins at a token; `at` becomes the last one of it.

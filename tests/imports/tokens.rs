@@ -108,3 +108,58 @@ pub fn opening(tokens: &[&str], close: usize) -> usize {
 pub fn is_name(token: &str) -> bool {
     token.starts_with(|c: char| c.is_alphabetic() || c == '_')
 }
+
+/// Places of tokens.
+pub type Range = std::ops::Range<usize>;
+
+/// The functions that tokens declare, and where their names are.
+pub fn functions<'t>(tokens: &[&'t str], within: Range) -> Vec<(&'t str, usize)> {
+    let named = within.filter(|&k| tokens[k] == "fn" && tokens.get(k + 1).is_some_and(|t| is_name(t)));
+    named.map(|k| (tokens[k + 1], k + 1)).collect()
+}
+
+/// Where the parts of a function are.
+pub struct Signature {
+    pub parameters: Vec<Range>,
+    pub returned: Option<Range>,
+    pub body: Range,
+}
+
+impl Signature {
+    /// That of the function whose name is at a place.
+    pub fn at(tokens: &[&str], name: usize) -> Self {
+        let open = if tokens[name + 1] == "<" { behind(tokens, name + 1) } else { name + 1 };
+        let close = behind(tokens, open);
+        let mut end = close;
+        while end < tokens.len() && !["{", ";"].contains(&tokens[end]) {
+            end = if ["[", "("].contains(&tokens[end]) { behind(tokens, end) } else { end + 1 };
+        }
+        let is_returning = tokens.get(close) == Some(&"->");
+        let body = if tokens.get(end) == Some(&"{") { end + 1..behind(tokens, end) - 1 } else { end..end };
+        Signature {
+            parameters: parts(tokens, open + 1..close - 1),
+            returned: is_returning.then_some(close + 1..end),
+            body,
+        }
+    }
+}
+
+/// Parts between commas that are in no brackets.
+pub fn parts(tokens: &[&str], within: Range) -> Vec<Range> {
+    let mut parts = Vec::new();
+    let (mut start, mut at, mut n_angles) = (within.start, within.start, 0);
+    while at < within.end {
+        match tokens[at] {
+            "<" => n_angles += 1,
+            ">" => n_angles -= 1,
+            "," if n_angles == 0 => {
+                parts.push(start..at);
+                start = at + 1;
+            }
+            _ => {}
+        }
+        at = if ["(", "[", "{"].contains(&tokens[at]) { behind(tokens, at) } else { at + 1 };
+    }
+    parts.extend((start < within.end).then_some(start..within.end));
+    parts
+}
