@@ -15,7 +15,8 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// `monitor` is called now and then, and told the fraction done.
     ///
     /// # Errors
-    /// [`Error::Cancelled`] if `monitor` returns `false`, [`Error::OutOfMemory`].
+    /// [`Error::Cancelled`](crate::Error::Cancelled) if `monitor` returns `false`,
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn voronoi_volumes(&self, monitor: &mut dyn FnMut(f64) -> bool) -> Result<Vec<f64>> {
         let mut volumes = Vec::new();
         memory::lengthen(&mut volumes, self.id_count(), f64::NAN)?;
@@ -48,8 +49,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Cancelled`] if `monitor` returns `false`, [`Error::WrongCount`] if the mask has not an entry for each id,
-    /// [`Error::OutOfMemory`]; then nothing has been told.
+    /// [`Error::Cancelled`](crate::Error::Cancelled) if `monitor` returns `false`,
+    /// [`Error::WrongCount`](crate::Error::WrongCount) if the mask has not an entry for each id,
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory); then nothing has been told.
     pub fn for_voronoi_cells(
         &self,
         mask: Option<&[u8]>,
