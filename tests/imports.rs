@@ -1,10 +1,10 @@
-//! Which file uses which, read from imports and calls: arrows run one way, from floor to floor and within each, in src and
-//! in what stands on the library.
+//! Which file uses which, read from imports and calls: arrows run one way, from floor to floor and within each, in src
+//! and in what stands on the library.
 //!
 //! The rooms of a folder are its files and folders; a file `x.rs` and the folder `x` are one room. An arrow from one
 //! room to another says that a file of the first imports an item that a file of the second defines, directly or through
-//! a `pub use`, or writes its path out, or calls a method that is defined there, which needs no import. A folder's `mod.rs`
-//! is its door and no room: it declares what is inside, and its own items belong to no room. Tests are not read.
+//! a `pub use`, or writes its path out, or calls a method that is defined there, which needs no import. A folder's
+//! `mod.rs` is its door and no room: it declares what is inside, and its own items belong to no room. Tests are not read.
 //!
 //! `cargo test --test library imports:: -- --nocapture` prints the graph, and the types with methods in many files.
 
@@ -147,8 +147,8 @@ impl U { fn second() {} }
 mod tests { use crate::e; }
 "#;
 
-/// The types whose methods are in many files are found, and calls of them that a reader finds: by `self`, by a field, by a
-/// parameter, by a local value, by what a function returns, and by a name that only one type has.
+/// The types whose methods are in many files are found, and calls that a reader finds: by `self`, by a field, by a
+/// parameter, by a local value, by what a function returns, and by a type.
 #[test]
 fn calls_are_those_of_the_types_that_have_the_methods() {
     let sources = src();

@@ -5,8 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Pairs of rooms of which the first uses the second, each with what shows it.
 pub type Arrows = BTreeMap<(String, String), BTreeSet<String>>;
 
-/// Arrows that run to an earlier one of these floors, which are one room or several ones; every room with an arrow is in
-/// one of them.
+/// Arrows that run to an earlier one of these floors, each of one room or several; every room with an arrow is in one.
 pub fn upward(arrows: &Arrows, floors: &[&str]) -> Vec<String> {
     let at = |room: &str| {
         let at = floors.iter().position(|floor| floor.split(' ').any(|r| r == room));

@@ -24,7 +24,8 @@ pub fn read(folder: &str, ending: &str) -> Files {
     files
 }
 
-/// Between files in C: a function is defined where its name is in a line that begins with its type and is no declaration.
+/// Between files in C: a function is defined where its name is in a line that begins with its type, and that is no
+/// declaration.
 pub fn in_c(files: &Files) -> Arrows {
     let is_own = |name: &&str| name.starts_with("dm_") || name.starts_with("deldrift_mpi_");
     let defined = |line: &'_ str| {
@@ -41,7 +42,8 @@ pub fn in_c(files: &Files) -> Arrows {
     arrows
 }
 
-/// Between modules of a package: by imports, wherever they are, and by calls of methods of `self` that only one module has.
+/// Between modules of a package: by imports, wherever they are, and by calls of methods of `self` that only one module
+/// has.
 pub fn in_python(files: &Files) -> Arrows {
     let heads =
         files.iter().flat_map(|(file, text)| text.split("\n    def ").skip(1).map(move |rest| (file, rest)));
