@@ -82,6 +82,13 @@ fn layers_and_floors_use_only_those_below() {
     assert_eq!(upward(&of(&[]), &LAYERS), none);
     assert_eq!(upward(&of(&["motion"]), &FLOORS), none);
     assert_eq!(upward(&of(&["delaunay"]), &KERNEL), none);
+    let text = include_str!("../docs/ARCHITECTURE.md");
+    for floor in KERNEL {
+        assert!(
+            text.lines().any(|line| line.starts_with(&format!("{floor}  "))),
+            "no {floor} in ARCHITECTURE.md"
+        );
+    }
 }
 
 #[test]
