@@ -5,7 +5,7 @@ use crate::damage::LoadError;
 use crate::delaunay::{Dimension, Plane, Space};
 use crate::error::{Error, Result};
 use crate::motion::{Monitor, MovingTriangulation, Options, Saved};
-use crate::predicates::Array;
+use crate::predicates::PointArray;
 
 /// A triangulation of the plane or of space.
 ///

@@ -7,20 +7,20 @@ use std::ops::{Index, IndexMut};
 use crate::ids::SiteId;
 
 /// What such an array holds.
-pub trait Entry: Copy + Debug + Eq + Hash + Ord + Send + Sync + 'static {}
+pub trait CornerEntry: Copy + Debug + Eq + Hash + Ord + Send + Sync + 'static {}
 
-impl<T: Copy + Debug + Eq + Hash + Ord + Send + Sync + 'static> Entry for T {}
+impl<T: Copy + Debug + Eq + Hash + Ord + Send + Sync + 'static> CornerEntry for T {}
 
 /// An array of `D + 1` entries: the corners of a cell, or what lies opposite each of them.
-pub trait Corners<T: Entry = SiteId>:
-    Entry + Index<usize, Output = T> + IndexMut<usize> + AsRef<[T]> + AsMut<[T]>
+pub trait Corners<T: CornerEntry = SiteId>:
+    CornerEntry + Index<usize, Output = T> + IndexMut<usize> + AsRef<[T]> + AsMut<[T]>
 {
     /// `D + 1`.
     const N: usize;
     /// What makes a cell start where it does not straddle cache lines.
     type Alignment: Copy + Debug + Send + Sync;
     /// The array of as many other entries.
-    type Of<U: Entry>: Corners<U>;
+    type Of<U: CornerEntry>: Corners<U>;
 
     /// The array with `x` everywhere.
     fn filled(x: T) -> Self;
@@ -44,10 +44,10 @@ pub trait Corners<T: Entry = SiteId>:
 #[repr(align(32))]
 pub struct Align32;
 
-impl<T: Entry> Corners<T> for [T; 3] {
+impl<T: CornerEntry> Corners<T> for [T; 3] {
     const N: usize = 3;
     type Alignment = u32;
-    type Of<U: Entry> = [U; 3];
+    type Of<U: CornerEntry> = [U; 3];
 
     #[inline(always)]
     fn filled(x: T) -> Self {
@@ -64,10 +64,10 @@ impl<T: Entry> Corners<T> for [T; 3] {
     }
 }
 
-impl<T: Entry> Corners<T> for [T; 4] {
+impl<T: CornerEntry> Corners<T> for [T; 4] {
     const N: usize = 4;
     type Alignment = Align32;
-    type Of<U: Entry> = [U; 4];
+    type Of<U: CornerEntry> = [U; 4];
 
     #[inline(always)]
     fn filled(x: T) -> Self {

@@ -30,7 +30,7 @@ mod restoring;
 mod sorting;
 
 pub use cell::{Cell, Facet};
-pub use corners::{Corners, Entry};
+pub use corners::{CornerEntry, Corners};
 pub(crate) use flips::{NewCell, outer_of_three, outer_of_two};
 pub(crate) use ranges::starts_of_ranges;
 pub use ranges::{CellRange, Obstacle};

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering, fence};
 use super::memory;
 use crate::error::Result;
 
-struct Inner<T> {
+struct CountedValue<T> {
     n_owners: AtomicUsize,
     value: T,
 }
@@ -17,7 +17,7 @@ struct Inner<T> {
 /// An owner. Owners are counted as by [`Arc`](std::sync::Arc), but that there is no memory for the count is an error here,
 /// and ends the program there.
 #[derive(Debug)]
-pub(crate) struct Counted<T>(NonNull<Inner<T>>);
+pub(crate) struct Counted<T>(NonNull<CountedValue<T>>);
 
 // SAFETY: what owners on several threads have in common is read by all, and dropped by any of them.
 unsafe impl<T: Send + Sync> Send for Counted<T> {}
@@ -27,11 +27,11 @@ unsafe impl<T: Send + Sync> Sync for Counted<T> {}
 impl<T> Counted<T> {
     /// The only owner so far.
     pub(crate) fn new(value: T) -> Result<Self> {
-        let inner = memory::boxed(Inner { n_owners: AtomicUsize::new(1), value })?;
+        let inner = memory::boxed(CountedValue { n_owners: AtomicUsize::new(1), value })?;
         Ok(Counted(NonNull::from(Box::leak(inner))))
     }
 
-    fn inner(&self) -> &Inner<T> {
+    fn inner(&self) -> &CountedValue<T> {
         // SAFETY: it is there as long as there is an owner.
         unsafe { self.0.as_ref() }
     }

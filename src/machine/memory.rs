@@ -165,15 +165,15 @@ pub(crate) fn lengthen<T: Clone>(array: &mut Vec<T>, n: usize, entry: T) -> Resu
 
 /// A text; cut off where there is no memory for more of it.
 pub(crate) fn text(arguments: fmt::Arguments) -> String {
-    struct Text(String);
-    impl Write for Text {
+    struct CutText(String);
+    impl Write for CutText {
         fn write_str(&mut self, more: &str) -> fmt::Result {
             self.0.try_reserve(more.len()).map_err(|_| fmt::Error)?;
             self.0.push_str(more);
             Ok(())
         }
     }
-    let mut text = Text(String::new());
+    let mut text = CutText(String::new());
     // What has been written so far is all that there is room for.
     let _ = text.write_fmt(arguments);
     text.0

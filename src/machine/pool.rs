@@ -44,11 +44,11 @@ pub(super) fn allow(n: usize) {
 }
 
 /// Work that a worker may do.
-struct Offer {
+struct OfferedWork {
     work: *mut (dyn FnMut() + Send),
     stage: Cell<Stage>,
     /// The next younger one.
-    next: Cell<Option<&'static Offer>>,
+    next: Cell<Option<&'static OfferedWork>>,
     /// Signalled when the work is done.
     done: Condition,
 }
@@ -70,9 +70,9 @@ struct Worker {
 }
 
 /// All that threads share. Used by the one that has the lock.
-struct Shared {
+struct PoolState {
     /// The oldest one.
-    offers: Cell<Option<&'static Offer>>,
+    offers: Cell<Option<&'static OfferedWork>>,
     n_offers: Cell<usize>,
     /// The workers that are not to end.
     workers: Cell<Option<&'static Worker>>,
@@ -92,7 +92,7 @@ struct Shared {
 
 struct Pool {
     lock: UnsafeCell<libc::pthread_mutex_t>,
-    shared: Shared,
+    shared: PoolState,
 }
 
 // SAFETY: what is shared, and all that is reached from it, is used by the thread that has the lock.
@@ -100,7 +100,7 @@ unsafe impl Sync for Pool {}
 
 static POOL: Pool = Pool {
     lock: UnsafeCell::new(libc::PTHREAD_MUTEX_INITIALIZER),
-    shared: Shared {
+    shared: PoolState {
         offers: Cell::new(None),
         n_offers: Cell::new(0),
         workers: Cell::new(None),
@@ -127,9 +127,9 @@ impl Locked {
 }
 
 impl Deref for Locked {
-    type Target = Shared;
+    type Target = PoolState;
 
-    fn deref(&self) -> &Shared {
+    fn deref(&self) -> &PoolState {
         &POOL.shared
     }
 }
@@ -176,9 +176,9 @@ pub(super) fn beside<A>(work: &mut (dyn FnMut() + Send), a: impl FnOnce() -> A) 
     // SAFETY: the two differ in a lifetime; this function ends when nobody uses it any more.
     let work = unsafe { transmute::<&mut (dyn FnMut() + Send), *mut (dyn FnMut() + Send + 'static)>(work) };
     let offer =
-        Offer { work, stage: Cell::new(Stage::Offered), next: Cell::new(None), done: Condition::new() };
+        OfferedWork { work, stage: Cell::new(Stage::Offered), next: Cell::new(None), done: Condition::new() };
     // SAFETY: the two differ in a lifetime; `offered` is dropped below, or by a panic of `a`, before the offer is.
-    let offered = Offered::new(unsafe { transmute::<&Offer, &'static Offer>(&offer) });
+    let offered = Offered::new(unsafe { transmute::<&OfferedWork, &'static OfferedWork>(&offer) });
     let a = a();
     drop(offered);
     a
@@ -186,12 +186,12 @@ pub(super) fn beside<A>(work: &mut (dyn FnMut() + Send), a: impl FnOnce() -> A) 
 
 /// An offer that has been made. When dropped, it is taken back or has been done.
 struct Offered {
-    offer: &'static Offer,
+    offer: &'static OfferedWork,
     n_forks: u32,
 }
 
 impl Offered {
-    fn new(offer: &'static Offer) -> Self {
+    fn new(offer: &'static OfferedWork) -> Self {
         let pool = Locked::new();
         pool.append(offer);
         if pool.n_offers.get() <= pool.n_asleep.get() {
@@ -220,9 +220,9 @@ impl Drop for Offered {
     }
 }
 
-impl Shared {
+impl PoolState {
     /// Puts an offer at the end of the list.
-    fn append(&self, offer: &'static Offer) {
+    fn append(&self, offer: &'static OfferedWork) {
         let mut last = &self.offers;
         while let Some(before) = last.get() {
             last = &before.next;
@@ -232,7 +232,7 @@ impl Shared {
     }
 
     /// Takes an offer from the list, if it is there.
-    fn remove(&self, offer: &Offer) {
+    fn remove(&self, offer: &OfferedWork) {
         let mut at = &self.offers;
         while let Some(other) = at.get() {
             if std::ptr::eq(other, offer) {
@@ -245,7 +245,7 @@ impl Shared {
     }
 
     /// Takes the oldest offer from the list, to do the work.
-    fn take(&self) -> Option<&'static Offer> {
+    fn take(&self) -> Option<&'static OfferedWork> {
         let offer = self.offers.get()?;
         self.remove(offer);
         offer.stage.set(Stage::Taken);

@@ -48,15 +48,15 @@ pub(crate) use reading::chunks::Chunks;
 pub use reading::domain::ChainEdge;
 pub use reading::exporting::Field;
 pub(crate) use reading::exporting::{Drawn, check_references};
-pub(crate) use reading::geometry::{
-    Asked, Edge, Ridges, check_corners, check_simplices, find_in_stars, first_cells, is_flat, list_boundary,
-    nowhere, ordered_star, tell_all, without_flat_cells,
-};
 pub use reading::geometry::{
     BoundaryFacet, Interpolation, Rows, TellCell, TellFacet, VertexValues, VoronoiCell, VoronoiCells,
     VoronoiFacet, VoronoiFacets,
 };
-pub(crate) use reading::near::{Entry, Lists, Placed, Search, Tree};
+pub(crate) use reading::geometry::{
+    EdgeWithCell, Ridges, VoronoiAsked, check_corners, check_simplices, find_in_stars, first_cells, is_flat,
+    list_boundary, nowhere, ordered_star, tell_all, without_flat_cells,
+};
+pub(crate) use reading::near::{BoxTree, Entry, Lists, PlacedVertex, Search};
 pub use reading::near::{InReach, ListsOf, NeighbourLists, VerticesInReach};
 pub(crate) use reading::progress::Progress;
 pub use reading::query::Location;
@@ -67,7 +67,7 @@ pub(crate) use reading::saving::reader::Reader;
 #[cfg(test)]
 pub(crate) use reading::transfer::finds_as_by_a_look_at_all;
 pub(crate) use reading::transfer::{
-    CellAt, Extent, Facet, Gone, Now, Shift, Transferred, in_place, transfer,
+    CellAt, Extent, Gone, Multiples, NamedFacet, Now, Transferred, in_place, transfer,
 };
 pub use reading::transfer::{TransferOrder, TransferReport};
 pub use report::{CommitReport, QualityReport, SplitReport, VertexWeights};

@@ -34,7 +34,7 @@ struct Group {
 
 /// How the translations of a place in a group are found.
 #[derive(Clone, Copy, Debug)]
-enum Search {
+enum TranslationSearch {
     /// There is one wherever the place is.
     Always,
     /// Along this axis they are apart by so many units; other axes have no bounds.
@@ -54,14 +54,14 @@ impl Group {
 }
 
 /// A closed box, in units of the grid along axes along which vectors go.
-struct Bounds<'l, G: Dimension> {
+struct BoxOnGrid<'l, G: Dimension> {
     lattice: &'l Lattice<G>,
     corners: [G::Point; 2],
     low: [i128; 3],
     high: [i128; 3],
     /// By vector and axis.
     rows: [[i128; 3]; 3],
-    groups: [Option<(Group, Search)>; 3],
+    groups: [Option<(Group, TranslationSearch)>; 3],
 }
 
 impl<G: Dimension> PeriodicTriangulation<G> {
@@ -83,7 +83,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// infinite along two axes fewer than these, but not as wide as all vectors of these axes together along each;
     /// [`Error::OutOfMemory`].
     pub fn vertices_in_box(&self, low: &G::Point, high: &G::Point) -> Result<Vec<VertexId>> {
-        let bounds = Bounds::new(&self.lattice, low, high)?;
+        let bounds = BoxOnGrid::new(&self.lattice, low, high)?;
         let mut found = Vec::new();
         let is_empty = |axis: usize| {
             low[axis] > high[axis] || low[axis] == f64::INFINITY || high[axis] == f64::NEG_INFINITY
@@ -121,7 +121,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 }
 
-impl<'l, G: Dimension> Bounds<'l, G> {
+impl<'l, G: Dimension> BoxOnGrid<'l, G> {
     fn new(lattice: &'l Lattice<G>, low: &G::Point, high: &G::Point) -> Result<Self> {
         for (argument, corner) in [("low", low), ("high", high)] {
             if let Some(index) = (0..G::D).find(|&axis| corner[axis].is_nan()) {
@@ -129,7 +129,7 @@ impl<'l, G: Dimension> Bounds<'l, G> {
                 return Err(Error::InvalidValue { argument, index, value, wanted });
             }
         }
-        let mut bounds = Bounds {
+        let mut bounds = BoxOnGrid {
             lattice,
             corners: [*low, *high],
             low: [-FAR; 3],
@@ -189,7 +189,7 @@ impl<'l, G: Dimension> Bounds<'l, G> {
     }
 
     /// How translations in a group are to be found.
-    fn search(&self, group: Group) -> Result<Search> {
+    fn search(&self, group: Group) -> Result<TranslationSearch> {
         let axes = || (0..G::D).filter(|&axis| group.has_axis(axis));
         let is_bounded = |axis: &usize| self.low[*axis] > -FAR || self.high[*axis] < FAR;
         let width = |axis: usize| self.high[axis] - self.low[axis];
@@ -198,12 +198,12 @@ impl<'l, G: Dimension> Bounds<'l, G> {
         };
         let (n_vectors, n_axes) = (group.vectors.count_ones(), group.axes.count_ones());
         if axes().filter(is_bounded).count() == 0 || n_vectors == n_axes && axes().all(is_wide) {
-            return Ok(Search::Always);
+            return Ok(TranslationSearch::Always);
         }
         let mut bounded = axes().filter(is_bounded);
         if let (Some(axis), None) = (bounded.next(), bounded.next()) {
             let of_all = self.vectors_of(group).map(|j| self.rows[j][axis]).fold(0, divisor);
-            return Ok(Search::Multiples(axis, of_all));
+            return Ok(TranslationSearch::Multiples(axis, of_all));
         }
         let n_multiples = |j: usize| {
             let [from, to] = self.multiples(group, j, &[0; 3]);
@@ -213,7 +213,7 @@ impl<'l, G: Dimension> Bounds<'l, G> {
         let last = self.vectors_of(group).reduce(longest).expect("a group has a vector");
         let n_tried: f64 = self.vectors_of(group).filter(|&j| j != last).map(n_multiples).product();
         if n_tried <= MOST_TRIED {
-            return Ok(Search::Tried(last));
+            return Ok(TranslationSearch::Tried(last));
         }
         let index = axes().find(|&axis| !is_wide(axis)).or_else(|| axes().next()).unwrap_or(0);
         let wanted = "near low, or so far from it that the box is as wide as all vectors together along each of their axes";
@@ -246,12 +246,12 @@ impl<'l, G: Dimension> Bounds<'l, G> {
             }
         }
         self.groups.iter().flatten().all(|&(group, search)| match search {
-            Search::Always => true,
-            Search::Multiples(axis, step) => {
+            TranslationSearch::Always => true,
+            TranslationSearch::Multiples(axis, step) => {
                 let [from, to] = [self.low[axis] - place[axis], self.high[axis] - place[axis]];
                 to.div_euclid(step) * step >= from
             }
-            Search::Tried(last) => self.is_found(group, last, 0, place),
+            TranslationSearch::Tried(last) => self.is_found(group, last, 0, place),
         })
     }
 

@@ -99,7 +99,7 @@ impl Shifts {
 }
 
 /// The corners of a cell inside, in order.
-type Row = [u32; 4];
+type CornerRow = [u32; 4];
 
 /// Rows have numbers that are as good as random in their low bits, once multiplied.
 #[derive(Default)]
@@ -144,7 +144,7 @@ impl std::hash::Hash for RowPart {
     }
 }
 
-fn key_of(mut row: Row) -> [RowPart; 4] {
+fn key_of(mut row: CornerRow) -> [RowPart; 4] {
     row.sort_unstable();
     row.map(RowPart)
 }
@@ -251,7 +251,7 @@ impl<G: Dimension> PeriodicCells<G> {
     }
 }
 
-fn row_of<V: AsRef<[VertexId]>>(row: &V) -> Row {
+fn row_of<V: AsRef<[VertexId]>>(row: &V) -> CornerRow {
     let mut made = [u32::MAX; 4];
     made.iter_mut().zip(row.as_ref()).for_each(|(to, v)| *to = v.get());
     made

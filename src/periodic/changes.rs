@@ -79,7 +79,7 @@ impl<G: Dimension> Base<G> {
 
 /// The lists behind [`Changes`].
 #[derive(Debug)]
-pub(super) struct Lists<G: Dimension> {
+pub(super) struct ChangeLists<G: Dimension> {
     pub(super) created: Vec<CellId>,
     pub(super) removed: Vec<CellId>,
     pub(super) removed_corners: Vec<G::Vertices>,
@@ -94,9 +94,9 @@ pub(super) struct Lists<G: Dimension> {
     pub(super) shown: Vec<VertexId>,
 }
 
-impl<G: Dimension> Lists<G> {
+impl<G: Dimension> ChangeLists<G> {
     pub(super) fn none() -> Self {
-        Lists {
+        ChangeLists {
             created: Vec::new(),
             removed: Vec::new(),
             removed_corners: Vec::new(),
@@ -139,7 +139,7 @@ impl<G: Dimension> Lists<G> {
 #[derive(Debug)]
 pub(super) struct Taking<G: Dimension> {
     pub(super) base: Base<G>,
-    pub(super) lists: Lists<G>,
+    pub(super) lists: ChangeLists<G>,
     /// The timestamp at which they were taken, if the lists are still of these ids.
     pub(super) timestamp: Option<u64>,
     /// Whether the vectors are others than when changes were taken before.
@@ -150,7 +150,7 @@ impl<G: Dimension> Taking<G> {
     /// What it is for another triangulation with these ids, listed by the old ones; without the lists.
     pub(super) fn renumbered(&self, new_id: impl Fn(VertexId) -> VertexId) -> Result<Self> {
         let base = self.base.renumbered(new_id)?;
-        Ok(Taking { base, lists: Lists::none(), timestamp: None, is_strained: false })
+        Ok(Taking { base, lists: ChangeLists::none(), timestamp: None, is_strained: false })
     }
 }
 

@@ -7,8 +7,8 @@ use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::CommitReport;
-use crate::periodic::editing::Edits;
-use crate::periodic::following::Before;
+use crate::periodic::editing::ImageEdits;
+use crate::periodic::following::InsideBefore;
 use crate::periodic::images::Image;
 use crate::periodic::inside::Inside;
 use crate::periodic::lattice::{HOME, Lattice, Occupied};
@@ -16,7 +16,7 @@ use crate::periodic::triangulation::PeriodicTriangulation;
 
 /// Where vertices go.
 #[derive(Clone, Copy)]
-enum Goals<'a, G: Dimension> {
+enum PeriodicGoals<'a, G: Dimension> {
     /// To what is staged for them; others stay.
     Staged,
     /// To the entries of an array by id.
@@ -35,7 +35,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     pub(super) fn commit_staged(&mut self) -> Result<CommitReport> {
-        self.commit(Goals::Staged)
+        self.commit(PeriodicGoals::Staged)
     }
 
     /// Moves each vertex to the entry of its id, and makes that, and all that is staged but for moves, the next timestamp.
@@ -54,10 +54,10 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             let coming = self.staged.insertions().len();
             return Err(Error::WrongCount { argument: "count", given, wanted, coming });
         }
-        self.commit(Goals::Of(positions))
+        self.commit(PeriodicGoals::Of(positions))
     }
 
-    fn commit(&mut self, goals: Goals<'_, G>) -> Result<CommitReport> {
+    fn commit(&mut self, goals: PeriodicGoals<'_, G>) -> Result<CommitReport> {
         let mut report = match self.moved(goals)? {
             Some(report) => report,
             None => self.rebuilt(goals)?,
@@ -75,20 +75,20 @@ impl<G: Dimension> PeriodicTriangulation<G> {
 
     /// Moves vertices and images, makes the edits, and inserts images that are missing; none, without a change, if a vertex would
     /// be too far from the unit cell, the lattice too different, or the edits too many.
-    fn moved(&mut self, goals: Goals<'_, G>) -> Result<Option<CommitReport>> {
+    fn moved(&mut self, goals: PeriodicGoals<'_, G>) -> Result<Option<CommitReport>> {
         let n = self.inside.images.n_vertices();
         let lattice = self.coming.as_ref().unwrap_or(&self.lattice);
-        let edits = Edits::of(&self.inside, lattice, &self.staged, |index| match goals {
-            Goals::Of(positions) => positions[n + index],
-            Goals::Staged => self.staged.insertions()[index],
+        let edits = ImageEdits::of(&self.inside, lattice, &self.staged, |index| match goals {
+            PeriodicGoals::Of(positions) => positions[n + index],
+            PeriodicGoals::Staged => self.staged.insertions()[index],
         });
         let Some(edits) = edits? else { return Ok(None) };
         memory::reserve(&mut self.wraps, edits.wraps().len())?;
         let moved = match (goals, &self.coming) {
-            (Goals::Staged, None) => self.some_moved(&edits),
-            (Goals::Of(positions), None) => self.all_moved(positions, &edits),
-            (Goals::Of(positions), Some(_)) => self.all_moved_in_other(positions, &edits),
-            (Goals::Staged, Some(_)) => {
+            (PeriodicGoals::Staged, None) => self.some_moved(&edits),
+            (PeriodicGoals::Of(positions), None) => self.all_moved(positions, &edits),
+            (PeriodicGoals::Of(positions), Some(_)) => self.all_moved_in_other(positions, &edits),
+            (PeriodicGoals::Staged, Some(_)) => {
                 let mut positions = Vec::new();
                 let places = VertexId::range(0..n).map(|v| self.position(v).unwrap_or_default());
                 memory::collect(&mut positions, places)?;
@@ -104,7 +104,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     /// Of those whose moves are staged.
-    fn some_moved(&mut self, edits: &Edits<G>) -> Result<Option<CommitReport>> {
+    fn some_moved(&mut self, edits: &ImageEdits<G>) -> Result<Option<CommitReport>> {
         let Self { lattice, inside, wraps, staged, .. } = self;
         let (mut new_wraps, mut ids, mut places) = (Vec::new(), Vec::new(), Vec::new());
         let (mut occupied, mut n_moved) = (inside.occupied, 0);
@@ -139,7 +139,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     /// Of all, to these positions by id.
-    fn all_moved(&mut self, positions: &[G::Point], edits: &Edits<G>) -> Result<Option<CommitReport>> {
+    fn all_moved(&mut self, positions: &[G::Point], edits: &ImageEdits<G>) -> Result<Option<CommitReport>> {
         let Self { lattice, inside, wraps, .. } = self;
         let moved = inside.move_all(lattice, positions, edits, |vertex| wraps[vertex])?;
         let Some((report, new_wraps)) = moved else {
@@ -154,7 +154,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     fn all_moved_in_other(
         &mut self,
         positions: &[G::Point],
-        edits: &Edits<G>,
+        edits: &ImageEdits<G>,
     ) -> Result<Option<CommitReport>> {
         let Some(other) = &self.coming else { return Ok(None) };
         let Some(relation) = self.lattice.relation_to(other) else { return Ok(None) };
@@ -196,21 +196,21 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     /// Builds another triangulation, with all that is staged, which takes the place of the present one.
-    fn rebuilt(&mut self, goals: Goals<'_, G>) -> Result<CommitReport> {
+    fn rebuilt(&mut self, goals: PeriodicGoals<'_, G>) -> Result<CommitReport> {
         let lattice = self.coming.as_ref().unwrap_or(&self.lattice);
         let (n_before, n_ids) = (self.inside.images.n_vertices(), self.id_count());
         let mut positions = Vec::new();
         memory::reserve_exact(&mut positions, n_ids)?;
         for vertex in VertexId::range(0..n_before) {
             positions.push(match goals {
-                Goals::Of(goals) => Some(goals[vertex]),
-                Goals::Staged => self.position(vertex).ok(),
+                PeriodicGoals::Of(goals) => Some(goals[vertex]),
+                PeriodicGoals::Staged => self.position(vertex).ok(),
             });
         }
         for (index, position) in self.staged.insertions().iter().enumerate() {
             positions.push(Some(match goals {
-                Goals::Of(goals) => goals[n_before + index],
-                Goals::Staged => *position,
+                PeriodicGoals::Of(goals) => goals[n_before + index],
+                PeriodicGoals::Staged => *position,
             }));
         }
         self.staged.moves().iter().for_each(|&(vertex, goal)| positions[vertex] = Some(goal));
@@ -247,7 +247,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
 }
 
 /// What moves come to: what vertices at home occupy then, how many of them move, and which ones have come by another translation.
-type Coming = (Occupied, u64, Wraps);
+type MovedHomes = (Occupied, u64, Wraps);
 
 /// Vertices, and by which translations they come home.
 type Wraps = Vec<(VertexId, [i64; 3])>;
@@ -260,7 +260,7 @@ impl<G: Dimension> Inside<G> {
         &mut self,
         lattice: &Lattice<G>,
         positions: &[G::Point],
-        edits: &Edits<G>,
+        edits: &ImageEdits<G>,
         wrap_of: impl Fn(VertexId) -> [i64; 3],
     ) -> Result<Option<(CommitReport, Wraps)>> {
         let mut goals = std::mem::take(&mut self.goals);
@@ -286,10 +286,10 @@ impl<G: Dimension> Inside<G> {
         &self,
         lattice: &Lattice<G>,
         positions: &[G::Point],
-        edits: &Edits<G>,
+        edits: &ImageEdits<G>,
         wrap_of: impl Fn(VertexId) -> [i64; 3],
         goals: &mut Vec<G::Point>,
-    ) -> Result<Option<Coming>> {
+    ) -> Result<Option<MovedHomes>> {
         goals.clear();
         memory::lengthen(goals, self.images.len(), G::Point::default())?;
         let (mut occupied, mut n_moved, mut new_wraps) = (Occupied::NOTHING, 0, Vec::new());
@@ -327,10 +327,10 @@ impl<G: Dimension> Inside<G> {
         &mut self,
         lattice: &Lattice<G>,
         occupied: Occupied,
-        edits: &Edits<G>,
+        edits: &ImageEdits<G>,
     ) -> Result<CommitReport> {
         let (before, n_images) = (self.occupied, self.images.len());
-        let since = Before { n_vertices: self.images.n_vertices(), is_plain: self.is_plain(lattice) };
+        let since = InsideBefore { n_vertices: self.images.n_vertices(), is_plain: self.is_plain(lattice) };
         self.occupied = occupied;
         let missing = |inside: &Self, lattice: &Lattice<G>| inside.missing(lattice, since);
         let done = self.stage(edits).and_then(|()| {

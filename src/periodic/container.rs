@@ -24,7 +24,7 @@ use crate::periodic::triangulation::PeriodicTriangulation;
 use crate::predicates::MAX_MAGNITUDE;
 
 /// A vector of space; in the plane at height 0.
-type Vector = [f64; 3];
+type SpaceVector = [f64; 3];
 
 /// By how much of its extent a bound is widened, at least.
 const MARGIN: f64 = 1.0 / 64.0;
@@ -35,12 +35,12 @@ const PARALLEL: f64 = 1e-9;
 /// The places x with normal · x at most the offset. The normal has length 1.
 #[derive(Clone, Copy, Debug)]
 struct Wall {
-    normal: Vector,
+    normal: SpaceVector,
     offset: f64,
 }
 
 impl Wall {
-    fn new(normal: Vector, offset: f64) -> Self {
+    fn new(normal: SpaceVector, offset: f64) -> Self {
         let greatest = normal.iter().fold(0.0f64, |most, x| most.max(x.abs()));
         let scaled = normal.map(|x| x / greatest);
         let length = dot(&scaled, &scaled).sqrt();
@@ -50,16 +50,16 @@ impl Wall {
 
 /// The least box around some places.
 #[derive(Clone, Copy, Debug)]
-struct Extent {
-    low: Vector,
-    high: Vector,
+struct LeastBox {
+    low: SpaceVector,
+    high: SpaceVector,
 }
 
-impl Extent {
-    const NOTHING: Self = Extent { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
+impl LeastBox {
+    const NOTHING: Self = LeastBox { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
 
     /// Makes room for a place that is so far from another one in a direction, maybe infinitely far.
-    fn enter(&mut self, from: &Vector, along: &Vector, way: f64) {
+    fn enter(&mut self, from: &SpaceVector, along: &SpaceVector, way: f64) {
         for axis in 0..3 {
             let x = if along[axis] == 0.0 { from[axis] } else { from[axis] + way * along[axis] };
             self.low[axis] = self.low[axis].min(x);
@@ -183,20 +183,20 @@ fn checked_corners<G: Dimension>(
 }
 
 /// The ends of what walls leave of a line in a direction to which all are perpendicular; none if that is nothing.
-fn ends_of(walls: &[Wall], along: &Vector) -> Option<Extent> {
+fn ends_of(walls: &[Wall], along: &SpaceVector) -> Option<LeastBox> {
     let [from, to] = interval(walls, None, &[0.0; 3], along);
     if from > to {
         return None;
     }
-    let mut extent = Extent::NOTHING;
+    let mut extent = LeastBox::NOTHING;
     [from, to].into_iter().for_each(|end| extent.enter(&[0.0; 3], along, end));
     Some(extent)
 }
 
 /// The extent of the sides of the polygon that walls, of which there are some, leave of a plane that is spanned by two vectors
 /// of length 1 at a right angle; none if there are no sides.
-fn sides_of(walls: &[Wall], [one, other]: &[Vector; 2]) -> Option<Extent> {
-    let (mut extent, mut has_sides) = (Extent::NOTHING, false);
+fn sides_of(walls: &[Wall], [one, other]: &[SpaceVector; 2]) -> Option<LeastBox> {
+    let (mut extent, mut has_sides) = (LeastBox::NOTHING, false);
     for (k, wall) in walls.iter().enumerate() {
         let [x, y] = [dot(&wall.normal, one), dot(&wall.normal, other)];
         let along = [0, 1, 2].map(|axis| x * other[axis] - y * one[axis]);
@@ -211,7 +211,7 @@ fn sides_of(walls: &[Wall], [one, other]: &[Vector; 2]) -> Option<Extent> {
 }
 
 /// The parameters between which walls but one leave a line by a place on it and its direction, of length 1, and a bit more.
-fn interval(walls: &[Wall], but: Option<usize>, at: &Vector, along: &Vector) -> [f64; 2] {
+fn interval(walls: &[Wall], but: Option<usize>, at: &SpaceVector, along: &SpaceVector) -> [f64; 2] {
     let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
     for (k, wall) in walls.iter().enumerate() {
         let (slope, room) = (dot(&wall.normal, along), wall.offset - dot(&wall.normal, at));
@@ -253,9 +253,9 @@ impl<G: Dimension> Lattice<G> {
 
     /// Vectors of length 1, at right angles to each other, which span what is perpendicular to the vectors of the lattice, as many
     /// as that has dimensions; along axes, where that is possible.
-    fn across(&self) -> [Vector; 2] {
+    fn across(&self) -> [SpaceVector; 2] {
         let widened = |p: &G::Point| [p[0], p[1], if G::D == 3 { p[2] } else { 0.0 }];
-        let mut basis: [Vector; 3] = Default::default();
+        let mut basis: [SpaceVector; 3] = Default::default();
         let mut n = 0;
         for vector in self.reduced() {
             if let Some(part) = part_across(&basis[..n], &widened(vector)) {
@@ -276,8 +276,8 @@ impl<G: Dimension> Lattice<G> {
     }
 
     /// A box around the cells of vertices at home in a container of this section, with the faces that are given.
-    fn box_around(&self, section: Option<Extent>, [low, high]: [&G::Point; 2]) -> [G::Point; 2] {
-        let section = section.unwrap_or(Extent { low: [0.0; 3], high: [0.0; 3] });
+    fn box_around(&self, section: Option<LeastBox>, [low, high]: [&G::Point; 2]) -> [G::Point; 2] {
+        let section = section.unwrap_or(LeastBox { low: [0.0; 3], high: [0.0; 3] });
         let reach = self.reach_of_voronoi_cells();
         let (mut from, mut to) = (*low, *high);
         for axis in 0..G::D {
@@ -304,7 +304,7 @@ impl<G: Dimension> Lattice<G> {
 }
 
 /// What a vector has across others, which have length 1 and are at right angles, with length 1; none if that is but rounding.
-fn part_across(others: &[Vector], vector: &Vector) -> Option<Vector> {
+fn part_across(others: &[SpaceVector], vector: &SpaceVector) -> Option<SpaceVector> {
     let greatest = vector.iter().fold(0.0f64, |most, x| most.max(x.abs()));
     let mut part = vector.map(|x| x / greatest);
     // Once more, for what the first time has left by rounding.

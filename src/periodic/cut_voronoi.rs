@@ -8,7 +8,9 @@ use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
-use crate::motion::{Asked, Edge, Progress, TellCell, TellFacet, VoronoiCell, VoronoiFacet, nowhere};
+use crate::motion::{
+    EdgeWithCell, Progress, TellCell, TellFacet, VoronoiAsked, VoronoiCell, VoronoiFacet, nowhere,
+};
 use crate::periodic::container::Container;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
@@ -91,11 +93,11 @@ impl<G: Dimension> PeriodicTriangulation<G> {
                 }
             }
             // Edges are where their first vertices are at home, which may be beyond the mask.
-            memory::collect(&mut vertices, chosen.iter().map(|edge: &Edge| edge.0[0]))?;
+            memory::collect(&mut vertices, chosen.iter().map(|edge: &EdgeWithCell| edge.0[0]))?;
         }
         let region = t.region(corners, half_spaces)?;
         let size = self.lattice.measure().powf(1.0 / self.lattice.rank() as f64);
-        let asked = Asked {
+        let asked = VoronoiAsked {
             around: Some(&vertices),
             vertices: tell_cell.as_ref().map(|_| &vertices[..n_shown]),
             edges: tell_facet.as_ref().map(|_| &chosen[..]),

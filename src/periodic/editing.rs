@@ -23,7 +23,7 @@ const GROWTH: usize = 2;
 
 /// Insertions and removals.
 #[derive(Debug)]
-pub(super) struct Edits<G: Dimension> {
+pub(super) struct ImageEdits<G: Dimension> {
     /// Vertices that come, and then images of them, in the order of the ids that they get inside.
     images: Vec<Image>,
     places: Vec<G::Point>,
@@ -35,7 +35,7 @@ pub(super) struct Edits<G: Dimension> {
     going_inside: Vec<VertexId>,
 }
 
-impl<G: Dimension> Edits<G> {
+impl<G: Dimension> ImageEdits<G> {
     /// What is staged, if that costs less than to build anew; vertices that come are at the places that `position_of` tells by
     /// their number.
     pub(super) fn of(
@@ -51,7 +51,7 @@ impl<G: Dimension> Edits<G> {
         let (images, places, wraps) = (Vec::new(), Vec::new(), Vec::new());
         let (mut going, going_inside) = (memory::copy_of(staged.removals())?, Vec::new());
         going.sort_unstable();
-        let mut edits = Edits { images, places, wraps, going, going_inside };
+        let mut edits = ImageEdits { images, places, wraps, going, going_inside };
         for &vertex in &edits.going {
             for inner in inside.images.all_of(vertex) {
                 memory::push(&mut edits.going_inside, inner)?;
@@ -115,7 +115,7 @@ impl<G: Dimension> Inside<G> {
     }
 
     /// Stages the edits, and makes room for them among the images.
-    pub(super) fn stage(&mut self, edits: &Edits<G>) -> Result<()> {
+    pub(super) fn stage(&mut self, edits: &ImageEdits<G>) -> Result<()> {
         if edits.is_empty() {
             return Ok(());
         }
@@ -126,13 +126,13 @@ impl<G: Dimension> Inside<G> {
     }
 
     /// What has come is known; there is room.
-    pub(super) fn enter_coming(&mut self, edits: &Edits<G>) {
+    pub(super) fn enter_coming(&mut self, edits: &ImageEdits<G>) {
         edits.images.iter().for_each(|&image| self.images.push(image));
     }
 
     /// The edits stay: what has come has places, and what has gone is known no more. Before the edits there were so many ids
     /// inside; there is room among the places.
-    pub(super) fn settle(&mut self, edits: &Edits<G>, n_before: usize) {
+    pub(super) fn settle(&mut self, edits: &ImageEdits<G>, n_before: usize) {
         if !edits.images.is_empty() {
             self.places.resize(n_before, G::Point::default());
             self.places.extend_from_slice(&edits.places);

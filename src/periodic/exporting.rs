@@ -19,7 +19,7 @@ struct Periods<'t, G: Dimension> {
 
 /// A corner of a cell, or a vertex that is in none.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Corner {
+struct ExportedCorner {
     vertex: VertexId,
     /// By which multiples of the given vectors it is translated from its position.
     shift: [i64; 3],
@@ -41,20 +41,23 @@ impl<'t, G: Dimension> Periods<'t, G> {
             let row = cells.corners[cell].as_ref();
             let wrap = t.wraps[row[usize::from(cells.least[cell])]];
             let from_home = [0, 1, 2].map(|j| i64::from(cells.shifts.of(cell)[corner][j]) + wrap[j]);
-            corners.push(Corner { vertex: row[corner], shift, index, from_home });
+            corners.push(ExportedCorner { vertex: row[corner], shift, index, from_home });
         }
         let mut is_corner = Vec::new();
         memory::lengthen(&mut is_corner, t.wraps.len(), false)?;
         corners.iter().for_each(|corner| is_corner[corner.vertex] = true);
         for vertex in VertexId::range(0..t.wraps.len()).filter(|&v| t.is_present(v) && !is_corner[v]) {
             let from_home = t.wraps[vertex];
-            memory::push(&mut corners, Corner { vertex, shift: [0; 3], index: n_corners, from_home })?;
+            memory::push(
+                &mut corners,
+                ExportedCorner { vertex, shift: [0; 3], index: n_corners, from_home },
+            )?;
         }
         corners.sort_unstable();
         let (mut points, mut numbers) = (Vec::new(), Vec::new());
         memory::lengthen(&mut numbers, n_corners, 0)?;
         for same in corners.chunk_by(|one, other| (one.vertex, one.shift) == (other.vertex, other.shift)) {
-            let Corner { vertex, from_home, .. } = same[0];
+            let ExportedCorner { vertex, from_home, .. } = same[0];
             same.iter().filter(|one| one.index < n_corners).for_each(|one| {
                 numbers[one.index] = points.len() as u32;
             });

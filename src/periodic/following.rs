@@ -29,16 +29,16 @@ type Class = [Image; 4];
 
 /// A cell that has come, or one that has gone, by its place in a list.
 #[derive(Clone, Copy)]
-enum Change {
+enum CellChange {
     Come(CellId),
     Gone(usize),
 }
 
 /// One of the places of a class that has changed.
-struct Found {
+struct ChangedPlace {
     class: Class,
     n_places: usize,
-    change: Change,
+    change: CellChange,
 }
 
 /// Finds cells among those at a vertex.
@@ -188,7 +188,7 @@ impl Joined {
 
 /// What was there before a change.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Before {
+pub(super) struct InsideBefore {
     /// Ids that vertices had been given.
     pub(super) n_vertices: usize,
     /// Whether the set [was plain](Inside::is_plain).
@@ -202,7 +202,7 @@ impl<G: Dimension> Inside<G> {
     }
 
     /// The images that are missing after changes, where before all was as in the repeating set.
-    pub(super) fn missing(&self, lattice: &Lattice<G>, before: Before) -> Result<Needed> {
+    pub(super) fn missing(&self, lattice: &Lattice<G>, before: InsideBefore) -> Result<Needed> {
         if before.is_plain
             && self.is_plain(lattice)
             && let Some(needed) = self.missing_at_changes(lattice, before.n_vertices)?
@@ -232,8 +232,8 @@ impl<G: Dimension> Inside<G> {
             }
             if n_home < corners.len() {
                 let (class, n_places) = self.class_of(row);
-                let change = created.map_or_else(|| Change::Gone(removed.len() - 1), Change::Come);
-                memory::push(&mut found, Found { class, n_places, change })?;
+                let change = created.map_or_else(|| CellChange::Gone(removed.len() - 1), CellChange::Come);
+                memory::push(&mut found, ChangedPlace { class, n_places, change })?;
             }
         }
         found.sort_unstable_by_key(|one| one.class);
@@ -241,7 +241,7 @@ impl<G: Dimension> Inside<G> {
         let mut stars = Stars { inside: self, cells, slots: IndexSet::new() };
         for of_class in found.chunk_by(|one, other| one.class == other.class) {
             // Before, the class was there in all places or in none.
-            let n_come = of_class.iter().filter(|one| matches!(one.change, Change::Come(_))).count();
+            let n_come = of_class.iter().filter(|one| matches!(one.change, CellChange::Come(_))).count();
             let n_more = n_come.abs_diff(of_class.len() - n_come);
             if n_more == 0 || n_more == of_class[0].n_places {
                 continue;
@@ -249,8 +249,8 @@ impl<G: Dimension> Inside<G> {
             is_consistent = false;
             for one in of_class {
                 match one.change {
-                    Change::Come(cell) => needed.enter_cell(self, lattice, cell)?,
-                    Change::Gone(index) => {
+                    CellChange::Come(cell) => needed.enter_cell(self, lattice, cell)?,
+                    CellChange::Gone(index) => {
                         self.enter_others(&mut stars, lattice, &removed[index], &mut needed)?
                     }
                 }

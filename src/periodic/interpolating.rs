@@ -11,10 +11,10 @@ use crate::motion::{Interpolation, Location, Ridges, VertexValues};
 use crate::periodic::images::Image;
 use crate::periodic::inside::all;
 use crate::periodic::lattice::{HOME, Range, Shift};
-use crate::periodic::locating::{Placed, Spot};
+use crate::periodic::locating::{PlacedCell, Spot};
 use crate::periodic::reduction::SLACK;
 use crate::periodic::triangulation::PeriodicTriangulation;
-use crate::periodic::zone::Zone;
+use crate::periodic::zone::ZoneCells;
 
 impl<G: Dimension> PeriodicTriangulation<G> {
     /// Interpolates values of vertices at positions, rounded to the grid of the lattice: those of each are told to `found`, or `None` for positions outside the convex hull of a set that is open in some direction. An image of a
@@ -56,7 +56,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let spots = self.spots(&asked, near)?;
         let cells = self.read_cells()?;
         let (mut weights, mut result) = (Vec::new(), Vec::new());
-        let (mut of_images, mut zone, mut ridges) = (Vec::new(), Zone::default(), Ridges::default());
+        let (mut of_images, mut zone, mut ridges) = (Vec::new(), ZoneCells::default(), Ridges::default());
         memory::lengthen(&mut result, given.n_values, 0.0)?;
         for (place, spot) in asked.places.iter().zip(spots) {
             match spot {
@@ -146,7 +146,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             least.ceil() as i32..=most.floor() as i32
         });
         let has_place = |by: Shift| {
-            let placed: Placed = (class, by);
+            let placed: PlacedCell = (class, by);
             self.facets_before(&self.corners_of(cells, placed), place) == 0
         };
         Ok(all(a, b, c).map(|(x, y, z)| [x, y, z]).find(|&by| has_place(by)))

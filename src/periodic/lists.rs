@@ -8,7 +8,7 @@ use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
-use crate::motion::{Entry, Lists, ListsOf, NeighbourLists, Placed, Search, Tree};
+use crate::motion::{BoxTree, Entry, Lists, ListsOf, NeighbourLists, PlacedVertex, Search};
 use crate::periodic::inside::all;
 use crate::periodic::lattice::{HOME, Lattice, Occupied, Range, Shift};
 use crate::periodic::reduction::SLACK;
@@ -75,7 +75,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let placed = wanted.placed(homes, self.vertex_count())?;
         let translations = self.translations(wanted, &placed)?;
         let search = Search::<G> {
-            tree: Tree::new(placed)?,
+            tree: BoxTree::new(placed)?,
             translations: &translations.ways,
             nowhere: translations.nowhere,
             is_half: wanted.is_half,
@@ -96,7 +96,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     fn translations(
         &self,
         wanted: &ListsOf<'_>,
-        placed: &[Placed<G::Point>],
+        placed: &[PlacedVertex<G::Point>],
     ) -> Result<Translations<G::Point>> {
         let lattice = &self.lattice;
         let mut found = Translations { ways: Vec::new(), shifts: Vec::new(), nowhere: 0 };

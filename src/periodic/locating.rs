@@ -31,7 +31,7 @@ use crate::periodic::reduction::SLACK;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
 /// A cell of the repeating set: one of a class, translated by this shift from where its least vertex is at home.
-pub(super) type Placed = (CellId, Shift);
+pub(super) type PlacedCell = (CellId, Shift);
 
 /// Where a place in the unit cell lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,15 +39,15 @@ pub(super) enum Spot {
     /// At this image of the vertex that represents those there.
     Vertex(Image),
     /// In the closure of this cell, at no vertex.
-    Cell(Placed),
+    Cell(PlacedCell),
     /// Beyond a facet of the hull of this cell.
-    Outside(Placed),
+    Outside(PlacedCell),
     /// There are no cells.
     NoCells,
 }
 
 /// Places that are asked for.
-pub(super) struct Asked<G: Dimension> {
+pub(super) struct AskedPlaces<G: Dimension> {
     /// In the unit cell.
     pub(super) places: Vec<G::Point>,
     /// By which multiples of the reduced vectors each has been translated to come from there.
@@ -55,14 +55,14 @@ pub(super) struct Asked<G: Dimension> {
 }
 
 /// The ranges of coordinates, and of multiples of the vectors, that some places have.
-struct Extent {
+struct PlaceRanges {
     low: [f64; 6],
     high: [f64; 6],
 }
 
-impl Extent {
+impl PlaceRanges {
     fn of<G: Dimension>(lattice: &Lattice<G>, places: &[G::Point]) -> Self {
-        let (mut extent, used) = (Extent { low: [0.0; 6], high: [0.0; 6] }, [0..G::D, 3..6]);
+        let (mut extent, used) = (PlaceRanges { low: [0.0; 6], high: [0.0; 6] }, [0..G::D, 3..6]);
         for k in used.into_iter().flatten() {
             (extent.low[k], extent.high[k]) = (f64::INFINITY, f64::NEG_INFINITY);
         }
@@ -88,7 +88,7 @@ impl Extent {
 }
 
 /// Cells that have been seen by a search.
-type Seen = HashMap<Placed, (), BuildHasherDefault<RowHasher>>;
+type SeenCells = HashMap<PlacedCell, (), BuildHasherDefault<RowHasher>>;
 
 impl<G: Dimension> PeriodicTriangulation<G> {
     /// Where a position, rounded to the grid of the lattice, lies: the class of cells, or the vertex, of which a translation is
@@ -144,8 +144,8 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     /// Positions on the grid, in the unit cell.
-    pub(super) fn asked(&self, positions: &[G::Point]) -> Result<Asked<G>> {
-        let mut asked = Asked { places: Vec::new(), wraps: Vec::new() };
+    pub(super) fn asked(&self, positions: &[G::Point]) -> Result<AskedPlaces<G>> {
+        let mut asked = AskedPlaces { places: Vec::new(), wraps: Vec::new() };
         memory::reserve_exact(&mut asked.places, positions.len())?;
         memory::reserve_exact(&mut asked.wraps, positions.len())?;
         for (index, position) in positions.iter().enumerate() {
@@ -157,7 +157,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     /// Where these places are.
-    pub(super) fn spots(&self, asked: &Asked<G>, near: Option<Location>) -> Result<Vec<Spot>> {
+    pub(super) fn spots(&self, asked: &AskedPlaces<G>, near: Option<Location>) -> Result<Vec<Spot>> {
         let cells = self.read_cells()?;
         let (mut inner, mut spots) = (Vec::new(), Vec::new());
         memory::reserve_exact(&mut inner, asked.places.len())?;
@@ -215,14 +215,18 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     /// Which cell of the repeating set one inside is that has a vertex at home.
-    pub(super) fn placed(&self, cells: &PeriodicCells<G>, cell: CellId) -> Result<Placed> {
+    pub(super) fn placed(&self, cells: &PeriodicCells<G>, cell: CellId) -> Result<PlacedCell> {
         let row = &self.inside.t.cells()?.corners[cell];
         let least = row.as_ref()[self.inside.least(row)?];
         Ok((cells.class_of[cell], self.inside.images.of(least).shift))
     }
 
     /// The corners of a cell of the repeating set, and where they are.
-    pub(super) fn corners_of(&self, cells: &PeriodicCells<G>, (class, by): Placed) -> [(Image, G::Point); 4] {
+    pub(super) fn corners_of(
+        &self,
+        cells: &PeriodicCells<G>,
+        (class, by): PlacedCell,
+    ) -> [(Image, G::Point); 4] {
         let mut corners = [(Image { vertex: VertexId::NONE, shift: HOME }, G::Point::default()); 4];
         let shifts = cells.shifts.of(class.index());
         for (i, &vertex) in cells.corners[class].as_ref().iter().enumerate() {
@@ -248,8 +252,8 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     #[cold]
     fn searched(&self, cells: &PeriodicCells<G>, place: &G::Point, cell: CellId) -> Result<Spot> {
         let (first, corner) = self.first_of(cells, cell)?;
-        let way = Extent::of(&self.lattice, &[corner, *place]);
-        let (mut seen, mut waiting) = (Seen::default(), Vec::new());
+        let way = PlaceRanges::of(&self.lattice, &[corner, *place]);
+        let (mut seen, mut waiting) = (SeenCells::default(), Vec::new());
         memory::reserve_map(&mut seen, 1)?;
         seen.insert(first, ());
         memory::push(&mut waiting, first)?;
@@ -275,7 +279,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
                     memory::reserve_map(&mut seen, 1)?;
                     seen.insert(across, ());
                     let places = self.corners_of(cells, across).map(|(_, place)| place);
-                    if way.may_meet(&Extent::of(&self.lattice, &places[..=G::D])) {
+                    if way.may_meet(&PlaceRanges::of(&self.lattice, &places[..=G::D])) {
                         memory::push(&mut waiting, across)?;
                     }
                 }
@@ -285,7 +289,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     /// A cell of the repeating set at a corner of one inside, and where that corner is.
-    fn first_of(&self, cells: &PeriodicCells<G>, cell: CellId) -> Result<(Placed, G::Point)> {
+    fn first_of(&self, cells: &PeriodicCells<G>, cell: CellId) -> Result<(PlacedCell, G::Point)> {
         let inside = &self.inside;
         let row = inside.t.cells()?.corners[cell];
         let corner = row.as_ref().iter().copied().min().expect("a cell has corners");
@@ -323,9 +327,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
 /// The cell beyond the facet of one that is opposite a corner; none on the hull.
 pub(super) fn across<G: Dimension>(
     cells: &PeriodicCells<G>,
-    (class, by): Placed,
+    (class, by): PlacedCell,
     i: usize,
-) -> Option<Placed> {
+) -> Option<PlacedCell> {
     let next = cells.neighbours[class].as_ref()[i];
     (next != NO_CELL).then(|| (next, plus(cells.neighbour_shifts.of(class.index())[i], by)))
 }

@@ -28,41 +28,41 @@ const MOST_OF_ALL: f64 = 0.05;
 
 /// A vertex that waits to be the next in order of distance from a place, with its nearest image: the greatest is the nearest, of
 /// the nearest ones that of the lowest id.
-struct Candidate<'q, P> {
+struct WaitingImage<'q, P> {
     q: &'q P,
     image: P,
     vertex: VertexId,
     is_hidden: bool,
 }
 
-impl<P: AsRef<[f64]>> Ord for Candidate<'_, P> {
+impl<P: AsRef<[f64]>> Ord for WaitingImage<'_, P> {
     fn cmp(&self, other: &Self) -> Ordering {
         compare_distance(self.q, &other.image, &self.image).then_with(|| other.vertex.cmp(&self.vertex))
     }
 }
 
-impl<P: AsRef<[f64]>> PartialOrd for Candidate<'_, P> {
+impl<P: AsRef<[f64]>> PartialOrd for WaitingImage<'_, P> {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl<P: AsRef<[f64]>> PartialEq for Candidate<'_, P> {
+impl<P: AsRef<[f64]>> PartialEq for WaitingImage<'_, P> {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl<P: AsRef<[f64]>> Eq for Candidate<'_, P> {}
+impl<P: AsRef<[f64]>> Eq for WaitingImage<'_, P> {}
 
 /// The vertices that have a common cell with one in any period; kept as scratch from one to the next.
 #[derive(Default)]
-struct Beside {
+struct BesideVertex {
     star: Vec<CellId>,
     vertices: Vec<VertexId>,
 }
 
-impl Beside {
+impl BesideVertex {
     fn list<G: Dimension>(&mut self, t: &PeriodicTriangulation<G>, vertex: VertexId) -> Result<&[VertexId]> {
         t.inside.t.star(t.inside.images.home(vertex), &mut self.star)?;
         let corners = t.inside.t.cells()?.corners;
@@ -134,27 +134,27 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let mut inner = Vec::new();
         memory::reserve_exact(&mut inner, positions.len())?;
         self.inside.t.locate_points(&asked.places, None, |location| inner.push(location))?;
-        let mut beside = Beside::default();
+        let mut beside = BesideVertex::default();
         for (q, inner) in asked.places.iter().zip(inner) {
             let (mut seen, mut waiting) = (IndexSet::new(), BinaryHeap::new());
             let has_cells = inner != Location::NoCells;
             for (vertex, image) in self.nearest_of(q, self.start_at(inner)?)? {
                 seen.insert(vertex)?;
-                memory::enter(&mut waiting, Candidate { q, image, vertex, is_hidden: false })?;
+                memory::enter(&mut waiting, WaitingImage { q, image, vertex, is_hidden: false })?;
             }
             for n_wanted in (0..k).rev() {
                 let next = waiting.pop();
                 found(next.as_ref().map_or(VertexId::NONE, |next| next.vertex));
                 let Some(next) = next.filter(|next| n_wanted > 0 && !next.is_hidden) else { continue };
                 for &(_, vertex) in hidden_at(&hidden, next.vertex) {
-                    let candidate = Candidate { q, image: next.image, vertex, is_hidden: true };
+                    let candidate = WaitingImage { q, image: next.image, vertex, is_hidden: true };
                     memory::enter(&mut waiting, candidate)?;
                 }
                 let others: &[VertexId] = if has_cells { beside.list(self, next.vertex)? } else { &[] };
                 for &vertex in others {
                     if seen.insert(vertex)? {
                         let image = self.nearest_image(q, vertex);
-                        memory::enter(&mut waiting, Candidate { q, image, vertex, is_hidden: false })?;
+                        memory::enter(&mut waiting, WaitingImage { q, image, vertex, is_hidden: false })?;
                     }
                 }
             }
@@ -208,7 +208,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         is_in: impl Fn(&G::Point) -> bool,
         found: &mut Vec<VertexId>,
     ) -> Result<bool> {
-        let (mut seen, mut beside) = (IndexSet::new(), Beside::default());
+        let (mut seen, mut beside) = (IndexSet::new(), BesideVertex::default());
         for (vertex, image) in self.nearest_of(q, self.start_at(inner)?)? {
             seen.insert(vertex)?;
             if is_in(&image) {
@@ -255,7 +255,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             }
             return Ok(nearest);
         };
-        let (mut tied, mut beside) = (IndexSet::new(), Beside::default());
+        let (mut tied, mut beside) = (IndexSet::new(), BesideVertex::default());
         let mut best = self.nearest_image(q, start);
         tied.insert(start)?;
         memory::push(&mut nearest, (start, best))?;

@@ -7,7 +7,7 @@ use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::machine::memory;
 use crate::motion::CommitReport;
-use crate::periodic::triangulation::{Former, PeriodicTriangulation};
+use crate::periodic::triangulation::{BeforeRounds, PeriodicTriangulation};
 
 impl<G: Dimension> PeriodicTriangulation<G> {
     /// Brings the triangulation to what is staged, as a commit does, and keeps what it was: all that reads sees the prepared
@@ -81,13 +81,13 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let mut other = copy?;
         std::mem::swap(self, &mut other);
         self.exchange_callers(&mut other);
-        self.former = Some(Former { t: other, rounds: 0 });
+        self.former = Some(BeforeRounds { t: other, rounds: 0 });
         Ok(())
     }
 
     /// What was kept takes its place again, with what was staged then.
     fn put_back(&mut self) {
-        let Some(Former { mut t, .. }) = self.former.take() else { return };
+        let Some(BeforeRounds { mut t, .. }) = self.former.take() else { return };
         self.exchange_callers(&mut t);
         std::mem::swap(self, &mut t);
     }

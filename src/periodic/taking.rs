@@ -6,7 +6,7 @@ use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::{Changes, NO_CELL};
 use crate::periodic::cells::PeriodicCells;
-use crate::periodic::changes::{Base, Lists, Name, Taking};
+use crate::periodic::changes::{Base, ChangeLists, Name, Taking};
 use crate::periodic::triangulation::PeriodicTriangulation;
 
 impl<G: Dimension> PeriodicTriangulation<G> {
@@ -85,10 +85,10 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         Ok(hidden)
     }
 
-    fn list_changes(&self, cells: &PeriodicCells<G>, is_odd: &[bool]) -> Result<Lists<G>> {
+    fn list_changes(&self, cells: &PeriodicCells<G>, is_odd: &[bool]) -> Result<ChangeLists<G>> {
         let none = Base::none();
         let base = self.taking.as_ref().map_or(&none, |taking| &taking.base);
-        let mut lists = Lists::none();
+        let mut lists = ChangeLists::none();
         let mut is_there = Vec::new();
         memory::lengthen(&mut is_there, base.corners.len(), false)?;
         for cell in CellId::range(0..cells.corners.len()) {
@@ -131,7 +131,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     /// Lists the names of the removed cells, in the order of these.
-    fn name_removed(&self, base: &Base<G>, is_there: &[bool], lists: &mut Lists<G>) -> Result<()> {
+    fn name_removed(&self, base: &Base<G>, is_there: &[bool], lists: &mut ChangeLists<G>) -> Result<()> {
         if lists.removed.is_empty() {
             return Ok(());
         }

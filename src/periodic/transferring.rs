@@ -6,16 +6,15 @@ use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::{
-    CellAt, Extent, Facet, Gone, NO_CELL, Now, Shift, TransferOrder, TransferReport, Transferred, in_place,
-    transfer,
+    CellAt, Extent, Gone, Multiples, NO_CELL, NamedFacet, Now, TransferOrder, TransferReport, Transferred,
+    in_place, transfer,
 };
 use crate::periodic::cells::PeriodicCells;
-use crate::periodic::changes::Lists;
+use crate::periodic::changes::ChangeLists;
 use crate::periodic::lattice::plus;
 use crate::periodic::locating::Spot;
 use crate::periodic::triangulation::PeriodicTriangulation;
-
-type Place = [f64; 3];
+use crate::predicates::PlaceInSpace;
 
 /// Much more than what a few sums and products are off, as a share of what is summed up.
 const ROUNDING: f64 = 1.0 / (1u64 << 40) as f64;
@@ -52,7 +51,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         Ok(self.cell_count()? + lists.removed.len() - lists.created.len())
     }
 
-    fn fresh_lists(&self) -> Result<&Lists<G>> {
+    fn fresh_lists(&self) -> Result<&ChangeLists<G>> {
         self.reject_prepared()?;
         let taking = self.taking.as_ref().filter(|taking| taking.timestamp == Some(self.timestamp()));
         Ok(&taking.ok_or(Error::ChangesNotTaken)?.lists)
@@ -93,7 +92,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     /// A place, translated by multiples of the reduced vectors.
-    fn translated(&self, place: &G::Point, shift: &[i64; 3]) -> Place {
+    fn translated(&self, place: &G::Point, shift: &[i64; 3]) -> PlaceInSpace {
         let mut sum = [0.0; 3];
         sum[..G::D].copy_from_slice(place.as_ref());
         for (&n, vector) in shift.iter().zip(self.lattice.reduced()) {
@@ -107,7 +106,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
 pub(super) struct Repeating<'t, G: Dimension> {
     t: &'t PeriodicTriangulation<G>,
     cells: &'t PeriodicCells<G>,
-    lists: &'t Lists<G>,
+    lists: &'t ChangeLists<G>,
 }
 
 impl<G: Dimension> Repeating<'_, G> {
@@ -162,7 +161,7 @@ impl<G: Dimension> Now for Repeating<'_, G> {
         found.map_or(cell, |k| self.lists.renumbered_from[k])
     }
 
-    fn corners(&self, cell: CellId) -> [Place; 4] {
+    fn corners(&self, cell: CellId) -> [PlaceInSpace; 4] {
         let mut corners = [[0.0; 3]; 4];
         let shifts = self.cells.shifts.of(cell.index());
         for ((corner, &v), shift) in corners.iter_mut().zip(self.cells.corners[cell].as_ref()).zip(shifts) {
@@ -171,7 +170,7 @@ impl<G: Dimension> Now for Repeating<'_, G> {
         corners
     }
 
-    fn facets(&self, cell: CellId) -> [Facet; 4] {
+    fn facets(&self, cell: CellId) -> [NamedFacet; 4] {
         let mut row = [(VertexId::NONE, [0; 3]); 4];
         let shifts = self.cells.shifts.of(cell.index());
         for ((entry, &v), shift) in row.iter_mut().zip(self.cells.corners[cell].as_ref()).zip(shifts) {
@@ -189,11 +188,11 @@ impl<G: Dimension> Now for Repeating<'_, G> {
         (other != NO_CELL).then_some((other, shift))
     }
 
-    fn offset(&self, shift: &Shift) -> Place {
+    fn offset(&self, shift: &Multiples) -> PlaceInSpace {
         self.t.translated(&G::Point::default(), shift)
     }
 
-    fn at(&self, place: &Place) -> Result<Option<CellAt>> {
+    fn at(&self, place: &PlaceInSpace) -> Result<Option<CellAt>> {
         let (t, mut position) = (self.t, G::Point::default());
         (0..G::D).for_each(|axis| position[axis] = place[axis]);
         let Ok((home, wrap)) = t.lattice.wrapped("positions", 0, &position) else { return Ok(None) };
@@ -211,7 +210,7 @@ impl<G: Dimension> Now for Repeating<'_, G> {
         Ok(Some((cell, [0, 1, 2].map(|j| i64::from(shift[j]) + wrap[j]))))
     }
 
-    fn rounding(&self, extent: &Extent) -> Place {
+    fn rounding(&self, extent: &Extent) -> PlaceInSpace {
         let mut rounding = [0.0; 3];
         for axis in 0..G::D {
             let of_vectors: f64 = self.t.lattice.reduced().iter().map(|vector| vector[axis].abs()).sum();
@@ -221,16 +220,16 @@ impl<G: Dimension> Now for Repeating<'_, G> {
         rounding
     }
 
-    fn copies(&self, gone: &[Gone], cells: impl Iterator<Item = CellId>) -> Result<Vec<(u32, Place)>> {
+    fn copies(&self, gone: &[Gone], cells: impl Iterator<Item = CellId>) -> Result<Vec<(u32, PlaceInSpace)>> {
         let (mut copies, within) = (Vec::new(), &self.extent_of(cells));
         let multiples = |extent: &Extent| {
             let [low, high] = [extent.low, extent.high];
             [0, 1, 2].map(|j| {
                 let form = self.t.lattice.form(j);
-                let of = |from: &Place, to: &Place| -> f64 {
+                let of = |from: &PlaceInSpace, to: &PlaceInSpace| -> f64 {
                     (0..G::D).map(|axis| (form[axis] * from[axis]).min(form[axis] * to[axis])).sum()
                 };
-                let negative = |p: &Place| p.map(|x| -x);
+                let negative = |p: &PlaceInSpace| p.map(|x| -x);
                 (of(&low, &high), -of(&negative(&low), &negative(&high)))
             })
         };
@@ -266,8 +265,8 @@ impl<G: Dimension> Now for Repeating<'_, G> {
 }
 
 /// The facets of a cell, by the vertices of each in the order of their ids, with their shifts from the first one.
-fn facets_of(row: &[(VertexId, [i64; 3])]) -> [Facet; 4] {
-    let mut facets = [Facet::default(); 4];
+fn facets_of(row: &[(VertexId, [i64; 3])]) -> [NamedFacet; 4] {
+    let mut facets = [NamedFacet::default(); 4];
     for (k, facet) in facets.iter_mut().enumerate().take(row.len()) {
         let mut others = [((VertexId::NONE, [0; 3]), 0); 3];
         let on_facet = row.iter().zip(0..).filter(|&(_, i)| usize::from(i) != k);
@@ -284,7 +283,7 @@ fn facets_of(row: &[(VertexId, [i64; 3])]) -> [Facet; 4] {
                     .wrapping_mul(0x9e37_79b9_7f4a_7c15_f39c_c060_5ced_c835);
             }
         }
-        *facet = Facet { name, anchor };
+        *facet = NamedFacet { name, anchor };
     }
     facets
 }

@@ -46,18 +46,18 @@ pub struct PeriodicTriangulation<G: Dimension> {
     pub(super) taking: Option<Taking<G>>,
     pub(super) edges: OnceLock<PeriodicEdges>,
     /// What was at the timestamp, while another one is prepared.
-    pub(super) former: Option<Former<G>>,
+    pub(super) former: Option<BeforeRounds<G>>,
 }
 
 /// What a triangulation was at its timestamp, while another one is prepared.
 #[derive(Debug)]
-pub(super) struct Former<G: Dimension> {
+pub(super) struct BeforeRounds<G: Dimension> {
     pub(super) t: Box<PeriodicTriangulation<G>>,
     /// How many rounds have been made.
     pub(super) rounds: usize,
 }
 
-impl<G: Dimension> Former<G> {
+impl<G: Dimension> BeforeRounds<G> {
     pub(super) fn memory_bytes(&self) -> usize {
         size_of::<PeriodicTriangulation<G>>() + self.t.memory_bytes()
     }
@@ -122,7 +122,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
                 .as_ref()
                 .map_or(0, |taking| taking.base.memory_bytes() + taking.lists.memory_bytes())
             + self.edges.get().map_or(0, |edges| memory::bytes_of(&edges.list))
-            + self.former.as_ref().map_or(0, Former::memory_bytes)
+            + self.former.as_ref().map_or(0, BeforeRounds::memory_bytes)
     }
 }
 

@@ -18,7 +18,7 @@ use crate::machine::memory;
 use crate::motion::{Location, Ridges};
 use crate::periodic::cells::{PeriodicCells, RowHasher};
 use crate::periodic::images::Image;
-use crate::periodic::locating::{Placed, Spot, across};
+use crate::periodic::locating::{PlacedCell, Spot, across};
 use crate::periodic::triangulation::PeriodicTriangulation;
 
 /// By the corner opposite a facet of a cell of space, the other ones, all counter-clockwise as seen from outside.
@@ -26,18 +26,18 @@ const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
 /// The cells of a zone, each once.
 #[derive(Debug, Default)]
-pub(super) struct Zone {
-    list: Vec<Placed>,
-    seen: HashMap<Placed, (), BuildHasherDefault<RowHasher>>,
+pub(super) struct ZoneCells {
+    list: Vec<PlacedCell>,
+    seen: HashMap<PlacedCell, (), BuildHasherDefault<RowHasher>>,
 }
 
-impl Zone {
+impl ZoneCells {
     fn clear(&mut self) {
         self.list.clear();
         self.seen.clear();
     }
 
-    fn enter(&mut self, placed: Placed) -> Result<()> {
+    fn enter(&mut self, placed: PlacedCell) -> Result<()> {
         memory::reserve_map(&mut self.seen, 1)?;
         if self.seen.insert(placed, ()).is_none() {
             memory::push(&mut self.list, placed)?;
@@ -76,7 +76,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             Spot::Outside(_) => return Err(Error::OutsideOfPeriodic { argument: "position" }),
             Spot::Vertex(_) | Spot::NoCells => return Ok(found),
         };
-        let mut zone = Zone::default();
+        let mut zone = ZoneCells::default();
         self.fill_zone(cells, (first, &place), &mut zone, |_, _| Ok(()))?;
         memory::collect(&mut found, zone.list.iter().map(|&(class, _)| class))?;
         found.sort_unstable();
@@ -89,9 +89,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     fn fill_zone(
         &self,
         cells: &PeriodicCells<G>,
-        (first, place): (Placed, &G::Point),
-        zone: &mut Zone,
-        mut facet: impl FnMut(Placed, usize) -> Result<()>,
+        (first, place): (PlacedCell, &G::Point),
+        zone: &mut ZoneCells,
+        mut facet: impl FnMut(PlacedCell, usize) -> Result<()>,
     ) -> Result<()> {
         zone.clear();
         zone.enter(first)?;
@@ -111,7 +111,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     fn is_in_conflict(
         &self,
         cells: &PeriodicCells<G>,
-        (class, by): Placed,
+        (class, by): PlacedCell,
         place: &G::Point,
     ) -> Result<bool> {
         let there = self.lattice.translated(place, by.map(|n| -n));
@@ -122,8 +122,8 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     pub(super) fn natural_weights(
         &self,
         cells: &PeriodicCells<G>,
-        (first, place): (Placed, &G::Point),
-        zone: &mut Zone,
+        (first, place): (PlacedCell, &G::Point),
+        zone: &mut ZoneCells,
         ridges: &mut Ridges<Image>,
         weights: &mut Vec<(Image, f64)>,
     ) -> Result<()> {

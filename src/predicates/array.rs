@@ -4,7 +4,7 @@ use super::integer::two_difference;
 use crate::simd::{LANES, Simd};
 
 /// Points as arrays, whatever their length: written once, but only where that is known.
-pub trait Array: Sized {
+pub trait PointArray: Sized {
     /// The coordinates of points, one after the other.
     fn flattened(points: &[Self]) -> &[f64];
     /// The coordinates of points, one after the other, to write.
@@ -18,7 +18,7 @@ pub trait Array: Sized {
     fn exact_difference(&self, other: &Self) -> Option<Self>;
 }
 
-impl<const D: usize> Array for [f64; D] {
+impl<const D: usize> PointArray for [f64; D] {
     fn flattened(points: &[Self]) -> &[f64] {
         points.as_flattened()
     }

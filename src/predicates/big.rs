@@ -10,7 +10,7 @@
 //! below 2¹²⁶⁵. In space the greatest determinant is `insphere`. Each of its four terms is the product of a square,
 //! three products of two differences, and a volume, six of three: below 4 · 3 · 6 · 2⁵·¹²⁶⁵ < 2⁶³³², and so are all
 //! sums on the way. That fits 99 limbs of 64 bits, the sign apart. Integers of very different lengths are made on the
-//! way, so their limbs follow each other in one [`Room`] for all of a determinant, or of a term of `insphere`.
+//! way, so their limbs follow each other in one [`LimbRoom`] for all of a determinant, or of a term of `insphere`.
 
 #![allow(unsafe_code)]
 
@@ -34,7 +34,7 @@ pub(super) fn has_room<P: AsRef<[f64]> + ?Sized, const N: usize>(points: [&P; N]
 #[cold]
 #[inline(never)]
 pub(super) fn orient2d(rounded: f64, [a, b, c]: [&[f64; 2]; 3]) -> f64 {
-    let room = Room::<FEW_LIMBS>::of_any_size();
+    let room = LimbRoom::<FEW_LIMBS>::of_any_size();
     let [u, v] = differences(&room, a, [b, c]);
     with_sign(rounded, minor(&u, &v).sign())
 }
@@ -43,7 +43,7 @@ pub(super) fn orient2d(rounded: f64, [a, b, c]: [&[f64; 2]; 3]) -> f64 {
 #[cold]
 #[inline(never)]
 pub(super) fn sign_of_cross(pairs: [[&[f64; 2]; 2]; 2]) -> Ordering {
-    let room = Room::<FEW_LIMBS>::of_any_size();
+    let room = LimbRoom::<FEW_LIMBS>::of_any_size();
     // Each in a unit of its own, which does not change the sign.
     let [[u], [v]] = pairs.map(|[p, q]| differences(&room, q, [p]));
     minor(&u, &v).sign()
@@ -53,7 +53,7 @@ pub(super) fn sign_of_cross(pairs: [[&[f64; 2]; 2]; 2]) -> Ordering {
 #[cold]
 #[inline(never)]
 pub(super) fn incircle(rounded: f64, [a, b, c, d]: [&[f64; 2]; 4]) -> f64 {
-    let room = Room::<FEW_LIMBS>::of_any_size();
+    let room = LimbRoom::<FEW_LIMBS>::of_any_size();
     let [u, v, w] = differences(&room, a, [b, c, d]);
     let det = square(&v) * minor(&u, &w) - square(&u) * minor(&v, &w) - square(&w) * minor(&u, &v);
     with_sign(rounded, det.sign())
@@ -63,7 +63,7 @@ pub(super) fn incircle(rounded: f64, [a, b, c, d]: [&[f64; 2]; 4]) -> f64 {
 #[cold]
 #[inline(never)]
 pub(super) fn orient3d(rounded: f64, [a, b, c, d]: [&[f64; 3]; 4]) -> f64 {
-    let room = Room::<FEW_LIMBS>::of_any_size();
+    let room = LimbRoom::<FEW_LIMBS>::of_any_size();
     let [u, v, w] = differences(&room, a, [b, c, d]);
     with_sign(rounded, volume(&u, &v, &w).sign())
 }
@@ -72,11 +72,11 @@ pub(super) fn orient3d(rounded: f64, [a, b, c, d]: [&[f64; 3]; 4]) -> f64 {
 #[cold]
 #[inline(never)]
 pub(super) fn insphere(rounded: f64, points: [&[f64; 3]; 5]) -> f64 {
-    let room = Room::<FEW_LIMBS>::of_any_size();
+    let room = LimbRoom::<FEW_LIMBS>::of_any_size();
     with_sign(rounded, insphere_in(&room, points).sign())
 }
 
-fn insphere_in<'r>(room: &'r Room<FEW_LIMBS>, [a, b, c, d, e]: [&[f64; 3]; 5]) -> Integer<'r, FEW_LIMBS> {
+fn insphere_in<'r>(room: &'r LimbRoom<FEW_LIMBS>, [a, b, c, d, e]: [&[f64; 3]; 5]) -> Integer<'r, FEW_LIMBS> {
     let [u, v, w, s] = differences(room, a, [b, c, d, e]);
     insphere_term(&u, [&v, &w, &s]) - insphere_term(&v, [&u, &w, &s]) + insphere_term(&w, [&u, &v, &s])
         - insphere_term(&s, [&u, &v, &w])
@@ -88,7 +88,7 @@ fn insphere_term<'r, const N: usize>(
     p: &[Integer<'r, N>; 3],
     others: [&[Integer<'r, N>; 3]; 3],
 ) -> Integer<'r, N> {
-    let room = Room::<TERM_LIMBS>::of_any_size();
+    let room = LimbRoom::<TERM_LIMBS>::of_any_size();
     let [u, v, w] = others.map(|q| q.map(|x| x.within(&room)));
     (square(&p.map(|x| x.within(&room))) * volume(&u, &v, &w)).copied_to(p[0].room)
 }
@@ -97,7 +97,7 @@ fn insphere_term<'r, const N: usize>(
 #[cold]
 #[inline(never)]
 pub(super) fn in_power_circle(rounded: f64, [a, b, c, d]: [&[f64; 2]; 4], weights: &[f64; 4]) -> f64 {
-    let room = Room::<POWER_LIMBS>::of_any_size();
+    let room = LimbRoom::<POWER_LIMBS>::of_any_size();
     let ([u, v, w], [of_u, of_v, of_w]) = lifted(&room, d, [a, b, c], weights);
     let det = of_u * minor(&v, &w) + of_v * minor(&w, &u) + of_w * minor(&u, &v);
     with_sign(rounded, det.sign())
@@ -107,7 +107,7 @@ pub(super) fn in_power_circle(rounded: f64, [a, b, c, d]: [&[f64; 2]; 4], weight
 #[cold]
 #[inline(never)]
 pub(super) fn in_power_sphere(rounded: f64, [a, b, c, d, e]: [&[f64; 3]; 5], weights: &[f64; 5]) -> f64 {
-    let room = Room::<POWER_LIMBS>::of_any_size();
+    let room = LimbRoom::<POWER_LIMBS>::of_any_size();
     let ([u, v, w, s], [of_u, of_v, of_w, of_s]) = lifted(&room, e, [a, b, c, d], weights);
     let det = lifted_term(of_u, [&v, &w, &s]) - lifted_term(of_v, [&u, &w, &s])
         + lifted_term(of_w, [&u, &v, &s])
@@ -118,7 +118,7 @@ pub(super) fn in_power_sphere(rounded: f64, [a, b, c, d, e]: [&[f64; 3]; 5], wei
 /// The differences from a point to others in a unit of their own, and in its square their squares, less what their weights are more
 /// than that of the point, which comes last.
 fn lifted<'r, const D: usize, const N: usize, const LIMBS: usize>(
-    room: &'r Room<LIMBS>,
+    room: &'r LimbRoom<LIMBS>,
     origin: &[f64; D],
     points: [&[f64; D]; N],
     weights: &[f64],
@@ -140,7 +140,7 @@ fn lifted_term<'r, const N: usize>(
     lift: Integer<'r, N>,
     others: [&[Integer<'r, N>; 3]; 3],
 ) -> Integer<'r, N> {
-    let room = Room::<TERM_LIMBS>::of_any_size();
+    let room = LimbRoom::<TERM_LIMBS>::of_any_size();
     let [u, v, w] = others.map(|q| q.map(|x| x.within(&room)));
     (lift.within(&room) * volume(&u, &v, &w)).copied_to(lift.room)
 }
@@ -151,7 +151,7 @@ pub(super) fn compare_distance(points: [&[f64]; 3]) -> Ordering {
     // An axis without extent adds no distance.
     let in_space = |p: &[f64]| std::array::from_fn(|axis| p.get(axis).copied().unwrap_or(0.0));
     let [q, a, b]: [[f64; 3]; 3] = points.map(in_space);
-    let room = Room::<FEW_LIMBS>::of_any_size();
+    let room = LimbRoom::<FEW_LIMBS>::of_any_size();
     let [to_a, to_b] = differences(&room, &q, [&a, &b]);
     (square(&to_a) - square(&to_b)).sign()
 }
@@ -163,7 +163,7 @@ pub(super) fn is_within_distance(points: [&[f64]; 2], squared: f64) -> bool {
     // An axis without extent adds no distance.
     let in_space = |p: &[f64]| std::array::from_fn(|axis| p.get(axis).copied().unwrap_or(0.0));
     let [q, a]: [[f64; 3]; 2] = points.map(in_space);
-    let room = Room::<FEW_LIMBS>::of_any_size();
+    let room = LimbRoom::<FEW_LIMBS>::of_any_size();
     let (mantissa, exponent) = decode(squared);
     // The square of the unit must divide the given one.
     let (unit, [to_a]) = differences_in_units(&room, &q, [&a], exponent.div_euclid(2));
@@ -176,7 +176,7 @@ pub(super) fn is_within_distance(points: [&[f64]; 2], squared: f64) -> bool {
 #[inline(never)]
 pub fn compare_lengths(v: &[i128; 3], w: &[i128; 3], exponents: &[i32; 3]) -> Ordering {
     const LOW_BITS: u32 = 62;
-    let room = Room::new();
+    let room = LimbRoom::new();
     let least = exponents.iter().fold(i32::MAX, |least, &x| least.min(x));
     let square_of = |axis: usize, x: i128| {
         let shift = (exponents[axis] - least) as u32;
@@ -191,14 +191,14 @@ pub fn compare_lengths(v: &[i128; 3], w: &[i128; 3], exponents: &[i32; 3]) -> Or
 #[cold]
 #[inline(never)]
 pub(super) fn is_collinear3([a, b, c]: [&[f64; 3]; 3]) -> bool {
-    let room = Room::<FEW_LIMBS>::of_any_size();
+    let room = LimbRoom::<FEW_LIMBS>::of_any_size();
     let [[x, y, z], [p, q, r]] = differences(&room, a, [b, c]);
     x * q == y * p && y * r == z * q && z * p == x * r
 }
 
 /// The differences from `origin` to `points` in a unit of their own.
 fn differences<'r, const D: usize, const N: usize, const LIMBS: usize>(
-    room: &'r Room<LIMBS>,
+    room: &'r LimbRoom<LIMBS>,
     origin: &[f64; D],
     points: [&[f64; D]; N],
 ) -> [[Integer<'r, LIMBS>; D]; N] {
@@ -208,7 +208,7 @@ fn differences<'r, const D: usize, const N: usize, const LIMBS: usize>(
 /// The differences from `origin` to `points`, after the exponent of their unit: the greatest one possible that is not
 /// above `most`, unless all coordinates are zero.
 pub(super) fn differences_in_units<'r, const D: usize, const N: usize, const LIMBS: usize>(
-    room: &'r Room<LIMBS>,
+    room: &'r LimbRoom<LIMBS>,
     origin: &[f64; D],
     points: [&[f64; D]; N],
     most: i32,
@@ -291,23 +291,23 @@ const LIMBS: usize = 4800;
 pub(super) const MOST_LIMBS: usize = 6720;
 
 /// Room for integers, which are given up together.
-pub(super) struct Room<const N: usize = LIMBS> {
+pub(super) struct LimbRoom<const N: usize = LIMBS> {
     limbs: UnsafeCell<[MaybeUninit<u64>; N]>,
     /// How many are in use: the first ones.
     n: Cell<usize>,
 }
 
-impl Room {
+impl LimbRoom {
     #[inline(always)]
     pub(super) fn new() -> Self {
         Self::of_any_size()
     }
 }
 
-impl<const N: usize> Room<N> {
+impl<const N: usize> LimbRoom<N> {
     #[inline(always)]
     pub(super) fn of_any_size() -> Self {
-        Room { limbs: UnsafeCell::new([MaybeUninit::uninit(); N]), n: Cell::new(0) }
+        LimbRoom { limbs: UnsafeCell::new([MaybeUninit::uninit(); N]), n: Cell::new(0) }
     }
 
     /// Takes `n` limbs, and sets them to zero.
@@ -329,7 +329,7 @@ impl<const N: usize> Room<N> {
 /// An integer: sign and magnitude.
 #[derive(Clone, Copy)]
 pub(super) struct Integer<'r, const N: usize = LIMBS> {
-    room: &'r Room<N>,
+    room: &'r LimbRoom<N>,
     /// False for zero.
     is_negative: bool,
     /// The lowest limb first; the highest is not zero.
@@ -337,13 +337,13 @@ pub(super) struct Integer<'r, const N: usize = LIMBS> {
 }
 
 impl<'r, const N: usize> Integer<'r, N> {
-    fn new(room: &'r Room<N>, is_negative: bool, limbs: &'r [u64]) -> Self {
+    fn new(room: &'r LimbRoom<N>, is_negative: bool, limbs: &'r [u64]) -> Self {
         let n = limbs.iter().rposition(|&limb| limb != 0).map_or(0, |highest| highest + 1);
         Integer { room, is_negative: is_negative & (n > 0), magnitude: &limbs[..n] }
     }
 
     /// `x` · 2^`shift`.
-    pub(super) fn shifted(room: &'r Room<N>, x: i64, shift: u32) -> Self {
+    pub(super) fn shifted(room: &'r LimbRoom<N>, x: i64, shift: u32) -> Self {
         let at = (shift / 64) as usize;
         let limbs = room.zeros(at + 2);
         let magnitude = u128::from(x.unsigned_abs()) << (shift % 64);
@@ -352,7 +352,7 @@ impl<'r, const N: usize> Integer<'r, N> {
     }
 
     /// The integer itself, with another room for what is made of it.
-    fn within<'s, const M: usize>(self, room: &'s Room<M>) -> Integer<'s, M>
+    fn within<'s, const M: usize>(self, room: &'s LimbRoom<M>) -> Integer<'s, M>
     where
         'r: 's,
     {
@@ -360,7 +360,7 @@ impl<'r, const N: usize> Integer<'r, N> {
     }
 
     /// A copy in another room.
-    fn copied_to<'s, const M: usize>(self, room: &'s Room<M>) -> Integer<'s, M> {
+    fn copied_to<'s, const M: usize>(self, room: &'s LimbRoom<M>) -> Integer<'s, M> {
         let limbs = room.zeros(self.magnitude.len());
         limbs.copy_from_slice(self.magnitude);
         Integer::new(room, self.is_negative, limbs)

@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 use std::ops::{Index, IndexMut};
 
-use super::array::Array;
+use super::array::PointArray;
 use super::bicells::BiCellTolerances;
 use super::measures::Measures;
 use super::reach::Reach;
@@ -17,7 +17,7 @@ pub trait Coordinates:
     + Index<usize, Output = f64>
     + IndexMut<usize>
     + AsRef<[f64]>
-    + Array
+    + PointArray
     + BiCellTolerances
     + Measures
     + Reach

@@ -23,22 +23,22 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use super::big::{Room, differences_in_units};
+use super::big::{LimbRoom, differences_in_units};
 use super::distance::two_product;
 use super::measures::scaled;
 
 /// A place in space, or in the plane at height 0.
-pub type Place = [f64; 3];
+pub type PlaceInSpace = [f64; 3];
 
 /// Where the bisectors of a vertex and others meet faces of a box.
 #[derive(Clone, Copy, Debug)]
 pub struct Meeting<'p> {
     /// The vertex.
-    pub vertex: Place,
+    pub vertex: PlaceInSpace,
     /// The others: as many as there are axes that are not fixed.
-    pub others: &'p [Place],
+    pub others: &'p [PlaceInSpace],
     /// The place from which offsets are counted, on the faces.
-    pub from: Place,
+    pub from: PlaceInSpace,
     /// The axes along which the corner is where `from` is.
     pub is_fixed: [bool; 3],
 }
@@ -88,7 +88,7 @@ impl Meeting<'_> {
         axis: usize,
         difference: impl Fn(f64, f64) -> T,
     ) -> (T, T) {
-        let minus = |p: &Place| [0, 1, 2].map(|k| difference(p[k], self.vertex[k]));
+        let minus = |p: &PlaceInSpace| [0, 1, 2].map(|k| difference(p[k], self.vertex[k]));
         let from = minus(&self.from);
         match self.others {
             [p] => quotient(&[minus(p)], &from, &self.is_fixed, axis),
@@ -101,7 +101,7 @@ impl Meeting<'_> {
     #[cold]
     #[inline(never)]
     fn exact_offset(&self, axis: usize) -> f64 {
-        let room = Room::new();
+        let room = LimbRoom::new();
         let mut points = [&self.vertex; 4];
         self.others.iter().zip(&mut points).for_each(|(other, point)| *point = other);
         points[3] = &self.from;
@@ -115,12 +115,12 @@ impl Meeting<'_> {
 }
 
 /// The sign of a component of (p - o) × (q - o): exact.
-pub fn sign_of_cross([o, p, q]: [&Place; 3], axis: usize) -> i32 {
+pub fn sign_of_cross([o, p, q]: [&PlaceInSpace; 3], axis: usize) -> i32 {
     let [j, k] = [(axis + 1) % 3, (axis + 2) % 3];
-    let minus = |p: &Place, k: usize| Bounded::difference(p[k], o[k]);
+    let minus = |p: &PlaceInSpace, k: usize| Bounded::difference(p[k], o[k]);
     let rounded = minus(p, j) * minus(q, k) - minus(p, k) * minus(q, j);
     rounded.sign().unwrap_or_else(|| {
-        let room = Room::new();
+        let room = LimbRoom::new();
         let (_, [u, v]) = differences_in_units(&room, o, [p, q], i32::MAX);
         let (m, _) = (u[j] * v[k] - u[k] * v[j]).rounded();
         i32::from(m > 0.0) - i32::from(m < 0.0)

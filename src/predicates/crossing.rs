@@ -21,13 +21,13 @@
 
 use std::cmp::Ordering;
 
-use super::big::{Integer, Room, decode, differences_in_units, minor};
+use super::big::{Integer, LimbRoom, decode, differences_in_units, minor};
 use super::measures::scaled;
 
 /// Where two segments cross, correctly rounded, without negative zeros. They are not parallel.
 pub fn crossing([a, b, c, d]: [&[f64; 2]; 4]) -> [f64; 2] {
     [0, 1].map(|axis| {
-        let room = Room::new();
+        let room = LimbRoom::new();
         let (unit, [a, b, c, d]) = differences_in_units(&room, &[0.0; 2], [a, b, c, d], i32::MAX);
         let [along, across, between] = [(b, a), (d, c), (c, a)].map(|(p, q)| [p[0] - q[0], p[1] - q[1]]);
         let below = minor(&along, &across);
@@ -47,7 +47,7 @@ pub fn passes_near([a, b]: [&[f64; 2]; 2], p: &[f64; 2]) -> bool {
         let (mantissa, exponent) = middle_above(-x);
         [(-mantissa, exponent), middle_above(x)]
     });
-    let room = Room::new();
+    let room = LimbRoom::new();
     let least = sides.iter().flatten().map(|&(_, exponent)| exponent).min();
     let (unit, [a, b]) = differences_in_units(&room, &[0.0; 2], [a, b], least.unwrap_or(0));
     let [x, y] = sides.map(|sides| {
@@ -74,7 +74,7 @@ fn middle_above(x: f64) -> (i64, i32) {
 
 /// `above` / `below` 2^`unit`.
 struct Quotient<'r> {
-    room: &'r Room,
+    room: &'r LimbRoom,
     above: Integer<'r>,
     below: Integer<'r>,
     unit: i32,

@@ -21,7 +21,7 @@
 //! circumcentre or the squared radius itself is beyond the range of numbers.
 
 use super::big::{
-    Integer, Ring, Room, decode, differences_in_units, minor as big_minor, square, volume as big_volume,
+    Integer, LimbRoom, Ring, decode, differences_in_units, minor as big_minor, square, volume as big_volume,
 };
 use super::filter::{CIRCLE_VECTOR, SPHERE_VECTOR, semi_static_bounds_2d, semi_static_bounds_3d};
 use super::integer::power_of_two;
@@ -214,7 +214,7 @@ fn exact_volume<const D: usize, const M: usize, const N: usize>(
     det: impl for<'r> FnOnce(&[[Integer<'r>; D]; M]) -> Integer<'r>,
     factor: f64,
 ) -> f64 {
-    let room = Room::new();
+    let room = LimbRoom::new();
     let (unit, differences) = differences_in_units(&room, points[0], others(points), i32::MAX);
     let (mantissa, exponent) = det(&differences).rounded();
     // The cell is positive, though its volume may be less than any number.
@@ -228,7 +228,7 @@ pub(super) fn exact_offset<const D: usize, const M: usize, const N: usize>(
     points: [&[f64; D]; N],
     sphere: impl for<'r> FnOnce(&[[Integer<'r>; D]; M]) -> ([Integer<'r>; D], Integer<'r>),
 ) -> [f64; D] {
-    let room = Room::new();
+    let room = LimbRoom::new();
     let (unit, differences) = differences_in_units(&room, points[0], others(points), i32::MAX);
     let (n, volume) = sphere(&differences);
     let (divisor, shift) = volume.rounded();
@@ -249,7 +249,7 @@ fn is_exactly_within<const D: usize, const M: usize, const N: usize>(
     if squared == f64::INFINITY {
         return true;
     }
-    let room = Room::new();
+    let room = LimbRoom::new();
     let (mantissa, exponent) = decode(squared);
     // The square of the unit must divide the given one.
     let most = exponent.div_euclid(2);

@@ -113,7 +113,7 @@ mod vectors;
 
 pub use crate::machine::tally::exact_calls;
 pub use crate::simd::LANES;
-pub use array::Array;
+pub use array::PointArray;
 pub use bicells::BiCellTolerances;
 pub(crate) use bicells::{
     bicells_hold_for_their_size2d, bicells_hold_for_their_size3d, bicells_surely_hold2d,
@@ -121,7 +121,7 @@ pub(crate) use bicells::{
 };
 pub use big::compare_lengths;
 pub use coordinates::Coordinates;
-pub use corners::{Meeting, sign_of_cross};
+pub use corners::{Meeting, PlaceInSpace, sign_of_cross};
 pub use crossing::{crossing, passes_near};
 pub use diametral::is_in_diametral_circle;
 pub use distance::{compare_distance, is_collinear3, is_within_distance};

@@ -45,7 +45,7 @@
 use std::cmp::Ordering;
 
 use super::StaticFilter;
-use super::big::{Integer, MOST_LIMBS, Room, differences_in_units, square};
+use super::big::{Integer, LimbRoom, MOST_LIMBS, differences_in_units, square};
 use super::filter::{
     CIRCLE_VECTOR, SPHERE_VECTOR, UNDERFLOW, UNIT, semi_static_bounds_2d, semi_static_bounds_3d,
 };
@@ -271,7 +271,7 @@ fn is_exactly_met_2d([a, b, c]: [&[f64; 2]; 3], sides: [&[f64; 2]; 2], binding: 
     let [low, high] = counting(a, sides, binding);
     let points = [b, c, &low, &high];
     tally::count();
-    let room = Room::<MOST_LIMBS>::of_any_size();
+    let room = LimbRoom::<MOST_LIMBS>::of_any_size();
     let (_, [u, v, low, high]) = differences_in_units(&room, a, points, i32::MAX);
     is_met(exact_circle(&[u, v]), [low, high], binding)
 }
@@ -282,7 +282,7 @@ fn is_exactly_met_3d([a, b, c, d]: [&[f64; 3]; 4], sides: [&[f64; 3]; 2], bindin
     let [low, high] = counting(a, sides, binding);
     let points = [b, c, d, &low, &high];
     tally::count();
-    let room = Room::<MOST_LIMBS>::of_any_size();
+    let room = LimbRoom::<MOST_LIMBS>::of_any_size();
     let (_, [u, v, w, low, high]) = differences_in_units(&room, a, points, i32::MAX);
     is_met(exact_sphere(&[u, v, w]), [low, high], binding)
 }

@@ -6,7 +6,7 @@ use super::vectors::{cross, dot, minus, plus};
 use crate::simd::{ALL, LANES, Lanes, Real, Simd, in_lanes};
 
 /// The points of a bi-cell: the vertices of the facet, then the opposing ones, `c` and `d`.
-type Points<T> = [[T; 3]; 5];
+type BiCellPoints<T> = [[T; 3]; 5];
 
 /// Standard delimiter and tolerance of the bi-cell of a facet with opposing vertices `c` and `d`.
 ///
@@ -92,7 +92,7 @@ struct Separated<T: Real> {
 
 /// Separates a bi-cell by the signs of its affine dependency, or as the standard partition has it.
 #[inline(always)]
-fn separate<T: Real, const BY_SIGNS: bool>(points: &Points<T>, enough: T) -> Separated<T> {
+fn separate<T: Real, const BY_SIGNS: bool>(points: &BiCellPoints<T>, enough: T) -> Separated<T> {
     let slabs = Slabs::new(points);
     let outside = if BY_SIGNS { slabs.exception() } else { [slabs.nowhere(); 3] };
     let [o, f, g, c, d] = points;
@@ -120,7 +120,7 @@ fn separate<T: Real, const BY_SIGNS: bool>(points: &Points<T>, enough: T) -> Sep
 impl Separated<f64> {
     /// The delimiter, with the reach that spheres leave where planes are not enough.
     #[inline(always)]
-    fn delimiter(&self, points: &Points<f64>, partition: usize, enough: f64) -> Delimiter<[f64; 3]> {
+    fn delimiter(&self, points: &BiCellPoints<f64>, partition: usize, enough: f64) -> Delimiter<[f64; 3]> {
         let &Separated { centre, radius, half_width, ref planes, .. } = self;
         let reach = if self.is_enough {
             self.reach
@@ -135,7 +135,7 @@ impl Separated<f64> {
 /// than wanted, a sphere if it leaves more.
 #[cold]
 #[inline(never)]
-fn reach_by_spheres(points: &Points<f64>, partition: usize, planes: &[f64; 4], wanted: f64) -> f64 {
+fn reach_by_spheres(points: &BiCellPoints<f64>, partition: usize, planes: &[f64; 4], wanted: f64) -> f64 {
     let mut reach = f64::INFINITY;
     for (k, &plane) in planes.iter().enumerate().filter(|(k, _)| *k != partition) {
         let mut width = half_of_square(plane);
@@ -178,7 +178,7 @@ fn annulus<T: Real>([o, f, g, c, d]: [&[T; 3]; 5], is_standard: T::Mask) -> ([T;
 
 /// Extent of the points' bounding box along an axis.
 #[inline(always)]
-fn extent<T: Real>([o, f, g, c, d]: &Points<T>, k: usize) -> T {
+fn extent<T: Real>([o, f, g, c, d]: &BiCellPoints<T>, k: usize) -> T {
     let upper = o[k].max(f[k]).max(g[k].max(c[k])).max(d[k]);
     upper - o[k].min(f[k]).min(g[k].min(c[k])).min(d[k])
 }
@@ -199,7 +199,7 @@ struct Slabs<T> {
 
 impl<T: Real> Slabs<T> {
     #[inline(always)]
-    fn new(points: &Points<T>) -> Self {
+    fn new(points: &BiCellPoints<T>) -> Self {
         let [o, f, g, c, d] = points;
         let (u, v, w) = (minus(f, o), minus(g, o), minus(c, d));
         let normals = [cross(&minus(g, f), &w), cross(&v, &w), cross(&w, &u)];
@@ -271,7 +271,8 @@ mod tests {
         let rng = &mut Rng::new(7);
         for _ in 0..2_000 {
             let size = 2f64.powi(rng.within(-300, 150) as i32);
-            let points: Points<f64> = std::array::from_fn(|_| std::array::from_fn(|_| rng.unit() * size));
+            let points: BiCellPoints<f64> =
+                std::array::from_fn(|_| std::array::from_fn(|_| rng.unit() * size));
             let extents: [f64; 3] = std::array::from_fn(|k| {
                 let along = points.map(|p| p[k]);
                 along.into_iter().fold(0.0, f64::max) - along.into_iter().fold(f64::INFINITY, f64::min)
@@ -293,7 +294,7 @@ mod tests {
         for _ in 0..2_000 {
             let size = 2f64.powi(rng.within(-90, 90) as i32);
             let [a, b] = [rng.unit() - 0.5, rng.unit() - 0.5];
-            let points: Points<f64> = std::array::from_fn(|_| {
+            let points: BiCellPoints<f64> = std::array::from_fn(|_| {
                 let [x, y] = [rng.unit(), rng.unit()];
                 [x, y, a * x + b * y].map(|coordinate| coordinate * size)
             });

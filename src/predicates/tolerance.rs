@@ -112,7 +112,7 @@
 //! [`separator3d`]: super::separator3d
 //! [`tolerances3d`]: super::tolerances3d
 
-use super::array::Array;
+use super::array::PointArray;
 use super::filter::{extents, largest};
 use super::lanes::BiCells;
 use super::vectors::{cross, dot, minor, minus, plus};
@@ -192,7 +192,7 @@ pub fn distance_above<P: AsRef<[f64]> + PartialEq>(p: &P, q: &P) -> f64 {
 
 /// Upper bounds of the distances of several points, each from another one.
 #[inline(always)]
-pub(crate) fn distances_above<S: Simd, P: Array + AsRef<[f64]> + PartialEq>(
+pub(crate) fn distances_above<S: Simd, P: PointArray + AsRef<[f64]> + PartialEq>(
     simd: S,
     p: [&P; LANES],
     q: [&P; LANES],
@@ -224,7 +224,7 @@ fn limit<T: Real>(tolerance: T) -> T {
 
 /// For each of several vertices whether it is certainly nearer to its fixed position than its tolerance: one bit each.
 #[inline(always)]
-pub(crate) fn are_within<S: Simd, P: Array>(
+pub(crate) fn are_within<S: Simd, P: PointArray>(
     simd: S,
     fixed: [&P; LANES],
     tolerances: &[f64; LANES],

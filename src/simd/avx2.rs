@@ -156,8 +156,8 @@ impl Lanes for Four {
     #[inline(always)]
     fn store(self) -> [f64; LANES] {
         #[repr(align(32))]
-        struct Aligned([f64; LANES]);
-        let mut x = Aligned([0.0; LANES]);
+        struct AlignedLanes([f64; LANES]);
+        let mut x = AlignedLanes([0.0; LANES]);
         self.store_to(&mut x.0);
         x.0
     }

@@ -13,20 +13,20 @@ pub struct Scalar;
 
 /// Four numbers; or a mask, with all bits of a lane set or none.
 #[derive(Clone, Copy)]
-pub struct Four([f64; LANES]);
+pub struct FourNumbers([f64; LANES]);
 
-impl Four {
+impl FourNumbers {
     #[inline(always)]
-    fn each(self, f: impl Fn(f64) -> f64) -> Four {
-        Four(from_fn(
+    fn each(self, f: impl Fn(f64) -> f64) -> FourNumbers {
+        FourNumbers(from_fn(
             #[inline(always)]
             |k| f(self.0[k]),
         ))
     }
 
     #[inline(always)]
-    fn with(self, other: Four, f: impl Fn(f64, f64) -> f64) -> Four {
-        Four(from_fn(
+    fn with(self, other: FourNumbers, f: impl Fn(f64, f64) -> f64) -> FourNumbers {
+        FourNumbers(from_fn(
             #[inline(always)]
             |k| f(self.0[k], other.0[k]),
         ))
@@ -34,8 +34,8 @@ impl Four {
 
     /// A mask of lanes.
     #[inline(always)]
-    fn mask_of(is_set: impl Fn(usize) -> bool) -> Four {
-        Four(from_fn(
+    fn mask_of(is_set: impl Fn(usize) -> bool) -> FourNumbers {
+        FourNumbers(from_fn(
             #[inline(always)]
             |k| f64::from_bits(0u64.wrapping_sub(u64::from(is_set(k)))),
         ))
@@ -43,7 +43,7 @@ impl Four {
 
     /// By the bits of both.
     #[inline(always)]
-    fn with_bits(self, other: Four, f: impl Fn(u64, u64) -> u64) -> Four {
+    fn with_bits(self, other: FourNumbers, f: impl Fn(u64, u64) -> u64) -> FourNumbers {
         self.with(
             other,
             #[inline(always)]
@@ -53,7 +53,7 @@ impl Four {
 }
 
 impl Simd for Scalar {
-    type Lanes = Four;
+    type Lanes = FourNumbers;
 
     #[inline(always)]
     fn run_with<A, B, C, R>(self, a: A, b: B, c: C, work: impl FnOnce(A, B, C) -> R) -> R {
@@ -61,71 +61,71 @@ impl Simd for Scalar {
     }
 
     #[inline(always)]
-    fn splat(self, x: f64) -> Four {
-        Four([x; LANES])
+    fn splat(self, x: f64) -> FourNumbers {
+        FourNumbers([x; LANES])
     }
 
     #[inline(always)]
-    fn load(self, x: &[f64; LANES]) -> Four {
-        Four(*x)
+    fn load(self, x: &[f64; LANES]) -> FourNumbers {
+        FourNumbers(*x)
     }
 
     #[inline(always)]
-    fn two_pairs(self, low: &[f64; 2], high: &[f64; 2]) -> Four {
-        Four([low[0], low[1], high[0], high[1]])
+    fn two_pairs(self, low: &[f64; 2], high: &[f64; 2]) -> FourNumbers {
+        FourNumbers([low[0], low[1], high[0], high[1]])
     }
 
     #[inline(always)]
-    fn mask(self, bits: u32) -> Four {
-        Four::mask_of(
+    fn mask(self, bits: u32) -> FourNumbers {
+        FourNumbers::mask_of(
             #[inline(always)]
             |k| bits >> k & 1 == 1,
         )
     }
 
     #[inline(always)]
-    fn are_equal(self, x: &[u32; LANES], y: u32) -> Four {
-        Four::mask_of(
+    fn are_equal(self, x: &[u32; LANES], y: u32) -> FourNumbers {
+        FourNumbers::mask_of(
             #[inline(always)]
             |k| x[k] == y,
         )
     }
 }
 
-impl Lanes for Four {
+impl Lanes for FourNumbers {
     #[inline(always)]
-    fn even_with_even(self, y: Four) -> Four {
-        Four([self.0[0], y.0[0], self.0[2], y.0[2]])
+    fn even_with_even(self, y: FourNumbers) -> FourNumbers {
+        FourNumbers([self.0[0], y.0[0], self.0[2], y.0[2]])
     }
 
     #[inline(always)]
-    fn odd_with_odd(self, y: Four) -> Four {
-        Four([self.0[1], y.0[1], self.0[3], y.0[3]])
+    fn odd_with_odd(self, y: FourNumbers) -> FourNumbers {
+        FourNumbers([self.0[1], y.0[1], self.0[3], y.0[3]])
     }
 
     #[inline(always)]
-    fn low_with_low(self, y: Four) -> Four {
-        Four([self.0[0], self.0[1], y.0[0], y.0[1]])
+    fn low_with_low(self, y: FourNumbers) -> FourNumbers {
+        FourNumbers([self.0[0], self.0[1], y.0[0], y.0[1]])
     }
 
     #[inline(always)]
-    fn high_with_high(self, y: Four) -> Four {
-        Four([self.0[2], self.0[3], y.0[2], y.0[3]])
+    fn high_with_high(self, y: FourNumbers) -> FourNumbers {
+        FourNumbers([self.0[2], self.0[3], y.0[2], y.0[3]])
     }
 
     #[inline(always)]
-    fn with_last_of(self, y: Four) -> Four {
-        Four([self.0[0], self.0[1], self.0[2], y.0[3]])
+    fn with_last_of(self, y: FourNumbers) -> FourNumbers {
+        FourNumbers([self.0[0], self.0[1], self.0[2], y.0[3]])
     }
 
     #[inline(always)]
-    fn rotated(self) -> Four {
-        Four([self.0[1], self.0[2], self.0[3], self.0[0]])
+    fn rotated(self) -> FourNumbers {
+        FourNumbers([self.0[1], self.0[2], self.0[3], self.0[0]])
     }
 
     #[inline(always)]
-    fn are_same(self, y: Four) -> Four {
-        Four::mask_of(
+    fn are_same(self, y: FourNumbers) -> FourNumbers {
+        FourNumbers::mask_of(
             #[inline(always)]
             |k| self.0[k].to_bits() == y.0[k].to_bits(),
         )
@@ -166,55 +166,55 @@ impl Lanes for Four {
     }
 }
 
-impl Real for Four {
-    type Mask = Four;
+impl Real for FourNumbers {
+    type Mask = FourNumbers;
 
     #[inline(always)]
-    fn splat(self, x: f64) -> Four {
-        Four([x; LANES])
+    fn splat(self, x: f64) -> FourNumbers {
+        FourNumbers([x; LANES])
     }
 
     #[inline(always)]
-    fn sqrt(self) -> Four {
+    fn sqrt(self) -> FourNumbers {
         self.each(f64::sqrt)
     }
 
     #[inline(always)]
-    fn abs(self) -> Four {
+    fn abs(self) -> FourNumbers {
         self.each(f64::abs)
     }
 
     #[inline(always)]
-    fn is_less(self, other: Four) -> Four {
-        Four::mask_of(
+    fn is_less(self, other: FourNumbers) -> FourNumbers {
+        FourNumbers::mask_of(
             #[inline(always)]
             |k| self.0[k] < other.0[k],
         )
     }
 
     #[inline(always)]
-    fn select(mask: Four, yes: Four, no: Four) -> Four {
+    fn select(mask: FourNumbers, yes: FourNumbers, no: FourNumbers) -> FourNumbers {
         (mask & yes) | (!mask & no)
     }
 
     #[inline(always)]
-    fn min(self, other: Four) -> Four {
+    fn min(self, other: FourNumbers) -> FourNumbers {
         self.with(other, Real::min)
     }
 
     #[inline(always)]
-    fn max(self, other: Four) -> Four {
+    fn max(self, other: FourNumbers) -> FourNumbers {
         self.with(other, Real::max)
     }
 }
 
 macro_rules! operators {
     ($($trait:ident $name:ident $apply:ident $operator:tt),*) => {
-        $(impl $trait for Four {
-            type Output = Four;
+        $(impl $trait for FourNumbers {
+            type Output = FourNumbers;
 
             #[inline(always)]
-            fn $name(self, y: Four) -> Four {
+            fn $name(self, y: FourNumbers) -> FourNumbers {
                 self.$apply(
                     y,
                     #[inline(always)]
@@ -229,11 +229,11 @@ operators!(
     BitAnd bitand with_bits &, BitOr bitor with_bits |
 );
 
-impl Not for Four {
-    type Output = Four;
+impl Not for FourNumbers {
+    type Output = FourNumbers;
 
     #[inline(always)]
-    fn not(self) -> Four {
+    fn not(self) -> FourNumbers {
         self.each(
             #[inline(always)]
             |x| f64::from_bits(!x.to_bits()),

@@ -49,7 +49,7 @@ use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates;
 
 /// What was staged before.
-struct Before {
+struct StagedBefore {
     staged: Vec<Option<Segment>>,
     leaving: Vec<SegmentId>,
     n_insertions: usize,
@@ -60,7 +60,7 @@ struct Before {
 
 /// A piece that takes the place of a segment, with others.
 #[derive(Clone, Copy)]
-struct Piece {
+struct SegmentPiece {
     of: SegmentId,
     ends: [VertexId; 2],
 }
@@ -137,10 +137,10 @@ impl MovingTriangulation<Plane> {
     }
 
     /// Copies what is staged of segments.
-    fn before_splits(&mut self, nothing: &SplitReport) -> Result<Before> {
+    fn before_splits(&mut self, nothing: &SplitReport) -> Result<StagedBefore> {
         let n_insertions = self.staged_edits().0;
         let segments = memory::made(&mut self.mesh.segments)?;
-        Ok(Before {
+        Ok(StagedBefore {
             staged: memory::copy_of(segments.staged())?,
             leaving: memory::copy_of(segments.leaving())?,
             n_insertions,
@@ -156,11 +156,11 @@ impl MovingTriangulation<Plane> {
     /// to be there beside that of the check.
     fn split_until_free(
         &mut self,
-        before: &Before,
+        before: &StagedBefore,
         limit: usize,
         mut report: SplitReport,
     ) -> Result<SplitReport> {
-        let mut pieces: Vec<Piece> = Vec::new();
+        let mut pieces: Vec<SegmentPiece> = Vec::new();
         loop {
             let conflicts = memory::copy_of(self.conflicts_of_segments())?;
             if let Some(&conflict) = conflicts.iter().find(|conflict| !can_be_split(conflict)) {
@@ -288,18 +288,18 @@ impl MovingTriangulation<Plane> {
 
     /// All pieces after these cuts of segments, whose ids are below `first`, and of pieces, whose ids are those from it on.
     #[inline(never)]
-    fn divided(&self, pieces: &[Piece], cuts: &[Cut], first: SegmentId) -> Result<Vec<Piece>> {
+    fn divided(&self, pieces: &[SegmentPiece], cuts: &[Cut], first: SegmentId) -> Result<Vec<SegmentPiece>> {
         let mut divided = Vec::new();
-        let mut divide = |Piece { of, ends: [mut from, to] }: Piece, cuts: &[Cut]| {
+        let mut divide = |SegmentPiece { of, ends: [mut from, to] }: SegmentPiece, cuts: &[Cut]| {
             for &Cut { vertex, .. } in cuts {
-                memory::push(&mut divided, Piece { of, ends: [from, vertex] })?;
+                memory::push(&mut divided, SegmentPiece { of, ends: [from, vertex] })?;
                 from = vertex;
             }
-            memory::push(&mut divided, Piece { of, ends: [from, to] })
+            memory::push(&mut divided, SegmentPiece { of, ends: [from, to] })
         };
         let (of_segments, mut of_pieces) = cuts.split_at(cuts.partition_point(|cut| cut.of < first));
         let mut of_segments = of_segments.chunk_by(|a, b| a.of == b.of).peekable();
-        let whole = |of: SegmentId| Piece { of, ends: self.ends_after(of).0 };
+        let whole = |of: SegmentId| SegmentPiece { of, ends: self.ends_after(of).0 };
         for (id, &piece) in SegmentId::range(first.index()..first.index() + pieces.len()).zip(pieces) {
             while let Some(cuts) = of_segments.next_if(|cuts| cuts[0].of < piece.of) {
                 divide(whole(cuts[0].of), cuts)?;
@@ -316,7 +316,7 @@ impl MovingTriangulation<Plane> {
 
     /// Stages what was staged before, and pieces in the place of their segments; returns of how many.
     #[inline(never)]
-    fn stage_pieces(&mut self, before: &Before, pieces: &[Piece]) -> Result<usize> {
+    fn stage_pieces(&mut self, before: &StagedBefore, pieces: &[SegmentPiece]) -> Result<usize> {
         let segments = memory::made(&mut self.mesh.segments)?;
         segments.restore_staged(&before.staged, &before.leaving);
         let mut n_replaced = 0;
@@ -330,7 +330,7 @@ impl MovingTriangulation<Plane> {
 
     /// Notes where pieces come from, for when they are made.
     #[inline(never)]
-    fn note_origins(&mut self, before: &Before, pieces: &[Piece]) -> Result<()> {
+    fn note_origins(&mut self, before: &StagedBefore, pieces: &[SegmentPiece]) -> Result<()> {
         let made = memory::made(&mut self.made)?;
         made.reserve_coming(pieces.len())?;
         let segments = self.mesh.segments.as_ref().expect("there are pieces");
@@ -351,7 +351,7 @@ impl MovingTriangulation<Plane> {
     }
 
     /// Puts what was staged back. Needs no memory.
-    fn take_splits_back(&mut self, before: Before, is_refused: bool) {
+    fn take_splits_back(&mut self, before: StagedBefore, is_refused: bool) {
         if let Some(segments) = &mut self.mesh.segments {
             segments.restore_staged(&before.staged, &before.leaving);
         }

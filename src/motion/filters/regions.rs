@@ -26,7 +26,7 @@ use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::filters::safe_regions::{Admission, SafeRegions};
 use crate::motion::filters::slack::Slacks;
-use crate::motion::filters::store::{Steps, Store};
+use crate::motion::filters::store::{Store, TimestampSteps};
 use crate::motion::filters::tolerance::{Fixed, Tolerances};
 use crate::motion::filters::watching::Watching;
 use crate::motion::region_kind::RegionKind;
@@ -36,31 +36,31 @@ const MAX_SHARE_FOLLOWED: f64 = 1.0 / 3.0;
 
 /// Regions that are valid.
 #[derive(Debug)]
-pub(in crate::motion) enum Kept<G: Dimension> {
+pub(in crate::motion) enum KeptRegions<G: Dimension> {
     Tolerance(Tolerances<G>),
     SafeRegion(SafeRegions<G>),
     Watching(Watching<G>),
     Slack(Slacks<G>),
 }
 
-impl<G: Dimension> Kept<G> {
+impl<G: Dimension> KeptRegions<G> {
     /// Nothing yet of a kind.
     fn empty(kind: RegionKind) -> Self {
         match kind {
-            RegionKind::Tolerance => Kept::Tolerance(Tolerances::default()),
-            RegionKind::SafeRegion => Kept::SafeRegion(SafeRegions::new(false)),
-            RegionKind::Both => Kept::SafeRegion(SafeRegions::new(true)),
-            RegionKind::Watch => Kept::Watching(Watching::default()),
-            RegionKind::Slack => Kept::Slack(Slacks::default()),
+            RegionKind::Tolerance => KeptRegions::Tolerance(Tolerances::default()),
+            RegionKind::SafeRegion => KeptRegions::SafeRegion(SafeRegions::new(false)),
+            RegionKind::Both => KeptRegions::SafeRegion(SafeRegions::new(true)),
+            RegionKind::Watch => KeptRegions::Watching(Watching::default()),
+            RegionKind::Slack => KeptRegions::Slack(Slacks::default()),
         }
     }
 
     fn copied(&self) -> Result<Self> {
         Ok(match self {
-            Kept::Tolerance(store) => Kept::Tolerance(store.copied()?),
-            Kept::SafeRegion(store) => Kept::SafeRegion(store.copied()?),
-            Kept::Watching(store) => Kept::Watching(store.copied()?),
-            Kept::Slack(store) => Kept::Slack(store.copied()?),
+            KeptRegions::Tolerance(store) => KeptRegions::Tolerance(store.copied()?),
+            KeptRegions::SafeRegion(store) => KeptRegions::SafeRegion(store.copied()?),
+            KeptRegions::Watching(store) => KeptRegions::Watching(store.copied()?),
+            KeptRegions::Slack(store) => KeptRegions::Slack(store.copied()?),
         })
     }
 
@@ -68,29 +68,29 @@ impl<G: Dimension> Kept<G> {
     #[inline(always)]
     fn kind(&self) -> RegionKind {
         match self {
-            Kept::Tolerance(_) => RegionKind::Tolerance,
-            Kept::SafeRegion(regions) if regions.tests_tolerance() => RegionKind::Both,
-            Kept::SafeRegion(_) => RegionKind::SafeRegion,
-            Kept::Watching(_) => RegionKind::Watch,
-            Kept::Slack(_) => RegionKind::Slack,
+            KeptRegions::Tolerance(_) => RegionKind::Tolerance,
+            KeptRegions::SafeRegion(regions) if regions.tests_tolerance() => RegionKind::Both,
+            KeptRegions::SafeRegion(_) => RegionKind::SafeRegion,
+            KeptRegions::Watching(_) => RegionKind::Watch,
+            KeptRegions::Slack(_) => RegionKind::Slack,
         }
     }
 
     fn store(&self) -> &dyn Store<G> {
         match self {
-            Kept::Tolerance(store) => store,
-            Kept::SafeRegion(store) => store,
-            Kept::Watching(store) => store,
-            Kept::Slack(store) => store,
+            KeptRegions::Tolerance(store) => store,
+            KeptRegions::SafeRegion(store) => store,
+            KeptRegions::Watching(store) => store,
+            KeptRegions::Slack(store) => store,
         }
     }
 
     fn store_mut(&mut self) -> &mut dyn Store<G> {
         match self {
-            Kept::Tolerance(store) => store,
-            Kept::SafeRegion(store) => store,
-            Kept::Watching(store) => store,
-            Kept::Slack(store) => store,
+            KeptRegions::Tolerance(store) => store,
+            KeptRegions::SafeRegion(store) => store,
+            KeptRegions::Watching(store) => store,
+            KeptRegions::Slack(store) => store,
         }
     }
 }
@@ -98,11 +98,11 @@ impl<G: Dimension> Kept<G> {
 /// The regions of one kind, if any are kept.
 #[derive(Debug, Default)]
 pub(in crate::motion) struct Regions<G: Dimension> {
-    kept: Option<Box<Kept<G>>>,
+    kept: Option<Box<KeptRegions<G>>>,
     /// Regions that are no longer valid: their memory serves the next ones of that kind.
-    spare: Option<Box<Kept<G>>>,
+    spare: Option<Box<KeptRegions<G>>>,
     /// Regions that are valid, but not to be used: no vertex may move alone while a timestamp is prepared.
-    withheld: Option<Box<Kept<G>>>,
+    withheld: Option<Box<KeptRegions<G>>>,
     /// The kernel's record of changed cells, or its memory.
     changed: Vec<Slot>,
     /// Vertices that have been relocated during the change under way.
@@ -119,7 +119,7 @@ impl<G: Dimension> Regions<G> {
     /// The kind of the regions that are kept.
     #[inline(always)]
     pub(in crate::motion) fn kept_for(&self) -> Option<RegionKind> {
-        self.kept.as_deref().map(Kept::kind)
+        self.kept.as_deref().map(KeptRegions::kind)
     }
 
     /// The report's pre-computations, for a kind; returns the number of bi-cells computed. `steps` as for a
@@ -129,11 +129,11 @@ impl<G: Dimension> Regions<G> {
         kind: RegionKind,
         kernel: &mut Delaunay<G>,
         n_ids: usize,
-        steps: Steps<'_, G>,
+        steps: TimestampSteps<'_, G>,
     ) -> Result<u64> {
         self.invalidate();
         let spare = self.spare.take().filter(|spare| spare.kind() == kind);
-        let mut kept = spare.map_or_else(|| memory::boxed(Kept::empty(kind)), Ok)?;
+        let mut kept = spare.map_or_else(|| memory::boxed(KeptRegions::empty(kind)), Ok)?;
         let n = kept.store_mut().prepare(kernel, n_ids, steps)?;
         self.kept = Some(kept);
         Ok(n)
@@ -169,12 +169,12 @@ impl<G: Dimension> Regions<G> {
         p: &G::Point,
     ) -> Option<Admission> {
         match self.kept.as_deref() {
-            Some(Kept::Tolerance(tolerances)) => {
+            Some(KeptRegions::Tolerance(tolerances)) => {
                 tolerances.fixed()[vertex].holds(p).then_some(Admission::WithinTolerance)
             }
-            Some(Kept::SafeRegion(regions)) => regions.admit(kernel, vertex, s, p),
+            Some(KeptRegions::SafeRegion(regions)) => regions.admit(kernel, vertex, s, p),
             // All vertices move, and their bi-cells are checked after that.
-            Some(Kept::Watching(_) | Kept::Slack(_)) | None => None,
+            Some(KeptRegions::Watching(_) | KeptRegions::Slack(_)) | None => None,
         }
     }
 
@@ -182,31 +182,43 @@ impl<G: Dimension> Regions<G> {
     #[inline(always)]
     pub(in crate::motion) fn fixed(&self) -> &[Fixed<G>] {
         match self.kept.as_deref() {
-            Some(Kept::Tolerance(tolerances)) => tolerances.fixed(),
-            Some(Kept::Watching(watching)) => watching.fixed(),
-            Some(Kept::SafeRegion(_) | Kept::Slack(_)) | None => &[],
+            Some(KeptRegions::Tolerance(tolerances)) => tolerances.fixed(),
+            Some(KeptRegions::Watching(watching)) => watching.fixed(),
+            Some(KeptRegions::SafeRegion(_) | KeptRegions::Slack(_)) | None => &[],
         }
     }
 
     /// The store of the tolerance algorithm, if that is kept.
     #[inline(always)]
     pub(in crate::motion) fn tolerances(&self) -> Option<&Tolerances<G>> {
-        if let Some(Kept::Tolerance(tolerances)) = self.kept.as_deref() { Some(tolerances) } else { None }
+        if let Some(KeptRegions::Tolerance(tolerances)) = self.kept.as_deref() {
+            Some(tolerances)
+        } else {
+            None
+        }
     }
 
     /// The store of watching, if that is kept.
     pub(in crate::motion) fn watching(&mut self) -> Option<&mut Watching<G>> {
-        if let Some(Kept::Watching(watching)) = self.kept.as_deref_mut() { Some(watching) } else { None }
+        if let Some(KeptRegions::Watching(watching)) = self.kept.as_deref_mut() {
+            Some(watching)
+        } else {
+            None
+        }
     }
 
     /// About how many bi-cells are watched.
     pub(in crate::motion) fn n_watched(&self) -> usize {
-        if let Some(Kept::Watching(watching)) = self.kept.as_deref() { watching.n_watched() } else { 0 }
+        if let Some(KeptRegions::Watching(watching)) = self.kept.as_deref() {
+            watching.n_watched()
+        } else {
+            0
+        }
     }
 
     /// The store of slack, if that is kept.
     pub(in crate::motion) fn slacks(&mut self) -> Option<&mut Slacks<G>> {
-        if let Some(Kept::Slack(slacks)) = self.kept.as_deref_mut() { Some(slacks) } else { None }
+        if let Some(KeptRegions::Slack(slacks)) = self.kept.as_deref_mut() { Some(slacks) } else { None }
     }
 
     /// Makes the kernel's static filter as sharp as what the regions, if any are kept, may let pass allows.
@@ -230,7 +242,7 @@ impl<G: Dimension> Regions<G> {
 
     /// A change begins, during which no regions are kept. Returns those that can [follow](Self::follow) it, and
     /// memory for the record of cells that this takes.
-    pub(in crate::motion) fn begin_change(&mut self) -> Option<(Box<Kept<G>>, Vec<Slot>)> {
+    pub(in crate::motion) fn begin_change(&mut self) -> Option<(Box<KeptRegions<G>>, Vec<Slot>)> {
         self.relocated.clear();
         let kept = self.kept.take()?;
         Some((kept, std::mem::take(&mut self.changed)))
@@ -245,12 +257,12 @@ impl<G: Dimension> Regions<G> {
     /// bi-cells.
     pub(in crate::motion) fn follow(
         &mut self,
-        mut kept: Box<Kept<G>>,
+        mut kept: Box<KeptRegions<G>>,
         mut changed: Vec<Slot>,
         relocated: Vec<VertexId>,
         kernel: &mut Delaunay<G>,
         site_of: &[SiteId],
-        steps: Steps<'_, G>,
+        steps: TimestampSteps<'_, G>,
     ) -> Result<u64> {
         let store = kept.store_mut();
         store.forget_cells(&changed);
@@ -267,12 +279,13 @@ impl<G: Dimension> Regions<G> {
     }
 
     /// What was kept when a change began cannot follow it.
-    pub(in crate::motion) fn give_up(&mut self, kept: Box<Kept<G>>) {
+    pub(in crate::motion) fn give_up(&mut self, kept: Box<KeptRegions<G>>) {
         self.spare = Some(kept);
     }
 
     pub(in crate::motion) fn memory_bytes(&self) -> usize {
-        let bytes_of = |kept| memory::bytes_of_made(kept, |kept: &Kept<G>| kept.store().memory_bytes());
+        let bytes_of =
+            |kept| memory::bytes_of_made(kept, |kept: &KeptRegions<G>| kept.store().memory_bytes());
         bytes_of(&self.kept)
             + bytes_of(&self.spare)
             + bytes_of(&self.withheld)

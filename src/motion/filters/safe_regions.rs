@@ -15,7 +15,7 @@ use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::filters::bicell::{BiCell, for_bicells};
-use crate::motion::filters::store::{Steps, Store};
+use crate::motion::filters::store::{Store, TimestampSteps};
 use crate::motion::filters::tolerance::Tolerances;
 use crate::predicates::{
     displacement_limit, is_certainly_inside, is_path_certainly_outside, squared_distance,
@@ -154,7 +154,7 @@ impl<G: Dimension> SafeRegions<G> {
 }
 
 impl<G: Dimension> Store<G> for SafeRegions<G> {
-    fn prepare(&mut self, kernel: &mut Delaunay<G>, n_ids: usize, _: Steps<'_, G>) -> Result<u64> {
+    fn prepare(&mut self, kernel: &mut Delaunay<G>, n_ids: usize, _: TimestampSteps<'_, G>) -> Result<u64> {
         self.reach.clear();
         self.delimiters.clear();
         self.tolerances.fix_all(kernel, n_ids)?;
@@ -166,7 +166,7 @@ impl<G: Dimension> Store<G> for SafeRegions<G> {
         &mut self,
         kernel: &mut Delaunay<G>,
         site_of: &[SiteId],
-        _: Steps<'_, G>,
+        _: TimestampSteps<'_, G>,
         cells: &[Slot],
         relocated: &[VertexId],
     ) -> Result<u64> {

@@ -6,7 +6,7 @@ use crate::ids::{SiteId, Slot, VertexId};
 
 /// How far vertices go in a timestamp.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::motion) struct Steps<'s, G: Dimension> {
+pub(in crate::motion) struct TimestampSteps<'s, G: Dimension> {
     /// Positions of the vertices, by id, at the timestamp before or the next one; none if that does not matter.
     pub(in crate::motion) other_positions: &'s [G::Point],
     /// The constant of this name.
@@ -17,7 +17,12 @@ pub(in crate::motion) struct Steps<'s, G: Dimension> {
 pub(in crate::motion) trait Store<G: Dimension> {
     /// The report's pre-computations: every vertex is fixed where it is, and every bi-cell is computed. Returns the
     /// number of bi-cells.
-    fn prepare(&mut self, kernel: &mut Delaunay<G>, n_ids: usize, steps: Steps<'_, G>) -> Result<u64>;
+    fn prepare(
+        &mut self,
+        kernel: &mut Delaunay<G>,
+        n_ids: usize,
+        steps: TimestampSteps<'_, G>,
+    ) -> Result<u64>;
 
     /// Computes the bi-cells of all facets of these cells, each listed once; returns their number. Among the cells are
     /// the stars of the vertices that have been relocated. `site_of` has the site of each vertex, by id.
@@ -25,7 +30,7 @@ pub(in crate::motion) trait Store<G: Dimension> {
         &mut self,
         kernel: &mut Delaunay<G>,
         site_of: &[SiteId],
-        steps: Steps<'_, G>,
+        steps: TimestampSteps<'_, G>,
         cells: &[Slot],
         relocated: &[VertexId],
     ) -> Result<u64>;

@@ -88,7 +88,7 @@ pub(in crate::motion) struct Auto {
 
 /// What immediate relocations of a round have done.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::motion) struct Round {
+pub(in crate::motion) struct ImmediateRound {
     /// Whether most were within tolerance.
     pub(in crate::motion) are_most_within: bool,
     /// Whether most changed no cell.
@@ -260,7 +260,11 @@ impl Auto {
     }
 
     /// Counts relocations in a round of `round`; what has become of the round if it ends with them.
-    pub(in crate::motion) fn count_relocations(&mut self, round: u64, done: &CommitReport) -> Option<Round> {
+    pub(in crate::motion) fn count_relocations(
+        &mut self,
+        round: u64,
+        done: &CommitReport,
+    ) -> Option<ImmediateRound> {
         self.enter_within();
         self.relocated += done.moved;
         self.within += done.within_tolerance;
@@ -270,8 +274,10 @@ impl Auto {
         }
         let least = MIN_SHARE_OF_ROUND * self.relocated as f64;
         let are_most = |some: u64| some as f64 >= least;
-        let ended =
-            Round { are_most_within: are_most(self.within), are_most_unchanged: are_most(self.unchanged) };
+        let ended = ImmediateRound {
+            are_most_within: are_most(self.within),
+            are_most_unchanged: are_most(self.unchanged),
+        };
         (self.relocated, self.within, self.unchanged) = (0, 0, 0);
         Some(ended)
     }

@@ -61,7 +61,7 @@ impl<E, P: FnMut(&[u8]) -> Result<(), E>> Chunks<P> {
 
     /// Writes a text.
     pub(crate) fn text(&mut self, text: fmt::Arguments<'_>) -> Result<(), E> {
-        let mut writer = Text { chunks: self, failed: Ok(()) };
+        let mut writer = TextChunks { chunks: self, failed: Ok(()) };
         // Writing fails where a chunk cannot be handed on.
         let _ = writer.write_fmt(text);
         writer.failed
@@ -73,12 +73,12 @@ impl<E, P: FnMut(&[u8]) -> Result<(), E>> Chunks<P> {
     }
 }
 
-struct Text<'c, E, P> {
+struct TextChunks<'c, E, P> {
     chunks: &'c mut Chunks<P>,
     failed: Result<(), E>,
 }
 
-impl<E, P: FnMut(&[u8]) -> Result<(), E>> Write for Text<'_, E, P> {
+impl<E, P: FnMut(&[u8]) -> Result<(), E>> Write for TextChunks<'_, E, P> {
     fn write_str(&mut self, text: &str) -> fmt::Result {
         self.failed = self.chunks.append(text.as_bytes());
         if self.failed.is_ok() { Ok(()) } else { Err(fmt::Error) }

@@ -21,7 +21,7 @@ use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
-use crate::motion::state::cells::journal::Journal;
+use crate::motion::state::cells::journal::CellJournal;
 use crate::motion::state::changes::{Tracker, renumber};
 use crate::motion::state::marks::{Bits, Marks};
 use crate::motion::state::matching::Matcher;
@@ -70,14 +70,14 @@ pub(in crate::motion) struct Cells<G: Dimension> {
     is_settled: Bits,
     /// What has changed since the program last took the changes, if it ever did.
     since_taken: Option<Tracker<G::Vertices>>,
-    scratch: Scratch<G::Vertices>,
+    scratch: RefreshLists<G::Vertices>,
     /// What the arrays were before they were brought up to date, where that may be undone.
-    journal: Option<Box<Journal<G>>>,
+    journal: Option<Box<CellJournal<G>>>,
 }
 
 /// A slot that holds another cell than before.
 #[derive(Clone, Copy, Debug)]
-struct Found<C> {
+struct FoundCell<C> {
     slot: Slot,
     /// The index of the cell, if it was there before; else [`NO_CELL`].
     index: CellId,
@@ -86,12 +86,12 @@ struct Found<C> {
 
 /// Lists of a refreshment.
 #[derive(Debug)]
-struct Scratch<C> {
+struct RefreshLists<C> {
     /// Indices whose slot no longer holds their cell.
     lost: Vec<CellId>,
     /// Slots that hold another finite cell than before, if they are known; else, those that hold one that was not
     /// there.
-    found: Vec<Found<C>>,
+    found: Vec<FoundCell<C>>,
     matcher: Matcher<C>,
     /// Slots of cells that have other indices.
     moved: Vec<Slot>,
@@ -99,9 +99,9 @@ struct Scratch<C> {
     turned: Vec<Slot>,
 }
 
-impl<C> Default for Scratch<C> {
+impl<C> Default for RefreshLists<C> {
     fn default() -> Self {
-        Scratch {
+        RefreshLists {
             lost: Vec::new(),
             found: Vec::new(),
             matcher: Matcher::default(),
@@ -111,12 +111,12 @@ impl<C> Default for Scratch<C> {
     }
 }
 
-impl<C: Corners<VertexId>> Scratch<C> {
+impl<C: Corners<VertexId>> RefreshLists<C> {
     fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.lost)
             + memory::bytes_of(&self.moved)
             + memory::bytes_of(&self.turned)
-            + self.found.capacity() * size_of::<Found<C>>()
+            + self.found.capacity() * size_of::<FoundCell<C>>()
             + self.matcher.memory_bytes()
     }
 }
@@ -148,7 +148,7 @@ impl<G: Dimension> Default for Cells<G> {
             orderings: Vec::new(),
             is_settled: Bits::default(),
             since_taken: None,
-            scratch: Scratch::default(),
+            scratch: RefreshLists::default(),
             journal: None,
         }
     }
@@ -267,7 +267,7 @@ impl<G: Dimension> Cells<G> {
         &mut self,
         kernel: &Delaunay<G>,
         dirty: Option<&Marks<Slot>>,
-        scratch: &mut Scratch<G::Vertices>,
+        scratch: &mut RefreshLists<G::Vertices>,
     ) -> Result<()> {
         scratch.lost.clear();
         scratch.found.clear();
@@ -283,7 +283,7 @@ impl<G: Dimension> Cells<G> {
         match dirty {
             Some(dirty) => {
                 self.compare_slots(kernel, dirty.as_slice(), scratch)?;
-                let Scratch { lost, found, matcher, turned, .. } = scratch;
+                let RefreshLists { lost, found, matcher, turned, .. } = scratch;
                 matcher.list(&self.corners, lost)?;
                 self.find_lost(matcher, found, turned)?;
             }
@@ -303,13 +303,13 @@ impl<G: Dimension> Cells<G> {
         }
         // Memory for many changes is not kept.
         if scratch.found.capacity().max(scratch.matcher.capacity()) > self.corners.len() / 2 + KEPT_CHANGES {
-            *scratch = Scratch::default();
+            *scratch = RefreshLists::default();
         }
         Ok(())
     }
 
     /// Makes room for all that [`renumber`](Self::renumber) writes.
-    fn reserve(&mut self, kernel: &Delaunay<G>, scratch: &mut Scratch<G::Vertices>) -> Result<()> {
+    fn reserve(&mut self, kernel: &Delaunay<G>, scratch: &mut RefreshLists<G::Vertices>) -> Result<()> {
         let n = kernel.complex().n_finite();
         let more = n.saturating_sub(self.corners.len());
         memory::reserve_sparingly(&mut self.corners, more)?;
@@ -424,6 +424,6 @@ impl<G: Dimension> Cells<G> {
             + self.is_settled.memory_bytes()
             + self.scratch.memory_bytes()
             + self.since_taken.as_ref().map_or(0, Tracker::memory_bytes)
-            + memory::bytes_of_made(&self.journal, Journal::memory_bytes)
+            + memory::bytes_of_made(&self.journal, CellJournal::memory_bytes)
     }
 }

@@ -30,7 +30,7 @@ pub(in crate::motion) struct Tracker<C> {
     /// How many cells have been given another index since the base.
     pub(super) n_renumbered: usize,
     /// Cells of the base that have been turned over, and how their corners were listed before.
-    pub(super) turned: Vec<Turned<C>>,
+    pub(super) turned: Vec<TurnedCell<C>>,
 }
 
 /// Lengths and counts of a tracker, to which it can go back.
@@ -45,7 +45,7 @@ pub(in crate::motion) struct Lengths {
 
 /// A cell of the base that has been turned over.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Turned<C> {
+pub(super) struct TurnedCell<C> {
     pub(super) origin: CellId,
     /// Its place in the order of the events.
     at: u32,
@@ -145,7 +145,7 @@ impl<C: Corners<VertexId>> Tracker<C> {
     pub(in crate::motion) fn turn(&mut self, index: CellId, before: C) {
         let origin = self.origin[index];
         if origin != CellId::NONE {
-            self.turned.push(Turned { origin, at: self.turned.len() as u32, before });
+            self.turned.push(TurnedCell { origin, at: self.turned.len() as u32, before });
         }
     }
 
@@ -280,12 +280,12 @@ impl<C: Corners<VertexId>> Tracker<C> {
         self.origin.capacity() * 4
             + self.touched.memory_bytes()
             + self.removed.capacity() * size_of::<(CellId, C)>()
-            + self.turned.capacity() * size_of::<Turned<C>>()
+            + self.turned.capacity() * size_of::<TurnedCell<C>>()
     }
 }
 
 /// Keeps of each cell how it was before it was turned over for the first time, in the order of the cells.
-pub(super) fn keep_first_turns<C>(turned: &mut Vec<Turned<C>>) {
+pub(super) fn keep_first_turns<C>(turned: &mut Vec<TurnedCell<C>>) {
     turned.sort_unstable_by_key(|event| (event.origin, event.at));
     turned.dedup_by_key(|event| event.origin);
     turned.iter_mut().for_each(|event| event.at = 0);

@@ -2,7 +2,7 @@
 
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
-use crate::predicates::{Array, MAX_MAGNITUDE, is_in_range};
+use crate::predicates::{MAX_MAGNITUDE, PointArray, is_in_range};
 
 /// Whether two places, without negative zeros, differ.
 #[inline(always)]

@@ -27,7 +27,7 @@ const NO_ENTRY: u32 = u32::MAX;
 
 /// A lost cell.
 #[derive(Clone, Copy, Debug)]
-struct Entry<C> {
+struct LostCell<C> {
     /// A hash of the corners.
     mark: u32,
     index: CellId,
@@ -37,7 +37,7 @@ struct Entry<C> {
 /// Memory to find cells in.
 #[derive(Debug)]
 pub(in crate::motion) struct Matcher<C> {
-    entries: Vec<Entry<C>>,
+    entries: Vec<LostCell<C>>,
     /// Positions of entries by a hash of the corners, if these are few.
     table: Vec<u32>,
     /// Where the entries of each lowest corner end, if these are many.
@@ -100,7 +100,7 @@ impl<C: Corners<VertexId>> Matcher<C> {
         table.resize(n, NO_ENTRY);
         for ((index, &corners), k) in ahead(corners, lost).zip(0..) {
             let mark = hash(&corners);
-            self.entries.push(Entry { mark, index, corners });
+            self.entries.push(LostCell { mark, index, corners });
             let mut place = mark as usize & (n - 1);
             while table[place] != NO_ENTRY {
                 place = (place + 1) & (n - 1);
@@ -124,12 +124,14 @@ impl<C: Corners<VertexId>> Matcher<C> {
         for v in 0..n_ids {
             ends[v + 1] += ends[v];
         }
-        entries
-            .resize(lost.len(), Entry { mark: 0, index: CellId::NONE, corners: C::filled(VertexId::NONE) });
+        entries.resize(
+            lost.len(),
+            LostCell { mark: 0, index: CellId::NONE, corners: C::filled(VertexId::NONE) },
+        );
         // Each is where the entries begin, until these have been made.
         for (index, &corners) in ahead(corners, lost) {
             let end = &mut ends[lowest(&corners)];
-            entries[*end as usize] = Entry { mark: hash(&corners), index, corners };
+            entries[*end as usize] = LostCell { mark: hash(&corners), index, corners };
             *end += 1;
         }
         Ok(true)
@@ -152,7 +154,7 @@ impl<C: Corners<VertexId>> Matcher<C> {
             prefetch(&self.entries, self.table[hash(ids) as usize & (self.table.len() - 1)] as usize);
         } else {
             let begin = self.ends.get(lowest(ids).wrapping_sub(1)).map_or(0, |&end| end as usize);
-            (0..LINES).for_each(|k| prefetch(&self.entries, begin + k * 64 / size_of::<Entry<C>>()));
+            (0..LINES).for_each(|k| prefetch(&self.entries, begin + k * 64 / size_of::<LostCell<C>>()));
         }
     }
 
@@ -160,7 +162,7 @@ impl<C: Corners<VertexId>> Matcher<C> {
     #[inline(always)]
     pub(in crate::motion) fn find(&self, ids: &C) -> Option<(CellId, C)> {
         let mark = hash(ids);
-        let is_it = |entry: &&Entry<C>| entry.mark == mark && are_same(&entry.corners, ids);
+        let is_it = |entry: &&LostCell<C>| entry.mark == mark && are_same(&entry.corners, ids);
         let entry = if self.ends.is_empty() {
             let last = self.table.len() - 1;
             let places = (mark as usize..).map(|place| self.table[place & last]);
@@ -180,7 +182,8 @@ impl<C: Corners<VertexId>> Matcher<C> {
     }
 
     pub(in crate::motion) fn memory_bytes(&self) -> usize {
-        (self.table.capacity() + self.ends.capacity()) * 4 + self.entries.capacity() * size_of::<Entry<C>>()
+        (self.table.capacity() + self.ends.capacity()) * 4
+            + self.entries.capacity() * size_of::<LostCell<C>>()
     }
 }
 

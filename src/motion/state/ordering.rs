@@ -1,6 +1,6 @@
 //! The order of a cell's corners in its row, compared with the order in its slot.
 
-use crate::complex::{Corners, Entry};
+use crate::complex::{CornerEntry, Corners};
 
 /// For each corner of the slot its place in the row, two bits each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,7 +11,7 @@ impl Ordering {
     pub(in crate::motion) const SAME: Self = Ordering(0b11_10_01_00);
 
     /// The order of a row's corners, given these as they are in the slot and in the row.
-    pub(in crate::motion) fn of<T: Entry, C: Corners<T>>(slot: &C, row: &C) -> Self {
+    pub(in crate::motion) fn of<T: CornerEntry, C: Corners<T>>(slot: &C, row: &C) -> Self {
         if slot == row {
             return Self::SAME;
         }
@@ -31,7 +31,7 @@ impl Ordering {
 
     /// The corners of a slot in the order of the row.
     #[inline(always)]
-    pub(in crate::motion) fn in_row<T: Entry, C: Corners<T>>(self, slot: C) -> C {
+    pub(in crate::motion) fn in_row<T: CornerEntry, C: Corners<T>>(self, slot: C) -> C {
         let mut row = slot;
         if self != Self::SAME {
             (0..C::N).for_each(|i| row[self.place(i)] = slot[i]);

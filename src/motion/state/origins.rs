@@ -21,7 +21,7 @@ enum Known {
 
 /// Where the vertices of a change were when it began, by id: of those that have moved.
 #[derive(Debug, Default)]
-pub(in crate::motion) struct Origins<G: Dimension> {
+pub(in crate::motion) struct VertexOrigins<G: Dimension> {
     positions: Vec<G::Point>,
     /// Vertices that have moved one by one. One that has been taken back in between is listed twice.
     listed: Vec<VertexId>,
@@ -61,7 +61,7 @@ impl<G: Dimension> KeptOrigins<G> {
     }
 }
 
-impl<G: Dimension> Origins<G> {
+impl<G: Dimension> VertexOrigins<G> {
     /// Sets the origins of a change aside: of few vertices they are copied, at the cost of these.
     pub(in crate::motion) fn set_aside(&mut self) -> Result<KeptOrigins<G>> {
         if self.known == Known::All {

@@ -21,7 +21,7 @@ use crate::motion::state::edits::Edits;
 use crate::motion::state::goals::Goals;
 use crate::motion::state::mesh::Mesh;
 use crate::motion::state::staging::Staging;
-use sweep::{Path, Swept, Tree, Walker, look_at_pairs};
+use sweep::{SegmentTree, StraightPath, Swept, Walker, look_at_pairs};
 
 /// Vertices that are looked at together.
 const BLOCK: usize = 16;
@@ -122,7 +122,7 @@ impl<G: Dimension> Step<'_, G> {
             return None;
         }
         let to = self.steps.goal(vertex).unwrap_or(*from);
-        Some(Walker { vertex, path: Path { from: [from[0], from[1]], to: [to[0], to[1]] } })
+        Some(Walker { vertex, path: StraightPath { from: [from[0], from[1]], to: [to[0], to[1]] } })
     }
 
     /// The segments that are in force before and after.
@@ -144,7 +144,7 @@ impl<G: Dimension> Step<'_, G> {
         if segments.is_empty() {
             return Ok(());
         }
-        let tree = Tree::new(segments)?;
+        let tree = SegmentTree::new(segments)?;
         let (mesh, mut block) = (self.mesh, Vec::new());
         memory::reserve(&mut block, BLOCK)?;
         for s in mesh.kernel.live_sites() {
@@ -190,7 +190,7 @@ impl<G: Dimension> Step<'_, G> {
         if walkers.len() <= FEW {
             return look_at_pairs(&segments, &walkers, found);
         }
-        let tree = Tree::new(segments)?;
+        let tree = SegmentTree::new(segments)?;
         walkers.chunks(BLOCK).try_for_each(|block| tree.look_at(block, found))
     }
 }

@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::ids::{SiteId, VertexId};
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::machine::{memory, threads};
-use crate::motion::state::origins::Origins;
+use crate::motion::state::origins::VertexOrigins;
 use crate::predicates::squared_distance;
 
 /// To find those of this number of vertices that have moved takes a few times as long as a thread takes to wake up.
@@ -52,7 +52,7 @@ impl Places {
     pub(in crate::motion) fn farthest<G: Dimension>(
         &self,
         kernel: &Delaunay<G>,
-        origins: &Origins<G>,
+        origins: &VertexOrigins<G>,
         sites: &[SiteId],
     ) -> Option<SiteId> {
         let displacement = |s: SiteId| {
@@ -72,7 +72,7 @@ impl Places {
     pub(in crate::motion) fn take_back<G: Dimension>(
         &mut self,
         kernel: &mut Delaunay<G>,
-        origins: &Origins<G>,
+        origins: &VertexOrigins<G>,
         s: SiteId,
     ) -> Result<()> {
         memory::reserve(&mut self.queue, 1)?;
@@ -89,7 +89,7 @@ impl Places {
     pub(in crate::motion) fn list_new<G: Dimension>(
         &mut self,
         kernel: &Delaunay<G>,
-        origins: &Origins<G>,
+        origins: &VertexOrigins<G>,
         site_of: &[SiteId],
     ) -> Result<()> {
         let Self { at, queue, .. } = self;

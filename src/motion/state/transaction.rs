@@ -4,7 +4,7 @@ use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
-use crate::motion::state::origins::{KeptOrigins, Origins};
+use crate::motion::state::origins::{KeptOrigins, VertexOrigins};
 
 /// The site at which a vertex was, and what it has done since.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +37,7 @@ pub(in crate::motion) struct Counts {
 pub(in crate::motion) struct Transaction<G: Dimension> {
     vertices: Vec<VertexBefore>,
     /// Where the vertices were that have moved.
-    origins: Origins<G>,
+    origins: VertexOrigins<G>,
     before: Counts,
     /// Whether the kernel is a new one.
     has_rebuilt: bool,
@@ -101,13 +101,13 @@ impl<G: Dimension> Transaction<G> {
 
     /// Where the vertices were that have moved.
     #[inline(always)]
-    pub(in crate::motion) fn origins(&self) -> &Origins<G> {
+    pub(in crate::motion) fn origins(&self) -> &VertexOrigins<G> {
         &self.origins
     }
 
     /// Where the vertices were that have moved, to note more.
     #[inline(always)]
-    pub(in crate::motion) fn origins_mut(&mut self) -> &mut Origins<G> {
+    pub(in crate::motion) fn origins_mut(&mut self) -> &mut VertexOrigins<G> {
         &mut self.origins
     }
 

@@ -33,12 +33,12 @@ struct Behind<G: Dimension> {
     /// Whether any slot may have changed.
     are_all: bool,
     /// What there was before the rounds of a timestamp that is being prepared.
-    before: Option<Box<Before>>,
+    before: Option<Box<ArraysBefore>>,
 }
 
 /// What there was before rounds that may be taken back.
 #[derive(Debug)]
-struct Before {
+struct ArraysBefore {
     /// Whether there were arrays.
     existed: bool,
     /// Whether they were up to date.
@@ -201,7 +201,7 @@ impl<G: Dimension> Views<G> {
         let (existed, were_current) = (self.exist(), self.current.get().is_some());
         let behind = self.behind();
         let n_dirty = behind.dirty.as_slice().len();
-        let before = Before { existed, were_current, were_all: behind.are_all, n_dirty, dirty: None };
+        let before = ArraysBefore { existed, were_current, were_all: behind.are_all, n_dirty, dirty: None };
         behind.before = Some(memory::boxed(before)?);
         Ok(())
     }
@@ -226,7 +226,7 @@ impl<G: Dimension> Views<G> {
         self.fall_behind();
         let behind = self.behind();
         let Some(before) = behind.before.take() else { return };
-        let Before { existed, were_current, were_all, n_dirty, dirty } = *before;
+        let ArraysBefore { existed, were_current, were_all, n_dirty, dirty } = *before;
         match dirty {
             // Without entries nothing but its memory differs.
             Some(_) if n_dirty == 0 => behind.dirty.clear(),

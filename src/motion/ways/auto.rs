@@ -38,7 +38,7 @@ use crate::error::Result;
 use crate::machine::memory;
 use crate::motion::algorithms::Algorithm;
 use crate::motion::options::SwitchingRule;
-use crate::motion::plan::auto::{Round, Scope};
+use crate::motion::plan::auto::{ImmediateRound, Scope};
 use crate::motion::plan::budget::REPAIRED_ALONE;
 use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
@@ -255,7 +255,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Decides after a round.
-    fn follow_round(&mut self, is_kept: bool, ended: Round) {
+    fn follow_round(&mut self, is_kept: bool, ended: ImmediateRound) {
         if is_kept {
             if !ended.are_most_within {
                 self.regions.invalidate();

@@ -4,7 +4,7 @@ use crate::delaunay::{Dimension, Shortcut};
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::motion::filters::safe_regions::Admission;
-use crate::motion::filters::store::Steps;
+use crate::motion::filters::store::TimestampSteps;
 use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::{Goals, Moves};
@@ -13,7 +13,7 @@ use crate::motion::ways::placement::Placed;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// The pre-computations for a kind of regions, unless what the last commit has kept is valid. `other_positions` are
-    /// those of [`Steps`].
+    /// those of [`TimestampSteps`].
     pub(in crate::motion) fn prepare_regions(
         &mut self,
         kind: RegionKind,
@@ -21,7 +21,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<()> {
         if self.regions.kept_for() != Some(kind) {
-            let steps = Steps { other_positions, watched_share: self.mesh.constants.watched_share };
+            let steps = TimestampSteps { other_positions, watched_share: self.mesh.constants.watched_share };
             let (kernel, n_ids) = (&mut self.mesh.kernel, self.mesh.site_of.len());
             report.tolerances += self.regions.prepare(kind, kernel, n_ids, steps)?;
         }
@@ -132,7 +132,8 @@ impl<G: Dimension> MovingTriangulation<G> {
                 relocated.retain(|&v| !self.mesh.is_shared(self.mesh.site_of[v]));
                 let (kernel, site_of) = (&mut self.mesh.kernel, &self.mesh.site_of);
                 let other_positions = self.mesh.transaction.origins().positions();
-                let steps = Steps { other_positions, watched_share: self.mesh.constants.watched_share };
+                let steps =
+                    TimestampSteps { other_positions, watched_share: self.mesh.constants.watched_share };
                 let n = self.regions.follow(kept, changed, relocated, kernel, site_of, steps);
                 // Without the memory for it none are kept, and the next commit says so.
                 report.tolerances += n.unwrap_or_default();

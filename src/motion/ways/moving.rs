@@ -61,7 +61,7 @@ pub(in crate::motion) struct Beyond<'b, G: Dimension> {
 }
 
 /// Vertices that go to their new places unless they have to wait.
-struct Movers<'m, G: Dimension> {
+struct MovingSites<'m, G: Dimension> {
     sites: &'m mut [Site<G>],
     /// Vertices beyond their tolerance, of which there may be `most`.
     queue: &'m mut Vec<VertexId>,
@@ -69,7 +69,7 @@ struct Movers<'m, G: Dimension> {
     n_moved: u64,
 }
 
-impl<G: Dimension> Movers<'_, G> {
+impl<G: Dimension> MovingSites<'_, G> {
     /// Queues those of a few vertices of which a bit is set, and moves the others, or all if `MOVES_ALL`; ends, and
     /// does nothing, where there is no room in the queue.
     #[cold]
@@ -170,13 +170,13 @@ impl<G: Dimension> Mesh<G> {
         blocks: &mut Blocks<'_, G>,
         beyond: &mut Beyond<'_, G>,
         hold: impl Fn(&[Fixed<G>; LANES], &[G::Point; LANES]) -> u32,
-        exchange: impl Fn(&mut Movers<'_, G>, &mut [G::Point; LANES], &[SiteId; LANES]) -> u64,
+        exchange: impl Fn(&mut MovingSites<'_, G>, &mut [G::Point; LANES], &[SiteId; LANES]) -> u64,
     ) -> Result<Advance> {
         let n = self.site_of.len();
         let sites = self.kernel.sites_mut();
         let origins = self.transaction.origins_mut().of_all_mut(n)?;
         let (fixed, last_fixed) = beyond.fixed[..n].as_chunks::<LANES>();
-        let mut movers = Movers { sites, queue: beyond.queue, most: beyond.most, n_moved: 0 };
+        let mut movers = MovingSites { sites, queue: beyond.queue, most: beyond.most, n_moved: 0 };
         let (sites_of, last_sites_of) = self.site_of.as_chunks::<LANES>();
         let mut ended = None;
         'blocks: for (block, positions) in origins.chunks_mut(BLOCK).enumerate() {

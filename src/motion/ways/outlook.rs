@@ -7,7 +7,7 @@ use crate::ids::VertexId;
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::motion::state::goals::{Movers, Moves};
 use crate::motion::state::mesh::Mesh;
-use crate::predicates::Array;
+use crate::predicates::PointArray;
 
 /// What vertices are going to do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

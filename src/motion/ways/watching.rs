@@ -42,7 +42,7 @@ use crate::delaunay::{Dimension, Waiting};
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
-use crate::motion::filters::store::Steps;
+use crate::motion::filters::store::TimestampSteps;
 use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::{Goals, Moves};
@@ -124,7 +124,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if let Some(watching) = self.regions.watching() {
             let sites = beyond.iter().map(|&v| self.mesh.site_of[v]);
             let other_positions = self.mesh.transaction.origins().positions();
-            let steps = Steps { other_positions, watched_share: self.mesh.constants.watched_share };
+            let steps = TimestampSteps { other_positions, watched_share: self.mesh.constants.watched_share };
             report.tolerances += watching.recompute(&mut self.mesh.kernel, steps, repair.touched(), sites);
         }
         Ok(())

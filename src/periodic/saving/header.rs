@@ -8,7 +8,7 @@ pub(super) const SIZE: usize = Beginning::SIZE + 24;
 
 /// How much there is of everything.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Header {
+pub(super) struct PeriodicHeader {
     pub(super) dimension: u32,
     /// Ids that vertices have been given, without those of staged insertions.
     pub(super) ids: usize,
@@ -26,7 +26,7 @@ pub(super) struct Header {
     pub(super) statistics: CommitReport,
 }
 
-impl Header {
+impl PeriodicHeader {
     /// Bytes of all data, if they are not too many for a number.
     pub(super) fn size(&self) -> Option<u64> {
         let (d, r) = (u128::from(self.dimension), self.vectors as u128);
@@ -73,7 +73,7 @@ impl Header {
         let [ids, images, moves, insertions, removals] = counts;
         let [vectors, staged_vectors, inside_bytes] = more;
         let statistics = Beginning::statistics_of(data)?;
-        let header = Header {
+        let header = PeriodicHeader {
             dimension,
             ids,
             images,

@@ -12,12 +12,12 @@ use crate::periodic::images::{Image, Images};
 use crate::periodic::inside::Inside;
 use crate::periodic::lattice::{HOME, Lattice, Occupied};
 use crate::periodic::saving::SavedPeriodic;
-use crate::periodic::saving::header::{Header, SIZE};
+use crate::periodic::saving::header::{PeriodicHeader, SIZE};
 use crate::periodic::staged::Staged;
 use crate::periodic::triangulation::{PeriodicTriangulation, check_options, spacing};
 
 /// What is staged, as it is read.
-struct Waiting<G: Dimension> {
+struct StagedLists<G: Dimension> {
     vectors: Vec<G::Point>,
     goals: Vec<G::Point>,
     insertions: Vec<G::Point>,
@@ -63,7 +63,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         }
         let mut reader = Reader(&data[SIZE..]);
         let lattice = lattice_of(&reader.points::<G>(header.vectors)?)?;
-        let mut waiting = Waiting::<G> {
+        let mut waiting = StagedLists::<G> {
             vectors: reader.points::<G>(header.staged_vectors)?,
             goals: reader.points::<G>(header.moves)?,
             insertions: reader.points::<G>(header.insertions)?,
@@ -115,7 +115,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     /// Stages what was staged.
-    fn stage_saved(&mut self, header: &Header, waiting: &Waiting<G>) -> Result<(), LoadError> {
+    fn stage_saved(&mut self, header: &PeriodicHeader, waiting: &StagedLists<G>) -> Result<(), LoadError> {
         if !waiting.vectors.is_empty() {
             self.stage_vectors(&waiting.vectors).map_err(of_vectors)?;
         }

@@ -12,12 +12,12 @@ mod writing;
 
 use crate::damage::Damage;
 use crate::motion::Beginning;
-use header::Header;
+use header::PeriodicHeader;
 
 /// Bytes of a saved periodic triangulation, the size and the checksum of which are right.
 #[derive(Clone, Copy, Debug)]
 pub struct SavedPeriodic<'d> {
-    header: Header,
+    header: PeriodicHeader,
     data: &'d [u8],
 }
 
@@ -27,7 +27,7 @@ impl<'d> SavedPeriodic<'d> {
     /// # Errors
     /// What is wrong with them.
     pub fn of(data: &'d [u8]) -> Result<Self, Damage> {
-        let header = Header::read(data)?;
+        let header = PeriodicHeader::read(data)?;
         Beginning::check_sum(data)?;
         Ok(SavedPeriodic { header, data })
     }

@@ -7,12 +7,12 @@ use crate::machine::memory;
 use crate::motion::Chunks;
 use crate::periodic::images::Image;
 use crate::periodic::lattice::HOME;
-use crate::periodic::saving::header::Header;
+use crate::periodic::saving::header::PeriodicHeader;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
 impl<G: Dimension> PeriodicTriangulation<G> {
-    fn header(&self) -> Header {
-        Header {
+    fn header(&self) -> PeriodicHeader {
+        PeriodicHeader {
             dimension: G::D as u32,
             ids: self.inside.images.n_vertices(),
             images: self.inside.images.len(),

@@ -16,7 +16,7 @@ fn integers_are_those_of_num_bigint() {
     let rng = &mut Rng::new(1);
     let mut random = || rng.next();
     // Differences: random, or with long runs of equal bits, so that carries go far.
-    fn difference<'r>(room: &'r Room, random: &mut impl FnMut() -> u64) -> Integer<'r> {
+    fn difference<'r>(room: &'r LimbRoom, random: &mut impl FnMut() -> u64) -> Integer<'r> {
         let n_bits = random() as usize % 1266;
         let limbs = room.zeros(n_bits.div_ceil(64));
         let is_run = random().is_multiple_of(3);
@@ -43,7 +43,7 @@ fn integers_are_those_of_num_bigint() {
         assert_eq!(sign, expected.sign());
     };
     for _ in 0..40_000 {
-        let room = Room::new();
+        let room = LimbRoom::new();
         let [a, b, c, d, e] = std::array::from_fn(|_| difference(&room, &mut random));
         let [p, q, r, s, t] = [&a, &b, &c, &d, &e].map(big);
         let (ab, cde, pq, rst) = (a * b, c * d * e, &p * &q, &r * &s * &t);
@@ -63,7 +63,7 @@ fn integers_are_those_of_num_bigint() {
 /// There is room for the determinant of the longest numbers, and its terms are not longer than they may be.
 #[test]
 fn there_is_room_for_the_greatest_determinant() {
-    let room = Room::new();
+    let room = LimbRoom::new();
     let most = room.zeros(20);
     most.fill(u64::MAX);
     most[19] >>= 64 * 20 - 1265;
@@ -91,7 +91,7 @@ fn there_is_room_for_the_greatest_determinant() {
                 if bits >> 63 == 0 { large } else { f64::from_bits(bits >> 60 & 7) }
             })
         });
-        let room = Room::of_any_size();
+        let room = LimbRoom::of_any_size();
         let det = insphere_in(&room, points.each_ref());
         assert!(det.magnitude.len() <= 99);
     }

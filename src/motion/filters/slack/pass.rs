@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::predicates::{BiCellTolerances, LANES};
 
 /// Whether bi-cells that are computed are checked before.
-pub(super) enum Check<'c, G: Dimension> {
+pub(super) enum CheckFirst<'c, G: Dimension> {
     /// All are known to hold.
     Not,
     /// All are checked after a motion. In turn: where the vertices were before, by id; a distance that none has
@@ -16,14 +16,14 @@ pub(super) enum Check<'c, G: Dimension> {
 
 /// One pass over bi-cells, some of which wait to be computed together.
 pub(super) struct Pass<'c, G: Dimension> {
-    check: Check<'c, G>,
+    check: CheckFirst<'c, G>,
     bicells: <G::Point as BiCellTolerances>::BiCells,
     facets: [[Facet; 2]; LANES],
     n: usize,
 }
 
 impl<'c, G: Dimension> Pass<'c, G> {
-    pub(super) fn new(check: Check<'c, G>) -> Self {
+    pub(super) fn new(check: CheckFirst<'c, G>) -> Self {
         Pass { check, bicells: Default::default(), facets: [[Facet::NONE; 2]; LANES], n: 0 }
     }
 
@@ -50,8 +50,8 @@ impl<'c, G: Dimension> Pass<'c, G> {
             return;
         }
         let hold = match &self.check {
-            Check::Moved(..) => G::Point::bicells_hold(kernel.filter(), &self.bicells),
-            Check::Not => [true; LANES],
+            CheckFirst::Moved(..) => G::Point::bicells_hold(kernel.filter(), &self.bicells),
+            CheckFirst::Not => [true; LANES],
         };
         let tolerances = G::Point::tolerances(&self.bicells, [enough; LANES]);
         for k in 0..n {
@@ -64,7 +64,7 @@ impl<'c, G: Dimension> Pass<'c, G> {
     /// Whether a bi-cell at the hull, of this tolerance, holds.
     pub(super) fn holds_at_hull(&mut self, kernel: &Delaunay<G>, facet: Facet, tolerance: f64) -> bool {
         // What tolerates the way back was positive all the way.
-        let tolerates = matches!(&self.check, Check::Moved(_, greatest, ..) if tolerance > *greatest);
+        let tolerates = matches!(&self.check, CheckFirst::Moved(_, greatest, ..) if tolerance > *greatest);
         tolerates || self.holds(kernel, facet)
     }
 
@@ -72,8 +72,8 @@ impl<'c, G: Dimension> Pass<'c, G> {
     #[inline(never)]
     fn holds(&mut self, kernel: &Delaunay<G>, facet: Facet) -> bool {
         match &mut self.check {
-            Check::Not => true,
-            Check::Moved(before, _, failures, checked) => {
+            CheckFirst::Not => true,
+            CheckFirst::Moved(before, _, failures, checked) => {
                 let holds = kernel.check_bicell(facet, before, failures);
                 holds.unwrap_or_else(|error| {
                     **checked = Err(error);

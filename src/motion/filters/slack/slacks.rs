@@ -27,8 +27,8 @@ use crate::machine::prefetch::prefetch;
 use crate::motion::filters::bicell::{BiCell, for_bicells};
 use crate::motion::filters::margin::Margin;
 use crate::motion::filters::slack::entries::{BLOCK, deadline, entry, least, list_expired_of, slack};
-use crate::motion::filters::slack::pass::{Check, Pass};
-use crate::motion::filters::store::{Steps, Store};
+use crate::motion::filters::slack::pass::{CheckFirst, Pass};
+use crate::motion::filters::store::{Store, TimestampSteps};
 use crate::predicates::distance_above;
 
 /// A number for each corner of a cell.
@@ -118,7 +118,7 @@ impl<G: Dimension> Slacks<G> {
     fn compute_all(&mut self, kernel: &Delaunay<G>) -> u64 {
         let complex = kernel.complex();
         self.is_open.fill(u64::MAX);
-        let mut pass = Pass::new(Check::Not);
+        let mut pass = Pass::new(CheckFirst::Not);
         let n = for_bicells(kernel, |facet| self.push(kernel, facet, &mut pass));
         self.enter_batch(kernel, &mut pass);
         self.is_open.fill(0);
@@ -126,7 +126,7 @@ impl<G: Dimension> Slacks<G> {
         n
     }
 
-    fn choose_unit(&mut self, kernel: &Delaunay<G>, steps: Steps<'_, G>) {
+    fn choose_unit(&mut self, kernel: &Delaunay<G>, steps: TimestampSteps<'_, G>) {
         let mean_of_up_to = |most: f64| {
             let (mut sum, mut n) = (0.0, 0.0);
             for site in kernel.sites()[1..].iter().filter(|site| site.is_live()) {
@@ -158,7 +158,7 @@ impl<G: Dimension> Slacks<G> {
             self.is_open[c.index() / 64] |= 1 << (c.index() % 64);
             self.open.push(c);
         }
-        let mut pass = Pass::new(Check::Not);
+        let mut pass = Pass::new(CheckFirst::Not);
         let mut n = 0;
         kernel.for_facets_of(cells, |kernel, facet| {
             self.push(kernel, facet, &mut pass);
@@ -226,7 +226,7 @@ impl<G: Dimension> Slacks<G> {
         if are_few && self.reserve(expired.len(), &mut facets).is_ok() {
             self.list_facets(complex, &expired, &mut facets);
             let mut checked = Ok(());
-            let mut pass = Pass::new(Check::Moved(before, greatest, failures, &mut checked));
+            let mut pass = Pass::new(CheckFirst::Moved(before, greatest, failures, &mut checked));
             let n = self.check_facets(kernel, &facets, &mut pass);
             self.close(complex);
             outcome = checked.map(|()| Expired::Checked(n));
@@ -391,7 +391,7 @@ impl<G: Dimension> Slacks<G> {
 }
 
 impl<G: Dimension> Store<G> for Slacks<G> {
-    fn prepare(&mut self, kernel: &mut Delaunay<G>, _: usize, steps: Steps<'_, G>) -> Result<u64> {
+    fn prepare(&mut self, kernel: &mut Delaunay<G>, _: usize, steps: TimestampSteps<'_, G>) -> Result<u64> {
         self.travelled.clear();
         self.entries.clear();
         self.is_open.clear();
@@ -406,7 +406,7 @@ impl<G: Dimension> Store<G> for Slacks<G> {
         &mut self,
         kernel: &mut Delaunay<G>,
         site_of: &[SiteId],
-        _: Steps<'_, G>,
+        _: TimestampSteps<'_, G>,
         cells: &[Slot],
         relocated: &[VertexId],
     ) -> Result<u64> {

@@ -7,7 +7,7 @@ use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::filters::bicell::{BiCell, for_bicells};
 use crate::motion::filters::margin::Margin;
-use crate::motion::filters::store::{Steps, Store};
+use crate::motion::filters::store::{Store, TimestampSteps};
 use crate::motion::filters::tolerance::batch::Batch;
 use crate::predicates::{LANES, displacement_limit, distance_above, squared_distance};
 
@@ -196,7 +196,7 @@ impl<G: Dimension> Tolerances<G> {
 }
 
 impl<G: Dimension> Store<G> for Tolerances<G> {
-    fn prepare(&mut self, kernel: &mut Delaunay<G>, n_ids: usize, _: Steps<'_, G>) -> Result<u64> {
+    fn prepare(&mut self, kernel: &mut Delaunay<G>, n_ids: usize, _: TimestampSteps<'_, G>) -> Result<u64> {
         self.fix_all(kernel, n_ids)?;
         Ok(self.measure_all(kernel, |_, _, _, _| false))
     }
@@ -205,7 +205,7 @@ impl<G: Dimension> Store<G> for Tolerances<G> {
         &mut self,
         kernel: &mut Delaunay<G>,
         site_of: &[SiteId],
-        _: Steps<'_, G>,
+        _: TimestampSteps<'_, G>,
         cells: &[Slot],
         relocated: &[VertexId],
     ) -> Result<u64> {

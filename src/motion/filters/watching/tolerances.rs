@@ -4,16 +4,16 @@ use crate::complex::Facet;
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
-use crate::motion::filters::store::{Steps, Store};
+use crate::motion::filters::store::{Store, TimestampSteps};
 use crate::motion::filters::tolerance::{Fixed, Tolerances};
-use crate::motion::filters::watching::watched::Watched;
+use crate::motion::filters::watching::watched::WatchedFacets;
 use crate::predicates::squared_distance;
 
 /// A bi-cell is either watched, and lowers no tolerance, or has lowered those of its vertices.
 #[derive(Debug, Default)]
 pub(in crate::motion) struct Watching<G: Dimension> {
     tolerances: Tolerances<G>,
-    watched: Watched,
+    watched: WatchedFacets,
 }
 
 impl<G: Dimension> Watching<G> {
@@ -43,7 +43,7 @@ impl<G: Dimension> Watching<G> {
     pub(in crate::motion) fn recompute(
         &mut self,
         kernel: &mut Delaunay<G>,
-        steps: Steps<'_, G>,
+        steps: TimestampSteps<'_, G>,
         cells: &[Slot],
         relocated: impl Iterator<Item = SiteId>,
     ) -> u64 {
@@ -64,7 +64,7 @@ fn is_soon_beyond<G: Dimension>(
     fixed: &[Fixed<G>],
     vertices: &[VertexId],
     tolerance: f64,
-    steps: Steps<'_, G>,
+    steps: TimestampSteps<'_, G>,
     longest: f64,
 ) -> bool {
     let square = squared_distance(fixed[vertices[1]].point(), fixed[vertices[2]].point());
@@ -77,7 +77,11 @@ fn is_soon_beyond<G: Dimension>(
 
 /// The longest way of a vertex of a bi-cell in the last timestamp, squared. Out of the loop, which hardly ever asks.
 #[inline(never)]
-fn longest_step<G: Dimension>(fixed: &[Fixed<G>], vertices: &[VertexId], steps: Steps<'_, G>) -> f64 {
+fn longest_step<G: Dimension>(
+    fixed: &[Fixed<G>],
+    vertices: &[VertexId],
+    steps: TimestampSteps<'_, G>,
+) -> f64 {
     let here = |v: VertexId| fixed[v].point();
     let from_one = |&v: &VertexId| squared_distance(here(vertices[1]), here(v));
     let greatest = vertices.iter().map(from_one).fold(0.0, f64::max);
@@ -90,7 +94,12 @@ fn longest_step<G: Dimension>(fixed: &[Fixed<G>], vertices: &[VertexId], steps: 
 }
 
 impl<G: Dimension> Store<G> for Watching<G> {
-    fn prepare(&mut self, kernel: &mut Delaunay<G>, n_ids: usize, steps: Steps<'_, G>) -> Result<u64> {
+    fn prepare(
+        &mut self,
+        kernel: &mut Delaunay<G>,
+        n_ids: usize,
+        steps: TimestampSteps<'_, G>,
+    ) -> Result<u64> {
         let Watching { tolerances, watched } = self;
         watched.clear();
         tolerances.fix_all(kernel, n_ids)?;
@@ -106,7 +115,7 @@ impl<G: Dimension> Store<G> for Watching<G> {
         &mut self,
         kernel: &mut Delaunay<G>,
         site_of: &[SiteId],
-        steps: Steps<'_, G>,
+        steps: TimestampSteps<'_, G>,
         cells: &[Slot],
         relocated: &[VertexId],
     ) -> Result<u64> {

@@ -11,7 +11,7 @@ use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, CACHE_BYTES, prefetch};
 
 #[derive(Debug, Default)]
-pub(super) struct Watched {
+pub(super) struct WatchedFacets {
     list: Vec<Facet>,
     /// By cell: bit i for the membership of facet i, bit 4 + i for its being listed.
     bits: Vec<u8>,
@@ -19,10 +19,10 @@ pub(super) struct Watched {
 
 const LISTED: u8 = 0xf0;
 
-impl Watched {
+impl WatchedFacets {
     /// A copy.
     pub(super) fn copied(&self) -> Result<Self> {
-        Ok(Watched { list: memory::copy_of(&self.list)?, bits: memory::copy_of(&self.bits)? })
+        Ok(WatchedFacets { list: memory::copy_of(&self.list)?, bits: memory::copy_of(&self.bits)? })
     }
 
     /// Empties the set.

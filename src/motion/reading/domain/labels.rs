@@ -9,27 +9,27 @@ use crate::motion::triangulation::MovingTriangulation;
 
 /// What is known of the label of cells that are reached from each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Found {
+pub(super) enum LabelFound {
     Nothing,
     One(i32),
     Several,
 }
 
-impl Found {
+impl LabelFound {
     pub(super) fn and(self, label: i32) -> Self {
         match self {
-            Found::Nothing => Found::One(label),
-            Found::One(other) if other == label => self,
-            _ => Found::Several,
+            LabelFound::Nothing => LabelFound::One(label),
+            LabelFound::One(other) if other == label => self,
+            _ => LabelFound::Several,
         }
     }
 
     /// What is known by both.
     pub(super) fn or(self, other: Self) -> Self {
         match other {
-            Found::Nothing => self,
-            Found::One(label) => self.and(label),
-            Found::Several => other,
+            LabelFound::Nothing => self,
+            LabelFound::One(label) => self.and(label),
+            LabelFound::Several => other,
         }
     }
 }
@@ -70,7 +70,7 @@ impl MovingTriangulation<Plane> {
             }
             part.clear();
             memory::push(&mut part, first)?;
-            let (mut found, mut is_outside, mut next) = (Found::Nothing, false, 0);
+            let (mut found, mut is_outside, mut next) = (LabelFound::Nothing, false, 0);
             while next < part.len() {
                 let cell = labels[part[next]].0;
                 next += 1;
@@ -93,9 +93,9 @@ impl MovingTriangulation<Plane> {
                 }
             }
             match found {
-                Found::One(label) => part.iter().for_each(|&at| labels[at].1 = label),
-                Found::Nothing if is_outside => {}
-                Found::Nothing | Found::Several => n_undecided += part.len(),
+                LabelFound::One(label) => part.iter().for_each(|&at| labels[at].1 = label),
+                LabelFound::Nothing if is_outside => {}
+                LabelFound::Nothing | LabelFound::Several => n_undecided += part.len(),
             }
         }
         Ok((labels, n_undecided))

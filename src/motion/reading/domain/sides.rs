@@ -4,7 +4,7 @@
 //! refinement and splitting make of them. So a label at a side is that of the region there, whatever happens to the cells:
 //! nothing has to be kept up to date, and saved data and copies have it.
 
-use super::labels::Found;
+use super::labels::LabelFound;
 use crate::delaunay::Plane;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, SegmentId};
@@ -94,7 +94,7 @@ impl MovingTriangulation<Plane> {
         let told = self.labels_at_edges()?;
         let (regions, is_open) = self.regions(|cell, i| told[cell.index()][i].is_some())?;
         let (mut outer, mut labels) = (Vec::new(), Vec::new());
-        memory::lengthen(&mut outer, is_open.len(), Found::Nothing)?;
+        memory::lengthen(&mut outer, is_open.len(), LabelFound::Nothing)?;
         for (start, found) in self.outer_edges(&told, &regions, &is_open)?.into_iter().zip(&mut outer) {
             let Some(start) = start else { continue };
             let mut edge = start;
@@ -110,7 +110,7 @@ impl MovingTriangulation<Plane> {
         let mut found = memory::copy_of(&outer)?;
         for (row, &region) in told.iter().zip(&regions) {
             let region = region as usize;
-            if outer[region] == Found::Nothing {
+            if outer[region] == LabelFound::Nothing {
                 found[region] = row.iter().flatten().fold(found[region], |found, &label| found.or(label));
             }
         }
@@ -119,8 +119,8 @@ impl MovingTriangulation<Plane> {
             &mut labels,
             regions.iter().map(|&region| match found[region as usize] {
                 _ if is_open[region as usize] => other,
-                Found::One(label) => label,
-                Found::Nothing | Found::Several => {
+                LabelFound::One(label) => label,
+                LabelFound::Nothing | LabelFound::Several => {
                     n_undecided += 1;
                     other
                 }
@@ -131,14 +131,14 @@ impl MovingTriangulation<Plane> {
 
     /// For each edge of each cell, opposite its corners, what the sides of the segments there tell of the cell; `None` where
     /// there is no segment.
-    fn labels_at_edges(&self) -> Result<Vec<Row>> {
+    fn labels_at_edges(&self) -> Result<Vec<LabelsAtEdges>> {
         let (cells, mut told) = (self.cell_arrays()?, Vec::new());
         memory::lengthen(&mut told, cells.corners().len(), [None; 3])?;
         for ((_, facets), (_, segment)) in self.facets_beside_segments()?.into_iter().zip(self.segments()) {
             for (label, facet) in segment.sides.into_iter().zip(facets) {
                 let Some(facet) = facet else { continue };
                 let (cell, corner) = cells.shown(facet);
-                let found = told[cell.index()][corner].get_or_insert(Found::Nothing);
+                let found = told[cell.index()][corner].get_or_insert(LabelFound::Nothing);
                 if label != NO_LABEL {
                     *found = found.and(label);
                 }
@@ -148,7 +148,12 @@ impl MovingTriangulation<Plane> {
     }
 
     /// For each region but the open ones an edge of its outer boundary: one at its leftmost vertex, the lowest of those.
-    fn outer_edges(&self, told: &[Row], regions: &[u32], is_open: &[bool]) -> Result<Vec<Option<Edge>>> {
+    fn outer_edges(
+        &self,
+        told: &[LabelsAtEdges],
+        regions: &[u32],
+        is_open: &[bool],
+    ) -> Result<Vec<Option<CellEdge>>> {
         let (cells, mut edges) = (self.cell_arrays()?, Vec::new());
         memory::lengthen(&mut edges, is_open.len(), None)?;
         let mut leftmost = Vec::new();
@@ -169,13 +174,13 @@ impl MovingTriangulation<Plane> {
 }
 
 /// What is told at the edges of a cell, opposite its corners.
-type Row = [Option<Found>; 3];
+type LabelsAtEdges = [Option<LabelFound>; 3];
 
 /// An edge of a cell, by the corner opposite.
-type Edge = (CellId, usize);
+type CellEdge = (CellId, usize);
 
 /// The next edge with a segment around a region, with that on the left: the cells around the end of the edge are crossed.
-fn next_edge(cells: &Cells<Plane>, told: &[Row], (cell, corner): Edge) -> Edge {
+fn next_edge(cells: &Cells<Plane>, told: &[LabelsAtEdges], (cell, corner): CellEdge) -> CellEdge {
     let end = cells.corners()[cell][(corner + 2) % 3];
     let (mut cell, mut corner) = (cell, (corner + 1) % 3);
     while told[cell.index()][corner].is_none() {

@@ -68,16 +68,16 @@ pub(crate) trait Drawn<G: Dimension>: Sized {
 }
 
 /// A triangulation of the plane or of space, with segments.
-struct Open<'t, G: Dimension> {
+struct OpenExport<'t, G: Dimension> {
     t: &'t MovingTriangulation<G>,
     view: CellsView<'t, G>,
     /// For each id the number of present vertices with lower ones; nothing if that is the id itself.
     ranks: Vec<u32>,
 }
 
-impl<'t, G: Dimension> Open<'t, G> {
+impl<'t, G: Dimension> OpenExport<'t, G> {
     fn of(t: &'t MovingTriangulation<G>) -> Result<Self> {
-        Ok(Open { t, view: t.cells()?, ranks: t.ranks()? })
+        Ok(OpenExport { t, view: t.cells()?, ranks: t.ranks()? })
     }
 
     /// The number of a vertex among those present.
@@ -86,7 +86,7 @@ impl<'t, G: Dimension> Open<'t, G> {
     }
 }
 
-impl<G: Dimension> Drawn<G> for Open<'_, G> {
+impl<G: Dimension> Drawn<G> for OpenExport<'_, G> {
     fn id_counts(&self) -> [usize; 2] {
         [self.t.id_count(), self.t.staged_edits().0]
     }
@@ -132,7 +132,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         cell_fields: &[Field<'_>],
         put: impl FnMut(&[u8]) -> Result<(), E>,
     ) -> Result<(), E> {
-        Open::of(self)?.put_vtu(vertex_fields, cell_fields, put)
+        OpenExport::of(self)?.put_vtu(vertex_fields, cell_fields, put)
     }
 
     /// Hands on the text of a `.mesh` file, some thousand bytes at a time. Vertices are numbered from 1; the reference
@@ -147,7 +147,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         references: Option<&[i32]>,
         put: impl FnMut(&[u8]) -> Result<(), E>,
     ) -> Result<(), E> {
-        Open::of(self)?.put_medit(references, put)
+        OpenExport::of(self)?.put_medit(references, put)
     }
 
     /// There must be a reference for each cell.

@@ -16,7 +16,7 @@ use crate::machine::{memory, threads};
 use crate::motion::reading::geometry::centres::{BEYOND, Centre, Centres, SHARED_AT_LEAST};
 use crate::motion::reading::geometry::clipping::{Clip, Vector, in_space, times};
 use crate::motion::reading::geometry::cut_cells::BoxCorner;
-use crate::motion::reading::geometry::half_spaces::{Bounds, HalfSpaces};
+use crate::motion::reading::geometry::half_spaces::{BoxBounds, HalfSpaces};
 use crate::motion::reading::geometry::incidence::Neighbours;
 use crate::motion::reading::geometry::polytopes::Polytope;
 use crate::motion::reading::geometry::sums::Sums;
@@ -110,7 +110,7 @@ impl<G: Dimension> Voronoi<'_, G> {
 
     /// Whether a vertex has a cell in the box that is beyond a half-space as a whole, for certain.
     fn is_missed(&self, region: &Region, star: &[CellId], v: VertexId) -> bool {
-        let mut bounds = Bounds::NONE;
+        let mut bounds = BoxBounds::NONE;
         for &cell in star {
             let centre = self.centres.of(cell);
             let corners = self.cells.corners()[cell].as_ref().iter();

@@ -32,7 +32,7 @@ use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::reading::geometry::centres::Centres;
 use crate::motion::reading::geometry::clipping::{Clip, Face, Vector};
-use crate::motion::reading::geometry::rings::Ring;
+use crate::motion::reading::geometry::rings::EdgeRing;
 use crate::predicates::{Meeting, sign_of_cross};
 
 /// What a corner other than a circumcentre may be off by, in sizes of the box: 2⁻⁴⁴.
@@ -40,7 +40,7 @@ const TOLERANCE: f64 = 1.0 / (1u64 << 44) as f64;
 
 /// A side of a facet.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Side {
+pub(super) enum FacetSide {
     /// Where the cell of another vertex begins, which is at this place.
     With(Vector),
     /// On a face of the box.
@@ -52,21 +52,21 @@ pub(super) enum Side {
 
 /// A corner of a facet, and the sides before and after it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Corner {
-    pub(super) sides: [Side; 2],
+pub(super) struct FacetCorner {
+    pub(super) sides: [FacetSide; 2],
     /// The cell of which it is the circumcentre, if any.
     cell: CellId,
     /// The signs of the direction in which it is, if it is at infinity.
     direction: [i32; 3],
 }
 
-impl Corner {
-    fn of_cell(cell: CellId, sides: [Side; 2]) -> Self {
-        Corner { sides, cell, direction: [0; 3] }
+impl FacetCorner {
+    fn of_cell(cell: CellId, sides: [FacetSide; 2]) -> Self {
+        FacetCorner { sides, cell, direction: [0; 3] }
     }
 
-    fn far(direction: [i32; 3], sides: [Side; 2]) -> Self {
-        Corner { sides, cell: CellId::NONE, direction }
+    fn far(direction: [i32; 3], sides: [FacetSide; 2]) -> Self {
+        FacetCorner { sides, cell: CellId::NONE, direction }
     }
 
     fn is_far(&self) -> bool {
@@ -82,8 +82,8 @@ pub(super) struct CutFacet {
     /// The signs of the coordinates of the edge.
     pub(super) normal: [i32; 3],
     pub(super) is_plane: bool,
-    pub(super) corners: Vec<Corner>,
-    cut: Vec<Corner>,
+    pub(super) corners: Vec<FacetCorner>,
+    cut: Vec<FacetCorner>,
     is_beyond: Vec<bool>,
     /// The corners that are left, from the box's corner of least coordinates.
     pub(super) places: Vec<Vector>,
@@ -101,7 +101,7 @@ impl CutFacet {
         self.corners.clear();
     }
 
-    fn push(&mut self, corner: Corner) -> Result<()> {
+    fn push(&mut self, corner: FacetCorner) -> Result<()> {
         memory::push(&mut self.corners, corner)
     }
 
@@ -127,33 +127,38 @@ impl CutFacet {
     pub(super) fn fill(
         &mut self,
         edge: [Vector; 2],
-        ring: &Ring,
+        ring: &EdgeRing,
         place: impl Fn(VertexId) -> Vector,
         is_plane: bool,
         has_left: bool,
     ) -> Result<()> {
         self.begin(edge, is_plane);
-        let side = |k: usize| Side::With(place(ring.link[k % ring.link.len()]));
+        let side = |k: usize| FacetSide::With(place(ring.link[k % ring.link.len()]));
         if is_plane {
             return self.fill_line(ring, side, has_left);
         }
         memory::reserve(&mut self.corners, ring.cells.len() + 2)?;
         for (k, &cell) in ring.cells.iter().enumerate() {
-            self.corners.push(Corner::of_cell(cell, [side(k), side(k + 1)]));
+            self.corners.push(FacetCorner::of_cell(cell, [side(k), side(k + 1)]));
         }
         if !ring.is_closed {
             let last = ring.link.len() - 1;
             let [first_way, last_way] = [0, last].map(|k| self.along_cell_of(&place(ring.link[k])));
-            self.corners.push(Corner::far(last_way, [side(last), Side::AtInfinity]));
-            self.corners.push(Corner::far(negated(first_way), [Side::AtInfinity, side(0)]));
+            self.corners.push(FacetCorner::far(last_way, [side(last), FacetSide::AtInfinity]));
+            self.corners.push(FacetCorner::far(negated(first_way), [FacetSide::AtInfinity, side(0)]));
         }
         Ok(())
     }
 
     /// In the plane: from the right of the edge to its left.
-    fn fill_line(&mut self, ring: &Ring, side: impl Fn(usize) -> Side, has_left: bool) -> Result<()> {
-        let of_cell = |k: usize| Corner::of_cell(ring.cells[k], [side(k), Side::None]);
-        let far = |direction| Corner::far(direction, [Side::AtInfinity, Side::None]);
+    fn fill_line(
+        &mut self,
+        ring: &EdgeRing,
+        side: impl Fn(usize) -> FacetSide,
+        has_left: bool,
+    ) -> Result<()> {
+        let of_cell = |k: usize| FacetCorner::of_cell(ring.cells[k], [side(k), FacetSide::None]);
+        let far = |direction| FacetCorner::far(direction, [FacetSide::AtInfinity, FacetSide::None]);
         let left = if has_left { of_cell(0) } else { far(self.along_line()) };
         let right = match (has_left, ring.is_closed) {
             (true, true) => of_cell(1),
@@ -168,16 +173,16 @@ impl CutFacet {
     /// most two, the cells of which it meets.
     pub(super) fn fill_flat(&mut self, edge: [Vector; 2], others: &[Vector], is_plane: bool) -> Result<()> {
         self.begin(edge, is_plane);
-        let infinity = Side::AtInfinity;
+        let infinity = FacetSide::AtInfinity;
         if is_plane {
             let way = self.along_line();
-            self.push(Corner::far(negated(way), [infinity, Side::None]))?;
-            return self.push(Corner::far(way, [infinity, Side::None]));
+            self.push(FacetCorner::far(negated(way), [infinity, FacetSide::None]))?;
+            return self.push(FacetCorner::far(way, [infinity, FacetSide::None]));
         }
         for place in others {
             let way = self.along_cell_of(place);
-            self.push(Corner::far(negated(way), [infinity, Side::With(*place)]))?;
-            self.push(Corner::far(way, [Side::With(*place), infinity]))?;
+            self.push(FacetCorner::far(negated(way), [infinity, FacetSide::With(*place)]))?;
+            self.push(FacetCorner::far(way, [FacetSide::With(*place), infinity]))?;
         }
         match others {
             [] => {
@@ -185,7 +190,7 @@ impl CutFacet {
                 let [first, second] = [1, 2].map(|k| self.along((axis + k) % 3));
                 let ways = if self.normal[axis] > 0 { [first, second] } else { [second, first] };
                 for way in [ways[0], ways[1], negated(ways[0]), negated(ways[1])] {
-                    self.push(Corner::far(way, [infinity; 2]))?;
+                    self.push(FacetCorner::far(way, [infinity; 2]))?;
                 }
             }
             [place] => {
@@ -193,7 +198,7 @@ impl CutFacet {
                 let way = self.along_cell_of(place);
                 let axis = (0..3).find(|&axis| way[axis] != 0).expect("places that are not on a line");
                 let across = self.along(axis).map(|sign| sign * way[axis]);
-                self.push(Corner::far(across, [infinity; 2]))?;
+                self.push(FacetCorner::far(across, [infinity; 2]))?;
             }
             _ => {}
         }
@@ -203,7 +208,7 @@ impl CutFacet {
     /// Where sides meet, as seen from a place; the axes `also` are fixed as well.
     fn meet<T>(
         &self,
-        sides: [Side; 2],
+        sides: [FacetSide; 2],
         clip: &Clip,
         also: [Option<f64>; 3],
         from: Vector,
@@ -219,14 +224,14 @@ impl CutFacet {
         }
         for side in sides {
             match side {
-                Side::With(place) => {
+                FacetSide::With(place) => {
                     others[n] = place;
                     n += 1;
                 }
-                Side::On(face) => {
+                FacetSide::On(face) => {
                     (meeting.is_fixed[face.axis], meeting.from[face.axis]) = (true, clip.bound(face));
                 }
-                Side::AtInfinity | Side::None => {}
+                FacetSide::AtInfinity | FacetSide::None => {}
             }
         }
         // One order, so that the answer is alike in all facets at the corner.
@@ -235,12 +240,12 @@ impl CutFacet {
     }
 
     /// Whether a corner is beyond a face.
-    fn is_beyond<P>(&self, corner: &Corner, face: Face, clip: &Clip, centres: &Centres<P>) -> bool {
+    fn is_beyond<P>(&self, corner: &FacetCorner, face: Face, clip: &Clip, centres: &Centres<P>) -> bool {
         if corner.cell != CellId::NONE {
             return centres.of(corner.cell).sides & face.bit() != 0;
         }
         // One on the opposite face is as far from this one as it can be.
-        if corner.sides.iter().any(|side| matches!(side, Side::On(on) if on.axis == face.axis)) {
+        if corner.sides.iter().any(|side| matches!(side, FacetSide::On(on) if on.axis == face.axis)) {
             return false;
         }
         let mut from = self.at;
@@ -256,8 +261,8 @@ impl CutFacet {
     }
 
     /// The side of a face on which what leads to a corner at infinity is, parallel to that.
-    fn sign_of_parallel(&self, corner: &Corner, axis: usize, clip: &Clip, from: Vector) -> i32 {
-        let is_on_line = |side: &Side| matches!(side, Side::With(_) | Side::On(_));
+    fn sign_of_parallel(&self, corner: &FacetCorner, axis: usize, clip: &Clip, from: Vector) -> i32 {
+        let is_on_line = |side: &FacetSide| matches!(side, FacetSide::With(_) | FacetSide::On(_));
         let others = [(axis + 1) % 3, (axis + 2) % 3];
         let mut also = [None; 3];
         if corner.sides.iter().any(is_on_line) {
@@ -274,15 +279,15 @@ impl CutFacet {
     }
 
     /// Whether a corner is open to the faces of an axis.
-    fn is_open(&self, corner: &Corner, axis: usize) -> bool {
+    fn is_open(&self, corner: &FacetCorner, axis: usize) -> bool {
         let is_parallel = (0..3).all(|k| k == axis || self.normal[k] == 0);
-        let has_line = corner.sides.iter().any(|side| *side != Side::AtInfinity);
+        let has_line = corner.sides.iter().any(|side| *side != FacetSide::AtInfinity);
         corner.is_far() && corner.direction[axis] == 0 && !has_line && !is_parallel
     }
 
     /// The faces that some corner may be beyond, by their bits: no corner that is new is beyond others.
     fn faces_to_cut<P>(&self, centres: &Centres<P>) -> u8 {
-        let faces = |corner: &Corner| {
+        let faces = |corner: &FacetCorner| {
             if corner.is_far() { u8::MAX } else { centres.of(corner.cell).faces() }
         };
         self.corners.iter().fold(0, |all, corner| all | faces(corner))
@@ -322,7 +327,7 @@ impl CutFacet {
     fn cut_by(&mut self, face: Face) -> Result<()> {
         if self.is_plane {
             let cut = self.is_beyond.iter().position(|&is_beyond| is_beyond).expect("one that is beyond");
-            self.corners[cut] = Corner::of_cell(CellId::NONE, [Side::On(face), Side::None]);
+            self.corners[cut] = FacetCorner::of_cell(CellId::NONE, [FacetSide::On(face), FacetSide::None]);
             return Ok(());
         }
         let n = self.corners.len();
@@ -336,10 +341,12 @@ impl CutFacet {
             }
             let side = corner.sides[1];
             // One on a side at infinity is at that end of the new side that it makes.
-            let end = |way| if side == Side::AtInfinity { way } else { [0; 3] };
+            let end = |way| if side == FacetSide::AtInfinity { way } else { [0; 3] };
             match (self.is_beyond[k], self.is_beyond[next]) {
-                (false, true) => self.cut.push(Corner::far(end(negated(way)), [side, Side::On(face)])),
-                (true, false) => self.cut.push(Corner::far(end(way), [Side::On(face), side])),
+                (false, true) => {
+                    self.cut.push(FacetCorner::far(end(negated(way)), [side, FacetSide::On(face)]))
+                }
+                (true, false) => self.cut.push(FacetCorner::far(end(way), [FacetSide::On(face), side])),
                 _ => {}
             }
         }
@@ -357,7 +364,7 @@ impl CutFacet {
         Ok(())
     }
 
-    fn place_of<P: AsRef<[f64]>>(&self, corner: &Corner, clip: &Clip, centres: &Centres<P>) -> Vector {
+    fn place_of<P: AsRef<[f64]>>(&self, corner: &FacetCorner, clip: &Clip, centres: &Centres<P>) -> Vector {
         let within = |axis: usize, offset: f64| offset.clamp(0.0, clip.extent(axis));
         if corner.cell != CellId::NONE {
             let centre = centres.of(corner.cell).place.as_ref();

@@ -100,13 +100,13 @@ const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 const CELLS_AT_A_TIME: usize = 1 << 16;
 
 /// A facet between two cells: centres p and q on its sides, the way from p to q in the unit of the box.
-struct Facet<'f> {
+struct DualFacet<'f> {
     unit: f64,
     p: &'f Vector,
     step: Vector,
 }
 
-impl Facet<'_> {
+impl DualFacet<'_> {
     /// Adds pieces to the vertices at its ends, in the plane, where it is an edge.
     #[inline(always)]
     fn add_in_plane(&self, [a, b]: [&Vector; 2], targets: [usize; 2], part: &mut [Target]) {
@@ -212,7 +212,7 @@ impl<G: Dimension> Voronoi<'_, G> {
                     continue;
                 }
                 let step = times(&minus(&in_space::<G>(&beyond.place), &p), unit);
-                let facet = Facet { unit, p: &p, step };
+                let facet = DualFacet { unit, p: &p, step };
                 let at = [&places[face[0]], &places[face[1]], &places[face[2]]];
                 if G::D == 2 {
                     facet.add_in_plane([at[0], at[1]], [ends[0], ends[1]], part);

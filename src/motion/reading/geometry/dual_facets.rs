@@ -28,7 +28,7 @@ use crate::machine::{memory, threads};
 use crate::motion::reading::geometry::cells_within::Region;
 use crate::motion::reading::geometry::centres::{Centres, SHARED_AT_LEAST};
 use crate::motion::reading::geometry::clipping::{Clip, Vector, dot, length_by, minus, times};
-use crate::motion::reading::geometry::incidence::Edge;
+use crate::motion::reading::geometry::incidence::EdgeWithCell;
 use crate::motion::reading::geometry::polytopes::Polytope;
 use crate::motion::reading::geometry::sums::LEAST_SQUARE;
 use crate::motion::reading::geometry::voronoi::Voronoi;
@@ -141,7 +141,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// The facets of edges in a region, or without one, each by itself; on several threads where that pays.
     pub(super) fn facets_of(
         &self,
-        edges: &[Edge],
+        edges: &[EdgeWithCell],
         region: Option<&Region>,
         centres: &Centres<'_, G::Point>,
         progress: &mut Progress,

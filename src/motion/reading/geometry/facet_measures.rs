@@ -4,11 +4,11 @@ use crate::error::Result;
 use crate::motion::reading::geometry::clipping::{
     Clip, Face, Vector, cross, dot, length_by, minus, normalised, times,
 };
-use crate::motion::reading::geometry::cut_facets::{CutFacet, Side};
+use crate::motion::reading::geometry::cut_facets::{CutFacet, FacetSide};
 use crate::motion::reading::geometry::sums::Sums;
 
 /// What a facet adds to the boundary of the cell of its edge's first end, in the unit of the box.
-pub(super) enum Piece {
+pub(super) enum BoundaryPiece {
     /// An edge of the facet; in the plane, the facet.
     Edge([Vector; 2]),
     /// An edge of the facet in space, which is on a face of the box.
@@ -33,28 +33,34 @@ impl CutFacet {
     }
 
     /// Tells what it adds to the boundary of a cell.
-    pub(super) fn for_pieces(&self, unit: f64, mut tell: impl FnMut(Piece) -> Result<()>) -> Result<()> {
+    pub(super) fn for_pieces(
+        &self,
+        unit: f64,
+        mut tell: impl FnMut(BoundaryPiece) -> Result<()>,
+    ) -> Result<()> {
         let n = self.places.len();
         let place = |k: usize| times(&self.places[k % n], unit);
         let mut end = |faces: &[Face], along: usize, place: Vector| {
             let highs = faces.iter().map(|face| usize::from(face.is_high) << face.axis).sum();
-            tell(Piece::End { highs, along, is_upper: self.normal[along] > 0, place })
+            tell(BoundaryPiece::End { highs, along, is_upper: self.normal[along] > 0, place })
         };
         for (k, corner) in self.corners.iter().enumerate() {
             match corner.sides {
-                [Side::On(face), Side::On(next)] => end(&[face, next], 3 - face.axis - next.axis, place(k))?,
-                [Side::On(face), Side::None] => end(&[face], 1 - face.axis, place(k))?,
+                [FacetSide::On(face), FacetSide::On(next)] => {
+                    end(&[face, next], 3 - face.axis - next.axis, place(k))?
+                }
+                [FacetSide::On(face), FacetSide::None] => end(&[face], 1 - face.axis, place(k))?,
                 _ => {}
             }
         }
         if self.is_plane {
-            return if n == 2 { tell(Piece::Edge([place(0), place(1)])) } else { Ok(()) };
+            return if n == 2 { tell(BoundaryPiece::Edge([place(0), place(1)])) } else { Ok(()) };
         }
         for (k, corner) in self.corners.iter().enumerate() {
             let edge = [place(k), place(k + 1)];
-            tell(Piece::Edge(edge))?;
-            if let Side::On(face) = corner.sides[1] {
-                tell(Piece::On(face, edge))?;
+            tell(BoundaryPiece::Edge(edge))?;
+            if let FacetSide::On(face) = corner.sides[1] {
+                tell(BoundaryPiece::On(face, edge))?;
             }
         }
         Ok(())
@@ -108,7 +114,7 @@ impl CutFacet {
         for (k, corner) in self.corners.iter().enumerate() {
             let p = from_apex(k);
             if self.is_plane {
-                if let Side::On(face) = corner.sides[0] {
+                if let FacetSide::On(face) = corner.sides[0] {
                     let foot = clip.way_to(face, apex);
                     let along = 1 - face.axis;
                     let length = f64::from(self.normal[along]) * p[along];
@@ -120,13 +126,13 @@ impl CutFacet {
             let q = from_apex(k + 1);
             let first = from_apex(0);
             sums.add(dot(&first, &cross(&p, &q)) / 6.0, 0.25, [&first, &p, &q]);
-            if let Side::On(face) = corner.sides[1] {
+            if let FacetSide::On(face) = corner.sides[1] {
                 let foot = clip.way_to(face, apex);
                 let doubled = f64::from(face.outward()) * cross(&q, &p)[face.axis];
                 sums.wall += 0.5 * doubled;
                 sums.add(foot[face.axis].abs() * doubled / 6.0, 0.25, [&foot, &p, &q]);
             }
-            if let [Side::On(face), Side::On(next)] = corner.sides {
+            if let [FacetSide::On(face), FacetSide::On(next)] = corner.sides {
                 let along = 3 - face.axis - next.axis;
                 let [one, other] = [face, next].map(|face| clip.way_to(face, apex));
                 let heights = [one[face.axis].abs(), other[next.axis].abs()];

@@ -20,7 +20,7 @@ use crate::motion::reading::geometry::cut_cells::BoxCorner;
 use crate::motion::reading::geometry::cut_facets::CutFacet;
 use crate::motion::reading::geometry::incidence::Neighbours;
 use crate::motion::reading::geometry::polytopes::Polytope;
-use crate::motion::reading::geometry::rings::Ring;
+use crate::motion::reading::geometry::rings::EdgeRing;
 use crate::motion::reading::geometry::sums::Sums;
 use crate::motion::reading::progress::Progress;
 use crate::motion::triangulation::MovingTriangulation;
@@ -91,7 +91,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut neighbours = Neighbours::new(cells, self.id_count())?;
         let corners = self.corners_of_first(n, clip, &mut neighbours)?;
         let is_cut = !region.half_spaces.is_empty();
-        let (mut ring, mut facet, mut list) = (Ring::default(), CutFacet::default(), Vec::new());
+        let (mut ring, mut facet, mut list) = (EdgeRing::default(), CutFacet::default(), Vec::new());
         let mut cell = Polytope::default();
         let centres = Centres::<G::Point>::NONE;
         for v in VertexId::range(0..n) {

@@ -36,14 +36,14 @@ pub(super) struct HalfSpace {
 
 /// A box along the axes, by its corners.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bounds {
+pub(super) struct BoxBounds {
     low: Vector,
     high: Vector,
 }
 
-impl Bounds {
+impl BoxBounds {
     /// Of no places yet.
-    pub(super) const NONE: Self = Bounds { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
+    pub(super) const NONE: Self = BoxBounds { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
 
     /// Makes room for a place.
     #[inline(always)]
@@ -72,7 +72,7 @@ impl HalfSpace {
 
     /// How far beyond the plane places of a box are, at least and at most.
     #[inline(always)]
-    pub(super) fn range(&self, bounds: &Bounds) -> [f64; 2] {
+    pub(super) fn range(&self, bounds: &BoxBounds) -> [f64; 2] {
         let mut range = [-self.offset; 2];
         for axis in 0..3 {
             let (a, b) = (self.normal[axis] * bounds.low[axis], self.normal[axis] * bounds.high[axis]);
@@ -145,7 +145,7 @@ impl HalfSpaces {
     ) -> Result<()> {
         let corner =
             |end: fn(&Range<usize>) -> usize| [0, 1, 2].map(|axis| end(&blocks[axis]) as f64 * length[axis]);
-        let bounds = Bounds { low: corner(|range| range.start), high: corner(|range| range.end) };
+        let bounds = BoxBounds { low: corner(|range| range.start), high: corner(|range| range.end) };
         let last = candidates.len();
         for at in first..last {
             let [least, most] = self.list[candidates[at] as usize].range(&bounds);
@@ -193,7 +193,7 @@ impl HalfSpaces {
     }
 
     /// Whether all places of a box are certainly beyond one of them.
-    pub(super) fn certainly_miss(&self, bounds: &Bounds) -> bool {
+    pub(super) fn certainly_miss(&self, bounds: &BoxBounds) -> bool {
         self.list.iter().any(|space| space.range(bounds)[0] > MARGIN)
     }
 }

@@ -21,7 +21,7 @@ use crate::motion::triangulation::MovingTriangulation;
 const STARS_AHEAD: usize = 2;
 
 /// An edge, and a cell of it.
-pub(crate) type Edge = ([VertexId; 2], CellId);
+pub(crate) type EdgeWithCell = ([VertexId; 2], CellId);
 
 /// A list for each vertex, one after the other.
 #[derive(Clone, Debug, PartialEq, Eq)]

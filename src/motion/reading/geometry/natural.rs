@@ -26,7 +26,7 @@ use crate::predicates::Measures;
 
 /// A ridge of a facet around the place, with the circumcentre of the cell that would join both.
 #[derive(Clone, Copy, Debug)]
-struct Ridge<K> {
+struct RidgeAround<K> {
     /// Its vertices, the lower key first; in the plane the only one twice.
     ends: [K; 2],
     /// Whether the facet, seen from outside, passes the ridge from the second to the first.
@@ -37,7 +37,7 @@ struct Ridge<K> {
 /// The ridges of the facets around a place, by keys that tell vertices apart.
 #[derive(Debug)]
 pub(crate) struct Ridges<K> {
-    list: Vec<Ridge<K>>,
+    list: Vec<RidgeAround<K>>,
 }
 
 impl<K> Default for Ridges<K> {
@@ -63,7 +63,7 @@ impl<K: Copy + Ord> Ridges<K> {
             // In the plane a facet comes to its second vertex, and leaves its first.
             let is_reversed = if G::D == 2 { i == 1 } else { to < from };
             let ends = if to < from { [to, from] } else { [from, to] };
-            memory::push(&mut self.list, Ridge { ends, is_reversed, centre })?;
+            memory::push(&mut self.list, RidgeAround { ends, is_reversed, centre })?;
         }
         Ok(())
     }

@@ -15,7 +15,7 @@ use crate::motion::reading::geometry::clipping::unit_of;
 use crate::motion::reading::geometry::dual::{Target, Targets};
 use crate::motion::reading::geometry::dual_cells::{VoronoiCell, cell_of, nowhere};
 use crate::motion::reading::geometry::dual_facets::{VoronoiFacet, of_space};
-use crate::motion::reading::geometry::incidence::Edge;
+use crate::motion::reading::geometry::incidence::EdgeWithCell;
 use crate::motion::reading::geometry::sums::Sums;
 use crate::motion::reading::geometry::voronoi::Voronoi;
 use crate::motion::reading::geometry::whole_cells::whole_cell;
@@ -25,17 +25,17 @@ use crate::motion::state::mesh::Standing;
 use crate::motion::triangulation::MovingTriangulation;
 
 /// Which Voronoi cells and facets are asked for.
-pub(crate) struct Asked<'a> {
+pub(crate) struct VoronoiAsked<'a> {
     /// Vertices that have all cells at those below; none if all cells may be looked at.
     pub(crate) around: Option<&'a [VertexId]>,
     /// The vertices whose cells are asked for, if any are. All of them are in cells, unless there are none.
     pub(crate) vertices: Option<&'a [VertexId]>,
     /// The edges whose facets are asked for, if any are.
-    pub(crate) edges: Option<&'a [Edge]>,
+    pub(crate) edges: Option<&'a [EdgeWithCell]>,
 }
 
 /// What has been computed.
-pub(crate) struct Found {
+pub(crate) struct VoronoiFound {
     /// By what lengths are multiplied in sums.
     unit: f64,
     targets: Vec<Target>,
@@ -44,7 +44,7 @@ pub(crate) struct Found {
     facets: Vec<Facet>,
 }
 
-impl Found {
+impl VoronoiFound {
     fn target(&self, s: SiteId) -> &Target {
         let number = self.sites.as_ref().map_or(Some(s.index()), |ranks| ranks.number(s.index()));
         &self.targets[number.expect("a site of the pass")]
@@ -69,11 +69,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         &self,
         region: Option<&Region>,
         size: f64,
-        asked: &Asked<'_>,
+        asked: &VoronoiAsked<'_>,
         progress: &mut Progress,
-    ) -> Result<Found> {
+    ) -> Result<VoronoiFound> {
         let unit = region.map_or_else(|| unit_of(size), |region| region.clip.unit);
-        let mut found = Found { unit, targets: Vec::new(), sites: None, facets: Vec::new() };
+        let mut found = VoronoiFound { unit, targets: Vec::new(), sites: None, facets: Vec::new() };
         if self.cell_count() == 0 {
             if asked.vertices.is_some() {
                 found.targets = self.targets_without_cells(region, progress)?;
@@ -87,7 +87,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             region.mark(self, &mut centres);
         }
         let of_cells = if asked.vertices.is_some() { 2 * centres.list.len() } else { 0 };
-        progress.expect_more(of_cells + asked.edges.map_or(0, <[Edge]>::len));
+        progress.expect_more(of_cells + asked.edges.map_or(0, <[EdgeWithCell]>::len));
         if let Some(vertices) = asked.vertices {
             let mut voronoi = Voronoi::new(self, cells, &centres);
             match &centres.chosen {
@@ -127,7 +127,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// The cell of a vertex that is asked for, or is hidden or removed. Without a region its centroid is as seen from the vertex.
     pub(crate) fn found_cell(
         &self,
-        found: &Found,
+        found: &VoronoiFound,
         region: Option<&Region>,
         v: VertexId,
     ) -> VoronoiCell<G::Point> {

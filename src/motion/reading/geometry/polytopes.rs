@@ -28,16 +28,16 @@ use crate::machine::memory;
 use crate::motion::reading::geometry::clipping::{Clip, Face, Vector, cross, dot, minus, times};
 use crate::motion::reading::geometry::cut_cells::BoxCorner;
 use crate::motion::reading::geometry::cut_facets::CutFacet;
-use crate::motion::reading::geometry::facet_measures::Piece;
-use crate::motion::reading::geometry::half_spaces::{Bounds, HalfSpace, HalfSpaces};
+use crate::motion::reading::geometry::facet_measures::BoundaryPiece;
+use crate::motion::reading::geometry::half_spaces::{BoxBounds, HalfSpace, HalfSpaces};
 use crate::motion::reading::geometry::sums::Sums;
 
 /// A directed edge, with offsets from the box's corner of least coordinates, in its unit.
-type Edge = [Vector; 2];
+type DirectedEdge = [Vector; 2];
 
 /// A face: where its edges end among all, and its outward normal.
 #[derive(Clone, Copy, Debug)]
-struct Side {
+struct PolytopeFace {
     end: usize,
     normal: Vector,
 }
@@ -48,29 +48,29 @@ type BoxEdge = (usize, usize);
 /// A polytope that is built and cut.
 #[derive(Debug, Default)]
 pub(super) struct Polytope {
-    edges: Vec<Edge>,
-    sides: Vec<Side>,
+    edges: Vec<DirectedEdge>,
+    sides: Vec<PolytopeFace>,
     /// Edges on faces of the box, by the bits of these.
-    walls: Vec<(u8, Edge)>,
+    walls: Vec<(u8, DirectedEdge)>,
     /// Where the cell has an end of what it has of an edge of the box, and whether that is the upper one.
     ends: Vec<(BoxEdge, bool, Vector)>,
-    cut: Cut,
+    cut: PlaneCut,
     /// What is left by a half-space, before it takes the place of the rest.
-    left: (Vec<Edge>, Vec<Side>),
+    left: (Vec<DirectedEdge>, Vec<PolytopeFace>),
 }
 
 /// What a half-space makes of faces.
 #[derive(Debug, Default)]
-struct Cut {
+struct PlaneCut {
     /// Where a face is left, and where it is entered.
     exits: Vec<Vector>,
     entries: Vec<Vector>,
     /// The edges of the face on the plane.
-    cap: Vec<Edge>,
+    cap: Vec<DirectedEdge>,
 }
 
 /// Adds an edge, unless it has no length.
-fn push(edges: &mut Vec<Edge>, edge: Edge) -> Result<()> {
+fn push(edges: &mut Vec<DirectedEdge>, edge: DirectedEdge) -> Result<()> {
     if edge[0] == edge[1] { Ok(()) } else { memory::push(edges, edge) }
 }
 
@@ -80,9 +80,14 @@ fn crossing([inside, beyond]: [&Vector; 2], [from, to]: [f64; 2]) -> Vector {
     [0, 1, 2].map(|axis| inside[axis] + share * (beyond[axis] - inside[axis]))
 }
 
-impl Cut {
+impl PlaneCut {
     /// Adds what a half-space leaves of the edges of a face to a list.
-    fn face(&mut self, space: &HalfSpace, edges: &[Edge], left: &mut Vec<Edge>) -> Result<()> {
+    fn face(
+        &mut self,
+        space: &HalfSpace,
+        edges: &[DirectedEdge],
+        left: &mut Vec<DirectedEdge>,
+    ) -> Result<()> {
         self.exits.clear();
         self.entries.clear();
         for [p, q] in edges {
@@ -123,9 +128,9 @@ impl Polytope {
     /// Adds a facet in the box, and what it borders of faces of the box.
     pub(super) fn add_facet<G: Dimension>(&mut self, clip: &Clip, facet: &CutFacet) -> Result<()> {
         facet.for_pieces(clip.unit, |piece| match piece {
-            Piece::Edge(edge) => push(&mut self.edges, edge),
-            Piece::On(face, [p, q]) => memory::push(&mut self.walls, (face.bit(), [q, p])),
-            Piece::End { highs, along, is_upper, place } => {
+            BoundaryPiece::Edge(edge) => push(&mut self.edges, edge),
+            BoundaryPiece::On(face, [p, q]) => memory::push(&mut self.walls, (face.bit(), [q, p])),
+            BoundaryPiece::End { highs, along, is_upper, place } => {
                 memory::push(&mut self.ends, ((along, highs), is_upper, place))
             }
         })?;
@@ -141,7 +146,7 @@ impl Polytope {
         if self.sides.last().map_or(0, |side| side.end) == end {
             return Ok(());
         }
-        memory::push(&mut self.sides, Side { end, normal })
+        memory::push(&mut self.sides, PolytopeFace { end, normal })
     }
 
     /// Adds a corner of the box that is in the cell.
@@ -187,7 +192,11 @@ impl Polytope {
     }
 
     /// Adds what the cell has of an edge of the box to the faces at it.
-    fn add_box_edge<G: Dimension>(&mut self, (along, highs): BoxEdge, [lower, upper]: Edge) -> Result<()> {
+    fn add_box_edge<G: Dimension>(
+        &mut self,
+        (along, highs): BoxEdge,
+        [lower, upper]: DirectedEdge,
+    ) -> Result<()> {
         let face = |axis: usize| Face { axis, is_high: highs >> axis & 1 == 1 };
         let ways = [[lower, upper], [upper, lower]];
         if G::D == 2 {
@@ -224,8 +233,8 @@ impl Polytope {
     ) -> Result<(f64, Vector)> {
         self.clear();
         facet.for_pieces(clip.unit, |piece| match piece {
-            Piece::Edge(edge) => push(&mut self.edges, edge),
-            Piece::On(..) | Piece::End { .. } => Ok(()),
+            BoundaryPiece::Edge(edge) => push(&mut self.edges, edge),
+            BoundaryPiece::On(..) | BoundaryPiece::End { .. } => Ok(()),
         })?;
         let mut bounds = self.bounds();
         for space in &spaces.list {
@@ -247,8 +256,8 @@ impl Polytope {
         Ok((clip.measure_in(G::D - 1, measure), times(&centroid, 1.0 / clip.unit)))
     }
 
-    fn bounds(&self) -> Bounds {
-        let mut bounds = Bounds::NONE;
+    fn bounds(&self) -> BoxBounds {
+        let mut bounds = BoxBounds::NONE;
         self.edges.iter().flatten().for_each(|p| bounds.include(p));
         bounds
     }
@@ -263,7 +272,7 @@ impl Polytope {
             let before = edges.len();
             self.cut.face(space, &self.edges[start..side.end], edges)?;
             if edges.len() > before {
-                memory::push(sides, Side { end: edges.len(), ..*side })?;
+                memory::push(sides, PolytopeFace { end: edges.len(), ..*side })?;
             }
             start = side.end;
         }
@@ -301,7 +310,7 @@ impl Polytope {
 }
 
 /// Adds what a half-space leaves of segments to a list.
-fn cut_segments(space: &HalfSpace, segments: &[Edge], left: &mut Vec<Edge>) -> Result<()> {
+fn cut_segments(space: &HalfSpace, segments: &[DirectedEdge], left: &mut Vec<DirectedEdge>) -> Result<()> {
     for [p, q] in segments {
         let [from, to] = [space.beyond(p), space.beyond(q)];
         match (from <= 0.0, to <= 0.0) {
@@ -315,7 +324,7 @@ fn cut_segments(space: &HalfSpace, segments: &[Edge], left: &mut Vec<Edge>) -> R
 }
 
 /// Length or area of a facet with a normal, and its centroid; NaN if there is none.
-fn measure_and_centroid<G: Dimension>(edges: &[Edge], normal: &Vector) -> (f64, Vector) {
+fn measure_and_centroid<G: Dimension>(edges: &[DirectedEdge], normal: &Vector) -> (f64, Vector) {
     let Some([first, end]) = edges.first() else { return (0.0, [f64::NAN; 3]) };
     if G::D == 2 {
         let way = minus(end, first);
@@ -334,13 +343,13 @@ fn measure_and_centroid<G: Dimension>(edges: &[Edge], normal: &Vector) -> (f64, 
 }
 
 /// The mean of the places where edges begin.
-fn mean(edges: &[Edge]) -> Vector {
+fn mean(edges: &[DirectedEdge]) -> Vector {
     let sum = edges.iter().fold([0.0; 3], |sum, [p, _]| [0, 1, 2].map(|axis| sum[axis] + p[axis]));
     sum.map(|x| x / edges.len() as f64)
 }
 
 /// Adds a cell in the plane, as seen from a place.
-fn add_polygon(edges: &[Edge], from: &Vector, sums: &mut Sums) {
+fn add_polygon(edges: &[DirectedEdge], from: &Vector, sums: &mut Sums) {
     for [p, q] in edges {
         let step = minus(q, p);
         sums.facets += dot(&step, &step).sqrt();
@@ -350,7 +359,7 @@ fn add_polygon(edges: &[Edge], from: &Vector, sums: &mut Sums) {
 }
 
 /// Adds a face, and the pyramid between it and a place.
-fn add_face(edges: &[Edge], normal: &Vector, from: &Vector, sums: &mut Sums) {
+fn add_face(edges: &[DirectedEdge], normal: &Vector, from: &Vector, sums: &mut Sums) {
     let middle = mean(edges);
     let height = minus(&middle, from);
     let mut doubled = 0.0;

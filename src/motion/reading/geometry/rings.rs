@@ -12,7 +12,7 @@ use crate::motion::state::cells::{Cells, NO_CELL};
 /// follows the last one. In the plane a cell has the one of its own index, and of two cells the first one is on the
 /// left of the edge.
 #[derive(Debug, Default)]
-pub(super) struct Ring {
+pub(super) struct EdgeRing {
     pub(super) cells: Vec<CellId>,
     pub(super) link: Vec<VertexId>,
     /// Whether it goes all around, so that the edge is not on the hull.
@@ -41,7 +41,7 @@ fn is_even<const N: usize>(row: &[VertexId], corners: [VertexId; N]) -> bool {
     inversions.count().is_multiple_of(2)
 }
 
-impl Ring {
+impl EdgeRing {
     /// Goes around an edge, of which `first` is a cell.
     #[inline(always)]
     pub(super) fn go_around<G: Dimension>(

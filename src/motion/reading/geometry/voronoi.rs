@@ -10,7 +10,7 @@ use crate::ids::{CellId, VertexId};
 use crate::motion::reading::geometry::centres::Centres;
 use crate::motion::reading::geometry::clipping::{Clip, Vector, in_space};
 use crate::motion::reading::geometry::cut_facets::CutFacet;
-use crate::motion::reading::geometry::rings::Ring;
+use crate::motion::reading::geometry::rings::EdgeRing;
 use crate::motion::state::cells::Cells;
 use crate::motion::triangulation::MovingTriangulation;
 
@@ -19,7 +19,7 @@ pub(super) struct Voronoi<'t, G: Dimension> {
     pub(super) t: &'t MovingTriangulation<G>,
     pub(super) cells: &'t Cells<G>,
     pub(super) centres: &'t Centres<'t, G::Point>,
-    pub(super) ring: Ring,
+    pub(super) ring: EdgeRing,
     pub(super) facet: CutFacet,
 }
 
@@ -30,7 +30,7 @@ impl<'t, G: Dimension> Voronoi<'t, G> {
         cells: &'t Cells<G>,
         centres: &'t Centres<'t, G::Point>,
     ) -> Self {
-        Voronoi { t, cells, centres, ring: Ring::default(), facet: CutFacet::default() }
+        Voronoi { t, cells, centres, ring: EdgeRing::default(), facet: CutFacet::default() }
     }
 
     pub(super) fn place(&self, v: VertexId) -> Vector {

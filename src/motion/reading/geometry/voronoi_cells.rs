@@ -12,8 +12,8 @@ use crate::motion::reading::geometry::clipping::Clip;
 use crate::motion::reading::geometry::dual_cells::{VoronoiCell, nowhere};
 use crate::motion::reading::geometry::dual_facets::{VoronoiFacet, of_space};
 use crate::motion::reading::geometry::half_spaces::HalfSpaces;
-use crate::motion::reading::geometry::incidence::{Edge, Neighbours};
-use crate::motion::reading::geometry::pass::Asked;
+use crate::motion::reading::geometry::incidence::{EdgeWithCell, Neighbours};
+use crate::motion::reading::geometry::pass::VoronoiAsked;
 use crate::motion::reading::progress::Progress;
 use crate::motion::state::checking::check_position;
 use crate::motion::state::mesh::Standing;
@@ -125,7 +125,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
             None => {}
         }
-        let asked = Asked {
+        let asked = VoronoiAsked {
             around: mask.map(|_| &vertices[..]),
             vertices: tell_cell.as_ref().map(|_| &vertices[..]),
             edges: tell_facet.as_ref().map(|_| &edges[..]),
@@ -190,7 +190,11 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// The edges that have an end in a mask, if there is one, in the order of storage of the vertices, and their numbers in
     /// the order of [`edges`](Self::edges).
-    fn wanted_edges(&self, mask: Option<&[u8]>, progress: &mut Progress) -> Result<(Vec<Edge>, Vec<u32>)> {
+    fn wanted_edges(
+        &self,
+        mask: Option<&[u8]>,
+        progress: &mut Progress,
+    ) -> Result<(Vec<EdgeWithCell>, Vec<u32>)> {
         let (mut wanted, mut numbers, mut offsets) = (Vec::new(), Vec::new(), Vec::new());
         let room = if mask.is_none() { self.edge_count() } else { 0 };
         memory::reserve_exact(&mut wanted, room)?;

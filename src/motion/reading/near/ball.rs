@@ -6,7 +6,7 @@
 use crate::delaunay::{Dimension, IndexSet};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
-use crate::motion::reading::near::{Around, most_cells};
+use crate::motion::reading::near::{AroundSite, most_cells};
 use crate::motion::state::checking::{check_not_negative, check_position};
 use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::{is_within_distance, squared_distance};
@@ -65,7 +65,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 found.insert(s)?;
             }
         }
-        let (mut around, mut next, mut n_cells) = (Around::default(), 0, 0);
+        let (mut around, mut next, mut n_cells) = (AroundSite::default(), 0, 0);
         while let Some(&s) = found.as_slice().get(next) {
             next += 1;
             for &x in around.list(&self.mesh.kernel, s)? {

@@ -21,12 +21,12 @@ use crate::motion::triangulation::MovingTriangulation;
 
 /// A closed box.
 #[derive(Clone, Copy)]
-struct Extent<G: Dimension> {
+struct ClosedBox<G: Dimension> {
     low: G::Point,
     high: G::Point,
 }
 
-impl<G: Dimension> Extent<G> {
+impl<G: Dimension> ClosedBox<G> {
     /// What it shares with another; `None` if that is nothing.
     fn intersection(mut self, low: &G::Point, high: &G::Point) -> Option<Self> {
         for axis in 0..G::D {
@@ -78,7 +78,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 return Err(Error::InvalidValue { argument, index, value, wanted });
             }
         }
-        let wanted = Extent::<G> { low: *low, high: *high };
+        let wanted = ClosedBox::<G> { low: *low, high: *high };
         let kernel = &self.mesh.kernel;
         if !kernel.has_cells() {
             return self.find_in_box(&wanted);
@@ -102,14 +102,14 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// The vertices that are in a box, by a pass over all.
-    fn find_in_box(&self, wanted: &Extent<G>) -> Result<Vec<VertexId>> {
+    fn find_in_box(&self, wanted: &ClosedBox<G>) -> Result<Vec<VertexId>> {
         let kernel = &self.mesh.kernel;
         self.vertices_at(kernel.live_sites().filter(|&s| wanted.has(&kernel.site(s).point)))
     }
 
     /// Lists cells, among them all that meet a box whose corners are in range of the kernel's filter; whether all have
     /// been found, before a pass over the sites takes less.
-    fn flood_box(&self, wanted: &Extent<G>, cells: &mut Vec<Slot>) -> Result<bool> {
+    fn flood_box(&self, wanted: &ClosedBox<G>, cells: &mut Vec<Slot>) -> Result<bool> {
         let kernel = &self.mesh.kernel;
         let centre = wanted.centre();
         let filter = kernel.filter_for(&centre);
@@ -143,7 +143,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Whether the bounding box of a finite cell meets a box.
-    fn may_reach(&self, cell: Slot, wanted: &Extent<G>) -> bool {
+    fn may_reach(&self, cell: Slot, wanted: &ClosedBox<G>) -> bool {
         let places = self.mesh.kernel.places(cell);
         (0..G::D).all(|axis| {
             let along = || places[..=G::D].iter().map(|p| p[axis]);

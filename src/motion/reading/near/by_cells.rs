@@ -17,30 +17,30 @@ use crate::motion::triangulation::MovingTriangulation;
 const MARGIN: f64 = 1e-14;
 
 /// A cell that waits, of which nothing is nearer than the square root of this.
-struct Waiting {
+struct WaitingCell {
     least: f64,
     cell: Slot,
 }
 
-impl Ord for Waiting {
+impl Ord for WaitingCell {
     fn cmp(&self, other: &Self) -> Ordering {
         other.least.total_cmp(&self.least).then(other.cell.cmp(&self.cell))
     }
 }
 
-impl PartialOrd for Waiting {
+impl PartialOrd for WaitingCell {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl PartialEq for Waiting {
+impl PartialEq for WaitingCell {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Waiting {}
+impl Eq for WaitingCell {}
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Tells sites until all have been told that are as near to a place as `told` says: it returns a square of a distance
@@ -58,7 +58,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let (mut seen, mut sites, mut waiting) = (IndexSet::new(), IndexSet::new(), BinaryHeap::new());
         let mut most = f64::INFINITY;
         seen.insert(first)?;
-        memory::enter(&mut waiting, Waiting { least: 0.0, cell: first })?;
+        memory::enter(&mut waiting, WaitingCell { least: 0.0, cell: first })?;
         while let Some(next) = waiting.pop().filter(|next| next.least <= most) {
             let cell = kernel.complex().cell(next.cell);
             for &s in cell.corners.as_ref() {
@@ -70,7 +70,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 let across = cell.neighbour(i).cell();
                 if !kernel.complex().cell(across).is_ghost() && seen.insert(across)? {
                     let least = self.square_to_box(q, across);
-                    memory::enter(&mut waiting, Waiting { least, cell: across })?;
+                    memory::enter(&mut waiting, WaitingCell { least, cell: across })?;
                 }
             }
         }

@@ -22,7 +22,7 @@ mod lists;
 mod nearest;
 mod reach;
 
-pub(crate) use lists::{Entry, Lists, Placed, Search, Tree};
+pub(crate) use lists::{BoxTree, Entry, Lists, PlacedVertex, Search};
 pub use lists::{ListsOf, NeighbourLists};
 pub use reach::{InReach, VerticesInReach};
 
@@ -45,12 +45,12 @@ fn most_cells<G: Dimension>(kernel: &Delaunay<G>) -> usize {
 
 /// The sites that share a cell with one, itself included; kept as scratch from one to the next.
 #[derive(Debug, Default)]
-struct Around {
+struct AroundSite {
     star: IndexSet<Slot>,
     sites: IndexSet<SiteId>,
 }
 
-impl Around {
+impl AroundSite {
     /// Lists those of a site.
     fn list<G: Dimension>(&mut self, kernel: &Delaunay<G>, s: SiteId) -> Result<&[SiteId]> {
         self.sites.clear();

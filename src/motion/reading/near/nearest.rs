@@ -12,7 +12,7 @@ use crate::delaunay::{Dimension, IndexSet, Keys, Place};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
-use crate::motion::reading::near::Around;
+use crate::motion::reading::near::AroundSite;
 use crate::motion::state::checking::check_position;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::{compare_distance, squared_distance};
@@ -22,7 +22,7 @@ const MANY_STARS: u32 = 8;
 
 /// A vertex that waits to be the next in order of distance from a place: the greatest is the nearest, of the nearest
 /// ones that of the lowest rank: by key, place and id.
-struct Candidate<'t, P> {
+struct WaitingVertex<'t, P> {
     q: &'t P,
     point: &'t P,
     vertex: VertexId,
@@ -30,7 +30,7 @@ struct Candidate<'t, P> {
     keys: &'t Keys,
 }
 
-impl<P: AsRef<[f64]>> Ord for Candidate<'_, P> {
+impl<P: AsRef<[f64]>> Ord for WaitingVertex<'_, P> {
     fn cmp(&self, other: &Self) -> Ordering {
         compare_distance(self.q, other.point, self.point).then_with(|| {
             let [place, own] = [other, self].map(|next| next.point.as_ref());
@@ -39,19 +39,19 @@ impl<P: AsRef<[f64]>> Ord for Candidate<'_, P> {
     }
 }
 
-impl<P: AsRef<[f64]>> PartialOrd for Candidate<'_, P> {
+impl<P: AsRef<[f64]>> PartialOrd for WaitingVertex<'_, P> {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl<P: AsRef<[f64]>> PartialEq for Candidate<'_, P> {
+impl<P: AsRef<[f64]>> PartialEq for WaitingVertex<'_, P> {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl<P: AsRef<[f64]>> Eq for Candidate<'_, P> {}
+impl<P: AsRef<[f64]>> Eq for WaitingVertex<'_, P> {}
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// The vertex nearest to a point, of the nearest that of the lowest key, then place, then id; `None` if there are no vertices. Distances
@@ -110,7 +110,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Ok(());
         }
         let mut near = Slot::NONE;
-        let (mut around, mut seen) = (Around::default(), IndexSet::new());
+        let (mut around, mut seen) = (AroundSite::default(), IndexSet::new());
         for q in positions {
             let mut waiting = BinaryHeap::new();
             seen.clear();
@@ -139,23 +139,23 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
-    fn candidate<'t>(&'t self, q: &'t G::Point, s: SiteId) -> Candidate<'t, G::Point> {
+    fn candidate<'t>(&'t self, q: &'t G::Point, s: SiteId) -> WaitingVertex<'t, G::Point> {
         let site = self.mesh.kernel.site(s);
-        Candidate { q, point: &site.point, vertex: site.id, site: s, keys: self.mesh.kernel.keys() }
+        WaitingVertex { q, point: &site.point, vertex: site.id, site: s, keys: self.mesh.kernel.keys() }
     }
 
     /// Has what can follow a vertex wait: of those hidden at its place the ones below it in their tree, as there may be
     /// thousands of which few are wanted; and the neighbours of a representative.
     fn enter_after<'t>(
         &'t self,
-        next: &Candidate<'t, G::Point>,
-        around: &mut Around,
+        next: &WaitingVertex<'t, G::Point>,
+        around: &mut AroundSite,
         seen: &mut IndexSet<SiteId>,
-        waiting: &mut BinaryHeap<Candidate<'t, G::Point>>,
+        waiting: &mut BinaryHeap<WaitingVertex<'t, G::Point>>,
     ) -> Result<()> {
-        let &Candidate { q, point, vertex, site, keys } = next;
+        let &WaitingVertex { q, point, vertex, site, keys } = next;
         for top in self.mesh.hidden.tops_below(vertex).into_iter().filter(|&top| top != VertexId::NONE) {
-            memory::enter(waiting, Candidate { q, point, vertex: top, site, keys })?;
+            memory::enter(waiting, WaitingVertex { q, point, vertex: top, site, keys })?;
         }
         if vertex != self.mesh.kernel.site(site).id || self.mesh.kernel.is_constrained() {
             return Ok(());
@@ -189,7 +189,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
         };
         nearest.insert(best)?;
-        let mut around = Around::default();
+        let mut around = AroundSite::default();
         // The stars of the sites before this index have been looked at.
         let (mut next, mut n_stars) = (0, 0);
         while let Some(&s) = nearest.as_slice().get(next) {
@@ -248,10 +248,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         q: &'t G::Point,
         k: usize,
         near: Slot,
-        waiting: &mut BinaryHeap<Candidate<'t, G::Point>>,
+        waiting: &mut BinaryHeap<WaitingVertex<'t, G::Point>>,
     ) -> Result<Slot> {
         // The farthest of the k nearest so far is the first.
-        let mut best: BinaryHeap<Reverse<Candidate<'t, G::Point>>> = BinaryHeap::new();
+        let mut best: BinaryHeap<Reverse<WaitingVertex<'t, G::Point>>> = BinaryHeap::new();
         self.for_sites_by_cells(q, near, |s| {
             memory::enter(waiting, self.candidate(q, s))?;
             memory::enter(&mut best, Reverse(self.candidate(q, s)))?;

@@ -28,7 +28,7 @@ use crate::ids::{CellId, SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::predicates::{Array, MAX_MAGNITUDE, Reach};
+use crate::predicates::{MAX_MAGNITUDE, PointArray, Reach};
 
 /// The cells and hull facets in reach of boxes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -5,16 +5,17 @@
 //! and where they do not span all directions, to those beside them as well; where these do not either, there is none.
 //! A linear function has its own gradient, wherever centroids are.
 
-use super::overlap::{Place, centroid, dot, minus, plus};
-use super::{Arrived, Beyond, Gone};
+use super::overlap::{centroid, dot, minus, plus};
+use super::{Arrived, BeyondFacet, Gone};
 use crate::error::Result;
 use crate::machine::memory;
+use crate::predicates::PlaceInSpace;
 
 /// A cell that is, as one that was sees it.
 #[derive(Clone, Copy, Debug)]
 struct Neighbour {
     /// From centroid to centroid.
-    way: Place,
+    way: PlaceInSpace,
     /// Where its values are.
     before: u32,
     /// Which of those that are gone it is, [`LIVES`] for none.
@@ -36,10 +37,10 @@ pub(super) struct Besides {
 
 /// A facet as the cell on one side of it sees it.
 #[derive(Clone, Copy)]
-struct Side {
+struct FacetBeside {
     name: u128,
     /// From a corner of the facet, the same for both sides, to the centroid of the cell.
-    way: Place,
+    way: PlaceInSpace,
     before: u32,
     gone: u32,
 }
@@ -52,14 +53,14 @@ impl Besides {
             let centre = plus(&cell.corners[0], &centroid::<D>(&cell.corners));
             for facet in &cell.facets[..=D] {
                 let way = minus(&centre, &cell.corners[facet.anchor as usize]);
-                sides.push(Side { name: facet.name, way, before: cell.before, gone: k });
+                sides.push(FacetBeside { name: facet.name, way, before: cell.before, gone: k });
             }
         }
         for cell in arrived {
             for (facet, beyond) in cell.facets.iter().zip(&cell.beyond).take(D + 1) {
-                if let Beyond::Living { before, centre } = beyond {
+                if let BeyondFacet::Living { before, centre } = beyond {
                     let way = minus(centre, &cell.corners[facet.anchor as usize]);
-                    sides.push(Side { name: facet.name, way, before: *before, gone: LIVES });
+                    sides.push(FacetBeside { name: facet.name, way, before: *before, gone: LIVES });
                 }
             }
         }
@@ -103,7 +104,7 @@ impl Besides {
     }
 
     /// Neighbours whose means a gradient is fitted to: those of a cell, and where `are_more`, those of these.
-    fn for_each(&self, k: u32, are_more: bool, mut tell: impl FnMut(&Place, u32)) {
+    fn for_each(&self, k: u32, are_more: bool, mut tell: impl FnMut(&PlaceInSpace, u32)) {
         for near in self.of_one(k) {
             tell(&near.way, near.before);
             if are_more && near.gone != LIVES {
@@ -128,7 +129,7 @@ impl Besides {
     }
 
     /// The gradient in a cell; `difference` tells by how much more than the cell's own a value is.
-    pub(super) fn gradient(&self, k: usize, fit: &Fit, difference: impl Fn(u32) -> f64) -> Place {
+    pub(super) fn gradient(&self, k: usize, fit: &Fit, difference: impl Fn(u32) -> f64) -> PlaceInSpace {
         let mut sum = [0.0; 3];
         self.for_each(k as u32, fit.are_more, |way, before| {
             let (direction, length) = direction_of(way);
@@ -144,12 +145,12 @@ impl Besides {
 /// The inverse of the sum of products of directions, and which neighbours these are to.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fit {
-    inverse: [Place; 3],
+    inverse: [PlaceInSpace; 3],
     are_more: bool,
 }
 
 /// The direction and length of a way; nothing for none.
-fn direction_of(way: &Place) -> (Place, f64) {
+fn direction_of(way: &PlaceInSpace) -> (PlaceInSpace, f64) {
     let greatest = way.iter().fold(0.0, |greatest: f64, x| greatest.max(x.abs()));
     if greatest == 0.0 {
         return ([0.0; 3], 0.0);
@@ -160,7 +161,7 @@ fn direction_of(way: &Place) -> (Place, f64) {
 }
 
 /// The inverse of a symmetric matrix, if it has one that tells anything.
-fn inverse<const D: usize>(m: &[Place; 3]) -> Option<[Place; 3]> {
+fn inverse<const D: usize>(m: &[PlaceInSpace; 3]) -> Option<[PlaceInSpace; 3]> {
     let mut m = *m;
     if D == 2 {
         m[2][2] = 1.0;

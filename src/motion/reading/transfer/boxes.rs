@@ -3,21 +3,21 @@
 //! Each node halves its cells at the middle one along the longest side of their box. Cost: n log n, and for each
 //! search, where boxes are no longer than is usual, log n and what is found.
 
-use super::overlap::Place;
 use crate::error::Result;
 use crate::machine::memory;
+use crate::predicates::PlaceInSpace;
 
 /// A box.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Extent {
-    pub(crate) low: Place,
-    pub(crate) high: Place,
+    pub(crate) low: PlaceInSpace,
+    pub(crate) high: PlaceInSpace,
 }
 
 impl Extent {
     const NOTHING: Self = Extent { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
 
-    pub(crate) fn of(places: &[Place]) -> Self {
+    pub(crate) fn of(places: &[PlaceInSpace]) -> Self {
         let mut all = Self::NOTHING;
         places.iter().for_each(|place| all.enter(&Extent { low: *place, high: *place }));
         all

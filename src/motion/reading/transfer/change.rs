@@ -3,7 +3,7 @@
 use super::near::near;
 use super::now::Now;
 use super::overlap::{centroid, is_turned_over, plus};
-use super::{Arrived, Beyond, Gone, Meeting, TransferOrder, Transferred};
+use super::{Arrived, BeyondFacet, Gone, GoneCells, TransferOrder, Transferred};
 use crate::error::{Error, Result};
 use crate::ids::CellId;
 use crate::machine::memory;
@@ -82,7 +82,7 @@ impl<T: Now> Change<'_, T> {
         progress: &mut Progress,
     ) -> Result<Vec<CellId>> {
         let copies = self.now.copies(turned_over, cells.iter().copied())?;
-        let (meeting, mut met) = (Meeting::of::<D>(turned_over, copies)?, Vec::new());
+        let (meeting, mut met) = (GoneCells::of::<D>(turned_over, copies)?, Vec::new());
         progress.expect_more(cells.len() + self.arrived.len());
         for &cell in cells {
             progress.advance(1)?;
@@ -94,16 +94,16 @@ impl<T: Now> Change<'_, T> {
         Ok(met)
     }
 
-    fn beyond<const D: usize>(&self, cell: CellId) -> [Beyond; 4] {
-        let mut beyond = [Beyond::Nothing; 4];
+    fn beyond<const D: usize>(&self, cell: CellId) -> [BeyondFacet; 4] {
+        let mut beyond = [BeyondFacet::Nothing; 4];
         for (k, entry) in beyond.iter_mut().enumerate().take(D + 1) {
             let Some((other, shift)) = self.now.across(cell, k) else { continue };
             *entry = match self.arrived.binary_search(&other) {
-                Ok(k) => Beyond::Arrived(k as u32),
+                Ok(k) => BeyondFacet::Arrived(k as u32),
                 Err(_) => {
                     let (corners, offset) = (self.now.corners(other), self.now.offset(&shift));
                     let centre = plus(&plus(&corners[0], &offset), &centroid::<D>(&corners));
-                    Beyond::Living { before: self.now.before(other).get(), centre }
+                    BeyondFacet::Living { before: self.now.before(other).get(), centre }
                 }
             };
         }
@@ -128,14 +128,14 @@ impl<T: Now> Change<'_, T> {
         });
         memory::collect(&mut arrived, cells)?;
         let living = arrived.iter().flat_map(|cell| &cell.beyond).filter_map(|beyond| match beyond {
-            Beyond::Living { before, .. } => Some(*before),
+            BeyondFacet::Living { before, .. } => Some(*before),
             _ => None,
         });
         for before in self.gone.iter().map(|cell| cell.before).chain(living) {
             (0..n_values).try_for_each(|c| check_value(before as usize * n_values + c, value(before, c)))?;
         }
         let copies = self.now.copies(&self.gone, self.arrived.iter().copied())?;
-        let overlay = Meeting::of::<D>(&self.gone, copies)?.overlay::<D>(&arrived, progress)?;
+        let overlay = GoneCells::of::<D>(&self.gone, copies)?.overlay::<D>(&arrived, progress)?;
         let mut made = overlay.transfer::<D>(order, n_values, value)?;
         memory::append(&mut made.cells, to)?;
         memory::reserve(&mut made.means, to.len() * n_values)?;

@@ -1,10 +1,11 @@
 //! Means of cells from what they have in common with others.
 
 use super::beside::{Besides, Fit};
-use super::overlap::{Place, dot, is_turned_over};
-use super::{Beyond, Overlay, Pair, TransferOrder, TransferReport, Transferred};
+use super::overlap::{dot, is_turned_over};
+use super::{BeyondFacet, Overlay, Pair, TransferOrder, TransferReport, Transferred};
 use crate::error::Result;
 use crate::machine::memory;
+use crate::predicates::PlaceInSpace;
 use std::ops::Range;
 
 /// What a cell that is turned over may have of another one, as rounding may make it of one that is flat.
@@ -12,12 +13,12 @@ const NEGLIGIBLE: f64 = 1.0 / (1u64 << 30) as f64;
 
 /// A sum, and what rounding has taken from it.
 #[derive(Clone, Copy, Debug, Default)]
-struct Sum {
+struct CompensatedSum {
     sum: f64,
     rest: f64,
 }
 
-impl Sum {
+impl CompensatedSum {
     fn add(&mut self, x: f64) {
         let sum = self.sum + x;
         let of_x = sum - self.sum;
@@ -60,7 +61,7 @@ struct Work {
     room: Vec<[f64; 2]>,
     range: Vec<[f64; 2]>,
     /// By cell that is gone, its gradient, and which share of that is used.
-    gradients: Vec<(Place, f64)>,
+    gradients: Vec<(PlaceInSpace, f64)>,
 }
 
 impl Overlay<'_> {
@@ -142,8 +143,8 @@ impl Overlay<'_> {
         let mut queue = Vec::new();
         for i in (0..covers.len() as u32).filter(|&i| covers[i as usize].whole <= 0.0) {
             let source = self.arrived[i as usize].beyond.iter().find_map(|beyond| match *beyond {
-                Beyond::Living { before, .. } => Some(Source::Before(before)),
-                Beyond::Arrived(k) if covers[k as usize].whole > 0.0 => Some(Source::Arrived(k)),
+                BeyondFacet::Living { before, .. } => Some(Source::Before(before)),
+                BeyondFacet::Arrived(k) if covers[k as usize].whole > 0.0 => Some(Source::Arrived(k)),
                 _ => None,
             });
             if let Some(source) = source {
@@ -155,7 +156,7 @@ impl Overlay<'_> {
         while let Some(&i) = queue.get(next) {
             next += 1;
             for beyond in &self.arrived[i as usize].beyond {
-                if let &Beyond::Arrived(k) = beyond
+                if let &BeyondFacet::Arrived(k) = beyond
                     && is_empty(&sources, k)
                 {
                     sources[k as usize] = sources[i as usize];
@@ -167,7 +168,7 @@ impl Overlay<'_> {
     }
 
     fn report<const D: usize>(&self, covers: &[Cover]) -> Result<TransferReport> {
-        let (mut lost, mut gained) = (Sum::default(), Sum::default());
+        let (mut lost, mut gained) = (CompensatedSum::default(), CompensatedSum::default());
         self.volumes_gone.iter().for_each(|&volume| lost.add(volume));
         self.volumes_arrived.iter().for_each(|&volume| gained.add(volume));
         for pair in &self.pairs {
@@ -284,7 +285,7 @@ impl Overlay<'_> {
 
     /// What of one component is lost, and what is gained.
     fn account(&self, covers: &[Cover], work: &Work, value: impl Fn(u32) -> f64) -> (f64, f64) {
-        let (mut lost, mut gained) = (Sum::default(), Sum::default());
+        let (mut lost, mut gained) = (CompensatedSum::default(), CompensatedSum::default());
         for (cell, volume) in self.gone.iter().zip(&self.volumes_gone) {
             lost.add(volume * value(cell.before));
         }

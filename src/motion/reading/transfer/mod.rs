@@ -52,13 +52,13 @@ use crate::error::{Error, Result};
 use crate::ids::CellId;
 use crate::machine::memory;
 use crate::motion::reading::progress::Progress;
+use crate::predicates::PlaceInSpace;
 use boxes::Boxes;
 pub(crate) use boxes::Extent;
 #[cfg(test)]
 pub(crate) use change::tests::finds_as_by_a_look_at_all;
 pub(crate) use change::transfer;
-pub(crate) use now::{CellAt, Now, Shift};
-pub(crate) use overlap::Place;
+pub(crate) use now::{CellAt, Multiples, Now};
 use overlap::{Facets, Overlap, centroid, error_of_volume, extent, minus, plus, volume};
 
 /// How much of a function means are transferred with.
@@ -108,7 +108,7 @@ pub(crate) struct Transferred {
 
 /// A facet of a cell.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Facet {
+pub(crate) struct NamedFacet {
     /// By which the cells on both sides know it.
     pub(crate) name: u128,
     /// Which corner of the cell is the one of the facet by which both know where it is.
@@ -118,8 +118,8 @@ pub(crate) struct Facet {
 /// A cell that is gone, at the new positions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gone {
-    pub(crate) corners: [Place; 4],
-    pub(crate) facets: [Facet; 4],
+    pub(crate) corners: [PlaceInSpace; 4],
+    pub(crate) facets: [NamedFacet; 4],
     /// Its index when it was there.
     pub(crate) before: u32,
 }
@@ -128,21 +128,21 @@ pub(crate) struct Gone {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Arrived {
     pub(crate) index: CellId,
-    pub(crate) corners: [Place; 4],
-    pub(crate) facets: [Facet; 4],
-    pub(crate) beyond: [Beyond; 4],
+    pub(crate) corners: [PlaceInSpace; 4],
+    pub(crate) facets: [NamedFacet; 4],
+    pub(crate) beyond: [BeyondFacet; 4],
 }
 
 /// What is beyond a facet of a cell that has come.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Beyond {
+pub(crate) enum BeyondFacet {
     Nothing,
     /// Another one of them, by its number.
     Arrived(u32),
     /// A cell that lives: its index before, and its centroid as seen from here.
     Living {
         before: u32,
-        centre: Place,
+        centre: PlaceInSpace,
     },
 }
 
@@ -154,7 +154,7 @@ struct Pair {
     /// Of the volume of the one that has come, below 0 where the one that is gone is turned over.
     share: f64,
     /// The share times the way from the centroid of the one that is gone to the centroid of what is in common.
-    moment: Place,
+    moment: PlaceInSpace,
 }
 
 /// The cells of a change, and what they have in common.
@@ -171,16 +171,16 @@ struct Overlay<'a> {
 }
 
 /// Cells that are gone, to be met.
-struct Meeting<'a> {
+struct GoneCells<'a> {
     gone: &'a [Gone],
     /// Where each of them is: its number, by how much it is translated, and its facets there.
-    copies: Vec<(u32, Place, Facets)>,
+    copies: Vec<(u32, PlaceInSpace, Facets)>,
     boxes: Boxes,
 }
 
-impl<'a> Meeting<'a> {
+impl<'a> GoneCells<'a> {
     /// The meeting of some cells with their translations.
-    fn of<const D: usize>(gone: &'a [Gone], places: Vec<(u32, Place)>) -> Result<Self> {
+    fn of<const D: usize>(gone: &'a [Gone], places: Vec<(u32, PlaceInSpace)>) -> Result<Self> {
         let (mut copies, mut extents) = (Vec::new(), Vec::new());
         memory::reserve_exact(&mut copies, places.len())?;
         memory::reserve_exact(&mut extents, places.len())?;
@@ -189,15 +189,15 @@ impl<'a> Meeting<'a> {
             copies.push((k, offset, Facets::of::<D>(&corners)));
             extents.push(Extent::of(&corners[..=D]));
         }
-        Ok(Meeting { gone, copies, boxes: Boxes::new(extents)? })
+        Ok(GoneCells { gone, copies, boxes: Boxes::new(extents)? })
     }
 
     /// Tells what a cell has in common with those that are gone, and with which, and how that is translated, and by
     /// how much the volume of that may be off.
     fn for_each<const D: usize>(
         &self,
-        corners: &[Place; 4],
-        tell: &mut impl FnMut(u32, &Place, Overlap, f64) -> Result<()>,
+        corners: &[PlaceInSpace; 4],
+        tell: &mut impl FnMut(u32, &PlaceInSpace, Overlap, f64) -> Result<()>,
     ) -> Result<()> {
         let its_extent = extent(&corners[..=D]);
         self.boxes.meeting(&Extent::of(&corners[..=D]), &mut |copy| {
@@ -210,7 +210,7 @@ impl<'a> Meeting<'a> {
     }
 
     /// Whether a cell meets any of them.
-    fn meets<const D: usize>(&self, corners: &[Place; 4]) -> Result<bool> {
+    fn meets<const D: usize>(&self, corners: &[PlaceInSpace; 4]) -> Result<bool> {
         let mut is_met = false;
         self.for_each::<D>(corners, &mut |_, _, found, _| {
             is_met |= found.share != 0.0;
@@ -224,7 +224,7 @@ impl<'a> Meeting<'a> {
         let (mut volumes_gone, mut volumes_arrived, mut pairs) = (Vec::new(), Vec::new(), Vec::new());
         memory::collect(&mut volumes_gone, gone.iter().map(|cell| volume::<D>(&cell.corners)))?;
         memory::collect(&mut volumes_arrived, arrived.iter().map(|cell| volume::<D>(&cell.corners)))?;
-        let of_volume = |corners: &[Place; 4]| error_of_volume::<D>(extent(&corners[..=D]));
+        let of_volume = |corners: &[PlaceInSpace; 4]| error_of_volume::<D>(extent(&corners[..=D]));
         let all = gone.iter().map(|cell| &cell.corners).chain(arrived.iter().map(|cell| &cell.corners));
         let mut volume_error: f64 = all.map(of_volume).sum();
         progress.expect_more(arrived.len());

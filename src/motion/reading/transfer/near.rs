@@ -28,12 +28,13 @@
 use super::Gone;
 use super::boxes::{Boxes, Extent};
 use super::now::{CellAt, Now};
-use super::overlap::{Facets, Place, extent, plus};
+use super::overlap::{Facets, extent, plus};
 use crate::delaunay::Mix;
 use crate::error::Result;
 use crate::ids::CellId;
 use crate::machine::memory;
 use crate::motion::reading::progress::Progress;
+use crate::predicates::PlaceInSpace;
 use std::collections::HashMap;
 use std::hash::BuildHasherDefault;
 
@@ -117,7 +118,7 @@ pub(super) fn near<const D: usize, T: Now>(
 }
 
 /// The box of a cell, with half of its extent more on each side, and so much for rounding.
-fn widened(corners: &[Place], rounding: &Place) -> Extent {
+fn widened(corners: &[PlaceInSpace], rounding: &PlaceInSpace) -> Extent {
     let mut all = Extent::of(corners);
     for (j, rounding) in rounding.iter().enumerate() {
         let more = extent(corners) / 2.0 + rounding;

@@ -2,9 +2,8 @@
 
 use super::boxes::Extent;
 use super::change::transfer;
-use super::now::{CellAt, Now, Shift};
-use super::overlap::Place;
-use super::{Facet, Gone, TransferOrder, TransferReport, Transferred, in_place};
+use super::now::{CellAt, Multiples, Now};
+use super::{Gone, NamedFacet, TransferOrder, TransferReport, Transferred, in_place};
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
@@ -15,6 +14,7 @@ use crate::motion::state::changes::NO_VERTEX;
 use crate::motion::state::checking::check_position;
 use crate::motion::state::taken::{Changes, Taken};
 use crate::motion::triangulation::MovingTriangulation;
+use crate::predicates::PlaceInSpace;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Brings means in cells over to the cells of now: conservative transfer of what a program knows of each cell, by
@@ -97,9 +97,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         transfer(&now, gone, arrived, renumbered, (order, n_values), value, monitor)
     }
 
-    pub(super) fn now(&self) -> Result<Open<'_, G>> {
+    pub(super) fn now(&self) -> Result<OpenCells<'_, G>> {
         let (cells, taken) = self.fresh_lists()?;
-        Ok(Open { t: self, cells, changes: taken.changes(), turned: taken.turned() })
+        Ok(OpenCells { t: self, cells, changes: taken.changes(), turned: taken.turned() })
     }
 
     /// One of the cells at the place of a vertex; none if there are no cells.
@@ -115,7 +115,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Where a vertex of a cell that was is, or was at last.
-    fn place_before(&self, positions: Option<&[G::Point]>, v: VertexId) -> Result<Place> {
+    fn place_before(&self, positions: Option<&[G::Point]>, v: VertexId) -> Result<PlaceInSpace> {
         let (argument, index, vertex) = ("positions", v.index(), v);
         let point = match positions {
             _ if v == NO_VERTEX => return Err(Error::ChangesNotTaken),
@@ -130,14 +130,14 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 }
 
-fn place_of<G: Dimension>(point: &G::Point) -> Place {
+fn place_of<G: Dimension>(point: &G::Point) -> PlaceInSpace {
     let mut place = [0.0; 3];
     place[..G::D].copy_from_slice(point.as_ref());
     place
 }
 
 /// The cells of now.
-pub(super) struct Open<'t, G: Dimension> {
+pub(super) struct OpenCells<'t, G: Dimension> {
     t: &'t MovingTriangulation<G>,
     cells: &'t Cells<G>,
     changes: Changes<'t, G::Vertices>,
@@ -145,7 +145,7 @@ pub(super) struct Open<'t, G: Dimension> {
     turned: &'t [(CellId, G::Vertices)],
 }
 
-impl<G: Dimension> Open<'_, G> {
+impl<G: Dimension> OpenCells<'_, G> {
     /// The cells that are gone and those that have come, those that were turned over are both.
     pub(super) fn gone_and_arrived(
         &self,
@@ -169,7 +169,7 @@ impl<G: Dimension> Open<'_, G> {
     }
 }
 
-impl<G: Dimension> Now for Open<'_, G> {
+impl<G: Dimension> Now for OpenCells<'_, G> {
     const D: usize = G::D;
 
     fn len(&self) -> usize {
@@ -181,7 +181,7 @@ impl<G: Dimension> Now for Open<'_, G> {
         found.map_or(cell, |k| self.changes.renumbered_from[k])
     }
 
-    fn corners(&self, cell: CellId) -> [Place; 4] {
+    fn corners(&self, cell: CellId) -> [PlaceInSpace; 4] {
         let mut corners = [[0.0; 3]; 4];
         let sites = self.cells.sites(&self.t.mesh.kernel, cell);
         for (corner, site) in corners.iter_mut().zip(sites.as_ref()) {
@@ -190,7 +190,7 @@ impl<G: Dimension> Now for Open<'_, G> {
         corners
     }
 
-    fn facets(&self, cell: CellId) -> [Facet; 4] {
+    fn facets(&self, cell: CellId) -> [NamedFacet; 4] {
         facets_of(self.cells.corners()[cell].as_ref())
     }
 
@@ -199,11 +199,11 @@ impl<G: Dimension> Now for Open<'_, G> {
         (other != NO_CELL).then_some((other, [0; 3]))
     }
 
-    fn offset(&self, _shift: &Shift) -> Place {
+    fn offset(&self, _shift: &Multiples) -> PlaceInSpace {
         [0.0; 3]
     }
 
-    fn at(&self, place: &Place) -> Result<Option<CellAt>> {
+    fn at(&self, place: &PlaceInSpace) -> Result<Option<CellAt>> {
         let mut point = G::Point::default();
         (0..G::D).for_each(|axis| point[axis] = place[axis]);
         let found = match self.t.locate(&point)? {
@@ -214,11 +214,15 @@ impl<G: Dimension> Now for Open<'_, G> {
         Ok(found.map(|cell| (cell, [0; 3])))
     }
 
-    fn rounding(&self, _extent: &Extent) -> Place {
+    fn rounding(&self, _extent: &Extent) -> PlaceInSpace {
         [0.0; 3]
     }
 
-    fn copies(&self, gone: &[Gone], _cells: impl Iterator<Item = CellId>) -> Result<Vec<(u32, Place)>> {
+    fn copies(
+        &self,
+        gone: &[Gone],
+        _cells: impl Iterator<Item = CellId>,
+    ) -> Result<Vec<(u32, PlaceInSpace)>> {
         let mut copies = Vec::new();
         memory::collect(&mut copies, (0..gone.len() as u32).map(|k| (k, [0.0; 3])))?;
         Ok(copies)
@@ -226,15 +230,15 @@ impl<G: Dimension> Now for Open<'_, G> {
 }
 
 /// The facets of a cell, by the vertices of each in the order of their ids.
-fn facets_of(row: &[VertexId]) -> [Facet; 4] {
-    let mut facets = [Facet::default(); 4];
+fn facets_of(row: &[VertexId]) -> [NamedFacet; 4] {
+    let mut facets = [NamedFacet::default(); 4];
     for (k, facet) in facets.iter_mut().enumerate().take(row.len()) {
         let mut others = [(VertexId::NONE, 0); 3];
         let on_facet = row.iter().zip(0..).filter(|&(_, i)| usize::from(i) != k);
         others.iter_mut().zip(on_facet).for_each(|(entry, (&v, i))| *entry = (v, i));
         others[..row.len() - 1].sort_unstable();
         let name = others.iter().fold(0, |name, (v, _)| name << 32 | u128::from(v.get()));
-        *facet = Facet { name, anchor: others[0].1 };
+        *facet = NamedFacet { name, anchor: others[0].1 };
     }
     facets
 }

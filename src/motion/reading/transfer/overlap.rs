@@ -16,8 +16,7 @@
 //! has more, at most 3.3δ where V is at least 16δ. A flatter one has nothing in common with others by what is
 //! computed, and at most 8δ in fact. Shares are rounded in each cut, which is less than 256 ε of a volume up to Fⁿ.
 
-/// Places have three coordinates in either dimension; the last one is 0 in the plane.
-pub(crate) type Place = [f64; 3];
+use crate::predicates::PlaceInSpace;
 
 /// By how many ε (E + F) Fⁿ⁻¹ a volume in common may be off.
 const BOUND: f64 = 1536.0;
@@ -30,24 +29,24 @@ const LEAST: f64 = 2560.0;
 
 const UNIT: f64 = f64::EPSILON / 2.0;
 
-pub(super) fn minus(a: &Place, b: &Place) -> Place {
+pub(super) fn minus(a: &PlaceInSpace, b: &PlaceInSpace) -> PlaceInSpace {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-pub(super) fn plus(a: &Place, b: &Place) -> Place {
+pub(super) fn plus(a: &PlaceInSpace, b: &PlaceInSpace) -> PlaceInSpace {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
-pub(super) fn dot(a: &Place, b: &Place) -> f64 {
+pub(super) fn dot(a: &PlaceInSpace, b: &PlaceInSpace) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn cross(a: &Place, b: &Place) -> Place {
+fn cross(a: &PlaceInSpace, b: &PlaceInSpace) -> PlaceInSpace {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// The greatest difference of coordinates of the first `n` places.
-pub(super) fn extent(corners: &[Place]) -> f64 {
+pub(super) fn extent(corners: &[PlaceInSpace]) -> f64 {
     let of_axis = |j: usize| {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         corners.iter().for_each(|p| (low, high) = (low.min(p[j]), high.max(p[j])));
@@ -57,14 +56,14 @@ pub(super) fn extent(corners: &[Place]) -> f64 {
 }
 
 /// The signed area or volume of a cell.
-pub(super) fn volume<const D: usize>(corners: &[Place; 4]) -> f64 {
+pub(super) fn volume<const D: usize>(corners: &[PlaceInSpace; 4]) -> f64 {
     let [u, v, w] = [1, 2, 3].map(|i| minus(&corners[i], &corners[0]));
     if D == 2 { (u[0] * v[1] - u[1] * v[0]) / 2.0 } else { dot(&cross(&u, &v), &w) / 6.0 }
 }
 
 /// The determinant of a cell in units of its extent, which does not underflow: its sign is that of the volume, its
 /// magnitude at most 6.
-fn determinant<const D: usize>(corners: &[Place; 4], extent: f64) -> f64 {
+fn determinant<const D: usize>(corners: &[PlaceInSpace; 4], extent: f64) -> f64 {
     let scale = power_below(extent);
     let [u, v, w] = [1, 2, 3].map(|i| minus(&corners[i], &corners[0]).map(|x| x / scale));
     let scaled = if D == 2 { u[0] * v[1] - u[1] * v[0] } else { dot(&cross(&u, &v), &w) };
@@ -72,7 +71,7 @@ fn determinant<const D: usize>(corners: &[Place; 4], extent: f64) -> f64 {
 }
 
 /// Whether a cell is turned over, so that what it has counts as negative.
-pub(super) fn is_turned_over<const D: usize>(corners: &[Place; 4]) -> bool {
+pub(super) fn is_turned_over<const D: usize>(corners: &[PlaceInSpace; 4]) -> bool {
     determinant::<D>(corners, extent(&corners[..=D])) < 0.0
 }
 
@@ -82,7 +81,7 @@ pub(super) fn error_of_volume<const D: usize>(extent: f64) -> f64 {
 }
 
 /// The centroid of a cell as seen from its first corner.
-pub(super) fn centroid<const D: usize>(corners: &[Place; 4]) -> Place {
+pub(super) fn centroid<const D: usize>(corners: &[PlaceInSpace; 4]) -> PlaceInSpace {
     let sum = (1..=D).fold([0.0; 3], |sum, i| plus(&sum, &minus(&corners[i], &corners[0])));
     sum.map(|x| x / (D + 1) as f64)
 }
@@ -90,16 +89,16 @@ pub(super) fn centroid<const D: usize>(corners: &[Place; 4]) -> Place {
 /// A cell as the heights above its facets.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Facets {
-    corners: [Place; 4],
+    corners: [PlaceInSpace; 4],
     /// Of the facet opposite each corner: towards it, of about the length of the facet in units of the cell's extent.
-    normals: [Place; 4],
+    normals: [PlaceInSpace; 4],
     extent: f64,
     /// In units of the extent, see [`determinant`].
     pub(super) determinant: f64,
 }
 
 impl Facets {
-    pub(super) fn of<const D: usize>(corners: &[Place; 4]) -> Self {
+    pub(super) fn of<const D: usize>(corners: &[PlaceInSpace; 4]) -> Self {
         let extent = extent(&corners[..=D]);
         let scale = power_below(extent);
         let seen = |i: usize, from: usize| minus(&corners[i], &corners[from]).map(|x| x / scale);
@@ -117,7 +116,7 @@ impl Facets {
     }
 
     /// The height of a place above the facet opposite a corner; exactly 0 at the corners of the facet.
-    fn height<const D: usize>(&self, k: usize, place: &Place) -> f64 {
+    fn height<const D: usize>(&self, k: usize, place: &PlaceInSpace) -> f64 {
         let on_facet = others::<D>(k);
         if on_facet[..D].iter().any(|&i| self.corners[i] == *place) {
             return 0.0;
@@ -134,7 +133,7 @@ impl Facets {
     /// corners may be off by four times a `rounding` from where they are told.
     pub(super) fn is_beyond<const D: usize>(
         &self,
-        other: &[Place; 4],
+        other: &[PlaceInSpace; 4],
         its_extent: f64,
         rounding: f64,
     ) -> bool {
@@ -152,13 +151,13 @@ impl Facets {
 
     /// What is in common with a cell of this extent: the share of its volume, and that times where the centroid of the
     /// common part is as seen from the cell's first corner.
-    pub(super) fn overlap<const D: usize>(&self, other: &[Place; 4], its_extent: f64) -> Overlap {
+    pub(super) fn overlap<const D: usize>(&self, other: &[PlaceInSpace; 4], its_extent: f64) -> Overlap {
         let mut sum = Overlap::default();
         if !self.is_solid(its_extent) {
             return sum;
         }
         let corners = [0, 1, 2, 3].map(|i| {
-            let mut corner = Corner { at: minus(&other[i], &other[0]), heights: [0.0; 4] };
+            let mut corner = CornerHeights { at: minus(&other[i], &other[0]), heights: [0.0; 4] };
             if i <= D {
                 (0..=D).for_each(|k| corner.heights[k] = self.height::<D>(k, &other[i]));
             }
@@ -175,17 +174,17 @@ impl Facets {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Overlap {
     pub(super) share: f64,
-    pub(super) moment: Place,
+    pub(super) moment: PlaceInSpace,
 }
 
 #[derive(Clone, Copy)]
-struct Corner {
-    at: Place,
+struct CornerHeights {
+    at: PlaceInSpace,
     heights: [f64; 4],
 }
 
 /// Sums up what of a cell has no negative height, from that above a facet on; `share` is the cell's of the whole.
-fn cut<const D: usize>(mut corners: [Corner; 4], mut share: f64, first: usize, sum: &mut Overlap) {
+fn cut<const D: usize>(mut corners: [CornerHeights; 4], mut share: f64, first: usize, sum: &mut Overlap) {
     for k in first..=D {
         loop {
             let find = |is: fn(f64) -> bool| (0..=D).find(|&i| is(corners[i].heights[k]));
@@ -193,7 +192,7 @@ fn cut<const D: usize>(mut corners: [Corner; 4], mut share: f64, first: usize, s
             let Some(below) = find(|height| height < 0.0) else { break };
             let (a, b) = (corners[above], corners[below]);
             let part = a.heights[k] / (a.heights[k] - b.heights[k]);
-            let mut between = Corner {
+            let mut between = CornerHeights {
                 at: [0, 1, 2].map(|j| a.at[j] + part * (b.at[j] - a.at[j])),
                 heights: [0, 1, 2, 3].map(|m| a.heights[m] + part * (b.heights[m] - a.heights[m])),
             };

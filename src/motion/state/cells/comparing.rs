@@ -5,7 +5,7 @@ use crate::error::Result;
 use crate::ids::{CellId, Slot};
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
-use crate::motion::state::cells::{Cells, Found, NO_CELL, Scratch, ids_of, is_finite};
+use crate::motion::state::cells::{Cells, FoundCell, NO_CELL, RefreshLists, ids_of, is_finite};
 use crate::motion::state::matching::{Matcher, are_same};
 use crate::motion::state::ordering::Ordering;
 
@@ -22,7 +22,7 @@ impl<G: Dimension> Cells<G> {
         &mut self,
         kernel: &Delaunay<G>,
         dirty: &[Slot],
-        scratch: &mut Scratch<G::Vertices>,
+        scratch: &mut RefreshLists<G::Vertices>,
     ) -> Result<()> {
         memory::reserve(&mut scratch.lost, dirty.len())?;
         memory::reserve(&mut scratch.found, dirty.len())?;
@@ -48,7 +48,7 @@ impl<G: Dimension> Cells<G> {
                 }
                 scratch.lost.push(index);
             }
-            scratch.found.push(Found { slot, index: NO_CELL, ids });
+            scratch.found.push(FoundCell { slot, index: NO_CELL, ids });
         }
         Ok(())
     }
@@ -99,7 +99,7 @@ impl<G: Dimension> Cells<G> {
     pub(super) fn compare_all(
         &mut self,
         kernel: &Delaunay<G>,
-        scratch: &mut Scratch<G::Vertices>,
+        scratch: &mut RefreshLists<G::Vertices>,
     ) -> Result<()> {
         let n_slots = kernel.complex().n_slots();
         self.index_of.clear();
@@ -130,7 +130,7 @@ impl<G: Dimension> Cells<G> {
         if kernel.complex().n_finite() + scratch.lost.len() == self.corners.len() {
             return Ok(());
         }
-        let Scratch { lost, found, matcher, turned, .. } = scratch;
+        let RefreshLists { lost, found, matcher, turned, .. } = scratch;
         matcher.list(&self.corners, lost)?;
         let mut slots = kernel.complex().finite();
         loop {
@@ -138,7 +138,7 @@ impl<G: Dimension> Cells<G> {
             let n_new = found.len();
             memory::reserve(found, BLOCK)?;
             let unknown = slots.by_ref().filter(|&slot| self.index_of[slot] == NO_CELL);
-            found.extend(unknown.take(BLOCK).map(|slot| Found {
+            found.extend(unknown.take(BLOCK).map(|slot| FoundCell {
                 slot,
                 index: NO_CELL,
                 ids: ids_of(kernel, slot),
@@ -149,7 +149,7 @@ impl<G: Dimension> Cells<G> {
             self.find_lost(matcher, &mut found[n_new..], turned)?;
             let mut end = n_new;
             for k in n_new..found.len() {
-                let Found { slot, index, .. } = found[k];
+                let FoundCell { slot, index, .. } = found[k];
                 if index == NO_CELL {
                     found.swap(k, end);
                     end += 1;
@@ -165,7 +165,7 @@ impl<G: Dimension> Cells<G> {
     pub(super) fn find_lost(
         &mut self,
         matcher: &Matcher<G::Vertices>,
-        found: &mut [Found<G::Vertices>],
+        found: &mut [FoundCell<G::Vertices>],
         turned: &mut Vec<Slot>,
     ) -> Result<()> {
         for k in 0..found.len() {
@@ -175,7 +175,7 @@ impl<G: Dimension> Cells<G> {
             if let Some(next) = found.get(k + AHEAD / 2) {
                 matcher.prefetch_entries(&next.ids);
             }
-            let Found { slot, ids, .. } = found[k];
+            let FoundCell { slot, ids, .. } = found[k];
             if let Some((index, row)) = matcher.find(&ids) {
                 self.order(index, slot, &ids, &row, turned)?;
                 self.is_settled.insert(index);

@@ -40,7 +40,7 @@ struct Refreshed {
 
 /// What has been noted since the journal was begun.
 #[derive(Debug)]
-pub(in crate::motion) struct Journal<G: Dimension> {
+pub(in crate::motion) struct CellJournal<G: Dimension> {
     refreshed: Vec<Refreshed>,
     rows: Vec<RowBefore<G>>,
     /// Neighbours of cells next to those that have changed.
@@ -51,9 +51,9 @@ pub(in crate::motion) struct Journal<G: Dimension> {
     whole: Option<Box<Cells<G>>>,
 }
 
-impl<G: Dimension> Default for Journal<G> {
+impl<G: Dimension> Default for CellJournal<G> {
     fn default() -> Self {
-        Journal {
+        CellJournal {
             refreshed: Vec::new(),
             rows: Vec::new(),
             sides: Vec::new(),
@@ -63,7 +63,7 @@ impl<G: Dimension> Default for Journal<G> {
     }
 }
 
-impl<G: Dimension> Journal<G> {
+impl<G: Dimension> CellJournal<G> {
     pub(super) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.refreshed)
             + memory::bytes_of(&self.rows)
@@ -102,7 +102,12 @@ impl<G: Dimension> Cells<G> {
     }
 
     /// Notes what is in the dirty slots, and what will be beyond the end.
-    fn note_rows(&self, journal: &mut Journal<G>, kernel: &Delaunay<G>, dirty: &Marks<Slot>) -> Result<()> {
+    fn note_rows(
+        &self,
+        journal: &mut CellJournal<G>,
+        kernel: &Delaunay<G>,
+        dirty: &Marks<Slot>,
+    ) -> Result<()> {
         let (n_cells, n_slots) = (self.corners.len(), self.index_of.len());
         let beyond = CellId::range(kernel.complex().n_finite().min(n_cells)..n_cells);
         let slots_beyond = Slot::range(kernel.complex().n_slots().min(n_slots)..n_slots);
@@ -187,7 +192,7 @@ impl<G: Dimension> Cells<G> {
     }
 
     /// Puts the arrays back to what they were before they were brought up to date last.
-    fn undo_refreshed(&mut self, journal: &mut Journal<G>, before: &Refreshed) {
+    fn undo_refreshed(&mut self, journal: &mut CellJournal<G>, before: &Refreshed) {
         for (index, neighbours) in journal.sides.drain(before.n_sides..).rev() {
             self.neighbours[index] = neighbours;
         }

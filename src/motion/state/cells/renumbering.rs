@@ -7,17 +7,17 @@ use crate::complex::Corners;
 use crate::delaunay::{Delaunay, Dimension};
 use crate::ids::{CellId, Slot};
 use crate::machine::prefetch::{AHEAD, prefetch};
-use crate::motion::state::cells::{Cells, Found, NO_CELL, Scratch, ids_of};
+use crate::motion::state::cells::{Cells, FoundCell, NO_CELL, RefreshLists, ids_of};
 use crate::motion::state::changes::Tracker;
 use crate::motion::state::ordering::Ordering;
 
 impl<G: Dimension> Cells<G> {
     /// Gives every cell its index. What is listed as lost has been used up afterwards, and cells that have other
     /// indices than before are listed as moved.
-    pub(super) fn renumber(&mut self, kernel: &Delaunay<G>, scratch: &mut Scratch<G::Vertices>) {
+    pub(super) fn renumber(&mut self, kernel: &Delaunay<G>, scratch: &mut RefreshLists<G::Vertices>) {
         let n = kernel.complex().n_finite();
         self.index_of.resize(kernel.complex().n_slots(), NO_CELL);
-        let Scratch { lost, found, moved, turned, .. } = scratch;
+        let RefreshLists { lost, found, moved, turned, .. } = scratch;
         self.give_up_slots(found);
         self.enter_in_slots(found, n);
         self.open_holes(lost, n);
@@ -49,7 +49,7 @@ impl<G: Dimension> Cells<G> {
     }
 
     /// Slots give up the cells that have been found in others, before these enter them.
-    fn give_up_slots(&mut self, found: &[Found<G::Vertices>]) {
+    fn give_up_slots(&mut self, found: &[FoundCell<G::Vertices>]) {
         for found in found.iter().filter(|found| found.index != NO_CELL) {
             self.give_up_slot(found.index);
         }
@@ -57,8 +57,8 @@ impl<G: Dimension> Cells<G> {
 
     /// Enters the cells found again in their slots, and new ones in the place of the cell before in theirs, of `n`
     /// cells.
-    fn enter_in_slots(&mut self, found: &[Found<G::Vertices>], n: usize) {
-        for (k, &Found { slot, index, ids }) in found.iter().enumerate() {
+    fn enter_in_slots(&mut self, found: &[FoundCell<G::Vertices>], n: usize) {
+        for (k, &FoundCell { slot, index, ids }) in found.iter().enumerate() {
             if let Some(next) = found.get(k + 2 * AHEAD) {
                 prefetch(&self.index_of, next.slot.index());
             }
@@ -102,8 +102,8 @@ impl<G: Dimension> Cells<G> {
     }
 
     /// Enters the new cells that have no index yet in holes, then at the end.
-    fn enter_in_holes(&mut self, found: &[Found<G::Vertices>], holes: &mut impl Iterator<Item = CellId>) {
-        for &Found { slot, ids, .. } in found {
+    fn enter_in_holes(&mut self, found: &[FoundCell<G::Vertices>], holes: &mut impl Iterator<Item = CellId>) {
+        for &FoundCell { slot, ids, .. } in found {
             if self.index_of[slot] != NO_CELL {
                 continue;
             }

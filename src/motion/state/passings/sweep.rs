@@ -25,12 +25,12 @@ const LEVELS: usize = 17;
 
 /// A straight way.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Path {
+pub(super) struct StraightPath {
     pub(super) from: [f64; 2],
     pub(super) to: [f64; 2],
 }
 
-impl Path {
+impl StraightPath {
     fn places(&self) -> [&[f64; 2]; 2] {
         [&self.from, &self.to]
     }
@@ -44,7 +44,7 @@ impl Path {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Walker {
     pub(super) vertex: VertexId,
-    pub(super) path: Path,
+    pub(super) path: StraightPath,
 }
 
 /// A segment on its way.
@@ -154,7 +154,7 @@ fn crossing([before, after]: [f64; 2]) -> [f64; 2] {
 
 /// Segments, with a box around each [`FAN`] of them, around each so many of these, and so on.
 #[derive(Debug)]
-pub(super) struct Tree {
+pub(super) struct SegmentTree {
     segments: Vec<Swept>,
     /// The boxes of one level after the other, the lowest first.
     boxes: Vec<MovingBox>,
@@ -163,7 +163,7 @@ pub(super) struct Tree {
     n_levels: usize,
 }
 
-impl Tree {
+impl SegmentTree {
     /// A tree of segments, of which there is one at least.
     pub(super) fn new(unsorted: Vec<Swept>) -> Result<Self> {
         let (mut order, mut segments) = (Vec::new(), Vec::new());
@@ -189,7 +189,7 @@ impl Tree {
             n_levels += 1;
             begins[n_levels] = boxes.len();
         }
-        Ok(Tree { segments, boxes, begins, n_levels })
+        Ok(SegmentTree { segments, boxes, begins, n_levels })
     }
 
     /// Looks for segments that some vertices pass.

@@ -55,7 +55,7 @@ impl<G: Dimension> Mesh<G> {
         slacks: &mut Slacks<G>,
         mut exchange: impl FnMut(&mut [Site<G>], &mut [G::Point; LANES], &[SiteId; LANES]) -> [f64; LANES],
     ) -> Result<Motion> {
-        let mut record = Record { longest: slacks.longest_way(), n: 0, sum: 0.0, greatest: 0.0 };
+        let mut record = WaysOnRecord { longest: slacks.longest_way(), n: 0, sum: 0.0, greatest: 0.0 };
         let sites = self.kernel.sites_mut();
         let is_far = size_of_val(sites) > CACHE_BYTES;
         let mut blocks = Blocks::of(moves);
@@ -79,7 +79,7 @@ impl<G: Dimension> Mesh<G> {
             }
         }
         self.transaction.origins_mut().note_all();
-        let Record { n: moved, sum, greatest, .. } = record;
+        let WaysOnRecord { n: moved, sum, greatest, .. } = record;
         let fits = slacks.end_motion(&mut self.kernel, sum / moved.max(1) as f64, greatest);
         moves.end_check(blocks.are_good)?;
         Ok(Motion { moved, greatest, fits })
@@ -87,7 +87,7 @@ impl<G: Dimension> Mesh<G> {
 }
 
 /// The ways of vertices that are moved on record.
-struct Record {
+struct WaysOnRecord {
     /// No way counts as longer in the sum.
     longest: f64,
     /// How many vertices have moved, the sum of their ways, and the longest one.
@@ -96,7 +96,7 @@ struct Record {
     greatest: f64,
 }
 
-impl Record {
+impl WaysOnRecord {
     /// Adds to the way of a site, unless it stays where it is.
     #[inline(always)]
     fn enter<G: Dimension>(&mut self, slacks: &mut Slacks<G>, s: SiteId, distance: f64) {

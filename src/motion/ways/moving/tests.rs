@@ -5,7 +5,7 @@ use crate::delaunay::{Level, Plane, Space};
 use crate::error::Error;
 use crate::ids::VertexId;
 use crate::motion::algorithms::Algorithm;
-use crate::motion::filters::store::Steps;
+use crate::motion::filters::store::TimestampSteps;
 use crate::motion::options::Options;
 use crate::motion::region_kind::RegionKind;
 use crate::motion::state::goals::Movers;
@@ -24,8 +24,8 @@ fn positions<G: Dimension>(t: &MovingTriangulation<G>) -> Vec<G::Point> {
     t.mesh.site_of.iter().map(|&s| t.mesh.kernel.site(s).point).collect()
 }
 
-fn steps<G: Dimension>(other_positions: &[G::Point]) -> Steps<'_, G> {
-    Steps { other_positions, watched_share: 1.0 }
+fn steps<G: Dimension>(other_positions: &[G::Point]) -> TimestampSteps<'_, G> {
+    TimestampSteps { other_positions, watched_share: 1.0 }
 }
 
 /// A triangulation with tolerances, and goals of all its vertices: some of them where they are, some with one

@@ -28,7 +28,7 @@ use crate::motion::triangulation::MovingTriangulation;
 use search::Part;
 pub(crate) use search::{Entry, Search};
 use tree::NO_LIST;
-pub(crate) use tree::{Placed, Tree};
+pub(crate) use tree::{BoxTree, PlacedVertex};
 
 /// A thread more pays if it gets so many lists.
 const SHARED_AT_LEAST: usize = 1 << 10;
@@ -69,7 +69,7 @@ impl ListsOf<'_> {
         &self,
         vertices: impl Iterator<Item = (VertexId, P)>,
         n: usize,
-    ) -> Result<Vec<Placed<P>>> {
+    ) -> Result<Vec<PlacedVertex<P>>> {
         let mut placed = Vec::new();
         memory::reserve_exact(&mut placed, n)?;
         let mut bad = VertexId::NONE;
@@ -82,7 +82,7 @@ impl ListsOf<'_> {
             // No square of a distance is greater than the greatest number.
             memory::push(
                 &mut placed,
-                Placed { place, squared_radius: squared_radius.min(f64::MAX), vertex },
+                PlacedVertex { place, squared_radius: squared_radius.min(f64::MAX), vertex },
             )?;
         }
         if bad == VertexId::NONE {
@@ -233,7 +233,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             });
         let vertices = shown.chain(hidden);
         let search = Search::<G> {
-            tree: Tree::new(wanted.placed(vertices, self.vertex_count())?)?,
+            tree: BoxTree::new(wanted.placed(vertices, self.vertex_count())?)?,
             translations: &[G::Point::default()],
             nowhere: 0,
             is_half: wanted.is_half,

@@ -11,7 +11,7 @@ use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
-use crate::motion::reading::near::lists::tree::{NO_LIST, Node, Placed, Tree};
+use crate::motion::reading::near::lists::tree::{BoxTree, NO_LIST, Node, PlacedVertex};
 use crate::predicates::is_within_distance;
 use crate::simd::{LANES, in_lanes};
 
@@ -54,7 +54,7 @@ impl Entry for u64 {
 
 /// What is looked for, and among what.
 pub(crate) struct Search<'s, G: Dimension> {
-    pub(crate) tree: Tree<G>,
+    pub(crate) tree: BoxTree<G>,
     /// Ways by which places are translated without rounding, in an order of their own, and which of them is none.
     pub(crate) translations: &'s [G::Point],
     pub(crate) nowhere: usize,
@@ -73,7 +73,7 @@ pub(crate) struct Part<E> {
 
 /// Places beside each other.
 #[derive(Clone, Copy)]
-struct Row<E> {
+struct PlacesInLanes<E> {
     axes: [[f64; LANES]; 3],
     entries: [E; LANES],
     /// The squares of their own radii.
@@ -81,7 +81,7 @@ struct Row<E> {
 }
 
 /// Rows of one box.
-struct Segment<P> {
+struct RowsOfBox<P> {
     low: P,
     high: P,
     greatest: f64,
@@ -89,9 +89,9 @@ struct Segment<P> {
 }
 
 /// The rows in reach of one box, kept as scratch from one to the next.
-struct Beside<G: Dimension, E> {
-    rows: Vec<Row<E>>,
-    segments: Vec<Segment<G::Point>>,
+struct RowsInReach<G: Dimension, E> {
+    rows: Vec<PlacesInLanes<E>>,
+    segments: Vec<RowsOfBox<G::Point>>,
     found: Vec<E>,
 }
 
@@ -99,7 +99,7 @@ impl<G: Dimension> Search<'_, G> {
     /// The lists of a range of places, in the order of the tree.
     pub(crate) fn lists<E: Entry>(&self, range: Range<usize>) -> Result<Part<E>> {
         let mut part = Part { entries: Vec::new(), lengths: Vec::new() };
-        let mut beside = Beside::<G, E> { rows: Vec::new(), segments: Vec::new(), found: Vec::new() };
+        let mut beside = RowsInReach::<G, E> { rows: Vec::new(), segments: Vec::new(), found: Vec::new() };
         memory::reserve_exact(&mut part.lengths, range.len())?;
         let tree = &self.tree;
         let first =
@@ -128,7 +128,7 @@ impl<G: Dimension> Search<'_, G> {
     }
 
     /// Makes rows of what is in reach of a box.
-    fn gather<E: Entry>(&self, node: &Node<G::Point>, beside: &mut Beside<G, E>) -> Result<()> {
+    fn gather<E: Entry>(&self, node: &Node<G::Point>, beside: &mut RowsInReach<G, E>) -> Result<()> {
         beside.rows.clear();
         beside.segments.clear();
         if node.greatest < 0.0 {
@@ -155,7 +155,7 @@ impl<G: Dimension> Search<'_, G> {
                     high[axis] += way[axis];
                 }
                 let rows = first..beside.rows.len();
-                memory::push(&mut beside.segments, Segment { low, high, greatest: other.greatest, rows })
+                memory::push(&mut beside.segments, RowsOfBox { low, high, greatest: other.greatest, rows })
             })?;
         }
         let needed = LANES * (beside.rows.len() + 1);
@@ -169,7 +169,7 @@ impl<G: Dimension> Search<'_, G> {
 
     /// Finds what is near a vertex; how many there are.
     #[inline(always)]
-    fn list<E: Entry>(&self, placed: &Placed<G::Point>, beside: &mut Beside<G, E>) -> usize {
+    fn list<E: Entry>(&self, placed: &PlacedVertex<G::Point>, beside: &mut RowsInReach<G, E>) -> usize {
         if self.is_half {
             self.list_as::<E, true>(placed, beside)
         } else {
@@ -180,8 +180,8 @@ impl<G: Dimension> Search<'_, G> {
     #[inline(always)]
     fn list_as<E: Entry, const IS_HALF: bool>(
         &self,
-        placed: &Placed<G::Point>,
-        Beside { rows, segments, found }: &mut Beside<G, E>,
+        placed: &PlacedVertex<G::Point>,
+        RowsInReach { rows, segments, found }: &mut RowsInReach<G, E>,
     ) -> usize {
         let q = &placed.place;
         let own = E::of(placed.vertex, self.nowhere as u32);
@@ -233,7 +233,7 @@ impl<G: Dimension> Search<'_, G> {
 #[inline(never)]
 fn decide<G: Dimension, E: Entry>(
     q: &G::Point,
-    row: &Row<E>,
+    row: &PlacesInLanes<E>,
     limits: &[f64; LANES],
     is_wanted: impl Fn(usize) -> bool,
     into: &mut [E],
@@ -252,8 +252,12 @@ fn decide<G: Dimension, E: Entry>(
 
 /// A row of up to [`LANES`] places; those that are missing are nowhere.
 #[inline(always)]
-fn row_of<G: Dimension, E: Entry>(some: &[Placed<G::Point>], way: &G::Point, translation: usize) -> Row<E> {
-    let mut row = Row {
+fn row_of<G: Dimension, E: Entry>(
+    some: &[PlacedVertex<G::Point>],
+    way: &G::Point,
+    translation: usize,
+) -> PlacesInLanes<E> {
+    let mut row = PlacesInLanes {
         axes: [[f64::INFINITY; LANES]; 3],
         entries: [E::default(); LANES],
         squared_radii: [NO_LIST; LANES],
@@ -286,19 +290,20 @@ mod tests {
 
     /// How many places are looked at, or may be, and how many entries there are.
     fn counts(places: &[[f64; 2]], squared_radius: impl Fn(usize) -> f64) -> [usize; 2] {
-        let placed = places.iter().enumerate().map(|(k, &place)| Placed {
+        let placed = places.iter().enumerate().map(|(k, &place)| PlacedVertex {
             place,
             squared_radius: squared_radius(k),
             vertex: VertexId::at(k),
         });
         let search = Search::<Plane> {
-            tree: Tree::new(placed.collect()).expect("memory"),
+            tree: BoxTree::new(placed.collect()).expect("memory"),
             translations: &[[0.0; 2]],
             nowhere: 0,
             is_half: false,
             is_kept: false,
         };
-        let mut beside = Beside::<Plane, u32> { rows: Vec::new(), segments: Vec::new(), found: Vec::new() };
+        let mut beside =
+            RowsInReach::<Plane, u32> { rows: Vec::new(), segments: Vec::new(), found: Vec::new() };
         let mut n_looked_at = 0;
         for &leaf in &search.tree.leaves {
             let node = &search.tree.nodes[leaf as usize];

@@ -15,7 +15,7 @@ const MOST_IN_LEAF: usize = 12;
 
 /// A vertex and its place, with the square of the radius of its list; one without a list has [`NO_LIST`].
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Placed<P> {
+pub(crate) struct PlacedVertex<P> {
     pub(crate) place: P,
     pub(crate) squared_radius: f64,
     pub(crate) vertex: VertexId,
@@ -40,15 +40,15 @@ pub(super) struct Node<P> {
 
 /// Places in boxes.
 #[derive(Debug)]
-pub(crate) struct Tree<G: Dimension> {
-    pub(super) placed: Vec<Placed<G::Point>>,
+pub(crate) struct BoxTree<G: Dimension> {
+    pub(super) placed: Vec<PlacedVertex<G::Point>>,
     pub(super) nodes: Vec<Node<G::Point>>,
     /// The boxes that have no halves, in the order of their places.
     pub(super) leaves: Vec<u32>,
 }
 
-impl<G: Dimension> Tree<G> {
-    pub(crate) fn new(mut placed: Vec<Placed<G::Point>>) -> Result<Self> {
+impl<G: Dimension> BoxTree<G> {
+    pub(crate) fn new(mut placed: Vec<PlacedVertex<G::Point>>) -> Result<Self> {
         let (mut nodes, mut leaves, mut waiting) = (Vec::new(), Vec::new(), Vec::new());
         memory::push(&mut waiting, (0, placed.len()))?;
         while let Some((first, end)) = waiting.pop().filter(|_| !placed.is_empty()) {
@@ -68,7 +68,7 @@ impl<G: Dimension> Tree<G> {
             let has_halves = nodes.get(k + 1).is_some_and(|first| first.first == nodes[k].first);
             nodes[k].next = if has_halves { nodes[behind_first].next } else { k as u32 + 1 };
         }
-        Ok(Tree { placed, nodes, leaves })
+        Ok(BoxTree { placed, nodes, leaves })
     }
 
     /// Visits the boxes without halves of which the box, and each that it is a part of, meets a condition.
@@ -93,7 +93,7 @@ impl<G: Dimension> Tree<G> {
 }
 
 /// The box of some places.
-fn bounds<G: Dimension>(placed: &[Placed<G::Point>], first: usize) -> Node<G::Point> {
+fn bounds<G: Dimension>(placed: &[PlacedVertex<G::Point>], first: usize) -> Node<G::Point> {
     let (mut low, mut high, mut greatest) = (placed[0].place, placed[0].place, NO_LIST);
     for p in placed {
         for axis in 0..G::D {
@@ -106,7 +106,7 @@ fn bounds<G: Dimension>(placed: &[Placed<G::Point>], first: usize) -> Node<G::Po
 }
 
 /// Brings the places in the lower half of their box to the front, and counts these; `None` if all are at one place.
-fn halve<G: Dimension>(placed: &mut [Placed<G::Point>], node: &Node<G::Point>) -> Option<usize> {
+fn halve<G: Dimension>(placed: &mut [PlacedVertex<G::Point>], node: &Node<G::Point>) -> Option<usize> {
     let length = |axis: usize| node.high[axis] - node.low[axis];
     let axis = (1..G::D).fold(0, |longest, axis| if length(axis) > length(longest) { axis } else { longest });
     let (low, high) = (node.low[axis], node.high[axis]);
@@ -130,12 +130,12 @@ mod tests {
     use crate::delaunay::{Plane, Space};
 
     fn check<G: Dimension>(places: &[G::Point]) {
-        let placed = places.iter().enumerate().map(|(k, &place)| Placed {
+        let placed = places.iter().enumerate().map(|(k, &place)| PlacedVertex {
             place,
             squared_radius: k as f64,
             vertex: VertexId::at(k),
         });
-        let tree = Tree::<G>::new(placed.collect()).expect("memory");
+        let tree = BoxTree::<G>::new(placed.collect()).expect("memory");
         let mut seen = vec![false; places.len()];
         let mut next = 0;
         for &leaf in &tree.leaves {
