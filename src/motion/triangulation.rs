@@ -222,7 +222,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<T> {
         self.mesh.begin(Aim::Other)?;
         let done = change(self).and_then(|done| {
-            self.mesh.lay_segments()?;
+            self.mesh.enforce_segments()?;
             self.mesh.views.prepare(&self.mesh.kernel)?;
             Ok(done)
         });

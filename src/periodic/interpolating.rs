@@ -11,7 +11,7 @@ use crate::motion::{Interpolation, Location, Ridges, VertexValues};
 use crate::periodic::images::Image;
 use crate::periodic::inside::all;
 use crate::periodic::lattice::{HOME, Range, Shift};
-use crate::periodic::locating::{PlacedCell, Spot};
+use crate::periodic::locating::{PeriodicLocation, PlacedCell};
 use crate::periodic::reduction::SLACK;
 use crate::periodic::triangulation::PeriodicTriangulation;
 use crate::periodic::zone::ZoneCells;
@@ -53,27 +53,27 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             return Err(Error::WrongCount { argument, given, wanted, coming });
         }
         let asked = self.asked(positions)?;
-        let spots = self.spots(&asked, near)?;
+        let locations = self.periodic_locations(&asked, near)?;
         let cells = self.read_cells()?;
         let (mut weights, mut result) = (Vec::new(), Vec::new());
         let (mut of_images, mut zone, mut ridges) = (Vec::new(), ZoneCells::default(), Ridges::default());
         memory::lengthen(&mut result, given.n_values, 0.0)?;
-        for (place, spot) in asked.places.iter().zip(spots) {
-            match spot {
-                Spot::Vertex(Image { vertex, .. }) => given.combine([(vertex, 1.0)], &mut result),
-                Spot::Cell(placed) if method == Interpolation::NaturalNeighbour => {
+        for (place, location) in asked.places.iter().zip(locations) {
+            match location {
+                PeriodicLocation::Vertex(Image { vertex, .. }) => given.combine([(vertex, 1.0)], &mut result),
+                PeriodicLocation::Cell(placed) if method == Interpolation::NaturalNeighbour => {
                     self.natural_weights(cells, (placed, place), &mut zone, &mut ridges, &mut of_images)?;
                     let of_vertices = of_images.iter().map(|&(image, weight)| (image.vertex, weight));
                     given.combine(of_vertices, &mut result);
                 }
-                Spot::Cell((class, shift)) => {
+                PeriodicLocation::Cell((class, shift)) => {
                     let place = self.lattice.translated(place, shift.map(|n| -n));
                     self.inside.t.linear_weights(cells.chosen[class], &place, &mut weights)?;
                     let of_vertices =
                         weights.iter().map(|&(v, weight)| (self.inside.images.of(v).vertex, weight));
                     given.combine(of_vertices, &mut result);
                 }
-                Spot::Outside(_) | Spot::NoCells => {
+                PeriodicLocation::Outside(_) | PeriodicLocation::NoCells => {
                     found(None);
                     continue;
                 }

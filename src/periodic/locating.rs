@@ -35,7 +35,7 @@ pub(super) type PlacedCell = (CellId, Shift);
 
 /// Where a place in the unit cell lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Spot {
+pub(super) enum PeriodicLocation {
     /// At this image of the vertex that represents those there.
     Vertex(Image),
     /// In the closure of this cell, at no vertex.
@@ -109,7 +109,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     pub fn locate(&self, position: &G::Point) -> Result<Location> {
         let (place, _) = self.lattice.wrapped("position", 0, position)?;
         let inner = self.inside.t.locate(&place)?;
-        Ok(location_of(self.spot(self.read_cells()?, &place, inner)?))
+        Ok(location_of(self.periodic_location(self.read_cells()?, &place, inner)?))
     }
 
     /// Where positions, rounded to the grid of the lattice, lie, told to `found` one after the other, each with the multiples of
@@ -136,9 +136,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         mut found: impl FnMut(Location, [i64; 3]),
     ) -> Result<()> {
         let asked = self.asked(positions)?;
-        let spots = self.spots(&asked, near)?;
-        for (spot, wrap) in spots.into_iter().zip(&asked.wraps) {
-            found(location_of(spot), self.shift_of(spot, wrap)?);
+        let locations = self.periodic_locations(&asked, near)?;
+        for (location, wrap) in locations.into_iter().zip(&asked.wraps) {
+            found(location_of(location), self.shift_of(location, wrap)?);
         }
         Ok(())
     }
@@ -157,17 +157,21 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     /// Where these places are.
-    pub(super) fn spots(&self, asked: &AskedPlaces<G>, near: Option<Location>) -> Result<Vec<Spot>> {
+    pub(super) fn periodic_locations(
+        &self,
+        asked: &AskedPlaces<G>,
+        near: Option<Location>,
+    ) -> Result<Vec<PeriodicLocation>> {
         let cells = self.read_cells()?;
-        let (mut inner, mut spots) = (Vec::new(), Vec::new());
+        let (mut inner, mut locations) = (Vec::new(), Vec::new());
         memory::reserve_exact(&mut inner, asked.places.len())?;
-        memory::reserve_exact(&mut spots, asked.places.len())?;
+        memory::reserve_exact(&mut locations, asked.places.len())?;
         let near = self.inside_of(cells, near);
         self.inside.t.locate_points(&asked.places, near, |location| inner.push(location))?;
         for (place, inner) in asked.places.iter().zip(inner) {
-            spots.push(self.spot(cells, place, inner)?);
+            locations.push(self.periodic_location(cells, place, inner)?);
         }
-        Ok(spots)
+        Ok(locations)
     }
 
     /// A location inside that has been told as this one, to begin a search at.
@@ -181,29 +185,36 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         }
     }
 
-    /// By which multiples of the given vectors what is at a spot is translated from where it is told to be.
-    fn shift_of(&self, spot: Spot, wrap: &[i64; 3]) -> Result<[i64; 3]> {
-        let (vertex, shift) = match spot {
-            Spot::Vertex(image) => (image.vertex, image.shift),
-            Spot::Cell((class, shift)) | Spot::Outside((class, shift)) => {
+    /// By which multiples of the given vectors what is at a location is translated from where it is told to be.
+    fn shift_of(&self, location: PeriodicLocation, wrap: &[i64; 3]) -> Result<[i64; 3]> {
+        let (vertex, shift) = match location {
+            PeriodicLocation::Vertex(image) => (image.vertex, image.shift),
+            PeriodicLocation::Cell((class, shift)) | PeriodicLocation::Outside((class, shift)) => {
                 let cells = self.read_cells()?;
                 (self.least_of(cells, class.index()), shift)
             }
-            Spot::NoCells => return Ok([0; 3]),
+            PeriodicLocation::NoCells => return Ok([0; 3]),
         };
         let own = &self.wraps[vertex];
         Ok(self.lattice.of_caller([0, 1, 2].map(|j| i64::from(shift[j]) + wrap[j] - own[j])))
     }
 
     /// Where a place in the unit cell is, which is there inside.
-    pub(super) fn spot(&self, cells: &PeriodicCells<G>, place: &G::Point, inner: Location) -> Result<Spot> {
+    pub(super) fn periodic_location(
+        &self,
+        cells: &PeriodicCells<G>,
+        place: &G::Point,
+        inner: Location,
+    ) -> Result<PeriodicLocation> {
         match inner {
-            Location::Vertex(v) => Ok(Spot::Vertex(self.represented(self.inside.images.of(v))?)),
+            Location::Vertex(v) => Ok(PeriodicLocation::Vertex(self.represented(self.inside.images.of(v))?)),
             Location::Cell(cell) if cells.class_of[cell] != NO_CELL => {
-                Ok(Spot::Cell(self.placed(cells, cell)?))
+                Ok(PeriodicLocation::Cell(self.placed(cells, cell)?))
             }
             Location::Cell(cell) | Location::Outside(cell) => self.searched(cells, place, cell),
-            Location::NoCells => Ok(self.at_vertex(place).map_or(Spot::NoCells, Spot::Vertex)),
+            Location::NoCells => {
+                Ok(self.at_vertex(place).map_or(PeriodicLocation::NoCells, PeriodicLocation::Vertex))
+            }
         }
     }
 
@@ -250,7 +261,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
 
     /// Where a place is, by a search from a corner of a cell inside.
     #[cold]
-    fn searched(&self, cells: &PeriodicCells<G>, place: &G::Point, cell: CellId) -> Result<Spot> {
+    fn searched(&self, cells: &PeriodicCells<G>, place: &G::Point, cell: CellId) -> Result<PeriodicLocation> {
         let (first, corner) = self.first_of(cells, cell)?;
         let way = PlaceRanges::of(&self.lattice, &[corner, *place]);
         let (mut seen, mut waiting) = (SeenCells::default(), Vec::new());
@@ -262,14 +273,16 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             let beyond = self.facets_before(&corners, place);
             if beyond == 0 {
                 let vertex = corners[..=G::D].iter().find(|(_, p)| p.as_ref() == place.as_ref());
-                return Ok(vertex.map_or(Spot::Cell(at), |&(image, _)| Spot::Vertex(image)));
+                return Ok(
+                    vertex.map_or(PeriodicLocation::Cell(at), |&(image, _)| PeriodicLocation::Vertex(image))
+                );
             }
             // What waits last is looked at first: neighbours towards the place.
             for is_beyond in [false, true] {
                 for i in (0..=G::D).filter(|&i| (beyond >> i & 1 == 1) == is_beyond) {
                     let Some(across) = across(cells, at, i) else {
                         if is_beyond {
-                            return Ok(Spot::Outside(at));
+                            return Ok(PeriodicLocation::Outside(at));
                         }
                         continue;
                     };
@@ -334,11 +347,11 @@ pub(super) fn across<G: Dimension>(
     (next != NO_CELL).then(|| (next, plus(cells.neighbour_shifts.of(class.index())[i], by)))
 }
 
-fn location_of(spot: Spot) -> Location {
-    match spot {
-        Spot::Vertex(image) => Location::Vertex(image.vertex),
-        Spot::Cell((class, _)) => Location::Cell(class),
-        Spot::Outside((class, _)) => Location::Outside(class),
-        Spot::NoCells => Location::NoCells,
+fn location_of(location: PeriodicLocation) -> Location {
+    match location {
+        PeriodicLocation::Vertex(image) => Location::Vertex(image.vertex),
+        PeriodicLocation::Cell((class, _)) => Location::Cell(class),
+        PeriodicLocation::Outside((class, _)) => Location::Outside(class),
+        PeriodicLocation::NoCells => Location::NoCells,
     }
 }

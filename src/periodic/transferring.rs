@@ -12,7 +12,7 @@ use crate::motion::{
 use crate::periodic::cells::PeriodicCells;
 use crate::periodic::changes::ChangeLists;
 use crate::periodic::lattice::plus;
-use crate::periodic::locating::Spot;
+use crate::periodic::locating::PeriodicLocation;
 use crate::periodic::triangulation::PeriodicTriangulation;
 use crate::predicates::PlaceInSpace;
 
@@ -196,16 +196,16 @@ impl<G: Dimension> Now for Repeating<'_, G> {
         let (t, mut position) = (self.t, G::Point::default());
         (0..G::D).for_each(|axis| position[axis] = place[axis]);
         let Ok((home, wrap)) = t.lattice.wrapped("positions", 0, &position) else { return Ok(None) };
-        let (cell, shift) = match t.spot(self.cells, &home, t.inside.t.locate(&home)?)? {
-            Spot::Vertex(image) => {
+        let (cell, shift) = match t.periodic_location(self.cells, &home, t.inside.t.locate(&home)?)? {
+            PeriodicLocation::Vertex(image) => {
                 let Some(cell) = t.inside.t.a_cell_at(t.inside.images.home(image.vertex))? else {
                     return Ok(None);
                 };
                 let (class, by) = t.placed(self.cells, cell)?;
                 (class, plus(by, image.shift))
             }
-            Spot::Cell(placed) => placed,
-            Spot::Outside(_) | Spot::NoCells => return Ok(None),
+            PeriodicLocation::Cell(placed) => placed,
+            PeriodicLocation::Outside(_) | PeriodicLocation::NoCells => return Ok(None),
         };
         Ok(Some((cell, [0, 1, 2].map(|j| i64::from(shift[j]) + wrap[j]))))
     }

@@ -18,7 +18,7 @@ use crate::machine::memory;
 use crate::motion::{Location, Ridges};
 use crate::periodic::cells::{PeriodicCells, RowHasher};
 use crate::periodic::images::Image;
-use crate::periodic::locating::{PlacedCell, Spot, across};
+use crate::periodic::locating::{PeriodicLocation, PlacedCell, across};
 use crate::periodic::triangulation::PeriodicTriangulation;
 
 /// By the corner opposite a facet of a cell of space, the other ones, all counter-clockwise as seen from outside.
@@ -71,10 +71,10 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let near = self.inside_of(cells, near);
         self.inside.t.locate_points(&[place], near, |location| inner = location)?;
         let mut found = Vec::new();
-        let first = match self.spot(cells, &place, inner)? {
-            Spot::Cell(placed) => placed,
-            Spot::Outside(_) => return Err(Error::OutsideOfPeriodic { argument: "position" }),
-            Spot::Vertex(_) | Spot::NoCells => return Ok(found),
+        let first = match self.periodic_location(cells, &place, inner)? {
+            PeriodicLocation::Cell(placed) => placed,
+            PeriodicLocation::Outside(_) => return Err(Error::OutsideOfPeriodic { argument: "position" }),
+            PeriodicLocation::Vertex(_) | PeriodicLocation::NoCells => return Ok(found),
         };
         let mut zone = ZoneCells::default();
         self.fill_zone(cells, (first, &place), &mut zone, |_, _| Ok(()))?;

@@ -38,7 +38,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub fn commit_timestamp(&mut self) -> Result<CommitReport> {
         self.reject_prepared()?;
         self.mesh.last_found.begin();
-        self.heed_staged_passings()?;
+        self.apply_passing_policy_to_staged()?;
         let mut staging = std::mem::take(&mut self.staging);
         let done = self.commit(&mut staging.moves(self.mesh.n_present));
         if done.is_ok() {
@@ -78,7 +78,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.mesh.reject_coincidence(self.options.coincidence)
         } else {
             self.mesh.begin(Aim::Commit)?;
-            self.edit_and_advance(moves, &mut report).and_then(|()| self.mesh.lay_segments())
+            self.edit_and_advance(moves, &mut report).and_then(|()| self.mesh.enforce_segments())
         };
         if let Err(error) = advanced.and_then(|()| self.mesh.views.prepare(&self.mesh.kernel)) {
             self.undo();
@@ -96,7 +96,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// where the check begins.
     pub fn check_staged(&mut self) -> Result<()> {
         self.mesh.last_found.begin();
-        self.heed_staged_passings()?;
+        self.apply_passing_policy_to_staged()?;
         self.check_conflicts()
     }
 
@@ -130,7 +130,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Ok(());
         }
         self.mesh.begin(Aim::Check)?;
-        let advanced = self.edit_and_advance(moves, &mut report).and_then(|()| self.mesh.lay_segments());
+        let advanced = self.edit_and_advance(moves, &mut report).and_then(|()| self.mesh.enforce_segments());
         self.undo();
         match advanced {
             Err(Error::Cancelled) if self.mesh.segments.as_ref().is_some_and(|s| s.is_checked()) => Ok(()),
@@ -164,7 +164,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         if self.can_stage_whole(positions.len()) && !positions.is_empty() {
             let mut moves = Moves::lent(positions);
-            self.heed_passings(|| Ok(Steps::All(moves.checked()?)))?;
+            self.apply_passing_policy(|| Ok(Steps::All(moves.checked()?)))?;
             return self.commit(&mut moves);
         }
         let before = memory::copy_of(self.edits.insertions())?;

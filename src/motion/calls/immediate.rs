@@ -52,7 +52,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if old == q {
             return Ok(());
         }
-        self.heed_passings(|| Ok(Steps::One(vertex, q)))?;
+        self.apply_passing_policy(|| Ok(Steps::One(vertex, q)))?;
         self.foreseen.prefetch_next_stars(&self.mesh, vertex);
         let before = self.mesh.evaluations();
         let mut report = CommitReport { moved: 1, ..CommitReport::default() };

@@ -160,10 +160,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         let Some(segments) = &self.mesh.segments else { return Ok(absent) };
         let pieces = self.made.iter().flat_map(|made| made.pieces());
         let origins = pieces
-            .filter(|(piece, _)| segments.laid_or_staged(*piece).is_some())
+            .filter(|(piece, _)| segments.enforced_or_staged(*piece).is_some())
             .map(|(_, origin)| origin.ends);
-        let all =
-            segments.laid().map(|(_, segment)| segment).chain(segments.staged().iter().copied().flatten());
+        let all = segments
+            .enforced()
+            .map(|(_, segment)| segment)
+            .chain(segments.staged().iter().copied().flatten());
         let ends = all.map(|segment| segment.ends).chain(origins).flatten();
         for v in ends.filter(|&v| v != VertexId::NONE && self.mesh.is_absent(v)) {
             memory::push(&mut absent, v)?;

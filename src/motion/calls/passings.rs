@@ -49,15 +49,15 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Looks at the staged moves as the options say.
-    pub(in crate::motion) fn heed_staged_passings(&mut self) -> Result<()> {
+    pub(in crate::motion) fn apply_passing_policy_to_staged(&mut self) -> Result<()> {
         let staging = std::mem::take(&mut self.staging);
-        let heeded = self.heed_passings(|| Ok(Steps::Staged(&staging)));
+        let applied = self.apply_passing_policy(|| Ok(Steps::Staged(&staging)));
         self.staging = staging;
-        heeded
+        applied
     }
 
     /// Looks at a step as the options say, if there are segments; `steps` is asked for where that is so.
-    pub(in crate::motion) fn heed_passings<'a>(
+    pub(in crate::motion) fn apply_passing_policy<'a>(
         &mut self,
         steps: impl FnOnce() -> Result<Steps<'a, G>>,
     ) -> Result<()>
@@ -77,7 +77,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     fn look_for_passings(&mut self, steps: &Steps<'_, G>) -> Result<()> {
         let found = find(&self.mesh, &self.edits, steps)?;
-        self.mesh.last_found.tell_passings(found);
+        self.mesh.last_found.report_passings(found);
         Ok(())
     }
 }

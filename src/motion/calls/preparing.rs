@@ -33,7 +33,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// round, from where the round before has left the vertices.
     pub fn prepare_timestamp(&mut self) -> Result<CommitReport> {
         self.mesh.last_found.begin();
-        self.heed_staged_passings()?;
+        self.apply_passing_policy_to_staged()?;
         if self.mesh.rounds.is_none() {
             let before = self.published();
             self.mesh.open_rounds(before)?;

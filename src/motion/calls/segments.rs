@@ -48,7 +48,7 @@ impl MovingTriangulation<Plane> {
 
     /// The segments in force, with their ids, ascending.
     pub fn segments(&self) -> impl Iterator<Item = (SegmentId, Segment)> {
-        self.mesh.segments.iter().flat_map(|segments| segments.laid())
+        self.mesh.segments.iter().flat_map(|segments| segments.enforced())
     }
 
     /// The conflicts for which the latest call that changes or checks was refused, ascending; none if it was not refused

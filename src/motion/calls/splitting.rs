@@ -212,7 +212,7 @@ impl MovingTriangulation<Plane> {
     /// The vertices between which a segment is, in force or staged, and their places.
     fn ends_after(&self, segment: SegmentId) -> ([VertexId; 2], [[f64; 2]; 2]) {
         let segments = self.mesh.segments.as_ref();
-        let found = segments.and_then(|segments| segments.laid_or_staged(segment));
+        let found = segments.and_then(|segments| segments.enforced_or_staged(segment));
         let ends = found.expect("a segment with a conflict").ends;
         (ends, ends.map(|v| self.place_after(v).expect("a segment that has its ends")))
     }
@@ -355,7 +355,7 @@ impl MovingTriangulation<Plane> {
         if let Some(segments) = &mut self.mesh.segments {
             segments.restore_staged(&before.staged, &before.leaving);
         }
-        self.mesh.last_found.tell_conflicts(if is_refused { before.conflicts } else { Vec::new() });
+        self.mesh.last_found.report_conflicts(if is_refused { before.conflicts } else { Vec::new() });
         self.edits.truncate_insertions(before.n_insertions);
         self.mesh.site_of.truncate(before.first_vertex.index());
         self.mesh.kernel.keys_mut().truncate(before.first_vertex.index());

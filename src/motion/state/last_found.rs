@@ -28,19 +28,19 @@ impl LastFound {
         &self.passings
     }
 
-    /// Segments are about to be laid, maybe once more in the same call: to be filled with what is in their way.
+    /// Segments are about to be enforced, maybe once more in the same call: to be filled with what is in their way.
     pub(in crate::motion) fn conflicts_to_fill(&mut self) -> &mut Vec<Conflict> {
         self.conflicts.clear();
         &mut self.conflicts
     }
 
     /// The call is refused for these, in place of those that were found last.
-    pub(in crate::motion) fn tell_conflicts(&mut self, conflicts: Vec<Conflict>) {
+    pub(in crate::motion) fn report_conflicts(&mut self, conflicts: Vec<Conflict>) {
         self.conflicts = conflicts;
     }
 
     /// The call has looked at a step.
-    pub(in crate::motion) fn tell_passings(&mut self, passings: Vec<Passing>) {
+    pub(in crate::motion) fn report_passings(&mut self, passings: Vec<Passing>) {
         self.passings = passings;
     }
 

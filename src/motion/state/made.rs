@@ -66,13 +66,13 @@ impl Made {
         self.pieces.iter().chain(&self.coming)
     }
 
-    /// What saved lists say, each ascending: pieces from `n_laid` on are staged.
+    /// What saved lists say, each ascending: pieces from `n_enforced` on are staged.
     pub(in crate::motion) fn of_lists(
         vertices: Vec<(VertexId, SegmentId)>,
         mut pieces: Vec<(SegmentId, Origin)>,
-        n_laid: usize,
+        n_enforced: usize,
     ) -> Result<Self> {
-        let first = pieces.partition_point(|&(piece, _)| piece.index() < n_laid);
+        let first = pieces.partition_point(|&(piece, _)| piece.index() < n_enforced);
         let mut coming = Vec::new();
         memory::append(&mut coming, &pieces[first..])?;
         // Its room stays, for when those are made.

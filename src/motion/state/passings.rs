@@ -129,8 +129,8 @@ impl<G: Dimension> Step<'_, G> {
     fn segments(&self) -> Result<Vec<Swept>> {
         let mut swept = Vec::new();
         let Some(segments) = &self.mesh.segments else { return Ok(swept) };
-        memory::reserve(&mut swept, segments.laid().len())?;
-        for (id, segment) in segments.laid().filter(|&(id, _)| !segments.is_leaving(id)) {
+        memory::reserve(&mut swept, segments.enforced().len())?;
+        for (id, segment) in segments.enforced().filter(|&(id, _)| !segments.is_leaving(id)) {
             if let [Some(a), Some(b)] = segment.ends.map(|v| self.walker(v)) {
                 let place = segment.ends.map(|v| self.mesh.site_of[v].get());
                 swept.push(Swept { id, ends: [a, b], place: place[0].min(place[1]) });

@@ -1,9 +1,9 @@
 //! Segments between vertices, which have to be edges, and what becomes of them in a change.
 //!
 //! ```text
-//! lift: the cells that segments have taken the place of are put back
+//! relax: the cells that segments have taken the place of are put back
 //! the vertices move, come and go, in the Delaunay triangulation
-//! lay: all segments that are missing are looked along, and then entered
+//! enforce: all segments that are missing are looked along, and then entered
 //! ```
 //!
 //! What is in the way of a segment is a *conflict*. If there is any, the change is undone; all are told.
@@ -67,7 +67,7 @@ pub(in crate::motion) enum Aim {
 }
 
 impl Aim {
-    /// Whether staged segments are laid.
+    /// Whether staged segments are enforced.
     fn takes_staged(self) -> bool {
         matches!(self, Aim::Commit | Aim::Check)
     }
@@ -78,9 +78,9 @@ impl Aim {
 pub(in crate::motion) struct Segments<G: Dimension> {
     /// The segments in force, ascending: refinement gives ids for ever, so there is no array by id. There is room for all
     /// staged ones.
-    laid: Vec<(SegmentId, Segment)>,
+    enforced: Vec<(SegmentId, Segment)>,
     /// How many ids have been given to those that are, or were, in force.
-    n_laid: usize,
+    n_enforced: usize,
     /// The staged segments, whose ids follow; `None` for those that pieces are staged for.
     staged: Vec<Option<Segment>>,
     /// The segments that the next commit removes.
@@ -97,7 +97,7 @@ pub(in crate::motion) struct Segments<G: Dimension> {
     is_end: Vec<bool>,
     /// A cell that each of `edges` was seen at last.
     seen: Vec<Slot>,
-    /// The entries of `edges` that are no edges before segments are laid.
+    /// The entries of `edges` that are no edges before segments are enforced.
     missing: Vec<usize>,
     aim: Aim,
     /// Whether a check has found that there are no conflicts.
@@ -107,8 +107,8 @@ pub(in crate::motion) struct Segments<G: Dimension> {
 impl<G: Dimension> Default for Segments<G> {
     fn default() -> Self {
         Segments {
-            laid: Vec::new(),
-            n_laid: 0,
+            enforced: Vec::new(),
+            n_enforced: 0,
             staged: Vec::new(),
             leaving: Vec::new(),
             replaced: Replaced::default(),
@@ -128,9 +128,9 @@ impl<G: Dimension> Default for Segments<G> {
 /// What is known of segments beside [`Segments::set_aside`] to take back a change that has been settled.
 #[derive(Debug, Default)]
 pub(in crate::motion) struct SegmentsBefore {
-    /// Whether nothing was lifted.
+    /// Whether nothing was relaxed.
     is_of_rest: bool,
-    n_laid: usize,
+    n_enforced: usize,
     /// The segments that the change has removed.
     removed: Vec<(SegmentId, Segment)>,
 }
@@ -196,7 +196,7 @@ impl<G: Dimension> Segments<G> {
     }
 
     /// A change begins: puts back the cells that segments have taken the place of.
-    pub(in crate::motion) fn lift(&mut self, kernel: &mut Delaunay<G>, aim: Aim) -> Result<()> {
+    pub(in crate::motion) fn relax(&mut self, kernel: &mut Delaunay<G>, aim: Aim) -> Result<()> {
         self.next.clear();
         (self.aim, self.is_checked) = (aim, false);
         if aim == Aim::Rest { Ok(()) } else { kernel.put_back_replaced(&self.replaced) }
@@ -210,7 +210,7 @@ impl<G: Dimension> Segments<G> {
 
     /// Enters the segments that are missing in the Delaunay triangulation of a kernel: those in force, or, in a commit,
     /// those that will be. `site_of` is by vertex id.
-    pub(in crate::motion) fn lay(
+    pub(in crate::motion) fn enforce(
         &mut self,
         kernel: &mut Delaunay<G>,
         site_of: &[SiteId],
@@ -246,7 +246,7 @@ impl<G: Dimension> Segments<G> {
     }
 
     /// Enters the segments that are missing in a new kernel, which takes the place of the old one if nothing conflicts.
-    pub(in crate::motion) fn lay_in_new(
+    pub(in crate::motion) fn enforce_in_new(
         &mut self,
         kernel: &mut Delaunay<G>,
         site_of: &[SiteId],
@@ -254,32 +254,32 @@ impl<G: Dimension> Segments<G> {
     ) -> Result<()> {
         // A new kernel has none yet.
         self.edges.clear();
-        let laid = self.lay(kernel, site_of, last_found);
+        let enforced = self.enforce(kernel, site_of, last_found);
         self.before = None;
-        laid
+        enforced
     }
 
     /// Whether the list of edges is still the right one.
     fn are_listed(&self, site_of: &[SiteId]) -> bool {
         let is_right = |&(edge, id): &([SiteId; 2], SegmentId)| {
-            self.laid_or_staged(id)
+            self.enforced_or_staged(id)
                 .is_some_and(|segment| ordered(segment.ends.map(|v| site_of[v.index()])) == edge)
         };
         !(self.aim.takes_staged() && self.are_staged())
-            && self.edges.len() == self.laid.len()
+            && self.edges.len() == self.enforced.len()
             && self.edges.iter().all(is_right)
     }
 
     /// Lists the edges that have to be there, and the conflicts of ends alone.
     fn list_edges(&mut self, site_of: &[SiteId], conflicts: &mut Vec<Conflict>) -> Result<()> {
-        let Segments { laid, n_laid, staged, leaving, edges, is_end, seen, .. } = self;
+        let Segments { enforced, n_enforced, staged, leaving, edges, is_end, seen, .. } = self;
         let takes_staged = self.aim.takes_staged();
         edges.clear();
         let staged = if takes_staged { &staged[..] } else { &[] };
-        memory::reserve(edges, laid.len() + staged.len())?;
-        let ids = SegmentId::range(*n_laid..*n_laid + staged.len());
+        memory::reserve(edges, enforced.len() + staged.len())?;
+        let ids = SegmentId::range(*n_enforced..*n_enforced + staged.len());
         let coming = ids.zip(staged).filter_map(|(id, &segment)| Some((id, segment?)));
-        for (id, segment) in laid.iter().copied().chain(coming) {
+        for (id, segment) in enforced.iter().copied().chain(coming) {
             if takes_staged && leaving.binary_search(&id).is_ok() {
                 continue;
             }
@@ -413,7 +413,7 @@ impl<G: Dimension> Segments<G> {
         let mut removed = Vec::new();
         let leaving = self.leaving.iter().filter_map(|&id| Some((id, self.get(id)?)));
         memory::collect(&mut removed, leaving)?;
-        Ok(SegmentsBefore { is_of_rest: false, n_laid: self.n_laid, removed })
+        Ok(SegmentsBefore { is_of_rest: false, n_enforced: self.n_enforced, removed })
     }
 
     /// The change stays, and so does what was before it.
@@ -441,10 +441,10 @@ impl<G: Dimension> Segments<G> {
             std::mem::swap(&mut self.replaced, &mut self.next);
         }
         // There is room, as there was before.
-        self.n_laid = before.n_laid;
-        self.laid.retain(|&(id, _)| id.index() < before.n_laid);
-        self.laid.extend(before.removed);
-        self.laid.sort_unstable_by_key(|&(id, _)| id);
+        self.n_enforced = before.n_enforced;
+        self.enforced.retain(|&(id, _)| id.index() < before.n_enforced);
+        self.enforced.extend(before.removed);
+        self.enforced.sort_unstable_by_key(|&(id, _)| id);
     }
 
     /// Forgets what was before changes that have been settled.
@@ -476,8 +476,8 @@ impl<G: Dimension> Segments<G> {
         site_of: &[SiteId],
     ) -> Result<Self> {
         let mut copy = self.copied()?;
-        let laid = copy.laid.iter_mut().map(|(_, segment)| segment);
-        for segment in laid.chain(copy.staged.iter_mut().flatten()) {
+        let enforced = copy.enforced.iter_mut().map(|(_, segment)| segment);
+        for segment in enforced.chain(copy.staged.iter_mut().flatten()) {
             // An end of a staged one may have been removed before an earlier compaction.
             segment.ends = segment.ends.map(|v| if v == VertexId::NONE { v } else { ids[v.index()] });
         }
@@ -503,12 +503,12 @@ impl<G: Dimension> Segments<G> {
     }
 
     pub(in crate::motion) fn copied(&self) -> Result<Self> {
-        let mut laid = Vec::new();
-        memory::reserve_exact(&mut laid, self.laid.len() + self.staged.len())?;
-        laid.extend_from_slice(&self.laid);
+        let mut enforced = Vec::new();
+        memory::reserve_exact(&mut enforced, self.enforced.len() + self.staged.len())?;
+        enforced.extend_from_slice(&self.enforced);
         Ok(Segments {
-            laid,
-            n_laid: self.n_laid,
+            enforced,
+            n_enforced: self.n_enforced,
             staged: memory::copy_of(&self.staged)?,
             leaving: memory::copy_of(&self.leaving)?,
             replaced: self.replaced.copied()?,
@@ -517,7 +517,7 @@ impl<G: Dimension> Segments<G> {
     }
 
     pub(in crate::motion) fn memory_bytes(&self) -> usize {
-        memory::bytes_of(&self.laid)
+        memory::bytes_of(&self.enforced)
             + memory::bytes_of(&self.staged)
             + memory::bytes_of(&self.leaving)
             + self.replaced.memory_bytes()

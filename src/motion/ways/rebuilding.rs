@@ -99,7 +99,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<()> {
         let built = is_ready.and_then(|()| {
             let built = self.build(&mut next)?;
-            self.mesh.lay_segments_in(&mut next, &built.0)?;
+            self.mesh.enforce_segments_in(&mut next, &built.0)?;
             self.mesh.make_room_for_former()?;
             Ok(built)
         });

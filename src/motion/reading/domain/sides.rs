@@ -37,8 +37,8 @@ impl MovingTriangulation<Plane> {
         }
         let beside = self.cells_of_segments()?;
         // Nothing fails from here on.
-        let laid = self.mesh.segments.iter_mut().flat_map(|segments| segments.laid_mut());
-        for (segment, row) in laid.zip(beside) {
+        let enforced = self.mesh.segments.iter_mut().flat_map(|segments| segments.enforced_mut());
+        for (segment, row) in enforced.zip(beside) {
             segment.sides = row.map(|cell| labels.get(cell.index()).copied().unwrap_or(NO_LABEL));
         }
         Ok(())
@@ -53,7 +53,7 @@ impl MovingTriangulation<Plane> {
         self.reject_prepared()?;
         let segments = self.mesh.segments.as_deref();
         let is_there =
-            |&id: &SegmentId| segments.is_some_and(|segments| segments.laid_or_staged(id).is_some());
+            |&id: &SegmentId| segments.is_some_and(|segments| segments.enforced_or_staged(id).is_some());
         if let Some(index) = given.iter().position(|id| !is_there(id)) {
             let ids = segments.map_or(0, |segments| segments.n_ids());
             return Err(Error::NoSuchSegment { argument: "segments", index, segment: given[index], ids });

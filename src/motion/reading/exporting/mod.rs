@@ -164,7 +164,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// represent them.
     fn lines(&self) -> impl Iterator<Item = Segment> + '_ {
         let shown = |v: VertexId| self.mesh.kernel.site(self.mesh.site_of[v]).id;
-        let segments = self.mesh.segments.iter().flat_map(|segments| segments.laid());
+        let segments = self.mesh.segments.iter().flat_map(|segments| segments.enforced());
         segments.map(move |(_, segment)| Segment { ends: segment.ends.map(shown), ..segment })
     }
 

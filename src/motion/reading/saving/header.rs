@@ -253,7 +253,7 @@ impl Header {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct SegmentCounts {
     pub(super) ids: usize,
-    pub(super) laid: usize,
+    pub(super) enforced: usize,
     pub(super) removals: usize,
     pub(super) made_vertices: usize,
     pub(super) pieces: usize,
@@ -273,7 +273,7 @@ impl SegmentCounts {
 
     /// How many segments have a row: those of all ids, or those in force and those that are staged.
     pub(super) fn rows(&self) -> usize {
-        self.listed.map_or(self.ids, |listed| listed + (self.ids - self.laid))
+        self.listed.map_or(self.ids, |listed| listed + (self.ids - self.enforced))
     }
 
     /// The segment of the numbers of a row, and its id.
@@ -292,7 +292,7 @@ impl SegmentCounts {
 
     /// In the order in which they are saved.
     pub(super) fn numbers(&self) -> impl Iterator<Item = u64> {
-        let all = [self.ids, self.laid, self.removals, self.made_vertices, self.pieces];
+        let all = [self.ids, self.enforced, self.removals, self.made_vertices, self.pieces];
         all.into_iter().chain(self.listed).map(|n| n as u64)
     }
 
@@ -313,14 +313,14 @@ impl SegmentCounts {
         let number = |k: usize| usize::try_from(numbers[k]).map_err(|_| Damage::Counts);
         let counts = SegmentCounts {
             ids: number(0)?,
-            laid: number(1)?,
+            enforced: number(1)?,
             removals: number(2)?,
             made_vertices: number(3)?,
             pieces: number(4)?,
             listed: (numbers.len() > 5).then(|| number(5)).transpose()?,
         };
-        let SegmentCounts { ids, laid, listed, .. } = counts;
-        let are_in_order = listed.unwrap_or(0) <= laid && laid <= ids && ids <= MAX_SEGMENTS;
+        let SegmentCounts { ids, enforced, listed, .. } = counts;
+        let are_in_order = listed.unwrap_or(0) <= enforced && enforced <= ids && ids <= MAX_SEGMENTS;
         if are_in_order && counts.bytes() == header.segment_bytes as u128 {
             Ok(counts)
         } else {

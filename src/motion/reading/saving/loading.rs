@@ -69,14 +69,14 @@ impl Reader<'_> {
         let counts = &mut counts[..numbers.len()];
         counts.iter_mut().zip(numbers).for_each(|(count, &bytes)| *count = u64::from_le_bytes(bytes));
         let counts = SegmentCounts::of(counts, header)?;
-        let (SegmentCounts { laid, removals, .. }, n) = (counts, counts.numbers_of_one());
+        let (SegmentCounts { enforced, removals, .. }, n) = (counts, counts.numbers_of_one());
         let (mut in_force, mut staged) = (Vec::new(), Vec::new());
         for (k, row) in self.entries::<4>(n * counts.rows()).chunks_exact(n).enumerate() {
             let (id, segment) = counts.row(k, row);
-            let is_staged = k >= counts.listed.unwrap_or(laid);
+            let is_staged = k >= counts.listed.unwrap_or(enforced);
             let follows = match counts.listed {
-                Some(listed) if is_staged => id.index() == laid + (k - listed),
-                Some(_) => id.index() < laid && in_force.last().is_none_or(|&(last, _)| last < id),
+                Some(listed) if is_staged => id.index() == enforced + (k - listed),
+                Some(_) => id.index() < enforced && in_force.last().is_none_or(|&(last, _)| last < id),
                 None => true,
             };
             if !follows {
@@ -106,7 +106,7 @@ impl Reader<'_> {
         if let Some(&segment) = leaving.iter().find(is_bad).or(twice) {
             return Err(Damage::Segment { segment }.into());
         }
-        let segments = memory::boxed(Segments::of_saved(in_force, laid, staged, leaving)?)?;
+        let segments = memory::boxed(Segments::of_saved(in_force, enforced, staged, leaving)?)?;
         if header.has_list && !segments.are_to_be_listed() {
             return Err(Damage::Counts.into());
         }
@@ -121,7 +121,8 @@ impl Reader<'_> {
         n_vertices: usize,
         segments: &Segments<G>,
     ) -> Result<Option<Box<Made>>, LoadError> {
-        let is_original = |segment: SegmentId| segment == SegmentId::NONE || segment.index() < counts.laid;
+        let is_original =
+            |segment: SegmentId| segment == SegmentId::NONE || segment.index() < counts.enforced;
         let mut vertices: Vec<(VertexId, SegmentId)> = Vec::new();
         memory::reserve_exact(&mut vertices, counts.made_vertices)?;
         for row in self.entries::<4>(2 * counts.made_vertices).chunks_exact(2) {
@@ -140,7 +141,7 @@ impl Reader<'_> {
             let (piece, segment) = (SegmentId::new(piece), SegmentId::new(segment));
             let ends = [v, w].map(VertexId::new);
             let follows = pieces.last().is_none_or(|&(last, _)| last < piece);
-            let is_there = segments.laid_or_staged(piece).is_some();
+            let is_there = segments.enforced_or_staged(piece).is_some();
             let is_piece = is_there && segment.index() < piece.index();
             let are_known = ends.iter().all(|&v| v == VertexId::NONE || v.index() < n_vertices);
             if !follows || !is_piece || !are_known {
@@ -151,7 +152,7 @@ impl Reader<'_> {
         if vertices.is_empty() && pieces.is_empty() {
             return Ok(None);
         }
-        Ok(Some(memory::boxed(Made::of_lists(vertices, pieces, counts.laid)?)?))
+        Ok(Some(memory::boxed(Made::of_lists(vertices, pieces, counts.enforced)?)?))
     }
 }
 
@@ -161,7 +162,7 @@ fn ends_of<G: Dimension>(
     representatives: &[VertexId],
 ) -> Result<Vec<[VertexId; 2]>, LoadError> {
     let mut ends = Vec::new();
-    for (id, segment) in segments.into_iter().flat_map(|segments| segments.laid()) {
+    for (id, segment) in segments.into_iter().flat_map(|segments| segments.enforced()) {
         let shown = segment.ends.map(|v| representatives[v]);
         if shown.contains(&VertexId::NONE) || shown[0] == shown[1] {
             return Err(Damage::Segment { segment: id }.into());
@@ -291,7 +292,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if let Some(mut segments) = segments {
             let joined = segments.join(&mut t.mesh.kernel, &t.mesh.site_of);
             joined.map_err(of_segment)?;
-            for (segment, ends) in segments.laid().map(|(id, segment)| (id, segment.ends)) {
+            for (segment, ends) in segments.enforced().map(|(id, segment)| (id, segment.ends)) {
                 let sites = ends.map(|v| t.mesh.site_of[v]);
                 if t.mesh.kernel.has_cells() && t.mesh.kernel.find_edge(sites)? == Slot::NONE {
                     return Err(Damage::Segment { segment }.into());

@@ -24,13 +24,14 @@ fn save_segments<G: Dimension, E>(
     }
     let staged = segments.staged().iter().map(|segment| segment.unwrap_or(GIVEN_UP));
     if counts.listed.is_some() {
-        let staged = SegmentId::range(counts.laid..counts.ids).zip(staged);
-        for (id, Segment { ends: [v, w], marker, sides: [left, right] }) in segments.laid().chain(staged) {
+        let staged = SegmentId::range(counts.enforced..counts.ids).zip(staged);
+        for (id, Segment { ends: [v, w], marker, sides: [left, right] }) in segments.enforced().chain(staged)
+        {
             chunks.numbers(&[id.get(), v.get(), w.get(), marker as u32, left as u32, right as u32])?;
         }
     } else {
-        let laid = segments.laid_by_id().map(|segment| segment.unwrap_or(Segment::NOTHING));
-        for Segment { ends: [v, w], marker, .. } in laid.chain(staged) {
+        let enforced = segments.enforced_by_id().map(|segment| segment.unwrap_or(Segment::NOTHING));
+        for Segment { ends: [v, w], marker, .. } in enforced.chain(staged) {
             chunks.numbers(&[v.get(), w.get(), marker as u32])?;
         }
     }
@@ -173,18 +174,18 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn counts_of(&self, segments: &Segments<G>) -> SegmentCounts {
         SegmentCounts {
             ids: segments.n_ids(),
-            laid: segments.n_laid(),
+            enforced: segments.n_enforced(),
             removals: segments.n_leaving(),
             made_vertices: self.made_vertices().count(),
             pieces: self.pieces_of(segments).count(),
-            listed: segments.are_to_be_listed().then(|| segments.laid().len()),
+            listed: segments.are_to_be_listed().then(|| segments.enforced().len()),
         }
     }
 
     /// The pieces in force, and those that are staged, with where they come from.
     fn pieces_of<'a>(&'a self, segments: &'a Segments<G>) -> impl Iterator<Item = (SegmentId, Origin)> + 'a {
         let all = self.made.iter().flat_map(|made| made.pieces());
-        all.copied().filter(|&(piece, _)| segments.laid_or_staged(piece).is_some())
+        all.copied().filter(|&(piece, _)| segments.enforced_or_staged(piece).is_some())
     }
 
     /// The segments, if there ever was one that was not discarded.

@@ -43,11 +43,11 @@ impl<G: Dimension> Mesh<G> {
         self.transaction.begin(Counts { present: self.n_present, visibilities });
         let Some(segments) = &mut self.segments else { return Ok(()) };
         // What segments refuse is undone after all of it has been made.
-        let lifted = self.kernel.keep_flat().and_then(|()| segments.lift(&mut self.kernel, aim));
-        if lifted.is_err() {
+        let relaxed = self.kernel.keep_flat().and_then(|()| segments.relax(&mut self.kernel, aim));
+        if relaxed.is_err() {
             self.undo();
         }
-        lifted
+        relaxed
     }
 
     /// What undoes the last round is set aside, so that another change can be begun, and
@@ -86,8 +86,8 @@ impl<G: Dimension> Mesh<G> {
         self.segments.as_ref().map_or(Aim::Commit, |segments| segments.aim())
     }
 
-    /// Lays the segments, when the vertices are where they go, unless a new kernel has them.
-    pub(in crate::motion) fn lay_segments(&mut self) -> Result<()> {
+    /// Enforces the segments, when the vertices are where they go, unless a new kernel has them.
+    pub(in crate::motion) fn enforce_segments(&mut self) -> Result<()> {
         let Some(segments) = &mut self.segments else { return Ok(()) };
         if self.transaction.has_rebuilt() {
             return Ok(());
@@ -97,11 +97,11 @@ impl<G: Dimension> Mesh<G> {
         if is_unchanged && segments.are_at_rest() && self.kernel.has_cells() {
             return Ok(());
         }
-        segments.lay(&mut self.kernel, &self.site_of, &mut self.last_found)
+        segments.enforce(&mut self.kernel, &self.site_of, &mut self.last_found)
     }
 
-    /// Lays the segments in a new kernel that hides these vertices.
-    pub(in crate::motion) fn lay_segments_in(
+    /// Enforces the segments in a new kernel that hides these vertices.
+    pub(in crate::motion) fn enforce_segments_in(
         &mut self,
         next: &mut Delaunay<G>,
         hidden: &Hidden,
@@ -112,7 +112,7 @@ impl<G: Dimension> Mesh<G> {
         for s in next.live_sites() {
             hidden.for_all_at(next.site(s).id, |v| site_of[v.index()] = s);
         }
-        segments.lay_in_new(next, &site_of, &mut self.last_found)
+        segments.enforce_in_new(next, &site_of, &mut self.last_found)
     }
 
     /// Keeps the site of a vertex before it gets one of its own, or loses it.

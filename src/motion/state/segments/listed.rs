@@ -17,7 +17,7 @@ impl<G: Dimension> Segments<G> {
             return Err(Error::TooManySegments { given, limit: MAX_SEGMENTS });
         }
         let first = SegmentId::at(self.n_ids());
-        memory::reserve(&mut self.laid, self.staged.len() + segments.len())?;
+        memory::reserve(&mut self.enforced, self.staged.len() + segments.len())?;
         memory::reserve(&mut self.staged, segments.len())?;
         self.staged.extend(segments.map(Some));
         Ok(first)
@@ -25,18 +25,18 @@ impl<G: Dimension> Segments<G> {
 
     /// The segment of an id that is in force or staged, to be changed.
     pub(in crate::motion) fn get_mut(&mut self, segment: SegmentId) -> Option<&mut Segment> {
-        match segment.index().checked_sub(self.n_laid) {
+        match segment.index().checked_sub(self.n_enforced) {
             Some(k) => self.staged.get_mut(k)?.as_mut(),
             None => {
-                let at = self.laid.binary_search_by_key(&segment, |&(id, _)| id).ok()?;
-                Some(&mut self.laid[at].1)
+                let at = self.enforced.binary_search_by_key(&segment, |&(id, _)| id).ok()?;
+                Some(&mut self.enforced[at].1)
             }
         }
     }
 
     /// Whether a side of any of them, staged ones included, has a label.
     pub(in crate::motion) fn have_labels(&self) -> bool {
-        self.laid
+        self.enforced
             .iter()
             .map(|(_, segment)| segment)
             .chain(self.staged.iter().flatten())
@@ -46,7 +46,7 @@ impl<G: Dimension> Segments<G> {
     /// Whether saved data list those in force, by what takes less: where sides have labels, and where those in force have
     /// fewer than half of the ids that were given.
     pub(in crate::motion) fn are_to_be_listed(&self) -> bool {
-        2 * self.laid.len() < self.n_laid || self.have_labels()
+        2 * self.enforced.len() < self.n_enforced || self.have_labels()
     }
 
     /// Stages the removal of a segment that is in force, if it is not.
@@ -89,8 +89,8 @@ impl<G: Dimension> Segments<G> {
 
     /// Takes a segment out of those that will be in force, and returns it: one that is staged is not there any more.
     pub(in crate::motion) fn take_out(&mut self, segment: SegmentId) -> Result<Segment> {
-        let taken = self.laid_or_staged(segment).expect("a segment that is to be in force");
-        match segment.index().checked_sub(self.n_laid) {
+        let taken = self.enforced_or_staged(segment).expect("a segment that is to be in force");
+        match segment.index().checked_sub(self.n_enforced) {
             Some(k) => self.staged[k] = None,
             None => self.stage_removal(segment)?,
         }
@@ -107,75 +107,75 @@ impl<G: Dimension> Segments<G> {
         &self.leaving
     }
 
-    /// The staged segments, by id from [`n_laid`](Self::n_laid) on; `None` for those that pieces are staged for.
+    /// The staged segments, by id from [`n_enforced`](Self::n_enforced) on; `None` for those that pieces are staged for.
     pub(in crate::motion) fn staged(&self) -> &[Option<Segment>] {
         &self.staged
     }
 
-    /// By id from 0 to [`n_laid`](Self::n_laid), with `None` for those removed.
-    pub(in crate::motion) fn laid_by_id(&self) -> impl Iterator<Item = Option<Segment>> {
-        let mut laid = self.laid.iter().peekable();
-        SegmentId::range(0..self.n_laid)
-            .map(move |id| laid.next_if(|&&(next, _)| next == id).map(|&(_, segment)| segment))
+    /// By id from 0 to [`n_enforced`](Self::n_enforced), with `None` for those removed.
+    pub(in crate::motion) fn enforced_by_id(&self) -> impl Iterator<Item = Option<Segment>> {
+        let mut enforced = self.enforced.iter().peekable();
+        SegmentId::range(0..self.n_enforced)
+            .map(move |id| enforced.next_if(|&&(next, _)| next == id).map(|&(_, segment)| segment))
     }
 
     /// A segment that is in force or staged.
-    pub(in crate::motion) fn laid_or_staged(&self, segment: SegmentId) -> Option<Segment> {
-        match segment.index().checked_sub(self.n_laid) {
+    pub(in crate::motion) fn enforced_or_staged(&self, segment: SegmentId) -> Option<Segment> {
+        match segment.index().checked_sub(self.n_enforced) {
             Some(k) => self.staged.get(k).copied().flatten(),
             None => self.get(segment),
         }
     }
 
     /// How many ids have been given to segments that are, or were, in force: those behind are staged.
-    pub(in crate::motion) fn n_laid(&self) -> usize {
-        self.n_laid
+    pub(in crate::motion) fn n_enforced(&self) -> usize {
+        self.n_enforced
     }
 
-    /// Segments as they were saved, those in force ascending and of ids below `n_laid`.
+    /// Segments as they were saved, those in force ascending and of ids below `n_enforced`.
     pub(in crate::motion) fn of_saved(
-        mut laid: Vec<(SegmentId, Segment)>,
-        n_laid: usize,
+        mut enforced: Vec<(SegmentId, Segment)>,
+        n_enforced: usize,
         staged: Vec<Option<Segment>>,
         leaving: Vec<SegmentId>,
     ) -> Result<Self> {
-        memory::reserve(&mut laid, staged.len())?;
-        Ok(Segments { laid, n_laid, staged, leaving, ..Segments::default() })
+        memory::reserve(&mut enforced, staged.len())?;
+        Ok(Segments { enforced, n_enforced, staged, leaving, ..Segments::default() })
     }
 
     /// The ids that have been given.
     pub(in crate::motion) fn n_ids(&self) -> usize {
-        self.n_laid + self.staged.len()
+        self.n_enforced + self.staged.len()
     }
 
     /// A segment that is in force.
     pub(in crate::motion) fn get(&self, segment: SegmentId) -> Option<Segment> {
         // Where none has been removed it is found at once, and it is nowhere behind.
-        let n = self.laid.len().min(segment.index() + 1);
-        match self.laid[..n].last() {
+        let n = self.enforced.len().min(segment.index() + 1);
+        match self.enforced[..n].last() {
             Some(&(id, found)) if id == segment => Some(found),
             _ => {
-                let at = self.laid[..n].binary_search_by_key(&segment, |&(id, _)| id).ok()?;
-                Some(self.laid[at].1)
+                let at = self.enforced[..n].binary_search_by_key(&segment, |&(id, _)| id).ok()?;
+                Some(self.enforced[at].1)
             }
         }
     }
 
     /// The segments in force, with their ids, ascending.
-    pub(in crate::motion) fn laid(&self) -> impl ExactSizeIterator<Item = (SegmentId, Segment)> {
-        self.laid.iter().copied()
+    pub(in crate::motion) fn enforced(&self) -> impl ExactSizeIterator<Item = (SegmentId, Segment)> {
+        self.enforced.iter().copied()
     }
 
     /// The segments in force, ascending, to be changed.
-    pub(in crate::motion) fn laid_mut(&mut self) -> impl Iterator<Item = &mut Segment> {
-        self.laid.iter_mut().map(|(_, segment)| segment)
+    pub(in crate::motion) fn enforced_mut(&mut self) -> impl Iterator<Item = &mut Segment> {
+        self.enforced.iter_mut().map(|(_, segment)| segment)
     }
 
     /// Takes the labels away from all sides.
     pub(in crate::motion) fn forget_labels(&mut self) {
         let staged = self.staged.iter_mut().flatten();
-        let laid = self.laid.iter_mut().map(|(_, segment)| segment);
-        laid.chain(staged).for_each(|segment| segment.sides = Segment::NOTHING.sides);
+        let enforced = self.enforced.iter_mut().map(|(_, segment)| segment);
+        enforced.chain(staged).for_each(|segment| segment.sides = Segment::NOTHING.sides);
     }
 
     /// Whether some are staged, or the removal of some.
@@ -183,15 +183,15 @@ impl<G: Dimension> Segments<G> {
         !self.staged.is_empty() || !self.leaving.is_empty()
     }
 
-    /// A commit has laid what was staged.
+    /// A commit has enforced what was staged.
     pub(in crate::motion) fn end_staging(&mut self) {
-        let Segments { laid, n_laid, staged, leaving, .. } = self;
+        let Segments { enforced, n_enforced, staged, leaving, .. } = self;
         if !leaving.is_empty() {
-            laid.retain(|(id, _)| leaving.binary_search(id).is_err());
+            enforced.retain(|(id, _)| leaving.binary_search(id).is_err());
             leaving.clear();
         }
-        let ids = SegmentId::range(*n_laid..*n_laid + staged.len());
-        *n_laid += staged.len();
-        laid.extend(ids.zip(staged.drain(..)).filter_map(|(id, segment)| Some((id, segment?))));
+        let ids = SegmentId::range(*n_enforced..*n_enforced + staged.len());
+        *n_enforced += staged.len();
+        enforced.extend(ids.zip(staged.drain(..)).filter_map(|(id, segment)| Some((id, segment?))));
     }
 }
