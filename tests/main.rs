@@ -42,4 +42,5 @@ mod suites;
 mod threads;
 mod tolerances;
 mod transferring;
+mod words;
 mod work;

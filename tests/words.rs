@@ -1,0 +1,124 @@
+//! Words of src: comments that can be read alone, and names of types that stand for one thing.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+/// How a comment does not begin: the noun is in another place then.
+const POINTING: [&str; 8] = ["Those", "These", "It", "They", "That", "This", "The same", "Such"];
+
+/// Where comments still begin so, as paths in src.
+const POINTING_IN: [&str; 4] = ["capi", "delaunay", "refine", "motion/calls/refining"];
+
+/// How many names stand for several types: fewer is better.
+const MOST_SHARED: usize = 17;
+
+/// The sources below a folder, without files of tests: the path in src of each, and its lines up to its own tests.
+fn read(folder: &Path, path: &str, sources: &mut BTreeMap<String, String>) {
+    for entry in fs::read_dir(folder).expect("a folder of sources") {
+        let entry = entry.expect("an entry").path();
+        let name = entry.file_name().expect("a name").to_str().expect("UTF-8");
+        let path = format!("{path}{}{name}", if path.is_empty() { "" } else { "/" });
+        if entry.is_dir() {
+            read(&entry, &path, sources);
+        } else if name.ends_with(".rs") {
+            sources.insert(path, fs::read_to_string(&entry).expect("a source file"));
+        }
+    }
+}
+
+fn sources() -> BTreeMap<String, String> {
+    let mut sources = BTreeMap::new();
+    read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), "", &mut sources);
+    assert!(sources.len() > 300, "there are {} files", sources.len());
+    sources
+}
+
+/// A line of a comment: how it is marked, and its text.
+fn comment(line: &str) -> Option<(&str, &str)> {
+    let line = line.trim_start();
+    ["///", "//!", "//"].into_iter().find_map(|mark| line.strip_prefix(mark).map(|text| (mark, text.trim())))
+}
+
+/// The first lines of comments, and of their paragraphs, that point to what is elsewhere.
+fn pointing(text: &str) -> Vec<&str> {
+    let mut found = Vec::new();
+    let mut before = None;
+    for line in text.lines() {
+        let now = comment(line);
+        let goes_on = before.zip(now).is_some_and(|((mark, text), now): ((_, &str), (_, _))| {
+            mark == now.0 && !text.is_empty() && text != "# Errors"
+        });
+        if let Some((_, text)) = now.filter(|_| !goes_on)
+            && POINTING.iter().any(|word| {
+                text.strip_prefix(word).is_some_and(|rest| !rest.starts_with(char::is_alphanumeric))
+            })
+        {
+            found.push(line);
+        }
+        before = now;
+    }
+    found
+}
+
+/// The name of the type or trait that a line defines. Types in traits are named by these.
+fn defined(line: &str) -> Option<&str> {
+    let is_inner = line.starts_with(' ');
+    let mut words =
+        line.split(|c: char| c.is_whitespace() || "<(;:{=".contains(c)).filter(|word| !word.is_empty());
+    let mut word = words.next()?;
+    if word == "pub" {
+        word = words.next()?;
+        while word.ends_with(')') || word == "in" {
+            word = words.next()?;
+        }
+    }
+    let is_definition = ["struct", "enum", "trait", "union"].contains(&word) || word == "type" && !is_inner;
+    words.next().filter(|_| is_definition)
+}
+
+#[test]
+fn comments_can_be_read_alone() {
+    let text =
+        "/// Those.\n/// That.\n\n// It is.\n/// Items.\n///\n/// The same.\n/// # Errors\n/// Those of x.\n";
+    assert_eq!(pointing(text), ["/// Those.", "// It is.", "/// The same.", "/// Those of x."]);
+    let found: Vec<String> = sources()
+        .iter()
+        .filter(|(path, _)| !POINTING_IN.iter().any(|part| path.starts_with(part)))
+        .flat_map(|(path, text)| pointing(text).into_iter().map(move |line| format!("src/{path}: {line}")))
+        .collect();
+    assert!(found.is_empty(), "say what it is about:\n{}", found.join("\n"));
+}
+
+#[test]
+fn names_of_types_stand_for_one_thing() {
+    let lines =
+        ["pub(in crate::motion) struct A<T>(T);", "type A = u8;", "    type B = u8;", "enum A {", "a struct"];
+    assert_eq!(lines.map(defined), [Some("A"), Some("A"), None, Some("A"), None]);
+    let sources = sources();
+    // Files of tests: their names say so, or the file that declares them.
+    let is_of_tests = |path: &str| {
+        let (folder, file) = path.rsplit_once('/').unwrap_or(("", path));
+        let door = sources.get(&format!("{folder}/mod.rs")).or_else(|| sources.get(&format!("{folder}.rs")));
+        let declared = format!("#[cfg(test)]\nmod {};", file.trim_end_matches(".rs"));
+        path.contains("tests") || door.is_some_and(|door| door.contains(&declared))
+    };
+    let mut files_of = BTreeMap::<&str, Vec<&str>>::new();
+    for (path, text) in sources.iter().filter(|(path, _)| !is_of_tests(path)) {
+        let before_tests = text.split("\n#[cfg(test)]\nmod tests").next().expect("there is a first part");
+        before_tests
+            .lines()
+            .filter_map(defined)
+            .for_each(|name| files_of.entry(name).or_default().push(path));
+    }
+    assert!(files_of.len() > 300, "there are {} types", files_of.len());
+    files_of.retain(|_, files| files.len() > 1);
+    let shared: Vec<String> =
+        files_of.iter().map(|(name, files)| format!("{name}: {}", files.join(" "))).collect();
+    println!("{}", shared.join("\n"));
+    assert_eq!(
+        shared.len(),
+        MOST_SHARED,
+        "more names than before for several types, or fewer: correct the number"
+    );
+}
