@@ -11,7 +11,7 @@ const POINTING: [&str; 8] = ["Those", "These", "It", "They", "That", "This", "Th
 const POINTING_IN: [&str; 4] = ["capi", "delaunay", "refine", "motion/calls/refining"];
 
 /// How many names stand for several types: fewer is better.
-const MOST_SHARED: usize = 17;
+const MOST_SHARED: usize = 16;
 
 /// The sources below a folder, without files of tests: the path in src of each, and its lines up to its own tests.
 fn read(folder: &Path, path: &str, sources: &mut BTreeMap<String, String>) {
@@ -61,20 +61,17 @@ fn pointing(text: &str) -> Vec<&str> {
     found
 }
 
-/// The name of the type or trait that a line defines. Types in traits are named by these.
+/// The name of the type or trait that a line defines. Associated types are named by their traits.
 fn defined(line: &str) -> Option<&str> {
-    let is_inner = line.starts_with(' ');
-    let mut words =
-        line.split(|c: char| c.is_whitespace() || "<(;:{=".contains(c)).filter(|word| !word.is_empty());
-    let mut word = words.next()?;
-    if word == "pub" {
-        word = words.next()?;
-        while word.ends_with(')') || word == "in" {
-            word = words.next()?;
-        }
-    }
-    let is_definition = ["struct", "enum", "trait", "union"].contains(&word) || word == "type" && !is_inner;
-    words.next().filter(|_| is_definition)
+    let code = line.trim_start();
+    let public = code.strip_prefix("pub").filter(|rest| rest.starts_with([' ', '(']));
+    let code = public.map_or(code, |rest| {
+        if rest.starts_with('(') { rest.split_once(')').map_or("", |(_, rest)| rest) } else { rest }
+    });
+    let (kind, rest) = code.trim_start().split_once(' ')?;
+    let is_definition =
+        ["struct", "enum", "trait", "union"].contains(&kind) || kind == "type" && !line.starts_with(' ');
+    rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().filter(|_| is_definition)
 }
 
 #[test]
@@ -115,10 +112,5 @@ fn names_of_types_stand_for_one_thing() {
     files_of.retain(|_, files| files.len() > 1);
     let shared: Vec<String> =
         files_of.iter().map(|(name, files)| format!("{name}: {}", files.join(" "))).collect();
-    println!("{}", shared.join("\n"));
-    assert_eq!(
-        shared.len(),
-        MOST_SHARED,
-        "more names than before for several types, or fewer: correct the number"
-    );
+    assert!(shared.len() <= MOST_SHARED, "{} names for several types:\n{}", shared.len(), shared.join("\n"));
 }

@@ -32,7 +32,7 @@ use crate::motion::reading::geometry::incidence::EdgeWithCell;
 use crate::motion::reading::geometry::polytopes::Polytope;
 use crate::motion::reading::geometry::sums::LEAST_SQUARE;
 use crate::motion::reading::geometry::voronoi::Voronoi;
-use crate::motion::reading::geometry::whole_facets::Facet;
+use crate::motion::reading::geometry::whole_facets::FacetMeasures;
 use crate::motion::reading::progress::Progress;
 use crate::motion::triangulation::MovingTriangulation;
 
@@ -72,7 +72,7 @@ const FACETS_AT_A_TIME: usize = 1 << 15;
 impl<G: Dimension> Voronoi<'_, G> {
     /// The facet of the ring, if it is in the box as a whole and not so narrow that it has to be put together from its
     /// corners.
-    fn whole(&self, clip: &Clip, [x, y]: &[Vector; 2]) -> Option<Facet> {
+    fn whole(&self, clip: &Clip, [x, y]: &[Vector; 2]) -> Option<FacetMeasures> {
         let along = times(&minus(y, x), clip.unit);
         let square = dot(&along, &along);
         if square < LEAST_SQUARE {
@@ -108,7 +108,7 @@ impl<G: Dimension> Voronoi<'_, G> {
         left: &mut Polytope,
         edge: [VertexId; 2],
         first: CellId,
-    ) -> Result<Facet> {
+    ) -> Result<FacetMeasures> {
         let clip = &region.clip;
         let ends = edge.map(|v| self.place(v));
         self.ring.go_around(self.cells, edge, first)?;
@@ -145,7 +145,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         region: Option<&Region>,
         centres: &Centres<'_, G::Point>,
         progress: &mut Progress,
-    ) -> Result<Vec<Facet>> {
+    ) -> Result<Vec<FacetMeasures>> {
         let cells = self.cell_arrays()?;
         let mut facets = Vec::new();
         memory::reserve_exact(&mut facets, edges.len())?;
@@ -153,7 +153,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             let n_threads = self.mesh.kernel.threads().for_work(some.len(), SHARED_AT_LEAST, 64);
             let parts = threads::for_ranges(some.len(), n_threads, |range| {
                 let mut voronoi = Voronoi::new(self, cells, centres);
-                let (mut facets, mut left): (Vec<Facet>, _) = (Vec::new(), Polytope::default());
+                let (mut facets, mut left): (Vec<FacetMeasures>, _) = (Vec::new(), Polytope::default());
                 memory::reserve_exact(&mut facets, range.len())?;
                 for &(edge, first) in &some[range] {
                     facets.push(match region {

@@ -19,7 +19,7 @@ use crate::motion::reading::geometry::incidence::EdgeWithCell;
 use crate::motion::reading::geometry::sums::Sums;
 use crate::motion::reading::geometry::voronoi::Voronoi;
 use crate::motion::reading::geometry::whole_cells::whole_cell;
-use crate::motion::reading::geometry::whole_facets::Facet;
+use crate::motion::reading::geometry::whole_facets::FacetMeasures;
 use crate::motion::reading::progress::Progress;
 use crate::motion::state::mesh::Standing;
 use crate::motion::triangulation::MovingTriangulation;
@@ -41,7 +41,7 @@ pub(crate) struct VoronoiFound {
     targets: Vec<Target>,
     /// The numbers of sites, if they are not their own.
     sites: Option<Ranks>,
-    facets: Vec<Facet>,
+    facets: Vec<FacetMeasures>,
 }
 
 impl VoronoiFound {

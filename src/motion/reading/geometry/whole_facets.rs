@@ -26,7 +26,7 @@ const OFF: f64 = 3.5e-8;
 const OFF_BY_PLACE: f64 = 1e-15;
 
 /// A facet: measure, centroid, derivatives.
-pub(super) type Facet = (f64, Vector, [Vector; 2]);
+pub(super) type FacetMeasures = (f64, Vector, [Vector; 2]);
 
 /// Sums over triangles of a facet, with lengths in some unit.
 pub(super) struct Polygon {
@@ -76,7 +76,7 @@ impl<G: Dimension> Voronoi<'_, G> {
 
     /// The facet of an edge, of which `first` is a cell: its centroid as seen from the edge's first vertex. Where it has no
     /// end, or none within the range of numbers, its measure is infinite and the rest NaN.
-    pub(super) fn facet_without_box(&mut self, edge: [VertexId; 2], first: CellId) -> Result<Facet> {
+    pub(super) fn facet_without_box(&mut self, edge: [VertexId; 2], first: CellId) -> Result<FacetMeasures> {
         self.ring.go_around(self.cells, edge, first)?;
         let [x, y] = edge.map(|v| self.place(v));
         let way = minus(&y, &x);
