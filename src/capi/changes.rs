@@ -81,14 +81,14 @@ impl<C> From<Changes<'_, C>> for deldrift_changes {
 /// call it as often or as rarely as it likes. Ends the lists of the call before; a view of the cells stays valid unless
 /// it is older than the last change. deldrift_cells takes constant time after it.
 ///
-/// Where the triangulation is periodic, a cell is its vertices with their shifts from each other (deldrift_cell_shifts): one is
-/// new if the program takes a vertex of it to another period, or gives other vectors of the lattice. From the first call on
-/// cells that stay keep their indices; a commit that builds anew may list their corners in another order.
+/// Where the triangulation is periodic, a cell is its vertices with their shifts from each other
+/// (deldrift_cell_shifts): one is new if the program takes a vertex of it to another period, or gives other vectors of
+/// the lattice. From the first call on cells that stay keep their indices; a commit that builds anew may list their
+/// corners in another order.
 ///
 /// Cost: what has changed; of the first call n + m. Where the triangulation is periodic, always n + m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_OUT_OF_MEMORY; then nothing has been taken.
-/// Not to be called at the same time as any other call on t.
+/// Errors: DELDRIFT_OUT_OF_MEMORY; then nothing has been taken.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_take_changes(
     t: *mut deldrift_triangulation,

@@ -14,9 +14,8 @@ use crate::motion::{BoundaryFacet, check_not_negative};
 
 /// The circumcentres and squared circumradii of all cells, in the order of deldrift_cells.
 ///
-/// centres: a buffer with room for capacity points. squared_radii: a buffer with room for capacity numbers. One
-/// that is NULL is not filled. count: receives the number of cells, which is also written when the buffers are
-/// too small. NULL for both with capacity 0 asks for the count alone.
+/// centres: a buffer with room for capacity points. squared_radii: a buffer with room for capacity numbers. One that is
+/// NULL is not filled. count: receives the number of cells.
 ///
 /// Rounded: a coordinate of a centre is off by at most 1e-9 circumradii and its own rounding, a squared radius by
 /// 4e-9 of itself, however flat the cell; unless it is nearly flat, by a few last bits. What is too large for a
@@ -25,9 +24,9 @@ use crate::motion::{BoundaryFacet, check_not_negative};
 /// In a periodic triangulation a centre is where the cell's corner of the lowest id is at its own position, as
 /// deldrift_cell_shifts has it, and its rounding may be twice that of its coordinates and of the position's.
 ///
-/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+/// Cost: m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_circumcentres(
     t: *const deldrift_triangulation,
@@ -57,16 +56,15 @@ pub unsafe extern "C" fn deldrift_circumcentres(
 
 /// The areas (2D) or volumes (3D) of all cells, in the order of deldrift_cells.
 ///
-/// volumes: a buffer with room for capacity numbers. count: receives the number of cells, which is also written
-/// when the buffer is too small. NULL with capacity 0 asks for the count alone.
+/// volumes: a buffer with room for capacity numbers. count: receives the number of cells.
 ///
 /// Rounded, with a relative error of at most 1e-9, and of a few last bits unless the cell is nearly flat: always
 /// positive. (Below the least normal number, 2.2e-308, they are less accurate.) One pass over the cells; nearly flat
 /// ones take up to a microsecond each.
 ///
-/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+/// Cost: m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_volumes(
     t: *const deldrift_triangulation,
@@ -86,18 +84,16 @@ pub unsafe extern "C" fn deldrift_volumes(
 /// Which cells have a circumradius of at most a given one, as for an alpha shape: 1 for those whose squared
 /// circumradius is at most squared_radius, 0 for the others, in the order of deldrift_cells.
 ///
-/// squared_radius: 0 or more; infinity is all cells. mask: a buffer with room for capacity bytes. count: receives
-/// the number of cells, which is also written when the buffer is too small. NULL with capacity 0 asks for the count
-/// alone.
+/// squared_radius: 0 or more; infinity is all cells. mask: a buffer with room for capacity bytes. count: receives the
+/// number of cells.
 ///
 /// Exact: every entry is that of an exact comparison of squared_radius, as given, with the squared radius of the
 /// circle or sphere through the positions. One pass over the cells; where the two nearly agree, a cell takes a
 /// microsecond.
 ///
-/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+/// Cost: m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for a squared radius that is
-/// negative or NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_INVALID_VALUE for a squared radius that is negative or NaN, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_mask_by_circumradius(
     t: *const deldrift_triangulation,
@@ -122,8 +118,7 @@ pub unsafe extern "C" fn deldrift_mask_by_circumradius(
 ///
 /// tolerance: 0 or more, such as 1e-9; 0 is all cells. A cell is flat if its least height is at most tolerance times
 /// its longest edge. It has 0 if it is flat, and has a facet on the hull or on a cell that has 0. mask: a buffer with
-/// room for capacity bytes. count: receives the number of cells, which is also written when the buffer is too small.
-/// NULL with capacity 0 asks for the count alone.
+/// room for capacity bytes. count: receives the number of cells.
 ///
 /// Vertices that were meant to be on one line or plane are not, once their coordinates are rounded, and the hull goes
 /// over flat cells from one to the other. They are exactly Delaunay, and useless where a program divides by areas or
@@ -134,10 +129,9 @@ pub unsafe extern "C" fn deldrift_mask_by_circumradius(
 /// Rounded: a cell whose quotient of height and edge is tolerance but for a part of 1.1e-9 + 2e-15 / tolerance may get
 /// either.
 ///
-/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+/// Cost: m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for a tolerance that is
-/// negative or NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_INVALID_VALUE for a tolerance that is negative or NaN, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_mask_without_flat_cells(
     t: *const deldrift_triangulation,
@@ -157,22 +151,19 @@ pub unsafe extern "C" fn deldrift_mask_without_flat_cells(
 
 /// The boundary of some of the cells: the facets between a cell in a mask and one that is not in it, or the outside.
 ///
-/// mask: mask_count bytes, one for each cell in the order of deldrift_cells (mask_count must be deldrift_cell_count);
-/// a cell is in it if its byte is not 0. Read during the call only. facets: a buffer with room for capacity rows of 2
-/// (2D) or 3 (3D) vertex ids. Facets are seen from outside: in 2D the cell in the mask is on the left of the edge from
-/// the first vertex to the second; in 3D the vertices are in counter-clockwise order as seen from the side away from
-/// the cell. cells, corners: buffers with room for capacity numbers, which receive that cell and which of its corners
-/// (0, 1, ...) is opposite the facet. One of the three that is NULL is not filled. count: receives the number of
-/// facets, which is also written when the buffers are too small. NULL for all three with capacity 0 asks for the
-/// count alone.
+/// mask: mask_count bytes, one for each cell in the order of deldrift_cells (mask_count must be deldrift_cell_count); a
+/// cell is in it if its byte is not 0. facets: a buffer with room for capacity rows of 2 (2D) or 3 (3D) vertex ids.
+/// Facets are seen from outside: in 2D the cell in the mask is on the left of the edge from the first vertex to the
+/// second; in 3D the vertices are in counter-clockwise order as seen from the side away from the cell. cells, corners:
+/// buffers with room for capacity numbers, which receive that cell and which of its corners (0, 1, ...) is opposite the
+/// facet. One of the three that is NULL is not filled. count: receives the number of facets.
 ///
-/// Facets are in ascending order of cell and then of corner. Exact. Two passes over the cells. In a periodic triangulation each
-/// is where deldrift_cell_shifts has its cell.
+/// Facets are in ascending order of cell and then of corner. Exact. Two passes over the cells. In a periodic
+/// triangulation each is where deldrift_cell_shifts has its cell.
 ///
-/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+/// Cost: m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_WRONG_COUNT, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_mask_boundary(
     t: *const deldrift_triangulation,
@@ -204,15 +195,14 @@ pub unsafe extern "C" fn deldrift_mask_boundary(
 /// cell is on the left of the edge from the first vertex to the second; in 3D the vertices are in counter-clockwise
 /// order as seen from the side away from the cell. cells, corners: buffers with room for capacity numbers, which
 /// receive the cell and which of its corners (0, 1, ...) is opposite the facet. One of the three that is NULL is not
-/// filled. count: receives the number of facets, which is also written when the buffers are too small. NULL for all
-/// three with capacity 0 asks for the count alone.
+/// filled. count: receives the number of facets.
 ///
-/// Exact. One pass over the cells; constant time for the count alone. A periodic triangulation has none unless its box is open
-/// somewhere; to count them takes a pass over the cells.
+/// Exact. One pass over the cells; constant time for the count alone. A periodic triangulation has none unless its box
+/// is open somewhere; to count them takes a pass over the cells.
 ///
-/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+/// Cost: m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_hull_facets(
     t: *const deldrift_triangulation,

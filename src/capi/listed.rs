@@ -13,18 +13,16 @@ use crate::ids::{CellId, VertexId};
 ///
 /// vertices: vertex_count ids, in any order, some maybe more than once; hidden vertices have no cells. NULL if
 /// vertex_count is 0. cells: a buffer with room for capacity indices; deldrift_cell_count is always enough. count:
-/// receives the number of indices, which is also written when the buffer is too small. NULL with capacity 0 asks for
-/// the count alone, which takes as long.
+/// receives the number of indices.
 ///
 /// After a commit, the cells around the vertices that have moved and those that deldrift_take_changes lists as created
 /// are all whose shape has changed: with the functions that follow, a program that keeps an array for all cells updates
 /// those entries alone.
 ///
-/// Cost: the cells of the stars, and k log k for the k of them; m at most, and for a periodic triangulation. After a change the
-/// first call also does what the first deldrift_cells does.
+/// Cost: the cells of the stars, and k log k for the k of them; m at most, and for a periodic triangulation.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX,
+/// DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_cells_around(
     t: *const deldrift_triangulation,
@@ -56,10 +54,9 @@ pub unsafe extern "C" fn deldrift_cells_around(
 /// which the library keeps its corners. It pays while fewer than a tenth of the vertices move, or a third if they are
 /// neighbours; beyond that the pass of deldrift_circumcentres is faster.
 ///
-/// Cost: cell_count. After a change the first call also does what the first deldrift_cells does.
+/// Cost: cell_count.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an
-/// index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an index that is no cell's, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_update_circumcentres(
     t: *const deldrift_triangulation,
@@ -97,10 +94,9 @@ pub unsafe extern "C" fn deldrift_update_circumcentres(
 /// pays. The values are then those of deldrift_volumes, with its accuracy; last bits may be others where a cell was
 /// removed and created again.
 ///
-/// Cost: cell_count. After a change the first call also does what the first deldrift_cells does.
+/// Cost: cell_count.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an
-/// index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an index that is no cell's, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_update_volumes(
     t: *const deldrift_triangulation,
@@ -132,11 +128,10 @@ pub unsafe extern "C" fn deldrift_update_volumes(
 ///
 /// Exact: a mask that is kept up to date is that of a full pass, byte by byte.
 ///
-/// Cost: cell_count. After a change the first call also does what the first deldrift_cells does.
+/// Cost: cell_count.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for a
-/// squared radius that is negative or NaN, DELDRIFT_NO_SUCH_FACET for an index that is no cell's,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for a squared radius that is negative or NaN,
+/// DELDRIFT_NO_SUCH_FACET for an index that is no cell's, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_update_mask_by_circumradius(
     t: *const deldrift_triangulation,

@@ -70,13 +70,12 @@ impl From<CommitReport> for deldrift_commit_report {
 /// Stages the move of one vertex for the next timestamp. Nothing that can be read changes until
 /// deldrift_commit_timestamp.
 ///
-/// position: 2 or 3 numbers, read during the call only.
+/// position: 2 or 3 numbers.
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_DUPLICATE_MOVE, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
+/// Errors: DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_DUPLICATE_MOVE,
+/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_move_vertex(
     t: *mut deldrift_triangulation,
@@ -98,16 +97,14 @@ pub unsafe extern "C" fn deldrift_move_vertex(
 /// vertices: count ids, each at most once. NULL stands for 0, 1, ..., count - 1: count may then be at most
 /// deldrift_id_count, and vertices from count on are not staged. The entry of a vertex whose insertion is staged is
 /// where it will be inserted, in place of where it would have been; entries of removed vertices, and of those whose
-/// removal is staged, are not read.
-/// positions: count points one after the other, 2 or 3 numbers each. Both are read during the call only
-/// and may be NULL if count is 0, when nothing is staged.
+/// removal is staged, are not read. positions: count points one after the other, 2 or 3 numbers each. Both may be NULL
+/// if count is 0, when nothing is staged.
 ///
 /// Cost: count.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
-/// DELDRIFT_WRONG_COUNT if there are more positions than ids, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX,
-/// DELDRIFT_STAGED_VERTEX for one in vertices, DELDRIFT_DUPLICATE_MOVE (also within vertices), DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT if there are more positions than ids, DELDRIFT_NO_SUCH_VERTEX,
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX for one in vertices, DELDRIFT_DUPLICATE_MOVE (also within vertices),
+/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_move_vertices(
     t: *mut deldrift_triangulation,
@@ -135,9 +132,9 @@ pub unsafe extern "C" fn deldrift_move_vertices(
 /// Stages the insertion of count vertices: all of them, or none if it fails. They are present from the
 /// next commit on, which makes them together with the staged moves and removals.
 ///
-/// positions: count points, read during the call only; may be NULL if count is 0. first_vertex: receives
-/// the id of the first, which is one above the highest given so far; the others follow it in their order. It must not
-/// be NULL, even if count is 0: then it receives the id that would be given next.
+/// positions: count points; may be NULL if count is 0. first_vertex: receives the id of the first, which is one above
+/// the highest given so far; the others follow it in their order. It must not be NULL, even if count is 0: then it
+/// receives the id that would be given next.
 ///
 /// The ids count in deldrift_id_count from now on, but until the commit the vertices are not present
 /// (deldrift_is_present): functions that take an id return DELDRIFT_STAGED_VERTEX for them. Where they will be is told
@@ -147,9 +144,8 @@ pub unsafe extern "C" fn deldrift_move_vertices(
 ///
 /// Cost: count, in the mean over many calls.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
-/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_OUT_OF_MEMORY. Not to
-/// be called at the same time as any other call on t.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_VERTICES,
+/// DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_stage_insertions(
     t: *mut deldrift_triangulation,
@@ -171,17 +167,15 @@ pub unsafe extern "C" fn deldrift_stage_insertions(
 /// (DELDRIFT_STAGED_VERTEX; their entries in arrays without a list of ids are not read). deldrift_discard_moves forgets
 /// the removals.
 ///
-/// vertices: count ids, each at most once, read during the call only; may be NULL if count is 0.
+/// vertices: count ids, each at most once; may be NULL if count is 0.
 ///
 /// The commit removes them one by one, or rebuilds where that takes less: where many go, or those with 64 neighbours
 /// and more that go have more neighbours in all than there are vertices.
 ///
 /// Cost: count, in the mean over many calls.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
-/// DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX (its removal is staged already, or its
-/// insertion is), DELDRIFT_OUT_OF_MEMORY.
-/// Not to be called at the same time as any other call on t.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX (its
+/// removal is staged already, or its insertion is), DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_stage_removals(
     t: *mut deldrift_triangulation,
@@ -199,8 +193,6 @@ pub unsafe extern "C" fn deldrift_stage_removals(
 /// Forgets all staged moves, insertions and removals, of vertices and of segments.
 ///
 /// Cost: what is staged.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT. Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_discard_moves(t: *mut deldrift_triangulation) -> deldrift_status {
     given!(t: Changing);
@@ -214,19 +206,17 @@ pub unsafe extern "C" fn deldrift_discard_moves(t: *mut deldrift_triangulation) 
 /// of the new positions, whatever the algorithm, or of the constrained one if there are segments; ids stay. A commit
 /// without staged moves counts as a timestamp too.
 ///
-/// report: receives what was done; may be NULL. Ends all views.
+/// report: receives what was done; may be NULL.
 ///
 /// Cost: of k staged moves, insertions and removals at most k times that of deldrift_relocate_vertex, or that of
 /// deldrift_create, whichever the algorithm chooses; of none, constant. While there are no cells, that of
 /// deldrift_create. With segments, for each also the cells around an end, and those that it crosses in the Delaunay
 /// triangulation, of k of them up to k².
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_COINCIDENT (if the options
-/// reject it), DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT, DELDRIFT_END_REMOVED, DELDRIFT_ENDS_MEET (see
-/// deldrift_segment_conflicts), DELDRIFT_PASSES_SEGMENT (if the options refuse it; looked at before all that segments
-/// are refused for else), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation
-/// stays at its timestamp, and what is staged stays so. Not to be called at the same time as any other call
-/// on t.
+/// Errors: DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT,
+/// DELDRIFT_END_REMOVED, DELDRIFT_ENDS_MEET (see deldrift_segment_conflicts), DELDRIFT_PASSES_SEGMENT (if the options
+/// refuse it; looked at before all that segments are refused for else), DELDRIFT_TOO_MANY_CELLS,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation stays at its timestamp, and what is staged stays so.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_commit_timestamp(
     t: *mut deldrift_triangulation,
@@ -248,17 +238,16 @@ pub unsafe extern "C" fn deldrift_commit_timestamp(
 ///
 /// positions: count points, one for each id (count must be deldrift_id_count, those of staged insertions included). A
 /// vertex whose insertion is staged is inserted where its entry says; entries of removed vertices, and of those whose
-/// removal is staged, are not read. They are read during the call only, which may be up to its end: neither a callback nor
-/// another thread may change them before it returns. report: receives what was done; may be NULL. Ends all views.
+/// removal is staged, are not read. They are read during the call only, which may be up to its end: neither a callback
+/// nor another thread may change them before it returns. report: receives what was done; may be NULL.
 ///
 /// Cost: n + m, and that of deldrift_commit_timestamp for what has moved.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
-/// DELDRIFT_WRONG_COUNT if there are fewer or more, DELDRIFT_DUPLICATE_MOVE if a move is staged, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT,
-/// DELDRIFT_END_REMOVED, DELDRIFT_ENDS_MEET, DELDRIFT_PASSES_SEGMENT (if the options refuse it), DELDRIFT_TOO_MANY_CELLS,
-/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation stays at its timestamp, no move is staged, and insertions, removals and segments are staged as before.
-/// Not to be called at the same time as any other call on t.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT if there are fewer or more, DELDRIFT_DUPLICATE_MOVE if a move
+/// is staged, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it),
+/// DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT, DELDRIFT_END_REMOVED, DELDRIFT_ENDS_MEET, DELDRIFT_PASSES_SEGMENT (if the
+/// options refuse it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation stays at
+/// its timestamp, no move is staged, and insertions, removals and segments are staged as before.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_commit_positions(
     t: *mut deldrift_triangulation,

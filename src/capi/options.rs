@@ -55,13 +55,13 @@ pub type PassingCode = u32;
 /// bytes that the library does not know are zero. A size that is 0, ends inside a field or is beyond
 /// 4096 is DELDRIFT_INVALID_OPTIONS, as is any value that has no meaning.
 ///
-/// The callbacks are called from inside every function that names DELDRIFT_CANCELLED among its errors, where the call takes
-/// long, and from inside no other; on the thread that makes the call, one at a time, and not after deldrift_destroy. They
-/// must return normally (no exception, no longjmp). From inside a call that creates or changes a triangulation they must not
-/// use it: such calls are turned away with DELDRIFT_BUSY. From inside one that takes it as const, as deldrift_voronoi_cells
-/// does, they may read it, and calls that change it are turned away with DELDRIFT_BUSY; such calls may be made on several
-/// threads at once, and each calls them. Other triangulations may be used. What user_data points to must live as long as the
-/// triangulation, and its copies.
+/// The callbacks are called from inside every function that names DELDRIFT_CANCELLED among its errors, where the call
+/// takes long, and from inside no other; on the thread that makes the call, one at a time, and not after
+/// deldrift_destroy. They must return normally (no exception, no longjmp). From inside a call that creates or changes a
+/// triangulation they must not use it: such calls are turned away with DELDRIFT_BUSY. From inside one that takes it as
+/// const, as deldrift_voronoi_cells does, they may read it, and calls that change it are turned away with
+/// DELDRIFT_BUSY; such calls may be made on several threads at once, and each calls them. Other triangulations may be
+/// used. What user_data points to must live as long as the triangulation, and its copies.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct deldrift_options {
@@ -69,25 +69,26 @@ pub struct deldrift_options {
     pub struct_size: usize,
     /// Algorithm of later commits; may be changed by deldrift_set_algorithm. Default DELDRIFT_AUTO.
     pub algorithm: AlgorithmCode,
-    /// Greatest number of threads a call may use, the calling one included; 0, the default, is no limit. The library uses
-    /// as many as make the call faster, at most one per processor: one for each 5,000 vertices in 2D or 2,500
-    /// in 3D to build and rebuild, and likewise to move all, check all certificates and flip in repair. All
-    /// triangulations of the process share them, and they sleep between calls. The cells do not depend on the number. Their
-    /// order, last bits of rounded numbers and the counts in reports may, unless parts is set. Callbacks come from the
-    /// calling thread only.
+    /// Greatest number of threads a call may use, the calling one included; 0, the default, is no limit. The library
+    /// uses as many as make the call faster, at most one per processor: one for each 5,000 vertices in 2D or 2,500 in
+    /// 3D to build and rebuild, and likewise to move all, check all certificates and flip in repair. All triangulations
+    /// of the process share them, and they sleep between calls. The cells do not depend on the number. Their order,
+    /// last bits of rounded numbers and the counts in reports may, unless parts is set. Callbacks come from the calling
+    /// thread only.
     pub threads: u32,
     /// Default DELDRIFT_COINCIDENCE_MERGE.
     pub coincidence: CoincidenceCode,
     /// What commits, deldrift_check_staged and deldrift_relocate_vertex do when a vertex would pass a segment. Default
     /// DELDRIFT_PASSING_IGNORE.
     pub passing: PassingCode,
-    /// Greatest number of parts into which work is divided where that shows in the order of cells: builds, and flips. 0,
-    /// the default, is one for each thread that is used. With any other number the same calls give the same answers for any
-    /// number of threads and on every processor: cells in the same order, every bit of rounded numbers, and reports
-    /// included. (A build for whose parts there is no memory is in one.) Parts should be as many as the threads that a
-    /// program is to run on, at most: with fewer some threads have nothing to do in this work, and with more each costs
-    /// something. For 100,000 vertices a build on one thread takes 1.1 times as long in eight parts as in one in 2D; in 3D
-    /// 1.06 times in two, 1.1 in four and 1.3 in eight; for 20,000 1.2 times in 2D, 1.15 to 1.6 times in 3D.
+    /// Greatest number of parts into which work is divided where that shows in the order of cells: builds, and flips.
+    /// 0, the default, is one for each thread that is used. With any other number the same calls give the same answers
+    /// for any number of threads and on every processor: cells in the same order, every bit of rounded numbers, and
+    /// reports included. (A build for whose parts there is no memory is in one.) Parts should be as many as the threads
+    /// that a program is to run on, at most: with fewer some threads have nothing to do in this work, and with more
+    /// each costs something. For 100,000 vertices a build on one thread takes 1.1 times as long in eight parts as in
+    /// one in 2D; in 3D 1.06 times in two, 1.1 in four and 1.3 in eight; for 20,000 1.2 times in 2D, 1.15 to 1.6 times
+    /// in 3D.
     pub parts: usize,
     /// Called now and then during long calls: at least once for some ten thousand cells that are made, or looked at
     /// around single vertices. Passes over all vertices or cells, each of which takes a part of a build, are not
@@ -106,8 +107,8 @@ pub struct deldrift_options {
 ///
 /// C and C++ programs have it from this header, so that it fills the structure of the header, whichever later version
 /// they run with. Other languages have a function of this name in the library. In every version that one fills the
-/// structure as it is here, and says so in struct_size; a program that knows more fields sets them to zero, which is the
-/// default of all, and struct_size to the size of its structure.
+/// structure as it is here, and says so in struct_size; a program that knows more fields sets them to zero, which is
+/// the default of all, and struct_size to the size of its structure.
 ///
 /// Cost: constant.
 #[unsafe(no_mangle)]
@@ -233,8 +234,8 @@ impl<'a, T: Growing> Given<'a, T> {
         unsafe { Array::new(self.argument, self.bytes, size) }.get().map(Some)
     }
 
-    /// Reads the part that the library knows, and checks that beyond it there is nothing but zeros. The defaults if it is
-    /// NULL.
+    /// Reads the part that the library knows, and checks that beyond it there is nothing but zeros. The defaults if it
+    /// is NULL.
     pub(super) fn read(self) -> Result<T, Failure> {
         let mut read = MaybeUninit::new(T::DEFAULT);
         let Some(given) = self.bytes()? else { return Ok(T::DEFAULT) };

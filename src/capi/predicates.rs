@@ -18,9 +18,8 @@ use crate::predicates::{StaticFilter, incircle, insphere, orient2d, orient3d};
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE. Constant time, some nanoseconds except close to 0. May be called from any number of threads
-/// at once.
+/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE. Constant time, some nanoseconds
+/// except close to 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_orientation(
     dimension: u32,
@@ -56,8 +55,7 @@ pub unsafe extern "C" fn deldrift_orientation(
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE. May be called from any number of threads at once.
+/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_in_sphere(
     dimension: u32,

@@ -51,7 +51,7 @@ pub struct deldrift_cells_view {
 ///
 /// Cost: m for the first call of all; after a change what has changed; else constant.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_cells(
     t: *const deldrift_triangulation,
@@ -86,8 +86,7 @@ enum Arrays {
 ///
 /// Cost: m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_OUT_OF_MEMORY; then nothing is handed over,
-/// and views are as valid as before. Not to be called at the same time as any other call on t.
+/// Errors: DELDRIFT_OUT_OF_MEMORY; then nothing is handed over, and views are as valid as before.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_release_cells(
     t: *mut deldrift_triangulation,
@@ -122,14 +121,13 @@ pub unsafe extern "C" fn deldrift_free_cells(owner: *mut deldrift_released_cells
 
 /// A copy of the cells: see deldrift_cells_view for what the rows mean.
 ///
-/// vertices, neighbours: buffers with room for capacity rows of 3 (2D) or 4 (3D) numbers; one that is
-/// NULL is not filled. count: receives the number of cells, which is also written when the buffers are
-/// too small. NULL for both with capacity 0 asks for the count alone, with another it is DELDRIFT_NULL_ARGUMENT.
+/// vertices, neighbours: buffers with room for capacity rows of 3 (2D) or 4 (3D) numbers; one that is NULL is not
+/// filled. count: receives the number of cells. NULL for both with capacity 0 asks for the count alone, with another it
+/// is DELDRIFT_NULL_ARGUMENT.
 ///
-/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+/// Cost: m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_copy_cells(
     t: *const deldrift_triangulation,
@@ -159,16 +157,15 @@ pub unsafe extern "C" fn deldrift_copy_cells(
 /// The star of a vertex: the indices of the cells that have it as a corner, in no particular order; for
 /// a hidden vertex those of its representative.
 ///
-/// cells: a buffer with room for capacity indices. count: receives their number, which is also written
-/// when the buffer is too small. NULL with capacity 0 asks for the count alone.
+/// cells: a buffer with room for capacity indices. count: receives their number.
 ///
 /// Of a periodic triangulation a cell is there once for each of its corners that is the vertex, in whatever period.
 ///
-/// Cost: the cells of the star; m for a periodic triangulation. After a change the first call also does what the first
-/// deldrift_cells does. Where there are more vertices than a cache holds, stars are read fastest in the order of the ids.
+/// Cost: the cells of the star; m for a periodic triangulation. Where there are more vertices than a cache holds, stars
+/// are read fastest in the order of the ids.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX,
-/// DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged,
+/// DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_star(
     t: *const deldrift_triangulation,
@@ -194,15 +191,15 @@ pub unsafe extern "C" fn deldrift_star(
 /// The tolerance of a vertex, to *out: while every vertex stays closer to its current position than its
 /// tolerance, no cell changes.
 ///
-/// It is a certified lower bound: rounding can make it smaller, but never too large. It is 0 where nothing
-/// is certain and for vertices that share their place, and infinite, without a meaning, while there are no
-/// cells. Computed from the star of the vertex, whatever the algorithm in force. At segments it is what the orientation of
-/// the cells on both sides allows.
+/// It is a certified lower bound: rounding can make it smaller, but never too large. It is 0 where nothing is certain
+/// and for vertices that share their place, and infinite, without a meaning, while there are no cells. Computed from
+/// the star of the vertex, whatever the algorithm in force. At segments it is what the orientation of the cells on both
+/// sides allows.
 ///
 /// Cost: the cells of the star.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged,
+/// DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_tolerance(
     t: *const deldrift_triangulation,
@@ -215,16 +212,16 @@ pub unsafe extern "C" fn deldrift_tolerance(
 
 /// Checks the triangulation exactly, in time proportional to its size.
 ///
-/// level: 1 checks indices and adjacency; 2 also the orientation of the cells, and that the hull is
-/// convex and winds once; 3 also that no sphere through the vertices of a cell contains a vertex, or, with segments, none
-/// that can be seen from the cell's inside. Of a periodic triangulation what is kept inside is checked so, images included,
-/// and that these are where the vectors take their vertices; 3 also that none is missing, and that each cell is there
-/// once for each of its corners.
+/// level: 1 checks indices and adjacency; 2 also the orientation of the cells, and that the hull is convex and winds
+/// once; 3 also that no sphere through the vertices of a cell contains a vertex, or, with segments, none that can be
+/// seen from the cell's inside. Of a periodic triangulation what is kept inside is checked so, images included, and
+/// that these are where the vectors take their vertices; 3 also that none is missing, and that each cell is there once
+/// for each of its corners.
 ///
 /// Cost: n + m. Of a periodic triangulation at level 3 that of creation at most, in a copy.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_INVALID_LEVEL, DELDRIFT_INVALID if something is wrong:
-/// deldrift_last_error then gives the first violation; DELDRIFT_OUT_OF_MEMORY if t is periodic.
+/// Errors: DELDRIFT_INVALID_LEVEL, DELDRIFT_INVALID if something is wrong: deldrift_last_error then gives the first
+/// violation; DELDRIFT_OUT_OF_MEMORY if t is periodic.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_validate(t: *const deldrift_triangulation, level: u32) -> deldrift_status {
     given!(t: Reading);

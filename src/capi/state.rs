@@ -10,8 +10,6 @@ use crate::in_its_dimension;
 /// How many vertices are present, hidden ones included and removed ones not, to *count.
 ///
 /// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_vertex_count(
     t: *const deldrift_triangulation,
@@ -25,8 +23,6 @@ pub unsafe extern "C" fn deldrift_vertex_count(
 /// ids are below it, those of removed vertices and of staged insertions too.
 ///
 /// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_id_count(
     t: *const deldrift_triangulation,
@@ -39,8 +35,6 @@ pub unsafe extern "C" fn deldrift_id_count(
 /// How many cells there are, to *count.
 ///
 /// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_cell_count(
     t: *const deldrift_triangulation,
@@ -56,8 +50,6 @@ pub unsafe extern "C" fn deldrift_cell_count(
 /// How many moves are staged for the next timestamp, to *count.
 ///
 /// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_staged_count(
     t: *const deldrift_triangulation,
@@ -73,8 +65,6 @@ pub unsafe extern "C" fn deldrift_staged_count(
 /// deldrift_compact makes it as small as that of a fresh one, but for arrays that are made again when asked for.
 ///
 /// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_memory_bytes(
     t: *const deldrift_triangulation,
@@ -87,8 +77,6 @@ pub unsafe extern "C" fn deldrift_memory_bytes(
 /// The number of the current timestamp, to *timestamp: 0 at creation, one more at each commit.
 ///
 /// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_timestamp(
     t: *const deldrift_triangulation,
@@ -102,8 +90,6 @@ pub unsafe extern "C" fn deldrift_timestamp(
 /// coincident are those of now.
 ///
 /// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_statistics(
     t: *const deldrift_triangulation,
@@ -117,8 +103,6 @@ pub unsafe extern "C" fn deldrift_statistics(
 /// insertion is staged; true if only its removal is.
 ///
 /// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_is_present(
     t: *const deldrift_triangulation,
@@ -133,8 +117,7 @@ pub unsafe extern "C" fn deldrift_is_present(
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its
-/// insertion is staged.
+/// Errors: DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_position(
     t: *const deldrift_triangulation,
@@ -157,12 +140,9 @@ pub unsafe extern "C" fn deldrift_position(
 /// of vertices whose insertion is staged those where they will be inserted, of removed vertices NaN. So the array can
 /// be changed and handed to deldrift_commit_positions.
 ///
-/// positions: a buffer with room for capacity points. count: receives the number of ids, which is also
-/// written when the buffer is too small. NULL with capacity 0 asks for the count alone.
+/// positions: a buffer with room for capacity points. count: receives the number of ids.
 ///
 /// Cost: n.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_copy_positions(
     t: *const deldrift_triangulation,

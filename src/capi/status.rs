@@ -105,8 +105,8 @@ pub enum deldrift_status {
     /// The call needs the lists of the latest deldrift_take_changes, and cells have changed since, or ids are not
     /// those of then.
     DELDRIFT_CHANGES_NOT_TAKEN = 40,
-    /// The call works on regions by their labels, and the sides of one have none, or several; deldrift_regions counts the
-    /// cells.
+    /// The call works on regions by their labels, and the sides of one have none, or several; deldrift_regions counts
+    /// the cells.
     DELDRIFT_UNDECIDED_REGIONS = 41,
 }
 

@@ -102,16 +102,15 @@ impl From<&TransferReport> for deldrift_transfer_report {
 /// hull.
 ///
 /// Cost: n log n for n cells in the list of changes and what they have in common, times n_values. For those that are
-/// turned over also log m each, and the cells of now that they meet, or would if they were half as large again; m, if no
-/// corner of one is in the convex hull, or they meet an eighth of all. In a periodic triangulation also n + m.
+/// turned over also log m each, and the cells of now that they meet, or would if they were half as large again; m, if
+/// no corner of one is in the convex hull, or they meet an eighth of all. In a periodic triangulation also n + m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for an
-/// order that there is not, for a value that is used and is no number or a greater one, and for positions that take a
-/// cell through more than 64 periods, DELDRIFT_CHANGES_NOT_TAKEN if cells have changed since the latest
-/// deldrift_take_changes, if there was none, or if ids have been given anew since the one before,
-/// DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_NO_SUCH_VERTEX for a vertex beyond position_count,
-/// DELDRIFT_REMOVED_VERTEX for one where positions are NULL, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
-/// DELDRIFT_PREPARED, DELDRIFT_CANCELLED, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for an order that there is not, for a value that is used and
+/// is no number or a greater one, and for positions that take a cell through more than 64 periods,
+/// DELDRIFT_CHANGES_NOT_TAKEN if cells have changed since the latest deldrift_take_changes, if there was none, or if
+/// ids have been given anew since the one before, DELDRIFT_WRONG_COUNT, DELDRIFT_NO_SUCH_VERTEX for a vertex beyond
+/// position_count, DELDRIFT_REMOVED_VERTEX for one where positions are NULL, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_PREPARED, DELDRIFT_CANCELLED, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_transfer_cells(
     t: *const deldrift_triangulation,
