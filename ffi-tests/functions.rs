@@ -5,6 +5,8 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::abuse;
+use crate::abuse::declarations::refused_by_boxes;
 use crate::coverage::{declarations, function_name};
 use crate::support::{Linkage, build, command, fresh_folder, headers, repository, succeed, text_of};
 
@@ -84,19 +86,16 @@ fn callbacks_are_called_from_where_the_header_says() {
     assert_eq!(missing, SHORT, "these may be cancelled, the header says, and no callback is called");
 }
 
-/// docs/PERIODIC.md has in a table what the header lists, some of it as ranges in the order of the header. That boxes refuse
-/// these and no others is tried by ffi-tests/abuse.rs.
+/// docs/PERIODIC.md has in a table what the header names, some of it as ranges in the order of the headers. That boxes
+/// refuse these and no others is tried by ffi-tests/abuse.rs.
 #[test]
 fn page_on_boxes_has_what_the_header_says_that_they_refuse() {
     let functions = functions();
     let at = |name: &str| {
         functions.iter().position(|function| function.name == name).unwrap_or_else(|| panic!("{name}"))
     };
-    let create = &functions[at("deldrift_create_periodic")].documentation;
-    let (_, list) = create.split_once("which return DELDRIFT_PERIODIC: ").expect("they are listed");
-    let (list, _) = list.split_once(". ").expect("a sentence ends");
-    let listed: BTreeSet<&str> =
-        list.split([',', ' ']).filter(|word| word.starts_with("deldrift_")).collect();
+    let refused = refused_by_boxes(&abuse::declarations::declarations());
+    let listed: BTreeSet<&str> = refused.iter().map(String::as_str).collect();
     let page = text_of("docs/PERIODIC.md");
     let (_, table) = page.split_once("refused with `DELDRIFT_PERIODIC`").expect("the page has a table");
     let rows =

@@ -39,7 +39,7 @@
  *         What a call says when it ends: status codes, the message of the last failure, the version.
  *         Options: a structure that can grow, read as far as the caller's header knows it.
  *         Creation, destruction, and what is chosen for the whole life of a triangulation.
- *         What a triangulation holds: counts, sums, and the positions of vertices.
+ *         What a triangulation holds: counts, and the positions of vertices.
  *         Queries: cells, and what is where. None changes the triangulation.
  *     deldrift/motion.h: Vertices that move, come and go: staging, commits, keys, the list of changes.
  *         Motion: what is staged, and becomes a timestamp.

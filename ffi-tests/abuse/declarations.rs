@@ -43,10 +43,6 @@ impl Declaration {
         self.parameters.iter().any(tells)
     }
 
-    pub fn documentation(&self) -> &str {
-        &self.documentation
-    }
-
     /// What the documentation says after "Errors:".
     pub fn errors(&self) -> &str {
         self.documentation.split_once("Errors:").map_or("", |(_, errors)| errors)
@@ -72,6 +68,26 @@ impl Declaration {
         let named = self.errors().split(|c: char| !c.is_ascii_alphanumeric() && c != '_').map(str::to_string);
         named.filter(|word| known.contains(word)).chain(common).collect()
     }
+}
+
+/// The functions that do not serve a periodic triangulation, as deldrift_create_periodic names them: one header as a
+/// whole, and others one by one.
+pub fn refused_by_boxes(functions: &[Declaration]) -> BTreeSet<String> {
+    let create = functions.iter().find(|function| function.name == "deldrift_create_periodic");
+    let documentation = &create.expect("it is declared").documentation;
+    let (_, refused) = documentation.split_once("but those of deldrift/").expect("a header is named");
+    let (header, list) =
+        refused.split_once(" and the following, which return DELDRIFT_PERIODIC: ").expect("they are listed");
+    let header = format!("include/deldrift/{header}");
+    let (list, _) = list.split_once(". ").expect("a sentence ends");
+    let listed: BTreeSet<String> =
+        list.split([',', ' ']).filter(|word| word.starts_with("deldrift_")).map(str::to_string).collect();
+    let declared = |name: &&String| functions.iter().all(|function| function.name != **name);
+    assert_eq!(listed.iter().find(declared), None, "it is no function");
+    let of_header = functions.iter().filter(|function| function.header == header && function.takes_t());
+    let of_header: Vec<String> = of_header.map(|function| function.name.clone()).collect();
+    assert!(!of_header.is_empty(), "{header} has no function");
+    listed.into_iter().chain(of_header).collect()
 }
 
 /// The names of the statuses, in the order of their numbers.

@@ -9,9 +9,6 @@ use crate::algorithms;
 use crate::functions::functions_of;
 use crate::support::{fresh_folder, repository, text_of};
 
-/// A rule above and below each heading.
-const RULE: &str = "// ---------------------------------------------------------------------------------------------------------------------";
-
 /// deldrift.h: the first page, and the parts.
 pub fn first_page() -> String {
     let parts = || HEADERS.iter().filter_map(|header| header.subject.map(|subject| (header, subject)));
@@ -114,7 +111,8 @@ impl Header {
             let at = lines.iter().position(is_declared).unwrap_or_else(|| panic!("{call} is declared"));
             let start =
                 lines[..at].iter().rposition(|line| !line.starts_with("///")).map_or(0, |line| line + 1);
-            let heading = [RULE.to_string(), format!("// {heading}"), RULE.to_string(), String::new()];
+            let rule = format!("// {}", "-".repeat(117));
+            let heading = [rule.clone(), format!("// {heading}"), rule, String::new()];
             lines.splice(start..start, heading);
         }
         lines.join("\n") + "\n"

@@ -7,8 +7,7 @@
  * What a call says when it ends: status codes, the message of the last failure, the version.
  *
  *     deldrift_status_string: A status in a few words, in English, without a full stop.
- *     deldrift_last_error: The message of the last call on this thread that failed: which argument, which index, which
- *         value.
+ *     deldrift_last_error: The message of the last call on this thread that failed.
  *     deldrift_version: The version of the library that is running, as "major.minor.patch".
  *
  * Options: a structure that can grow, read as far as the caller's header knows it.
@@ -21,40 +20,29 @@
  *     deldrift_destroy: Destroys a triangulation: its memory is freed and its views end.
  *     deldrift_dimension: The dimension of the triangulation, 2 or 3, to *dimension.
  *     deldrift_set_algorithm: Changes the algorithm of later commits.
- *     deldrift_get_algorithm: The algorithm in force, to *algorithm: the one chosen, thus DELDRIFT_AUTO where the
- *         library chooses; after deldrift_research_set_algorithm the number of that of deldrift/research.h.
+ *     deldrift_get_algorithm: The algorithm in force, to *algorithm.
  *
- * What a triangulation holds: counts, sums, and the positions of vertices.
+ * What a triangulation holds: counts, and the positions of vertices.
  *
  *     deldrift_vertex_count: How many vertices are present, hidden ones included and removed ones not, to *count.
- *     deldrift_id_count: How many ids have been given, or left by the latest deldrift_compact and given since, to
- *         *count: valid ids are below it, those of removed vertices and of staged insertions too.
+ *     deldrift_id_count: How many ids there are, to *count: those given so far, or left by the latest deldrift_compact
+ *         and given since.
  *     deldrift_cell_count: How many cells there are, to *count.
  *     deldrift_staged_count: How many moves are staged for the next timestamp, to *count.
- *     deldrift_memory_bytes: How many bytes of memory the triangulation holds, to *bytes: what its views show and what
- *         it keeps as room for later calls included, and without what the system's allocator adds to each of its
- *         arrays.
- *     deldrift_timestamp: The number of the current timestamp, to *timestamp: 0 at creation, one more at each commit.
- *     deldrift_statistics: The sums of what all commits and immediate calls so far have done, to *report, whose
- *         timestamp and coincident are those of now.
- *     deldrift_is_present: Whether a vertex of this id is present, to *present: false if it has been removed, or never
- *         was, or only its insertion is staged; true if only its removal is.
- *     deldrift_position: The position of a vertex, 2 or 3 numbers, to position: that of the current timestamp, not a
- *         staged one.
- *     deldrift_copy_positions: The positions of all ids, in their order, 2 or 3 numbers each: of present vertices those
- *         of the current timestamp, of vertices whose insertion is staged those where they will be inserted, of removed
- *         vertices NaN.
+ *     deldrift_memory_bytes: How many bytes of memory the triangulation holds, to *bytes.
+ *     deldrift_timestamp: The number of the current timestamp, to *timestamp.
+ *     deldrift_is_present: Whether a vertex of this id is present, to *present.
+ *     deldrift_position: The position of a vertex at the current timestamp, not a staged one, to position.
+ *     deldrift_copy_positions: The positions of all ids, in their order.
  *
  * Queries: cells, and what is where. None changes the triangulation.
  *
  *     deldrift_cells: The cells, without a copy, to *view.
  *     deldrift_release_cells: Hands the arrays of deldrift_cells over to the program, to *view, with an owner for them,
- *         to *owner: they stay as they are, and valid, until the owner is handed to deldrift_free_cells, whatever
- *         becomes of t.
+ *         to *owner.
  *     deldrift_free_cells: Frees arrays that deldrift_release_cells has handed over, once.
  *     deldrift_copy_cells: A copy of the cells: see deldrift_cells_view for what the rows mean.
- *     deldrift_star: The star of a vertex: the indices of the cells that have it as a corner, in no particular order;
- *         for a hidden vertex those of its representative.
+ *     deldrift_star: The star of a vertex: the indices of the cells that have it as a corner, in no particular order.
  *     deldrift_tolerance: The tolerance of a vertex, to *out: while every vertex stays closer to its current position
  *         than its tolerance, no cell changes.
  *     deldrift_validate: Checks the triangulation exactly, in time proportional to its size.
@@ -73,8 +61,8 @@
 #define DELDRIFT_VERSION_PATCH 0
 #define DELDRIFT_VERSION_STRING "0.1.0"
 
-/// No cell, no vertex: the neighbour of a cell across a facet of the convex hull, the nearest vertex of
-/// an empty triangulation.
+/// No cell, no vertex. It is the neighbour of a cell across a facet of the convex hull, and the nearest vertex of an
+/// empty triangulation.
 #define DELDRIFT_NONE UINT32_MAX
 
 /// Outcome of a call. DELDRIFT_OK is 0, and a call that gives any other status has had no effect.
@@ -99,8 +87,8 @@ enum
     DELDRIFT_INVALID_OPTIONS = 5,
     /// The level of deldrift_validate is not 1, 2 or 3.
     DELDRIFT_INVALID_LEVEL = 6,
-    /// A buffer has room for fewer entries than there are. How many there are is in the message, and has been written
-    /// to the count if the function has one.
+    /// A buffer has room for fewer entries than there are. Their number is in the message, and in the count if the
+    /// function has one.
     DELDRIFT_BUFFER_TOO_SMALL = 7,
     /// A coordinate is NaN or infinite.
     DELDRIFT_NOT_FINITE = 8,
@@ -112,8 +100,8 @@ enum
     DELDRIFT_REMOVED_VERTEX = 11,
     /// A move of this vertex is already staged for the next timestamp.
     DELDRIFT_DUPLICATE_MOVE = 12,
-    /// An array has another number of entries than there have to be: one for each id, cell or component; or, without a
-    /// list of ids, more entries than there are ids.
+    /// An array does not have the number of entries that it must have: one for each id, cell or component. Or, without
+    /// a list of ids, it has more entries than there are ids.
     DELDRIFT_WRONG_COUNT = 13,
     /// Two vertices would be at the same place, and the options reject that.
     DELDRIFT_COINCIDENT = 14,
@@ -138,15 +126,15 @@ enum
     DELDRIFT_NO_SUCH_FACET = 23,
     /// A number has no meaning for its argument, as a negative squared radius.
     DELDRIFT_INVALID_VALUE = 24,
-    /// Data are not those of a saved triangulation: they are damaged, incomplete or of another kind, or come from a
-    /// later version; the message says what is wrong, and where.
+    /// Data are not those of a saved triangulation. They are damaged, incomplete, of another kind, or from a later
+    /// version. The message says what is wrong, and where.
     DELDRIFT_INVALID_DATA = 25,
     /// The system cannot read or write a file; the message has the path, and what the system says.
     DELDRIFT_IO_ERROR = 26,
     /// A field has no name, one that is not UTF-8, or no components; the message has its index.
     DELDRIFT_INVALID_FIELD = 27,
-    /// The insertion of the vertex is staged, so that it is not there before the next commit; or its removal is staged,
-    /// and it can be neither moved with that commit nor removed twice. The message says which.
+    /// The insertion of the vertex is staged: it is not there before the next commit. Or its removal is staged: it can
+    /// be neither moved by that commit nor removed twice. The message says which.
     DELDRIFT_STAGED_VERTEX = 28,
     /// There is no segment of this id, or its removal is staged.
     DELDRIFT_NO_SUCH_SEGMENT = 29,
@@ -162,8 +150,8 @@ enum
     DELDRIFT_AMBIGUOUS_SEED = 34,
     /// A vertex would pass a segment; deldrift_passings tells all that would.
     DELDRIFT_PASSES_SEGMENT = 35,
-    /// A timestamp is prepared, and the call is not one that may be made before deldrift_publish_timestamp or
-    /// deldrift_withdraw_timestamp; the message has the timestamp and the number of rounds.
+    /// A timestamp is prepared, and the call has to wait for deldrift_publish_timestamp or deldrift_withdraw_timestamp.
+    /// The message has the timestamp and the number of rounds.
     DELDRIFT_PREPARED = 36,
     /// No timestamp is prepared that could be published.
     DELDRIFT_NOT_PREPARED = 37,
@@ -171,11 +159,10 @@ enum
     DELDRIFT_PERIODIC = 38,
     /// The vectors of a periodic box depend on each other, or nearly so, or are more than there are axes.
     DELDRIFT_DEPENDENT_VECTORS = 39,
-    /// The call needs the lists of the latest deldrift_take_changes, and cells have changed since, or ids are not
-    /// those of then.
+    /// The call needs the lists of the latest deldrift_take_changes, and cells or ids have changed since.
     DELDRIFT_CHANGES_NOT_TAKEN = 40,
-    /// The call works on regions by their labels, and the sides of one have none, or several; deldrift_regions counts
-    /// the cells.
+    /// The call works on regions by their labels, and the sides of a region have no label, or several. deldrift_regions
+    /// counts its cells.
     DELDRIFT_UNDECIDED_REGIONS = 41,
 };
 #ifndef __cplusplus
@@ -244,13 +231,13 @@ typedef uint32_t deldrift_coincidence;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// What happens when a vertex would pass a segment: deldrift_check_passings says what that is.
+/// What happens when a vertex would pass a segment. deldrift_check_passings defines that.
 enum
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   deldrift_passing : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    /// Nothing: it is not looked for, except by deldrift_check_passings.
+    /// Nothing. Only deldrift_check_passings looks for it.
     DELDRIFT_PASSING_IGNORE = 0,
     /// The call goes on, and deldrift_passings then tells which vertices have passed which segments.
     DELDRIFT_PASSING_TELL = 1,
@@ -275,29 +262,29 @@ typedef struct deldrift_triangulation deldrift_triangulation;
 /// Options of a triangulation. Initialise them with deldrift_options_init, then set what should differ
 /// from the defaults, all of which are zero.
 ///
-/// The structure may grow in later versions. struct_size says how much of it the program knows: fields
-/// beyond it have their defaults. A size greater than the library's own is accepted as long as all
-/// bytes that the library does not know are zero. A size that is 0, ends inside a field or is beyond
-/// 4096 is DELDRIFT_INVALID_OPTIONS, as is any value that has no meaning.
+/// The structure may grow in later versions. struct_size says how much of it the program knows: fields beyond it have
+/// their defaults. A greater size than that of the library is accepted if all bytes that the library does not know are
+/// zero. A size that is 0, ends inside a field or is beyond 4096 is DELDRIFT_INVALID_OPTIONS. So is any value that has
+/// no meaning.
 ///
 /// The callbacks are called from inside every function that names DELDRIFT_CANCELLED among its errors, where the call
-/// takes long, and from inside no other; on the thread that makes the call, one at a time, and not after
-/// deldrift_destroy. They must return normally (no exception, no longjmp). From inside a call that creates or changes a
-/// triangulation they must not use it: such calls are turned away with DELDRIFT_BUSY. From inside one that takes it as
-/// const, as deldrift_voronoi_cells does, they may read it, and calls that change it are turned away with
-/// DELDRIFT_BUSY; such calls may be made on several threads at once, and each calls them. Other triangulations may be
-/// used. What user_data points to must live as long as the triangulation, and its copies.
+/// takes long, and from inside no other. They are called on the thread that makes the call, one at a time, and not
+/// after deldrift_destroy. They must return normally (no exception, no longjmp). Where the call creates or changes a
+/// triangulation, callbacks must not use that one: DELDRIFT_BUSY turns their calls away. Where the call takes it as
+/// const, as deldrift_voronoi_cells does, they may read it, and DELDRIFT_BUSY turns away what would change it. Such
+/// calls may run on several threads at once, and each calls the callbacks. Callbacks may use other triangulations. What
+/// user_data points to must live as long as the triangulation and its copies.
 typedef struct deldrift_options {
     /// sizeof(deldrift_options) as the program sees it.
     size_t struct_size;
     /// Algorithm of later commits; may be changed by deldrift_set_algorithm. Default DELDRIFT_AUTO.
     deldrift_algorithm algorithm;
     /// Greatest number of threads a call may use, the calling one included; 0, the default, is no limit. The library
-    /// uses as many as make the call faster, at most one per processor: one for each 5,000 vertices in 2D or 2,500 in
-    /// 3D to build and rebuild, and likewise to move all, check all certificates and flip in repair. All triangulations
-    /// of the process share them, and they sleep between calls. The cells do not depend on the number. Their order,
-    /// last bits of rounded numbers and the counts in reports may, unless parts is set. Callbacks come from the calling
-    /// thread only.
+    /// uses as many as make the call faster, at most one per processor. To build and rebuild that is one for each 5,000
+    /// vertices in 2D or 2,500 in 3D, and likewise to move all, check all certificates and flip in repair. All
+    /// triangulations of the process share these threads, which sleep between calls. The cells do not depend on the
+    /// number. Their order, last bits of rounded numbers and the counts in reports may, unless parts is set. Callbacks
+    /// come from the calling thread only.
     uint32_t threads;
     /// Default DELDRIFT_COINCIDENCE_MERGE.
     deldrift_coincidence coincidence;
@@ -306,12 +293,11 @@ typedef struct deldrift_options {
     deldrift_passing passing;
     /// Greatest number of parts into which work is divided where that shows in the order of cells: builds, and flips.
     /// 0, the default, is one for each thread that is used. With any other number the same calls give the same answers
-    /// for any number of threads and on every processor: cells in the same order, every bit of rounded numbers, and
-    /// reports included. (A build for whose parts there is no memory is in one.) Parts should be as many as the threads
-    /// that a program is to run on, at most: with fewer some threads have nothing to do in this work, and with more
-    /// each costs something. For 100,000 vertices a build on one thread takes 1.1 times as long in eight parts as in
-    /// one in 2D; in 3D 1.06 times in two, 1.1 in four and 1.3 in eight; for 20,000 1.2 times in 2D, 1.15 to 1.6 times
-    /// in 3D.
+    /// for any number of threads and on every processor. That includes the order of cells, every bit of rounded
+    /// numbers, and reports. (A build for whose parts there is no memory is in one.) Take at most as many parts as the
+    /// program will have threads: with fewer parts some threads have nothing to do in this work, and each further part
+    /// costs something. For 100,000 vertices a build on one thread takes 1.1 times as long in eight parts as in one in
+    /// 2D; in 3D 1.06 times in two, 1.1 in four and 1.3 in eight; for 20,000 1.2 times in 2D, 1.15 to 1.6 times in 3D.
     size_t parts;
     /// Called now and then during long calls: at least once for some ten thousand cells that are made, or looked at
     /// around single vertices. Passes over all vertices or cells, each of which takes a part of a build, are not
@@ -319,22 +305,22 @@ typedef struct deldrift_options {
     /// never cancels.
     bool (*cancel)(void *user_data);
     /// Called just before cancel would be, with the part of the work that is done, from 0 to 1, as far as that is
-    /// known: it need not change from one call to the next, and begins again where a commit goes on by rebuilding. NULL
-    /// is the default.
+    /// known. The part need not change from one call to the next, and begins again where a commit goes on by
+    /// rebuilding. NULL is the default.
     void (*progress)(void *user_data, double fraction);
     /// Handed to the callbacks as it is.
     void *user_data;
 } deldrift_options;
 
-/// The cells of a triangulation: triangles in 2D, tetrahedra in 3D. Read-only, without a copy, valid
-/// until the next call that changes the triangulation.
+/// The cells of a triangulation: triangles in 2D, tetrahedra in 3D. The arrays are those of the library, not a copy:
+/// they are read-only, and valid until the next call that changes the triangulation.
 ///
-/// Calls that stage, that discard what is staged, that take changes, and deldrift_set_algorithm, change no cells: a
-/// view that is not older than the last change stays valid. After deldrift_release_cells it is valid until its owner is
-/// freed.
+/// Some calls change no cells: those that stage, that discard what is staged, that take changes, and
+/// deldrift_set_algorithm. They keep a view that is not older than the last change. After deldrift_release_cells a view
+/// is valid until its owner is freed.
 ///
-/// Cells are positively oriented: the vertices of a triangle are in counter-clockwise order; of a
-/// tetrahedron a, b, c, d, the determinant of the rows b - a, c - a, d - a is positive.
+/// Cells are positively oriented. The vertices of a triangle are in counter-clockwise order. For a tetrahedron a, b, c,
+/// d the determinant of the rows b - a, c - a, d - a is positive.
 typedef struct deldrift_cells_view {
     /// Number of cells.
     size_t count;
@@ -342,8 +328,8 @@ typedef struct deldrift_cells_view {
     uint32_t corners_per_cell;
     /// count rows of corners_per_cell vertex ids. NULL if there are no cells.
     const uint32_t *vertices;
-    /// count rows of corners_per_cell cell indices: entry i of a row is the cell on the other side of
-    /// the facet opposite vertex i, DELDRIFT_NONE on the hull. NULL if there are no cells.
+    /// count rows of corners_per_cell cell indices. Entry i of a row is the cell beyond the facet opposite vertex i,
+    /// DELDRIFT_NONE on the hull. NULL if there are no cells.
     const uint32_t *neighbours;
 } deldrift_cells_view;
 
@@ -355,15 +341,15 @@ extern "C" {
 // What a call says when it ends: status codes, the message of the last failure, the version.
 // ---------------------------------------------------------------------------------------------------------------------
 
-/// A status in a few words, in English, without a full stop. For a number that is no status of this
-/// version the text says so. The string is static. Never fails; may be called from any thread.
+/// A status in a few words, in English, without a full stop. For a number that is no status of this version the text
+/// says so. The string is static.
 ///
 /// Cost: constant.
 const char *deldrift_status_string(deldrift_status status);
 
-/// The message of the last call on this thread that failed: which argument, which index, which value.
-/// An empty string if none has failed. Calls that succeed leave it as it is, so look at it only after
-/// a failure.
+/// The message of the last call on this thread that failed. It says which argument was wrong, at which index, and its
+/// value. It is an empty string if no call has failed. Calls that succeed leave it as it is, so look at it only after a
+/// failure.
 ///
 /// The string is never NULL, belongs to the library, and stays until the next failure on the same
 /// thread. It is at most 511 bytes long and valid UTF-8.
@@ -383,10 +369,10 @@ const char *deldrift_version(void);
 
 /// Sets struct_size and the default of every other option. NULL is legal and does nothing.
 ///
-/// C and C++ programs have it from this header, so that it fills the structure of the header, whichever later version
-/// they run with. Other languages have a function of this name in the library. In every version that one fills the
-/// structure as it is here, and says so in struct_size; a program that knows more fields sets them to zero, which is
-/// the default of all, and struct_size to the size of its structure.
+/// C and C++ programs have it from this header. So it fills the structure of the header, whichever later version they
+/// run with. Other languages have a function of this name in the library. In every version that function fills the
+/// structure as it is here, and says so in struct_size. A program that knows more fields sets them to zero, the default
+/// of all, and struct_size to the size of its structure.
 ///
 /// Cost: constant.
 static inline void deldrift_options_init(deldrift_options *options) {
@@ -403,14 +389,12 @@ static inline void deldrift_options_init(deldrift_options *options) {
 
 /// Creates the Delaunay triangulation of count points in the plane or in space, at timestamp 0.
 ///
-/// dimension: 2 or 3. positions: count points one after the other, dimension numbers each (x, y or x, y, z), in any
-/// unit; may be NULL if count is 0. Vertex i is the i-th of them until the triangulation is destroyed, or
-/// deldrift_compact gives new ids. Any set is legal, the empty one, coincident points and points on one line or plane
-/// included; where the points do not span the dimension there are no cells. Every finite coordinate from -1e57 to 1e57
+/// dimension: 2 or 3. positions: count points, in any unit. Vertex i is the i-th of them until the triangulation is
+/// destroyed, or deldrift_compact gives new ids. Any set is legal: the empty one, coincident points, points on one line
+/// or plane. Where the points do not span the dimension there are no cells. Every finite coordinate from -1e57 to 1e57
 /// is accepted, however close to zero. options: NULL for the defaults.
 ///
-/// out: receives the triangulation, which the caller has to hand to deldrift_destroy. It is written on
-/// success only.
+/// out: receives the triangulation.
 ///
 /// Cost: on all sets of docs/COSTS.md n log n and m. No set takes more than n² in 2D, or n m in 3D, where m is the most
 /// cells of any subset.
@@ -424,9 +408,9 @@ deldrift_status deldrift_create(uint32_t dimension,
                                 const deldrift_options *options,
                                 deldrift_triangulation **out);
 
-/// Destroys a triangulation: its memory is freed and its views end. NULL is legal and does nothing.
-/// A poisoned triangulation is destroyed like any other. From inside a callback of a call on the same
-/// triangulation this does nothing but set deldrift_last_error.
+/// Destroys a triangulation: its memory is freed and its views end. NULL is legal and does nothing. A poisoned
+/// triangulation is destroyed like any other. From inside a callback of a call on the same triangulation it does
+/// nothing but set deldrift_last_error.
 ///
 /// Cost: n + m at most.
 void deldrift_destroy(deldrift_triangulation *t);
@@ -445,15 +429,15 @@ deldrift_status deldrift_dimension(const deldrift_triangulation *t, uint32_t *di
 deldrift_status deldrift_set_algorithm(deldrift_triangulation *t,
                                        deldrift_algorithm algorithm);
 
-/// The algorithm in force, to *algorithm: the one chosen, thus DELDRIFT_AUTO where the library chooses; after
-/// deldrift_research_set_algorithm the number of that of deldrift/research.h.
+/// The algorithm in force, to *algorithm. It is the one that was set: DELDRIFT_AUTO where the library chooses, and
+/// after deldrift_research_set_algorithm the number of an algorithm of deldrift/research.h.
 ///
 /// Cost: constant.
 deldrift_status deldrift_get_algorithm(const deldrift_triangulation *t,
                                        deldrift_algorithm *algorithm);
 
 // ---------------------------------------------------------------------------------------------------------------------
-// What a triangulation holds: counts, sums, and the positions of vertices.
+// What a triangulation holds: counts, and the positions of vertices.
 // ---------------------------------------------------------------------------------------------------------------------
 
 /// How many vertices are present, hidden ones included and removed ones not, to *count.
@@ -461,8 +445,8 @@ deldrift_status deldrift_get_algorithm(const deldrift_triangulation *t,
 /// Cost: constant.
 deldrift_status deldrift_vertex_count(const deldrift_triangulation *t, size_t *count);
 
-/// How many ids have been given, or left by the latest deldrift_compact and given since, to *count: valid
-/// ids are below it, those of removed vertices and of staged insertions too.
+/// How many ids there are, to *count: those given so far, or left by the latest deldrift_compact and given since. All
+/// valid ids are below it, those of removed vertices and of staged insertions too.
 ///
 /// Cost: constant.
 deldrift_status deldrift_id_count(const deldrift_triangulation *t,
@@ -478,47 +462,42 @@ deldrift_status deldrift_cell_count(const deldrift_triangulation *t, size_t *cou
 /// Cost: constant.
 deldrift_status deldrift_staged_count(const deldrift_triangulation *t, size_t *count);
 
-/// How many bytes of memory the triangulation holds, to *bytes: what its views show and what it keeps as room
-/// for later calls included, and without what the system's allocator adds to each of its arrays. It may grow in any
-/// call on the triangulation, also in one that fails, and in one that takes it as const (deldrift_cells makes arrays);
-/// deldrift_compact makes it as small as that of a fresh one, but for arrays that are made again when asked for.
+/// How many bytes of memory the triangulation holds, to *bytes. What its views show is included, and so is what it
+/// keeps as room for later calls; what the system's allocator adds to each array is not. The number may grow in any
+/// call on the triangulation, also in one that fails, and in one that takes it as const (deldrift_cells makes arrays).
+/// deldrift_compact makes it as small as that of a fresh triangulation, but for arrays that are made again when asked
+/// for.
 ///
 /// Cost: constant.
 deldrift_status deldrift_memory_bytes(const deldrift_triangulation *t,
                                       size_t *bytes);
 
-/// The number of the current timestamp, to *timestamp: 0 at creation, one more at each commit.
+/// The number of the current timestamp, to *timestamp. It is 0 at creation, and one more after each commit.
 ///
 /// Cost: constant.
-deldrift_status deldrift_timestamp(const deldrift_triangulation *t, uint64_t *timestamp);
+deldrift_status deldrift_timestamp(const deldrift_triangulation *t,
+                                   uint64_t *timestamp);
 
-/// The sums of what all commits and immediate calls so far have done, to *report, whose timestamp and
-/// coincident are those of now.
-///
-/// Cost: constant.
-deldrift_status deldrift_statistics(const deldrift_triangulation *t,
-                                    deldrift_commit_report *report);
-
-/// Whether a vertex of this id is present, to *present: false if it has been removed, or never was, or only its
-/// insertion is staged; true if only its removal is.
+/// Whether a vertex of this id is present, to *present. It is not if it has been removed, or never was, or if only its
+/// insertion is staged. It is if only its removal is staged.
 ///
 /// Cost: constant.
 deldrift_status deldrift_is_present(const deldrift_triangulation *t,
                                     uint32_t vertex,
                                     bool *present);
 
-/// The position of a vertex, 2 or 3 numbers, to position: that of the current timestamp, not a staged one.
+/// The position of a vertex at the current timestamp, not a staged one, to position.
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged.
+/// Errors: DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX.
 deldrift_status deldrift_position(const deldrift_triangulation *t,
                                   uint32_t vertex,
                                   double *position);
 
-/// The positions of all ids, in their order, 2 or 3 numbers each: of present vertices those of the current timestamp,
-/// of vertices whose insertion is staged those where they will be inserted, of removed vertices NaN. So the array can
-/// be changed and handed to deldrift_commit_positions.
+/// The positions of all ids, in their order. Present vertices have the positions of the current timestamp, vertices
+/// whose insertion is staged those where they will be inserted, and removed vertices NaN. So the array can be changed
+/// and handed to deldrift_commit_positions.
 ///
 /// positions: a buffer with room for capacity points. count: receives the number of ids.
 ///
@@ -534,11 +513,10 @@ deldrift_status deldrift_copy_positions(const deldrift_triangulation *t,
 
 /// The cells, without a copy, to *view.
 ///
-/// The first call of all makes the arrays. They are kept: the first call after a change brings them up
-/// to date, in time proportional to what has changed, and further calls take constant time. A cell that
-/// exists before and after a change keeps its index, whatever the algorithm, unless cells have become
-/// fewer: then the last ones take the free indices (see deldrift_take_changes). Calls on several threads are
-/// legal, the first included.
+/// The first call of all makes the arrays, which are kept. The first call after a change brings them up to date, in
+/// time proportional to what has changed. Further calls take constant time. A cell that exists before and after a
+/// change keeps its index, whatever the algorithm. But where cells have become fewer, the last ones take the free
+/// indices (see deldrift_take_changes). Calls on several threads are legal, the first included.
 ///
 /// Cost: m for the first call of all; after a change what has changed; else constant.
 ///
@@ -546,13 +524,13 @@ deldrift_status deldrift_copy_positions(const deldrift_triangulation *t,
 deldrift_status deldrift_cells(const deldrift_triangulation *t,
                                deldrift_cells_view *view);
 
-/// Hands the arrays of deldrift_cells over to the program, to *view, with an owner for them, to *owner: they stay as
-/// they are, and valid, until the owner is handed to deldrift_free_cells, whatever becomes of t.
+/// Hands the arrays of deldrift_cells over to the program, to *view, with an owner for them, to *owner. They stay
+/// valid, and as they are, until the owner is handed to deldrift_free_cells, whatever becomes of t.
 ///
-/// Views that deldrift_cells has given since the last change, or the last call of this function, are of these arrays:
-/// they are valid until this owner is freed, and no longer. So a program that has shown them to others, such as an
-/// interpreter, can call this before it makes a change. Views that are got afterwards are of copies, which belong to t.
-/// A commit that fails and deldrift_compact count as changes.
+/// Views that deldrift_cells has given since the last change, or the last call of this function, are of these arrays.
+/// They are valid until this owner is freed, and no longer. So a program that has shown them to others, such as an
+/// interpreter, can call this before it makes a change. Later views are of copies, which belong to t. A commit that
+/// fails counts as a change, and so does deldrift_compact.
 ///
 /// Cost: m.
 ///
@@ -561,17 +539,16 @@ deldrift_status deldrift_release_cells(deldrift_triangulation *t,
                                        deldrift_cells_view *view,
                                        deldrift_released_cells **owner);
 
-/// Frees arrays that deldrift_release_cells has handed over, once. NULL is legal and does nothing, and neither does a
-/// misaligned pointer. May be called from any thread.
+/// Frees arrays that deldrift_release_cells has handed over, once. NULL is legal and does nothing; a misaligned pointer
+/// does nothing either.
 ///
 /// Cost: m at most, to free memory.
 void deldrift_free_cells(deldrift_released_cells *owner);
 
 /// A copy of the cells: see deldrift_cells_view for what the rows mean.
 ///
-/// vertices, neighbours: buffers with room for capacity rows of 3 (2D) or 4 (3D) numbers; one that is NULL is not
-/// filled. count: receives the number of cells. NULL for both with capacity 0 asks for the count alone, with another it
-/// is DELDRIFT_NULL_ARGUMENT.
+/// vertices, neighbours: buffers with room for capacity rows of 3 (2D) or 4 (3D) numbers. count: receives the number of
+/// cells.
 ///
 /// Cost: m.
 ///
@@ -582,18 +559,17 @@ deldrift_status deldrift_copy_cells(const deldrift_triangulation *t,
                                     size_t capacity,
                                     size_t *count);
 
-/// The star of a vertex: the indices of the cells that have it as a corner, in no particular order; for
-/// a hidden vertex those of its representative.
+/// The star of a vertex: the indices of the cells that have it as a corner, in no particular order. A hidden vertex has
+/// the star of its representative.
 ///
 /// cells: a buffer with room for capacity indices. count: receives their number.
 ///
-/// Of a periodic triangulation a cell is there once for each of its corners that is the vertex, in whatever period.
+/// In a periodic triangulation a cell is listed once for each of its corners that is the vertex, in whatever period.
 ///
 /// Cost: the cells of the star; m for a periodic triangulation. Where there are more vertices than a cache holds, stars
 /// are read fastest in the order of the ids.
 ///
-/// Errors: DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged,
-/// DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_star(const deldrift_triangulation *t,
                               uint32_t vertex,
                               uint32_t *cells,
@@ -603,26 +579,25 @@ deldrift_status deldrift_star(const deldrift_triangulation *t,
 /// The tolerance of a vertex, to *out: while every vertex stays closer to its current position than its
 /// tolerance, no cell changes.
 ///
-/// It is a certified lower bound: rounding can make it smaller, but never too large. It is 0 where nothing is certain
-/// and for vertices that share their place, and infinite, without a meaning, while there are no cells. Computed from
-/// the star of the vertex, whatever the algorithm in force. At segments it is what the orientation of the cells on both
-/// sides allows.
+/// It is a certified lower bound: rounding can make it smaller, but never too large. It is 0 where nothing is certain,
+/// and for vertices that share their place. It is infinite, without a meaning, while there are no cells. It is computed
+/// from the star of the vertex, whatever the algorithm in force. At segments it is what the orientation of the cells on
+/// both sides allows.
 ///
 /// Cost: the cells of the star.
 ///
-/// Errors: DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged,
-/// DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_tolerance(const deldrift_triangulation *t,
                                    uint32_t vertex,
                                    double *out);
 
 /// Checks the triangulation exactly, in time proportional to its size.
 ///
-/// level: 1 checks indices and adjacency; 2 also the orientation of the cells, and that the hull is convex and winds
-/// once; 3 also that no sphere through the vertices of a cell contains a vertex, or, with segments, none that can be
-/// seen from the cell's inside. Of a periodic triangulation what is kept inside is checked so, images included, and
-/// that these are where the vectors take their vertices; 3 also that none is missing, and that each cell is there once
-/// for each of its corners.
+/// level: 1 checks indices and adjacency. 2 also checks the orientation of the cells, and that the hull is convex and
+/// winds once. 3 also checks that no sphere through the vertices of a cell contains a vertex, or, with segments, none
+/// that can be seen from the cell's inside. In a periodic triangulation this is checked of what is kept inside, images
+/// included, and that images are where the vectors take their vertices. 3 then also checks that no image is missing,
+/// and that each cell is there once for each of its corners.
 ///
 /// Cost: n + m. Of a periodic triangulation at level 3 that of creation at most, in a copy.
 ///

@@ -7,41 +7,27 @@
  * Where points lie, and which vertices are near.
  *
  *     deldrift_locate: Where a point lies, exactly, to *location.
- *     deldrift_locate_points: Where count points lie, exactly, to locations, which has room for count: as count calls
- *         of deldrift_locate, and faster if each point is near the one before it.
- *     deldrift_locate_in_period: Where count points lie, exactly, to locations, and in which period what is there, to
- *         shifts: deldrift_locate_points for programs that need the places of the corners.
- *     deldrift_nearest_vertex: The vertex nearest to a point, to *vertex: the lowest id among the nearest, or where
- *         vertices have keys the one of the lowest key; DELDRIFT_NONE if the triangulation has no vertices.
- *     deldrift_coincident_representative: The lowest id among the vertices at the place of this one, or where vertices
- *         have keys the one of the lowest key and then of the lowest id, to *representative: the one that is a corner
- *         of cells.
+ *     deldrift_locate_points: Where count points lie, exactly, to locations, which has room for count.
+ *     deldrift_locate_in_period: Where count points lie, exactly, to locations, and in which period, to shifts.
+ *     deldrift_nearest_vertex: The vertex nearest to a point, to *vertex.
+ *     deldrift_coincident_representative: The vertex that represents this one in cells, to *representative.
  *     deldrift_hidden_vertices: The vertices that are hidden, ascending, each with the one that represents it.
  *
  * What is near a place: the nearest vertices, those in a ball or a box, the cells that a new vertex would remove.
  *
- *     deldrift_nearest_vertices: The k vertices nearest to each of count positions: rows of k ids, by distance and, at
- *         the same distance, by id, or by key where vertices have keys; DELDRIFT_NONE where there are fewer vertices
- *         than k.
- *     deldrift_vertices_in_ball: The vertices in a closed ball, ascending by id, hidden ones included: those whose
- *         squared distance from centre is at most squared_radius.
+ *     deldrift_nearest_vertices: The k vertices nearest to each of count positions: rows of k ids, by distance.
+ *     deldrift_vertices_in_ball: The vertices in a closed ball, ascending by id, hidden ones included.
  *     deldrift_neighbour_lists: For each vertex the others that are near it, all in one call: the neighbour lists of
  *         particle codes.
- *     deldrift_vertices_in_box: The vertices in a closed box, ascending by id, hidden ones included: those of which
- *         each coordinate is at least that of low and at most that of high.
- *     deldrift_conflicts: The cells that the insertion of a vertex at a position would remove, in no particular order:
- *         those whose circle or sphere has the position inside, exactly, with ties broken as for a vertex of the
- *         highest id.
+ *     deldrift_vertices_in_box: The vertices in a closed box, ascending by id, hidden ones included.
+ *     deldrift_conflicts: The cells that the insertion of a vertex at a position would remove, in no particular order.
  *
  * The cells, hull facets and vertices that a vertex in a box could change.
  *
- *     deldrift_cells_in_reach: The cells that a vertex at a place in one of some boxes could change: with
- *         deldrift_hull_facets_in_reach, what a process has to know of vertices that it does not have, given where they
- *         may be.
+ *     deldrift_cells_in_reach: The cells that a vertex at a place in one of some boxes could change.
  *     deldrift_hull_facets_in_reach: The facets of the convex hull that a place in one of some boxes is strictly
- *         beyond: those to which a vertex there would be joined.
- *     deldrift_vertices_in_reach: For each of some boxes the vertices of the cells and hull facets in its reach: those
- *         that a process sends to another one whose vertices are in the box.
+ *         beyond, exactly.
+ *     deldrift_vertices_in_reach: For each of some boxes the vertices of the cells and hull facets in its reach.
  *
  * What meets what: edges, neighbours and cells of vertices, mirror indices, ordered stars.
  *
@@ -50,17 +36,15 @@
  *         edge, ascending, one list after the other.
  *     deldrift_vertex_cells: The cells of all vertices: for each id the indices of the cells that have it as a corner,
  *         ascending, one list after the other.
- *     deldrift_cell_of_each_vertex: A cell of each vertex, to cells: for each id the index of the first cell of which
- *         the vertex is a corner; DELDRIFT_NONE for those that are hidden or removed, whose insertion is staged, and
- *         while there are no cells.
- *     deldrift_find_simplices: Cells that have given vertices as corners, to cells: for each of count simplices the
- *         index of one, DELDRIFT_NONE if there is none.
- *     deldrift_mirror_indices: The mirror indices of all facets: entry i of the row of a cell, in the order of
- *         deldrift_cells, is about the facet opposite corner i.
+ *     deldrift_cell_of_each_vertex: A cell of each vertex: for each id the index of the first cell of which the vertex
+ *         is a corner.
+ *     deldrift_find_simplices: Cells that have given vertices as corners: for each of count simplices the index of one,
+ *         DELDRIFT_NONE if there is none.
+ *     deldrift_mirror_indices: The mirror indices of all facets, in the order of deldrift_cells.
  *     deldrift_mirror_index: The mirror index of one facet, to *mirror: the corner of the neighbour beyond that is
- *         opposite the same facet; DELDRIFT_NONE for a facet of the hull.
- *     deldrift_ordered_star: The star of a vertex of the plane in the order in which one goes around it: the indices of
- *         the cells that have it as a corner, counter-clockwise.
+ *         opposite the same facet, DELDRIFT_NONE on the hull.
+ *     deldrift_ordered_star: The star of a vertex of the plane, counter-clockwise: the indices of the cells that have
+ *         it as a corner.
  *
  * Values between vertices.
  *
@@ -106,9 +90,9 @@ enum
  {
     /// Linear in each cell.
     DELDRIFT_INTERPOLATION_LINEAR = 0,
-    /// By the natural neighbours of a position, the vertices that would share an edge with it: each with the length or
-    /// area of the Voronoi facet between the two over their distance (Laplace's, or non-Sibsonian interpolation).
-    /// Smooth but at vertices and on the circles or spheres of cells.
+    /// By the natural neighbours of a position, which are the vertices that would share an edge with it. The weight of
+    /// each is the length or area of the Voronoi facet between the two over their distance (Laplace's, or non-Sibsonian
+    /// interpolation). Smooth except at vertices and on the circles or spheres of cells.
     DELDRIFT_INTERPOLATION_NATURAL_NEIGHBOUR = 1,
 };
 #ifndef __cplusplus
@@ -156,11 +140,8 @@ extern "C" {
 
 /// Where a point lies, exactly, to *location.
 ///
-/// position: 2 or 3 numbers.
-///
-/// In a periodic triangulation the point is rounded to the grid of deldrift_create_periodic, as a vertex would be; it
-/// may be in any period. The location is that of the translation of a vertex or a cell that is there:
-/// deldrift_locate_in_period tells which one. It is outside only of what is open in some direction.
+/// In a periodic triangulation the location is that of the translation of a vertex or a cell that is there;
+/// deldrift_locate_in_period tells which one. A point can be outside only where the box is open in some direction.
 ///
 /// Cost: the cells that a walk crosses from where an earlier one ended, or from a vertex that is near: a few for most
 /// sets, m at most. While there are no cells, constant; n in a periodic one.
@@ -170,40 +151,36 @@ deldrift_status deldrift_locate(const deldrift_triangulation *t,
                                 const double *position,
                                 deldrift_location *location);
 
-/// Where count points lie, exactly, to locations, which has room for count: as count calls of deldrift_locate, and
-/// faster if each point is near the one before it. deldrift_locate_in_period also tells in which period of a periodic
-/// triangulation.
+/// Where count points lie, exactly, to locations, which has room for count. It gives what count calls of
+/// deldrift_locate give, and is faster if each point is near the one before it. deldrift_locate_in_period also tells in
+/// which period of a periodic triangulation.
 ///
-/// positions: 2 or 3 numbers for each point; NULL if count is 0, as may locations be. hint: where to begin to look
-/// for the first point, for example the last answer of the call before; NULL if nothing is known. It only
-/// matters for speed: it may be far away, from before a change, or name nothing. It may be one of locations.
+/// hint: where to begin to look for the first point, for example the last answer of the call before; NULL if nothing is
+/// known. It only matters for speed: it may be far away, from before a change, or name nothing. It may be one of
+/// locations.
 ///
 /// Cost: count times that of deldrift_locate.
 ///
-/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY; then nothing is
-/// written.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_locate_points(const deldrift_triangulation *t,
                                        const double *positions,
                                        size_t count,
                                        const deldrift_location *hint,
                                        deldrift_location *locations);
 
-/// Where count points lie, exactly, to locations, and in which period what is there, to shifts: deldrift_locate_points
-/// for programs that need the places of the corners.
+/// Where count points lie, exactly, to locations, and in which period, to shifts. It is deldrift_locate_points for
+/// programs that need the places of the corners.
 ///
 /// positions, hint, locations: as for deldrift_locate_points. shifts: receives a row of 2 (2D) or 3 (3D) whole numbers
-/// for each point, multiples of the vectors, 0 beyond the last of these: by them the vertex is to be translated from
-/// its position to be at the point, or the cell from where deldrift_cell_shifts has it to have the point, or, where the
-/// point is outside, a facet of the hull that faces it. So the corners of the cell are at their positions and the sums
-/// of these multiples and of theirs. May be NULL if count is 0.
+/// for each point, multiples of the vectors, 0 beyond the last of these. Translated by them, the vertex is at the
+/// point, or the cell of deldrift_cell_shifts has the point; where the point is outside, the cell then has a facet of
+/// the hull that faces it. So a corner of the cell is at its position and the sum of these multiples and of its own.
 ///
-/// In a periodic triangulation the points are rounded to the grid of deldrift_create_periodic, as vertices would be.
 /// All shifts are 0 where there are no cells or vertices at the point, and where the triangulation is not periodic.
 ///
 /// Cost: count times that of deldrift_locate.
 ///
-/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY; then nothing is
-/// written.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_locate_in_period(const deldrift_triangulation *t,
                                           const double *positions,
                                           size_t count,
@@ -211,12 +188,10 @@ deldrift_status deldrift_locate_in_period(const deldrift_triangulation *t,
                                           deldrift_location *locations,
                                           int64_t *shifts);
 
-/// The vertex nearest to a point, to *vertex: the lowest id among the nearest, or where vertices have keys the one
-/// of the lowest key; DELDRIFT_NONE if the
-/// triangulation has no vertices.
+/// The vertex nearest to a point, to *vertex. Of several it is the one of the lowest id, or, where vertices have keys,
+/// of the lowest key. It is DELDRIFT_NONE if the triangulation has no vertices.
 ///
-/// position: 2 or 3 numbers. In a periodic triangulation it may be in any period, and is rounded as for
-/// deldrift_locate; the distance is that of the nearest image of a vertex.
+/// In a periodic triangulation the distance is that of the nearest image of a vertex.
 ///
 /// Cost: that of deldrift_locate, and the stars of the vertices on the way and of all that are nearest. While there are
 /// no cells, n.
@@ -226,26 +201,25 @@ deldrift_status deldrift_nearest_vertex(const deldrift_triangulation *t,
                                         const double *position,
                                         uint32_t *vertex);
 
-/// The lowest id among the vertices at the place of this one, or where vertices have keys the one of the lowest key and
-/// then of the lowest id, to *representative: the one that is a corner of cells. It is the vertex itself unless the
-/// vertex is hidden.
+/// The vertex that represents this one in cells, to *representative. It is the one of the lowest id at the same place,
+/// or, where vertices have keys, of the lowest key and then of the lowest id. It is the vertex itself unless that is
+/// hidden.
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged.
+/// Errors: DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX.
 deldrift_status deldrift_coincident_representative(const deldrift_triangulation *t,
                                                    uint32_t vertex,
                                                    uint32_t *representative);
 
-/// The vertices that are hidden, ascending, each with the one that represents it. Vertices of a periodic triangulation
-/// that share a place in any period count.
+/// The vertices that are hidden, ascending, each with the one that represents it. In a periodic triangulation vertices
+/// share a place if they do in any period.
 ///
-/// vertices, representatives: buffers with room for capacity ids each. One that is NULL is not filled. count: receives
-/// the number of hidden vertices.
+/// vertices, representatives: buffers with room for capacity ids each. count: receives the number of hidden vertices.
 ///
 /// Cost: n; constant where there are none, and for the count alone; n for a periodic triangulation.
 ///
-/// Errors: DELDRIFT_BUFFER_TOO_SMALL; DELDRIFT_OUT_OF_MEMORY if t is periodic.
+/// Errors: DELDRIFT_OUT_OF_MEMORY if t is periodic.
 deldrift_status deldrift_hidden_vertices(const deldrift_triangulation *t,
                                          uint32_t *vertices,
                                          uint32_t *representatives,
@@ -256,37 +230,35 @@ deldrift_status deldrift_hidden_vertices(const deldrift_triangulation *t,
 // What is near a place: the nearest vertices, those in a ball or a box, the cells that a new vertex would remove.
 // ---------------------------------------------------------------------------------------------------------------------
 
-/// The k vertices nearest to each of count positions: rows of k ids, by distance and, at the same distance, by id, or
-/// by key where vertices have keys; DELDRIFT_NONE where there are fewer vertices than k. Distances are compared
-/// exactly. Hidden vertices count like others.
+/// The k vertices nearest to each of count positions: rows of k ids, by distance. At the same distance they are in the
+/// order of ids, or of keys where vertices have keys. Entries beyond the number of vertices are DELDRIFT_NONE.
+/// Distances are compared exactly. Hidden vertices count like others.
 ///
-/// positions: 2 or 3 numbers each; NULL if count is 0. vertices: receives count rows of k ids; may be NULL if there are
-/// none.
+/// vertices: receives count rows of k ids, NULL if there are none.
 ///
 /// It is fastest if each position is near the one before it. The first id of a row is that of deldrift_nearest_vertex.
 ///
-/// In a periodic triangulation positions may be in any period, and are rounded as for deldrift_locate. Each vertex
-/// comes once, by the distance of its nearest image (the minimum image); images farther away do not count.
+/// In a periodic triangulation each vertex comes once, by the distance of its nearest image (the minimum image); images
+/// farther away do not count.
 ///
 /// Cost: count times that of deldrift_nearest_vertex, the stars of the k vertices, and k log k; with k = 0 constant.
 /// While there are no cells, count times n; n more in a periodic triangulation with hidden vertices.
 ///
-/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY; then nothing is
-/// written.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_nearest_vertices(const deldrift_triangulation *t,
                                           const double *positions,
                                           size_t count,
                                           size_t k,
                                           uint32_t *vertices);
 
-/// The vertices in a closed ball, ascending by id, hidden ones included: those whose squared distance from centre is at
-/// most squared_radius. Exact.
+/// The vertices in a closed ball, ascending by id, hidden ones included. They are those whose squared distance from
+/// centre is at most squared_radius, exactly.
 ///
 /// centre: 2 or 3 numbers. squared_radius: 0 or more; infinity is all vertices. vertices: a buffer with room for
 /// capacity ids; deldrift_vertex_count is always enough. count: receives their number.
 ///
-/// In a periodic triangulation the centre may be in any period, and is rounded as for deldrift_locate. A vertex is in
-/// the ball if any image of it is; each is told once. The ball may be larger than the box.
+/// In a periodic triangulation a vertex is in the ball if any image of it is; each is told once. The ball may be larger
+/// than the box.
 ///
 /// Cost: that of deldrift_nearest_vertex, the stars of the vertices in the ball, and k log k for the k of them; n log n
 /// at most but for the former. While there are no cells, and in a periodic triangulation with hidden vertices, n.
@@ -302,37 +274,35 @@ deldrift_status deldrift_vertices_in_ball(const deldrift_triangulation *t,
 
 /// For each vertex the others that are near it, all in one call: the neighbour lists of particle codes.
 ///
-/// The list of a vertex has the vertices of which the squared distance from it is at most that of its radius, exactly:
-/// those that deldrift_vertices_in_ball finds around it, hidden ones included, but not the vertex itself. Hidden
-/// vertices have lists, too; those of removed ones are empty, as they are of vertices that are staged. Each list
-/// ascends by id.
+/// The list of a vertex has the vertices whose squared distance from it is at most its squared radius, exactly. They
+/// are those that deldrift_vertices_in_ball finds around it, hidden ones included, but not the vertex itself. Hidden
+/// vertices have lists, too. Those of removed and of staged vertices are empty. Each list ascends by id.
 ///
-/// squared_radii: one number, the square of the radius of all lists, radius_count being 1; or one for each id,
-/// radius_count being deldrift_id_count. Each is 0 or more, and infinity is all vertices. Entries of vertices without a
-/// list are not looked at. mask: an entry for each vertex id; only vertices whose entry is not 0 have a list, in which
-/// others may be all the same. NULL for all. mask_count: deldrift_id_count; without a mask it is not looked at. pairs:
-/// DELDRIFT_PAIRS_FULL, or DELDRIFT_PAIRS_HALF for each pair once. Where radii differ, the one vertex may be in the
-/// ball of the other and not the other way round; half lists have each pair that full lists have one way or both, so
-/// that two vertices with lists are a pair if their distance is at most the greater one of their radii. It is in the
-/// list of the lower id, or, if only one of the two has a list, in that.
+/// squared_radii: one number for all lists, radius_count being 1; or one for each id, radius_count being
+/// deldrift_id_count. Each is 0 or more, and infinity is all vertices. Entries of vertices without a list are not
+/// looked at. mask: an entry for each vertex id. Only vertices whose entry is not 0 have a list, which may have others
+/// in it. NULL for all. mask_count: deldrift_id_count; without a mask it is not looked at. pairs: DELDRIFT_PAIRS_FULL,
+/// or DELDRIFT_PAIRS_HALF for each pair once. Where radii differ, one vertex may be in the ball of another and not the
+/// other way round. Half lists have each pair that full lists have one way or both: two vertices with lists are a pair
+/// if their distance is at most the greater one of their radii. It is in the list of the lower id, or, if only one of
+/// the two has a list, in that.
 ///
-/// offsets: a buffer for offset_count numbers, which must be deldrift_id_count + 1: the list of vertex v is in
-/// neighbours from the index that is entry v of offsets on, and ends before entry v + 1. neighbours: a buffer with room
-/// for capacity ids. shifts: one with room for as many rows of 2 (2D) or 3 (3D) whole numbers: in which period each
-/// neighbour is, as deldrift_edge_shifts has them. One that is NULL is not filled. count: receives the number of
-/// entries; then nothing else is. NULL for both with capacity 0 asks for offsets and the count alone, for which nothing
-/// is kept. A program that asks again and again, as in each step, keeps its buffers, with some room to spare, and so
-/// asks once.
+/// offsets: a buffer for offset_count numbers, which must be deldrift_id_count + 1. The list of vertex v begins in
+/// neighbours at the index that is entry v of offsets, and ends before entry v + 1. neighbours: a buffer with room for
+/// capacity ids. shifts: one with room for as many rows of 2 (2D) or 3 (3D) whole numbers: in which period each
+/// neighbour is, as deldrift_edge_shifts has them. count: receives the number of entries. With NULL for neighbours and
+/// shifts and capacity 0 offsets are filled, and nothing is kept. A program that asks again and again, as in each step,
+/// keeps its buffers, with some room to spare, and so asks once.
 ///
-/// In a periodic triangulation a list has every image that is near, each with its shift, ascending by id and by shift:
-/// several of one vertex, and of the vertex itself those in other periods, where the radius is large beside the box.
-/// Half lists have one of the two ways between two images: of those from a vertex to itself the one whose shift has a
-/// first number that is not 0 above 0. Radii are refused that are so large that places of images would be rounded: up
-/// to eight times the least distance between opposite sides of the reduced box is always possible. Where the
-/// triangulation is not periodic, shifts are 0.
+/// In a periodic triangulation a list has every image that is near, each with its shift, ascending by id and by shift.
+/// Where the radius is large beside the box, there are several images of one vertex, and images of the vertex itself.
+/// Half lists have one of the two ways between two images. Of those from a vertex to itself it is the one whose shift
+/// has a positive number as the first that is not 0. Radii are refused that are so large that places of images would be
+/// rounded. Up to eight times the least distance between opposite sides of the reduced box is always possible. Where
+/// the triangulation is not periodic, shifts are 0.
 ///
-/// Uses the threads of the options, and calls their callbacks. The lists do not depend on how many threads there are.
-/// Takes memory for the places and for all lists while it runs, and writes nothing until all are known.
+/// Runs on several threads, as the options allow. The lists do not depend on how many there are. Takes memory for the
+/// places and for all lists while it runs, and writes nothing until all are known.
 ///
 /// Cost: n log n, the entries, and k log k for the k of each list. With one radius for all, that is so for every set,
 /// however unevenly it is spread: what is looked at besides is at most a constant times n and the entries, and mostly
@@ -354,16 +324,16 @@ deldrift_status deldrift_neighbour_lists(const deldrift_triangulation *t,
                                          size_t capacity,
                                          size_t *count);
 
-/// The vertices in a closed box, ascending by id, hidden ones included: those of which each coordinate is at least that
-/// of low and at most that of high.
+/// The vertices in a closed box, ascending by id, hidden ones included. Each of their coordinates is at least that of
+/// low and at most that of high.
 ///
 /// low, high: 2 or 3 numbers each, which may be infinite. Where one of low is above that of high there are none.
 /// vertices: a buffer with room for capacity ids; deldrift_vertex_count is always enough. count: receives their number.
 ///
 /// In a periodic triangulation a vertex is in the box if any image of it is; each is told once. The box is not rounded,
-/// and may be larger than the period; one that is 10^20 periods away is refused. Where vectors go along several axes,
-/// as in a skewed box, one that is thousands of periods long, or infinite, along some of these has to be as wide as all
-/// these vectors together along each, or infinite along all but one.
+/// and may be larger than the period. One that is 10^20 periods away is refused. Where vectors go along several axes,
+/// as in a skewed box, there is a condition on one that is thousands of periods long, or infinite, along some of these
+/// axes. It has to be as wide as all these vectors together along each, or infinite along all but one.
 ///
 /// Cost: that of deldrift_locate, the cells whose bounding boxes meet the box, the facets of the hull that are seen
 /// from it, and k log k for the k vertices in it; n log n at most but for the first. While there are no cells, n. In a
@@ -378,19 +348,19 @@ deldrift_status deldrift_vertices_in_box(const deldrift_triangulation *t,
                                          size_t capacity,
                                          size_t *count);
 
-/// The cells that the insertion of a vertex at a position would remove, in no particular order: those whose circle or
-/// sphere has the position inside, exactly, with ties broken as for a vertex of the highest id. At the place of a
-/// vertex, and while there are no cells, there are none.
+/// The cells that the insertion of a vertex at a position would remove, in no particular order. Their circle or sphere
+/// has the position inside, exactly, with ties broken as for a vertex of the highest id. At the place of a vertex, and
+/// while there are no cells, there are none.
 ///
-/// position: 2 or 3 numbers. hint: where to begin to look for it, as for deldrift_locate_points; NULL if nothing is
-/// known. cells: a buffer with room for capacity indices. count: receives their number.
+/// hint: where to begin to look for it, as for deldrift_locate_points; NULL if nothing is known. cells: a buffer with
+/// room for capacity indices. count: receives their number.
 ///
 /// A position outside the convex hull may be in the circle or sphere of no cell: then the insertion removes none, and
 /// joins the vertex to the facets of the hull that it sees.
 ///
-/// In a periodic triangulation the position may be in any period, and is rounded as for deldrift_locate. A cell is
-/// told, once, if a translation of it is in conflict: it would be removed by the insertion of the vertex with all of
-/// its images. A position outside the convex hull is refused, as facets without an end are seen from there.
+/// In a periodic triangulation a cell is told, once, if a translation of it is in conflict: it would be removed by the
+/// insertion of the vertex with all of its images. A position outside the convex hull is refused, as facets without an
+/// end are seen from there.
 ///
 /// Cost: that of deldrift_locate, the cells found, and the facets of the hull that are seen from the position.
 ///
@@ -407,33 +377,32 @@ deldrift_status deldrift_conflicts(const deldrift_triangulation *t,
 // The cells, hull facets and vertices that a vertex in a box could change.
 // ---------------------------------------------------------------------------------------------------------------------
 
-/// The cells that a vertex at a place in one of some boxes could change: with deldrift_hull_facets_in_reach, what a
-/// process has to know of vertices that it does not have, given where they may be.
+/// The cells that a vertex at a place in one of some boxes could change. With deldrift_hull_facets_in_reach, they are
+/// what a process has to know of vertices that it does not have, given where these may be.
 ///
 /// A cell is in reach of a box if its closed circumscribed disc or ball meets the closed box. Exactly these are told,
-/// decided without rounding: none is missing, and none is too many. A vertex that is inserted, or moves to, a place in
-/// the box removes no other cell, whatever its id, and joins no facet of the hull but those in reach, and those in
-/// whose line or plane its place is, where the cell behind is in reach.
+/// decided without rounding. A vertex that is inserted at, or moves to, a place in the box removes no other cell,
+/// whatever its id. It joins no facet of the hull but those in reach, and those in whose line or plane its place is,
+/// where the cell behind is in reach.
 ///
-/// low, high: box_count rows of 2 (2D) or 3 (3D) numbers, the least and the greatest coordinates of each box, which may
-/// be infinite; NULL if box_count is 0. Places beyond the range of coordinates, of magnitudes above 1e57, do not count.
-/// A box is empty, and nothing in reach of it, where one of low is above that of high. It may be a place, or flat. The
-/// outside of a box is 4 (2D) or 6 (3D) boxes with infinite sides. mask: an entry for each vertex id; only cells count
-/// that have a corner at the place of a vertex whose entry is not 0. NULL for all cells. mask_count: deldrift_id_count;
-/// without a mask it is not looked at.
+/// low, high: box_count rows of the least and the greatest coordinates of each box, which may be infinite. Places
+/// beyond the range of coordinates, of magnitudes above 1e57, do not count. A box is empty, and nothing in reach of it,
+/// where one of low is above that of high. It may be a place, or flat. The outside of a box is 4 (2D) or 6 (3D) boxes
+/// with infinite sides. mask: an entry for each vertex id. Only cells count that have a corner at the place of a vertex
+/// whose entry is not 0. NULL for all cells. mask_count: deldrift_id_count; without a mask it is not looked at.
 ///
 /// cells, centres, radii: buffers with room for capacity cells. They receive the indices of those in reach of any of
-/// the boxes, ascending and each once; rows of 2 or 3 coordinates; and numbers. The closed ball with this centre and
-/// radius certainly has the closed disc or ball of the cell in it. It is larger by some 1e-12 of the radius and last
-/// bits of the coordinates, where the cell is nearly flat by up to 4e-9 of the radius. Where numbers do not suffice,
-/// the radius is infinite and the centre a corner of the cell. A ball may cover all vertices though few are in that of
-/// the cell, if its radius is 1e8 times their extent: whether the cell is in reach does not depend on that. One that is
-/// NULL is not filled. count: receives the number of cells.
+/// the boxes, ascending and each once; points; and numbers. The closed ball with this centre and radius certainly has
+/// the closed disc or ball of the cell in it. It is larger by some 1e-12 of the radius and last bits of the
+/// coordinates, or by up to 4e-9 of the radius where the cell is nearly flat. Where numbers do not suffice, the radius
+/// is infinite and the centre a corner of the cell. A ball may cover all vertices though few are in that of the cell,
+/// if its radius is 1e8 times their extent: whether the cell is in reach does not depend on that. count: receives the
+/// number of cells.
 ///
-/// While there are no cells, as all vertices are in one line or plane, or fewer than 3 or 4, none are told: then a
-/// vertex anywhere could change all there is. Where cells are constrained by segments, they are those whose discs meet
-/// the box and that are connected, by such cells, with those that have a place of the box. Segments between them do not
-/// count. All that the insertion of a vertex in the box would remove are among them.
+/// While there are no cells, none are told: then a vertex anywhere could change all there is. Where cells are
+/// constrained by segments, those are told whose discs meet the box and that are connected, by such cells, with those
+/// that have a place of the box. Segments between them do not count. All that the insertion of a vertex in the box
+/// would remove are among them.
 ///
 /// Cost: for each box that of deldrift_locate, and the cells and hull facets in its reach, whether in the mask or not;
 /// k log k for the k cells told.
@@ -452,13 +421,13 @@ deldrift_status deldrift_cells_in_reach(const deldrift_triangulation *t,
                                         size_t capacity,
                                         size_t *count);
 
-/// The facets of the convex hull that a place in one of some boxes is strictly beyond: those to which a vertex there
-/// would be joined. Exact.
+/// The facets of the convex hull that a place in one of some boxes is strictly beyond, exactly. A vertex there would be
+/// joined to them.
 ///
 /// low, high, box_count, mask, mask_count: as for deldrift_cells_in_reach; with a mask, only facets count that have a
-/// corner at the place of a vertex of it. cells, corners: buffers with room for capacity numbers, which receive the
-/// cell of each facet and which of its corners (0, 1, ...) is opposite, as deldrift_hull_facets has them, ascending and
-/// each once. One that is NULL is not filled. count: receives the number of facets.
+/// corner at the place of a vertex of the mask. cells, corners: buffers with room for capacity numbers, which receive
+/// the cell of each facet and which of its corners (0, 1, ...) is opposite, as deldrift_hull_facets has them, ascending
+/// and each once. count: receives the number of facets.
 ///
 /// While there are no cells, there are none.
 ///
@@ -477,16 +446,16 @@ deldrift_status deldrift_hull_facets_in_reach(const deldrift_triangulation *t,
                                               size_t capacity,
                                               size_t *count);
 
-/// For each of some boxes the vertices of the cells and hull facets in its reach: those that a process sends to another
-/// one whose vertices are in the box.
+/// For each of some boxes the vertices of the cells and hull facets in its reach. A process sends them to another one
+/// whose vertices are in the box.
 ///
 /// They are the corners of what deldrift_cells_in_reach and deldrift_hull_facets_in_reach tell for this box alone, and
 /// the vertices hidden behind them; with a mask, those of which the entry is not 0. low, high, box_count, mask,
 /// mask_count: as there.
 ///
 /// vertices: a buffer with room for capacity ids, which receives a list for each box, ascending, one after the other.
-/// offsets: a buffer with room for box_count + 1 numbers: the list of box k is in vertices from the index that is entry
-/// k of offsets on, and ends before entry k + 1. One that is NULL is not filled. count: receives the number of entries.
+/// offsets: a buffer with room for box_count + 1 numbers. The list of box k begins in vertices at the index that is
+/// entry k of offsets, and ends before entry k + 1. count: receives the number of entries.
 ///
 /// While there are no cells, a vertex anywhere could change all there is: all vertices of the mask are in reach of each
 /// box that is not empty.
@@ -511,8 +480,8 @@ deldrift_status deldrift_vertices_in_reach(const deldrift_triangulation *t,
 // What meets what: edges, neighbours and cells of vertices, mirror indices, ordered stars.
 // ---------------------------------------------------------------------------------------------------------------------
 
-/// The edges: rows of two vertex ids, the lower one first, each edge once, in lexicographic order. They are a
-/// function of positions and ids alone.
+/// The edges: rows of two vertex ids, the lower one first, each edge once, in lexicographic order. They depend on
+/// positions and ids alone.
 ///
 /// edges: a buffer with room for capacity rows. count: receives the number of edges. The count alone takes constant
 /// time.
@@ -527,16 +496,16 @@ deldrift_status deldrift_edges(const deldrift_triangulation *t,
                                size_t capacity,
                                size_t *count);
 
-/// The neighbours of all vertices: for each id the vertices with which it shares an edge, ascending, one list after
-/// the other. Removed and hidden vertices have none. They are a function of positions and ids alone.
+/// The neighbours of all vertices: for each id the vertices with which it shares an edge, ascending, one list after the
+/// other. Removed and hidden vertices have none. The lists depend on positions and ids alone.
 ///
-/// offsets: a buffer for offset_count numbers, which must be deldrift_id_count + 1: the list of vertex v is in
-/// neighbours from the index that is entry v of offsets on, and ends before entry v + 1. neighbours: a buffer with room
-/// for capacity ids. One that is NULL is not filled, and its size not looked at, but capacity must be 0 then. count:
+/// offsets: a buffer for offset_count numbers, which must be deldrift_id_count + 1. The list of vertex v begins in
+/// neighbours at the index that is entry v of offsets, and ends before entry v + 1. neighbours: a buffer with room for
+/// capacity ids. Where offsets is NULL, offset_count is not looked at; without neighbours capacity must be 0. count:
 /// receives the number of entries, twice that of the edges. The count alone takes constant time.
 ///
-/// Of a periodic triangulation a vertex is listed once for each edge that leads to it: several times where edges lead
-/// to it in several periods, and itself twice for each edge to itself.
+/// In a periodic triangulation a vertex is listed once for each edge that leads to it: several times where edges lead
+/// to it in several periods, and twice in its own list for each edge to itself.
 ///
 /// Takes some passes over the cells, and while it runs memory for the lists and for the cells of each vertex.
 ///
@@ -553,12 +522,12 @@ deldrift_status deldrift_vertex_neighbours(const deldrift_triangulation *t,
 /// The cells of all vertices: for each id the indices of the cells that have it as a corner, ascending, one list
 /// after the other. Removed and hidden vertices have none.
 ///
-/// offsets: a buffer for offset_count numbers, which must be deldrift_id_count + 1: the list of vertex v is in cells
-/// from the index that is entry v of offsets on, and ends before entry v + 1. cells: a buffer with room for capacity
-/// indices. One that is NULL is not filled, and its size not looked at, but capacity must be 0 then. count: receives
-/// the number of entries, 3 (2D) or 4 (3D) times that of the cells. The count alone takes constant time.
+/// offsets: a buffer for offset_count numbers, which must be deldrift_id_count + 1. The list of vertex v begins in
+/// cells at the index that is entry v of offsets, and ends before entry v + 1. cells: a buffer with room for capacity
+/// indices. Where offsets is NULL, offset_count is not looked at; without cells capacity must be 0. count: receives the
+/// number of entries, 3 (2D) or 4 (3D) times that of the cells. The count alone takes constant time.
 ///
-/// Of a periodic triangulation a cell is listed once for each of its corners that is the vertex, in whatever period.
+/// In a periodic triangulation a cell is listed once for each of its corners that is the vertex, in whatever period.
 ///
 /// Takes two passes over the cells, and memory for the lists while it runs.
 ///
@@ -572,8 +541,8 @@ deldrift_status deldrift_vertex_cells(const deldrift_triangulation *t,
                                       size_t capacity,
                                       size_t *count);
 
-/// A cell of each vertex, to cells: for each id the index of the first cell of which the vertex is a corner;
-/// DELDRIFT_NONE for those that are hidden or removed, whose insertion is staged, and while there are no cells.
+/// A cell of each vertex: for each id the index of the first cell of which the vertex is a corner. Vertices that are
+/// hidden or removed, or whose insertion is staged, have DELDRIFT_NONE, and so have all while there are no cells.
 ///
 /// cells: a buffer with room for capacity indices. count: receives deldrift_id_count.
 ///
@@ -585,27 +554,27 @@ deldrift_status deldrift_cell_of_each_vertex(const deldrift_triangulation *t,
                                              size_t capacity,
                                              size_t *count);
 
-/// Cells that have given vertices as corners, to cells: for each of count simplices the index of one, DELDRIFT_NONE if
-/// there is none. So it tells which edges of a list are in the triangulation, and which facets.
+/// Cells that have given vertices as corners: for each of count simplices the index of one, DELDRIFT_NONE if there is
+/// none. So it tells which edges of a list are in the triangulation, and which facets.
 ///
 /// corners_per_simplex: 1 (a cell of each vertex), 2 (edges), 3 (triangles) or, in 3D, 4. vertices: count rows of as
-/// many ids, in any order; NULL if count is 0. A hidden vertex stands for the one that represents it. A simplex with
-/// two corners at the same place is in no cell. cells: receives count indices; NULL if count is 0.
+/// many ids, in any order. A hidden vertex stands for the one that represents it. A simplex with two corners at the
+/// same place is in no cell. cells: receives count indices.
 ///
-/// Cost: for each simplex the least number of cells that a corner of it has, or, where there are more simplices than an
-/// eighth of the vertices, n + m and that.
+/// Cost: for each simplex the least number of cells that a corner of it has. Where there are more simplices than an
+/// eighth of the vertices, also n + m.
 ///
 /// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for another number of corners, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_find_simplices(const deldrift_triangulation *t,
                                         uint32_t corners_per_simplex,
                                         const uint32_t *vertices,
                                         size_t count,
                                         uint32_t *cells);
 
-/// The mirror indices of all facets: entry i of the row of a cell, in the order of deldrift_cells, is about the facet
-/// opposite corner i. It is the corner (0, 1, ...) of the neighbour beyond that is opposite the same facet, 255 on
-/// the hull. In a periodic triangulation a cell may be its own neighbour.
+/// The mirror indices of all facets, in the order of deldrift_cells. Entry i of the row of a cell is about the facet
+/// opposite corner i. It is the corner (0, 1, ...) of the neighbour beyond that is opposite the same facet, 255 on the
+/// hull. In a periodic triangulation a cell may be its own neighbour.
 ///
 /// mirrors: a buffer with room for capacity rows of 3 (2D) or 4 (3D) bytes. count: receives the number of cells.
 ///
@@ -617,8 +586,8 @@ deldrift_status deldrift_mirror_indices(const deldrift_triangulation *t,
                                         size_t capacity,
                                         size_t *count);
 
-/// The mirror index of one facet, to *mirror: the corner of the neighbour beyond that is opposite the same facet;
-/// DELDRIFT_NONE for a facet of the hull.
+/// The mirror index of one facet, to *mirror: the corner of the neighbour beyond that is opposite the same facet,
+/// DELDRIFT_NONE on the hull.
 ///
 /// cell, corner: the facet opposite this corner (0, 1, ...) of this cell, an index into deldrift_cells.
 ///
@@ -630,11 +599,10 @@ deldrift_status deldrift_mirror_index(const deldrift_triangulation *t,
                                       uint32_t corner,
                                       uint32_t *mirror);
 
-/// The star of a vertex of the plane in the order in which one goes around it: the indices of the cells that have it
-/// as a corner, counter-clockwise. Each shares an edge with the next one, and the last one with the first one, unless
-/// the vertex is on the convex hull. There the first cell is the one at the hull's edge that leaves the vertex when
-/// the hull is passed counter-clockwise; elsewhere it is the one of lowest index. For a hidden vertex the star of its
-/// representative.
+/// The star of a vertex of the plane, counter-clockwise: the indices of the cells that have it as a corner. Each cell
+/// shares an edge with the next one, and the last one with the first one, unless the vertex is on the convex hull.
+/// There the first cell is the one at the hull's edge that leaves the vertex when the hull is passed counter-clockwise.
+/// Elsewhere it is the one of lowest index. A hidden vertex has the star of its representative.
 ///
 /// cells: a buffer with room for capacity indices. count: receives their number.
 ///
@@ -654,28 +622,24 @@ deldrift_status deldrift_ordered_star(const deldrift_triangulation *t,
 
 /// Interpolates values of the vertices at count positions.
 ///
-/// values: value_count rows of n_values numbers, one for each id (value_count must be deldrift_id_count); rows of
-/// removed and hidden vertices are not used: it is that of the representative that counts. positions: 2 or 3 numbers
-/// each. hint: where to begin to look for the first position, as for deldrift_locate_points; NULL if nothing is known.
-/// It is fastest if each position is near the one before it. outside: what positions outside the convex hull get,
-/// n_values numbers; NULL for NaN. While there are no cells, all positions but those of vertices are outside. results:
-/// receives count rows of n_values numbers. values may be NULL if value_count or n_values is 0, positions and results
-/// if count is 0.
+/// values: value_count rows of n_values numbers, one for each id (value_count must be deldrift_id_count). Rows of
+/// removed vertices are not used, and for a hidden vertex the row of its representative counts. hint: as for
+/// deldrift_locate_points. It is fastest if each position is near the one before it. outside: what positions outside
+/// the convex hull get, n_values numbers; NULL for NaN. While there are no cells, all positions but those of vertices
+/// are outside. results: receives count rows of n_values numbers. values may also be NULL if n_values is 0.
 ///
 /// At the place of a vertex the result is that of the vertex. Elsewhere it is rounded, and linear functions are
 /// reproduced but for rounding, with either method. Which cell or which neighbours count is decided exactly. A position
 /// takes as long as deldrift_locate_points, and with natural neighbours some microseconds more.
 ///
-/// In a periodic triangulation positions may be in any period, and are rounded as for deldrift_locate. An image of a
-/// vertex has the values of the vertex; natural neighbours of a position are images, several of one vertex in a small
-/// box.
+/// In a periodic triangulation an image of a vertex has the values of the vertex. Natural neighbours of a position are
+/// images, several of one vertex in a small box.
 ///
 /// Cost: count times that of deldrift_locate and n_values; with natural neighbours also the cells whose circle or
 /// sphere has the position inside.
 ///
 /// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for a method that this version does not have,
-/// DELDRIFT_WRONG_COUNT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE (of positions), DELDRIFT_OUT_OF_MEMORY; then
-/// nothing is written.
+/// DELDRIFT_WRONG_COUNT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE (of positions), DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_interpolate(const deldrift_triangulation *t,
                                      deldrift_interpolation method,
                                      const double *values,
@@ -689,25 +653,22 @@ deldrift_status deldrift_interpolate(const deldrift_triangulation *t,
 
 /// The barycentric coordinates of count positions, each in a cell that is given: rows of 3 (2D) or 4 (3D) numbers, one
 /// for each corner in the order of deldrift_cells. They are for programs that keep weights, to carry values with them
-/// more than once; deldrift_interpolate has others of its own, which may differ in last bits, and more where a cell is
-/// flat.
+/// more than once. The weights of deldrift_interpolate may differ in last bits, and more where a cell is flat.
 ///
-/// positions: 2 or 3 numbers each. cells: count indices into deldrift_cells, as deldrift_locate_points gives them;
-/// DELDRIFT_NONE is no cell, for which the row is NaN. weights: receives count rows. All may be NULL if count is 0. A
-/// position may be outside of its cell: then some of its coordinates are negative.
+/// cells: count indices into deldrift_cells, as deldrift_locate_points gives them. DELDRIFT_NONE is no cell: its row is
+/// NaN. weights: receives count rows. A position may be outside of its cell: then some of its coordinates are negative.
 ///
 /// The sign of each is exact, and so is 0; the value has a relative error of at most 2.5e-13, however flat the cell.
 /// (Where an area, a volume or the value itself is below the least normal number, 2.2e-308, it is less accurate.) What
 /// is beyond the range of numbers is infinite. A row adds up to 1 but for these errors.
 ///
-/// In a periodic triangulation positions may be in any period, and are rounded as for deldrift_locate. The weights are
-/// those in the translation of the cell that has the position inside or on its boundary; where there is none, the row
-/// is NaN.
+/// In a periodic triangulation the weights are those in the translation of the cell that has the position inside or on
+/// its boundary; where there is none, the row is NaN.
 ///
 /// Cost: count.
 ///
 /// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_NO_SUCH_FACET if there is no
-/// cell of an index, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
+/// cell of an index, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_barycentric(const deldrift_triangulation *t,
                                      const double *positions,
                                      const uint32_t *cells,

@@ -14,12 +14,12 @@ use crate::motion::{BoundaryFacet, check_not_negative};
 
 /// The circumcentres and squared circumradii of all cells, in the order of deldrift_cells.
 ///
-/// centres: a buffer with room for capacity points. squared_radii: a buffer with room for capacity numbers. One that is
-/// NULL is not filled. count: receives the number of cells.
+/// centres: a buffer with room for capacity points. squared_radii: a buffer with room for capacity numbers. count:
+/// receives the number of cells.
 ///
-/// Rounded: a coordinate of a centre is off by at most 1e-9 circumradii and its own rounding, a squared radius by
-/// 4e-9 of itself, however flat the cell; unless it is nearly flat, by a few last bits. What is too large for a
-/// number is infinite; nothing is NaN. One pass over the cells; nearly flat ones take a microsecond each.
+/// Rounded: a coordinate of a centre is off by at most 1e-9 circumradii and its own rounding, a squared radius by 4e-9
+/// of itself, however flat the cell. Unless the cell is nearly flat, they are off by a few last bits. What is too large
+/// for a number is infinite; nothing is NaN. One pass over the cells; nearly flat ones take a microsecond each.
 ///
 /// In a periodic triangulation a centre is where the cell's corner of the lowest id is at its own position, as
 /// deldrift_cell_shifts has it, and its rounding may be twice that of its coordinates and of the position's.
@@ -81,15 +81,14 @@ pub unsafe extern "C" fn deldrift_volumes(
     })
 }
 
-/// Which cells have a circumradius of at most a given one, as for an alpha shape: 1 for those whose squared
-/// circumradius is at most squared_radius, 0 for the others, in the order of deldrift_cells.
+/// Which cells have a circumradius of at most a given one, as for an alpha shape, in the order of deldrift_cells. It is
+/// 1 for those whose squared circumradius is at most squared_radius, 0 for the others.
 ///
 /// squared_radius: 0 or more; infinity is all cells. mask: a buffer with room for capacity bytes. count: receives the
 /// number of cells.
 ///
-/// Exact: every entry is that of an exact comparison of squared_radius, as given, with the squared radius of the
-/// circle or sphere through the positions. One pass over the cells; where the two nearly agree, a cell takes a
-/// microsecond.
+/// Exact: squared_radius, as given, is compared exactly with the squared radius of the circle or sphere through the
+/// positions. One pass over the cells; where the two nearly agree, a cell takes a microsecond.
 ///
 /// Cost: m.
 ///
@@ -113,21 +112,21 @@ pub unsafe extern "C" fn deldrift_mask_by_circumradius(
     })
 }
 
-/// Which cells are more than what the rounding of a straight or flat side has made: 0 for cells along the convex hull
-/// that are flat, 1 for the others, in the order of deldrift_cells.
+/// Which cells are more than what the rounding of a straight or flat side has made, in the order of deldrift_cells. It
+/// is 0 for cells along the convex hull that are flat, 1 for the others.
 ///
-/// tolerance: 0 or more, such as 1e-9; 0 is all cells. A cell is flat if its least height is at most tolerance times
-/// its longest edge. It has 0 if it is flat, and has a facet on the hull or on a cell that has 0. mask: a buffer with
-/// room for capacity bytes. count: receives the number of cells.
+/// tolerance: 0 or more, such as 1e-9; with 0 no cell is flat. A cell is flat if its least height is at most tolerance
+/// times its longest edge. It has 0 if it is flat, and has a facet on the hull or on a cell that has 0. mask: a buffer
+/// with room for capacity bytes. count: receives the number of cells.
 ///
 /// Vertices that were meant to be on one line or plane are not, once their coordinates are rounded, and the hull goes
-/// over flat cells from one to the other. They are exactly Delaunay, and useless where a program divides by areas or
-/// volumes. Where no vertices but those of a side are nearly in line with it, the mask leaves these cells out and keeps
-/// all others: deldrift_mask_boundary then gives the sides as they were meant. Flat cells elsewhere are kept, as
-/// leaving them out would leave holes.
+/// over flat cells from one to the other. Those cells are exactly Delaunay, and useless where a program divides by
+/// areas or volumes. Where no vertices but those of a side are nearly in line with it, the mask leaves these cells out
+/// and keeps all others: deldrift_mask_boundary then gives the sides as they were meant. Flat cells elsewhere are kept,
+/// as leaving them out would leave holes.
 ///
-/// Rounded: a cell whose quotient of height and edge is tolerance but for a part of 1.1e-9 + 2e-15 / tolerance may get
-/// either.
+/// Rounded: a cell may get either number if its quotient of height and edge differs from tolerance by less than
+/// 1.1e-9 + 2e-15 / tolerance of it.
 ///
 /// Cost: m.
 ///
@@ -151,12 +150,12 @@ pub unsafe extern "C" fn deldrift_mask_without_flat_cells(
 
 /// The boundary of some of the cells: the facets between a cell in a mask and one that is not in it, or the outside.
 ///
-/// mask: mask_count bytes, one for each cell in the order of deldrift_cells (mask_count must be deldrift_cell_count); a
+/// mask: mask_count bytes, one for each cell in the order of deldrift_cells (mask_count must be deldrift_cell_count). A
 /// cell is in it if its byte is not 0. facets: a buffer with room for capacity rows of 2 (2D) or 3 (3D) vertex ids.
 /// Facets are seen from outside: in 2D the cell in the mask is on the left of the edge from the first vertex to the
 /// second; in 3D the vertices are in counter-clockwise order as seen from the side away from the cell. cells, corners:
 /// buffers with room for capacity numbers, which receive that cell and which of its corners (0, 1, ...) is opposite the
-/// facet. One of the three that is NULL is not filled. count: receives the number of facets.
+/// facet. count: receives the number of facets.
 ///
 /// Facets are in ascending order of cell and then of corner. Exact. Two passes over the cells. In a periodic
 /// triangulation each is where deldrift_cell_shifts has its cell.
@@ -194,11 +193,10 @@ pub unsafe extern "C" fn deldrift_mask_boundary(
 /// facets: a buffer with room for capacity rows of 2 (2D) or 3 (3D) vertex ids. Facets are seen from outside: in 2D the
 /// cell is on the left of the edge from the first vertex to the second; in 3D the vertices are in counter-clockwise
 /// order as seen from the side away from the cell. cells, corners: buffers with room for capacity numbers, which
-/// receive the cell and which of its corners (0, 1, ...) is opposite the facet. One of the three that is NULL is not
-/// filled. count: receives the number of facets.
+/// receive the cell and which of its corners (0, 1, ...) is opposite the facet. count: receives the number of facets.
 ///
-/// Exact. One pass over the cells; constant time for the count alone. A periodic triangulation has none unless its box
-/// is open somewhere; to count them takes a pass over the cells.
+/// Exact. One pass over the cells; the count alone takes constant time. A periodic triangulation has no facets unless
+/// its box is open somewhere; counting them takes a pass over the cells.
 ///
 /// Cost: m.
 ///

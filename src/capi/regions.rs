@@ -14,7 +14,7 @@ pub const DELDRIFT_NO_LABEL: i32 = -2147483647 - 1;
 
 const _: () = assert!(DELDRIFT_NO_LABEL == NO_LABEL);
 
-/// Gives regions labels that follow them: a domain is described once, and deldrift_regions tells the label of each cell
+/// Gives regions labels that follow them. A domain is described once, and deldrift_regions tells the label of each cell
 /// from then on. A region is a set of cells that can be reached from each other without crossing a segment.
 ///
 /// labels: a number for each cell, in the order of deldrift_cells, one for each region: those of deldrift_label_cells,
@@ -23,10 +23,10 @@ const _: () = assert!(DELDRIFT_NO_LABEL == NO_LABEL);
 ///
 /// Both sides of each segment in force get the label of the cell there, DELDRIFT_NO_LABEL beyond the hull. They keep it
 /// while segments move with their ends, and hand it on to the pieces that deldrift_refine, deldrift_coarsen and
-/// deldrift_stage_splits make; clones, and what is saved and loaded, have it. So labels follow through all calls, as
-/// long as no vertex passes a segment (see deldrift_check_passings). A segment that is added later has none: the
-/// regions on both sides keep theirs if they have other segments, or are given some by deldrift_set_segment_sides. Ends
-/// no views.
+/// deldrift_stage_splits make. Clones have it, and so has what is saved and loaded. So labels follow through all calls,
+/// as long as no vertex passes a segment (see deldrift_check_passings). A segment that is added later has no labels.
+/// The regions on both sides keep theirs if they have other segments, or are given some by deldrift_set_segment_sides.
+/// Ends no views.
 ///
 /// Cost: m, and for each segment the cells around an end.
 ///
@@ -53,12 +53,12 @@ pub unsafe extern "C" fn deldrift_set_regions(
     })
 }
 
-/// Gives the sides of segments labels, as deldrift_set_regions does for all by the labels of cells: for a domain that
-/// is described by what is on the left and on the right of each segment, and for segments that are added to one.
+/// Gives labels to the sides of segments; deldrift_set_regions does so for all of them, by labels of cells. It is for a
+/// domain that is described by what is on the left and on the right of each segment, and for segments that are added to
+/// one.
 ///
-/// segments: count ids, in force or staged; of one that is listed twice the last row counts. sides: a row of 2 labels
-/// for each: on the left, as seen from its first end along it, and on the right; DELDRIFT_NO_LABEL for none. Both may
-/// be NULL if count is 0. Ends no views.
+/// segments: count ids, in force or staged. If one is listed twice the last row counts. sides: a row of 2 labels for
+/// each: on the left, as seen from its first end along it, and on the right. DELDRIFT_NO_LABEL is none. Ends no views.
 ///
 /// Cost: count.
 ///
@@ -79,9 +79,9 @@ pub unsafe extern "C" fn deldrift_set_segment_sides(
     })
 }
 
-/// The label of the region of each cell, in the order of deldrift_cells: that of the sides of its outer boundary, which
-/// deldrift_set_regions and deldrift_set_segment_sides have given; where these have none, that of the sides around
-/// islands in it. So a region keeps its label when an island jumps into it, or out of it.
+/// The label of the region of each cell, in the order of deldrift_cells. It is the label of the sides of the region's
+/// outer boundary, which deldrift_set_regions and deldrift_set_segment_sides have given. Where these have none, it is
+/// that of the sides around islands in it. So a region keeps its label when an island jumps into it, or out of it.
 ///
 /// other: the label of cells from which the outside of the hull is reached without crossing a segment, and of undecided
 /// ones. labels: a buffer with room for capacity numbers. count: receives the number of cells. undecided: receives the

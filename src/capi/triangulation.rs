@@ -12,14 +12,12 @@ use crate::motion::{MAX_VERTICES, MovingTriangulation};
 
 /// Creates the Delaunay triangulation of count points in the plane or in space, at timestamp 0.
 ///
-/// dimension: 2 or 3. positions: count points one after the other, dimension numbers each (x, y or x, y, z), in any
-/// unit; may be NULL if count is 0. Vertex i is the i-th of them until the triangulation is destroyed, or
-/// deldrift_compact gives new ids. Any set is legal, the empty one, coincident points and points on one line or plane
-/// included; where the points do not span the dimension there are no cells. Every finite coordinate from -1e57 to 1e57
+/// dimension: 2 or 3. positions: count points, in any unit. Vertex i is the i-th of them until the triangulation is
+/// destroyed, or deldrift_compact gives new ids. Any set is legal: the empty one, coincident points, points on one line
+/// or plane. Where the points do not span the dimension there are no cells. Every finite coordinate from -1e57 to 1e57
 /// is accepted, however close to zero. options: NULL for the defaults.
 ///
-/// out: receives the triangulation, which the caller has to hand to deldrift_destroy. It is written on
-/// success only.
+/// out: receives the triangulation.
 ///
 /// Cost: on all sets of docs/COSTS.md n log n and m. No set takes more than n² in 2D, or n m in 3D, where m is the most
 /// cells of any subset.
@@ -85,9 +83,9 @@ pub(super) fn create(
     Ok(())
 }
 
-/// Destroys a triangulation: its memory is freed and its views end. NULL is legal and does nothing.
-/// A poisoned triangulation is destroyed like any other. From inside a callback of a call on the same
-/// triangulation this does nothing but set deldrift_last_error.
+/// Destroys a triangulation: its memory is freed and its views end. NULL is legal and does nothing. A poisoned
+/// triangulation is destroyed like any other. From inside a callback of a call on the same triangulation it does
+/// nothing but set deldrift_last_error.
 ///
 /// Cost: n + m at most.
 #[unsafe(no_mangle)]
@@ -127,8 +125,8 @@ pub unsafe extern "C" fn deldrift_set_algorithm(
     })
 }
 
-/// The algorithm in force, to *algorithm: the one chosen, thus DELDRIFT_AUTO where the library chooses; after
-/// deldrift_research_set_algorithm the number of that of deldrift/research.h.
+/// The algorithm in force, to *algorithm. It is the one that was set: DELDRIFT_AUTO where the library chooses, and
+/// after deldrift_research_set_algorithm the number of an algorithm of deldrift/research.h.
 ///
 /// Cost: constant.
 #[unsafe(no_mangle)]

@@ -35,7 +35,8 @@ pub fn names_of_headers() -> BTreeSet<&'static str> {
         ("files", include_str!("../../../include/deldrift/files.h")),
     ];
     let includes = include_str!("../../../include/deldrift.h").lines();
-    let included = includes.filter_map(|line| line.strip_prefix("#include \"deldrift/")?.strip_suffix(".h\""));
+    let included =
+        includes.filter_map(|line| line.strip_prefix("#include \"deldrift/")?.strip_suffix(".h\""));
     assert!(included.eq(parts.map(|(name, _)| name)), "these are not the parts of deldrift.h");
     let headers = parts.map(|(_, text)| text).into_iter();
     let headers = headers.chain([include_str!("../../../include/deldrift/research.h")]);
