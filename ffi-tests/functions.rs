@@ -114,6 +114,29 @@ fn page_on_boxes_has_what_the_header_says_that_they_refuse() {
     assert_eq!(on_page, listed);
 }
 
+/// The first page has rules that hold for all functions, so that the documentation of a function has what is its own.
+#[test]
+fn what_holds_for_all_functions_is_said_once() {
+    let rules = [
+        "DELDRIFT_MISALIGNED_ARGUMENT",
+        "DELDRIFT_BUFFER_TOO_SMALL",
+        "asks for the count",
+        "also written when the buffer",
+        "same time as any other call",
+        "from any number of threads",
+        "read during the call",
+        "After a change the first call",
+        "Ends all views",
+    ];
+    let mut repeated = Vec::new();
+    for Function { name, documentation, .. } in functions() {
+        repeated.extend(
+            rules.iter().filter(|rule| documentation.contains(**rule)).map(|rule| (name.clone(), *rule)),
+        );
+    }
+    assert!(repeated.is_empty(), "the first page says this of all functions: {repeated:?}");
+}
+
 #[test]
 fn every_status_has_a_cause_and_a_remedy() {
     let header = text_of("include/deldrift/core.h");

@@ -6,7 +6,7 @@ use deldrift::motion::Algorithm;
 
 use super::parts::{Algorithms, CORE, HEADERS, Header};
 use crate::algorithms;
-use crate::functions::functions_of;
+use crate::functions::{Function, functions_of};
 use crate::support::{fresh_folder, repository, text_of};
 
 /// deldrift.h: the first page, and the parts.
@@ -84,18 +84,25 @@ impl Header {
             index.extend(hanging(1, 1, &heading));
             index.push(String::from(" *"));
             for name in names {
-                let is_it = |function: &&crate::functions::Function| function.name == name;
+                let is_it = |function: &&Function| function.name == name;
                 let function = functions.iter().find(is_it).unwrap_or_else(|| panic!("{name} is declared"));
                 index.extend(hanging(5, 9, &format!("{name}: {}", function.summary)));
             }
         }
+        let from = self.sources.join(".rs, ");
+        let of_algorithms =
+            self.algorithms.as_ref().map_or("", |_| " and, for the algorithms, src/motion/algorithms.rs");
+        let made = format!(
+            "Made by `make header` from these files of src/capi{of_algorithms}: {from}.rs. Change it there."
+        );
         let guard = self.name().to_uppercase().replace(['/', '.'], "_");
         format!(
             "/*\n * {}: {}\n *\n * A part of deldrift.h, the first page of which has the rules that hold for all \
-             functions.\n * Made by `make header` from src/capi: change it there.\n{}\n */\n\n\
+             functions.\n *\n{}\n{}\n */\n\n\
              #ifndef {guard}\n#define {guard}\n\n{}\n\n#endif // {guard}\n",
             self.name(),
             subject,
+            hanging(1, 1, &made).join("\n"),
             index.join("\n"),
             header.trim(),
         )

@@ -2,7 +2,9 @@
  * deldrift/core.h: What every program needs: statuses, options, creation, positions and cells.
  *
  * A part of deldrift.h, the first page of which has the rules that hold for all functions.
- * Made by `make header` from src/capi: change it there.
+ *
+ * Made by `make header` from these files of src/capi and, for the algorithms, src/motion/algorithms.rs: status.rs,
+ * options.rs, handle.rs, triangulation.rs, state.rs, query.rs. Change it there.
  *
  * What a call says when it ends: status codes, the message of the last failure, the version.
  *
@@ -296,8 +298,9 @@ typedef struct deldrift_options {
     /// for any number of threads and on every processor. That includes the order of cells, every bit of rounded
     /// numbers, and reports. (A build for whose parts there is no memory is in one.) Take at most as many parts as the
     /// program will have threads: with fewer parts some threads have nothing to do in this work, and each further part
-    /// costs something. For 100,000 vertices a build on one thread takes 1.1 times as long in eight parts as in one in
-    /// 2D; in 3D 1.06 times in two, 1.1 in four and 1.3 in eight; for 20,000 1.2 times in 2D, 1.15 to 1.6 times in 3D.
+    /// costs something. For 100,000 vertices in 2D, a build on one thread takes 1.1 times as long in eight parts as in
+    /// one. In 3D it takes 1.06 times as long in two, 1.1 in four and 1.3 in eight. For 20,000 vertices it takes 1.2
+    /// times as long in 2D, 1.15 to 1.6 times in 3D.
     size_t parts;
     /// Called now and then during long calls: at least once for some ten thousand cells that are made, or looked at
     /// around single vertices. Passes over all vertices or cells, each of which takes a part of a build, are not
@@ -594,10 +597,10 @@ deldrift_status deldrift_tolerance(const deldrift_triangulation *t,
 /// Checks the triangulation exactly, in time proportional to its size.
 ///
 /// level: 1 checks indices and adjacency. 2 also checks the orientation of the cells, and that the hull is convex and
-/// winds once. 3 also checks that no sphere through the vertices of a cell contains a vertex, or, with segments, none
-/// that can be seen from the cell's inside. In a periodic triangulation this is checked of what is kept inside, images
-/// included, and that images are where the vectors take their vertices. 3 then also checks that no image is missing,
-/// and that each cell is there once for each of its corners.
+/// winds once. 3 also checks that no sphere through the vertices of a cell contains a vertex. With segments only
+/// vertices count that can be seen from the cell's inside. In a periodic triangulation this is checked of what is kept
+/// inside, images included. All levels check that images are where the vectors take their vertices. 3 also checks that
+/// no image is missing, and that each cell is there once for each of its corners.
 ///
 /// Cost: n + m. Of a periodic triangulation at level 3 that of creation at most, in a copy.
 ///

@@ -2,7 +2,8 @@
  * deldrift/files.h: Copies, saved data, and files for other programs.
  *
  * A part of deldrift.h, the first page of which has the rules that hold for all functions.
- * Made by `make header` from src/capi: change it there.
+ *
+ * Made by `make header` from these files of src/capi: saving.rs. Change it there.
  *
  * A triangulation as bytes, in memory or in a file, and a second one like it.
  *
@@ -119,7 +120,7 @@ deldrift_status deldrift_load(const void *data,
 /// Other attributes are not kept. A symbolic link is replaced itself, and another hard link keeps what it has. A device
 /// or a pipe is written at once; if it is full, the call waits. A named pipe that nobody reads is refused.
 ///
-/// A pipe that is no longer read, and the limit on the size of files, are errors like any other: SIGPIPE and SIGXFSZ of
+/// A pipe that is no longer read, and the limit on the size of files, are errors like any other. SIGPIPE and SIGXFSZ of
 /// these writes do not reach the process, whose handlers stay as they are.
 ///
 /// Cost: n + m.
@@ -173,7 +174,7 @@ deldrift_status deldrift_write_vtu(const deldrift_triangulation *t,
 ///
 /// Its vertices are those that are present, hidden ones included, ascending by id and numbered from 1; the reference of
 /// each is its id. Its triangles or tetrahedra are the cells, in the order of deldrift_cells. If there are segments in
-/// force, those of deldrift_segments are its edges, in that order, behind the triangles; the reference of each is its
+/// force, those of deldrift_segments are its edges, in that order, behind the triangles. The reference of each is its
 /// marker, and an end that is hidden is the vertex that represents it. Reading the numbers gives the same doubles. In a
 /// periodic triangulation a vertex is there once for each period in which a cell has it, as in deldrift_write_vtu.
 ///

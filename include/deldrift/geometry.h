@@ -2,7 +2,8 @@
  * deldrift/geometry.h: Circumspheres, volumes, masks and boundaries of cells; exact signs.
  *
  * A part of deldrift.h, the first page of which has the rules that hold for all functions.
- * Made by `make header` from src/capi: change it there.
+ *
+ * Made by `make header` from these files of src/capi: geometry.rs, listed.rs, predicates.rs. Change it there.
  *
  * Geometry of the cells: circumspheres, volumes, masks by circumradius, and the facets around a mask.
  *
@@ -56,8 +57,8 @@ extern "C" {
 /// of itself, however flat the cell. Unless the cell is nearly flat, they are off by a few last bits. What is too large
 /// for a number is infinite; nothing is NaN. One pass over the cells; nearly flat ones take a microsecond each.
 ///
-/// In a periodic triangulation a centre is where the cell's corner of the lowest id is at its own position, as
-/// deldrift_cell_shifts has it, and its rounding may be twice that of its coordinates and of the position's.
+/// In a periodic triangulation a centre is that of the cell whose corner of the lowest id is at its own position, as
+/// deldrift_cell_shifts has it. Its rounding may be twice that of its coordinates and of the position's.
 ///
 /// Cost: m.
 ///
@@ -131,8 +132,8 @@ deldrift_status deldrift_mask_without_flat_cells(const deldrift_triangulation *t
 ///
 /// mask: mask_count bytes, one for each cell in the order of deldrift_cells (mask_count must be deldrift_cell_count). A
 /// cell is in it if its byte is not 0. facets: a buffer with room for capacity rows of 2 (2D) or 3 (3D) vertex ids.
-/// Facets are seen from outside: in 2D the cell in the mask is on the left of the edge from the first vertex to the
-/// second; in 3D the vertices are in counter-clockwise order as seen from the side away from the cell. cells, corners:
+/// Facets are seen from outside. In 2D the cell in the mask is on the left of the edge from the first vertex to the
+/// second. In 3D the vertices are in counter-clockwise order as seen from the side away from the cell. cells, corners:
 /// buffers with room for capacity numbers, which receive that cell and which of its corners (0, 1, ...) is opposite the
 /// facet. count: receives the number of facets.
 ///
@@ -153,10 +154,8 @@ deldrift_status deldrift_mask_boundary(const deldrift_triangulation *t,
 
 /// The facets of the convex hull, in ascending order of cell and then of corner.
 ///
-/// facets: a buffer with room for capacity rows of 2 (2D) or 3 (3D) vertex ids. Facets are seen from outside: in 2D the
-/// cell is on the left of the edge from the first vertex to the second; in 3D the vertices are in counter-clockwise
-/// order as seen from the side away from the cell. cells, corners: buffers with room for capacity numbers, which
-/// receive the cell and which of its corners (0, 1, ...) is opposite the facet. count: receives the number of facets.
+/// facets, cells, corners: as for deldrift_mask_boundary, with all cells in the mask. count: receives the number of
+/// facets.
 ///
 /// Exact. One pass over the cells; the count alone takes constant time. A periodic triangulation has no facets unless
 /// its box is open somewhere; counting them takes a pass over the cells.
@@ -180,9 +179,9 @@ deldrift_status deldrift_hull_facets(const deldrift_triangulation *t,
 /// vertices: vertex_count ids, in any order, some maybe more than once; hidden vertices have no cells. cells: a buffer
 /// with room for capacity indices; deldrift_cell_count is always enough. count: receives the number of indices.
 ///
-/// After a commit, the cells around the vertices that have moved and those that deldrift_take_changes lists as created
-/// are all whose shape has changed: with the functions that follow, a program that keeps an array for all cells updates
-/// those entries alone.
+/// After a commit, only two kinds of cells have changed their shape: those around the vertices that have moved, and
+/// those that deldrift_take_changes lists as created. With the functions that follow, a program that keeps an array for
+/// all cells updates those entries alone.
 ///
 /// Cost: the cells of the stars, and k log k for the k of them; m at most, and for a periodic triangulation.
 ///

@@ -2,7 +2,9 @@
  * deldrift/motion.h: Vertices that move, come and go: staging, commits, keys, the list of changes.
  *
  * A part of deldrift.h, the first page of which has the rules that hold for all functions.
- * Made by `make header` from src/capi: change it there.
+ *
+ * Made by `make header` from these files of src/capi: motion.rs, preparing.rs, immediate.rs, keys.rs, changes.rs,
+ * transferring.rs. Change it there.
  *
  * Motion: what is staged, and becomes a timestamp.
  *
@@ -579,8 +581,8 @@ deldrift_status deldrift_take_changes(deldrift_triangulation *t,
 /// the sum stays exact, and so does a constant, but means there may be beyond those of all others. turned_over counts
 /// such cells, and shorter steps avoid them. A cell of now that was turned over since is gone as it was, and has come.
 ///
-/// With the second order, what gradients add is limited for each cell by what its new mean may be: no less and no more
-/// than the cells that it comes from have, their neighbours, and the neighbours of these. Gradients are fitted to the
+/// With the second order, what gradients add is limited for each cell. Its new mean is no less and no more than those
+/// of the cells that it comes from, of their neighbours, and of the neighbours of these. Gradients are fitted to the
 /// means of neighbours. Linear functions are kept but for rounding where that does not limit them, as it may at the
 /// hull.
 ///

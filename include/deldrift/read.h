@@ -2,7 +2,9 @@
  * deldrift/read.h: What is where, and what is near: location, neighbours, values between vertices.
  *
  * A part of deldrift.h, the first page of which has the rules that hold for all functions.
- * Made by `make header` from src/capi: change it there.
+ *
+ * Made by `make header` from these files of src/capi: location.rs, near.rs, reach.rs, incidence.rs, interpolation.rs.
+ * Change it there.
  *
  * Where points lie, and which vertices are near.
  *
@@ -305,7 +307,7 @@ deldrift_status deldrift_vertices_in_ball(const deldrift_triangulation *t,
 /// places and for all lists while it runs, and writes nothing until all are known.
 ///
 /// Cost: n log n, the entries, and k log k for the k of each list. With one radius for all, that is so for every set,
-/// however unevenly it is spread: what is looked at besides is at most a constant times n and the entries, and mostly
+/// however unevenly it is spread. What is looked at besides is at most a constant times n and the entries, and mostly
 /// some five times these. Where radii differ by powers of two of many sizes, what is looked at for each size is at most
 /// n times the root of the number of entries.
 ///

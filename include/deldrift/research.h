@@ -5,8 +5,8 @@
  *
  * No program needs this to triangulate: deldrift.h has the algorithms for use, and in the recorded report each of these
  * is slower than one of those in most or all rows. What is here is for comparisons with the report, as cpp-bench makes
- * them. It is in the same library, and works on the triangulations of deldrift.h, whose first page holds here as well. It
- * may change with every version: compile a program with the header of the library that it runs with.
+ * them. It is in the same library, and works on the triangulations of deldrift.h, whose first page holds here as well.
+ * It may change with every version: compile a program with the header of the library that it runs with.
  *
  *     #include <deldrift/research.h>
  *

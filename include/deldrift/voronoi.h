@@ -2,7 +2,8 @@
  * deldrift/voronoi.h: Voronoi cells and facets, in a box or a container.
  *
  * A part of deldrift.h, the first page of which has the rules that hold for all functions.
- * Made by `make header` from src/capi: change it there.
+ *
+ * Made by `make header` from these files of src/capi: voronoi.rs. Change it there.
  *
  * Voronoi cells and facets, clipped by a box, or by half-spaces besides.
  *

@@ -21,8 +21,8 @@ use crate::motion::{BoundaryFacet, check_not_negative};
 /// of itself, however flat the cell. Unless the cell is nearly flat, they are off by a few last bits. What is too large
 /// for a number is infinite; nothing is NaN. One pass over the cells; nearly flat ones take a microsecond each.
 ///
-/// In a periodic triangulation a centre is where the cell's corner of the lowest id is at its own position, as
-/// deldrift_cell_shifts has it, and its rounding may be twice that of its coordinates and of the position's.
+/// In a periodic triangulation a centre is that of the cell whose corner of the lowest id is at its own position, as
+/// deldrift_cell_shifts has it. Its rounding may be twice that of its coordinates and of the position's.
 ///
 /// Cost: m.
 ///
@@ -152,8 +152,8 @@ pub unsafe extern "C" fn deldrift_mask_without_flat_cells(
 ///
 /// mask: mask_count bytes, one for each cell in the order of deldrift_cells (mask_count must be deldrift_cell_count). A
 /// cell is in it if its byte is not 0. facets: a buffer with room for capacity rows of 2 (2D) or 3 (3D) vertex ids.
-/// Facets are seen from outside: in 2D the cell in the mask is on the left of the edge from the first vertex to the
-/// second; in 3D the vertices are in counter-clockwise order as seen from the side away from the cell. cells, corners:
+/// Facets are seen from outside. In 2D the cell in the mask is on the left of the edge from the first vertex to the
+/// second. In 3D the vertices are in counter-clockwise order as seen from the side away from the cell. cells, corners:
 /// buffers with room for capacity numbers, which receive that cell and which of its corners (0, 1, ...) is opposite the
 /// facet. count: receives the number of facets.
 ///
@@ -190,10 +190,8 @@ pub unsafe extern "C" fn deldrift_mask_boundary(
 
 /// The facets of the convex hull, in ascending order of cell and then of corner.
 ///
-/// facets: a buffer with room for capacity rows of 2 (2D) or 3 (3D) vertex ids. Facets are seen from outside: in 2D the
-/// cell is on the left of the edge from the first vertex to the second; in 3D the vertices are in counter-clockwise
-/// order as seen from the side away from the cell. cells, corners: buffers with room for capacity numbers, which
-/// receive the cell and which of its corners (0, 1, ...) is opposite the facet. count: receives the number of facets.
+/// facets, cells, corners: as for deldrift_mask_boundary, with all cells in the mask. count: receives the number of
+/// facets.
 ///
 /// Exact. One pass over the cells; the count alone takes constant time. A periodic triangulation has no facets unless
 /// its box is open somewhere; counting them takes a pass over the cells.

@@ -13,9 +13,9 @@ use crate::ids::{CellId, VertexId};
 /// vertices: vertex_count ids, in any order, some maybe more than once; hidden vertices have no cells. cells: a buffer
 /// with room for capacity indices; deldrift_cell_count is always enough. count: receives the number of indices.
 ///
-/// After a commit, the cells around the vertices that have moved and those that deldrift_take_changes lists as created
-/// are all whose shape has changed: with the functions that follow, a program that keeps an array for all cells updates
-/// those entries alone.
+/// After a commit, only two kinds of cells have changed their shape: those around the vertices that have moved, and
+/// those that deldrift_take_changes lists as created. With the functions that follow, a program that keeps an array for
+/// all cells updates those entries alone.
 ///
 /// Cost: the cells of the stars, and k log k for the k of them; m at most, and for a periodic triangulation.
 ///

@@ -128,7 +128,7 @@ pub type PairsCode = u32;
 /// places and for all lists while it runs, and writes nothing until all are known.
 ///
 /// Cost: n log n, the entries, and k log k for the k of each list. With one radius for all, that is so for every set,
-/// however unevenly it is spread: what is looked at besides is at most a constant times n and the entries, and mostly
+/// however unevenly it is spread. What is looked at besides is at most a constant times n and the entries, and mostly
 /// some five times these. Where radii differ by powers of two of many sizes, what is looked at for each size is at most
 /// n times the root of the number of entries.
 ///

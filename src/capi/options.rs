@@ -86,8 +86,9 @@ pub struct deldrift_options {
     /// for any number of threads and on every processor. That includes the order of cells, every bit of rounded
     /// numbers, and reports. (A build for whose parts there is no memory is in one.) Take at most as many parts as the
     /// program will have threads: with fewer parts some threads have nothing to do in this work, and each further part
-    /// costs something. For 100,000 vertices a build on one thread takes 1.1 times as long in eight parts as in one in
-    /// 2D; in 3D 1.06 times in two, 1.1 in four and 1.3 in eight; for 20,000 1.2 times in 2D, 1.15 to 1.6 times in 3D.
+    /// costs something. For 100,000 vertices in 2D, a build on one thread takes 1.1 times as long in eight parts as in
+    /// one. In 3D it takes 1.06 times as long in two, 1.1 in four and 1.3 in eight. For 20,000 vertices it takes 1.2
+    /// times as long in 2D, 1.15 to 1.6 times in 3D.
     pub parts: usize,
     /// Called now and then during long calls: at least once for some ten thousand cells that are made, or looked at
     /// around single vertices. Passes over all vertices or cells, each of which takes a part of a build, are not

@@ -33,7 +33,7 @@ use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 /// Positions and vectors are rounded to a grid, along axes along which a vector goes. Its step is a power of two, so
 /// that all coordinates that are calculated with have at most 53 binary digits. In a box whose reduced vectors (the
 /// shortest of its lattice) have lengths up to L and are not flatter than a cube, the step is at most 2^-45 L, and
-/// mostly 2^-47 L; a position moves by half of that at most, and so does each reduced vector. The step depends on the
+/// mostly 2^-47 L. A position moves by half of that at most, and so does each reduced vector. The step depends on the
 /// lattice alone, whichever of its vectors are given. deldrift_copy_positions and deldrift_vectors tell what is used,
 /// to the last bit. For these positions and vectors the cells are exact. They are kept as they are when they are given
 /// again, here or to deldrift_stage_vectors and deldrift_commit_positions. A vector of many times L may have no 53

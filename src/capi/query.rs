@@ -209,10 +209,10 @@ pub unsafe extern "C" fn deldrift_tolerance(
 /// Checks the triangulation exactly, in time proportional to its size.
 ///
 /// level: 1 checks indices and adjacency. 2 also checks the orientation of the cells, and that the hull is convex and
-/// winds once. 3 also checks that no sphere through the vertices of a cell contains a vertex, or, with segments, none
-/// that can be seen from the cell's inside. In a periodic triangulation this is checked of what is kept inside, images
-/// included, and that images are where the vectors take their vertices. 3 then also checks that no image is missing,
-/// and that each cell is there once for each of its corners.
+/// winds once. 3 also checks that no sphere through the vertices of a cell contains a vertex. With segments only
+/// vertices count that can be seen from the cell's inside. In a periodic triangulation this is checked of what is kept
+/// inside, images included. All levels check that images are where the vectors take their vertices. 3 also checks that
+/// no image is missing, and that each cell is there once for each of its corners.
 ///
 /// Cost: n + m. Of a periodic triangulation at level 3 that of creation at most, in a copy.
 ///

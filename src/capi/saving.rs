@@ -211,7 +211,7 @@ fn bytes_of(file: &OldFile<'_>) -> Result<Vec<u8>, Failure> {
 /// Other attributes are not kept. A symbolic link is replaced itself, and another hard link keeps what it has. A device
 /// or a pipe is written at once; if it is full, the call waits. A named pipe that nobody reads is refused.
 ///
-/// A pipe that is no longer read, and the limit on the size of files, are errors like any other: SIGPIPE and SIGXFSZ of
+/// A pipe that is no longer read, and the limit on the size of files, are errors like any other. SIGPIPE and SIGXFSZ of
 /// these writes do not reach the process, whose handlers stay as they are.
 ///
 /// Cost: n + m.
@@ -364,7 +364,7 @@ pub unsafe extern "C" fn deldrift_write_vtu(
 ///
 /// Its vertices are those that are present, hidden ones included, ascending by id and numbered from 1; the reference of
 /// each is its id. Its triangles or tetrahedra are the cells, in the order of deldrift_cells. If there are segments in
-/// force, those of deldrift_segments are its edges, in that order, behind the triangles; the reference of each is its
+/// force, those of deldrift_segments are its edges, in that order, behind the triangles. The reference of each is its
 /// marker, and an end that is hidden is the vertex that represents it. Reading the numbers gives the same doubles. In a
 /// periodic triangulation a vertex is there once for each period in which a cell has it, as in deldrift_write_vtu.
 ///

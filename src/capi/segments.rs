@@ -56,7 +56,7 @@ impl From<&Conflict> for deldrift_conflict {
 
 /// Stages segments between vertices: all of them, or none if it fails. The next commit makes them, together with the
 /// staged moves, insertions and removals. From then on each is an edge, and the cells are the constrained Delaunay
-/// triangulation of vertices and segments: the circle of a cell has no vertex inside that can be seen from the cell's
+/// triangulation of vertices and segments. The circle of a cell has no vertex inside that can be seen from the cell's
 /// inside, where segments are opaque. Ties are broken by id as everywhere, so the cells depend only on positions, ids
 /// and segments. Segments move with their ends, and stay until their removal is staged and committed. docs/SEGMENTS.md
 /// says more.
@@ -231,16 +231,16 @@ pub unsafe extern "C" fn deldrift_segment_conflicts(
 /// of segments that has jumped across a vertex. What has happened in between is defined so: each vertex goes straight
 /// from its old place to its new one, at constant speed, and so do both ends of each segment that is in force before
 /// and after. A vertex passes a segment, of which it is no end, if it goes through it and is not back on its side when
-/// the step ends. That is exact: at f(s, t) = p(t) - a(t) - s (b(t) - a(t)) = 0, for s and t from 0 to 1, vertex p is
-/// on the segment from a to b, and it passes if the sum over the zeros, each counted as 1 or -1 by the direction, is
-/// not 0. The sum is the number of times that the quadrilateral p0 - a0, p0 - b0, p1 - b1, p1 - a1 winds around the
-/// origin. The vertex also passes if the origin is on the quadrilateral: then it goes exactly through an end on its
-/// way, or stops on the segment.
+/// the step ends. This is decided exactly. Where f(s, t) = p(t) - a(t) - s (b(t) - a(t)) is 0, for s and t from 0 to 1,
+/// vertex p is on the segment from a to b. It passes if the sum over these zeros, each counted as 1 or -1 by the
+/// direction, is not 0. The sum is the number of times that the quadrilateral p0 - a0, p0 - b0, p1 - b1, p1 - a1 winds
+/// around the origin. The vertex also passes if the origin is on the quadrilateral: then it goes exactly through an end
+/// on its way, or stops on the segment.
 ///
-/// These are not told: a vertex that crosses a segment and returns within one step, as the end of the step is legal; a
-/// vertex that is at the place of an end of the segment before or after, as it is on no side there; vertices that are
-/// inserted or removed by the commit, which do not move; and segments that are staged, or whose removal is. Ends of
-/// segments are vertices as others, so two segments that go through each other are told by their ends. So are hidden
+/// A vertex that crosses a segment and returns within one step is not told, as the end of the step is legal. Nor is one
+/// that is at the place of an end of the segment before or after, as it is on no side there. Vertices that the commit
+/// inserts or removes do not move, and pass nothing. Nothing passes segments that are staged, or whose removal is. Ends
+/// of segments are vertices as others, so two segments that go through each other are told by their ends. So are hidden
 /// vertices, which move with those that represent them, or part from them. A vertex that goes around the end of a slit
 /// is told if it goes through the slit on its straight way: what passes is a matter of the step, not of the region that
 /// a vertex is in. One that enters a loop through one segment and leaves it through another is told for both.

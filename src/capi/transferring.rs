@@ -95,8 +95,8 @@ impl From<&TransferReport> for deldrift_transfer_report {
 /// the sum stays exact, and so does a constant, but means there may be beyond those of all others. turned_over counts
 /// such cells, and shorter steps avoid them. A cell of now that was turned over since is gone as it was, and has come.
 ///
-/// With the second order, what gradients add is limited for each cell by what its new mean may be: no less and no more
-/// than the cells that it comes from have, their neighbours, and the neighbours of these. Gradients are fitted to the
+/// With the second order, what gradients add is limited for each cell. Its new mean is no less and no more than those
+/// of the cells that it comes from, of their neighbours, and of the neighbours of these. Gradients are fitted to the
 /// means of neighbours. Linear functions are kept but for rounding where that does not limit them, as it may at the
 /// hull.
 ///
