@@ -312,6 +312,11 @@ static void ask_for_signs(void) {
     expect(sign == 0, "the fourth corner of a square is on the circle through the others");
     check(deldrift_in_sphere(2, (double[]){0, 0, 1e9, 0, 0, 1e9, 1e9, 999999999.9999999}, &sign));
     expect(sign == 1, "and inside, if it is moved by a last bit");
+    const double corners[] = {1, 0, 0, 1, -1, 0, 3, 0};
+    check(deldrift_in_power_sphere(2, corners, (double[]){0, 0, 0, 8}, &sign));
+    expect(sign == 0, "a circle with the square 8 of its radius, at 3, crosses the one through the others at a right angle");
+    check(deldrift_in_power_sphere(2, corners, (double[]){0, 0, 0, 8.000000000000002}, &sign));
+    expect(sign == 1, "and is inside, if it is larger by a last bit");
 }
 
 // A kite that segments divide: a slit along it, which a third vertex cannot pass, and its outline.

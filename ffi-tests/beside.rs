@@ -29,18 +29,17 @@ fn static_library_is_linked_beside_another_one_in_rust() {
     let deldrift = library_files(&install(&folder)).join("libdeldrift.a");
     let linkers = LINKERS.into_iter().filter(|linker| is_there(linker)).collect::<Vec<_>>();
     assert!(linkers.contains(&"bfd"), "{linkers:?}");
-    for (name, flags) in OTHERS {
-        let other = make_other(&folder, name, flags);
-        for linker in &linkers {
-            for libraries in [[&deldrift, &other], [&other, &deldrift]] {
-                for (kind, flags) in KINDS {
-                    println!("{linker}, {kind}, {libraries:?}");
-                    let linker = format!("-fuse-ld={linker}");
-                    let flags = [flags, &[linker.as_str()]].concat();
-                    let program = link(&folder, kind == "shared", &flags, &libraries.map(PathBuf::as_path));
-                    succeed(&mut command(program));
-                }
-            }
+    let others = OTHERS.map(|(name, flags)| make_other(&folder, name, flags));
+    // Each linker links each kind, and each of both is linked in either order and beside either library.
+    for (i, linker) in linkers.iter().enumerate() {
+        for (j, (kind, flags)) in KINDS.into_iter().enumerate() {
+            let other = &others[(i + j) / 2 % 2];
+            let libraries = if (i + j) % 2 == 0 { [&deldrift, other] } else { [other, &deldrift] };
+            println!("{linker}, {kind}, {libraries:?}");
+            let linker = format!("-fuse-ld={linker}");
+            let flags = [flags, &[linker.as_str()]].concat();
+            let program = link(&folder, kind == "shared", &flags, &libraries.map(PathBuf::as_path));
+            succeed(&mut command(program));
         }
     }
 }

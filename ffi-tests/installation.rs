@@ -5,6 +5,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use std::{env, fs};
 
 use crate::coverage::exported_functions;
@@ -31,8 +32,14 @@ fn installed_library_is_found() {
 fn what_is_installed_can_be_removed() {
     let folder = fresh_folder("uninstall");
     let staging = folder.join("staging");
-    let prefix = Path::new("/opt/prefix");
-    let build = build_for_installation(&folder, prefix);
+    let build = installable();
+    // What another test has installed is not to be removed here.
+    for entry in fs::read_dir(&*build).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("install_manifest")) {
+            fs::remove_file(path).expect("it can be removed");
+        }
+    }
     let uninstall = || {
         let mut command = command("cmake");
         command
@@ -47,7 +54,8 @@ fn what_is_installed_can_be_removed() {
         !refused.status.success() && String::from_utf8_lossy(&refused.stderr).contains("install_manifest")
     );
     let mut install = command("cmake");
-    succeed(install.arg("--install").arg(&build).env("DESTDIR", &staging));
+    install.arg("--install").arg(&*build).args(["--prefix", "/opt/prefix"]);
+    succeed(install.env("DESTDIR", &staging));
     let other = library_files(&staging.join("opt/prefix")).join("libother.so");
     fs::write(&other, "").expect("a file can be written");
     succeed(&mut uninstall());
@@ -63,11 +71,15 @@ fn what_is_installed_can_be_removed() {
 #[ignore = "needs CMake"]
 fn components_are_installed_alone() {
     let folder = fresh_folder("components");
-    let build = build_for_installation(&folder, &folder.join("all"));
     let files_of = |component: &str| {
         let prefix = folder.join(component);
         let mut install = command("cmake");
-        install.arg("--install").arg(&build).arg("--prefix").arg(&prefix).args(["--component", component]);
+        install
+            .arg("--install")
+            .arg(&*installable())
+            .arg("--prefix")
+            .arg(&prefix)
+            .args(["--component", component]);
         succeed(&mut install);
         let found = succeed(command("find").arg(".").args(["!", "-type", "d"]).current_dir(&prefix));
         found.lines().map(str::to_string).collect::<BTreeSet<_>>()
@@ -321,9 +333,20 @@ fn compat_is_found(folder: &Path, libraries: &Path) {
 /// What `make install` does, with the libraries that this test was built with; the prefix.
 pub fn install(folder: &Path) -> PathBuf {
     let prefix = folder.join("prefix");
-    let build = build_for_installation(folder, &prefix);
-    succeed(command("cmake").arg("--install").arg(&build));
+    let build = installable();
+    succeed(command("cmake").arg("--install").arg(&*build).arg("--prefix").arg(&prefix));
     prefix
+}
+
+/// The folder of all that is to be installed, built once; whoever has it installs alone.
+fn installable() -> MutexGuard<'static, PathBuf> {
+    static BUILD: OnceLock<Mutex<PathBuf>> = OnceLock::new();
+    let make = || {
+        let folder = fresh_folder("installable");
+        Mutex::new(build_for_installation(&folder, &folder.join("prefix")))
+    };
+    // A test that has failed has left the folder as it was.
+    BUILD.get_or_init(make).lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// All that is to be installed to a prefix; the folder.

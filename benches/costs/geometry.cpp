@@ -435,6 +435,19 @@ std::vector<Call> geometry_calls() {
              }, c.n);
              c.meter.count(double(c.n));
          }},
+        {"deldrift_in_power_sphere", "on it", [](Context &c) {
+             std::int32_t sign;
+             Points p(c.dimension, 0.0), weights(c.dimension + 2, 0.0);
+             for (std::size_t i = 0; i <= c.dimension; ++i)
+                 for (std::size_t k = 0; k < c.dimension; ++k) p.push_back(i == k ? 1.0 : i == c.dimension ? 2.0 : 0.0);
+             // The power circle through 0 and the units has its centre at the halves: 2 of each is d (9 - 1) / 4 more away.
+             weights.back() = 2.0 * double(c.dimension);
+             c.meter.time([&] {
+                 for (std::size_t i = 0; i < c.n; ++i)
+                     must(deldrift_in_power_sphere(c.dimension, p.data(), weights.data(), &sign));
+             }, c.n);
+             c.meter.count(double(c.n));
+         }},
         {"deldrift_orientation", "nearly flat", [](Context &c) {
              std::int32_t sign;
              Points p;

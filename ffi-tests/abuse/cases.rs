@@ -306,6 +306,18 @@ impl Cases<'_> {
                 self.legal("infinite", at, "infinity", &format!("bad({valid}, 1, INFINITY)"));
                 self.legal("zero", at, "0", &format!("bad({valid}, 1, 0)"));
             }
+            Role::Weights => {
+                for (column, value, said) in [
+                    ("nan", "NAN", "NaN"),
+                    ("infinite", "-INFINITY", "-inf"),
+                    ("value", "-1.01e114", "-1010000"),
+                ] {
+                    let message = format!("\"{name}[1] is {said}\"");
+                    let given = format!("bad({valid}, 1, {value})");
+                    self.refused(column, at, said, &given, "INVALID_VALUE", &message);
+                }
+                self.legal("value", at, "1e114", &format!("bad({valid}, 1, 1e114)"));
+            }
             Role::Ids => self.ids(at),
             Role::Ends => self.ends(at),
             Role::SegmentIds => self.segments(at),

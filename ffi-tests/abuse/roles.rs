@@ -63,6 +63,8 @@ pub enum Role {
     /// A number that is not negative, and may be infinite; an array of them.
     Magnitude,
     Magnitudes,
+    /// Numbers of a magnitude up to 1e114.
+    Weights,
     /// A number for each cell, one for each region.
     LabelsOfRegions,
     /// How much may be made at most: any number.
@@ -97,7 +99,8 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("const double *", "positions") if function.name == "deldrift_transfer_cells" => Role::NumbersIfAny,
         ("const double *", "position" | "positions" | "centre") => Role::Points,
         ("const double *", "seeds") => Role::Points,
-        ("const double *", "points") if function.name == "deldrift_in_sphere" => Role::PointsOfSphere,
+        ("const double *", "points") if function.name.ends_with("_sphere") => Role::PointsOfSphere,
+        ("const double *", "weights") => Role::Weights,
         ("const double *", "points") => Role::PointsOfSimplex,
         ("const double *", "vectors") => Role::Vectors,
         ("const double *", "half_spaces") => Role::HalfSpaces,

@@ -317,6 +317,7 @@ pub const ROWS: &[Row] = &[
     row("deldrift_write_medit", &["t", "path", "wholes", "n_cells"]),
     row("deldrift_orientation", &["dimension", "moved", "&out.sign"]),
     row("deldrift_in_sphere", &["dimension", "moved", "&out.sign"]),
+    row("deldrift_in_power_sphere", &["dimension", "moved", "values", "&out.sign"]),
     row("deldrift_options_init", &["&options"]),
     row("deldrift_research_set_algorithm", &["t", "DELDRIFT_RESEARCH_PLACEMENT", "&research"]),
     row("deldrift_research_within_safe_region", &["t", "&out.timestamp"]),

@@ -254,6 +254,7 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     static const double flat[15] = {0, 0, 0, 1, 1e-300, 0, 0, 1, 0, 1, 1, 1e-300, 1, 1e-300, 1};
     OK(deldrift_orientation(dimension, flat, &sign));
     OK(deldrift_in_sphere(dimension, flat, &sign));
+    OK(deldrift_in_power_sphere(dimension, flat, flat, &sign));
     OK(deldrift_research_within_safe_region(s.t, &timestamp));
     OK(deldrift_research_set_algorithm(s.t, DELDRIFT_RESEARCH_PLACEMENT, NULL));
     OK(deldrift_set_algorithm(s.t, DELDRIFT_TOLERANCE));

@@ -69,6 +69,12 @@ static int32_t in_sphere(uint32_t dimension, const double *points) {
     return sign;
 }
 
+static int32_t in_power_sphere(uint32_t dimension, const double *points, const double *weights) {
+    int32_t sign = 7;
+    OK(deldrift_in_power_sphere(dimension, points, weights, &sign));
+    return sign;
+}
+
 static int64_t determinant(uint32_t d, int64_t u[3][3]) {
     if (d == 2) return u[0][0] * u[1][1] - u[0][1] * u[1][0];
     return u[0][0] * (u[1][1] * u[2][2] - u[1][2] * u[2][1]) - u[0][1] * (u[1][0] * u[2][2] - u[1][2] * u[2][0]) +
@@ -77,10 +83,11 @@ static int64_t determinant(uint32_t d, int64_t u[3][3]) {
 
 // By the definition. Seen from the first point, of edges e to the others of the simplex the centre c solves 2 e c = e²,
 // and a point q is inside if 2 q c - q² is positive. By Cramer's rule that is an integer over the determinant of the
-// edges.
-static int64_t by_definition(uint32_t d, int64_t p[5][3]) {
-    int64_t e[3][3] = {{0}}, squares[3] = {0}, own = 0, sum = 0;
+// edges. With weights, squares are less by what the other weight is more than the first.
+static int64_t by_definition(uint32_t d, int64_t p[5][3], const int64_t w[5]) {
+    int64_t e[3][3] = {{0}}, squares[3] = {0}, own = w[0] - w[d + 1], sum = 0;
     for (uint32_t i = 0; i < d; i++) {
+        squares[i] = w[0] - w[i + 1];
         for (uint32_t k = 0; k < d; k++) {
             e[i][k] = p[i + 1][k] - p[0][k];
             squares[i] += e[i][k] * e[i][k];
@@ -125,7 +132,12 @@ static void in_spheres_of_integers(int range, uint64_t seed) {
                 }
             }
             const int32_t sign = in_sphere(d, points);
-            CHECK(sign == sign_of(by_definition(d, box)));
+            static const int64_t none[5] = {0};
+            CHECK(sign == sign_of(by_definition(d, box, none)));
+            int64_t weights[5];
+            double numbers[5];
+            for (int i = 0; i < 5; i++) numbers[i] = (double)(weights[i] = (int64_t)(9 * next_random(&seed)) - 2);
+            CHECK(in_power_sphere(d, points, numbers) == sign_of(by_definition(d, box, weights)));
             CHECK(orientation(d, points) == sign_of(determinant(d, edges)));
             n_of[sign + 1]++;
         }
@@ -187,6 +199,43 @@ static void bad_spheres(void) {
     CHECK(in_sphere(2, points) == 1);
 }
 
+// The square 8 of a radius at 3 is on the unit circle's power circle, which it crosses at a right angle.
+static void weights_are_squares_of_radii(void) {
+    const double points[] = {1, 0, 0, 1, -1, 0, 3, 0};
+    double weights[] = {0, 0, 0, 8};
+    CHECK(in_power_sphere(2, points, weights) == 0);
+    weights[3] = nextafter(8, 9);
+    CHECK(in_power_sphere(2, points, weights) == 1);
+    weights[3] = nextafter(8, 7);
+    CHECK(in_power_sphere(2, points, weights) == -1);
+    for (int i = 0; i < 4; i++) weights[i] = i < 3 ? -1e114 : 1e114;
+    CHECK(in_power_sphere(2, points, weights) == 1);
+    for (int i = 0; i < 4; i++) weights[i] = i < 3 ? 5e-324 : 0;
+    CHECK(in_power_sphere(2, points, weights) == -1);
+    const double corner[] = {1, 0, 0, 1, -1, 0, 0, -1};
+    CHECK(in_power_sphere(2, corner, weights) == -1);
+    weights[3] = 1e-323;
+    CHECK(in_power_sphere(2, corner, weights) == 1);
+}
+
+static void bad_weights(void) {
+    const double points[15] = {0, 0, 1, 0, 0, 1, 0.5, 0.5, 1, 1, 1, 1, 1, 1, 1};
+    double weights[5] = {0, 1, 2, 3, NAN};
+    int32_t sign = 7;
+    CHECK_STATUS(deldrift_in_power_sphere(4, points, weights, &sign), DELDRIFT_INVALID_DIMENSION);
+    CHECK_STATUS(deldrift_in_power_sphere(3, points, weights, &sign), DELDRIFT_INVALID_VALUE);
+    CHECK_MESSAGE("weights[4] is NaN");
+    CHECK_STATUS(deldrift_in_power_sphere(2, points, NULL, &sign), DELDRIFT_NULL_ARGUMENT);
+    CHECK_MESSAGE("weights is NULL");
+    weights[1] = -1.1e114;
+    CHECK_STATUS(deldrift_in_power_sphere(2, points, weights, &sign), DELDRIFT_INVALID_VALUE);
+    CHECK_MESSAGE("weights[1] is -11");
+    CHECK(sign == 7);
+    // No more is read than the dimension says.
+    weights[1] = 1;
+    OK(deldrift_in_power_sphere(2, points, weights, &sign));
+}
+
 static void bad_points(void) {
     double points[12] = {0, 0, 1, 0, 0, 1, 1, 1, 1, 1, 1, 1};
     int32_t sign = 7;
@@ -216,7 +265,9 @@ int main(void) {
     in_spheres_of_integers(2, 3);
     in_spheres_of_integers(9, 4);
     inside_is_positive();
+    weights_are_squares_of_radii();
     bad_points();
     bad_spheres();
+    bad_weights();
     return 0;
 }

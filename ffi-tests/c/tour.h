@@ -533,6 +533,8 @@ static void make_tour(const places *p, record *made) {
         note(&sign, sizeof sign);
         GO(deldrift_in_sphere(d, p->at + k * d, &sign));
         note(&sign, sizeof sign);
+        GO(deldrift_in_power_sphere(d, p->at + k * d, p->then + k * d, &sign));
+        note(&sign, sizeof sign);
     }
     deldrift_triangulation *t = NULL;
     GO(deldrift_create(d, p->at, n, &options, &t));

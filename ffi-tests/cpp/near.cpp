@@ -194,6 +194,11 @@ static void signs_are_exact() {
     CHECK(deldrift::in_sphere(2, {0, 0, 1, 0, 1, 1, 0, std::nextafter(1.0, 0)}) == 1);
     CHECK(deldrift::in_sphere(2, {1, 0, 0, 0, 1, 1, 0, std::nextafter(1.0, 0)}) == -1);
     CHECK(deldrift::in_sphere(3, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, std::nextafter(1.0, 2)}) == -1);
+    const std::vector<double> weights{0, 0, 0, 8};
+    CHECK(deldrift::in_power_sphere(2, {1, 0, 0, 1, -1, 0, 3, 0}, weights) == 0);
+    CHECK(deldrift::in_power_sphere(2, {0, 1, 1, 0, -1, 0, 2, 0}, weights) == -1);
+    CHECK_THROWS(deldrift::in_power_sphere(3, std::vector<double>(15), weights), DELDRIFT_WRONG_COUNT,
+                 "weights has 4 numbers, but must have 5");
     CHECK_THROWS(deldrift::in_sphere(3, {0, 0, 0}), DELDRIFT_WRONG_COUNT, "points has 3 numbers");
     CHECK_THROWS(deldrift::in_sphere(4, {}), DELDRIFT_INVALID_DIMENSION, "dimension");
 }

@@ -585,7 +585,8 @@ deldrift_status deldrift_star(const deldrift_triangulation *t,
 /// It is a certified lower bound: rounding can make it smaller, but never too large. It is 0 where nothing is certain,
 /// and for vertices that share their place. It is infinite, without a meaning, while there are no cells. It is computed
 /// from the star of the vertex, whatever the algorithm in force. At segments it is what the orientation of the cells on
-/// both sides allows.
+/// both sides allows. In a periodic triangulation images move as their vertices do, and the vectors stay. There a vertex
+/// that alone makes a side of a slab has 0, as it is on one line with its images.
 ///
 /// Cost: the cells of the star.
 ///

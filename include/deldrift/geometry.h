@@ -33,6 +33,8 @@
  *     deldrift_orientation: The orientation of points, exactly, to *sign: 1, -1 or 0.
  *     deldrift_in_sphere: Whether a point is inside the circle or sphere through others, exactly, to *sign: 1 inside,
  *         -1 outside, 0 on it.
+ *     deldrift_in_power_sphere: Whether a point with a weight is inside the power circle or power sphere of others,
+ *         exactly, to *sign: 1 inside, -1 outside, 0 on it.
  */
 
 #ifndef DELDRIFT_GEOMETRY_H
@@ -290,6 +292,25 @@ deldrift_status deldrift_orientation(uint32_t dimension,
 deldrift_status deldrift_in_sphere(uint32_t dimension,
                                    const double *points,
                                    int32_t *sign);
+
+/// Whether a point with a weight is inside the power circle or power sphere of others, exactly, to *sign: 1 inside, -1
+/// outside, 0 on it.
+///
+/// The power of a place x to a point p of weight w is |x - p|^2 - w. The centre of the power sphere has one power to all
+/// of its points, and a point is inside if the centre has a lower one to it. With equal weights this is
+/// deldrift_in_sphere. It is the test of regular triangulations, of which power diagrams are the duals.
+///
+/// dimension: 2 or 3. points: dimension + 2 points, as deldrift_in_sphere takes them. weights: as many numbers, of
+/// magnitude up to 1e114, negative ones included: the square of a radius for a circle or a sphere around its point.
+/// Ties are not broken.
+///
+/// Cost: constant.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE for a weight.
+deldrift_status deldrift_in_power_sphere(uint32_t dimension,
+                                         const double *points,
+                                         const double *weights,
+                                         int32_t *sign);
 
 #ifdef __cplusplus
 }  // extern "C"

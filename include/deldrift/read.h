@@ -561,7 +561,8 @@ deldrift_status deldrift_cell_of_each_vertex(const deldrift_triangulation *t,
 ///
 /// corners_per_simplex: 1 (a cell of each vertex), 2 (edges), 3 (triangles) or, in 3D, 4. vertices: count rows of as
 /// many ids, in any order. A hidden vertex stands for the one that represents it. A simplex with two corners at the
-/// same place is in no cell. cells: receives count indices.
+/// same place is in no cell, unless t is periodic and a cell has them in different periods. cells: receives count
+/// indices.
 ///
 /// Cost: for each simplex the least number of cells that a corner of it has. Where there are more simplices than an
 /// eighth of the vertices, also n + m.

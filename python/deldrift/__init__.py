@@ -13,7 +13,7 @@ array([ True, False])
 """
 
 from ._arrays import is_current
-from ._asking import Locations, in_sphere, orientation
+from ._asking import Locations, in_power_sphere, in_sphere, orientation
 from ._delaunay import Delaunay, frombytes, load, tsearch
 from ._errors import (
     AmbiguousSeed,
@@ -118,6 +118,7 @@ __all__ = [
     "VoronoiDerivatives",
     "WrongCount",
     "frombytes",
+    "in_power_sphere",
     "in_sphere",
     "is_current",
     "load",

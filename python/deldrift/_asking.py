@@ -14,16 +14,15 @@ from ._arrays import (
     address,
     address_if,
     answered,
-    id_rows,
+    floats,
     mask as mask_of,
     one_id,
-    one_point,
     places,
     points as point_rows,
     whole,
 )
 from ._core import check, count_of, id_count
-from ._errors import InvalidDimension, InvalidShape, InvalidValue, WrongCount
+from ._errors import InvalidDimension, InvalidShape, WrongCount
 from ._scipy import Scipy
 
 _vertex_count = _library.function("vertex_count")
@@ -32,15 +31,14 @@ _keys = _library.function("keys")
 _is_present = _library.function("is_present")
 _star = _library.function("star")
 _ordered_star = _library.function("ordered_star")
-_tolerance = _library.function("tolerance")
 _locate_points = _library.function("locate_points")
 _cells_in_reach = _library.function("cells_in_reach")
 _hull_facets_in_reach = _library.function("hull_facets_in_reach")
 _vertices_in_reach = _library.function("vertices_in_reach")
 _id_count = _library.function("id_count")
-_find_simplices = _library.function("find_simplices")
 _orientation = _library.function("orientation")
 _in_sphere = _library.function("in_sphere")
+_in_power_sphere = _library.function("in_power_sphere")
 _coincident_representative = _library.function("coincident_representative")
 
 
@@ -130,25 +128,6 @@ class Asking(Scipy):
         with self._reading as t:
             found = ctypes.c_uint32()
             self._check(_coincident_representative(t, number, found), vertex="vertex!")
-        return found.value
-
-    def tolerance(self, vertex: int) -> float:
-        """How far every vertex may move without a change of simplices at this one: a certified lower bound.
-
-        Parameters
-        ----------
-        vertex : int
-            The id.
-
-        Returns
-        -------
-        float
-            The distance; infinite while there are no simplices.
-        """
-        number = one_id("vertex", vertex)
-        with self._reading as t:
-            found = ctypes.c_double()
-            self._check(_tolerance(t, number, found), vertex="vertex!")
         return found.value
 
     def star(self, vertex: int, ordered: bool = False) -> np.ndarray:
@@ -300,33 +279,6 @@ class Asking(Scipy):
             self._check(status)
         return offsets.astype(np.intp), vertices
 
-    def simplices_with(self, vertices: Any) -> np.ndarray:
-        """Simplices that have given vertices as corners: so it tells which edges, facets or simplices there are.
-
-        Parameters
-        ----------
-        vertices : array_like of int
-            Rows of 1 (a simplex of each vertex), 2 (edges), 3 or, in 3D, 4 ids, in any order.
-
-        Returns
-        -------
-        ndarray of int
-            The index of one for each row, -1 where there is none.
-
-        Examples
-        --------
-        >>> import deldrift
-        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3], [1, 1]])
-        >>> tri.simplices_with([[0, 1], [0, 2]]) >= 0
-        array([ True, False])
-        """
-        listed = id_rows("vertices", vertices, range(1, self.ndim + 2))
-        found = np.empty(len(listed), I32)
-        with self._reading as t:
-            status = _find_simplices(t, listed.shape[1], address(listed), len(listed), address(found))
-            self._check(status, vertex=("vertices", listed.shape), vertices=("vertices", listed.shape))
-        return found
-
 
 def orientation(points: Any) -> int:
     """The orientation of 3 points of the plane or 4 points of space, exactly.
@@ -373,13 +325,45 @@ def in_sphere(points: Any) -> int:
     return _sign(_in_sphere, points, 2)
 
 
-def _sign(function: Any, values: Any, more: int) -> int:
+def in_power_sphere(points: Any, weights: Any) -> int:
+    """Whether a point with a weight is in the power circle or power sphere of others, exactly.
+
+    The power of a place x to a point p of weight w is |x - p|^2 - w. The centre of the power sphere has one power to all of
+    its points, and a point is inside if the centre has a lower one to it. With equal weights this is `in_sphere`.
+
+    Parameters
+    ----------
+    points : array_like
+        Rows as for `in_sphere`.
+    weights : array_like
+        A number for each, of magnitude up to 1e114: the square of the radius of a circle or sphere around the point.
+
+    Returns
+    -------
+    int
+        1 inside, -1 outside, 0 on the power circle or power sphere.
+
+    Examples
+    --------
+    >>> import deldrift
+    >>> deldrift.in_power_sphere([[1, 0], [0, 1], [-1, 0], [3, 0]], [0, 0, 0, 8])
+    0
+    """
+    return _sign(_in_power_sphere, points, 2, floats("weights", weights))
+
+
+def _sign(function: Any, values: Any, more: int, *weights: np.ndarray) -> int:
     rows = point_rows("points", values)
     ndim = rows.shape[1]
     if len(rows) != ndim + more:
         raise WrongCount(
             f"points has {len(rows)} rows, and must have {ndim + more} in {ndim}D", "points", None, len(rows)
         )
+    for own in weights:
+        if own.ndim != 1:
+            raise InvalidShape(f"weights has the shape {own.shape}, and must be a list", "weights")
+        if len(own) != len(rows):
+            raise WrongCount(f"weights has {len(own)} entries, and there are {len(rows)} points", "weights", None, len(own))
     sign = ctypes.c_int32()
-    check(function(ndim, address(rows), sign))
+    check(function(ndim, address(rows), *map(address, weights), sign))
     return sign.value

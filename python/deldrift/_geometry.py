@@ -8,22 +8,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _library
-from ._arrays import (
-    F64,
-    I32,
-    address,
-    address_if,
-    box_corners,
-    half_space_rows,
-    mask as mask_of,
-    real,
-)
-from ._core import cell_count, count_of, id_count
+from ._arrays import F64, I32, address, address_if, box_corners, half_space_rows, mask as mask_of
+from ._core import count_of, id_count
 from ._measured import Measured
 from ._scipy import Scipy
 from ._errors import WrongCount
 
-_mask_without_flat_cells = _library.function("mask_without_flat_cells")
 _edges = _library.function("edges")
 _voronoi_volumes = _library.function("voronoi_volumes")
 _voronoi_facets = _library.function("voronoi_facets")
@@ -57,25 +47,6 @@ class VoronoiDerivatives(NamedTuple):
 
 class Geometry(Measured, Scipy):
     """Geometry in bulk."""
-
-    def mask_without_flat(self, tolerance: float) -> np.ndarray:
-        """Which simplices are more than what the rounding of a straight or flat side has made.
-
-        Parameters
-        ----------
-        tolerance : float
-            A simplex is flat if its least height is at most this part of its longest edge, such as 1e-9.
-
-        Returns
-        -------
-        ndarray of bool
-            False for simplices along the hull that are flat. `boundary` of it gives the sides as they were meant.
-        """
-        limit = real("tolerance", tolerance)
-        with self._reading as t:
-            mask, count = np.empty(cell_count(t), np.bool_), ctypes.c_size_t()
-            self._check(_mask_without_flat_cells(t, limit, address(mask), len(mask), count), tolerance="tolerance!")
-        return mask
 
     def edges(self) -> np.ndarray:
         """The edges: rows of two vertex ids, the lower one first, in lexicographic order.

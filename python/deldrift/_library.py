@@ -386,6 +386,7 @@ PROTOTYPES = {
     "write_medit": (T, c_char_p, A, N),
     "orientation": (U32, A, POINTER(c_int32)),
     "in_sphere": (U32, A, POINTER(c_int32)),
+    "in_power_sphere": (U32, A, A, POINTER(c_int32)),
 }
 
 

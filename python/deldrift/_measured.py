@@ -8,12 +8,15 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _library
-from ._arrays import F64, I32, address, check_output, ids, mask as mask_of, real, simplex_ids
+from ._arrays import F64, I32, address, check_output, id_rows, ids, mask as mask_of, one_id, real, simplex_ids
 from ._core import Core, cell_count, id_count
 from ._errors import WrongCount
 
 _circumcentres = _library.function("circumcentres")
 _volumes = _library.function("volumes")
+_tolerance = _library.function("tolerance")
+_find_simplices = _library.function("find_simplices")
+_mask_without_flat_cells = _library.function("mask_without_flat_cells")
 _mask_by_circumradius = _library.function("mask_by_circumradius")
 _mask_boundary = _library.function("mask_boundary")
 _hull_facets = _library.function("hull_facets")
@@ -56,6 +59,71 @@ class Measured(Core):
             count = ctypes.c_size_t()
             self._check(_volumes(t, address(volumes), len(volumes), count))
         return volumes
+
+    def tolerance(self, vertex: int) -> float:
+        """How far every vertex may move without a change of simplices at this one: a certified lower bound.
+
+        Parameters
+        ----------
+        vertex : int
+            The id.
+
+        Returns
+        -------
+        float
+            The distance; infinite while there are no simplices.
+        """
+        number = one_id("vertex", vertex)
+        with self._reading as t:
+            found = ctypes.c_double()
+            self._check(_tolerance(t, number, found), vertex="vertex!")
+        return found.value
+
+    def mask_without_flat(self, tolerance: float) -> np.ndarray:
+        """Which simplices are more than what the rounding of a straight or flat side has made.
+
+        Parameters
+        ----------
+        tolerance : float
+            A simplex is flat if its least height is at most this part of its longest edge, such as 1e-9.
+
+        Returns
+        -------
+        ndarray of bool
+            False for simplices along the hull that are flat. `boundary` of it gives the sides as they were meant.
+        """
+        limit = real("tolerance", tolerance)
+        with self._reading as t:
+            mask, count = np.empty(cell_count(t), np.bool_), ctypes.c_size_t()
+            self._check(_mask_without_flat_cells(t, limit, address(mask), len(mask), count), tolerance="tolerance!")
+        return mask
+
+    def simplices_with(self, vertices: Any) -> np.ndarray:
+        """Simplices that have given vertices as corners: so it tells which edges, facets or simplices there are.
+
+        Parameters
+        ----------
+        vertices : array_like of int
+            Rows of 1 (a simplex of each vertex), 2 (edges), 3 or, in 3D, 4 ids, in any order.
+
+        Returns
+        -------
+        ndarray of int
+            The index of one for each row, -1 where there is none.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3], [1, 1]])
+        >>> tri.simplices_with([[0, 1], [0, 2]]) >= 0
+        array([ True, False])
+        """
+        listed = id_rows("vertices", vertices, range(1, self.ndim + 2))
+        found = np.empty(len(listed), I32)
+        with self._reading as t:
+            status = _find_simplices(t, listed.shape[1], address(listed), len(listed), address(found))
+            self._check(status, vertex=("vertices", listed.shape), vertices=("vertices", listed.shape))
+        return found
 
     def circumcentres(self) -> tuple[np.ndarray, np.ndarray]:
         """The circumcentres and squared circumradii of the simplices.

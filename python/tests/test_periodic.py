@@ -486,3 +486,15 @@ def test_steps_are_tried():
     kept = np.delete(points, 7, axis=0) + 0.03
     assert tri.nsimplex == deldrift.PeriodicDelaunay(kept, [1, 1]).nsimplex
     assert np.isclose(np.nansum(tri.voronoi_volumes()), 1)
+
+
+def test_tolerances_and_flat_cells(rng):
+    points = rng.random((40, 2))
+    t = deldrift.PeriodicDelaunay(points, np.eye(2))
+    least = min(t.tolerance(v) for v in range(40))
+    before = t.simplices.tolist()
+    t.move(points + rng.uniform(-0.7, 0.7, points.shape) * least)
+    assert sorted(map(sorted, t.simplices.tolist())) == sorted(map(sorted, before))
+    assert t.mask_without_flat(1e-9).all()
+    strip = deldrift.PeriodicDelaunay([[0, 0], [0.3, 1e-13], [0.6, 0], [0.5, 1]], [[1, 0]])
+    assert not strip.mask_without_flat(1e-9).all() and strip.mask_without_flat(0).all()

@@ -140,10 +140,11 @@ pub unsafe extern "C" fn deldrift_mask_without_flat_cells(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, mask[capacity]: Buffer, count: Output);
-    t.read(|t| {
-        in_its_dimension!(t => {
+    t.read_any(|t| {
+        in_any!(t => {
             check_not_negative("tolerance", tolerance)?;
-            mask.fill(count, t.cell_count(), || Ok(t.mask_without_flat_cells(tolerance)?))
+            let cells = t.cells()?;
+            mask.fill(count, cells.corners.len(), || Ok(t.mask_without_flat_cells(tolerance)?))
         })
     })
 }

@@ -10,7 +10,8 @@ use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
 use crate::in_its_dimension;
 use crate::machine::memory;
-use crate::motion::Rows;
+use crate::motion::{Rows, check_corners};
+use crate::periodic::AnyPeriodic;
 
 /// The edges: rows of two vertex ids, the lower one first, each edge once, in lexicographic order. They depend on
 /// positions and ids alone.
@@ -147,7 +148,8 @@ pub unsafe extern "C" fn deldrift_cell_of_each_vertex(
 ///
 /// corners_per_simplex: 1 (a cell of each vertex), 2 (edges), 3 (triangles) or, in 3D, 4. vertices: count rows of as
 /// many ids, in any order. A hidden vertex stands for the one that represents it. A simplex with two corners at the
-/// same place is in no cell. cells: receives count indices.
+/// same place is in no cell, unless t is periodic and a cell has them in different periods. cells: receives count
+/// indices.
 ///
 /// Cost: for each simplex the least number of cells that a corner of it has. Where there are more simplices than an
 /// eighth of the vertices, also n + m.
@@ -165,9 +167,9 @@ pub unsafe extern "C" fn deldrift_find_simplices(
     let n_corners = corners_per_simplex as usize;
     let n_ids = count.saturating_mul(n_corners);
     given!(t: Reading, vertices[n_ids]: Array, cells[count]: Buffer);
-    t.read(|t| {
-        in_its_dimension!(t => {
-            t.check_corners(n_corners)?;
+    t.read_any(|t| {
+        check_corners(t.dimension() as usize, n_corners)?;
+        in_any!(t => {
             check_product::<u32>("vertices", count, n_corners)?;
             let vertices = VertexId::of_numbers(vertices.get()?);
             let places = cells.places(count)?;
@@ -256,10 +258,18 @@ pub unsafe extern "C" fn deldrift_ordered_star(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, cells[capacity]: Buffer, count: Output);
-    t.read(|t| {
-        let AnyTriangulation::Plane(t) = t else { return Err(Failure::NotOfThePlane) };
-        let star = t.ordered_star(VertexId::new(vertex))?;
-        cells.fill(count, star.clone().count(), || Ok(star.map(CellId::get)))
+    let vertex = VertexId::new(vertex);
+    t.read_any(|t| match t {
+        Content::Open(AnyTriangulation::Plane(t)) => {
+            let star = t.ordered_star(vertex)?;
+            cells.fill(count, star.clone().count(), || Ok(star.map(CellId::get)))
+        }
+        Content::Periodic(t) => {
+            let AnyPeriodic::Plane(t) = &**t else { return Err(Failure::NotOfThePlane) };
+            let star = t.ordered_star(vertex)?;
+            cells.fill(count, star.clone().count(), || Ok(star.map(CellId::get)))
+        }
+        Content::Open(AnyTriangulation::Space(_)) => Err(Failure::NotOfThePlane),
     })
 }
 

@@ -45,10 +45,9 @@ use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 /// on their grid depend on each other, or nearly so, are refused.
 ///
 /// All functions serve a periodic triangulation but those of deldrift/segments.h and the following, which return
-/// DELDRIFT_PERIODIC: deldrift_release_cells, deldrift_tolerance, deldrift_stage_insertions_with_keys,
-/// deldrift_stage_insertions_at_free_ids, deldrift_insert_vertex_with_key, deldrift_keys, deldrift_cells_in_reach,
-/// deldrift_hull_facets_in_reach, deldrift_vertices_in_reach, deldrift_find_simplices, deldrift_ordered_star and
-/// deldrift_mask_without_flat_cells. Cells are numbered anew by each commit, unless changes are taken.
+/// DELDRIFT_PERIODIC: deldrift_stage_insertions_with_keys, deldrift_stage_insertions_at_free_ids,
+/// deldrift_insert_vertex_with_key, deldrift_keys, deldrift_cells_in_reach, deldrift_hull_facets_in_reach and
+/// deldrift_vertices_in_reach. Cells are numbered anew by each commit, unless changes are taken.
 ///
 /// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of
 /// moves, or of other vectors that are near those in force, costs what it costs in an open triangulation of as many,

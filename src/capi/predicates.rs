@@ -6,7 +6,9 @@ use super::status::{Failure, deldrift_status};
 use crate::delaunay::{Dimension, Plane, Space};
 use crate::error::{Error, Result};
 use crate::motion::check_position;
-use crate::predicates::{StaticFilter, incircle, insphere, orient2d, orient3d};
+use crate::predicates::{
+    MAX_WEIGHT, StaticFilter, in_power_circle, in_power_sphere, incircle, insphere, orient2d, orient3d,
+};
 
 /// The orientation of points, exactly, to *sign: 1, -1 or 0.
 ///
@@ -73,6 +75,46 @@ pub unsafe extern "C" fn deldrift_in_sphere(
     tell(dimension, sign, || in_plane.get().map(side_of_circle), || in_space.get().map(side_of_sphere))
 }
 
+/// Whether a point with a weight is inside the power circle or power sphere of others, exactly, to *sign: 1 inside, -1
+/// outside, 0 on it.
+///
+/// The power of a place x to a point p of weight w is |x - p|^2 - w. The centre of the power sphere has one power to all
+/// of its points, and a point is inside if the centre has a lower one to it. With equal weights this is
+/// deldrift_in_sphere. It is the test of regular triangulations, of which power diagrams are the duals.
+///
+/// dimension: 2 or 3. points: dimension + 2 points, as deldrift_in_sphere takes them. weights: as many numbers, of
+/// magnitude up to 1e114, negative ones included: the square of a radius for a circle or a sphere around its point.
+/// Ties are not broken.
+///
+/// Cost: constant.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE for a weight.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_in_power_sphere(
+    dimension: u32,
+    points: *const f64,
+    weights: *const f64,
+    sign: *mut i32,
+) -> deldrift_status {
+    let (in_plane, of_plane) = {
+        let (points, weights) = (points.cast(), weights.cast());
+        given!(points: Input, weights: Input);
+        (points, weights)
+    };
+    let (in_space, of_space) = {
+        let (points, weights) = (points.cast(), weights.cast());
+        given!(points: Input, weights: Input);
+        (points, weights)
+    };
+    given!(sign: Output);
+    tell(
+        dimension,
+        sign,
+        || Ok(side_of_power_circle(in_plane.get()?, of_plane.get()?)),
+        || Ok(side_of_power_sphere(in_space.get()?, of_space.get()?)),
+    )
+}
+
 /// Writes the sign of a determinant of points of the plane or of space, which has been made or refused.
 fn tell(
     dimension: u32,
@@ -121,6 +163,29 @@ fn side_of_sphere(points: &[[f64; 3]; 5]) -> Result<f64> {
     check_points::<Space>(points)?;
     let [a, b, c, d, e] = points;
     Ok(insphere(&filter_of_space(), a, b, c, d, e))
+}
+
+fn side_of_power_circle(points: &[[f64; 2]; 4], weights: &[f64; 4]) -> Result<f64> {
+    check_points::<Plane>(points)?;
+    check_weights(weights)?;
+    Ok(in_power_circle(&filter_of_plane(), points.each_ref(), weights))
+}
+
+fn side_of_power_sphere(points: &[[f64; 3]; 5], weights: &[f64; 5]) -> Result<f64> {
+    check_points::<Space>(points)?;
+    check_weights(weights)?;
+    Ok(in_power_sphere(&filter_of_space(), points.each_ref(), weights))
+}
+
+fn check_weights(weights: &[f64]) -> Result<()> {
+    // NaN is in no range.
+    match weights.iter().position(|weight| !(-MAX_WEIGHT..=MAX_WEIGHT).contains(weight)) {
+        None => Ok(()),
+        Some(index) => {
+            let (value, wanted) = (weights[index], "a number of magnitude 1e114 at most");
+            Err(Error::InvalidValue { argument: "weights", index, value, wanted })
+        }
+    }
 }
 
 /// The filter of a box without points in the plane: it leaves the bound to the extents of the points that are given.

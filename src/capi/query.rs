@@ -1,8 +1,6 @@
 //! Queries: cells, and what is where. None changes the triangulation.
 
-use super::handle::{
-    Changing, Content, Reading, deldrift_triangulation, in_any, in_its_period, tell, tell_any,
-};
+use super::handle::{Changing, Content, Reading, deldrift_triangulation, in_any, in_its_period, tell_any};
 use super::pointers::{Buffer, Output, Owned, fill_all, given, start_of, write_all};
 use super::status::{Failure, deldrift_status};
 use crate::complex::Corners;
@@ -12,6 +10,7 @@ use crate::ids::{CellId, VertexId};
 use crate::in_its_dimension;
 use crate::machine::memory;
 use crate::motion::{Level, MovingTriangulation, NO_CELL, OwnedCells, cells_at};
+use crate::periodic::AnyPeriodic;
 
 /// No cell, no vertex. It is the neighbour of a cell across a facet of the convex hull, and the nearest vertex of an
 /// empty triangulation.
@@ -69,7 +68,6 @@ pub struct deldrift_released_cells {
 
 /// The arrays of either dimension, which are only kept: a view reads them.
 #[derive(Debug)]
-#[expect(dead_code, reason = "what owns is not looked at")]
 enum Arrays {
     Plane(OwnedCells<Plane>),
     Space(OwnedCells<Space>),
@@ -93,16 +91,22 @@ pub unsafe extern "C" fn deldrift_release_cells(
     owner: *mut *mut deldrift_released_cells,
 ) -> deldrift_status {
     given!(t: Changing, view: Output, owner: Output);
-    t.change(|t| {
+    t.change_any(|t| {
         let (view, owner) = (view.place()?, owner.place()?);
-        let shown = in_its_dimension!(t => view_of(t.cells()?.corners, t.cells()?.neighbours));
         // Room for the owner first: what has been handed over is not put back.
         let mut room = memory::boxed(deldrift_released_cells { arrays: None })?;
-        room.arrays = Some(match t {
-            AnyTriangulation::Plane(t) => Arrays::Plane(t.release_cells()?),
-            AnyTriangulation::Space(t) => Arrays::Space(t.release_cells()?),
+        let arrays = room.arrays.insert(match t {
+            Content::Open(AnyTriangulation::Plane(t)) => Arrays::Plane(t.release_cells()?),
+            Content::Open(AnyTriangulation::Space(t)) => Arrays::Space(t.release_cells()?),
+            Content::Periodic(t) => match &mut **t {
+                AnyPeriodic::Plane(t) => Arrays::Plane(t.release_cells()?),
+                AnyPeriodic::Space(t) => Arrays::Space(t.release_cells()?),
+            },
         });
-        view.write(shown);
+        view.write(match arrays {
+            Arrays::Plane(cells) => view_of(&cells.corners, &cells.neighbours),
+            Arrays::Space(cells) => view_of(&cells.corners, &cells.neighbours),
+        });
         owner.write(Box::into_raw(room));
         Ok(())
     })
@@ -191,7 +195,8 @@ pub unsafe extern "C" fn deldrift_star(
 /// It is a certified lower bound: rounding can make it smaller, but never too large. It is 0 where nothing is certain,
 /// and for vertices that share their place. It is infinite, without a meaning, while there are no cells. It is computed
 /// from the star of the vertex, whatever the algorithm in force. At segments it is what the orientation of the cells on
-/// both sides allows.
+/// both sides allows. In a periodic triangulation images move as their vertices do, and the vectors stay. There a vertex
+/// that alone makes a side of a slab has 0, as it is on one line with its images.
 ///
 /// Cost: the cells of the star.
 ///
@@ -203,7 +208,7 @@ pub unsafe extern "C" fn deldrift_tolerance(
     out: *mut f64,
 ) -> deldrift_status {
     given!(t: Reading, out: Output);
-    tell!(t, out => t.tolerance(VertexId::new(vertex))?)
+    tell_any!(t, out => t.tolerance(VertexId::new(vertex))?)
 }
 
 /// Checks the triangulation exactly, in time proportional to its size.

@@ -48,10 +48,13 @@ pub(crate) use reading::chunks::Chunks;
 pub use reading::domain::ChainEdge;
 pub use reading::exporting::Field;
 pub(crate) use reading::exporting::{Drawn, check_references};
-pub(crate) use reading::geometry::{Asked, Edge, Ridges, first_cells, list_boundary, nowhere, tell_all};
+pub(crate) use reading::geometry::{
+    Asked, Edge, Ridges, check_corners, check_simplices, find_in_stars, first_cells, is_flat, list_boundary,
+    nowhere, ordered_star, tell_all, without_flat_cells,
+};
 pub use reading::geometry::{
-    BoundaryFacet, Interpolation, OrderedStar, Rows, TellCell, TellFacet, VertexValues, VoronoiCell,
-    VoronoiCells, VoronoiFacet, VoronoiFacets,
+    BoundaryFacet, Interpolation, Rows, TellCell, TellFacet, VertexValues, VoronoiCell, VoronoiCells,
+    VoronoiFacet, VoronoiFacets,
 };
 pub(crate) use reading::near::{Entry, Lists, Placed, Search, Tree};
 pub use reading::near::{InReach, ListsOf, NeighbourLists, VerticesInReach};

@@ -7,7 +7,10 @@ use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::CellId;
 use crate::machine::memory;
-use crate::motion::{BoundaryFacet, list_boundary, tell_all};
+use crate::motion::{
+    BoundaryFacet, check_not_negative, is_flat, list_boundary, tell_all, without_flat_cells,
+};
+use crate::periodic::lattice::HOME;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
 impl<G: Dimension> PeriodicTriangulation<G> {
@@ -68,6 +71,22 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         self.with_inside(cells, |inside| {
             tell_all(cells, self.inside.t.mask_by_circumradius_of(inside, squared_radius)?, tell);
             Ok(())
+        })
+    }
+
+    /// For each cell, in the order of [`cells`](Self::cells), 0 if it is flat and on the hull of a set that is open somewhere, or
+    /// beside such a cell; else 1. What is flat, and how it is rounded, is told at
+    /// [`MovingTriangulation::mask_without_flat_cells`](crate::motion::MovingTriangulation::mask_without_flat_cells).
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] if the tolerance is negative or NaN, [`Error::OutOfMemory`].
+    pub fn mask_without_flat_cells(&self, tolerance: f64) -> Result<Vec<u8>> {
+        check_not_negative("tolerance", tolerance)?;
+        let cells = self.read_cells()?;
+        without_flat_cells::<G>(&cells.neighbours, tolerance, |cell| {
+            let corners = self.corners_of(cells, (cell, HOME));
+            let places = corners.each_ref().map(|(_, place)| place);
+            is_flat::<G>(&places[..=G::D], tolerance)
         })
     }
 

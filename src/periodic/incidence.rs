@@ -3,13 +3,16 @@
 //! A vertex meets an edge or a cell once for each end or corner that it is, as in space, where it is at one place. So an edge from
 //! a vertex to itself in another period is met twice, and a cell with a vertex in two periods as well.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::{Dimension, Plane};
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
-use crate::motion::{NO_CELL, NO_CORNER, Rows, first_cells};
+use crate::motion::{NO_CELL, NO_CORNER, Rows, check_simplices, find_in_stars, first_cells, ordered_star};
 use crate::periodic::cells::PeriodicCells;
 use crate::periodic::triangulation::PeriodicTriangulation;
+
+/// From so many simplices for each vertex on, listing the cells of all vertices is faster.
+const LEAST_PER_VERTEX: f64 = 0.125;
 
 impl<G: Dimension> PeriodicTriangulation<G> {
     /// The vertices to which edges lead from each one, ascending: one for each edge, so that a vertex is there several times where
@@ -70,6 +73,48 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         Ok(star)
     }
 
+    /// For each simplex a cell that has each of its vertices as another corner, in whatever period, `None` if there is none; told to
+    /// `found` one after the other. `vertices`: rows of `n_corners` ids, from 1 to `D + 1`. A hidden vertex stands for the one
+    /// that represents it. A vertex that is there twice asks for two corners, in different periods.
+    ///
+    /// ```
+    /// use deldrift::{Plane, VertexId, motion::Options, periodic::PeriodicTriangulation};
+    ///
+    /// let t = PeriodicTriangulation::<Plane>::new(&[[0.25, 0.25]], &[[1.0, 0.0], [0.0, 1.0]], Options::default())?;
+    /// // Edges lead from the vertex to itself.
+    /// t.find_simplices(&[VertexId::new(0); 2], 2, |cell| assert!(cell.is_some()))?;
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`MovingTriangulation::find_simplices`](crate::motion::MovingTriangulation::find_simplices).
+    pub fn find_simplices(
+        &self,
+        vertices: &[VertexId],
+        n_corners: usize,
+        mut found: impl FnMut(Option<CellId>),
+    ) -> Result<()> {
+        check_simplices::<G>(vertices.len(), n_corners)?;
+        self.check_present(vertices)?;
+        let corners = &self.read_cells()?.corners;
+        let is_many = (vertices.len() / n_corners) as f64 > LEAST_PER_VERTEX * self.vertex_count() as f64;
+        let all = if is_many { Some(self.vertex_cells()?) } else { None };
+        let mut stars = [const { Vec::new() }; 4];
+        for row in vertices.chunks_exact(n_corners) {
+            let mut wanted = [VertexId::NONE; 4];
+            for (k, &vertex) in row.iter().enumerate() {
+                wanted[k] = self.coincident_representative(vertex)?;
+                stars[k].clear();
+                if all.is_none() {
+                    self.enter_star(wanted[k], &mut stars[k])?;
+                }
+            }
+            let star = |k: usize| all.as_ref().map_or(&stars[k][..], |all| all.row(wanted[k]));
+            found(find_in_stars(corners, &wanted[..n_corners], star));
+        }
+        Ok(())
+    }
+
     /// Adds the cells around the place of a vertex that no other one hides: those inside at its home, as each of its corners is
     /// there in one of them.
     fn enter_star(&self, vertex: VertexId, list: &mut Vec<CellId>) -> Result<()> {
@@ -85,10 +130,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex),
     /// [`Error::StagedVertex`](crate::Error::StagedVertex), [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn cells_around(&self, vertices: &[VertexId]) -> Result<Vec<CellId>> {
-        let images = &self.inside.images;
-        for (index, &vertex) in vertices.iter().enumerate() {
-            images.check(index, vertex, self.staged.insertions().len())?;
-        }
+        self.check_present(vertices)?;
         let mut list = Vec::new();
         for &vertex in vertices {
             if self.coincident_representative(vertex)? == vertex {
@@ -98,6 +140,12 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         list.sort_unstable();
         list.dedup();
         Ok(list)
+    }
+
+    fn check_present(&self, vertices: &[VertexId]) -> Result<()> {
+        let n_coming = self.staged.insertions().len();
+        let mut all = vertices.iter().enumerate();
+        all.try_for_each(|(index, &vertex)| self.inside.images.check(index, vertex, n_coming).map(drop))
     }
 
     /// The vertices that are hidden, ascending, each with the one of the lowest id at its place in any period.
@@ -145,6 +193,25 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         }
         let mirror = mirror::<G>(cells, cell.index(), corner);
         Ok((mirror != NO_CORNER).then_some(usize::from(mirror)))
+    }
+}
+
+impl PeriodicTriangulation<Plane> {
+    /// The cells around the place of a vertex, counter-clockwise, each once for each of its corners that is the vertex: from the
+    /// one of lowest index, or, on the hull of a set that is open somewhere, from the one at the hull's edge that leaves the
+    /// vertex when the hull is passed counter-clockwise.
+    ///
+    /// # Errors
+    /// Those of [`star`](Self::star).
+    pub fn ordered_star(&self, vertex: VertexId) -> Result<impl Iterator<Item = CellId> + Clone + '_> {
+        let (vertex, cells) = (self.coincident_representative(vertex)?, self.read_cells()?);
+        let first = self.star(vertex)?.first().copied();
+        let start =
+            first.and_then(|cell| Some((cell, cells.corners[cell].iter().position(|&v| v == vertex)?)));
+        Ok(ordered_star(start, move |cell, corner| {
+            let mirror = mirror::<Plane>(cells, cell.index(), corner);
+            (mirror != NO_CORNER).then(|| (cells.neighbours[cell][corner], usize::from(mirror)))
+        }))
     }
 }
 

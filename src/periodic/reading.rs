@@ -1,10 +1,12 @@
 //! What can be asked.
 
+use std::mem;
+
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
-use crate::motion::{Algorithm, CommitReport};
+use crate::motion::{Algorithm, CommitReport, OwnedCells};
 use crate::periodic::cells::{PeriodicCells, PeriodicView};
 use crate::periodic::edges::PeriodicEdges;
 use crate::periodic::lattice::Shift;
@@ -216,6 +218,33 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         self.position(vertex)?;
         let shown = self.inside.t.coincident_representative(self.inside.images.home(vertex))?;
         Ok(self.inside.images.of(shown).vertex)
+    }
+
+    /// Tolerance of a vertex at its current position, as
+    /// [`MovingTriangulation::tolerance`](crate::motion::MovingTriangulation::tolerance) tells it: images move as their
+    /// vertices do, and the vectors stay. 0, too, if the vertex alone makes a side of a set that is open across it, as it is on one
+    /// line with its images.
+    ///
+    /// # Errors
+    /// Those of [`position`](Self::position).
+    pub fn tolerance(&self, vertex: VertexId) -> Result<f64> {
+        self.position(vertex)?;
+        self.inside.t.tolerance(self.inside.images.home(vertex))
+    }
+
+    /// Hands over the rows of [`cells`](Self::cells), as they are, to a caller who may look at them for longer than until the
+    /// next change. The triangulation goes on with copies.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`]; then nothing has been handed over.
+    pub fn release_cells(&mut self) -> Result<OwnedCells<G>> {
+        self.read_cells()?;
+        let cells = self.cells.get_mut().expect("they have been read");
+        let (corners, neighbours) = (memory::copy_of(&cells.corners)?, memory::copy_of(&cells.neighbours)?);
+        Ok(OwnedCells {
+            corners: mem::replace(&mut cells.corners, corners),
+            neighbours: mem::replace(&mut cells.neighbours, neighbours),
+        })
     }
 
     /// Bytes of memory, without what belongs to this itself.

@@ -16,6 +16,7 @@ mod histories;
 mod keeping;
 mod lists;
 mod locating;
+mod meeting;
 mod near;
 mod preparing;
 mod staged;

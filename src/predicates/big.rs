@@ -93,6 +93,58 @@ fn insphere_term<'r, const N: usize>(
     (square(&p.map(|x| x.within(&room))) * volume(&u, &v, &w)).copied_to(p[0].room)
 }
 
+/// `in_power_circle` (`power.rs`), of which the rounded value is given.
+#[cold]
+#[inline(never)]
+pub(super) fn in_power_circle(rounded: f64, [a, b, c, d]: [&[f64; 2]; 4], weights: &[f64; 4]) -> f64 {
+    let room = Room::<POWER_LIMBS>::of_any_size();
+    let ([u, v, w], [of_u, of_v, of_w]) = lifted(&room, d, [a, b, c], weights);
+    let det = of_u * minor(&v, &w) + of_v * minor(&w, &u) + of_w * minor(&u, &v);
+    with_sign(rounded, det.sign())
+}
+
+/// `in_power_sphere` (`power.rs`), of which the rounded value is given.
+#[cold]
+#[inline(never)]
+pub(super) fn in_power_sphere(rounded: f64, [a, b, c, d, e]: [&[f64; 3]; 5], weights: &[f64; 5]) -> f64 {
+    let room = Room::<POWER_LIMBS>::of_any_size();
+    let ([u, v, w, s], [of_u, of_v, of_w, of_s]) = lifted(&room, e, [a, b, c, d], weights);
+    let det = lifted_term(of_u, [&v, &w, &s]) - lifted_term(of_v, [&u, &w, &s])
+        + lifted_term(of_w, [&u, &v, &s])
+        - lifted_term(of_s, [&u, &v, &w]);
+    with_sign(rounded, det.sign())
+}
+
+/// The differences from a point to others in a unit of their own, and in its square their squares, less what their weights are more
+/// than that of the point, which comes last.
+fn lifted<'r, const D: usize, const N: usize, const LIMBS: usize>(
+    room: &'r Room<LIMBS>,
+    origin: &[f64; D],
+    points: [&[f64; D]; N],
+    weights: &[f64],
+) -> ([[Integer<'r, LIMBS>; D]; N], [Integer<'r, LIMBS>; N]) {
+    let of_weights = weights.iter().filter(|&&weight| weight != 0.0).map(|&weight| decode(weight).1);
+    let most = of_weights.min().map_or(i32::MAX, |exponent| exponent.div_euclid(2));
+    let (unit, differences) = differences_in_units(room, origin, points, most);
+    let weight = |k: usize| {
+        let (mantissa, exponent) = decode(weights[k]);
+        Integer::shifted(room, mantissa, if mantissa == 0 { 0 } else { (exponent - 2 * unit) as u32 })
+    };
+    let own = weight(N);
+    (differences, std::array::from_fn(|k| square(&differences[k]) - (weight(k) - own)))
+}
+
+/// A lift times a volume, in the room of these; all that is made on the way is elsewhere, for the time of this call.
+#[inline(never)]
+fn lifted_term<'r, const N: usize>(
+    lift: Integer<'r, N>,
+    others: [&[Integer<'r, N>; 3]; 3],
+) -> Integer<'r, N> {
+    let room = Room::<TERM_LIMBS>::of_any_size();
+    let [u, v, w] = others.map(|q| q.map(|x| x.within(&room)));
+    (lift.within(&room) * volume(&u, &v, &w)).copied_to(lift.room)
+}
+
 #[cold]
 #[inline(never)]
 pub(super) fn compare_distance(points: [&[f64]; 3]) -> Ordering {
@@ -213,8 +265,16 @@ pub(super) fn volume<T: Ring>(u: &[T; 3], v: &[T; 3], w: &[T; 3]) -> T {
 /// four terms of 100 and three sums of 101: 1,270. `orient3d` has 12 and 9, and a volume: 1,106. All others have fewer.
 const FEW_LIMBS: usize = 1424;
 
-/// Limbs of a term of `insphere`: a square, a volume, and a product of 100: 967.
+/// Limbs of a term of `insphere`: a square, a volume, and a product of 100: 967. One with a lift takes no square, and a
+/// product of 104.
 const TERM_LIMBS: usize = 968;
+
+/// Limbs of all integers that a determinant with weights takes, but for volumes.
+///
+/// A weight is as long as a square and a limb to be shifted, and so is a lift: 42 at most, or 44 as a sum. In space 15
+/// coordinates and 12 differences of 21, five weights and four differences of these, four squares of 202 and four lifts, four terms
+/// of 106 and three sums of 107: 2,684. In the plane there are fewer.
+const POWER_LIMBS: usize = 2688;
 
 /// Limbs of all integers that any other comparison takes.
 ///

@@ -4,7 +4,7 @@ use super::super::exact_oracle::{Tally, bounding_box, exact_sign, is_inside_by_p
 use super::super::source::Source;
 use super::super::tally;
 use super::points::points;
-use deldrift::capi::{deldrift_in_sphere, deldrift_orientation, deldrift_status};
+use deldrift::capi::{deldrift_in_power_sphere, deldrift_in_sphere, deldrift_orientation, deldrift_status};
 use deldrift::internals::predicates::*;
 use std::array::from_fn;
 use std::cmp::Ordering::{self, Equal, Greater, Less};
@@ -207,6 +207,24 @@ pub fn by_c(s: &mut Source) {
         let status = unsafe { deldrift_in_sphere(D as u32, p.as_ptr().cast(), &mut found) };
         assert_eq!(status, deldrift_status::DELDRIFT_OK, "{p:?}");
         assert_eq!(found.cmp(&0), exact(&p), "deldrift_in_sphere {p:?}");
+        // Equal weights make no difference, and a heavier point is inside where a lighter one is.
+        let (mut heavier, mut orientation) = (7, 7);
+        let mut weights = [p[0][0]; N];
+        // SAFETY: as many numbers as the dimension says, and a place for the sign.
+        unsafe {
+            let points = p.as_ptr().cast();
+            let status = deldrift_in_power_sphere(D as u32, points, weights.as_ptr(), &mut found);
+            assert_eq!(status, deldrift_status::DELDRIFT_OK, "{p:?}");
+            weights[N - 1] = weights[N - 1].abs() * 2.0 + 1.0;
+            let status = deldrift_in_power_sphere(D as u32, points, weights.as_ptr(), &mut heavier);
+            assert_eq!(status, deldrift_status::DELDRIFT_OK, "{p:?}");
+            assert_eq!(
+                deldrift_orientation(D as u32, points, &mut orientation),
+                deldrift_status::DELDRIFT_OK
+            );
+        }
+        assert_eq!(found.cmp(&0), exact(&p), "deldrift_in_power_sphere {p:?}");
+        assert!((heavier - found) * orientation >= 0, "{p:?}: {found} {heavier}");
     }
     fn check<const D: usize, const N: usize>(p: [[f64; D]; N]) {
         let mut found = 7;

@@ -56,29 +56,39 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn mask_without_flat_cells(&self, tolerance: f64) -> Result<Vec<u8>> {
         check_not_negative("tolerance", tolerance)?;
-        let cells = self.cell_arrays()?;
-        let (neighbours, slots) = (cells.neighbours(), cells.slots());
-        let (mut mask, mut waiting) = (Vec::new(), Vec::new());
-        memory::lengthen(&mut mask, slots.len(), 1)?;
-        let on_hull = |&cell: &CellId| neighbours[cell].as_ref().contains(&NO_CELL);
-        if tolerance > 0.0 {
-            memory::collect(&mut waiting, CellId::range(0..slots.len()).filter(on_hull))?;
-        }
-        while let Some(cell) = waiting.pop() {
-            let places = self.mesh.kernel.places(slots[cell]);
-            if mask[cell.index()] == 0 || !is_flat::<G>(&places[..=G::D], tolerance) {
-                continue;
-            }
-            mask[cell.index()] = 0;
-            let beside = neighbours[cell].as_ref().iter().copied();
-            memory::collect(&mut waiting, beside.filter(|&beside| beside != NO_CELL))?;
-        }
-        Ok(mask)
+        let (kernel, cells) = (&self.mesh.kernel, self.cell_arrays()?);
+        let slots = cells.slots();
+        without_flat_cells::<G>(cells.neighbours(), tolerance, |cell| {
+            is_flat::<G>(&kernel.places(slots[cell])[..=G::D], tolerance)
+        })
     }
 }
 
+/// For each cell 0 if it is flat and on the hull, or beside such a cell; else 1. With a tolerance of 0 none is flat.
+pub(crate) fn without_flat_cells<G: Dimension>(
+    neighbours: &[G::Neighbours],
+    tolerance: f64,
+    is_flat: impl Fn(CellId) -> bool,
+) -> Result<Vec<u8>> {
+    let (mut mask, mut waiting) = (Vec::new(), Vec::new());
+    memory::lengthen(&mut mask, neighbours.len(), 1)?;
+    let on_hull = |&cell: &CellId| neighbours[cell].as_ref().contains(&NO_CELL);
+    if tolerance > 0.0 {
+        memory::collect(&mut waiting, CellId::range(0..neighbours.len()).filter(on_hull))?;
+    }
+    while let Some(cell) = waiting.pop() {
+        if mask[cell.index()] == 0 || !is_flat(cell) {
+            continue;
+        }
+        mask[cell.index()] = 0;
+        let beside = neighbours[cell].as_ref().iter().copied();
+        memory::collect(&mut waiting, beside.filter(|&beside| beside != NO_CELL))?;
+    }
+    Ok(mask)
+}
+
 /// Whether the least height of a cell is at most `tolerance` times its longest edge.
-fn is_flat<G: Dimension>(places: &[&G::Point], tolerance: f64) -> bool {
+pub(crate) fn is_flat<G: Dimension>(places: &[&G::Point], tolerance: f64) -> bool {
     let extent = (0..G::D).fold(0.0f64, |most, axis| {
         places[1..].iter().fold(most, |most, p| most.max((p[axis] - places[0][axis]).abs()))
     });

@@ -43,11 +43,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         n_corners: usize,
         mut found: impl FnMut(Option<CellId>),
     ) -> Result<()> {
-        self.check_corners(n_corners)?;
-        let (given, wanted) = (vertices.len(), vertices.len().next_multiple_of(n_corners));
-        if given != wanted {
-            return Err(Error::WrongCount { argument: "the length of vertices", given, wanted, coming: 0 });
-        }
+        check_simplices::<G>(vertices.len(), n_corners)?;
         for (index, &vertex) in vertices.iter().enumerate() {
             self.present_site("vertices", index, vertex)?;
         }
@@ -63,28 +59,17 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut star = IndexSet::new();
         for row in rows {
             let (sites, n) = self.sites_of_corners(row);
-            let slot = find_in_stars(&self.mesh.kernel, &sites[..n], &mut star)?;
+            let slot = find_around(&self.mesh.kernel, &sites[..n], &mut star)?;
             found(slot.map(|slot| index_of[slot]));
         }
         Ok(())
     }
 
-    /// A simplex has from 1 to `D + 1` corners.
-    pub(crate) fn check_corners(&self, n_corners: usize) -> Result<()> {
-        if (1..=G::D + 1).contains(&n_corners) {
-            return Ok(());
-        }
-        let wanted = if G::D == 2 { "1, 2 or 3" } else { "1, 2, 3 or 4" };
-        let (argument, value) = ("corners_per_simplex", n_corners as f64);
-        Err(Error::InvalidValue { argument, index: 0, value, wanted })
-    }
-
-    /// The different sites of a few vertices, as many as vertices unless two are at one place; and their number.
+    /// The sites of a few vertices, and their number.
     fn sites_of_corners(&self, row: &[VertexId]) -> ([SiteId; 4], usize) {
         let mut sites = [SiteId::NONE; 4];
         row.iter().zip(&mut sites).for_each(|(&v, site)| *site = self.mesh.site_of[v]);
-        let n = if are_different(&sites[..row.len()]) { row.len() } else { 0 };
-        (sites, n)
+        (sites, row.len())
     }
 
     /// For each simplex a cell, by the cells of all vertices.
@@ -99,11 +84,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             let mut corners = [VertexId::NONE; 4];
             let (sites, n) = self.sites_of_corners(row);
             sites[..n].iter().zip(&mut corners).for_each(|(&s, v)| *v = self.mesh.kernel.site(s).id);
-            let lists = corners[..n].iter().map(|&v| stars.row(v));
-            let shortest = lists.min_by_key(|list| list.len()).unwrap_or(&[]);
-            let has_all =
-                |cell: CellId| corners[..n].iter().all(|v| cells.corners()[cell].as_ref().contains(v));
-            found(shortest.iter().copied().find(|&cell| has_all(cell)));
+            found(find_in_stars(cells.corners(), &corners[..n], |k| stars.row(corners[k])));
         }
         Ok(())
     }
@@ -118,19 +99,51 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 }
 
-fn are_different(sites: &[SiteId]) -> bool {
-    (1..sites.len()).all(|k| !sites[..k].contains(&sites[k]))
+/// A simplex has from 1 corner to one more than there are dimensions.
+pub(crate) fn check_corners(dimension: usize, n_corners: usize) -> Result<()> {
+    if (1..=dimension + 1).contains(&n_corners) {
+        return Ok(());
+    }
+    let wanted = if dimension == 2 { "1, 2 or 3" } else { "1, 2, 3 or 4" };
+    let (argument, value) = ("corners_per_simplex", n_corners as f64);
+    Err(Error::InvalidValue { argument, index: 0, value, wanted })
+}
+
+/// Simplices have a legal number of corners, and there are rows of as many.
+pub(crate) fn check_simplices<G: Dimension>(n_vertices: usize, n_corners: usize) -> Result<()> {
+    check_corners(G::D, n_corners)?;
+    let (given, wanted) = (n_vertices, n_vertices.next_multiple_of(n_corners));
+    if given == wanted {
+        return Ok(());
+    }
+    Err(Error::WrongCount { argument: "the length of vertices", given, wanted, coming: 0 })
+}
+
+/// Whether each of these is another corner of a cell.
+fn are_corners<T: PartialEq>(of_cell: &[T], wanted: &[T]) -> bool {
+    let count = |row: &[T], v: &T| row.iter().filter(|&w| w == v).count();
+    wanted.iter().all(|v| of_cell.contains(v)) && wanted.iter().all(|v| count(wanted, v) <= count(of_cell, v))
+}
+
+/// The first cell that has each of these vertices as another corner, of the shortest of their lists of cells.
+pub(crate) fn find_in_stars<'s, V: AsRef<[VertexId]>>(
+    corners: &[V],
+    wanted: &[VertexId],
+    star: impl Fn(usize) -> &'s [CellId],
+) -> Option<CellId> {
+    let shortest = (0..wanted.len()).map(star).min_by_key(|list| list.len())?;
+    shortest.iter().copied().find(|&cell| are_corners(corners[cell].as_ref(), wanted))
 }
 
 /// The slot of a finite cell that has all these sites as corners; none if there are no sites.
-fn find_in_stars<G: Dimension>(
+fn find_around<G: Dimension>(
     kernel: &Delaunay<G>,
     sites: &[SiteId],
     star: &mut IndexSet<Slot>,
 ) -> Result<Option<Slot>> {
     let has_all = |slot: Slot| {
         let cell = kernel.complex().cell(slot);
-        !cell.is_ghost() && sites.iter().all(|s| cell.corners.as_ref().contains(s))
+        !cell.is_ghost() && are_corners(cell.corners.as_ref(), sites)
     };
     let mut most = FIRST_CELLS;
     while !sites.is_empty() {
