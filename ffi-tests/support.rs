@@ -1,10 +1,12 @@
 //! Compiling and running programs.
 
 use std::ffi::OsStr;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::{env, fs};
 
 pub use crate::files::{repository, text_of};
@@ -109,12 +111,42 @@ pub fn compiler(source: &Path) -> Command {
     command
 }
 
+fn stem(source: &Path) -> &str {
+    source.file_stem().and_then(OsStr::to_str).expect("a source has a name")
+}
+
+/// The object file of a program, compiled with further flags: once for all tests that link it, in whatever process, as long as what
+/// the compiler reads is the same.
+fn object(source: &Path, flags: &[&str]) -> PathBuf {
+    let mut preprocess = compiler(source);
+    preprocess.args(flags).arg("-E").arg(source);
+    let outcome = preprocess.output().unwrap_or_else(|error| panic!("{preprocess:?}: {error}"));
+    assert!(outcome.status.success(), "{preprocess:?}: {}", all_of(&outcome));
+    let mut hasher = DefaultHasher::new();
+    (&outcome.stdout, format!("{preprocess:?}")).hash(&mut hasher);
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("objects");
+    let object = folder.join(format!("{}-{:016x}.o", stem(source), hasher.finish()));
+    if !object.exists() {
+        fs::create_dir_all(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+        static NUMBER: AtomicU32 = AtomicU32::new(0);
+        // Whole when it gets its name: two tests may make it at the same time.
+        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+        let unfinished = folder.join(format!("{}-{}-{number}.o", stem(source), std::process::id()));
+        succeed(compiler(source).args(flags).arg("-c").arg(source).arg("-o").arg(&unfinished));
+        fs::rename(&unfinished, &object).unwrap_or_else(|error| panic!("{}: {error}", object.display()));
+    }
+    object
+}
+
 /// Compiles and links one program with further flags; its path.
 pub fn build(source: &Path, folder: &Path, linkage: Linkage, flags: &[&str]) -> PathBuf {
-    let program = folder.join(source.file_stem().expect("a source has a name"));
+    let program = folder.join(stem(source));
     let libraries = library_folder();
     let mut command = compiler(source);
-    command.args(flags).arg(source).arg("-o").arg(&program);
+    let is_for_linker = |flag: &&str| flag.starts_with("-l") || flag.starts_with("-Wl,");
+    let is_object_enough = !loads_the_library(source) && !flags.iter().any(is_for_linker);
+    let input = if is_object_enough { object(source, flags) } else { source.to_path_buf() };
+    command.args(flags).arg(input).arg("-o").arg(&program);
     if sees_requests(source) {
         assert!(matches!(linkage, Linkage::Static), "a shared library has requests of its own");
         command.args(REPLACED.map(|name| format!("-Wl,--wrap={name}")));

@@ -4,11 +4,13 @@
 mod saving_format;
 
 use super::allocator::Fault;
+use super::calls::asking::cells_of;
 use super::calls::called::{c, note};
-use super::calls::check::{cells_of, check_adjacency, fresh_cells};
+use super::calls::check::{check_adjacency, fresh_cells};
 use super::calls::files;
-use super::calls::model::{Model, NONE, Place, Row, sorted};
+use super::calls::model::Model;
 use super::calls::places::{Motion, Style, place};
+use super::calls::types::{NONE, Place, Row, sorted};
 use super::calls::{flattened, message};
 use super::source::Source;
 use super::tally;

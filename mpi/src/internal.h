@@ -219,7 +219,6 @@ void *dm_allocate(dm_refusal *refusal, size_t count, size_t size);
 bool dm_reserve_list(dm_refusal *refusal, dm_list *list, size_t needed);
 bool dm_reserve_ids(deldrift_mpi *m, size_t ids);
 bool dm_reserve_own(deldrift_mpi *m, size_t count);
-void dm_free(deldrift_mpi *m);
 
 // agreement.c
 typedef struct {
@@ -300,6 +299,15 @@ bool dm_find_drops(deldrift_mpi *m);
 // owners of some that do add them to the lists of the processes without cells.
 bool dm_span(deldrift_mpi *m, bool has_no_cells);
 
+// vertices.c
+// Stages insertions, whose ids are in m->vertices then, which has room for them.
+bool dm_insert(deldrift_mpi *m, const double *positions, const uint64_t *ids, size_t count);
+void dm_set_vertex(deldrift_mpi *m, uint32_t vertex, int32_t owner, uint32_t period, uint64_t id,
+                   const double *position);
+void dm_unset_vertex(deldrift_mpi *m, uint32_t vertex);
+// What ids stood for before the timestamp that is being prepared.
+void dm_unbind(deldrift_mpi *m);
+
 // push.c
 bool dm_pack_sends(deldrift_mpi *m);
 void dm_push(deldrift_mpi *m);
@@ -317,11 +325,6 @@ deldrift_status dm_commit_strain(deldrift_mpi *m, const double *positions, const
 // rounds.c
 // Pushes until nobody sends, or a process refuses: all return the status of that.
 deldrift_status dm_rounds(deldrift_mpi *m);
-// Stages insertions, whose ids are in m->vertices then, which has room for them.
-bool dm_insert(deldrift_mpi *m, const double *positions, const uint64_t *ids, size_t count);
-void dm_set_vertex(deldrift_mpi *m, uint32_t vertex, int32_t owner, uint32_t period, uint64_t id,
-                   const double *position);
-void dm_unset_vertex(deldrift_mpi *m, uint32_t vertex);
 // What the triangulation and the lists say becomes, or does not become, the timestamp in force.
 void dm_settle(deldrift_mpi *m);
 void dm_count_copies(deldrift_mpi *m); // to the report
@@ -348,6 +351,8 @@ deldrift_status dm_build(deldrift_mpi *m, const double *points, const uint64_t *
 void dm_replace(deldrift_mpi *m, deldrift_mpi *fresh);
 deldrift_mpi *dm_new(dm_refusal *refusal, MPI_Comm comm, uint32_t dimension, const deldrift_mpi_options *options,
                      const deldrift_options *local, const double *vectors, size_t vector_count);
+// All but the communicator and the handle itself.
+void dm_free(deldrift_mpi *m);
 
 // fault.c, in the build for tests alone: which of the faults that tests plant is in force, and how much memory there
 // is.

@@ -96,22 +96,3 @@ bool dm_reserve_own(deldrift_mpi *m, size_t count) {
     }
     return dm_reserve(&m->refusal, &m->next_points, &m->next_room, count, m->dimension * sizeof *m->next_points);
 }
-
-// All but the communicator and the handle itself.
-void dm_free(deldrift_mpi *m) {
-    dm_free_peers(m);
-    deldrift_destroy(m->t);
-    dm_free_lattice(&m->lattice);
-    dm_free_classes(&m->told);
-    void *arrays[] = {
-        m->id_of,         m->owner_of,   m->is_own,       m->is_leaving,  m->where,       m->stamp,
-        m->own,           m->box_of,     m->next_own,     m->next_box_of, m->next_points, m->insertion_positions,
-        m->insertion_ids, m->is_removal, m->boxes,        m->next_boxes,  m->peer_of,     m->undo,
-        m->low,           m->high,       m->box_ranks,    m->offsets,     m->found,       m->vertices,
-        m->coordinates,   m->numbers,    m->outgoing,     m->incoming,    m->chunks,      m->requests,
-        m->chunk,         m->bases,      m->migrated,     m->moved,       m->nodes,       m->rebound,
-        m->created,       m->removed,    m->created_cells, m->period_of,  m->wraps,       m->next_wraps,
-        m->home,          m->home_before, m->home_wraps,  m->box_periods, m->insertion_wraps,
-        m->created_shifts, m->removed_shifts};
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) free(arrays[i]);
-}

@@ -3,41 +3,6 @@
 
 #include "internal.h"
 
-bool dm_insert(deldrift_mpi *m, const double *positions, const uint64_t *ids, size_t count) {
-    if (DM_HAS_FAULT(DM_FAULT_LOCAL_KEYS)) ids = NULL;
-    deldrift_status status = deldrift_stage_insertions_at_free_ids(m->t, positions, ids, count, m->vertices);
-    size_t id_count = 0;
-    if (status == DELDRIFT_OK) status = deldrift_id_count(m->t, &id_count);
-    if (!dm_took(&m->refusal, status)) return false;
-    return dm_reserve_ids(m, id_count) &&
-           dm_reserve(&m->refusal, &m->undo, &m->undo_room, m->undo_count + count, sizeof *m->undo);
-}
-
-static void note(deldrift_mpi *m, uint32_t vertex) {
-    m->undo[m->undo_count++] = (dm_undo){vertex, m->owner_of[vertex], m->period_of[vertex], m->id_of[vertex], 0};
-}
-
-static void bind(deldrift_mpi *m, uint32_t vertex, int32_t owner, uint32_t period, uint64_t id) {
-    m->owner_of[vertex] = owner;
-    m->period_of[vertex] = period;
-    m->id_of[vertex] = id;
-    m->is_own[vertex] = owner == m->rank && period == 0;
-}
-
-void dm_set_vertex(deldrift_mpi *m, uint32_t vertex, int32_t owner, uint32_t period, uint64_t id,
-                   const double *position) {
-    note(m, vertex);
-    bind(m, vertex, owner, period, id);
-    m->is_leaving[vertex] = 0;
-    memcpy(m->where + (size_t)vertex * m->dimension, position, m->dimension * sizeof *position);
-}
-
-void dm_unset_vertex(deldrift_mpi *m, uint32_t vertex) {
-    note(m, vertex);
-    m->owner_of[vertex] = -1;
-    m->is_own[vertex] = 0;
-}
-
 // What is to be sent, and whether the process owns vertices and has no cells.
 static size_t look(deldrift_mpi *m, bool *has_no_cells) {
     size_t cells = 0;
@@ -109,10 +74,7 @@ void dm_settle(deldrift_mpi *m) {
 void dm_restore(deldrift_mpi *m) {
     size_t count = 0;
     dm_withdraw(m);
-    while (m->undo_count) {
-        dm_undo undo = m->undo[--m->undo_count];
-        bind(m, undo.vertex, undo.owner, undo.period, undo.id);
-    }
+    dm_unbind(m);
     dm_restore_peers(m);
     m->has_next_boxes = m->has_dropped = false;
     memset(m->is_leaving, 0, m->ids);

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import weakref
 from _thread import allocate_lock as new_lock
-from typing import TYPE_CHECKING, Any, Callable, Mapping, Optional, TypeVar
+from typing import Any, Callable, Mapping, Optional, TypeVar
 
 import numpy as np
 
@@ -23,9 +23,6 @@ from ._errors import (
     PassingError,
     raise_for,
 )
-
-if TYPE_CHECKING:
-    from ._step import Step, Trial
 
 Made = TypeVar("Made")
 
@@ -78,6 +75,13 @@ def make_options(
     if callbacks is not None:
         options.progress, options.cancel = callbacks.on_progress, callbacks.on_cancel
     return options
+
+
+class Block:
+    """What a `with` block opens and ends: a step, or a trial."""
+
+    # Whether a trial may have something to publish or withdraw.
+    _may_be_prepared = False
 
 
 class _Use:
@@ -199,8 +203,8 @@ class Core:
         self._changer = new_lock()
         self._is_closed = False
         # The step and the trial that are open: in a trial steps are rounds of it.
-        self._step: Optional["Step"] = None
-        self._trial: Optional["Trial"] = None
+        self._step: Optional[Block] = None
+        self._trial: Optional[Block] = None
         # Whether the library has moves staged that no step will commit, and steps prepared that no trial will publish.
         self._must_discard = self._must_withdraw = False
         self._last_report: Optional[_library.Report] = None

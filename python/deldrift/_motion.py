@@ -8,15 +8,14 @@ from typing import Any, NamedTuple, Optional, Union, cast, overload
 import numpy as np
 
 from . import _library
-from ._arrays import I32, address, choice, ids, one_id, one_key, one_point, points, taken
+from ._arrays import I32, address, choice, one_id, one_key, one_point, taken
 from ._core import fixed, id_count
-from ._errors import InvalidOption, WrongCount
+from ._errors import InvalidOption
 from ._library import Report
-from ._segments import Segmented
+from ._staging import Staged, check_rows, ids_for, move_vertices, positions_of
 from ._step import Step, Trial
 from ._values import Values, as_given, expect, given_values
 
-_move_vertices = _library.function("move_vertices")
 _commit_positions = _library.function("commit_positions")
 _commit_timestamp = _library.function("commit_timestamp")
 _relocate_vertex = _library.function("relocate_vertex")
@@ -59,7 +58,7 @@ class Changes(NamedTuple):
     """Vertices that were hidden and are not."""
 
 
-class Motion(Segmented):
+class Motion(Staged):
     """Changes of a triangulation."""
 
     def move(self, points: Any, ids: Any = None) -> Report:
@@ -93,15 +92,15 @@ class Motion(Segmented):
             with self.step() as step:
                 step.move(points, ids)
             return cast(Report, self._last_report)
-        positions = _rows(points, self.ndim)
+        positions = positions_of(points, self.ndim)
         report = Report()
         if ids is not None:
-            self._move_some(positions, _listed(ids, positions), report)
+            self._move_some(positions, ids_for(ids, positions), report)
             return report
         with self._changing as t:
             status = _commit_positions(t, address(positions), len(positions), report)
             if status:
-                _check_rows(t, len(positions))
+                check_rows(t, len(positions))
                 self._check(status, positions="points")
             self._last_report = report
         return report
@@ -244,7 +243,7 @@ class Motion(Segmented):
             with self._changing as t:
                 # Until it is committed.
                 self._must_discard = True
-                status = _move_vertices(t, address(listed), address(positions), len(listed))
+                status = move_vertices(t, address(listed), address(positions), len(listed))
                 self._check(status or _commit_timestamp(t, report), positions="points", vertices="ids", vertex="ids")
                 self._must_discard = False
                 self._last_report = report
@@ -252,18 +251,6 @@ class Motion(Segmented):
             if self._must_discard:
                 self._settle()
             raise
-
-    def _stage_moves(self, values: Any, vertices: Any) -> None:
-        positions = _rows(values, self.ndim)
-        if vertices is None:
-            with self._staging as t:
-                _check_rows(t, len(positions))
-                self._check(_move_vertices(t, None, address(positions), len(positions)), positions="points")
-            return
-        listed = _listed(vertices, positions)
-        with self._staging as t:
-            status = _move_vertices(t, address(listed), address(positions), len(listed))
-            self._check(status, positions="points", vertices="ids", vertex="ids")
 
     def relocate(self, vertex: int, point: Any) -> None:
         """Moves one vertex at once; the timestamp stays.
@@ -465,23 +452,3 @@ NO_CHANGES = {
     for corners in (3, 4)
 }
 """What is told where nothing has changed, by the number of corners of a simplex."""
-
-
-def _check_rows(t: int, rows: int) -> None:
-    there_are = id_count(t)
-    if rows != there_are:
-        raise WrongCount(f"points has {rows} rows, and there are {there_are} ids", "points", None, rows)
-
-
-def _rows(values: Any, ndim: int) -> np.ndarray:
-    return points("points", values, ndim)
-
-
-def _listed(values: Any, positions: np.ndarray) -> np.ndarray:
-    """The vertices of so many positions."""
-    listed = ids("ids", values)
-    if len(listed) != len(positions):
-        raise WrongCount(
-            f"points has {len(positions)} rows, and ids has {len(listed)} entries", "points", None, len(positions)
-        )
-    return listed

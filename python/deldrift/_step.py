@@ -4,20 +4,17 @@ from __future__ import annotations
 
 import ctypes
 import functools
-from typing import TYPE_CHECKING, Any, Iterator
+from typing import Any, Iterator
 
 import numpy as np
 
 from . import _library
 from ._arrays import I32, address, address_if, ids as listed_ids, keys as given_keys, points as point_rows
-from ._core import CONFLICT, PASSING
+from ._core import CONFLICT, PASSING, Block, Core
 from ._errors import Busy, ConflictError, PassingError
 from ._library import Report
 from ._segments import Splits
-
-if TYPE_CHECKING:
-    from ._core import Core
-    from ._motion import Motion
+from ._staging import Staged
 
 _stage_insertions = _library.function("stage_insertions_with_keys")
 _stage_at_free_ids = _library.function("stage_insertions_at_free_ids")
@@ -47,7 +44,7 @@ class _Exit:
         return self.__get__(block)(*error)
 
 
-class _Block:
+class _Block(Block):
     """What a `with` block opens and ends."""
 
     __exit__ = _Exit()
@@ -87,9 +84,9 @@ class _Block:
 class Step(_Block):
     """Moves, insertions, removals and segments that `Delaunay.step` commits together."""
 
-    _owner: "Motion"
+    _owner: Staged
 
-    def __init__(self, owner: "Motion") -> None:
+    def __init__(self, owner: Staged) -> None:
         super().__init__(owner)
         # Whether the end of the block commits what is staged.
         self._is_kept = True
@@ -321,12 +318,7 @@ class Step(_Block):
 class Trial(_Block):
     """Steps that `Delaunay.trial`, or that of a box, makes one timestamp of, or takes back."""
 
-    _owner: "Core"
-
-    def __init__(self, owner: "Core") -> None:
-        super().__init__(owner)
-        # Whether there may be something to publish or withdraw.
-        self._may_be_prepared = False
+    _owner: Core
 
     def __enter__(self) -> "Trial":
         owner = self._owner

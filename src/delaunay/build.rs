@@ -4,16 +4,12 @@
 //! before it to a cell that is in conflict with it. Rebuilding keeps the storage order of the sites, which small
 //! motions spoil little; the mean distance of sites that are next to each other in storage tells when to sort again.
 
-use super::cavity::Cavity;
-use super::dimension::Insert;
-use super::order::in_rounds;
-use super::{Delaunay, Dimension, Insertion, Site};
-use crate::complex::{Corners, INFINITE};
-use crate::error::{Error, Result};
+use super::{Delaunay, Dimension, Site};
+use crate::complex::INFINITE;
+use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
-use crate::machine::pace::ASKED_EVERY;
-use crate::predicates::{StaticFilter, distance_above, squared_distance};
+use crate::predicates::distance_above;
 
 /// A vertex that is hidden by one of a lower [key](super::keys) at the same place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,18 +20,8 @@ pub struct Merge {
     pub site: SiteId,
 }
 
-/// Insertions between two calls of a monitor, unless they take much [work](ASKED_EVERY).
-const MONITORED: usize = 1024;
-
 /// Distances of sites next to each other in storage of which the mean is taken.
 const STRIDES: usize = 1024;
-
-/// Pairs of sites whose distances tell whether the static filter is weak.
-const SAMPLED_PAIRS: usize = 64;
-
-/// The static filter is weak, as it decides little, where its bound exceeds this share of the determinant of a cell as
-/// large as the spacing.
-const WEAK_SHARE: f64 = 1.0 / 256.0;
 
 /// From this number on, cells do not fit in a core's own cache.
 const LARGE: usize = 1 << 15;
@@ -72,27 +58,6 @@ impl<G: Dimension> Delaunay<G> {
         Ok(())
     }
 
-    /// Puts the live sites along a Hilbert curve, from index 1 on without gaps. All indices change and the cells
-    /// go: [`rebuild`](Self::rebuild) must follow.
-    pub fn sort_sites(&mut self) -> Result<()> {
-        let sites = &self.sites;
-        let n = sites.len() - 1 - self.free_sites.len();
-        let (parts, keyed) =
-            self.in_parts(self.live_sites().map(SiteId::get), n, |s| &sites[s as usize].point)?;
-        let mut sorted = Vec::new();
-        memory::reserve_exact(&mut sorted, n + 1)?;
-        sorted.push(sites[INFINITE]);
-        let n_threads = self.threads.for_work(keyed.len(), 1, 1);
-        for part in &keyed {
-            memory::extend(&mut sorted, part, n_threads, |k| sites[k.item() as usize])?;
-        }
-        self.sites = sorted;
-        self.parts = parts;
-        self.free_sites.clear();
-        self.complex.clear();
-        Ok(())
-    }
-
     /// Triangulates the live sites from nothing. Coincident sites are dropped in favour of the lowest id and reported.
     /// `monitor` is called with the fraction done; if it returns `false`, the cells are left half made.
     pub fn rebuild(&mut self, monitor: &mut dyn FnMut(f64) -> bool) -> Result<Vec<Merge>> {
@@ -100,10 +65,9 @@ impl<G: Dimension> Delaunay<G> {
         if let Some(coincident) = self.triangulate_parts(monitor)? {
             return self.merge(coincident);
         }
-        self.tighten_filter();
-        let order = in_rounds::<G>(self.live_sites())?;
-        if order.iter().any(|&s| self.extend_basis(s)) {
-            return self.triangulate(&order, monitor);
+        if let Some(order) = self.spanning_order()? {
+            let coincident = self.triangulate(&order, order.len(), monitor)?;
+            return self.merge(coincident);
         }
         self.complex.clear();
         let mut coincident = Vec::new();
@@ -129,131 +93,6 @@ impl<G: Dimension> Delaunay<G> {
         }
         self.find_flat_basis(SiteId::NONE);
         Ok(merges)
-    }
-
-    /// Builds the cells of all live sites, given in insertion order, from a basis of `D + 1` on.
-    pub(super) fn triangulate(
-        &mut self,
-        order: &[SiteId],
-        monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Vec<Merge>> {
-        let coincident = self.triangulate_unmerged(order, order.len(), monitor)?;
-        self.merge(coincident)
-    }
-
-    /// For how many cells there is room in a build of `n` sites; only few sets have more. In the plane there are not
-    /// quite two for each site. In space Poisson points have 6.77, hulls and rounds need a little more, and a few sites
-    /// never have as many.
-    pub(super) fn n_cells_of(n: usize) -> usize {
-        let most = if G::D == 2 { 2 * n } else { (n + 1).saturating_mul(n.saturating_sub(2)) / 2 };
-        most.min(7 * n + (4 * n).min(64))
-    }
-
-    /// Builds the cells of all live sites, given in insertion order, from a basis of `D + 1` on, with room for `n`
-    /// sites; returns pairs of coincident sites, the second in the cells.
-    pub(super) fn triangulate_unmerged(
-        &mut self,
-        order: &[SiteId],
-        n: usize,
-        monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Vec<(SiteId, SiteId)>> {
-        self.complex.clear();
-        self.is_sorted = false;
-        self.complex.reserve(Self::n_cells_of(n))?;
-        for site in &mut self.sites {
-            site.cell = Slot::NONE;
-        }
-        self.start()?;
-        self.cavity.steps = 0;
-        let filter = self.filter;
-        self.filter = self.exact_filter().unwrap_or(filter);
-        let inserted = self.insert_all(order, monitor);
-        // Vertices may leave the lattice.
-        self.filter = filter;
-        let coincident = inserted?;
-        self.flat.clear();
-        Ok(coincident)
-    }
-
-    /// Bounds for the box of the filter if it and the sites are on a lattice, and few steps of it apart. With keys there are
-    /// none: what exact bounds are for, ties that ids decide, would have to ask for keys first.
-    fn exact_filter(&self) -> Option<StaticFilter> {
-        if !self.keys.are_ids() {
-            return None;
-        }
-        let places = self.sites[1..].iter().filter(|site| site.is_live()).map(|site| &site.point);
-        G::exact_filter(&self.lower, &self.upper, places)
-    }
-
-    /// Inserts those sites that are in no cell yet; returns pairs of coincident sites, the second in the
-    /// cells.
-    pub(super) fn insert_all(
-        &mut self,
-        order: &[SiteId],
-        monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Vec<(SiteId, SiteId)>> {
-        debug_assert!(!self.complex.is_recording());
-        let is_weak = self.is_filter_weak(order);
-        self.cavity.scratch.begin_build(self.complex.n_cells_reserved(), is_weak)?;
-        let mut cavity = std::mem::take(&mut self.cavity);
-        let inserted = self.insert_each(&mut cavity, order, monitor);
-        cavity.scratch.end_build();
-        self.cavity = cavity;
-        inserted
-    }
-
-    /// Whether the static bound is of the order of in-sphere determinants, and so decides little: that of clusters, of
-    /// which it spans the whole, or of graded points. A sample of pairs of sites next to each other in `order` tells.
-    fn is_filter_weak(&self, order: &[SiteId]) -> bool {
-        if self.filter.is_exact {
-            return false;
-        }
-        let step = (order.len() / SAMPLED_PAIRS).max(1);
-        let pairs = order.windows(2).step_by(step);
-        let (mut n_weak, mut n_pairs) = (0, 0);
-        for pair in pairs {
-            let [p, q] = [pair[0], pair[1]].map(|s| &self.site(s).point);
-            let spacing = squared_distance(p, q).sqrt();
-            n_weak += usize::from(WEAK_SHARE * spacing.powi(G::D as i32 + 2) < self.filter.prepared);
-            n_pairs += 1;
-        }
-        2 * n_weak > n_pairs
-    }
-
-    fn insert_each(
-        &mut self,
-        cavity: &mut Cavity<G>,
-        order: &[SiteId],
-        monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Vec<(SiteId, SiteId)>> {
-        let mut coincident = Vec::new();
-        // Cells made, and crossed by walks, since the monitor was called.
-        let mut work = 0;
-        for (done, &s) in order.iter().enumerate() {
-            if done % MONITORED == 0 || work >= ASKED_EVERY {
-                work = 0;
-                if !monitor(done as f64 / order.len() as f64) {
-                    return Err(Error::Cancelled);
-                }
-            }
-            if done % MONITORED == 0 {
-                cavity.scratch.adapt();
-            }
-            let steps = cavity.steps;
-            if self.site(s).cell != Slot::NONE {
-                continue;
-            }
-            match self.insert_into_cells::<true>(cavity, s, self.recent)? {
-                Insertion::New => {
-                    work += cavity.scratch.made().len() as u64;
-                    self.record(cavity.scratch.made());
-                }
-                Insertion::Coincident(t) => memory::push(&mut coincident, (s, t))?,
-                Insertion::Spans => unreachable!("there are cells"),
-            }
-            work += cavity.steps - steps;
-        }
-        Ok(coincident)
     }
 
     /// Drops the sites that found others at their places, and gives those the vertex of the lowest key.
@@ -284,22 +123,6 @@ impl<G: Dimension> Delaunay<G> {
             merges.extend(there[1..].iter().map(|&(_, hidden)| Merge { hidden, site }));
         }
         Ok(merges)
-    }
-
-    /// The first cell, of the basis, and the ghost cells around it.
-    fn start(&mut self) -> Result<()> {
-        let mut corners = G::Corners::filled(INFINITE);
-        corners.as_mut().copy_from_slice(self.flat.basis.sites());
-        if G::orientation(&self.filter, self.view(), &corners) < 0.0 {
-            corners.as_mut().swap(0, 1);
-        }
-        self.complex.start(corners)?;
-        self.recent = Slot::new(0);
-        for i in 0..G::Corners::N {
-            self.sites[corners[i]].cell = Slot::new(0);
-        }
-        self.sites[INFINITE].cell = Slot::new(1);
-        Ok(())
     }
 
     /// Puts the cells in the order of the sites, so that what is near in space is near in memory for sweeps over all: a
@@ -397,10 +220,5 @@ impl<G: Dimension> Delaunay<G> {
             rest = rest.get(step..).unwrap_or_default();
         }
         if n > 0.0 { sum / n } else { 0.0 }
-    }
-
-    /// Mean number of cells crossed by the walk of an insertion, in the latest build.
-    pub fn mean_walk(&self) -> f64 {
-        self.cavity.steps as f64 / self.sites.len() as f64
     }
 }

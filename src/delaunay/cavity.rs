@@ -108,4 +108,18 @@ impl<G: Dimension> Delaunay<G> {
         self.sites[s].cell = made;
         Ok(Insertion::New)
     }
+
+    /// Inserts a site while there are no cells. After an error nothing has changed.
+    pub(super) fn insert_flat(&mut self, s: SiteId) -> Result<Insertion> {
+        let q = self.site(s).point;
+        if let Some(t) = self.flat.enter(s, &q)? {
+            return Ok(Insertion::Coincident(t));
+        }
+        self.sites[s].cell = Slot::NONE;
+        if self.extend_basis(s) {
+            self.remove_flat(s);
+            return Ok(Insertion::Spans);
+        }
+        Ok(Insertion::New)
+    }
 }

@@ -382,6 +382,18 @@ impl<G: Dimension> Delaunay<G> {
     pub(crate) fn is_positive(&self, cell: Slot) -> bool {
         G::orientation(&self.filter, self.view(), &self.complex.cell(cell).corners) > 0.0
     }
+
+    /// Whether the opposing vertices of a facet of a finite cell are outside the spheres of the opposite cells.
+    pub(super) fn is_locally_delaunay(&self, facet: Facet) -> bool {
+        let cell = self.complex.cell(facet.cell());
+        let across = cell.neighbour(facet.index());
+        let apex = self.complex.apex(across);
+        if apex == INFINITE {
+            return true;
+        }
+        let site = self.site(apex);
+        !G::is_in_sphere(&self.filter, self.view(), &cell.corners, &site.point, site.id)
+    }
 }
 
 #[cfg(test)]

@@ -7,10 +7,10 @@
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
-use super::{Delaunay, Dimension, Insertion};
+use super::{Delaunay, Dimension};
 use crate::complex::INFINITE;
 use crate::error::Result;
-use crate::ids::{SiteId, Slot};
+use crate::ids::SiteId;
 use crate::machine::memory;
 
 /// Places and basis; empty while there are cells.
@@ -120,20 +120,6 @@ impl<G: Dimension> Delaunay<G> {
         *n == G::D + 1
     }
 
-    /// Inserts a site while there are no cells. After an error nothing has changed.
-    pub(super) fn insert_flat(&mut self, s: SiteId) -> Result<Insertion> {
-        let q = self.site(s).point;
-        if let Some(t) = self.flat.enter(s, &q)? {
-            return Ok(Insertion::Coincident(t));
-        }
-        self.sites[s].cell = Slot::NONE;
-        if self.extend_basis(s) {
-            self.remove_flat(s);
-            return Ok(Insertion::Spans);
-        }
-        Ok(Insertion::New)
-    }
-
     /// Takes a site out while there are no cells; it stays live.
     pub(super) fn remove_flat(&mut self, s: SiteId) {
         let q = self.site(s).point;
@@ -160,20 +146,5 @@ impl<G: Dimension> Delaunay<G> {
                 break;
             }
         }
-    }
-
-    /// Gives up the cells when the last finite one is gone. `except` is a site that is on its way elsewhere. After an
-    /// error they are still there.
-    pub(super) fn become_flat(&mut self, except: SiteId) -> Result<()> {
-        let mut flat = Flat::default();
-        for s in self.live_sites().filter(|&s| s != except) {
-            flat.enter(s, &self.site(s).point)?;
-        }
-        self.give_up_cells()?;
-        self.flat = flat;
-        self.changed = None;
-        self.sites[1..].iter_mut().for_each(|site| site.cell = Slot::NONE);
-        self.find_flat_basis(except);
-        Ok(())
     }
 }

@@ -18,7 +18,7 @@
 //! for later. Sites keep their old cells until no flip will be taken back.
 
 use islands::Island;
-use untangle::Untangling;
+use untangling::Untangling;
 
 use super::flipper::Flipper;
 use super::flips::Flips;
@@ -311,8 +311,10 @@ fn key<C: Corners>(corners: &C, i: usize) -> [SiteId; 3] {
     key
 }
 
+mod exchange;
 mod islands;
 mod peel;
 #[cfg(test)]
 mod tests;
 mod untangle;
+mod untangling;

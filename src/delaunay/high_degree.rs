@@ -6,7 +6,7 @@
 //! connected, and so it is without its vertices and edges.
 
 use super::facets::{ByCorners, facet_of};
-use super::remove::{Gap, Hole};
+use super::hole::{Gap, Hole};
 use super::{Delaunay, Dimension, Shape};
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::error::Result;
@@ -131,7 +131,11 @@ impl<G: Dimension> Delaunay<G> {
         }
         by_id.sort_unstable();
         local.sort_sites()?;
-        local.rebuild(&mut |_| !self.is_in_change() || pace.ask_again().is_ok())?;
+        if let Some(order) = local.spanning_order()? {
+            local.triangulate(&order, order.len(), &mut |_| {
+                !self.is_in_change() || pace.ask_again().is_ok()
+            })?;
+        }
         let mut globals = Vec::new();
         memory::reserve_exact(&mut globals, local.sites.len())?;
         globals.push(INFINITE);

@@ -10,11 +10,13 @@
 //! | `signs`, `lane_tests`, `exchange`, `dimension` | what differs between them, by what it is for |
 //! | `plane`, `space` | how they do it |
 //! | `order` | Hilbert curve and insertion rounds |
+//! | `inserting` | many sites, one after the other |
 //! | `build` | all sites at once |
 //! | `parts`, `parallel`, `unite` | the same on several threads |
-//! | `locate`, `landmarks` | the walk, and where it begins |
+//! | `locate`, `straight`, `landmarks` | the walk, and where it begins |
+//! | `around`, `star` | the cells around a site, for questions and for changes |
 //! | `cavity`, `cavity_plane`, `cavity_space` | insertion: dig the conflict zone, fill it |
-//! | `remove`, `wrapping` | removal: fill the star by gift wrapping, in lanes where that is certain |
+//! | `remove`, `hole`, `wrapping` | removal: fill the star by gift wrapping, in lanes where that is certain |
 //! | `high_degree` | removal of a vertex of high degree |
 //! | `relocate` | one site to a new place |
 //! | `flip`, `flipper`, `flips` | flips, on several threads, and undoing them |
@@ -37,6 +39,7 @@
 
 #![allow(unsafe_code)]
 
+mod around;
 mod build;
 mod cavity;
 mod cavity_plane;
@@ -54,6 +57,8 @@ mod flip;
 mod flipper;
 mod flips;
 mod high_degree;
+mod hole;
+mod inserting;
 mod keys;
 mod landmarks;
 mod lane_tests;
@@ -115,8 +120,8 @@ use cavity::Cavity;
 use dimension::Insert;
 use flat::Flat;
 use flip::AllFlips;
+use hole::Hole;
 use parts::Parts;
-use remove::Hole;
 use wrapping::Wrapping;
 
 /// What the ghost vertex has for an id.

@@ -6,6 +6,7 @@
 
 use super::order::{Keyed, bounding_box, hilbert_order};
 use super::{Delaunay, Dimension, Site};
+use crate::complex::INFINITE;
 use crate::error::Result;
 use crate::ids::SiteId;
 use crate::machine::memory;
@@ -241,6 +242,27 @@ impl<G: Dimension> Delaunay<G> {
     /// Whether no part of the sites is much larger than the others.
     pub(crate) fn has_even_parts(&self) -> bool {
         self.parts.are_even(self.sites.len())
+    }
+
+    /// Puts the live sites along a Hilbert curve, from index 1 on without gaps. All indices change and the cells
+    /// go: [`rebuild`](Self::rebuild) must follow.
+    pub fn sort_sites(&mut self) -> Result<()> {
+        let sites = &self.sites;
+        let n = sites.len() - 1 - self.free_sites.len();
+        let (parts, keyed) =
+            self.in_parts(self.live_sites().map(SiteId::get), n, |s| &sites[s as usize].point)?;
+        let mut sorted = Vec::new();
+        memory::reserve_exact(&mut sorted, n + 1)?;
+        sorted.push(sites[INFINITE]);
+        let n_threads = self.threads.for_work(keyed.len(), 1, 1);
+        for part in &keyed {
+            memory::extend(&mut sorted, part, n_threads, |k| sites[k.item() as usize])?;
+        }
+        self.sites = sorted;
+        self.parts = parts;
+        self.free_sites.clear();
+        self.complex.clear();
+        Ok(())
     }
 }
 

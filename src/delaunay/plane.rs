@@ -1,11 +1,11 @@
 //! What the plane does on its own.
 
+use super::around::{next_of_three, previous_of_three};
 use super::cavity_plane;
 use super::dimension::Dimension;
 use super::flipper::{Flip, Flipper};
 use super::flips::Flips;
 use super::lane_tests::{Held, LaneTests, Ray, apexes_beyond, corners_at};
-use super::locate::{next_of_three, previous_of_three};
 use super::shape::Plane;
 use super::signs::Signs;
 use super::site::Sites;

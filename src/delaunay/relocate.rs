@@ -16,7 +16,7 @@
 //! The key of a site's vertex breaks ties, so a change of vertex is a relocation to the same place.
 
 use super::{Delaunay, Dimension, Insertion, Site};
-use crate::complex::{Corners, Facet, INFINITE};
+use crate::complex::{Corners, Facet};
 use crate::error::Result;
 use crate::ids::{SiteId, VertexId};
 
@@ -181,18 +181,6 @@ impl<G: Dimension> Delaunay<G> {
             }
         }
         true
-    }
-
-    /// Whether the opposing vertices of a facet of a finite cell are outside the spheres of the opposite cells.
-    pub(super) fn is_locally_delaunay(&self, facet: Facet) -> bool {
-        let cell = self.complex.cell(facet.cell());
-        let across = cell.neighbour(facet.index());
-        let apex = self.complex.apex(across);
-        if apex == INFINITE {
-            return true;
-        }
-        let site = self.site(apex);
-        !G::is_in_sphere(&self.filter, self.view(), &cell.corners, &site.point, site.id)
     }
 }
 

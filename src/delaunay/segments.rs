@@ -19,7 +19,7 @@
 //! Cost: of a segment that is there, the cells around one end; of others, the cells crossed, and for k of them up to k²
 //! tests of circles, though few are that lopsided.
 
-use super::locate::{list_ring, next_of_three, previous_of_three};
+use super::around::{list_ring, next_of_three, previous_of_three};
 use super::{Delaunay, Dimension};
 use crate::complex::{Corners, Facet, INFINITE, Row};
 use crate::error::Result;

@@ -9,7 +9,7 @@
 //!
 //! Cost: three marks a cell; a relocation that finds nothing to do spends nearly half of its time here.
 
-use super::locate::{BESIDE, beside, list_ring, list_star};
+use super::around::{BESIDE, beside, list_ring, list_star};
 use super::{Delaunay, Dimension};
 use crate::complex::{Complex, Corners};
 use crate::error::Result;

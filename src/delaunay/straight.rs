@@ -3,7 +3,7 @@
 //!
 //! Cost: the cells on the way, and those around the corner and around sites that the way passes.
 
-use super::locate::{list_ring, next_of_three, previous_of_three};
+use super::around::{list_ring, next_of_three, previous_of_three};
 use super::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};

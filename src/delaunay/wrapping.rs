@@ -23,7 +23,7 @@
 //! Cost: for `k` sites of the link `2k` passes over `k / 4` lanes in space, and `k` in the plane, and the certificates
 //! that a sweep evaluates for as many cells. (`examples/tolerance_share` times removals with insertions.)
 
-use super::remove::{Hole, NEW, new_of};
+use super::hole::{Hole, NEW, new_of};
 use super::site::Sites;
 use super::{Delaunay, Dimension};
 use crate::complex::{Corners, Facet, INFINITE};

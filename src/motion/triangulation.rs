@@ -2,7 +2,7 @@
 
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::{Error, Result, StagedEdit};
-use crate::ids::{SiteId, VertexId};
+use crate::ids::{SegmentId, SiteId, VertexId};
 use crate::machine::memory;
 use crate::machine::threads::Threads;
 use crate::motion::constants::Table;
@@ -11,6 +11,7 @@ use crate::motion::options::Options;
 use crate::motion::plan::auto::Auto;
 use crate::motion::plan::switching::Switching;
 use crate::motion::report::{CommitReport, Evaluations};
+use crate::motion::state::cells::Cells;
 use crate::motion::state::checking::{are_good, first_bad};
 use crate::motion::state::edits::Edits;
 use crate::motion::state::foreseen::Foreseen;
@@ -21,6 +22,7 @@ use crate::motion::state::repair::Repair;
 use crate::motion::state::segments::Aim;
 use crate::motion::state::staging::Staging;
 use crate::motion::state::taken::Taken;
+use crate::motion::state::views::CellsView;
 
 /// Greatest number of vertex ids.
 pub const MAX_VERTICES: usize = u32::MAX as usize - 1;
@@ -258,5 +260,58 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.n_moved = 0;
             self.regions.tighten_filter(&mut self.mesh.kernel);
         }
+    }
+
+    /// Ids given so far; those below it are valid unless removed.
+    pub fn id_count(&self) -> usize {
+        self.mesh.site_of.len()
+    }
+
+    /// Number of finite cells.
+    pub fn cell_count(&self) -> usize {
+        self.mesh.kernel.complex().n_finite()
+    }
+
+    /// Position of a vertex at the current timestamp; a staged one is not seen.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
+    pub fn position(&self, vertex: VertexId) -> Result<G::Point> {
+        Ok(self.mesh.kernel.site(self.present_site("vertex", 0, vertex)?).point)
+    }
+
+    /// The vertices that `refine` has added and that are there, ascending, each with the segment that it was put
+    /// on, [`SegmentId::NONE`] if there is none; not those of `stage_splits`.
+    pub fn made_vertices(&self) -> impl Iterator<Item = (VertexId, SegmentId)> {
+        let all = self.made.iter().flat_map(|made| made.vertices());
+        all.copied().filter(|&(v, _)| self.mesh.is_present(v))
+    }
+
+    /// The finite cells and their neighbours.
+    ///
+    /// The first call after a change costs what that has changed, others constant time.
+    ///
+    /// ```
+    /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// let cells = t.cells()?;
+    /// for (row, neighbours) in cells.corners.iter().zip(cells.neighbours) {
+    ///     println!("{row:?} beside {neighbours:?}");
+    /// }
+    /// assert_eq!(cells.corners.len(), 2);
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn cells(&self) -> Result<CellsView<'_, G>> {
+        let cells = self.cell_arrays()?;
+        Ok(CellsView { corners: cells.corners(), neighbours: cells.neighbours() })
+    }
+
+    pub(in crate::motion) fn cell_arrays(&self) -> Result<&Cells<G>> {
+        self.mesh.views.cells(&self.mesh.kernel)
     }
 }

@@ -5,7 +5,7 @@
 //! makes.
 
 use crate::delaunay::Dimension;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::{Asked, Edge, Progress, TellCell, TellFacet, VoronoiCell, VoronoiFacet, nowhere};
@@ -140,6 +140,15 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             moved[axis] = place[axis];
         }
         moved
+    }
+
+    pub(crate) fn check_vertex_mask(&self, given: usize) -> Result<()> {
+        let wanted = self.id_count();
+        if given == wanted {
+            return Ok(());
+        }
+        let coming = self.staged.insertions().len();
+        Err(Error::WrongCount { argument: "mask_count", given, wanted, coming })
     }
 }
 

@@ -5,7 +5,7 @@
 
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
-use crate::ids::CellId;
+use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::{
     BoundaryFacet, check_not_negative, is_flat, list_boundary, tell_all, without_flat_cells,
@@ -138,6 +138,14 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let mut inside = Vec::new();
         memory::collect(&mut inside, cells.iter().map(|&cell| chosen[cell]))?;
         look(&inside)
+    }
+
+    /// What is seen from a vertex at home, seen from its position.
+    pub(super) fn at_position(&self, inside: VertexId, way: &G::Point) -> G::Point {
+        let vertex = self.inside.images.of(inside).vertex;
+        let mut place = self.lattice.unwrapped(&self.inside.places[inside], &self.wraps[vertex]);
+        (0..G::D).for_each(|axis| place[axis] += way[axis]);
+        place
     }
 }
 

@@ -48,6 +48,7 @@ mod immediate;
 mod incidence;
 mod inside;
 mod interpolating;
+mod kept;
 mod lattice;
 mod lists;
 mod locating;

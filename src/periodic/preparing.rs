@@ -73,16 +73,6 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         }
     }
 
-    /// An error while a timestamp is prepared.
-    pub(crate) fn reject_prepared(&self) -> Result<()> {
-        match &self.former {
-            None => Ok(()),
-            Some(former) => {
-                Err(Error::Prepared { timestamp: self.statistics.timestamp + 1, rounds: former.rounds })
-            }
-        }
-    }
-
     /// Keeps what there is, and goes on with a copy of it.
     fn set_aside(&mut self) -> Result<()> {
         let taking = self.taking.take();

@@ -7,10 +7,8 @@ use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::{Algorithm, CommitReport, OwnedCells};
-use crate::periodic::cells::{PeriodicCells, PeriodicView};
-use crate::periodic::edges::PeriodicEdges;
-use crate::periodic::lattice::Shift;
-use crate::periodic::triangulation::{Former, PeriodicTriangulation};
+use crate::periodic::cells::PeriodicView;
+use crate::periodic::triangulation::PeriodicTriangulation;
 
 impl<G: Dimension> PeriodicTriangulation<G> {
     /// The number of vertices that are there.
@@ -245,48 +243,5 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             corners: mem::replace(&mut cells.corners, corners),
             neighbours: mem::replace(&mut cells.neighbours, neighbours),
         })
-    }
-
-    /// Bytes of memory, without what belongs to this itself.
-    pub fn memory_bytes(&self) -> usize {
-        self.inside.memory_bytes()
-            + memory::bytes_of(&self.wraps)
-            + self.staged.memory_bytes()
-            + self.cells.get().map_or(0, PeriodicCells::memory_bytes)
-            + self
-                .taking
-                .as_ref()
-                .map_or(0, |taking| taking.base.memory_bytes() + taking.lists.memory_bytes())
-            + self.edges.get().map_or(0, |edges| memory::bytes_of(&edges.list))
-            + self.former.as_ref().map_or(0, Former::memory_bytes)
-    }
-
-    /// The cells, which the first that asks reads; several threads may do that at the same time.
-    pub(super) fn read_cells(&self) -> Result<&PeriodicCells<G>> {
-        if let Some(cells) = self.cells.get() {
-            return Ok(cells);
-        }
-        let read = self.in_order(PeriodicCells::of(&self.inside)?)?;
-        Ok(self.cells.get_or_init(|| read))
-    }
-
-    /// The edges, which the first that asks reads; several threads may do that at the same time.
-    pub(super) fn read_edges(&self) -> Result<&PeriodicEdges> {
-        if let Some(edges) = self.edges.get() {
-            return Ok(edges);
-        }
-        let read = PeriodicEdges::of(&self.inside)?;
-        Ok(self.edges.get_or_init(|| read))
-    }
-
-    pub(super) fn least_of(&self, cells: &PeriodicCells<G>, cell: usize) -> VertexId {
-        cells.corners[cell].as_ref()[usize::from(cells.least[cell])]
-    }
-
-    /// By which multiples of the given vectors one vertex is translated from its position where another one is at its own, if
-    /// it is translated by this shift from home where the other one is at home.
-    pub(super) fn given(&self, from: VertexId, to: VertexId, shift: Shift) -> [i64; 3] {
-        let (first, second) = (&self.wraps[from], &self.wraps[to]);
-        self.lattice.of_caller([0, 1, 2].map(|j| i64::from(shift[j]) - second[j] + first[j]))
     }
 }

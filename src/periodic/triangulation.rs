@@ -100,6 +100,30 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             former: None,
         })
     }
+
+    /// An error while a timestamp is prepared.
+    pub(crate) fn reject_prepared(&self) -> Result<()> {
+        match &self.former {
+            None => Ok(()),
+            Some(former) => {
+                Err(Error::Prepared { timestamp: self.statistics.timestamp + 1, rounds: former.rounds })
+            }
+        }
+    }
+
+    /// Bytes of memory, without what belongs to this itself.
+    pub fn memory_bytes(&self) -> usize {
+        self.inside.memory_bytes()
+            + memory::bytes_of(&self.wraps)
+            + self.staged.memory_bytes()
+            + self.cells.get().map_or(0, PeriodicCells::memory_bytes)
+            + self
+                .taking
+                .as_ref()
+                .map_or(0, |taking| taking.base.memory_bytes() + taking.lists.memory_bytes())
+            + self.edges.get().map_or(0, |edges| memory::bytes_of(&edges.list))
+            + self.former.as_ref().map_or(0, Former::memory_bytes)
+    }
 }
 
 /// Vertices that share a place are no mistake, as images may do.

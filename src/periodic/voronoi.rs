@@ -4,7 +4,7 @@
 //! are not looked at. What is told of places is so where a vertex is at its own position.
 
 use crate::delaunay::Dimension;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::{VoronoiCell, VoronoiFacet};
@@ -15,7 +15,8 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// `monitor` is called now and then, and told the fraction done.
     ///
     /// # Errors
-    /// [`Error::Cancelled`] if `monitor` returns `false`, [`Error::OutOfMemory`].
+    /// [`Error::Cancelled`](crate::Error::Cancelled) if `monitor` returns `false`,
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn voronoi_volumes(&self, monitor: &mut dyn FnMut(f64) -> bool) -> Result<Vec<f64>> {
         let mut volumes = Vec::new();
         memory::lengthen(&mut volumes, self.id_count(), f64::NAN)?;
@@ -48,8 +49,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Cancelled`] if `monitor` returns `false`, [`Error::WrongCount`] if the mask has not an entry for each id,
-    /// [`Error::OutOfMemory`]; then nothing has been told.
+    /// [`Error::Cancelled`](crate::Error::Cancelled) if `monitor` returns `false`,
+    /// [`Error::WrongCount`](crate::Error::WrongCount) if the mask has not an entry for each id,
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory); then nothing has been told.
     pub fn for_voronoi_cells(
         &self,
         mask: Option<&[u8]>,
@@ -83,23 +85,6 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         tell: &mut dyn FnMut(usize, VoronoiFacet<G::Point>),
     ) -> Result<()> {
         self.for_voronoi(None, &[], mask, monitor, None, Some(tell))
-    }
-
-    /// What is seen from a vertex at home, seen from its position.
-    pub(super) fn at_position(&self, inside: VertexId, way: &G::Point) -> G::Point {
-        let vertex = self.inside.images.of(inside).vertex;
-        let mut place = self.lattice.unwrapped(&self.inside.places[inside], &self.wraps[vertex]);
-        (0..G::D).for_each(|axis| place[axis] += way[axis]);
-        place
-    }
-
-    pub(crate) fn check_vertex_mask(&self, given: usize) -> Result<()> {
-        let wanted = self.id_count();
-        if given == wanted {
-            return Ok(());
-        }
-        let coming = self.staged.insertions().len();
-        Err(Error::WrongCount { argument: "mask_count", given, wanted, coming })
     }
 }
 

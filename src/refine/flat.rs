@@ -5,7 +5,7 @@
 //! triangles between both stay as they are, and the piece is split as if the vertex were one of its ends.
 
 use super::parts::{NONE, Side};
-use super::refining::Refinement;
+use super::refinement::Refinement;
 use crate::error::Result;
 use crate::machine::memory;
 use crate::predicates::{dot, minus};

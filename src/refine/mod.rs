@@ -29,7 +29,9 @@
 //! | `criteria` | what is bad, what is encroached |
 //! | `flat` | vertices that touch a piece: a few last places beside it |
 //! | `queue` | bad triangles in order |
-//! | `refining`, `splitting`, `telling` | refinement; where pieces are split; its calls, and what they tell |
+//! | `refinement` | what refinement knows, and what waits |
+//! | `examining`, `splitting`, `refining` | what is wanted; where pieces are split; what is done for bad triangles |
+//! | `telling` | the calls, and what they tell |
 //! | `coarsening` | vertices that are not needed any more leave |
 //!
 //! # What is exact
@@ -94,12 +96,14 @@
 mod around;
 mod coarsening;
 mod criteria;
+mod examining;
 mod flat;
 mod given;
 mod insertion;
 mod mesh;
 mod parts;
 mod queue;
+mod refinement;
 mod refining;
 mod removal;
 mod splitting;
@@ -110,6 +114,6 @@ pub(crate) use coarsening::{Candidate, Room, coarsen};
 pub(crate) use criteria::{Criteria, Tests, power_of_two_below};
 pub(crate) use given::Given;
 pub(crate) use parts::NONE;
-pub use refining::Kept;
-pub(crate) use refining::Origins;
+pub use refinement::Kept;
+pub(crate) use refinement::Origins;
 pub(crate) use telling::{Refined, mendable, refine, remesh};

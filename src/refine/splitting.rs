@@ -2,7 +2,7 @@
 
 use super::criteria::{distance, power_of_two_below};
 use super::parts::{NONE, Piece, Side};
-use super::refining::Refinement;
+use super::refinement::Refinement;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::predicates::is_in_diametral_circle;
@@ -162,13 +162,6 @@ impl Refinement<'_> {
                 (d - e).abs() > 0.5 * distance(self.mesh.point(ends[0]), self.mesh.point(ends[1]));
             (is_outward && self.is_acute(apex, [ends[1], v])).then_some(apex)
         })
-    }
-
-    /// The vertex at which two originals meet.
-    pub(super) fn common_end(&self, one: u32, other: u32) -> Option<VertexId> {
-        let [one, other] = [one, other].map(|original| self.origins.ends[original as usize]);
-        let is_there = |v: &VertexId| self.mesh.at.get(v.index()).is_some_and(|&t| t != NONE);
-        one.into_iter().find(|v| other.contains(v)).filter(is_there)
     }
 
     /// Whether two vertices are seen from a third one under less than 60 degrees.

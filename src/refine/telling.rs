@@ -5,7 +5,7 @@ use super::criteria::Tests;
 use super::given::Given;
 use super::mesh::Mesh;
 use super::parts::{NONE, Piece, Side};
-use super::refining::{Kept, Origins, Refinement};
+use super::refinement::{Kept, Origins, Refinement};
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;

@@ -2,7 +2,7 @@
 //! and must be the same one.
 
 use super::called::{c, note};
-use super::model::{Row, sorted};
+use super::types::{Row, sorted};
 use super::{Carried, History, live};
 use std::ptr::null_mut;
 

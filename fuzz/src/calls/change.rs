@@ -2,15 +2,13 @@
 
 use super::super::tally;
 use super::called::{c, note};
-use super::model::{NONE, Place, Row};
 use super::places::Motion;
+use super::types::{NONE, Place, Row};
 use super::{ALGORITHMS, Carried, Chosen, History, flattened, options};
 use deldrift::capi::deldrift_status::*;
 use deldrift::capi::*;
 use std::collections::BTreeSet;
-use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
-use std::slice;
 
 impl History<'_> {
     pub(super) fn insert(&mut self) {
@@ -418,34 +416,5 @@ impl History<'_> {
         self.t = kept;
         self.end_other(gone);
         self.check();
-    }
-
-    /// Destroys one whose cells outlive it.
-    pub(super) fn end_other(&self, gone: *mut deldrift_triangulation) {
-        let (mut view, mut owner) = (MaybeUninit::uninit(), null_mut());
-        self.is_ok(c!(deldrift_release_cells(gone, view.as_mut_ptr(), &mut owner)));
-        // SAFETY: it has been written.
-        let view: deldrift_cells_view = unsafe { view.assume_init() };
-        let numbers = || {
-            let n = view.count * view.corners_per_cell as usize;
-            // SAFETY: the owner keeps them, as many as the view says; there may be none, and no address.
-            if n == 0 { &[][..] } else { unsafe { slice::from_raw_parts(view.vertices, n) } }
-        };
-        let before = numbers().to_vec();
-        c!(deldrift_destroy(gone));
-        assert_eq!(numbers(), before, "cells that have been handed over");
-        c!(deldrift_free_cells(owner));
-    }
-
-    /// The bytes that are saved.
-    pub(super) fn saved(&mut self) -> Vec<u8> {
-        let (t, mut count) = (self.t, 0);
-        self.is_ok(c!(deldrift_save(t, null_mut(), 0, &mut count)));
-        let mut data = vec![0u8; count];
-        let start = data.as_mut_ptr();
-        let room = data.len();
-        self.ok(|| c!(deldrift_save(t, start.cast(), room, &mut count)));
-        assert_eq!(count, room);
-        data
     }
 }

@@ -1,37 +1,14 @@
 //! What a triangulation says, compared with what it should say.
 
 use super::super::tally;
+use super::asking::{cells_of, rows, slice};
 use super::called::{c, note};
-use super::model::{Model, NONE, Place, Row, sorted};
+use super::types::{NONE, Place, Row, sorted};
 use super::{Carried, History, flattened, message};
 use deldrift::capi::deldrift_status::*;
 use deldrift::capi::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ptr::null;
-
-/// An array of the library's; no pointer is no entries.
-pub fn slice<'a, T>(start: *const T, count: usize) -> &'a [T] {
-    assert_eq!(start.is_null(), count == 0, "an array without entries has no pointer, any other has one");
-    // SAFETY: the library's array, which stays until the triangulation changes.
-    if count == 0 { &[] } else { unsafe { std::slice::from_raw_parts(start, count) } }
-}
-
-/// Rows of 3 or 4 numbers.
-pub fn rows(numbers: &[u32], corners: usize) -> Vec<Row> {
-    let row = |row: &[u32]| std::array::from_fn(|k| row.get(k).copied().unwrap_or(NONE));
-    numbers.chunks_exact(corners).map(row).collect()
-}
-
-/// The cells of a triangulation, and across which facets others are.
-pub fn cells_of(t: *const deldrift_triangulation) -> (Vec<Row>, Vec<Row>) {
-    let mut view =
-        deldrift_cells_view { count: 0, corners_per_cell: 0, vertices: null(), neighbours: null() };
-    assert_eq!(c!(deldrift_cells(t, &mut view)), DELDRIFT_OK, "{}", message());
-    let corners = view.corners_per_cell as usize;
-    let [vertices, neighbours] =
-        [view.vertices, view.neighbours].map(|start| rows(slice(start, view.count * corners), corners));
-    (vertices, neighbours)
-}
 
 /// The cells of a fresh build of these vertices and segments, each row and all of them in ascending order.
 pub fn fresh_cells(positions: &[Option<Place>], segments: &[[u32; 2]], d: usize) -> Vec<Row> {
@@ -83,10 +60,6 @@ pub fn check_adjacency(rows: &[Row], neighbours: &[Row], d: usize) {
 }
 
 impl History<'_> {
-    pub(super) fn cells(&self) -> (Vec<Row>, Vec<Row>) {
-        cells_of(self.t)
-    }
-
     /// The cells that there should be.
     pub(super) fn wanted_cells(&mut self) -> &[Row] {
         let m = &self.m;
@@ -117,10 +90,6 @@ impl History<'_> {
         assert_eq!(count, rows.len());
         check_adjacency(&rows, &neighbours, self.m.d);
         self.is_ok(c!(deldrift_validate(self.t, 3)));
-    }
-
-    pub(super) fn is_ok(&self, status: deldrift_status) {
-        assert_eq!(status, DELDRIFT_OK, "{}", message());
     }
 
     fn check_numbers(&mut self) {
@@ -276,10 +245,5 @@ impl History<'_> {
         let wanted = self.carried.hidden.difference(&all).filter(|&&v| self.m.at(v).is_some());
         assert!(wanted.eq(shown), "shown {shown:?}");
         self.carried = Carried { rows: now, hidden: all };
-    }
-
-    /// Whether the positions that would come of a commit are refused.
-    pub(super) fn is_rejected(&self, positions: &[Option<Place>]) -> bool {
-        self.options.coincidence == 1 && Model::has_coincidence(positions)
     }
 }

@@ -1,7 +1,7 @@
 //! What is computed of all cells, compared with what follows from them.
 
 use super::called::{c, note};
-use super::model::{NONE, Place, Row, sorted};
+use super::types::{NONE, Place, Row, sorted};
 use super::{History, flattened};
 use deldrift::capi::deldrift_status::*;
 use deldrift::capi::*;
@@ -101,7 +101,7 @@ impl History<'_> {
         let facets = self.copied(77, d, |to, room, count| call(to, null_mut(), null_mut(), room, count));
         let cells = self.copied(77, 1, |to, room, count| call(null_mut(), to, null_mut(), room, count));
         let corners = self.copied(77, 1, |to, room, count| call(null_mut(), null_mut(), to, room, count));
-        let rows = super::check::rows(&facets, d);
+        let rows = super::asking::rows(&facets, d);
         let found: Vec<(Row, u32, u8)> = rows
             .into_iter()
             .zip(cells)

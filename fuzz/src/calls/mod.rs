@@ -1,9 +1,12 @@
 //! Bytes as a sequence of calls of the functions of the header, compared after each with a model and a fresh build.
 
+pub mod asking;
 mod beside;
 pub mod called;
 mod change;
 pub mod check;
+mod conflicts;
+mod constraining;
 pub mod files;
 mod geometry;
 pub mod model;
@@ -13,8 +16,10 @@ pub mod places;
 mod read;
 mod refining;
 mod refuse;
+mod regions;
 mod segments;
 mod transferring;
+pub mod types;
 
 use super::allocator::Fault;
 use super::source::Source;
@@ -22,13 +27,14 @@ use super::tally;
 use called::{c, note};
 use deldrift::capi::deldrift_status::*;
 use deldrift::capi::*;
-use model::{Model, Place, Row};
+use model::Model;
 use places::{Style, place};
 use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::ffi::{CStr, c_void};
 use std::ptr::{null, null_mut};
 use std::sync::Once;
+use types::{Place, Row};
 
 /// A history: a triangulation is created, changed, read and destroyed. Some go on with copies as with the original.
 pub fn run(data: &[u8]) {
@@ -434,6 +440,23 @@ impl<'a> History<'a> {
         let t = std::mem::replace(&mut self.t, null_mut());
         c!(deldrift_destroy(t));
         c!(deldrift_destroy(null_mut()));
+    }
+
+    /// Segments come, go, and are asked about.
+    fn change_segments(&mut self) {
+        match self.s.below(12) {
+            0..=2 => self.stage_segments(),
+            3 => self.stage_segment_removals(),
+            4 => {
+                self.check_staged();
+                self.check_passings();
+            }
+            5 => self.read_sides(),
+            6 => self.read_regions(),
+            7 => self.stage_splits(),
+            8 => self.read_chains(),
+            _ => self.improve(),
+        }
     }
 }
 

@@ -2,23 +2,10 @@
 
 use super::super::exact_oracle::{Tally, exact_sign, is_inside_by_polynomial};
 use super::segments::Segments;
+use super::types::{NONE, Place, Row};
 use std::array::from_fn;
 use std::cmp::Ordering::{Equal, Greater, Less};
 use std::collections::{BTreeMap, BTreeSet};
-
-pub const NONE: u32 = u32::MAX;
-
-/// A position; the third coordinate is 0 in the plane.
-pub type Place = [f64; 3];
-/// The corners of a cell; the fourth is NONE in the plane.
-pub type Row = [u32; 4];
-
-/// A row in ascending order.
-pub fn sorted(mut row: Row) -> Row {
-    row.sort_unstable();
-    row
-}
-
 #[derive(Clone, Debug, Default)]
 pub struct Model {
     pub d: usize,

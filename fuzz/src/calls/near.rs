@@ -5,7 +5,7 @@ use super::super::exact_oracle::{
     Tally, exact_distance_order, exact_order_to_square, exact_sign, is_inside_by_polynomial, nudged,
 };
 use super::called::{c, note};
-use super::model::{NONE, Place, Row};
+use super::types::{NONE, Place, Row};
 use super::{History, flattened};
 use deldrift::capi::deldrift_location_kind::*;
 use deldrift::capi::*;

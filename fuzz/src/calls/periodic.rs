@@ -1,7 +1,7 @@
 //! The positions of a history in a box that repeats: moved, edited and given another box, beside what is made anew.
 
+use super::asking::slice;
 use super::called::{c, note};
-use super::check::slice;
 use super::{History, message};
 use deldrift::capi::deldrift_status::*;
 use deldrift::capi::*;

@@ -2,7 +2,8 @@
 
 use super::super::exact_oracle::nudged;
 use super::super::source::{Source, admissible, power_of_two};
-use super::model::{Model, Place};
+use super::model::Model;
+use super::types::Place;
 use std::array::from_fn;
 
 /// What places of a history are like.

@@ -2,7 +2,7 @@
 
 use super::super::exact_oracle::{Tally, exact_distance_order, exact_sign};
 use super::called::{c, note};
-use super::model::{NONE, Place, Row};
+use super::types::{NONE, Place, Row};
 use super::{History, flattened, message};
 use deldrift::capi::deldrift_location_kind::*;
 use deldrift::capi::deldrift_status::*;
@@ -32,30 +32,6 @@ impl History<'_> {
         }
     }
 
-    /// Calls for a count, then for so many entries, then with a buffer that is too small.
-    pub(super) fn copied<T: Copy + PartialEq>(
-        &mut self,
-        filler: T,
-        per_entry: usize,
-        mut call: impl FnMut(*mut T, usize, *mut usize) -> deldrift_status,
-    ) -> Vec<T> {
-        let (mut n, mut count) = (usize::MAX, usize::MAX);
-        self.ok(|| match call(null_mut(), 0, &mut n) {
-            DELDRIFT_BUFFER_TOO_SMALL => DELDRIFT_OK,
-            status => status,
-        });
-        let mut values = vec![filler; n * per_entry];
-        self.ok(|| call(values.as_mut_ptr(), n, &mut count));
-        assert_eq!(count, n, "the count of entries");
-        if n > 0 {
-            let mut fewer = vec![filler; (n - 1) * per_entry + 1];
-            let wanted = DELDRIFT_BUFFER_TOO_SMALL;
-            self.expect(wanted, || call(fewer.as_mut_ptr(), n - 1, &mut count));
-            assert_eq!(count, n);
-        }
-        values
-    }
-
     fn copy_cells(&mut self) {
         let t = self.t;
         let corners = self.m.d + 1;
@@ -63,7 +39,7 @@ impl History<'_> {
             .copied(77, corners, |to, room, count| c!(deldrift_copy_cells(t, to, null_mut(), room, count)));
         let across = self
             .copied(77, corners, |to, room, count| c!(deldrift_copy_cells(t, null_mut(), to, room, count)));
-        let found = [vertices, across].map(|numbers| super::check::rows(&numbers, corners));
+        let found = [vertices, across].map(|numbers| super::asking::rows(&numbers, corners));
         assert_eq!(found, <[_; 2]>::from(self.cells()), "copies of cells");
     }
 

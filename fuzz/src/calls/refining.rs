@@ -5,7 +5,7 @@ use super::super::tally;
 use super::History;
 use super::called::{c, note};
 use super::message;
-use super::model::{NONE, Place, Row, sorted};
+use super::types::{NONE, Place, Row, sorted};
 use deldrift::capi::deldrift_status::*;
 use deldrift::capi::*;
 use std::collections::{BTreeMap, BTreeSet};

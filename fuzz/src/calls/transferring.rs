@@ -3,7 +3,7 @@
 use super::super::allocator::Fault;
 use super::super::tally;
 use super::called::{c, note};
-use super::model::{NONE, Place, Row};
+use super::types::{NONE, Place, Row};
 use super::{History, flattened};
 use deldrift::capi::deldrift_status::*;
 use deldrift::capi::*;

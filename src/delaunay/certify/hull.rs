@@ -155,4 +155,14 @@ impl<G: Dimension> Delaunay<G> {
         ghosts.iter().for_each(|&c| complex.set_mark(c, 0));
         Ok(())
     }
+
+    /// Whether there is a finite cell in this slot, which may be free.
+    pub(in crate::delaunay) fn is_finite(&self, c: Slot) -> bool {
+        !self.complex.is_free(c) && !self.complex.cell(c).is_ghost()
+    }
+
+    /// Whether there is a ghost cell in this slot, which may be free.
+    pub(in crate::delaunay) fn is_ghost(&self, c: Slot) -> bool {
+        !self.complex.is_free(c) && self.complex.cell(c).is_ghost()
+    }
 }

@@ -8,10 +8,10 @@
 //! vertex within, or an edge, comes to the hull only if it was not there. A cell is taken away through a facet that is
 //! not flat itself: flat facets at the rim of a side lead below what covers the rest of it.
 
-use super::untangle::Untangling;
+use super::untangling::Untangling;
 use super::{Delaunay, Dimension};
 use crate::complex::{Corners, Facet};
-use crate::delaunay::locate::list_star;
+use crate::delaunay::around::list_star;
 use crate::error::Result;
 use crate::ids::Slot;
 use crate::machine::memory;

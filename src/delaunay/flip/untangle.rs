@@ -31,10 +31,9 @@
 //! lattice of 10,648 vertices, sheared by 0.001 in each timestamp, `deldrift_bench --targets --target shear_grid` has
 //! 1.2 microseconds a vertex for repairs; 5.4 without it, and 2.4 for rebuilding.)
 
+use super::untangling::Untangling;
 use crate::complex::{Corners, Facet};
-use crate::delaunay::Failures;
-use crate::delaunay::flips::Flips;
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Dimension, Failures};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
@@ -60,20 +59,6 @@ const FILLED_PER_STUCK: u64 = 16;
 /// that were not positive, and `HARD`: so it is on the sides of lattices, from which placing takes too long.
 const CELLS_PER_STUCK: usize = 32;
 
-/// What has been exchanged, and scratch memory.
-#[derive(Debug)]
-pub(super) struct Untangling<G: Dimension> {
-    /// The exchanges made. Their suspects are facets of new cells.
-    pub(super) flips: Flips<G>,
-    /// Cells that are not positive, and then flat ones around them.
-    pub(super) cells: Vec<Slot>,
-    /// Ridges at which the hull may not be convex, as facets of ghosts.
-    ridges: Vec<Facet>,
-    /// Ridges where ghosts cannot be exchanged at present.
-    stuck: Vec<Facet>,
-    slots: Vec<Slot>,
-}
-
 /// What has become of cells that were not positive, when no more of them can be exchanged.
 enum Turned {
     /// None is left.
@@ -87,32 +72,6 @@ enum Turned {
 /// Takes one of these vertices back to where it was before a motion, and tells which one; `None` if there is none to be
 /// taken back, or too many have been.
 pub(crate) type TakeBack<'f, G> = &'f mut dyn FnMut(&mut Delaunay<G>, &[SiteId]) -> Result<Option<SiteId>>;
-
-impl<G: Dimension> Default for Untangling<G> {
-    fn default() -> Self {
-        Untangling {
-            flips: Flips::default(),
-            cells: Vec::new(),
-            ridges: Vec::new(),
-            stuck: Vec::new(),
-            slots: Vec::new(),
-        }
-    }
-}
-
-impl<G: Dimension> Untangling<G> {
-    pub(super) fn memory_bytes(&self) -> usize {
-        self.flips.memory_bytes()
-            + memory::bytes_of(&self.cells)
-            + memory::bytes_of(&self.ridges)
-            + memory::bytes_of(&self.stuck)
-            + memory::bytes_of(&self.slots)
-    }
-
-    pub(super) fn is_exhausted(&self) -> bool {
-        self.flips.certificates > self.flips.most
-    }
-}
 
 impl<G: Dimension> Delaunay<G> {
     /// Makes all cells positive and the hull convex at every ridge, where flips can do that in at most `most`
@@ -359,18 +318,7 @@ impl<G: Dimension> Delaunay<G> {
         let ghosts = cells.iter().filter(|&&c| self.is_ghost(c));
         memory::collect(ridges, ghosts.flat_map(|&g| (0..Self::LAST).map(move |i| Facet::new(g, i))))
     }
-
-    /// Whether there is a finite cell in this slot, which may be free.
-    pub(super) fn is_finite(&self, c: Slot) -> bool {
-        !self.complex.is_free(c) && !self.complex.cell(c).is_ghost()
-    }
-
-    /// Whether there is a ghost cell in this slot, which may be free.
-    pub(in crate::delaunay) fn is_ghost(&self, c: Slot) -> bool {
-        !self.complex.is_free(c) && self.complex.cell(c).is_ghost()
-    }
 }
 
-mod exchange;
 #[cfg(test)]
 mod tests;

@@ -4,36 +4,11 @@ use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
-use crate::motion::state::cells::{Cells, OwnedCells};
+use crate::motion::state::cells::OwnedCells;
 use crate::motion::state::taken::{Changes, Taken};
-use crate::motion::state::views::CellsView;
 use crate::motion::triangulation::MovingTriangulation;
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// The finite cells and their neighbours.
-    ///
-    /// The first call after a change costs what that has changed, others constant time.
-    ///
-    /// ```
-    /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
-    ///
-    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
-    /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
-    /// let cells = t.cells()?;
-    /// for (row, neighbours) in cells.corners.iter().zip(cells.neighbours) {
-    ///     println!("{row:?} beside {neighbours:?}");
-    /// }
-    /// assert_eq!(cells.corners.len(), 2);
-    /// # Ok::<(), deldrift::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-    pub fn cells(&self) -> Result<CellsView<'_, G>> {
-        let cells = self.cell_arrays()?;
-        Ok(CellsView { corners: cells.corners(), neighbours: cells.neighbours() })
-    }
-
     /// The arrays that [`cells`](Self::cells) shows, as the caller's own: for programs that have shown them to others,
     /// who may look at them for longer than until the next change. The triangulation goes on with copies.
     ///
@@ -51,10 +26,6 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory); then nothing has been handed over.
     pub fn release_cells(&mut self) -> Result<OwnedCells<G>> {
         self.mesh.views.cells_mut(&self.mesh.kernel)?.hand_over()
-    }
-
-    pub(in crate::motion) fn cell_arrays(&self) -> Result<&Cells<G>> {
-        self.mesh.views.cells(&self.mesh.kernel)
     }
 
     /// What has changed since this was last called: everything, as created, at the first call. Commits and immediate

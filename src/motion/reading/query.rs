@@ -2,7 +2,7 @@
 
 use crate::delaunay::{Dimension, IndexSet, Level, Place, Violation};
 use crate::error::Result;
-use crate::ids::{CellId, SegmentId, Slot, VertexId};
+use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
 use crate::motion::algorithms::Algorithm;
@@ -64,27 +64,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.mesh.n_present
     }
 
-    /// Ids given so far; those below it are valid unless removed.
-    pub fn id_count(&self) -> usize {
-        self.mesh.site_of.len()
-    }
-
     /// Whether the vertex is present.
     pub fn is_present(&self, vertex: VertexId) -> bool {
         self.mesh.is_present(vertex)
-    }
-
-    /// Number of finite cells.
-    pub fn cell_count(&self) -> usize {
-        self.mesh.kernel.complex().n_finite()
-    }
-
-    /// Position of a vertex at the current timestamp; a staged one is not seen.
-    ///
-    /// # Errors
-    /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
-    pub fn position(&self, vertex: VertexId) -> Result<G::Point> {
-        Ok(self.mesh.kernel.site(self.present_site("vertex", 0, vertex)?).point)
     }
 
     /// Where a vertex of this id is at the current timestamp, or where it will be inserted if that is staged.
@@ -306,13 +288,6 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Timestamp reached: 0 at creation.
     pub fn timestamp(&self) -> u64 {
         self.statistics.timestamp
-    }
-
-    /// The vertices that `refine` has added and that are there, ascending, each with the segment that it was put
-    /// on, [`SegmentId::NONE`] if there is none; not those of `stage_splits`.
-    pub fn made_vertices(&self) -> impl Iterator<Item = (VertexId, SegmentId)> {
-        let all = self.made.iter().flat_map(|made| made.vertices());
-        all.copied().filter(|&(v, _)| self.mesh.is_present(v))
     }
 
     /// Bytes held, views included.

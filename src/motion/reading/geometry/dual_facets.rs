@@ -27,13 +27,12 @@ use crate::ids::{CellId, VertexId};
 use crate::machine::{memory, threads};
 use crate::motion::reading::geometry::cells_within::Region;
 use crate::motion::reading::geometry::centres::{Centres, SHARED_AT_LEAST};
-use crate::motion::reading::geometry::clipping::{
-    Clip, Vector, cross, dot, in_space, length_by, minus, times,
-};
+use crate::motion::reading::geometry::clipping::{Clip, Vector, dot, length_by, minus, times};
 use crate::motion::reading::geometry::incidence::Edge;
 use crate::motion::reading::geometry::polytopes::Polytope;
 use crate::motion::reading::geometry::sums::LEAST_SQUARE;
 use crate::motion::reading::geometry::voronoi::Voronoi;
+use crate::motion::reading::geometry::whole_facets::Facet;
 use crate::motion::reading::progress::Progress;
 use crate::motion::triangulation::MovingTriangulation;
 
@@ -63,19 +62,6 @@ pub struct VoronoiFacet<P> {
     pub derivatives: [P; 2],
 }
 
-/// A facet: measure, centroid, derivatives.
-pub(super) type Facet = (f64, Vector, [Vector; 2]);
-
-/// Sums over triangles of a facet, with lengths in some unit.
-pub(super) struct Polygon {
-    /// The measure times the length of the vector along the edge, and times two in space.
-    pub(super) weight: f64,
-    /// The sum of the lengths of its sides.
-    pub(super) perimeter: f64,
-    /// The sum of the offsets of its points from the middle of the edge, times as much.
-    pub(super) moment: Vector,
-}
-
 /// What the area of a facet is to its perimeter, in sizes of the box, where it is narrow: twice what corners are off,
 /// and room for what the unit is less than the size. Then the quotient of its moment and its measure may be anywhere.
 const NARROW: f64 = 4e-8;
@@ -84,41 +70,6 @@ const NARROW: f64 = 4e-8;
 const FACETS_AT_A_TIME: usize = 1 << 15;
 
 impl<G: Dimension> Voronoi<'_, G> {
-    /// The facet of the ring of an edge, of which `half` is a half and `along` any vector along it.
-    pub(super) fn whole_polygon(&self, x: &Vector, half: &Vector, along: &Vector, unit: f64) -> Polygon {
-        let from_middle =
-            |cell: CellId| minus(&times(&minus(&in_space::<G>(&self.centres.of(cell).place), x), unit), half);
-        let way = |p: &Vector, q: &Vector| {
-            let way = minus(q, p);
-            dot(&way, &way).sqrt()
-        };
-        let first = from_middle(self.ring.cells[0]);
-        let mut before = from_middle(self.ring.cells[1]);
-        if G::D == 2 {
-            let step = minus(&before, &first);
-            let weight = (step[0] * along[1] - step[1] * along[0]).abs();
-            let moment = times(&[first[0] + before[0], first[1] + before[1], 0.0], 0.5 * weight);
-            return Polygon { weight, perimeter: 2.0, moment };
-        }
-        let mut polygon = Polygon { weight: 0.0, perimeter: way(&first, &before), moment: [0.0; 3] };
-        for &cell in &self.ring.cells[2..] {
-            let next = from_middle(cell);
-            let part = dot(along, &cross(&minus(&before, &first), &minus(&next, &first)));
-            polygon.weight += part;
-            polygon.perimeter += way(&before, &next);
-            for axis in 0..3 {
-                polygon.moment[axis] += part * (first[axis] + before[axis] + next[axis]);
-            }
-            before = next;
-        }
-        polygon.perimeter += way(&before, &first);
-        // The ring may go either way around.
-        let sign = if polygon.weight < 0.0 { -1.0 } else { 1.0 };
-        polygon.weight *= sign;
-        polygon.moment = times(&polygon.moment, sign / 3.0);
-        polygon
-    }
-
     /// The facet of the ring, if it is in the box as a whole and not so narrow that it has to be put together from its
     /// corners.
     fn whole(&self, clip: &Clip, [x, y]: &[Vector; 2]) -> Option<Facet> {

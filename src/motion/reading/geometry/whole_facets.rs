@@ -14,9 +14,8 @@ use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::motion::reading::geometry::clipping::{
-    dot, greatest, in_space, length_by, minus, normalised, times, unit_of, without_unit,
+    Vector, cross, dot, greatest, in_space, length_by, minus, normalised, times, unit_of, without_unit,
 };
-use crate::motion::reading::geometry::dual_facets::Facet;
 use crate::motion::reading::geometry::voronoi::Voronoi;
 
 /// What corners are off in the unit of a facet, in which no coordinate of a way from its vertex to one of them is above 2, and
@@ -26,7 +25,55 @@ const OFF: f64 = 3.5e-8;
 /// What they are off besides, in magnitudes of coordinates.
 const OFF_BY_PLACE: f64 = 1e-15;
 
+/// A facet: measure, centroid, derivatives.
+pub(super) type Facet = (f64, Vector, [Vector; 2]);
+
+/// Sums over triangles of a facet, with lengths in some unit.
+pub(super) struct Polygon {
+    /// The measure times the length of the vector along the edge, and times two in space.
+    pub(super) weight: f64,
+    /// The sum of the lengths of its sides.
+    pub(super) perimeter: f64,
+    /// The sum of the offsets of its points from the middle of the edge, times as much.
+    pub(super) moment: Vector,
+}
+
 impl<G: Dimension> Voronoi<'_, G> {
+    /// The facet of the ring of an edge, of which `half` is a half and `along` any vector along it.
+    pub(super) fn whole_polygon(&self, x: &Vector, half: &Vector, along: &Vector, unit: f64) -> Polygon {
+        let from_middle =
+            |cell: CellId| minus(&times(&minus(&in_space::<G>(&self.centres.of(cell).place), x), unit), half);
+        let way = |p: &Vector, q: &Vector| {
+            let way = minus(q, p);
+            dot(&way, &way).sqrt()
+        };
+        let first = from_middle(self.ring.cells[0]);
+        let mut before = from_middle(self.ring.cells[1]);
+        if G::D == 2 {
+            let step = minus(&before, &first);
+            let weight = (step[0] * along[1] - step[1] * along[0]).abs();
+            let moment = times(&[first[0] + before[0], first[1] + before[1], 0.0], 0.5 * weight);
+            return Polygon { weight, perimeter: 2.0, moment };
+        }
+        let mut polygon = Polygon { weight: 0.0, perimeter: way(&first, &before), moment: [0.0; 3] };
+        for &cell in &self.ring.cells[2..] {
+            let next = from_middle(cell);
+            let part = dot(along, &cross(&minus(&before, &first), &minus(&next, &first)));
+            polygon.weight += part;
+            polygon.perimeter += way(&before, &next);
+            for axis in 0..3 {
+                polygon.moment[axis] += part * (first[axis] + before[axis] + next[axis]);
+            }
+            before = next;
+        }
+        polygon.perimeter += way(&before, &first);
+        // The ring may go either way around.
+        let sign = if polygon.weight < 0.0 { -1.0 } else { 1.0 };
+        polygon.weight *= sign;
+        polygon.moment = times(&polygon.moment, sign / 3.0);
+        polygon
+    }
+
     /// The facet of an edge, of which `first` is a cell: its centroid as seen from the edge's first vertex. Where it has no
     /// end, or none within the range of numbers, its measure is infinite and the rest NaN.
     pub(super) fn facet_without_box(&mut self, edge: [VertexId; 2], first: CellId) -> Result<Facet> {

@@ -2,9 +2,10 @@
 //!
 //! An exchange is a flip that is not made for the sake of the empty sphere, and may have ghost cells on either side.
 
-use super::{Delaunay, Dimension, Untangling};
+use super::key;
+use super::untangling::Untangling;
 use crate::complex::{Corners, Facet, INFINITE, NewCell};
-use crate::delaunay::flip::key;
+use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
@@ -66,7 +67,7 @@ fn with_ghost_last<C: Corners>(corners: C) -> C {
 impl<G: Dimension> Delaunay<G> {
     /// Exchanges the cells at a facet, or those at an edge of it if these are three; given a point within all, only if
     /// the new cells are positive. Whether that has been done.
-    pub(in crate::delaunay::flip) fn exchange_across(
+    pub(super) fn exchange_across(
         &mut self,
         facet: Facet,
         inner: Option<&G::Point>,
