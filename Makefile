@@ -125,7 +125,7 @@ lint: ## format, clippy, documentation, freshness of the header
 	RUSTDOCFLAGS=-Dwarnings cargo doc --no-deps
 	cargo test --test ffi header
 
-header: ## include/deldrift.h and deldrift/research.h, from the sources in src/capi, docs/FUNCTIONS.md and docs/ABUSE.md
+header: ## include/deldrift.h and its parts, from the sources in src/capi, docs/FUNCTIONS.md and docs/ABUSE.md
 	DELDRIFT_UPDATE_HEADER=1 cargo test --test ffi header_is_what_the_sources_say
 	DELDRIFT_UPDATE_HEADER=1 cargo test --test ffi table_of_functions
 	DELDRIFT_UPDATE_HEADER=1 cargo test --test ffi abuse

@@ -11,13 +11,13 @@ endif()
 
 # Without debug information, and with no other symbols than those of the headers.
 set(stripped "${PROJECT_BINARY_DIR}/stripped")
+file(GLOB headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/deldrift/*.h")
 add_custom_command(OUTPUT "${stripped}/libdeldrift.so" "${stripped}/libdeldrift.a"
   COMMAND "${CMAKE_COMMAND}" "-DFROM=${libraries}" "-DTO=${stripped}"
           "-DHEADERS=${PROJECT_SOURCE_DIR}/include"
           "-DSTRIP=${CMAKE_STRIP}" "-DLINKER=${CMAKE_LINKER}" "-DOBJCOPY=${CMAKE_OBJCOPY}" "-DAR=${CMAKE_AR}"
           -P "${CMAKE_CURRENT_LIST_DIR}/strip.cmake"
-  DEPENDS "${libraries}/libdeldrift.so" "${libraries}/libdeldrift.a" "${PROJECT_SOURCE_DIR}/include/deldrift.h"
-          "${PROJECT_SOURCE_DIR}/include/deldrift/research.h" "${CMAKE_CURRENT_LIST_DIR}/strip.cmake"
+  DEPENDS "${libraries}/libdeldrift.so" "${libraries}/libdeldrift.a" ${headers} "${CMAKE_CURRENT_LIST_DIR}/strip.cmake"
   COMMENT "Stripping the libraries" VERBATIM)
 add_custom_target(deldrift_stripped ALL DEPENDS "${stripped}/libdeldrift.so" "${stripped}/libdeldrift.a")
 

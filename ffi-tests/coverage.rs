@@ -64,7 +64,7 @@ fn every_function_is_called_on_a_tour() {
 
 #[test]
 fn every_status_is_asserted() {
-    let header = text_of("include/deldrift.h");
+    let header = text_of("include/deldrift/core.h");
     let (_, from) = header.split_once("deldrift_status : uint32_t").expect("there are statuses");
     let (statuses, _) = from.split_once("};").expect("an enumeration ends");
     let statuses: Vec<&str> =

@@ -5,15 +5,17 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::abuse;
+use crate::abuse::declarations::refused_by_boxes;
 use crate::coverage::{declarations, function_name};
 use crate::support::{Linkage, build, command, fresh_folder, headers, repository, succeed, text_of};
 
 const TABLE: &str = "docs/FUNCTIONS.md";
 
-/// A function of the header, the first sentence of its documentation, and all of it in one line.
-struct Function {
-    name: String,
-    summary: String,
+/// A function of the headers, the first sentence of its documentation, and all of it in one line.
+pub struct Function {
+    pub name: String,
+    pub summary: String,
     documentation: String,
 }
 
@@ -32,7 +34,7 @@ fn table_of_functions_is_what_the_header_says() {
     for (function, row) in functions.iter().zip(rows) {
         let [name, summary, test, example] = row[..] else { panic!("{row:?}") };
         assert_eq!(name, format!("`{}`", function.name), "{TABLE} is stale: run make header and commit it");
-        assert_eq!(summary, function.summary, "{TABLE} is stale: run make header and commit it");
+        assert_eq!(summary, escaped(&function.summary), "{TABLE} is stale: run make header and commit it");
         assert!(calls(linked(test), function) > 0, "{test} does not call {name}");
         assert!(calls(linked(example), function) > 0, "{example} does not call {name}");
     }
@@ -84,19 +86,16 @@ fn callbacks_are_called_from_where_the_header_says() {
     assert_eq!(missing, SHORT, "these may be cancelled, the header says, and no callback is called");
 }
 
-/// docs/PERIODIC.md has in a table what the header lists, some of it as ranges in the order of the header. That boxes refuse
-/// these and no others is tried by ffi-tests/abuse.rs.
+/// docs/PERIODIC.md has in a table what the header names, some of it as ranges in the order of the headers. That boxes
+/// refuse these and no others is tried by ffi-tests/abuse.rs.
 #[test]
 fn page_on_boxes_has_what_the_header_says_that_they_refuse() {
     let functions = functions();
     let at = |name: &str| {
         functions.iter().position(|function| function.name == name).unwrap_or_else(|| panic!("{name}"))
     };
-    let create = &functions[at("deldrift_create_periodic")].documentation;
-    let (_, list) = create.split_once("which return DELDRIFT_PERIODIC: ").expect("they are listed");
-    let (list, _) = list.split_once(". ").expect("a sentence ends");
-    let listed: BTreeSet<&str> =
-        list.split([',', ' ']).filter(|word| word.starts_with("deldrift_")).collect();
+    let refused = refused_by_boxes(&abuse::declarations::declarations());
+    let listed: BTreeSet<&str> = refused.iter().map(String::as_str).collect();
     let page = text_of("docs/PERIODIC.md");
     let (_, table) = page.split_once("refused with `DELDRIFT_PERIODIC`").expect("the page has a table");
     let rows =
@@ -115,9 +114,32 @@ fn page_on_boxes_has_what_the_header_says_that_they_refuse() {
     assert_eq!(on_page, listed);
 }
 
+/// The first page has rules that hold for all functions, so that the documentation of a function has what is its own.
+#[test]
+fn what_holds_for_all_functions_is_said_once() {
+    let rules = [
+        "DELDRIFT_MISALIGNED_ARGUMENT",
+        "DELDRIFT_BUFFER_TOO_SMALL",
+        "asks for the count",
+        "also written when the buffer",
+        "same time as any other call",
+        "from any number of threads",
+        "read during the call",
+        "After a change the first call",
+        "Ends all views",
+    ];
+    let mut repeated = Vec::new();
+    for Function { name, documentation, .. } in functions() {
+        repeated.extend(
+            rules.iter().filter(|rule| documentation.contains(**rule)).map(|rule| (name.clone(), *rule)),
+        );
+    }
+    assert!(repeated.is_empty(), "the first page says this of all functions: {repeated:?}");
+}
+
 #[test]
 fn every_status_has_a_cause_and_a_remedy() {
-    let header = text_of("include/deldrift.h");
+    let header = text_of("include/deldrift/core.h");
     let (_, from) = header.split_once("deldrift_status : uint32_t").expect("there are statuses");
     let (statuses, _) = from.split_once("};").expect("an enumeration ends");
     let statuses: BTreeSet<&str> =
@@ -131,7 +153,11 @@ fn every_status_has_a_cause_and_a_remedy() {
 
 /// In the order of the headers.
 fn functions() -> Vec<Function> {
-    let header = headers();
+    functions_of(&headers())
+}
+
+/// The functions that a header declares.
+pub fn functions_of(header: &str) -> Vec<Function> {
     let (mut functions, mut documentation) = (Vec::new(), String::new());
     for line in header.lines() {
         if let Some(text) = line.strip_prefix("///") {
@@ -141,10 +167,9 @@ fn functions() -> Vec<Function> {
             let end = stops
                 .find(|&at| !documentation[..at].ends_with('.'))
                 .map_or(documentation.len(), |at| at + 1);
-            let summary = documentation[..end].trim().replace('*', "\\*").replace('|', "\\|");
             functions.push(Function {
                 name: name.to_string(),
-                summary,
+                summary: documentation[..end].trim().to_string(),
                 documentation: documentation.clone(),
             });
         }
@@ -174,9 +199,15 @@ fn table(functions: &[Function]) -> String {
         let examples = if is_for_use { &examples } else { &of_research };
         let test = most_calls(&tests, function).map_or("-".into(), |path| link(&path));
         let example = most_calls(examples, function).map_or("-".into(), |path| link(&path));
-        let _ = writeln!(text, "| `{}` | {} | {test} | {example} |", function.name, function.summary);
+        let summary = escaped(&function.summary);
+        let _ = writeln!(text, "| `{}` | {summary} | {test} | {example} |", function.name);
     }
     text
+}
+
+/// A sentence in a table of Markdown.
+fn escaped(sentence: &str) -> String {
+    sentence.replace('*', "\\*").replace('|', "\\|")
 }
 
 /// Programs in C and C++.

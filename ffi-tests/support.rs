@@ -9,14 +9,11 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::{env, fs};
 
-use crate::algorithms;
 pub use crate::files::{repository, text_of};
+use crate::{algorithms, header};
 
 /// What the static library needs of the system, as `rustc --print native-static-libs` says.
 pub const SYSTEM_LIBRARIES: [&str; 5] = ["-lutil", "-lrt", "-lpthread", "-lm", "-ldl"];
-
-/// The headers for C.
-pub const HEADERS: [&str; 2] = ["include/deldrift.h", "include/deldrift/research.h"];
 
 /// Functions of the system in whose place `c/requests.h` has its own.
 const REPLACED: [&str; 9] = [
@@ -31,9 +28,9 @@ const REPLACED: [&str; 9] = [
     "writev",
 ];
 
-/// The texts of the headers for C, one after the other.
+/// The texts of the headers that declare functions for C, one after the other.
 pub fn headers() -> String {
-    HEADERS.map(text_of).concat()
+    header::paths().map(text_of).collect()
 }
 
 /// The programs in a folder, by file name, in alphabetical order.

@@ -84,14 +84,18 @@ fn headers_have_no_names_that_are_macros_of_others() {
     let program = |headers: &str, uses: &str| {
         format!("{headers}\n#include \"{}\"\n{uses}\nint main(void) {{ return 0; }}\n", macros.display())
     };
-    let c = program(&headers_of_the_system(&["include"], "h"), "#include <deldrift/research.h>");
+    let c = program(
+        &headers_of_the_system(&["include", "include/deldrift"], "h"),
+        "#include <deldrift/research.h>",
+    );
     let folders = ["include", "include/deldrift", "include/deldrift/cgal"];
     let names =
         ["Delaunay_triangulation_2", "Constrained_Delaunay_triangulation_2", "Delaunay_triangulation_3"];
     let triangulations =
         names.map(|name| format!("template class deldrift::cgal::{name}<deldrift::cgal::Kernel, int>;"));
     let uses = format!("#include <deldrift/cgal.hpp>\n{}", triangulations.join("\n"));
-    let cpp = headers_of_the_system(&["include"], "h") + &headers_of_the_system(&folders, "hpp");
+    let cpp = headers_of_the_system(&["include", "include/deldrift"], "h")
+        + &headers_of_the_system(&folders, "hpp");
     let (c, cpp) = (write(&folder, "c.c", &c), write(&folder, "cpp.cpp", &program(&cpp, &uses)));
     for (standard, source) in [for_all(&C, &[&c]), for_all(&CPP, &[&cpp])].concat() {
         for is_clang in [false, true] {

@@ -419,7 +419,7 @@ impl<'c, G: Dimension> History<'c, G> {
 fn all_agree<G: Dimension>() {
     let mut counts = Counts::default();
     for algorithm in lasting_algorithms() {
-        for seed in seeds(100) {
+        for seed in seeds(60) {
             let mut history = History::<G>::new(algorithm, seed, &mut counts);
             for _ in 0..4 {
                 history.phase();

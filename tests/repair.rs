@@ -136,7 +136,7 @@ fn all_agree<G: Dimension>() {
     let together = Algorithm::ALL.into_iter().filter(|a| a.row().commits == Commits::Together);
     for algorithm in together.chain([Algorithm::Auto]) {
         let (mut flips, mut placements, mut rebuilds, mut within) = (0, 0, 0, 0);
-        let seeds = seeds(1000);
+        let seeds = seeds(500);
         let n = seeds.end;
         for seed in seeds {
             let sums = agree::<G>(algorithm, seed);
@@ -193,7 +193,7 @@ fn relocations_by_auto_match_fresh_builds() {
 #[test]
 fn walks_begin_in_a_cell_after_flips() {
     let mut flips = 0;
-    let seeds = seeds(2000);
+    let seeds = seeds(1000);
     let n = seeds.end;
     for seed in seeds {
         let mut rng = Rng::new(seed);

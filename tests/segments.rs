@@ -853,3 +853,36 @@ fn staged_segments_without_an_end_go_through_compactions() {
         assert_eq!(refused, Error::Conflict { conflict, others: 0 });
     }
 }
+
+/// A refused commit takes back what it has done to cells that are named by their slots, so none of its ways may sort the cells of a
+/// large set after it has begun.
+#[test]
+fn a_refused_commit_of_a_large_set_leaves_all_as_it_was() {
+    let rng = &mut Rng::new(1);
+    let mut points: Vec<[f64; 2]> = (0..17_000).map(|_| [rng.unit(), 0.05 + 0.9 * rng.unit()]).collect();
+    // Vertices on both sides of the segment, and far enough from it.
+    points.iter_mut().filter(|p| (p[1] - 0.5).abs() < 0.01).for_each(|p| p[1] += 0.02);
+    points.extend([[-0.01, 0.5], [1.01, 0.5]]);
+    let ends = [17_000, 17_001].map(VertexId::new);
+    let shaken = |points: &[[f64; 2]], by: f64, rng: &mut Rng| -> Vec<[f64; 2]> {
+        points.iter().map(|p| p.map(|x| x + by * (2.0 * rng.unit() - 1.0))).collect()
+    };
+    for algorithm in Algorithm::ALL {
+        let options = Options { algorithm: Algorithm::Repair, ..Options::default() };
+        let mut t = Triangulation::new(&points, options).expect("a build");
+        t.stage_segments([Segment { ends, ..Segment::default() }].into_iter()).expect("present");
+        t.commit_timestamp().expect("no conflict");
+        // Flips replace about as many cells as there are, which is not enough to sort them when the commit ends.
+        t.commit_positions(&shaken(&points, 0.003, rng)).expect("no conflict");
+        t.set_algorithm(algorithm);
+        let before = t.saved().expect("room");
+        let mut goals: Vec<_> =
+            (0..points.len()).map(|v| t.position(VertexId::at(v)).expect("present")).collect();
+        goals = shaken(&goals, 1e-6, rng);
+        // A vertex comes to be on the segment.
+        (goals[17_000], goals[17_001], goals[0]) = ([0.0, 0.5], [1.0, 0.5], [0.5, 0.5]);
+        assert!(matches!(t.commit_positions(&goals), Err(Error::Conflict { .. })), "{algorithm:?}");
+        assert!(t.saved().expect("room") == before, "{algorithm:?}");
+        t.validate(deldrift::motion::Level::Delaunay).expect("as it was");
+    }
+}

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use super::declarations::{Declaration, Parameter, statuses};
+use super::declarations::{Declaration, Parameter, refused_by_boxes, statuses};
 use super::roles::{Role, is_of_bytes, role};
 use super::rows::{ROWS, Row};
 
@@ -46,7 +46,10 @@ pub fn program(functions: &[Declaration]) -> String {
     let mut text = format!("#define STATUS_NAMES {names}\n#include \"harness.h\"\n\n");
     let mut list = String::from("const function functions[] = {\n");
     let mut calls = String::from("deldrift_status call(size_t k) {\n    switch (k) {\n");
-    let refused = refused_of_periodic(functions);
+    // Nor do those for comparisons serve a periodic triangulation.
+    let is_of_research = |function: &&Declaration| function.name.starts_with("deldrift_research_");
+    let of_research = functions.iter().filter(is_of_research).map(|function| function.name.clone());
+    let refused: BTreeSet<String> = refused_by_boxes(functions).into_iter().chain(of_research).collect();
     for (k, function) in functions.iter().enumerate() {
         let Some(row) = ROWS.iter().find(|row| row.function == function.name) else {
             panic!("{} has no row in ffi-tests/abuse/rows.rs", function.name);
@@ -92,20 +95,6 @@ pub fn program(functions: &[Declaration]) -> String {
         + &calls
         + "        default: return DELDRIFT_INTERNAL_ERROR;\n    }\n}\n\n\
            int main(void) {\n    try_all();\n    return 0;\n}\n"
-}
-
-/// The functions that the header says do not serve a periodic triangulation; those for comparisons do not either.
-fn refused_of_periodic(functions: &[Declaration]) -> BTreeSet<String> {
-    let create = functions.iter().find(|function| function.name == "deldrift_create_periodic");
-    let documentation = create.expect("it is declared").documentation();
-    let (_, list) = documentation.split_once("which return DELDRIFT_PERIODIC: ").expect("they are listed");
-    let (list, _) = list.split_once(". ").expect("a sentence ends");
-    let listed: BTreeSet<String> =
-        list.split([',', ' ']).filter(|word| word.starts_with("deldrift_")).map(str::to_string).collect();
-    let declared = |name: &&String| functions.iter().all(|function| function.name != **name);
-    assert_eq!(listed.iter().find(declared), None, "it is no function");
-    let of_research = functions.iter().map(|function| function.name.clone());
-    listed.into_iter().chain(of_research.filter(|name| name.starts_with("deldrift_research_"))).collect()
 }
 
 /// A call as an expression that gives a status.

@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 
 use crate::coverage::declarations as lines_of_code;
-use crate::support::{HEADERS, text_of};
+use crate::header;
+use crate::support::text_of;
 
 /// A parameter: its type, with one space before the stars, and its name.
 #[derive(Clone)]
@@ -13,6 +14,8 @@ pub struct Parameter {
 }
 
 pub struct Declaration {
+    /// The path of the header that declares it.
+    pub header: &'static str,
     pub name: String,
     pub returns: String,
     pub parameters: Vec<Parameter>,
@@ -40,10 +43,6 @@ impl Declaration {
         self.parameters.iter().any(tells)
     }
 
-    pub fn documentation(&self) -> &str {
-        &self.documentation
-    }
-
     /// What the documentation says after "Errors:".
     pub fn errors(&self) -> &str {
         self.documentation.split_once("Errors:").map_or("", |(_, errors)| errors)
@@ -55,20 +54,45 @@ impl Declaration {
         list.split_once("All others").map(|(list, _)| list)
     }
 
-    /// The statuses after "Errors:", and those that the first page names for all that take a triangulation.
+    /// The statuses after "Errors:", and those that the first page names for all functions of its kind.
     pub fn documented_statuses(&self) -> BTreeSet<String> {
-        let common =
-            ["NULL_ARGUMENT", "MISALIGNED_ARGUMENT", "BUSY", "POISONED", "INTERNAL_ERROR", "PERIODIC"];
-        let common = common.iter().filter(|_| self.takes_t()).map(|name| format!("DELDRIFT_{name}"));
+        let is_pointer = |parameter: &Parameter| parameter.c_type.ends_with('*');
+        let rules: [(bool, &[&str]); 3] = [
+            (self.parameters.iter().any(is_pointer), &["NULL_ARGUMENT", "MISALIGNED_ARGUMENT"]),
+            (self.has("capacity"), &["BUFFER_TOO_SMALL"]),
+            (self.takes_t(), &["BUSY", "POISONED", "INTERNAL_ERROR", "PERIODIC"]),
+        ];
+        let common = rules.iter().filter(|(holds, _)| *holds).flat_map(|(_, names)| *names);
+        let common = common.map(|name| format!("DELDRIFT_{name}"));
         let known = statuses();
         let named = self.errors().split(|c: char| !c.is_ascii_alphanumeric() && c != '_').map(str::to_string);
         named.filter(|word| known.contains(word)).chain(common).collect()
     }
 }
 
+/// The functions that do not serve a periodic triangulation, as deldrift_create_periodic names them: one header as a
+/// whole, and others one by one.
+pub fn refused_by_boxes(functions: &[Declaration]) -> BTreeSet<String> {
+    let create = functions.iter().find(|function| function.name == "deldrift_create_periodic");
+    let documentation = &create.expect("it is declared").documentation;
+    let (_, refused) = documentation.split_once("but those of deldrift/").expect("a header is named");
+    let (header, list) =
+        refused.split_once(" and the following, which return DELDRIFT_PERIODIC: ").expect("they are listed");
+    let header = format!("include/deldrift/{header}");
+    let (list, _) = list.split_once(". ").expect("a sentence ends");
+    let listed: BTreeSet<String> =
+        list.split([',', ' ']).filter(|word| word.starts_with("deldrift_")).map(str::to_string).collect();
+    let declared = |name: &&String| functions.iter().all(|function| function.name != **name);
+    assert_eq!(listed.iter().find(declared), None, "it is no function");
+    let of_header = functions.iter().filter(|function| function.header == header && function.takes_t());
+    let of_header: Vec<String> = of_header.map(|function| function.name.clone()).collect();
+    assert!(!of_header.is_empty(), "{header} has no function");
+    listed.into_iter().chain(of_header).collect()
+}
+
 /// The names of the statuses, in the order of their numbers.
 pub fn statuses() -> Vec<String> {
-    let header = text_of("include/deldrift.h");
+    let header = text_of("include/deldrift/core.h");
     let (_, from) = header.split_once("deldrift_status : uint32_t").expect("there are statuses");
     let (statuses, _) = from.split_once("};").expect("an enumeration ends");
     let names = lines_of_code(statuses).filter_map(|line| line.split_once(" = "));
@@ -77,11 +101,12 @@ pub fn statuses() -> Vec<String> {
 
 /// In the order of the headers.
 pub fn declarations() -> Vec<Declaration> {
-    HEADERS.into_iter().flat_map(|header| declarations_in(&text_of(header))).collect()
+    header::paths().flat_map(declarations_in).collect()
 }
 
-fn declarations_in(header: &str) -> Vec<Declaration> {
-    let (_, functions) = header.split_once("extern \"C\" {").expect("functions come after the types");
+fn declarations_in(header: &'static str) -> Vec<Declaration> {
+    let text = text_of(header);
+    let (_, functions) = text.split_once("extern \"C\" {").expect("functions come after the types");
     let (mut found, mut documentation, mut code) = (Vec::new(), String::new(), String::new());
     let mut is_body = false;
     for line in functions.lines() {
@@ -94,14 +119,14 @@ fn declarations_in(header: &str) -> Vec<Declaration> {
             is_body = line.ends_with('{');
         }
         if code.ends_with("; ") || is_body && !code.is_empty() {
-            found.push(declaration(&code, &documentation));
+            found.push(declaration(header, &code, &documentation));
             (documentation, code) = Default::default();
         }
     }
     found
 }
 
-fn declaration(code: &str, documentation: &str) -> Declaration {
+fn declaration(header: &'static str, code: &str, documentation: &str) -> Declaration {
     let (head, rest) = code.split_once('(').unwrap_or_else(|| panic!("{code} is no function"));
     let (parameters, _) = rest.rsplit_once(')').unwrap_or_else(|| panic!("{code} has no end"));
     let (returns, name) = head.rsplit_once([' ', '*']).unwrap_or_else(|| panic!("{head} has no type"));
@@ -112,6 +137,7 @@ fn declaration(code: &str, documentation: &str) -> Declaration {
         Parameter { c_type: c_type.trim().to_string(), name: name.to_string() }
     });
     Declaration {
+        header,
         name: name.to_string(),
         returns: returns.trim().to_string(),
         parameters: parameters.collect(),

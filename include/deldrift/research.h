@@ -5,8 +5,8 @@
  *
  * No program needs this to triangulate: deldrift.h has the algorithms for use, and in the recorded report each of these
  * is slower than one of those in most or all rows. What is here is for comparisons with the report, as cpp-bench makes
- * them. It is in the same library, and works on the triangulations of deldrift.h, whose first page holds here as well. It
- * may change with every version: compile a program with the header of the library that it runs with.
+ * them. It is in the same library, and works on the triangulations of deldrift.h, whose first page holds here as well.
+ * It may change with every version: compile a program with the header of the library that it runs with.
  *
  *     #include <deldrift/research.h>
  *
@@ -88,14 +88,13 @@ extern "C" {
 /// Changes the algorithm of later commits to one of research, until deldrift_set_algorithm chooses another. Staged
 /// moves stay. What the new algorithm needs and the old one did not keep is computed by the next commit.
 ///
-/// options: NULL for the defaults; read during the call only. DELDRIFT_RESEARCH_REBUILDING_TOLERANCE goes by them from
-/// the next commit on; it starts over with rebuilding if another algorithm was in force. deldrift_get_algorithm gives
-/// the number of the algorithm.
+/// options: NULL for the defaults. DELDRIFT_RESEARCH_REBUILDING_TOLERANCE goes by them from the next commit on; it
+/// starts over with rebuilding if another algorithm was in force. deldrift_get_algorithm gives the number of the
+/// algorithm.
 ///
 /// Cost: n + m at most, to free what the old one keeps.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_OPTIONS. Not to be called at the same
-/// time as any other call on t.
+/// Errors: DELDRIFT_INVALID_OPTIONS.
 deldrift_status deldrift_research_set_algorithm(deldrift_triangulation *t,
                                                 deldrift_research_algorithm algorithm,
                                                 const deldrift_research_options *options);
@@ -105,8 +104,6 @@ deldrift_status deldrift_research_set_algorithm(deldrift_triangulation *t,
 /// after.
 ///
 /// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT.
 deldrift_status deldrift_research_within_safe_region(const deldrift_triangulation *t,
                                                      uint64_t *count);
 
@@ -118,14 +115,12 @@ deldrift_status deldrift_research_within_safe_region(const deldrift_triangulatio
 /// with the same centre: the inner one through the vertices of the facet, the outer one through the two
 /// vertices opposite it. The widths are certified lower bounds, 0 where nothing is certain.
 ///
-/// widths: a buffer with room for capacity numbers. count: receives the number of entries, 3 (2D) or 4 (3D)
-/// times that of the cells, which is also written when the buffer is too small. NULL with capacity 0 asks
-/// for the count alone.
+/// widths: a buffer with room for capacity numbers. count: receives the number of entries, 3 (2D) or 4 (3D) times that
+/// of the cells.
 ///
-/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+/// Cost: m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_research_annulus_widths(const deldrift_triangulation *t,
                                                  double *widths,
                                                  size_t capacity,
@@ -142,8 +137,7 @@ deldrift_status deldrift_research_annulus_widths(const deldrift_triangulation *t
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET, DELDRIFT_OUT_OF_MEMORY. After
-/// a change the first call also does what the first deldrift_cells does.
+/// Errors: DELDRIFT_NO_SUCH_FACET, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_research_standard_delimiter(const deldrift_triangulation *t,
                                                      uint32_t cell,
                                                      uint32_t corner,

@@ -87,7 +87,7 @@ class PeriodicDelaunay(Near, Measured, Meeting, Transferring, Writing):
     algorithm : {"auto", "rebuilding", "placement_flips", "tolerance", "repair"}, optional
         How `move` brings the triangulation to new positions. All give the same simplices.
     threads : int, optional
-        The most threads that a call may use, 0 for as many as pay.
+        The most threads that a call may use, 0 for as many as make it faster.
     parts : int, optional
         The most parts into which work is divided where that shows in the order of simplices, 0 for one a thread. With
         any other number the same calls give the same answers, to the last bit, on any number of threads.

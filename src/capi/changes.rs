@@ -6,16 +6,15 @@ use super::status::deldrift_status;
 use crate::ids::{CellId, VertexId};
 use crate::motion::Changes;
 
-/// What has changed since the program last took the changes: lists that belong to the triangulation, valid
-/// until the next call that changes it. A pointer is NULL if its list is empty.
+/// What has changed since the program last took the changes. The lists belong to the triangulation, and are valid until
+/// the next call that changes it. A pointer is NULL if its list is empty.
 ///
-/// A cell is its set of vertices: one that existed before and exists now is neither created nor removed, whatever has
-/// happened in between. It keeps its index unless it is listed as renumbered. Its row keeps the order of the
-/// vertices, except if the cell was turned over by a motion through a flat cell, or was removed and created
-/// again in between. A program with data per cell updates it in three steps:
-/// set aside those of removed cells, and of renumbered ones by old index; write the latter to their new
-/// indices; make those of created cells. Neighbours change only at cells that are listed, and at the
-/// neighbours of those.
+/// A cell is its set of vertices. One that existed before and exists now is neither created nor removed, whatever has
+/// happened in between. It keeps its index unless it is listed as renumbered. Its row keeps the order of the vertices,
+/// except if the cell was turned over by a motion through a flat cell, or was removed and created again in between. A
+/// program with data per cell updates them in three steps. Set aside those of removed cells, and of renumbered ones by
+/// old index. Write the latter to their new indices. Make those of created cells. Neighbours change only at cells that
+/// are listed, and at the neighbours of those.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct deldrift_changes {
@@ -28,7 +27,7 @@ pub struct deldrift_changes {
     /// The index that each had.
     pub removed: *const u32,
     /// removed_count rows of 3 (2D) or 4 (3D) vertex ids: their vertices, in the order that their rows had when the
-    /// program last took the changes. Vertices may have been removed since; after a compaction those are DELDRIFT_NONE.
+    /// program last took the changes. Vertices may have been removed since. After a compaction those are DELDRIFT_NONE.
     pub removed_vertices: *const u32,
     /// Number of cells that existed under another index.
     pub renumbered_count: usize,
@@ -74,21 +73,21 @@ impl<C> From<Changes<'_, C>> for deldrift_changes {
     }
 }
 
-/// Takes what has changed since this was last called, to *changes: commits, immediate calls, insertions and removals
-/// alike. The first call lists all cells as created.
+/// Takes what has changed since the last call of this function, to *changes. It may have changed by commits or
+/// immediate calls. The first call lists all cells as created.
 ///
-/// A program that never calls this pays nothing for it; one that does pays in proportion to what has changed, and may
-/// call it as often or as rarely as it likes. Ends the lists of the call before; a view of the cells stays valid unless
-/// it is older than the last change. deldrift_cells takes constant time after it.
+/// A program that never calls this pays nothing for it. One that does pays in proportion to what has changed, and may
+/// call it as often or as rarely as it likes. It ends the lists of the call before. A view of the cells stays valid
+/// unless it is older than the last change. deldrift_cells takes constant time after it.
 ///
-/// Where the triangulation is periodic, a cell is its vertices with their shifts from each other (deldrift_cell_shifts): one is
-/// new if the program takes a vertex of it to another period, or gives other vectors of the lattice. From the first call on
-/// cells that stay keep their indices; a commit that builds anew may list their corners in another order.
+/// Where the triangulation is periodic, a cell is its vertices with their shifts from each other
+/// (deldrift_cell_shifts). It is new if the program takes a vertex of it to another period, or gives other vectors of
+/// the lattice. From the first call on cells that stay keep their indices. A commit that builds anew may list their
+/// corners in another order.
 ///
 /// Cost: what has changed; of the first call n + m. Where the triangulation is periodic, always n + m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_OUT_OF_MEMORY; then nothing has been taken.
-/// Not to be called at the same time as any other call on t.
+/// Errors: DELDRIFT_OUT_OF_MEMORY; then nothing has been taken.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_take_changes(
     t: *mut deldrift_triangulation,

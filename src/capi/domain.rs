@@ -17,18 +17,15 @@ pub(super) fn of_the_plane(t: &AnyTriangulation) -> Result<&MovingTriangulation<
     }
 }
 
-/// For each cell and each of its corners the segment at the edge opposite it, in the order of deldrift_cells: the lowest id
-/// if there are several, DELDRIFT_NONE if there is none. Ids are not places in the lists of deldrift_segments once segments
-/// have been removed.
+/// The segments at the edges of each cell, in the order of deldrift_cells: entry i of a row is the segment at the edge
+/// opposite corner i. It is the lowest id if there are several, DELDRIFT_NONE if there is none. Ids are not places in
+/// the lists of deldrift_segments once segments have been removed.
 ///
-/// segments: a buffer with room for capacity rows of 3 ids. count: receives the number of cells, which is also written when
-/// the buffer is too small. NULL with capacity 0 asks for the count alone.
+/// segments: a buffer with room for capacity rows of 3 ids. count: receives the number of cells.
 ///
-/// Cost: m, and for each segment the cells around an end. After a change the first call also does what the first
-/// deldrift_cells does.
+/// Cost: m, and for each segment the cells around an end.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_segments_of_cells(
     t: *const deldrift_triangulation,
@@ -48,16 +45,13 @@ pub unsafe extern "C" fn deldrift_segments_of_cells(
 
 /// The cells on both sides of each segment in force, in the order of deldrift_segments.
 ///
-/// cells: a buffer with room for capacity rows of 2 cells: that on the left of the segment, as seen from its first end
-/// along it, and that on its right; DELDRIFT_NONE for the outside, and for both while there are no cells. count: receives
-/// the number of segments, which is also written when the buffer is too small. NULL with capacity 0 asks for the count
-/// alone.
+/// cells: a buffer with room for capacity rows of 2 cells: the one on the left of the segment, as seen from its first
+/// end along it, and the one on its right. The outside is DELDRIFT_NONE, and so are both while there are no cells.
+/// count: receives the number of segments.
 ///
-/// Cost: for each segment the cells around an end. After a change the first call also does what the first deldrift_cells
-/// does.
+/// Cost: for each segment the cells around an end.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_cells_of_segments(
     t: *const deldrift_triangulation,
@@ -75,27 +69,24 @@ pub unsafe extern "C" fn deldrift_cells_of_segments(
     })
 }
 
-/// The nesting level of each cell, in the order of deldrift_cells: the least number of edges with segments on a path from the
-/// cell to the outside.
+/// The nesting level of each cell, in the order of deldrift_cells: the least number of edges with segments on a path
+/// from the cell to the outside.
 ///
-/// Cells outside of all closed chains of segments have 0, those of a domain 1, those of its holes 2, those of islands in
-/// these 3, and so on: the cells of the domain are those with an odd number. A segment with one region on both sides, such
-/// as a slit or an open chain, divides nothing, and several at the same edge count once. No seed is needed, and cells
-/// between the domain and the convex hull have 0. A domain that is divided in parts by further segments needs
+/// Cells outside of all closed chains of segments have 0, those of a domain 1, those of its holes 2, those of islands
+/// in these 3, and so on. The cells of the domain are those with an odd number. A segment with one region on both
+/// sides, such as a slit or an open chain, divides nothing, and several at the same edge count once. No seed is needed,
+/// and cells between the domain and the convex hull have 0. A domain that is divided in parts by further segments needs
 /// deldrift_label_cells: parts that do not touch the outside would have a higher level.
 ///
-/// This is the default of deldrift_refine, as a segment is a wall, however often it has been drawn: a side that two parts
-/// share, or an outline that is there twice, bounds what it would bound alone. deldrift_crossing_numbers is for chains that
-/// are meant by the even-odd rule.
+/// deldrift_refine takes these levels by default. For them a segment is a wall, however often it has been drawn: a side
+/// that two parts share, or an outline that is there twice, bounds what it would bound alone. deldrift_crossing_numbers
+/// is for chains that are meant by the even-odd rule.
 ///
-/// levels: a buffer with room for capacity numbers. count: receives the number of cells, which is also written when the
-/// buffer is too small. NULL with capacity 0 asks for the count alone.
+/// levels: a buffer with room for capacity numbers. count: receives the number of cells.
 ///
-/// Exact. Cost: m, and for each segment the cells around an end. After a change the first call also does what the first
-/// deldrift_cells does.
+/// Exact. Cost: m, and for each segment the cells around an end.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_nesting_levels(
     t: *const deldrift_triangulation,
@@ -110,24 +101,23 @@ pub unsafe extern "C" fn deldrift_nesting_levels(
     })
 }
 
-/// The crossing number of each cell, in the order of deldrift_cells: the least number of segments on a path from the cell to
-/// the outside, where each segment at an edge counts. Cells with an odd number are those that the even-odd rule fills.
+/// The crossing number of each cell, in the order of deldrift_cells: the least number of segments on a path from the
+/// cell to the outside, where each segment at an edge counts. Cells with an odd number are those that the even-odd rule
+/// fills.
 ///
-/// If segments form closed chains, so that an even number of them ends at each vertex, all paths from a cell cross as many
-/// but for an even number: the number is odd exactly if a ray from the cell crosses an odd number of segments. So a notch that
-/// is given as a second chain along a side is no part of the domain, and neither is anything if an outline is given twice;
-/// with deldrift_nesting_levels, which differs only where an edge has several segments, both are. The direction in which
-/// segments were given does not matter. Pieces of deldrift_stage_splits and deldrift_refine count each, as the segments do
-/// that they come from. At open chains, as slits and interfaces that divide a domain, the least number decides.
+/// If segments form closed chains, an even number of them ends at each vertex, and any two paths from a cell differ by
+/// an even number of crossings. So the number is odd exactly if a ray from the cell crosses an odd number of segments.
+/// A notch that is given as a second chain along a side is then no part of the domain, and neither is anything if an
+/// outline is given twice. With deldrift_nesting_levels, which differs only where an edge has several segments, both
+/// are. The direction in which segments were given does not matter. Pieces of deldrift_stage_splits and deldrift_refine
+/// count each, as the segments do that they come from. At open chains, as slits and interfaces that divide a domain,
+/// the least number decides.
 ///
-/// numbers: a buffer with room for capacity numbers. count: receives the number of cells, which is also written when the
-/// buffer is too small. NULL with capacity 0 asks for the count alone.
+/// numbers: a buffer with room for capacity numbers. count: receives the number of cells.
 ///
-/// Exact. Cost: m, s log s for s segments, and for each segment the cells around an end. After a change the first call also
-/// does what the first deldrift_cells does.
+/// Exact. Cost: m, s log s for s segments, and for each segment the cells around an end.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_crossing_numbers(
     t: *const deldrift_triangulation,
@@ -142,25 +132,22 @@ pub unsafe extern "C" fn deldrift_crossing_numbers(
     })
 }
 
-/// A label for each cell, in the order of deldrift_cells: that of the first seed in its region. A region is a set of cells
-/// that can be reached from each other without crossing a segment.
+/// A label for each cell, in the order of deldrift_cells: the label of the first seed in its region. A region is a set
+/// of cells that can be reached from each other without crossing a segment.
 ///
-/// seeds: seed_count rows of 2 coordinates; labels: as many numbers, any. Both are read during the call only, and may be
-/// NULL if seed_count is 0. A seed outside of the convex hull labels nothing. other: the label of cells in whose region no
-/// seed is. label_of: a buffer with room for capacity numbers. count: receives the number of cells, which is also written
-/// when the buffer is too small. NULL with capacity 0 asks for the count alone.
+/// seeds: seed_count rows of 2 coordinates. labels: as many numbers, any. A seed outside of the convex hull labels
+/// nothing. other: the label of cells in whose region no seed is. label_of: a buffer with room for capacity numbers.
+/// count: receives the number of cells.
 ///
-/// Holes are regions, too: give their seeds a label of their own. Without segments there is one region. A seed on a segment
-/// with one region on both sides is in that region. The outside of the convex hull is a region like the others, and one with
-/// those from which it is reached without crossing a segment: a seed on the hull, at a segment that bounds a region or at a
-/// corner of such ones, is on the boundary of two.
+/// Holes are regions, too: give their seeds a label of their own. Without segments there is one region. A seed on a
+/// segment with one region on both sides is in that region. The outside of the convex hull is a region like the others,
+/// together with the regions from which it is reached without crossing a segment. So a seed on the hull, at a segment
+/// that bounds a region or at a corner of such segments, is on the boundary of two regions.
 ///
-/// Exact. Cost: m, for each segment the cells around an end, and for each seed that of deldrift_locate. After a change the
-/// first call also does what the first deldrift_cells does.
+/// Exact. Cost: m, for each segment the cells around an end, and for each seed that of deldrift_locate.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_AMBIGUOUS_SEED for one that is exactly on
-/// the boundary of several regions, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_AMBIGUOUS_SEED for one that is exactly on the boundary of several regions, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_label_cells(
     t: *const deldrift_triangulation,
@@ -182,31 +169,30 @@ pub unsafe extern "C" fn deldrift_label_cells(
 }
 
 /// Computes the labels of some cells again, in an array that deldrift_label_cells has filled, or that is filled with
-/// nesting levels: each listed cell gets the label of the cells that it is reached from without crossing a segment, and that
-/// are not listed. Other entries are not touched.
+/// nesting levels. Each listed cell gets the label of the cells, not listed, from which it is reached without crossing
+/// a segment. Other entries are not touched.
 ///
 /// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once: the created ones of
-/// deldrift_take_changes, and those that have been turned over. A cell that was turned over is not in the change list; its
-/// row lists its corners in the opposite order, and it needs a label too: where the end of a segment goes to the other side
-/// of two vertices, the cell of the three comes to be beyond the segment, though no vertex passes one. NULL if cell_count is
-/// 0. other: the label of the cells outside of all closed chains of segments, along the hull: 0 for nesting levels, and for
-/// labels what deldrift_label_cells was given as other, or the label of a seed there. Cells that are reached from the outside
-/// of the hull alone get it, and so do those that are reached from no cell that is not listed, or from some of different
-/// labels. label_of: an array of capacity numbers, of which those of cells that are not listed are read. capacity: at least
-/// deldrift_cell_count. undecided: receives the number of cells of the last two kinds: if it is not 0, a region has listed
-/// cells only, or touches two labels, and it is time for deldrift_label_cells.
+/// deldrift_take_changes, and those that have been turned over. A cell that was turned over is not in the change list;
+/// its row lists its corners in the opposite order. It needs a label too: where the end of a segment goes to the other
+/// side of two vertices, the cell of the three is now beyond the segment, though no vertex has passed one. other: the
+/// label of the cells outside of all closed chains of segments, along the hull. For nesting levels it is 0, for labels
+/// what deldrift_label_cells was given as other, or the label of a seed there. Three kinds of cells get it: those that
+/// are reached from the outside of the hull alone, those that are reached from listed cells alone, and those that are
+/// reached from cells of different labels. label_of: an array of capacity numbers, of which those of cells that are not
+/// listed are read. capacity: at least deldrift_cell_count. undecided: receives the number of cells of the last two
+/// kinds. If it is not 0, a region has listed cells only, or touches two labels, and it is time for
+/// deldrift_label_cells.
 ///
-/// deldrift_update_circumcentres has the steps by which an array for all cells is brought up to date. While segments stay,
-/// and vertices move without passing any, labels stay with their regions: that is what deldrift_label_cells would give for
-/// seeds that move with these. Where a commit adds segments, both parts of a region have its label; where it removes some
-/// between regions of different labels, either label may go on: label anew then.
+/// deldrift_update_circumcentres has the steps by which an array for all cells is brought up to date. While segments
+/// stay, and vertices move without passing any, labels stay with their regions, as deldrift_label_cells would have them
+/// for seeds that move with these. Where a commit adds segments, both parts of a region have its label. Where it
+/// removes segments between regions of different labels, either label may go on: label anew then.
 ///
-/// Exact. Cost: of k cells k log k, and k log s for s segments. After a change the first call also does what the first
-/// deldrift_cells does.
+/// Exact. Cost: of k cells k log k, and k log s for s segments.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an index that is no
+/// cell's, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_update_labels(
     t: *const deldrift_triangulation,
@@ -235,27 +221,24 @@ pub unsafe extern "C" fn deldrift_update_labels(
     })
 }
 
-/// The boundary of some of the cells of the plane, in closed chains of edges, which have these cells on their left: an outer
-/// boundary goes counter-clockwise, that of a hole clockwise. With the mask of the cells that have an odd nesting level it is
-/// the boundary of a domain, and the markers of its segments tell what holds there.
+/// The boundary of some of the cells of the plane, in closed chains of edges, which have these cells on their left. An
+/// outer boundary goes counter-clockwise, that of a hole clockwise. With the mask of the cells that have an odd nesting
+/// level it is the boundary of a domain, and the markers of its segments tell what holds there.
 ///
-/// mask: mask_count bytes, one for each cell in the order of deldrift_cells (mask_count must be deldrift_cell_count); a cell
-/// is in the set if its byte is not 0. Read during the call only. Buffers with room for capacity entries, one for each edge;
-/// one that is NULL is not filled. vertices: where the edge begins; it ends where the next edge of its chain begins, the last
-/// one where the first of its chain does. chains: which chain it is in: 0, 1, ..., ascending. segments: the segment at it,
-/// the lowest id if there are several, DELDRIFT_NONE if there is none. cells: the cell of the set beside it. corners: which
-/// of its corners (0, 1, 2) is opposite. count: receives the number of edges, which is also written when the buffers are too
-/// small. NULL for all with capacity 0 asks for the count alone.
+/// mask: mask_count bytes, one for each cell in the order of deldrift_cells (mask_count must be deldrift_cell_count); a
+/// cell is in the set if its byte is not 0. The others are buffers with room for capacity entries, one for each edge.
+/// vertices: where the edge begins. It ends where the next edge of its chain begins, the last one where the first of
+/// its chain does. chains: the chain that it is in: 0, 1, ..., ascending. segments: the segment at it, the lowest id if
+/// there are several, DELDRIFT_NONE if there is none. cells: the cell of the set beside it. corners: which of its
+/// corners (0, 1, 2) is opposite. count: receives the number of edges.
 ///
-/// No chain crosses another, or itself: where parts of the set touch in a vertex, each part has a chain of its own. Each
-/// chain begins with its least edge, by the id of the vertex where an edge begins and then of that where it ends, and chains
-/// are in the order of these edges. So vertices, chains and segments depend only on the set.
+/// No chain crosses another, or itself: where parts of the set touch in a vertex, each part has a chain of its own.
+/// Each chain begins with its least edge, by the id of the vertex where an edge begins and then of that where it ends.
+/// Chains are in the order of these edges. So vertices, chains and segments depend only on the set.
 ///
-/// Exact. Cost: m, e log e for e edges, and for each segment the cells around an end. After a change the first call also
-/// does what the first deldrift_cells does.
+/// Exact. Cost: m, e log e for e edges, and for each segment the cells around an end.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_WRONG_COUNT, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_boundary_chains(
     t: *const deldrift_triangulation,

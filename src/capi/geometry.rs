@@ -14,20 +14,19 @@ use crate::motion::{BoundaryFacet, check_not_negative};
 
 /// The circumcentres and squared circumradii of all cells, in the order of deldrift_cells.
 ///
-/// centres: a buffer with room for capacity points. squared_radii: a buffer with room for capacity numbers. One
-/// that is NULL is not filled. count: receives the number of cells, which is also written when the buffers are
-/// too small. NULL for both with capacity 0 asks for the count alone.
+/// centres: a buffer with room for capacity points. squared_radii: a buffer with room for capacity numbers. count:
+/// receives the number of cells.
 ///
-/// Rounded: a coordinate of a centre is off by at most 1e-9 circumradii and its own rounding, a squared radius by
-/// 4e-9 of itself, however flat the cell; unless it is nearly flat, by a few last bits. What is too large for a
-/// number is infinite; nothing is NaN. One pass over the cells; nearly flat ones take a microsecond each.
+/// Rounded: a coordinate of a centre is off by at most 1e-9 circumradii and its own rounding, a squared radius by 4e-9
+/// of itself, however flat the cell. Unless the cell is nearly flat, they are off by a few last bits. What is too large
+/// for a number is infinite; nothing is NaN. One pass over the cells; nearly flat ones take a microsecond each.
 ///
-/// In a periodic triangulation a centre is where the cell's corner of the lowest id is at its own position, as
-/// deldrift_cell_shifts has it, and its rounding may be twice that of its coordinates and of the position's.
+/// In a periodic triangulation a centre is that of the cell whose corner of the lowest id is at its own position, as
+/// deldrift_cell_shifts has it. Its rounding may be twice that of its coordinates and of the position's.
 ///
-/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+/// Cost: m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_circumcentres(
     t: *const deldrift_triangulation,
@@ -57,16 +56,15 @@ pub unsafe extern "C" fn deldrift_circumcentres(
 
 /// The areas (2D) or volumes (3D) of all cells, in the order of deldrift_cells.
 ///
-/// volumes: a buffer with room for capacity numbers. count: receives the number of cells, which is also written
-/// when the buffer is too small. NULL with capacity 0 asks for the count alone.
+/// volumes: a buffer with room for capacity numbers. count: receives the number of cells.
 ///
 /// Rounded, with a relative error of at most 1e-9, and of a few last bits unless the cell is nearly flat: always
 /// positive. (Below the least normal number, 2.2e-308, they are less accurate.) One pass over the cells; nearly flat
 /// ones take up to a microsecond each.
 ///
-/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+/// Cost: m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_volumes(
     t: *const deldrift_triangulation,
@@ -83,21 +81,18 @@ pub unsafe extern "C" fn deldrift_volumes(
     })
 }
 
-/// Which cells have a circumradius of at most a given one, as for an alpha shape: 1 for those whose squared
-/// circumradius is at most squared_radius, 0 for the others, in the order of deldrift_cells.
+/// Which cells have a circumradius of at most a given one, as for an alpha shape, in the order of deldrift_cells. It is
+/// 1 for those whose squared circumradius is at most squared_radius, 0 for the others.
 ///
-/// squared_radius: 0 or more; infinity is all cells. mask: a buffer with room for capacity bytes. count: receives
-/// the number of cells, which is also written when the buffer is too small. NULL with capacity 0 asks for the count
-/// alone.
+/// squared_radius: 0 or more; infinity is all cells. mask: a buffer with room for capacity bytes. count: receives the
+/// number of cells.
 ///
-/// Exact: every entry is that of an exact comparison of squared_radius, as given, with the squared radius of the
-/// circle or sphere through the positions. One pass over the cells; where the two nearly agree, a cell takes a
-/// microsecond.
+/// Exact: squared_radius, as given, is compared exactly with the squared radius of the circle or sphere through the
+/// positions. One pass over the cells; where the two nearly agree, a cell takes a microsecond.
 ///
-/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+/// Cost: m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for a squared radius that is
-/// negative or NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_INVALID_VALUE for a squared radius that is negative or NaN, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_mask_by_circumradius(
     t: *const deldrift_triangulation,
@@ -117,27 +112,25 @@ pub unsafe extern "C" fn deldrift_mask_by_circumradius(
     })
 }
 
-/// Which cells are more than what the rounding of a straight or flat side has made: 0 for cells along the convex hull
-/// that are flat, 1 for the others, in the order of deldrift_cells.
+/// Which cells are more than what the rounding of a straight or flat side has made, in the order of deldrift_cells. It
+/// is 0 for cells along the convex hull that are flat, 1 for the others.
 ///
-/// tolerance: 0 or more, such as 1e-9; 0 is all cells. A cell is flat if its least height is at most tolerance times
-/// its longest edge. It has 0 if it is flat, and has a facet on the hull or on a cell that has 0. mask: a buffer with
-/// room for capacity bytes. count: receives the number of cells, which is also written when the buffer is too small.
-/// NULL with capacity 0 asks for the count alone.
+/// tolerance: 0 or more, such as 1e-9; with 0 no cell is flat. A cell is flat if its least height is at most tolerance
+/// times its longest edge. It has 0 if it is flat, and has a facet on the hull or on a cell that has 0. mask: a buffer
+/// with room for capacity bytes. count: receives the number of cells.
 ///
 /// Vertices that were meant to be on one line or plane are not, once their coordinates are rounded, and the hull goes
-/// over flat cells from one to the other. They are exactly Delaunay, and useless where a program divides by areas or
-/// volumes. Where no vertices but those of a side are nearly in line with it, the mask leaves these cells out and keeps
-/// all others: deldrift_mask_boundary then gives the sides as they were meant. Flat cells elsewhere are kept, as
-/// leaving them out would leave holes.
+/// over flat cells from one to the other. Those cells are exactly Delaunay, and useless where a program divides by
+/// areas or volumes. Where no vertices but those of a side are nearly in line with it, the mask leaves these cells out
+/// and keeps all others: deldrift_mask_boundary then gives the sides as they were meant. Flat cells elsewhere are kept,
+/// as leaving them out would leave holes.
 ///
-/// Rounded: a cell whose quotient of height and edge is tolerance but for a part of 1.1e-9 + 2e-15 / tolerance may get
-/// either.
+/// Rounded: a cell may get either number if its quotient of height and edge differs from tolerance by less than
+/// 1.1e-9 + 2e-15 / tolerance of it.
 ///
-/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+/// Cost: m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for a tolerance that is
-/// negative or NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_INVALID_VALUE for a tolerance that is negative or NaN, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_mask_without_flat_cells(
     t: *const deldrift_triangulation,
@@ -158,22 +151,19 @@ pub unsafe extern "C" fn deldrift_mask_without_flat_cells(
 
 /// The boundary of some of the cells: the facets between a cell in a mask and one that is not in it, or the outside.
 ///
-/// mask: mask_count bytes, one for each cell in the order of deldrift_cells (mask_count must be deldrift_cell_count);
-/// a cell is in it if its byte is not 0. Read during the call only. facets: a buffer with room for capacity rows of 2
-/// (2D) or 3 (3D) vertex ids. Facets are seen from outside: in 2D the cell in the mask is on the left of the edge from
-/// the first vertex to the second; in 3D the vertices are in counter-clockwise order as seen from the side away from
-/// the cell. cells, corners: buffers with room for capacity numbers, which receive that cell and which of its corners
-/// (0, 1, ...) is opposite the facet. One of the three that is NULL is not filled. count: receives the number of
-/// facets, which is also written when the buffers are too small. NULL for all three with capacity 0 asks for the
-/// count alone.
+/// mask: mask_count bytes, one for each cell in the order of deldrift_cells (mask_count must be deldrift_cell_count). A
+/// cell is in it if its byte is not 0. facets: a buffer with room for capacity rows of 2 (2D) or 3 (3D) vertex ids.
+/// Facets are seen from outside. In 2D the cell in the mask is on the left of the edge from the first vertex to the
+/// second. In 3D the vertices are in counter-clockwise order as seen from the side away from the cell. cells, corners:
+/// buffers with room for capacity numbers, which receive that cell and which of its corners (0, 1, ...) is opposite the
+/// facet. count: receives the number of facets.
 ///
-/// Facets are in ascending order of cell and then of corner. Exact. Two passes over the cells. In a periodic triangulation each
-/// is where deldrift_cell_shifts has its cell.
+/// Facets are in ascending order of cell and then of corner. Exact. Two passes over the cells. In a periodic
+/// triangulation each is where deldrift_cell_shifts has its cell.
 ///
-/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+/// Cost: m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_WRONG_COUNT, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_mask_boundary(
     t: *const deldrift_triangulation,
@@ -201,19 +191,15 @@ pub unsafe extern "C" fn deldrift_mask_boundary(
 
 /// The facets of the convex hull, in ascending order of cell and then of corner.
 ///
-/// facets: a buffer with room for capacity rows of 2 (2D) or 3 (3D) vertex ids. Facets are seen from outside: in 2D the
-/// cell is on the left of the edge from the first vertex to the second; in 3D the vertices are in counter-clockwise
-/// order as seen from the side away from the cell. cells, corners: buffers with room for capacity numbers, which
-/// receive the cell and which of its corners (0, 1, ...) is opposite the facet. One of the three that is NULL is not
-/// filled. count: receives the number of facets, which is also written when the buffers are too small. NULL for all
-/// three with capacity 0 asks for the count alone.
+/// facets, cells, corners: as for deldrift_mask_boundary, with all cells in the mask. count: receives the number of
+/// facets.
 ///
-/// Exact. One pass over the cells; constant time for the count alone. A periodic triangulation has none unless its box is open
-/// somewhere; to count them takes a pass over the cells.
+/// Exact. One pass over the cells; the count alone takes constant time. A periodic triangulation has no facets unless
+/// its box is open somewhere; counting them takes a pass over the cells.
 ///
-/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+/// Cost: m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_hull_facets(
     t: *const deldrift_triangulation,

@@ -227,8 +227,8 @@ impl<'a> Reading<'a> {
         })
     }
 
-    /// Runs the body of an entry that looks at a triangulation, periodic or not, for long, with a monitor that calls its
-    /// callbacks. These may look at it as well; calls that change it are turned away.
+    /// Runs the body of an entry that looks at a triangulation, periodic or not, for long, with a monitor that calls
+    /// its callbacks. These may look at it as well; calls that change it are turned away.
     pub(super) fn read_any_watched(
         self,
         body: impl FnOnce(&Content, &mut dyn FnMut(f64) -> bool) -> Result<(), Failure>,
@@ -384,7 +384,8 @@ macro_rules! in_its_period {
 }
 pub(super) use in_its_period;
 
-/// Evaluates an expression on what is in a triangulation that may be periodic, in its dimension: `in_any!(t => t.count())`.
+/// Evaluates an expression on what is in a triangulation that may be periodic, in its dimension: `in_any!(t =>
+/// t.count())`.
 macro_rules! in_any {
     ($t:ident => $body:expr) => {
         match $t {

@@ -13,17 +13,17 @@ use crate::machine::memory;
 use crate::motion::{Rows, check_corners};
 use crate::periodic::AnyPeriodic;
 
-/// The edges: rows of two vertex ids, the lower one first, each edge once, in lexicographic order. They are a
-/// function of positions and ids alone.
+/// The edges: rows of two vertex ids, the lower one first, each edge once, in lexicographic order. They depend on
+/// positions and ids alone.
 ///
-/// edges: a buffer with room for capacity rows. count: receives the number of edges, which is also written when the
-/// buffer is too small. NULL with capacity 0 asks for the count alone, in constant time.
+/// edges: a buffer with room for capacity rows. count: receives the number of edges. The count alone takes constant
+/// time.
 ///
 /// Takes some passes over the cells, and memory for the cells of each vertex while it runs.
 ///
-/// Cost: n + m. After a change the first call also does what the first deldrift_cells does.
+/// Cost: n + m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_edges(
     t: *const deldrift_triangulation,
@@ -42,25 +42,22 @@ pub unsafe extern "C" fn deldrift_edges(
     })
 }
 
-/// The neighbours of all vertices: for each id the vertices with which it shares an edge, ascending, one list after
-/// the other. Removed and hidden vertices have none. They are a function of positions and ids alone.
+/// The neighbours of all vertices: for each id the vertices with which it shares an edge, ascending, one list after the
+/// other. Removed and hidden vertices have none. The lists depend on positions and ids alone.
 ///
-/// offsets: a buffer for offset_count numbers, which must be deldrift_id_count + 1: the list of vertex v is in
-/// neighbours from the index that is entry v of offsets on, and ends before entry v + 1. neighbours: a buffer with room
-/// for capacity ids. One that is NULL is not filled, and its size not looked at, but capacity must be 0 then. count:
-/// receives the number of entries, twice that of the edges, which is also written when neighbours is too small. NULL
-/// for both asks for the count alone, in constant time.
+/// offsets: a buffer for offset_count numbers, which must be deldrift_id_count + 1. The list of vertex v begins in
+/// neighbours at the index that is entry v of offsets, and ends before entry v + 1. neighbours: a buffer with room for
+/// capacity ids. Where offsets is NULL, offset_count is not looked at; without neighbours capacity must be 0. count:
+/// receives the number of entries, twice that of the edges. The count alone takes constant time.
 ///
-/// Of a periodic triangulation a vertex is listed once for each edge that leads to it: several times where edges lead to it
-/// in several periods, and itself twice for each edge to itself.
+/// In a periodic triangulation a vertex is listed once for each edge that leads to it: several times where edges lead
+/// to it in several periods, and twice in its own list for each edge to itself.
 ///
 /// Takes some passes over the cells, and while it runs memory for the lists and for the cells of each vertex.
 ///
-/// Cost: n + m, and d log d for the d neighbours of each vertex; m log m for a periodic triangulation. After a change the first
-/// call also does what the first deldrift_cells does.
+/// Cost: n + m, and d log d for the d neighbours of each vertex; m log m for a periodic triangulation.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_WRONG_COUNT, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_vertex_neighbours(
     t: *const deldrift_triangulation,
@@ -87,21 +84,18 @@ pub unsafe extern "C" fn deldrift_vertex_neighbours(
 /// The cells of all vertices: for each id the indices of the cells that have it as a corner, ascending, one list
 /// after the other. Removed and hidden vertices have none.
 ///
-/// offsets: a buffer for offset_count numbers, which must be deldrift_id_count + 1: the list of vertex v is in cells
-/// from the index that is entry v of offsets on, and ends before entry v + 1. cells: a buffer with room for capacity
-/// indices. One that is NULL is not filled, and its size not looked at, but capacity must be 0 then. count: receives
-/// the number of entries, 3 (2D) or 4 (3D) times that of the cells, which is also written when cells is too small. NULL
-/// for both asks for the count alone, in constant time.
+/// offsets: a buffer for offset_count numbers, which must be deldrift_id_count + 1. The list of vertex v begins in
+/// cells at the index that is entry v of offsets, and ends before entry v + 1. cells: a buffer with room for capacity
+/// indices. Where offsets is NULL, offset_count is not looked at; without cells capacity must be 0. count: receives the
+/// number of entries, 3 (2D) or 4 (3D) times that of the cells. The count alone takes constant time.
 ///
-/// Of a periodic triangulation a cell is listed once for each of its corners that is the vertex, in whatever period.
+/// In a periodic triangulation a cell is listed once for each of its corners that is the vertex, in whatever period.
 ///
 /// Takes two passes over the cells, and memory for the lists while it runs.
 ///
-/// Cost: n + m; m log m for a periodic triangulation. After a change the first call also does what the first deldrift_cells
-/// does.
+/// Cost: n + m; m log m for a periodic triangulation.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_WRONG_COUNT, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_vertex_cells(
     t: *const deldrift_triangulation,
@@ -125,15 +119,14 @@ pub unsafe extern "C" fn deldrift_vertex_cells(
     })
 }
 
-/// A cell of each vertex, to cells: for each id the index of the first cell of which the vertex is a corner;
-/// DELDRIFT_NONE for those that are hidden or removed, whose insertion is staged, and while there are no cells.
+/// A cell of each vertex: for each id the index of the first cell of which the vertex is a corner. Vertices that are
+/// hidden or removed, or whose insertion is staged, have DELDRIFT_NONE, and so have all while there are no cells.
 ///
-/// cells: a buffer with room for capacity indices. count: receives deldrift_id_count, which is also written when the
-/// buffer is too small. NULL with capacity 0 asks for the count alone.
+/// cells: a buffer with room for capacity indices. count: receives deldrift_id_count.
 ///
-/// Cost: n + m. After a change the first call also does what the first deldrift_cells does.
+/// Cost: n + m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_cell_of_each_vertex(
     t: *const deldrift_triangulation,
@@ -150,19 +143,19 @@ pub unsafe extern "C" fn deldrift_cell_of_each_vertex(
     })
 }
 
-/// Cells that have given vertices as corners, to cells: for each of count simplices the index of one, DELDRIFT_NONE if
-/// there is none. So it tells which edges of a list are in the triangulation, and which facets.
+/// Cells that have given vertices as corners: for each of count simplices the index of one, DELDRIFT_NONE if there is
+/// none. So it tells which edges of a list are in the triangulation, and which facets.
 ///
 /// corners_per_simplex: 1 (a cell of each vertex), 2 (edges), 3 (triangles) or, in 3D, 4. vertices: count rows of as
-/// many ids, in any order; NULL if count is 0. A hidden vertex stands for the one that represents it. A simplex with
-/// two corners at the same place is in no cell, unless t is periodic and a cell has them in different periods. cells: receives count indices; NULL if count is 0.
+/// many ids, in any order. A hidden vertex stands for the one that represents it. A simplex with two corners at the
+/// same place is in no cell, unless t is periodic and a cell has them in different periods. cells: receives count
+/// indices.
 ///
-/// Cost: for each simplex the least number of cells that a corner of it has, or, where there are more simplices than an
-/// eighth of the vertices, n + m and that. After a change the first call also does what the first deldrift_cells does.
+/// Cost: for each simplex the least number of cells that a corner of it has. Where there are more simplices than an
+/// eighth of the vertices, also n + m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for
-/// another number of corners, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX,
-/// DELDRIFT_OUT_OF_MEMORY; then nothing is written.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for another number of corners, DELDRIFT_NO_SUCH_VERTEX,
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_find_simplices(
     t: *const deldrift_triangulation,
@@ -189,16 +182,15 @@ pub unsafe extern "C" fn deldrift_find_simplices(
     })
 }
 
-/// The mirror indices of all facets: entry i of the row of a cell, in the order of deldrift_cells, is about the facet
-/// opposite corner i. It is the corner (0, 1, ...) of the neighbour beyond that is opposite the same facet, 255 on
-/// the hull. In a periodic triangulation a cell may be its own neighbour.
+/// The mirror indices of all facets, in the order of deldrift_cells. Entry i of the row of a cell is about the facet
+/// opposite corner i. It is the corner (0, 1, ...) of the neighbour beyond that is opposite the same facet, 255 on the
+/// hull. In a periodic triangulation a cell may be its own neighbour.
 ///
-/// mirrors: a buffer with room for capacity rows of 3 (2D) or 4 (3D) bytes. count: receives the number of cells, which
-/// is also written when the buffer is too small. NULL with capacity 0 asks for the count alone.
+/// mirrors: a buffer with room for capacity rows of 3 (2D) or 4 (3D) bytes. count: receives the number of cells.
 ///
-/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+/// Cost: m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_mirror_indices(
     t: *const deldrift_triangulation,
@@ -223,14 +215,14 @@ pub unsafe extern "C" fn deldrift_mirror_indices(
     })
 }
 
-/// The mirror index of one facet, to *mirror: the corner of the neighbour beyond that is opposite the same facet;
-/// DELDRIFT_NONE for a facet of the hull.
+/// The mirror index of one facet, to *mirror: the corner of the neighbour beyond that is opposite the same facet,
+/// DELDRIFT_NONE on the hull.
 ///
 /// cell, corner: the facet opposite this corner (0, 1, ...) of this cell, an index into deldrift_cells.
 ///
-/// Cost: constant. After a change the first call also does what the first deldrift_cells does.
+/// Cost: constant.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_NO_SUCH_FACET, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_mirror_index(
     t: *const deldrift_triangulation,
@@ -246,19 +238,16 @@ pub unsafe extern "C" fn deldrift_mirror_index(
     })
 }
 
-/// The star of a vertex of the plane in the order in which one goes around it: the indices of the cells that have it
-/// as a corner, counter-clockwise. Each shares an edge with the next one, and the last one with the first one, unless
-/// the vertex is on the convex hull. There the first cell is the one at the hull's edge that leaves the vertex when
-/// the hull is passed counter-clockwise; elsewhere it is the one of lowest index. For a hidden vertex the star of its
-/// representative.
+/// The star of a vertex of the plane, counter-clockwise: the indices of the cells that have it as a corner. Each cell
+/// shares an edge with the next one, and the last one with the first one, unless the vertex is on the convex hull.
+/// There the first cell is the one at the hull's edge that leaves the vertex when the hull is passed counter-clockwise.
+/// Elsewhere it is the one of lowest index. A hidden vertex has the star of its representative.
 ///
-/// cells: a buffer with room for capacity indices. count: receives their number, which is also written when the buffer
-/// is too small. NULL with capacity 0 asks for the count alone.
+/// cells: a buffer with room for capacity indices. count: receives their number.
 ///
-/// Cost: the cells of the star. After a change the first call also does what the first deldrift_cells does.
+/// Cost: the cells of the star.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL,
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX,
 /// DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_ordered_star(
@@ -301,8 +290,8 @@ struct Lists<'a> {
 }
 
 impl Lists<'_> {
-    /// Writes the lists of so many ids, of which some are of staged insertions, with `needed` entries, if the buffers are large
-    /// enough, and tells that number.
+    /// Writes the lists of so many ids, of which some are of staged insertions, with `needed` entries, if the buffers
+    /// are large enough, and tells that number.
     fn fill<T>(
         self,
         [n_ids, coming]: [usize; 2],

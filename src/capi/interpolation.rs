@@ -16,9 +16,9 @@ use crate::motion::{Interpolation, VertexValues};
 pub enum deldrift_interpolation {
     /// Linear in each cell.
     DELDRIFT_INTERPOLATION_LINEAR = 0,
-    /// By the natural neighbours of a position, the vertices that would share an edge with it: each with the length or
-    /// area of the Voronoi facet between the two over their distance (Laplace's, or non-Sibsonian interpolation).
-    /// Smooth but at vertices and on the circles or spheres of cells.
+    /// By the natural neighbours of a position, which are the vertices that would share an edge with it. The weight of
+    /// each is the length or area of the Voronoi facet between the two over their distance (Laplace's, or non-Sibsonian
+    /// interpolation). Smooth except at vertices and on the circles or spheres of cells.
     DELDRIFT_INTERPOLATION_NATURAL_NEIGHBOUR = 1,
 }
 
@@ -27,27 +27,24 @@ pub type InterpolationCode = u32;
 
 /// Interpolates values of the vertices at count positions.
 ///
-/// values: value_count rows of n_values numbers, one for each id (value_count must be deldrift_id_count); rows of
-/// removed and hidden vertices are not used: it is that of the representative that counts. positions: 2 or 3 numbers
-/// each. All are read during the call only. hint: where to begin to look for the first position, as for
-/// deldrift_locate_points; NULL if nothing is known. It is fastest if each position is near the one before it. outside:
-/// what positions outside the convex hull get, n_values numbers; NULL for NaN. While there are no cells, all positions
-/// but those of vertices are outside. results: receives count rows of n_values numbers. values may be NULL if
-/// value_count or n_values is 0, positions and results if count is 0.
+/// values: value_count rows of n_values numbers, one for each id (value_count must be deldrift_id_count). Rows of
+/// removed vertices are not used, and for a hidden vertex the row of its representative counts. hint: as for
+/// deldrift_locate_points. It is fastest if each position is near the one before it. outside: what positions outside
+/// the convex hull get, n_values numbers; NULL for NaN. While there are no cells, all positions but those of vertices
+/// are outside. results: receives count rows of n_values numbers. values may also be NULL if n_values is 0.
 ///
 /// At the place of a vertex the result is that of the vertex. Elsewhere it is rounded, and linear functions are
 /// reproduced but for rounding, with either method. Which cell or which neighbours count is decided exactly. A position
 /// takes as long as deldrift_locate_points, and with natural neighbours some microseconds more.
 ///
-/// In a periodic triangulation positions may be in any period, and are rounded as for deldrift_locate. An image of a
-/// vertex has the values of the vertex; natural neighbours of a position are images, several of one vertex in a small box.
+/// In a periodic triangulation an image of a vertex has the values of the vertex. Natural neighbours of a position are
+/// images, several of one vertex in a small box.
 ///
 /// Cost: count times that of deldrift_locate and n_values; with natural neighbours also the cells whose circle or
-/// sphere has the position inside. After a change the first call also does what the first deldrift_cells does.
+/// sphere has the position inside.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for a
-/// method that this version does not have, DELDRIFT_WRONG_COUNT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE (of
-/// positions), DELDRIFT_OUT_OF_MEMORY; then nothing is written.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for a method that this version does not have,
+/// DELDRIFT_WRONG_COUNT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE (of positions), DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_interpolate(
     t: *const deldrift_triangulation,
@@ -108,26 +105,22 @@ fn ids_of(t: &Content) -> (usize, usize) {
 
 /// The barycentric coordinates of count positions, each in a cell that is given: rows of 3 (2D) or 4 (3D) numbers, one
 /// for each corner in the order of deldrift_cells. They are for programs that keep weights, to carry values with them
-/// more than once; deldrift_interpolate has others of its own, which may differ in last bits, and more where a cell is
-/// flat.
+/// more than once. The weights of deldrift_interpolate may differ in last bits, and more where a cell is flat.
 ///
-/// positions: 2 or 3 numbers each. cells: count indices into deldrift_cells, as deldrift_locate_points gives them;
-/// DELDRIFT_NONE is no cell, for which the row is NaN. Both are read during the call only. weights: receives count
-/// rows. All may be NULL if count is 0. A position may be outside of its cell: then some of its coordinates are
-/// negative.
+/// cells: count indices into deldrift_cells, as deldrift_locate_points gives them. DELDRIFT_NONE is no cell: its row is
+/// NaN. weights: receives count rows. A position may be outside of its cell: then some of its coordinates are negative.
 ///
 /// The sign of each is exact, and so is 0; the value has a relative error of at most 2.5e-13, however flat the cell.
 /// (Where an area, a volume or the value itself is below the least normal number, 2.2e-308, it is less accurate.) What
 /// is beyond the range of numbers is infinite. A row adds up to 1 but for these errors.
 ///
-/// In a periodic triangulation positions may be in any period, and are rounded as for deldrift_locate. The weights are
-/// those in the translation of the cell that has the position inside or on its boundary; where there is none, the row is NaN.
+/// In a periodic triangulation the weights are those in the translation of the cell that has the position inside or on
+/// its boundary; where there is none, the row is NaN.
 ///
-/// Cost: count. After a change the first call also does what the first deldrift_cells does.
+/// Cost: count.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_NO_SUCH_FACET if there is no cell of an index, DELDRIFT_OUT_OF_MEMORY; then nothing
-/// is written.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_NO_SUCH_FACET if there is no
+/// cell of an index, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_barycentric(
     t: *const deldrift_triangulation,

@@ -11,22 +11,22 @@ use crate::in_its_dimension;
 
 /// Creates a triangulation, as deldrift_create does, of vertices that have keys.
 ///
-/// A key is what breaks ties in place of the id. Where points are cocircular or cospherical, the cells are those of the
-/// order of keys; vertices of equal keys are in the order of their positions, by x, then y, then z. Of several vertices at the
-/// same place the one of the lowest key, and of those the one of the lowest id, is the corner of cells. So cells follow from
-/// positions and keys, and a program may give ids in any order: images of a vertex in a periodic box, or copies of those of
-/// other processes, have the key of the vertex. Without a key of its own a vertex has its id for one.
+/// A key breaks ties in place of the id. Where points are cocircular or cospherical, the cells are those of the order
+/// of keys. Vertices of equal keys are in the order of their positions, by x, then y, then z. Of several vertices at
+/// the same place the one of the lowest key, and of those the one of the lowest id, is the corner of cells. So cells
+/// follow from positions and keys, and a program may give ids in any order. Images of a vertex in a periodic box, or
+/// copies of vertices of other processes, have the key of the vertex. Without a key of its own a vertex has its id for
+/// one.
 ///
-/// keys: count of them, in the order of positions, any numbers; read during the call only. NULL stands for the ids.
-/// All else is as in deldrift_create. Where vertices have keys they take 8 bytes for each id, deldrift_compact leaves them
-/// as they are, and vertices that deldrift_refine and deldrift_stage_splits make have the greatest key, 2^64 - 1.
+/// keys: count of them, in the order of positions, any numbers. NULL stands for the ids. All else is as in
+/// deldrift_create. Keys take 8 bytes for each id, and deldrift_compact leaves them as they are. Vertices that
+/// deldrift_refine and deldrift_stage_splits make have the greatest key, 2^64 - 1.
 ///
 /// Cost: that of deldrift_create.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_INVALID_OPTIONS, DELDRIFT_NULL_ARGUMENT,
-/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
-/// DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS,
-/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. May be called from any number of threads at once.
+/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_INVALID_OPTIONS, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_VERTICES,
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_create_with_keys(
     dimension: u32,
@@ -40,16 +40,16 @@ pub unsafe extern "C" fn deldrift_create_with_keys(
     guard::enter(|| create(dimension, positions, (!keys.is_null()).then_some(keys), count, options, out))
 }
 
-/// Stages the insertion of count vertices, as deldrift_stage_insertions does, with keys; see deldrift_create_with_keys.
+/// Stages the insertion of count vertices, as deldrift_stage_insertions does, with keys. deldrift_create_with_keys says
+/// what these are.
 ///
-/// keys: count of them, in the order of positions, read during the call only. NULL stands for the ids. The others are as in
+/// keys: count of them, in the order of positions. NULL stands for the ids. The others are as in
 /// deldrift_stage_insertions.
 ///
 /// Cost: count, in the mean over many calls; the first keys of a triangulation also n.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
-/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_OUT_OF_MEMORY. Not to
-/// be called at the same time as any other call on t.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_VERTICES,
+/// DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_stage_insertions_with_keys(
     t: *mut deldrift_triangulation,
@@ -74,23 +74,24 @@ pub unsafe extern "C" fn deldrift_stage_insertions_with_keys(
     })
 }
 
-/// Stages the insertion of count vertices, as deldrift_stage_insertions_with_keys does, under ids that are given again:
-/// those of removed vertices, the lowest first, and after these the ones above the highest id given so far. So
-/// deldrift_id_count does not grow where vertices come and go for ever. An id is free from the removal of its vertex, or the
-/// commit of that, until it is given here; deldrift_discard_moves makes those that are staged free again.
+/// Stages the insertion of count vertices, as deldrift_stage_insertions_with_keys does, under ids that are given again.
+/// They get the ids of removed vertices, the lowest first, and after these the ones above the highest id given so far.
+/// So deldrift_id_count does not grow where vertices come and go for ever. An id is free from the removal of its
+/// vertex, or the commit of that, until it is given here. deldrift_discard_moves makes those that are staged free
+/// again.
 ///
-/// Who has kept an id of a removed vertex sees another vertex under it. In lists of changes it is as if the vertex had
-/// moved: cells that have the same ids as before are not listed, whether or not an id is that of another vertex. Not
-/// given again are ends of staged segments, and those of segments that have been split, as long as there are pieces of them.
+/// A program that has kept the id of a removed vertex sees another vertex under it. In lists of changes it is as if the
+/// vertex had moved: cells that have the same ids as before are not listed, whether or not an id is that of another
+/// vertex. The ends of staged segments are not given again, and neither are those of segments that have been split, as
+/// long as there are pieces of them.
 ///
-/// keys: count keys, or NULL for the ids. vertices: room for count ids, receives that of each vertex, ascending; both may be
-/// NULL if count is 0. The others are as in deldrift_stage_insertions.
+/// keys: count keys, or NULL for the ids. vertices: room for count ids, receives that of each vertex, ascending; both
+/// The others are as in deldrift_stage_insertions.
 ///
 /// Cost: n + count, a pass over 4 bytes for each id; and the segments.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
-/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_OUT_OF_MEMORY. Not to
-/// be called at the same time as any other call on t.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_VERTICES,
+/// DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_stage_insertions_at_free_ids(
     t: *mut deldrift_triangulation,
@@ -116,17 +117,15 @@ pub unsafe extern "C" fn deldrift_stage_insertions_at_free_ids(
     })
 }
 
-/// Inserts a vertex at once, as deldrift_insert_vertex does, with a key; see deldrift_create_with_keys.
+/// Inserts a vertex at once, as deldrift_insert_vertex does, with a key. deldrift_create_with_keys says what that is.
 ///
-/// position: 2 or 3 numbers, read during the call only. key: any number. out_vertex: receives the id, one above the highest
-/// given so far.
+/// key: any number. out_vertex: receives the id, one above the highest given so far.
 ///
 /// Cost: that of deldrift_insert_vertex; the first key of a triangulation also n.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
-/// DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_ON_SEGMENT, DELDRIFT_TOO_MANY_VERTICES,
-/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other
-/// call on t.
+/// Errors: DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it),
+/// DELDRIFT_ON_SEGMENT, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY,
+/// DELDRIFT_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_insert_vertex_with_key(
     t: *mut deldrift_triangulation,
@@ -143,15 +142,13 @@ pub unsafe extern "C" fn deldrift_insert_vertex_with_key(
     })
 }
 
-/// The key of each vertex by id, to keys: what it has been given, or else its id; also of vertices whose insertion is
-/// staged. The entries of removed vertices are 0.
+/// The key of each vertex by id, to keys: the one that it was given, or else its id. Vertices whose insertion is staged
+/// have theirs, too. The entries of removed vertices are 0.
 ///
-/// keys: receives them: a buffer with room for capacity keys; NULL with capacity 0 if it is not wanted, NULL with another is
-/// DELDRIFT_NULL_ARGUMENT. count: receives deldrift_id_count, which is also written when the buffer is too small.
+/// keys: receives them: a buffer with room for capacity keys; NULL with capacity 0 if it is not wanted. count: receives
+/// deldrift_id_count.
 ///
 /// Cost: n.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_keys(
     t: *const deldrift_triangulation,

@@ -8,23 +8,19 @@ use super::pointers::{Array, Buffer, Offer, Output, given};
 use super::status::{Failure, deldrift_status};
 use crate::ids::{CellId, VertexId};
 
-/// The cells around some vertices: the indices of those of which at least one of the vertices is a corner, ascending,
-/// each once.
+/// The cells around some vertices: those that have at least one of the vertices as a corner, ascending, each once.
 ///
-/// vertices: vertex_count ids, in any order, some maybe more than once; hidden vertices have no cells. NULL if
-/// vertex_count is 0. cells: a buffer with room for capacity indices; deldrift_cell_count is always enough. count:
-/// receives the number of indices, which is also written when the buffer is too small. NULL with capacity 0 asks for
-/// the count alone, which takes as long.
+/// vertices: vertex_count ids, in any order, some maybe more than once; hidden vertices have no cells. cells: a buffer
+/// with room for capacity indices; deldrift_cell_count is always enough. count: receives the number of indices.
 ///
-/// After a commit, the cells around the vertices that have moved and those that deldrift_take_changes lists as created
-/// are all whose shape has changed: with the functions that follow, a program that keeps an array for all cells updates
-/// those entries alone.
+/// After a commit, only two kinds of cells have changed their shape: those around the vertices that have moved, and
+/// those that deldrift_take_changes lists as created. With the functions that follow, a program that keeps an array for
+/// all cells updates those entries alone.
 ///
-/// Cost: the cells of the stars, and k log k for the k of them; m at most, and for a periodic triangulation. After a change the
-/// first call also does what the first deldrift_cells does.
+/// Cost: the cells of the stars, and k log k for the k of them; m at most, and for a periodic triangulation.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX,
+/// DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_cells_around(
     t: *const deldrift_triangulation,
@@ -43,23 +39,22 @@ pub unsafe extern "C" fn deldrift_cells_around(
 }
 
 /// Computes circumcentres and squared circumradii of some cells again, in arrays that deldrift_circumcentres has
-/// filled: for each index in cells, the entry of this index becomes that of the cell. Other entries are not touched.
+/// filled. For each index in cells, the entry of this index becomes that of the cell. Other entries are not touched.
 ///
-/// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once. NULL if cell_count is 0.
-/// centres: an array with room for capacity points. squared_radii: an array with room for capacity numbers. One that
-/// is NULL is not filled, but not both. capacity: at least deldrift_cell_count.
+/// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once. centres: an array with room
+/// for capacity points. squared_radii: an array with room for capacity numbers. One that is NULL is not filled, but not
+/// both. capacity: at least deldrift_cell_count.
 ///
-/// After a change an array for all cells is brought up to date in three steps: its entries follow renumbered cells as
-/// deldrift_changes says; then this is called for the created cells; and then for those that deldrift_cells_around
+/// After a change an array for all cells is brought up to date in three steps. Its entries follow renumbered cells as
+/// deldrift_changes says. Then this is called for the created cells, and then for those that deldrift_cells_around
 /// gives for the vertices that have moved. The values are then those of deldrift_circumcentres, with the same accuracy.
-/// Their last bits may be others where a cell was removed and created again in between, as they depend on the order in
+/// Their last bits may differ where a cell was removed and created again in between, as they depend on the order in
 /// which the library keeps its corners. It pays while fewer than a tenth of the vertices move, or a third if they are
-/// neighbours; beyond that the pass of deldrift_circumcentres is faster.
+/// neighbours. Beyond that the pass of deldrift_circumcentres is faster.
 ///
-/// Cost: cell_count. After a change the first call also does what the first deldrift_cells does.
+/// Cost: cell_count.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an
-/// index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an index that is no cell's, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_update_circumcentres(
     t: *const deldrift_triangulation,
@@ -87,20 +82,19 @@ pub unsafe extern "C" fn deldrift_update_circumcentres(
     })
 }
 
-/// Computes the areas (2D) or volumes (3D) of some cells again, in an array that deldrift_volumes has filled: for each
-/// index in cells, the entry of this index becomes that of the cell. Other entries are not touched.
+/// Computes the areas (2D) or volumes (3D) of some cells again, in an array that deldrift_volumes has filled. Entries
+/// are as for deldrift_update_circumcentres.
 ///
-/// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once. NULL if cell_count is 0.
-/// volumes: an array with room for capacity numbers. capacity: at least deldrift_cell_count.
+/// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once. volumes: an array with room
+/// for capacity numbers. capacity: at least deldrift_cell_count.
 ///
 /// deldrift_update_circumcentres has the steps by which an array for all cells is brought up to date, and when that
-/// pays. The values are then those of deldrift_volumes, with its accuracy; last bits may be others where a cell was
+/// pays. The values are then those of deldrift_volumes, with its accuracy; last bits may differ where a cell was
 /// removed and created again.
 ///
-/// Cost: cell_count. After a change the first call also does what the first deldrift_cells does.
+/// Cost: cell_count.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an
-/// index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an index that is no cell's, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_update_volumes(
     t: *const deldrift_triangulation,
@@ -120,23 +114,20 @@ pub unsafe extern "C" fn deldrift_update_volumes(
 }
 
 /// Decides for some cells again whether their circumradius is at most a given one, in a mask that
-/// deldrift_mask_by_circumradius has filled for the same one: for each index in cells, the entry of this index becomes
-/// that of the cell. Other entries are not touched.
+/// deldrift_mask_by_circumradius has filled for the same one. Entries are as for deldrift_update_circumcentres.
 ///
-/// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once. NULL if cell_count is 0.
-/// squared_radius: 0 or more; infinity is all cells. mask: an array with room for capacity bytes. capacity: at least
-/// deldrift_cell_count.
+/// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once. squared_radius: 0 or more;
+/// infinity is all cells. mask: an array with room for capacity bytes. capacity: at least deldrift_cell_count.
 ///
 /// deldrift_update_circumcentres has the steps by which an array for all cells is brought up to date, and when that
 /// pays.
 ///
 /// Exact: a mask that is kept up to date is that of a full pass, byte by byte.
 ///
-/// Cost: cell_count. After a change the first call also does what the first deldrift_cells does.
+/// Cost: cell_count.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for a
-/// squared radius that is negative or NaN, DELDRIFT_NO_SUCH_FACET for an index that is no cell's,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for a squared radius that is negative or NaN,
+/// DELDRIFT_NO_SUCH_FACET for an index that is no cell's, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_update_mask_by_circumradius(
     t: *const deldrift_triangulation,

@@ -51,18 +51,13 @@ const _: () = assert!(size_of::<deldrift_location>() == size_of::<[u32; 2]>());
 
 /// Where a point lies, exactly, to *location.
 ///
-/// position: 2 or 3 numbers.
-///
-/// In a periodic triangulation the point is rounded to the grid of deldrift_create_periodic, as a vertex would be; it may
-/// be in any period. The location is that of the translation of a vertex or a cell that is there:
-/// deldrift_locate_in_period tells which one. It is outside only of what is open in some direction.
+/// In a periodic triangulation the location is that of the translation of a vertex or a cell that is there;
+/// deldrift_locate_in_period tells which one. A point can be outside only where the box is open in some direction.
 ///
 /// Cost: the cells that a walk crosses from where an earlier one ended, or from a vertex that is near: a few for most
-/// sets, m at most. While there are no cells, constant; n in a periodic one. After a change the first call also does what
-/// the first deldrift_cells does.
+/// sets, m at most. While there are no cells, constant; n in a periodic one.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
-/// DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_locate(
     t: *const deldrift_triangulation,
@@ -73,19 +68,17 @@ pub unsafe extern "C" fn deldrift_locate(
     tell_any!(t, location => t.locate(position.of("position", t)?)?.into())
 }
 
-/// Where count points lie, exactly, to locations, which has room for count: as count calls of deldrift_locate,
-/// and faster if each point is near the one before it. deldrift_locate_in_period also tells in which period of a periodic
-/// triangulation.
+/// Where count points lie, exactly, to locations, which has room for count. It gives what count calls of
+/// deldrift_locate give, and is faster if each point is near the one before it. deldrift_locate_in_period also tells in
+/// which period of a periodic triangulation.
 ///
-/// positions: 2 or 3 numbers for each point; NULL if count is 0, as may locations be. hint: where to begin to look
-/// for the first point, for example the last answer of the call before; NULL if nothing is known. It only
-/// matters for speed: it may be far away, from before a change, or name nothing. It may be one of locations.
+/// hint: where to begin to look for the first point, for example the last answer of the call before; NULL if nothing is
+/// known. It only matters for speed: it may be far away, from before a change, or name nothing. It may be one of
+/// locations.
 ///
-/// Cost: count times that of deldrift_locate. After a change the first call also does what the first deldrift_cells
-/// does.
+/// Cost: count times that of deldrift_locate.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_locate_points(
     t: *const deldrift_triangulation,
@@ -99,23 +92,19 @@ pub unsafe extern "C" fn deldrift_locate_points(
     t.read_any(|t| locate(t, positions, count, hint_at(hint)?, locations, None))
 }
 
-/// Where count points lie, exactly, to locations, and in which period what is there, to shifts: deldrift_locate_points for
+/// Where count points lie, exactly, to locations, and in which period, to shifts. It is deldrift_locate_points for
 /// programs that need the places of the corners.
 ///
-/// positions, hint, locations: as for deldrift_locate_points. shifts: receives a row of 2 (2D) or 3 (3D) whole numbers for
-/// each point, multiples of the vectors, 0 beyond the last of these: by them the vertex is to be translated from its
-/// position to be at the point, or the cell from where deldrift_cell_shifts has it to have the point, or, where the point is
-/// outside, a facet of the hull that faces it. So the corners of the cell are at their positions and the sums of these
-/// multiples and of theirs. May be NULL if count is 0.
+/// positions, hint, locations: as for deldrift_locate_points. shifts: receives a row of 2 (2D) or 3 (3D) whole numbers
+/// for each point, multiples of the vectors, 0 beyond the last of these. Translated by them, the vertex is at the
+/// point, or the cell of deldrift_cell_shifts has the point; where the point is outside, the cell then has a facet of
+/// the hull that faces it. So a corner of the cell is at its position and the sum of these multiples and of its own.
 ///
-/// In a periodic triangulation the points are rounded to the grid of deldrift_create_periodic, as vertices would be. All
-/// shifts are 0 where there are no cells or vertices at the point, and where the triangulation is not periodic.
+/// All shifts are 0 where there are no cells or vertices at the point, and where the triangulation is not periodic.
 ///
-/// Cost: count times that of deldrift_locate. After a change the first call also does what the first deldrift_cells
-/// does.
+/// Cost: count times that of deldrift_locate.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_locate_in_period(
     t: *const deldrift_triangulation,
@@ -168,18 +157,15 @@ fn locate(
     Ok(())
 }
 
-/// The vertex nearest to a point, to *vertex: the lowest id among the nearest, or where vertices have keys the one
-/// of the lowest key; DELDRIFT_NONE if the
-/// triangulation has no vertices.
+/// The vertex nearest to a point, to *vertex. Of several it is the one of the lowest id, or, where vertices have keys,
+/// of the lowest key. It is DELDRIFT_NONE if the triangulation has no vertices.
 ///
-/// position: 2 or 3 numbers. In a periodic triangulation it may be in any period, and is rounded as for deldrift_locate;
-/// the distance is that of the nearest image of a vertex.
+/// In a periodic triangulation the distance is that of the nearest image of a vertex.
 ///
 /// Cost: that of deldrift_locate, and the stars of the vertices on the way and of all that are nearest. While there are
 /// no cells, n.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_nearest_vertex(
     t: *const deldrift_triangulation,
@@ -190,14 +176,13 @@ pub unsafe extern "C" fn deldrift_nearest_vertex(
     tell_any!(t, vertex => t.nearest_vertex(position.of("position", t)?)?.map_or(DELDRIFT_NONE, VertexId::get))
 }
 
-/// The lowest id among the vertices at the place of this one, or where vertices have keys the one of the lowest key and then
-/// of the lowest id, to *representative: the one that is a corner of cells. It is the vertex itself unless the vertex is
+/// The vertex that represents this one in cells, to *representative. It is the one of the lowest id at the same place,
+/// or, where vertices have keys, of the lowest key and then of the lowest id. It is the vertex itself unless that is
 /// hidden.
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its
-/// insertion is staged.
+/// Errors: DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_coincident_representative(
     t: *const deldrift_triangulation,
@@ -208,17 +193,14 @@ pub unsafe extern "C" fn deldrift_coincident_representative(
     tell_any!(t, representative => t.coincident_representative(VertexId::new(vertex))?.get())
 }
 
-/// The vertices that are hidden, ascending, each with the one that represents it. Vertices of a periodic triangulation that
-/// share a place in any period count.
+/// The vertices that are hidden, ascending, each with the one that represents it. In a periodic triangulation vertices
+/// share a place if they do in any period.
 ///
-/// vertices, representatives: buffers with room for capacity ids each. One that is NULL is not filled. count: receives
-/// the number of hidden vertices, which is also written when the buffers are too small. NULL for both with capacity 0
-/// asks for the count alone.
+/// vertices, representatives: buffers with room for capacity ids each. count: receives the number of hidden vertices.
 ///
 /// Cost: n; constant where there are none, and for the count alone; n for a periodic triangulation.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL; DELDRIFT_OUT_OF_MEMORY if t is
-/// periodic.
+/// Errors: DELDRIFT_OUT_OF_MEMORY if t is periodic.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_hidden_vertices(
     t: *const deldrift_triangulation,

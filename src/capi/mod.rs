@@ -1,4 +1,4 @@
-//! The C boundary: everything that `include/deldrift.h` and `include/deldrift/research.h` declare, and nothing else.
+//! The C boundary: everything that the headers in `include/deldrift` declare, and nothing else.
 //!
 //! Each function here does three things and no geometry: it takes its arguments and checks them, calls the one
 //! method of [`MovingTriangulation`](crate::motion::MovingTriangulation) that does the work, and

@@ -2,7 +2,7 @@
 
 use std::slice;
 
-use super::handle::{Changing, deldrift_triangulation, in_any};
+use super::handle::{Changing, Reading, deldrift_triangulation, in_any, tell_any};
 use super::pointers::{Array, Output, Point, Points, given};
 use super::status::deldrift_status;
 use crate::error::Error;
@@ -15,7 +15,7 @@ use crate::motion::CommitReport;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct deldrift_commit_report {
-    /// Number of the timestamp reached: 0 at creation, one more at each commit.
+    /// Number of the timestamp reached. It is 0 at creation, and one more after each commit.
     pub timestamp: u64,
     /// Vertices whose position differs from that of the timestamp before.
     pub moved: u64,
@@ -35,8 +35,8 @@ pub struct deldrift_commit_report {
     pub tolerances: u64,
     /// Orientations and in-sphere tests of the stars of relocated vertices.
     pub certificates: u64,
-    /// Signs, of whatever purpose, that floating-point filters left to exact arithmetic; ties are among them, but
-    /// those on a lattice, in builds, need none.
+    /// Signs, of whatever purpose, that floating-point filters left to exact arithmetic. Ties are among them, but not
+    /// those on a lattice in builds.
     pub exact_calls: u64,
     /// Vertices inserted.
     pub inserted: u64,
@@ -70,13 +70,10 @@ impl From<CommitReport> for deldrift_commit_report {
 /// Stages the move of one vertex for the next timestamp. Nothing that can be read changes until
 /// deldrift_commit_timestamp.
 ///
-/// position: 2 or 3 numbers, read during the call only.
-///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_DUPLICATE_MOVE, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
+/// Errors: DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_DUPLICATE_MOVE,
+/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_move_vertex(
     t: *mut deldrift_triangulation,
@@ -96,18 +93,15 @@ pub unsafe extern "C" fn deldrift_move_vertex(
 /// Stages the moves of count vertices for the next timestamp: all of them, or none if it fails.
 ///
 /// vertices: count ids, each at most once. NULL stands for 0, 1, ..., count - 1: count may then be at most
-/// deldrift_id_count, and vertices from count on are not staged. The entry of a vertex whose insertion is staged is
-/// where it will be inserted, in place of where it would have been; entries of removed vertices, and of those whose
-/// removal is staged, are not read.
-/// positions: count points one after the other, 2 or 3 numbers each. Both are read during the call only
-/// and may be NULL if count is 0, when nothing is staged.
+/// deldrift_id_count, and vertices from count on are not staged. The entry of a vertex whose insertion is staged
+/// replaces the place where it will be inserted. Entries of removed vertices, and of those whose removal is staged, are
+/// not read. positions: count points. Both may be NULL if count is 0, when nothing is staged.
 ///
 /// Cost: count.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
-/// DELDRIFT_WRONG_COUNT if there are more positions than ids, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX,
-/// DELDRIFT_STAGED_VERTEX for one in vertices, DELDRIFT_DUPLICATE_MOVE (also within vertices), DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT if there are more positions than ids, DELDRIFT_NO_SUCH_VERTEX,
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX for one in vertices, DELDRIFT_DUPLICATE_MOVE (also within vertices),
+/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_move_vertices(
     t: *mut deldrift_triangulation,
@@ -135,21 +129,19 @@ pub unsafe extern "C" fn deldrift_move_vertices(
 /// Stages the insertion of count vertices: all of them, or none if it fails. They are present from the
 /// next commit on, which makes them together with the staged moves and removals.
 ///
-/// positions: count points, read during the call only; may be NULL if count is 0. first_vertex: receives
-/// the id of the first, which is one above the highest given so far; the others follow it in their order. It must not
-/// be NULL, even if count is 0: then it receives the id that would be given next.
+/// positions: count points. first_vertex: receives the id of the first, which is one above the highest given so far.
+/// The others follow it in their order. It must not be NULL even if count is 0: then it receives the id that would be
+/// given next.
 ///
-/// The ids count in deldrift_id_count from now on, but until the commit the vertices are not present
-/// (deldrift_is_present): functions that take an id return DELDRIFT_STAGED_VERTEX for them. Where they will be is told
-/// by deldrift_copy_positions, and changed by deldrift_move_vertices without a list of ids and by
-/// deldrift_commit_positions. deldrift_discard_moves forgets the insertions; ids are given again then if none higher
-/// has been given since.
+/// The ids count in deldrift_id_count from now on, though the vertices are not present before the commit
+/// (deldrift_is_present). deldrift_copy_positions tells where they will be. deldrift_move_vertices without a list of
+/// ids, and deldrift_commit_positions, change that. deldrift_discard_moves forgets the insertions. Their ids are then
+/// given again, if none higher has been given since.
 ///
 /// Cost: count, in the mean over many calls.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
-/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_OUT_OF_MEMORY. Not to
-/// be called at the same time as any other call on t.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_VERTICES,
+/// DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_stage_insertions(
     t: *mut deldrift_triangulation,
@@ -165,23 +157,20 @@ pub unsafe extern "C" fn deldrift_stage_insertions(
     })
 }
 
-/// Stages the removal of count vertices: all of them, or none if it fails. The next commit removes them,
-/// together with the staged moves and insertions; until then the vertices are present, and can be asked about, and
-/// relocated or removed at once. Moves staged for them are forgotten, and none can be staged any more
-/// (DELDRIFT_STAGED_VERTEX; their entries in arrays without a list of ids are not read). deldrift_discard_moves forgets
-/// the removals.
+/// Stages the removal of count vertices: all of them, or none if it fails. The next commit removes them, together with
+/// the staged moves and insertions. Until then the vertices are present: they can be asked about, and relocated or
+/// removed at once. Moves staged for them are forgotten, and none can be staged any more (DELDRIFT_STAGED_VERTEX).
+/// Their entries in arrays without a list of ids are not read. deldrift_discard_moves forgets the removals.
 ///
-/// vertices: count ids, each at most once, read during the call only; may be NULL if count is 0.
+/// vertices: count ids, each at most once.
 ///
-/// The commit removes them one by one, or rebuilds where that takes less: where many go, or those with 64 neighbours
-/// and more that go have more neighbours in all than there are vertices.
+/// The commit removes them one by one, or rebuilds where that takes less. It does where many go, or where those with 64
+/// neighbours and more have more neighbours in all than there are vertices.
 ///
 /// Cost: count, in the mean over many calls.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
-/// DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX (its removal is staged already, or its
-/// insertion is), DELDRIFT_OUT_OF_MEMORY.
-/// Not to be called at the same time as any other call on t.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX (its
+/// removal is staged already, or its insertion is), DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_stage_removals(
     t: *mut deldrift_triangulation,
@@ -199,8 +188,6 @@ pub unsafe extern "C" fn deldrift_stage_removals(
 /// Forgets all staged moves, insertions and removals, of vertices and of segments.
 ///
 /// Cost: what is staged.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT. Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_discard_moves(t: *mut deldrift_triangulation) -> deldrift_status {
     given!(t: Changing);
@@ -210,23 +197,21 @@ pub unsafe extern "C" fn deldrift_discard_moves(t: *mut deldrift_triangulation) 
     })
 }
 
-/// Makes the staged positions the next timestamp. The cells become those of the Delaunay triangulation
-/// of the new positions, whatever the algorithm, or of the constrained one if there are segments; ids stay. A commit
-/// without staged moves counts as a timestamp too.
+/// Makes the staged positions the next timestamp. The cells become those of the Delaunay triangulation of the new
+/// positions, whatever the algorithm, or of the constrained one if there are segments. Ids stay. A commit without
+/// staged moves is a timestamp too.
 ///
-/// report: receives what was done; may be NULL. Ends all views.
+/// report: receives what was done; may be NULL.
 ///
 /// Cost: of k staged moves, insertions and removals at most k times that of deldrift_relocate_vertex, or that of
-/// deldrift_create, whichever the algorithm chooses; of none, constant. While there are no cells, that of
-/// deldrift_create. With segments, for each also the cells around an end, and those that it crosses in the Delaunay
-/// triangulation, of k of them up to k².
+/// deldrift_create, whichever the algorithm chooses. Constant if nothing is staged. While there are no cells, that of
+/// deldrift_create. Each segment adds the cells around an end, and those that it crosses in the Delaunay triangulation,
+/// of k of them up to k².
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_COINCIDENT (if the options
-/// reject it), DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT, DELDRIFT_END_REMOVED, DELDRIFT_ENDS_MEET (see
-/// deldrift_segment_conflicts), DELDRIFT_PASSES_SEGMENT (if the options refuse it; looked at before all that segments
-/// are refused for else), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation
-/// stays at its timestamp, and what is staged stays so. Not to be called at the same time as any other call
-/// on t.
+/// Errors: DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT,
+/// DELDRIFT_END_REMOVED, DELDRIFT_ENDS_MEET (see deldrift_segment_conflicts), DELDRIFT_PASSES_SEGMENT (if the options
+/// refuse it; looked for before conflicts), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. The
+/// triangulation then stays at its timestamp, and what is staged stays so.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_commit_timestamp(
     t: *mut deldrift_triangulation,
@@ -243,22 +228,21 @@ pub unsafe extern "C" fn deldrift_commit_timestamp(
     })
 }
 
-/// Moves all vertices and makes that the next timestamp: deldrift_move_vertices for all ids and
+/// Moves all vertices and makes that the next timestamp. It is deldrift_move_vertices for all ids and
 /// deldrift_commit_timestamp in one, usually without copying the positions.
 ///
 /// positions: count points, one for each id (count must be deldrift_id_count, those of staged insertions included). A
 /// vertex whose insertion is staged is inserted where its entry says; entries of removed vertices, and of those whose
-/// removal is staged, are not read. They are read during the call only, which may be up to its end: neither a callback nor
-/// another thread may change them before it returns. report: receives what was done; may be NULL. Ends all views.
+/// removal is staged, are not read. They may be read up to the end of the call: neither a callback nor another thread
+/// may change them before it returns. report: receives what was done; may be NULL.
 ///
 /// Cost: n + m, and that of deldrift_commit_timestamp for what has moved.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
-/// DELDRIFT_WRONG_COUNT if there are fewer or more, DELDRIFT_DUPLICATE_MOVE if a move is staged, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT,
-/// DELDRIFT_END_REMOVED, DELDRIFT_ENDS_MEET, DELDRIFT_PASSES_SEGMENT (if the options refuse it), DELDRIFT_TOO_MANY_CELLS,
-/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation stays at its timestamp, no move is staged, and insertions, removals and segments are staged as before.
-/// Not to be called at the same time as any other call on t.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT if there are fewer or more, DELDRIFT_DUPLICATE_MOVE if a move
+/// is staged, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it),
+/// DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT, DELDRIFT_END_REMOVED, DELDRIFT_ENDS_MEET, DELDRIFT_PASSES_SEGMENT (if the
+/// options refuse it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. The triangulation then
+/// stays at its timestamp, no move is staged, and insertions, removals and segments are staged as before.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_commit_positions(
     t: *mut deldrift_triangulation,
@@ -275,6 +259,19 @@ pub unsafe extern "C" fn deldrift_commit_positions(
         }
         Ok(())
     })
+}
+
+/// What all commits and immediate calls so far have done, in sum, to *report. Its timestamp and coincident are those of
+/// now.
+///
+/// Cost: constant.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_statistics(
+    t: *const deldrift_triangulation,
+    report: *mut deldrift_commit_report,
+) -> deldrift_status {
+    given!(t: Reading, report: Output);
+    tell_any!(t, report => t.statistics().into())
 }
 
 /// An error about arrays of one, told in the names of the single arguments.

@@ -11,24 +11,21 @@ use crate::in_its_dimension;
 use crate::machine::memory;
 use crate::motion::{Entry, Lists, ListsOf};
 
-/// The k vertices nearest to each of count positions: rows of k ids, by distance and, at the same distance, by id, or by key
-/// where vertices have keys;
-/// DELDRIFT_NONE where there are fewer vertices than k. Distances are compared exactly. Hidden vertices count like
-/// others.
+/// The k vertices nearest to each of count positions: rows of k ids, by distance. At the same distance they are in the
+/// order of ids, or of keys where vertices have keys. Entries beyond the number of vertices are DELDRIFT_NONE.
+/// Distances are compared exactly. Hidden vertices count like others.
 ///
-/// positions: 2 or 3 numbers each, read during the call only; NULL if count is 0. vertices: receives count rows of k
-/// ids; may be NULL if there are none.
+/// vertices: receives count rows of k ids, NULL if there are none.
 ///
 /// It is fastest if each position is near the one before it. The first id of a row is that of deldrift_nearest_vertex.
 ///
-/// In a periodic triangulation positions may be in any period, and are rounded as for deldrift_locate. Each vertex comes
-/// once, by the distance of its nearest image (the minimum image); images farther away do not count.
+/// In a periodic triangulation each vertex comes once, by the distance of its nearest image (the minimum image); images
+/// farther away do not count.
 ///
 /// Cost: count times that of deldrift_nearest_vertex, the stars of the k vertices, and k log k; with k = 0 constant.
 /// While there are no cells, count times n; n more in a periodic triangulation with hidden vertices.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_nearest_vertices(
     t: *const deldrift_triangulation,
@@ -53,22 +50,20 @@ pub unsafe extern "C" fn deldrift_nearest_vertices(
     })
 }
 
-/// The vertices in a closed ball, ascending by id, hidden ones included: those whose squared distance from centre is at
-/// most squared_radius. Exact.
+/// The vertices in a closed ball, ascending by id, hidden ones included. They are those whose squared distance from
+/// centre is at most squared_radius, exactly.
 ///
 /// centre: 2 or 3 numbers. squared_radius: 0 or more; infinity is all vertices. vertices: a buffer with room for
-/// capacity ids; deldrift_vertex_count is always enough. count: receives their number, which is also written when the
-/// buffer is too small. NULL with capacity 0 asks for the count alone, which takes as long.
+/// capacity ids; deldrift_vertex_count is always enough. count: receives their number.
 ///
-/// In a periodic triangulation the centre may be in any period, and is rounded as for deldrift_locate. A vertex is in the
-/// ball if any image of it is; each is told once. The ball may be larger than the box.
+/// In a periodic triangulation a vertex is in the ball if any image of it is; each is told once. The ball may be larger
+/// than the box.
 ///
 /// Cost: that of deldrift_nearest_vertex, the stars of the vertices in the ball, and k log k for the k of them; n log n
 /// at most but for the former. While there are no cells, and in a periodic triangulation with hidden vertices, n.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
-/// DELDRIFT_INVALID_VALUE for a squared radius that is negative or NaN, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE for a squared radius that is negative or
+/// NaN, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_vertices_in_ball(
     t: *const deldrift_triangulation,
@@ -102,42 +97,43 @@ pub type PairsCode = u32;
 
 /// For each vertex the others that are near it, all in one call: the neighbour lists of particle codes.
 ///
-/// The list of a vertex has the vertices of which the squared distance from it is at most that of its radius, exactly: those that
-/// deldrift_vertices_in_ball finds around it, hidden ones included, but not the vertex itself. Hidden vertices have lists, too;
-/// those of removed ones are empty, as they are of vertices that are staged. Each list ascends by id.
+/// The list of a vertex has the vertices whose squared distance from it is at most its squared radius, exactly. They
+/// are those that deldrift_vertices_in_ball finds around it, hidden ones included, but not the vertex itself. Hidden
+/// vertices have lists, too. Those of removed and of staged vertices are empty. Each list ascends by id.
 ///
-/// squared_radii: one number, the square of the radius of all lists, radius_count being 1; or one for each id, radius_count being
-/// deldrift_id_count. Each is 0 or more, and infinity is all vertices. Entries of vertices without a list are not looked at.
-/// mask: an entry for each vertex id; only vertices whose entry is not 0 have a list, in which others may be all the same. NULL for
-/// all. mask_count: deldrift_id_count; without a mask it is not looked at.
-/// pairs: DELDRIFT_PAIRS_FULL, or DELDRIFT_PAIRS_HALF for each pair once. Where radii differ, the one vertex may be in the ball of the
-/// other and not the other way round; half lists have each pair that full lists have one way or both, so that two vertices with
-/// lists are a pair if their distance is at most the greater one of their radii. It is in the list of the lower id, or, if only one of
+/// squared_radii: one number for all lists, radius_count being 1; or one for each id, radius_count being
+/// deldrift_id_count. Each is 0 or more, and infinity is all vertices. Entries of vertices without a list are not
+/// looked at. mask: an entry for each vertex id. Only vertices whose entry is not 0 have a list, which may have others
+/// in it. NULL for all. mask_count: deldrift_id_count; without a mask it is not looked at. pairs: DELDRIFT_PAIRS_FULL,
+/// or DELDRIFT_PAIRS_HALF for each pair once. Where radii differ, one vertex may be in the ball of another and not the
+/// other way round. Half lists have each pair that full lists have one way or both: two vertices with lists are a pair
+/// if their distance is at most the greater one of their radii. It is in the list of the lower id, or, if only one of
 /// the two has a list, in that.
 ///
-/// offsets: a buffer for offset_count numbers, which must be deldrift_id_count + 1: the list of vertex v is in neighbours from the
-/// index that is entry v of offsets on, and ends before entry v + 1. neighbours: a buffer with room for capacity ids. shifts: one
-/// with room for as many rows of 2 (2D) or 3 (3D) whole numbers: in which period each neighbour is, as deldrift_edge_shifts has them.
-/// One that is NULL is not filled. count: receives the number of entries, which is also written when neighbours or shifts are too
-/// small; then nothing else is. NULL for both with capacity 0 asks for offsets and the count alone, for which nothing is kept. A program
-/// that asks again and again, as in each step, keeps its buffers, with some room to spare, and so asks once.
+/// offsets: a buffer for offset_count numbers, which must be deldrift_id_count + 1. The list of vertex v begins in
+/// neighbours at the index that is entry v of offsets, and ends before entry v + 1. neighbours: a buffer with room for
+/// capacity ids. shifts: one with room for as many rows of 2 (2D) or 3 (3D) whole numbers: in which period each
+/// neighbour is, as deldrift_edge_shifts has them. count: receives the number of entries. With NULL for neighbours and
+/// shifts and capacity 0 offsets are filled, and nothing is kept. A program that asks again and again, as in each step,
+/// keeps its buffers, with some room to spare, and so asks once.
 ///
-/// In a periodic triangulation a list has every image that is near, each with its shift, ascending by id and by shift: several of one
-/// vertex, and of the vertex itself those in other periods, where the radius is large beside the box. Half lists have one of the two
-/// ways between two images: of those from a vertex to itself the one whose shift has a first number that is not 0 above 0. Radii are
-/// refused that are so large that places of images would be rounded: up to eight times the least distance between opposite sides of
-/// the reduced box is always possible. Where the triangulation is not periodic, shifts are 0.
+/// In a periodic triangulation a list has every image that is near, each with its shift, ascending by id and by shift.
+/// Where the radius is large beside the box, there are several images of one vertex, and images of the vertex itself.
+/// Half lists have one of the two ways between two images. Of those from a vertex to itself it is the one whose shift
+/// has a positive number as the first that is not 0. Radii are refused that are so large that places of images would be
+/// rounded. Up to eight times the least distance between opposite sides of the reduced box is always possible. Where
+/// the triangulation is not periodic, shifts are 0.
 ///
-/// Uses the threads of the options, and calls their callbacks. The lists do not depend on how many threads there are. Takes memory for
-/// the places and for all lists while it runs, and writes nothing until all are known.
+/// Runs on several threads, as the options allow. The lists do not depend on how many there are. Takes memory for the
+/// places and for all lists while it runs, and writes nothing until all are known.
 ///
-/// Cost: n log n, the entries, and k log k for the k of each list. With one radius for all, that is so for every set, however unevenly
-/// it is spread: what is looked at besides is at most a constant times n and the entries, and mostly some five times these. Where radii
-/// differ by powers of two of many sizes, what is looked at for each size is at most n times the root of the number of entries.
+/// Cost: n log n, the entries, and k log k for the k of each list. With one radius for all, that is so for every set,
+/// however unevenly it is spread. What is looked at besides is at most a constant times n and the entries, and mostly
+/// some five times these. Where radii differ by powers of two of many sizes, what is looked at for each size is at most
+/// n times the root of the number of entries.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE
-/// for a squared radius that is negative or NaN, or too large for a periodic triangulation, and for other pairs,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE for a squared radius that is negative
+/// or NaN, or too large for a periodic triangulation, and for other pairs, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_neighbour_lists(
     t: *const deldrift_triangulation,
@@ -243,26 +239,23 @@ fn is_half(code: PairsCode) -> Result<bool, Failure> {
     }
 }
 
-/// The vertices in a closed box, ascending by id, hidden ones included: those of which each coordinate is at least that
-/// of low and at most that of high.
+/// The vertices in a closed box, ascending by id, hidden ones included. Each of their coordinates is at least that of
+/// low and at most that of high.
 ///
 /// low, high: 2 or 3 numbers each, which may be infinite. Where one of low is above that of high there are none.
-/// vertices: a buffer with room for capacity ids; deldrift_vertex_count is always enough. count: receives their number,
-/// which is also written when the buffer is too small. NULL with capacity 0 asks for the count alone, which takes as
-/// long.
+/// vertices: a buffer with room for capacity ids; deldrift_vertex_count is always enough. count: receives their number.
 ///
-/// In a periodic triangulation a vertex is in the box if any image of it is; each is told once. The box is not rounded, and may
-/// be larger than the period; one that is 10^20 periods away is refused. Where vectors go along several axes, as in a skewed
-/// box, one that is thousands of periods long, or infinite, along some of these has to be as wide as all these vectors together
-/// along each, or infinite along all but one.
+/// In a periodic triangulation a vertex is in the box if any image of it is; each is told once. The box is not rounded,
+/// and may be larger than the period. One that is 10^20 periods away is refused. Where vectors go along several axes,
+/// as in a skewed box, there is a condition on one that is thousands of periods long, or infinite, along some of these
+/// axes. It has to be as wide as all these vectors together along each, or infinite along all but one.
 ///
 /// Cost: that of deldrift_locate, the cells whose bounding boxes meet the box, the facets of the hull that are seen
 /// from it, and k log k for the k vertices in it; n log n at most but for the first. While there are no cells, n. In a
-/// periodic triangulation that of deldrift_vertices_in_ball where the box is shorter than half of the shortest vector, else n;
-/// and, where vectors go along several axes, the periods that the box meets, for each vertex.
+/// periodic triangulation that of deldrift_vertices_in_ball where the box is shorter than half of the shortest vector,
+/// else n; and, where vectors go along several axes, the periods that the box meets, for each vertex.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for NaN, or for a box that is too long,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_INVALID_VALUE for NaN, or for a box that is too long, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_vertices_in_box(
     t: *const deldrift_triangulation,
@@ -281,26 +274,24 @@ pub unsafe extern "C" fn deldrift_vertices_in_box(
     })
 }
 
-/// The cells that the insertion of a vertex at a position would remove, in no particular order: those whose circle or
-/// sphere has the position inside, exactly, with ties broken as for a vertex of the highest id. At the place of a
-/// vertex, and while there are no cells, there are none.
+/// The cells that the insertion of a vertex at a position would remove, in no particular order. Their circle or sphere
+/// has the position inside, exactly, with ties broken as for a vertex of the highest id. At the place of a vertex, and
+/// while there are no cells, there are none.
 ///
-/// position: 2 or 3 numbers. hint: where to begin to look for it, as for deldrift_locate_points; NULL if nothing is
-/// known. cells: a buffer with room for capacity indices. count: receives their number, which is also written when the
-/// buffer is too small. NULL with capacity 0 asks for the count alone, which takes as long.
+/// hint: where to begin to look for it, as for deldrift_locate_points; NULL if nothing is known. cells: a buffer with
+/// room for capacity indices. count: receives their number.
 ///
 /// A position outside the convex hull may be in the circle or sphere of no cell: then the insertion removes none, and
 /// joins the vertex to the facets of the hull that it sees.
 ///
-/// In a periodic triangulation the position may be in any period, and is rounded as for deldrift_locate. A cell is told, once,
-/// if a translation of it is in conflict: it would be removed by the insertion of the vertex with all of its images. A position
-/// outside the convex hull is refused, as facets without an end are seen from there.
+/// In a periodic triangulation a cell is told, once, if a translation of it is in conflict: it would be removed by the
+/// insertion of the vertex with all of its images. A position outside the convex hull is refused, as facets without an
+/// end are seen from there.
 ///
-/// Cost: that of deldrift_locate, the cells found, and the facets of the hull that are seen from the position. After a
-/// change the first call also does what the first deldrift_cells does.
+/// Cost: that of deldrift_locate, the cells found, and the facets of the hull that are seen from the position.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
-/// DELDRIFT_PERIODIC outside the hull of a periodic triangulation, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_PERIODIC outside the hull of a periodic triangulation,
+/// DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_conflicts(
     t: *const deldrift_triangulation,

@@ -23,11 +23,11 @@ pub enum deldrift_coincidence {
     DELDRIFT_COINCIDENCE_REJECT = 1,
 }
 
-/// What happens when a vertex would pass a segment: deldrift_check_passings says what that is.
+/// What happens when a vertex would pass a segment. deldrift_check_passings defines that.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum deldrift_passing {
-    /// Nothing: it is not looked for, except by deldrift_check_passings.
+    /// Nothing. Only deldrift_check_passings looks for it.
     DELDRIFT_PASSING_IGNORE = 0,
     /// The call goes on, and deldrift_passings then tells which vertices have passed which segments.
     DELDRIFT_PASSING_TELL = 1,
@@ -50,18 +50,18 @@ pub type PassingCode = u32;
 /// Options of a triangulation. Initialise them with deldrift_options_init, then set what should differ
 /// from the defaults, all of which are zero.
 ///
-/// The structure may grow in later versions. struct_size says how much of it the program knows: fields
-/// beyond it have their defaults. A size greater than the library's own is accepted as long as all
-/// bytes that the library does not know are zero. A size that is 0, ends inside a field or is beyond
-/// 4096 is DELDRIFT_INVALID_OPTIONS, as is any value that has no meaning.
+/// The structure may grow in later versions. struct_size says how much of it the program knows: fields beyond it have
+/// their defaults. A greater size than that of the library is accepted if all bytes that the library does not know are
+/// zero. A size that is 0, ends inside a field or is beyond 4096 is DELDRIFT_INVALID_OPTIONS. So is any value that has
+/// no meaning.
 ///
-/// The callbacks are called from inside every function that names DELDRIFT_CANCELLED among its errors, where the call takes
-/// long, and from inside no other; on the thread that makes the call, one at a time, and not after deldrift_destroy. They
-/// must return normally (no exception, no longjmp). From inside a call that creates or changes a triangulation they must not
-/// use it: such calls are turned away with DELDRIFT_BUSY. From inside one that takes it as const, as deldrift_voronoi_cells
-/// does, they may read it, and calls that change it are turned away with DELDRIFT_BUSY; such calls may be made on several
-/// threads at once, and each calls them. Other triangulations may be used. What user_data points to must live as long as the
-/// triangulation, and its copies.
+/// The callbacks are called from inside every function that names DELDRIFT_CANCELLED among its errors, where the call
+/// takes long, and from inside no other. They are called on the thread that makes the call, one at a time, and not
+/// after deldrift_destroy. They must return normally (no exception, no longjmp). Where the call creates or changes a
+/// triangulation, callbacks must not use that one: DELDRIFT_BUSY turns their calls away. Where the call takes it as
+/// const, as deldrift_voronoi_cells does, they may read it, and DELDRIFT_BUSY turns away what would change it. Such
+/// calls may run on several threads at once, and each calls the callbacks. Callbacks may use other triangulations. What
+/// user_data points to must live as long as the triangulation and its copies.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct deldrift_options {
@@ -69,25 +69,26 @@ pub struct deldrift_options {
     pub struct_size: usize,
     /// Algorithm of later commits; may be changed by deldrift_set_algorithm. Default DELDRIFT_AUTO.
     pub algorithm: AlgorithmCode,
-    /// Greatest number of threads a call may use, the calling one included; 0, the default, is no limit. The library uses
-    /// as many as make the call faster, at most one per processor: one for each 5,000 vertices in 2D or 2,500
-    /// in 3D to build and rebuild, and likewise to move all, check all certificates and flip in repair. All
-    /// triangulations of the process share them, and they sleep between calls. The cells do not depend on the number. Their
-    /// order, last bits of rounded numbers and the counts in reports may, unless parts is set. Callbacks come from the
-    /// calling thread only.
+    /// Greatest number of threads a call may use, the calling one included; 0, the default, is no limit. The library
+    /// uses as many as make the call faster, at most one per processor. To build and rebuild that is one for each 5,000
+    /// vertices in 2D or 2,500 in 3D, and likewise to move all, check all certificates and flip in repair. All
+    /// triangulations of the process share these threads, which sleep between calls. The cells do not depend on the
+    /// number. Their order, last bits of rounded numbers and the counts in reports may, unless parts is set. Callbacks
+    /// come from the calling thread only.
     pub threads: u32,
     /// Default DELDRIFT_COINCIDENCE_MERGE.
     pub coincidence: CoincidenceCode,
     /// What commits, deldrift_check_staged and deldrift_relocate_vertex do when a vertex would pass a segment. Default
     /// DELDRIFT_PASSING_IGNORE.
     pub passing: PassingCode,
-    /// Greatest number of parts into which work is divided where that shows in the order of cells: builds, and flips. 0,
-    /// the default, is one for each thread that is used. With any other number the same calls give the same answers for any
-    /// number of threads and on every processor: cells in the same order, every bit of rounded numbers, and reports
-    /// included. (A build for whose parts there is no memory is in one.) Parts should be as many as the threads that a
-    /// program is to run on, at most: with fewer some threads have nothing to do in this work, and with more each costs
-    /// something. For 100,000 vertices a build on one thread takes 1.1 times as long in eight parts as in one in 2D; in 3D
-    /// 1.06 times in two, 1.1 in four and 1.3 in eight; for 20,000 1.2 times in 2D, 1.15 to 1.6 times in 3D.
+    /// Greatest number of parts into which work is divided where that shows in the order of cells: builds, and flips.
+    /// 0, the default, is one for each thread that is used. With any other number the same calls give the same answers
+    /// for any number of threads and on every processor. That includes the order of cells, every bit of rounded
+    /// numbers, and reports. (A build for whose parts there is no memory is in one.) Take at most as many parts as the
+    /// program will have threads: with fewer parts some threads have nothing to do in this work, and each further part
+    /// costs something. For 100,000 vertices in 2D, a build on one thread takes 1.1 times as long in eight parts as in
+    /// one. In 3D it takes 1.06 times as long in two, 1.1 in four and 1.3 in eight. For 20,000 vertices it takes 1.2
+    /// times as long in 2D, 1.15 to 1.6 times in 3D.
     pub parts: usize,
     /// Called now and then during long calls: at least once for some ten thousand cells that are made, or looked at
     /// around single vertices. Passes over all vertices or cells, each of which takes a part of a build, are not
@@ -95,8 +96,8 @@ pub struct deldrift_options {
     /// never cancels.
     pub cancel: Option<unsafe extern "C" fn(user_data: *mut c_void) -> Answer>,
     /// Called just before cancel would be, with the part of the work that is done, from 0 to 1, as far as that is
-    /// known: it need not change from one call to the next, and begins again where a commit goes on by rebuilding. NULL
-    /// is the default.
+    /// known. The part need not change from one call to the next, and begins again where a commit goes on by
+    /// rebuilding. NULL is the default.
     pub progress: Option<unsafe extern "C" fn(user_data: *mut c_void, fraction: f64)>,
     /// Handed to the callbacks as it is.
     pub user_data: *mut c_void,
@@ -104,10 +105,10 @@ pub struct deldrift_options {
 
 /// Sets struct_size and the default of every other option. NULL is legal and does nothing.
 ///
-/// C and C++ programs have it from this header, so that it fills the structure of the header, whichever later version
-/// they run with. Other languages have a function of this name in the library. In every version that one fills the
-/// structure as it is here, and says so in struct_size; a program that knows more fields sets them to zero, which is the
-/// default of all, and struct_size to the size of its structure.
+/// C and C++ programs have it from this header. So it fills the structure of the header, whichever later version they
+/// run with. Other languages have a function of this name in the library. In every version that function fills the
+/// structure as it is here, and says so in struct_size. A program that knows more fields sets them to zero, the default
+/// of all, and struct_size to the size of its structure.
 ///
 /// Cost: constant.
 #[unsafe(no_mangle)]
@@ -233,8 +234,8 @@ impl<'a, T: Growing> Given<'a, T> {
         unsafe { Array::new(self.argument, self.bytes, size) }.get().map(Some)
     }
 
-    /// Reads the part that the library knows, and checks that beyond it there is nothing but zeros. The defaults if it is
-    /// NULL.
+    /// Reads the part that the library knows, and checks that beyond it there is nothing but zeros. The defaults if it
+    /// is NULL.
     pub(super) fn read(self) -> Result<T, Failure> {
         let mut read = MaybeUninit::new(T::DEFAULT);
         let Some(given) = self.bytes()? else { return Ok(T::DEFAULT) };

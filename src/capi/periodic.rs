@@ -15,55 +15,49 @@ use crate::machine::memory;
 use crate::motion::{CoincidencePolicy, MAX_VERTICES, MovingTriangulation, Options, check_position};
 use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 
-/// Creates the Delaunay triangulation of points that repeat: each is in all places to which sums of multiples of the
+/// Creates the Delaunay triangulation of points that repeat. Each is in all places to which sums of multiples of the
 /// vectors take it.
 ///
-/// dimension: 2 or 3. positions, count: as in deldrift_create; a position may be in any period. vectors: vector_count rows
-/// of dimension numbers, the vectors of the box: 1 to dimension of them. They need not be orthogonal nor short, so that a
-/// triclinic box, or one that is skewed by any number of its lengths, is legal. Directions that they do not span are open.
-/// options: as in deldrift_create, but for coincidence, which must be DELDRIFT_COINCIDENCE_MERGE: vertices that are at the same
-/// place in any period share it, and the one of the lowest id represents it. out: receives the triangulation, which the caller
-/// has to hand to deldrift_destroy.
+/// dimension: 2 or 3. positions, count: as in deldrift_create; a position may be in any period. vectors: vector_count
+/// rows of dimension numbers, the vectors of the box: 1 to dimension of them. They need not be orthogonal nor short: a
+/// triclinic box, or one that is skewed by any number of its lengths, is legal. Directions that they do not span are
+/// open. options: as in deldrift_create, except that coincidence must be DELDRIFT_COINCIDENCE_MERGE. Vertices that are
+/// at the same place in any period share it, and the one of the lowest id represents it. out: receives the
+/// triangulation.
 ///
-/// The cells are those of all the places at once, of which one of each class of translations of each other is told. Any
-/// number of vertices is legal, one included: a cell may have a vertex in several periods, and be its own neighbour. The
-/// cells do not depend on the periods in which positions are given, on which vectors of the same lattice are given, or on what
-/// happened before. deldrift_cell_shifts tells in which period each corner is.
+/// The cells are those of all the places at once. Of cells that are translations of each other one is told. Any number
+/// of vertices is legal, one included: a cell may have a vertex in several periods, and be its own neighbour. The cells
+/// do not depend on the periods in which positions are given, on which vectors of the same lattice are given, or on
+/// what happened before. deldrift_cell_shifts tells in which period each corner is.
 ///
-/// Positions and vectors are rounded to a grid, along axes along which a vector goes: its step is a power of two, so that all
-/// coordinates that are calculated with have at most 53 binary digits. In a box whose reduced vectors (the shortest of its
-/// lattice) have lengths up to L and are not flatter than a cube, the step is at most 2^-45 L, and mostly 2^-47 L; a position
-/// moves by half of that at most, and so does each reduced vector. The step depends on the lattice alone, whichever of its
-/// vectors are given. deldrift_copy_positions and deldrift_vectors tell what is used, to the last bit: for these positions
-/// and vectors the cells are exact, and they are kept as they are when they are given again, here or to
-/// deldrift_stage_vectors and deldrift_commit_positions. A vector of many times L may have no 53 digits as a sum of the
-/// rounded reduced ones: then the vectors that are given are rounded to the grid instead. Entries of vectors may be up to
-/// 1e50 in magnitude, and are 0 or at least 1e-50; positions may be some 1e13 L away, and less far in a box that is skewed by
-/// more than a thousand of its lengths: so far that periods are counted by numbers of 64 bits. Where vectors go along more
-/// axes than there are vectors, as one that is along no axis does, the step is 2^10 times that, and positions may be some 500
-/// L away across the vectors, else they are out of range. Vectors that on their grid depend on each other, or nearly so, are
-/// refused.
+/// Positions and vectors are rounded to a grid, along axes along which a vector goes. Its step is a power of two, so
+/// that all coordinates that are calculated with have at most 53 binary digits. In a box whose reduced vectors (the
+/// shortest of its lattice) have lengths up to L and are not flatter than a cube, the step is at most 2^-45 L, and
+/// mostly 2^-47 L. A position moves by half of that at most, and so does each reduced vector. The step depends on the
+/// lattice alone, whichever of its vectors are given. deldrift_copy_positions and deldrift_vectors tell what is used,
+/// to the last bit. For these positions and vectors the cells are exact. They are kept as they are when they are given
+/// again, here or to deldrift_stage_vectors and deldrift_commit_positions. A vector of many times L may have no 53
+/// digits as a sum of the rounded reduced ones: then the vectors that are given are rounded to the grid instead.
+/// Entries of vectors may be up to 1e50 in magnitude, and are 0 or at least 1e-50. Positions may be some 1e13 L away,
+/// so far that 64 bits still count the periods, and less far in a box that is skewed by more than a thousand of its
+/// lengths. Where vectors go along more axes than there are vectors, as one that is along no axis does, the step is
+/// 2^10 times that. Then positions may be some 500 L away across the vectors, else they are out of range. Vectors that
+/// on their grid depend on each other, or nearly so, are refused.
 ///
-/// All functions serve a periodic triangulation but those of segments, refinement, keys and reach, which return
+/// All functions serve a periodic triangulation but those of deldrift/segments.h and the following, which return
 /// DELDRIFT_PERIODIC: deldrift_stage_insertions_with_keys, deldrift_stage_insertions_at_free_ids,
-/// deldrift_insert_vertex_with_key, deldrift_keys, deldrift_stage_segments, deldrift_stage_segment_removals,
-/// deldrift_segments, deldrift_check_staged, deldrift_segment_conflicts, deldrift_check_passings, deldrift_passings,
-/// deldrift_stage_splits, deldrift_cells_in_reach, deldrift_hull_facets_in_reach, deldrift_vertices_in_reach,
-/// deldrift_segments_of_cells, deldrift_cells_of_segments, deldrift_nesting_levels, deldrift_crossing_numbers,
-/// deldrift_label_cells, deldrift_update_labels, deldrift_set_regions, deldrift_set_segment_sides, deldrift_regions,
-/// deldrift_boundary_chains, deldrift_refine, deldrift_coarsen, deldrift_made_vertices, deldrift_original_segments,
-/// deldrift_refined_weights, deldrift_refined_sizes and deldrift_refined_vertices. Cells are numbered anew by each commit,
-/// unless changes are taken.
+/// deldrift_insert_vertex_with_key, deldrift_keys, deldrift_cells_in_reach, deldrift_hull_facets_in_reach and
+/// deldrift_vertices_in_reach. Cells are numbered anew by each commit, unless changes are taken.
 ///
-/// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of moves,
-/// or of other vectors that are near those in force, costs what it costs in an open triangulation of as many, and reading the
-/// cells after it n + m; each insertion and removal costs what it changes. One with more of these than a tenth of the vertices,
-/// or where a vertex has drifted far out of the box since the last such commit, costs as much as creation.
+/// Cost: that of deldrift_create, of some n + c n^(1/2) vertices in 2D and n + c n^(2/3) in 3D. In the mean a commit of
+/// moves, or of other vectors that are near those in force, costs what it costs in an open triangulation of as many,
+/// and reading the cells after it n + m. Each insertion and removal costs what it changes. A commit with more of these
+/// than a tenth of the vertices, or where a vertex has drifted far out of the box since the last such commit, costs as
+/// much as creation.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_INVALID_OPTIONS, DELDRIFT_NULL_ARGUMENT,
-/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
-/// DELDRIFT_INVALID_VALUE, DELDRIFT_DEPENDENT_VECTORS, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS,
-/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. May be called from any number of threads at once.
+/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_INVALID_OPTIONS, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_DEPENDENT_VECTORS, DELDRIFT_TOO_MANY_VERTICES,
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_create_periodic(
     dimension: u32,
@@ -104,20 +98,20 @@ pub unsafe extern "C" fn deldrift_create_periodic(
     })
 }
 
-/// Stages other vectors for the box: strain, shear, or others of the same lattice. The next commit, with positions or
-/// moves or without, makes them those of the triangulation.
+/// Stages other vectors for the box: strain, shear, or others of the same lattice. The next commit, with or without
+/// moves, makes them those of the triangulation.
 ///
-/// vectors, vector_count: as many as deldrift_create_periodic was given; none, vector_count being 0, for a triangulation
-/// that is not periodic. Vertices that do not move stay at their positions: a program that deforms its box with all that
-/// is in it gives the positions, too. Vectors that are staged already are forgotten. deldrift_discard_moves discards them.
+/// vectors, vector_count: as many as deldrift_create_periodic was given; none, vector_count being 0, for a
+/// triangulation that is not periodic. Vertices that do not move stay at their positions. So a program that deforms its
+/// box with all that is in it gives the positions, too. Vectors that are staged already are replaced.
+/// deldrift_discard_moves discards them.
 ///
-/// Cost: constant. The commit costs as much as one of moves of all vertices, as long as the vectors lead to a lattice that is
-/// near the one in force, whichever vectors of it are given: a box that is strained or sheared in small steps costs a creation
-/// once for each strain of about 1.
+/// Cost: constant. The commit costs as much as one of moves of all vertices, as long as the lattice is near the one in
+/// force, whichever vectors of it are given. A box that is strained or sheared in small steps costs a creation once for
+/// each strain of about 1.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT,
-/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_DEPENDENT_VECTORS, DELDRIFT_OUT_OF_MEMORY.
-/// Not to be called at the same time as any other call on t.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_INVALID_VALUE, DELDRIFT_DEPENDENT_VECTORS, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_stage_vectors(
     t: *mut deldrift_triangulation,
@@ -140,13 +134,10 @@ pub unsafe extern "C" fn deldrift_stage_vectors(
 
 /// The vectors by which the triangulation repeats: those that were given, on the grid of deldrift_create_periodic.
 ///
-/// vectors: receives rows of 2 (2D) or 3 (3D) numbers: a buffer with room for capacity rows; NULL with capacity 0 asks for
-/// the count alone. count: receives their number, 0 for a triangulation that is not periodic; it is also written when the
-/// buffer is too small.
+/// vectors: a buffer with room for capacity rows of 2 (2D) or 3 (3D) numbers. count: receives their number, 0 for a
+/// triangulation that is not periodic.
 ///
 /// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_vectors(
     t: *const deldrift_triangulation,
@@ -171,18 +162,17 @@ pub unsafe extern "C" fn deldrift_vectors(
     })
 }
 
-/// The shortest vectors of the lattice, which deldrift_wrap_positions translates by: a reduced basis of it.
+/// The shortest vectors of the lattice, a reduced basis of it. deldrift_wrap_positions translates by them.
 ///
-/// vectors: receives rows of 2 (2D) or 3 (3D) numbers. multiples: receives as many rows of whole numbers, the multiples of the
-/// vectors that were given whose sum each one is. greatest: receives a number for each: where vertices are at positions that
-/// deldrift_wrap_positions gives, no edge spans more than entry j of greatest times vector j, and the place to which it leads is
-/// calculated without rounding. All are buffers with room for capacity vectors; one
-/// that is NULL is not filled. count: receives their number, 0 for a triangulation that is not periodic; it is also written
-/// when the buffers are too small. NULL for all with capacity 0 asks for the count alone.
+/// vectors: receives rows of 2 (2D) or 3 (3D) numbers. multiples: receives as many rows of whole numbers: each vector
+/// is the sum of these multiples of the vectors that were given. greatest: receives a number for each. No edge between
+/// positions that deldrift_wrap_positions gives spans more than entry j of greatest times vector j, and the place to
+/// which it leads is calculated without rounding. All are buffers with room for capacity vectors. count: receives their
+/// number, 0 for a triangulation that is not periodic.
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_BUFFER_TOO_SMALL.
+/// Errors: DELDRIFT_SIZE_OVERFLOW.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_reduced_vectors(
     t: *const deldrift_triangulation,
@@ -206,22 +196,20 @@ pub unsafe extern "C" fn deldrift_reduced_vectors(
     })
 }
 
-/// Takes positions into the box: each to its place in the unit cell of deldrift_reduced_vectors, on the grid of
-/// deldrift_create_periodic, which is where the triangulation would have it.
+/// Takes positions into the box, each to its place in the unit cell of deldrift_reduced_vectors, on the grid of
+/// deldrift_create_periodic.
 ///
-/// positions: count points, in any period; they need not be those of vertices, and the triangulation may have none. previous:
-/// NULL, or count points, where the vertices have been: each keeps its
-/// period, the one that is nearest to its entry, while it is at most a quarter of the unit cell outside of it, so that a vertex
-/// does not flip back and forth at a face. places: receives count
-/// points. shifts: receives count rows of 2 (2D) or 3 (3D) whole numbers: by which multiples of the vectors that were given the
-/// position is translated from its place, 0 beyond the last of these.
+/// positions: count points. They need not be those of vertices, and the triangulation may have none. previous: NULL, or
+/// count points where the vertices have been. Each position then goes to the period nearest to its entry, while it is
+/// at most a quarter of the unit cell outside of it. So a vertex does not flip back and forth at a face. places:
+/// receives count points. shifts: receives count rows of 2 (2D) or 3 (3D) whole numbers: the multiples of the vectors
+/// that were given by which the position is translated from its place, 0 beyond the last of these.
 ///
 /// Where the triangulation is not periodic, places are the positions, and shifts 0.
 ///
 /// Cost: count.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_wrap_positions(
     t: *const deldrift_triangulation,
@@ -247,21 +235,18 @@ pub unsafe extern "C" fn deldrift_wrap_positions(
 
 /// In which period each corner of each cell is, and each neighbour.
 ///
-/// shifts: receives a row of 2 (2D) or 3 (3D) whole numbers for each of the 3 or 4 corners of each cell, in the order of
-/// deldrift_cells: multiples of the vectors, 0 beyond the last of these. The corner is at its position and the sum of these
-/// multiples. The corner of the lowest id is at its position (if the vertex is there more than once, the first of these
-/// corners by x, y, z).
-/// neighbour_shifts: receives as many rows: those of the neighbour opposite the corner, by which it is to be translated from
-/// where its own shifts have it, to share the facet; 0 on the hull.
-/// Both are buffers with room for capacity cells; one that is NULL is not filled. count: receives the number of cells, which
-/// is also written when the buffers are too small. NULL for both with capacity 0 asks for the count alone.
+/// shifts: receives a row of 2 (2D) or 3 (3D) whole numbers for each of the 3 or 4 corners of each cell, in the order
+/// of deldrift_cells: multiples of the vectors, 0 beyond the last of these. The corner is at its position and the sum
+/// of these multiples. The corner of the lowest id is at its position (if the vertex is there more than once, the first
+/// of these corners by x, y, z). neighbour_shifts: receives as many rows, one for the neighbour opposite each corner.
+/// Translated by it from where its own shifts have it, the neighbour shares the facet. It is 0 on the hull. Both are
+/// buffers with room for capacity cells. count: receives the number of cells.
 ///
 /// All are 0 where the triangulation is not periodic.
 ///
 /// Cost: n + m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_cell_shifts(
     t: *const deldrift_triangulation,
@@ -286,19 +271,17 @@ pub unsafe extern "C" fn deldrift_cell_shifts(
 
 /// In which period the second vertex of each edge is, in the order of deldrift_edges.
 ///
-/// Of a periodic triangulation deldrift_edges tells one of each class of translations of each other, the lower id first. An
-/// edge may lead from a vertex to itself in another period, and two vertices may have several edges.
-/// shifts: receives a row of 2 (2D) or 3 (3D) whole numbers for each edge, multiples of the vectors, 0 beyond the last of
-/// these: from the position of the first vertex the edge leads to that of the second and the sum of these multiples. A
-/// buffer with room for capacity edges; NULL with capacity 0 asks for the count alone. count: receives the number of edges,
-/// which is also written when the buffer is too small.
+/// In a periodic triangulation deldrift_edges tells one of the edges that are translations of each other, the lower id
+/// first. An edge may lead from a vertex to itself in another period, and two vertices may have several edges. shifts:
+/// a buffer with room for capacity edges, which receives a row of 2 (2D) or 3 (3D) whole numbers for each: multiples of
+/// the vectors, 0 beyond the last of these. From the position of the first vertex the edge leads to that of the second
+/// and the sum of these multiples. count: receives the number of edges.
 ///
 /// All are 0 where the triangulation is not periodic.
 ///
 /// Cost: n + m, and d log d for the d neighbours of each vertex.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_edge_shifts(
     t: *const deldrift_triangulation,

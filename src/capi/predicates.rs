@@ -12,17 +12,15 @@ use crate::predicates::{
 
 /// The orientation of points, exactly, to *sign: 1, -1 or 0.
 ///
-/// dimension: 2 or 3. points: dimension + 1 points, one after the other, 2 or 3 numbers each. Of 3 points in the
-/// plane it is 1 if they are in counter-clockwise order, -1 if they are in clockwise order, and 0 on a line. Of 4
-/// points a, b, c, d in space it is the sign of the determinant of the rows b - a, c - a, d - a, and 0 on a plane.
-/// The cells of a triangulation have orientation 1. With another point in the place of a corner it tells on which
-/// side of the opposite facet that point lies: 1 on the side of the cell, 0 on the facet's line or plane.
+/// dimension: 2 or 3. points: dimension + 1 points. For 3 points in the plane the sign is 1 if they are in
+/// counter-clockwise order, -1 if they are in clockwise order, and 0 on a line. For 4 points a, b, c, d in space it is
+/// the sign of the determinant of the rows b - a, c - a, d - a, and 0 on a plane. The cells of a triangulation have
+/// orientation 1. With another point in the place of a corner it tells on which side of the opposite facet that point
+/// lies: 1 on the side of the cell, 0 on the facet's line or plane.
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE. Constant time, some nanoseconds except close to 0. May be called from any number of threads
-/// at once.
+/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_orientation(
     dimension: u32,
@@ -50,16 +48,13 @@ pub unsafe extern "C" fn deldrift_orientation(
 
 /// Whether a point is inside the circle or sphere through others, exactly, to *sign: 1 inside, -1 outside, 0 on it.
 ///
-/// dimension: 2 or 3. points: dimension + 2 points, one after the other, 2 or 3 numbers each: those that the circle or
-/// sphere goes through, of orientation 1 (deldrift_orientation), and the one that is asked about. If their orientation
-/// is
-/// -1, the sign is the opposite one. If it is 0 there is no circle or sphere, and the sign has no meaning. Ties are not
-/// broken.
+/// dimension: 2 or 3. points: dimension + 2 points: those that the circle or sphere goes through, of orientation 1
+/// (deldrift_orientation), and the one that is asked about. If their orientation is -1, the sign is the opposite one.
+/// If it is 0 there is no circle or sphere, and the sign has no meaning. Ties are not broken.
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE. May be called from any number of threads at once.
+/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_in_sphere(
     dimension: u32,
@@ -81,17 +76,19 @@ pub unsafe extern "C" fn deldrift_in_sphere(
 }
 
 /// Whether a point with a weight is inside the power circle or power sphere of others, exactly, to *sign: 1 inside, -1
-/// outside, 0 on it. The power of a place x to a point p of weight w is |x - p|^2 - w. The centre of the power sphere has
-/// one power to all of its points, and a point is inside if the centre has a lower one to it. With equal weights this is
+/// outside, 0 on it.
+///
+/// The power of a place x to a point p of weight w is |x - p|^2 - w. The centre of the power sphere has one power to all
+/// of its points, and a point is inside if the centre has a lower one to it. With equal weights this is
 /// deldrift_in_sphere. It is the test of regular triangulations, of which power diagrams are the duals.
 ///
-/// dimension: 2 or 3. points: dimension + 2 points, as deldrift_in_sphere takes them. weights: as many numbers, of magnitude up
-/// to 1e114, negative ones included: the square of a radius for a circle or a sphere around its point. Ties are not broken.
+/// dimension: 2 or 3. points: dimension + 2 points, as deldrift_in_sphere takes them. weights: as many numbers, of
+/// magnitude up to 1e114, negative ones included: the square of a radius for a circle or a sphere around its point.
+/// Ties are not broken.
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE for a weight. May be called from any number of threads at once.
+/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE for a weight.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_in_power_sphere(
     dimension: u32,

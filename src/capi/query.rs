@@ -12,20 +12,20 @@ use crate::machine::memory;
 use crate::motion::{Level, MovingTriangulation, NO_CELL, OwnedCells, cells_at};
 use crate::periodic::AnyPeriodic;
 
-/// No cell, no vertex: the neighbour of a cell across a facet of the convex hull, the nearest vertex of
-/// an empty triangulation.
+/// No cell, no vertex. It is the neighbour of a cell across a facet of the convex hull, and the nearest vertex of an
+/// empty triangulation.
 pub const DELDRIFT_NONE: u32 = u32::MAX;
 const _: () = assert!(DELDRIFT_NONE == NO_CELL.get());
 
-/// The cells of a triangulation: triangles in 2D, tetrahedra in 3D. Read-only, without a copy, valid
-/// until the next call that changes the triangulation.
+/// The cells of a triangulation: triangles in 2D, tetrahedra in 3D. The arrays are those of the library, not a copy:
+/// they are read-only, and valid until the next call that changes the triangulation.
 ///
-/// Calls that stage, that discard what is staged, that take changes, and deldrift_set_algorithm, change no cells: a
-/// view that is not older than the last change stays valid. After deldrift_release_cells it is valid until its owner is
-/// freed.
+/// Some calls change no cells: those that stage, that discard what is staged, that take changes, and
+/// deldrift_set_algorithm. They keep a view that is not older than the last change. After deldrift_release_cells a view
+/// is valid until its owner is freed.
 ///
-/// Cells are positively oriented: the vertices of a triangle are in counter-clockwise order; of a
-/// tetrahedron a, b, c, d, the determinant of the rows b - a, c - a, d - a is positive.
+/// Cells are positively oriented. The vertices of a triangle are in counter-clockwise order. For a tetrahedron a, b, c,
+/// d the determinant of the rows b - a, c - a, d - a is positive.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct deldrift_cells_view {
@@ -35,22 +35,21 @@ pub struct deldrift_cells_view {
     pub corners_per_cell: u32,
     /// count rows of corners_per_cell vertex ids. NULL if there are no cells.
     pub vertices: *const u32,
-    /// count rows of corners_per_cell cell indices: entry i of a row is the cell on the other side of
-    /// the facet opposite vertex i, DELDRIFT_NONE on the hull. NULL if there are no cells.
+    /// count rows of corners_per_cell cell indices. Entry i of a row is the cell beyond the facet opposite vertex i,
+    /// DELDRIFT_NONE on the hull. NULL if there are no cells.
     pub neighbours: *const u32,
 }
 
 /// The cells, without a copy, to *view.
 ///
-/// The first call of all makes the arrays. They are kept: the first call after a change brings them up
-/// to date, in time proportional to what has changed, and further calls take constant time. A cell that
-/// exists before and after a change keeps its index, whatever the algorithm, unless cells have become
-/// fewer: then the last ones take the free indices (see deldrift_take_changes). Calls on several threads are
-/// legal, the first included.
+/// The first call of all makes the arrays, which are kept. The first call after a change brings them up to date, in
+/// time proportional to what has changed. Further calls take constant time. A cell that exists before and after a
+/// change keeps its index, whatever the algorithm. But where cells have become fewer, the last ones take the free
+/// indices (see deldrift_take_changes). Calls on several threads are legal, the first included.
 ///
 /// Cost: m for the first call of all; after a change what has changed; else constant.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_cells(
     t: *const deldrift_triangulation,
@@ -74,18 +73,17 @@ enum Arrays {
     Space(OwnedCells<Space>),
 }
 
-/// Hands the arrays of deldrift_cells over to the program, to *view, with an owner for them, to *owner: they stay as
-/// they are, and valid, until the owner is handed to deldrift_free_cells, whatever becomes of t.
+/// Hands the arrays of deldrift_cells over to the program, to *view, with an owner for them, to *owner. They stay
+/// valid, and as they are, until the owner is handed to deldrift_free_cells, whatever becomes of t.
 ///
-/// Views that deldrift_cells has given since the last change, or the last call of this function, are of these arrays:
-/// they are valid until this owner is freed, and no longer. So a program that has shown them to others, such as an
-/// interpreter, can call this before it makes a change. Views that are got afterwards are of copies, which belong to t.
-/// A commit that fails and deldrift_compact count as changes.
+/// Views that deldrift_cells has given since the last change, or the last call of this function, are of these arrays.
+/// They are valid until this owner is freed, and no longer. So a program that has shown them to others, such as an
+/// interpreter, can call this before it makes a change. Later views are of copies, which belong to t. A commit that
+/// fails counts as a change, and so does deldrift_compact.
 ///
 /// Cost: m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_OUT_OF_MEMORY; then nothing is handed over,
-/// and views are as valid as before. Not to be called at the same time as any other call on t.
+/// Errors: DELDRIFT_OUT_OF_MEMORY; then nothing is handed over, and views are as valid as before.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_release_cells(
     t: *mut deldrift_triangulation,
@@ -114,8 +112,8 @@ pub unsafe extern "C" fn deldrift_release_cells(
     })
 }
 
-/// Frees arrays that deldrift_release_cells has handed over, once. NULL is legal and does nothing, and neither does a
-/// misaligned pointer. May be called from any thread.
+/// Frees arrays that deldrift_release_cells has handed over, once. NULL is legal and does nothing; a misaligned pointer
+/// does nothing either.
 ///
 /// Cost: m at most, to free memory.
 #[unsafe(no_mangle)]
@@ -126,14 +124,12 @@ pub unsafe extern "C" fn deldrift_free_cells(owner: *mut deldrift_released_cells
 
 /// A copy of the cells: see deldrift_cells_view for what the rows mean.
 ///
-/// vertices, neighbours: buffers with room for capacity rows of 3 (2D) or 4 (3D) numbers; one that is
-/// NULL is not filled. count: receives the number of cells, which is also written when the buffers are
-/// too small. NULL for both with capacity 0 asks for the count alone, with another it is DELDRIFT_NULL_ARGUMENT.
+/// vertices, neighbours: buffers with room for capacity rows of 3 (2D) or 4 (3D) numbers. count: receives the number of
+/// cells.
 ///
-/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+/// Cost: m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_copy_cells(
     t: *const deldrift_triangulation,
@@ -160,19 +156,17 @@ pub unsafe extern "C" fn deldrift_copy_cells(
     })
 }
 
-/// The star of a vertex: the indices of the cells that have it as a corner, in no particular order; for
-/// a hidden vertex those of its representative.
+/// The star of a vertex: the indices of the cells that have it as a corner, in no particular order. A hidden vertex has
+/// the star of its representative.
 ///
-/// cells: a buffer with room for capacity indices. count: receives their number, which is also written
-/// when the buffer is too small. NULL with capacity 0 asks for the count alone.
+/// cells: a buffer with room for capacity indices. count: receives their number.
 ///
-/// Of a periodic triangulation a cell is there once for each of its corners that is the vertex, in whatever period.
+/// In a periodic triangulation a cell is listed once for each of its corners that is the vertex, in whatever period.
 ///
-/// Cost: the cells of the star; m for a periodic triangulation. After a change the first call also does what the first
-/// deldrift_cells does. Where there are more vertices than a cache holds, stars are read fastest in the order of the ids.
+/// Cost: the cells of the star; m for a periodic triangulation. Where there are more vertices than a cache holds, stars
+/// are read fastest in the order of the ids.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX,
-/// DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_star(
     t: *const deldrift_triangulation,
@@ -198,16 +192,15 @@ pub unsafe extern "C" fn deldrift_star(
 /// The tolerance of a vertex, to *out: while every vertex stays closer to its current position than its
 /// tolerance, no cell changes.
 ///
-/// It is a certified lower bound: rounding can make it smaller, but never too large. It is 0 where nothing
-/// is certain and for vertices that share their place, and infinite, without a meaning, while there are no
-/// cells. Computed from the star of the vertex, whatever the algorithm in force. At segments it is what the orientation of
-/// the cells on both sides allows. In a periodic triangulation images move as their vertices do, and the vectors stay; there
-/// a vertex that alone makes a side of a slab has 0, as it is on one line with its images.
+/// It is a certified lower bound: rounding can make it smaller, but never too large. It is 0 where nothing is certain,
+/// and for vertices that share their place. It is infinite, without a meaning, while there are no cells. It is computed
+/// from the star of the vertex, whatever the algorithm in force. At segments it is what the orientation of the cells on
+/// both sides allows. In a periodic triangulation images move as their vertices do, and the vectors stay. There a vertex
+/// that alone makes a side of a slab has 0, as it is on one line with its images.
 ///
 /// Cost: the cells of the star.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_tolerance(
     t: *const deldrift_triangulation,
@@ -220,16 +213,16 @@ pub unsafe extern "C" fn deldrift_tolerance(
 
 /// Checks the triangulation exactly, in time proportional to its size.
 ///
-/// level: 1 checks indices and adjacency; 2 also the orientation of the cells, and that the hull is
-/// convex and winds once; 3 also that no sphere through the vertices of a cell contains a vertex, or, with segments, none
-/// that can be seen from the cell's inside. Of a periodic triangulation what is kept inside is checked so, images included,
-/// and that these are where the vectors take their vertices; 3 also that none is missing, and that each cell is there
-/// once for each of its corners.
+/// level: 1 checks indices and adjacency. 2 also checks the orientation of the cells, and that the hull is convex and
+/// winds once. 3 also checks that no sphere through the vertices of a cell contains a vertex. With segments only
+/// vertices count that can be seen from the cell's inside. In a periodic triangulation this is checked of what is kept
+/// inside, images included. All levels check that images are where the vectors take their vertices. 3 also checks that
+/// no image is missing, and that each cell is there once for each of its corners.
 ///
 /// Cost: n + m. Of a periodic triangulation at level 3 that of creation at most, in a copy.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_INVALID_LEVEL, DELDRIFT_INVALID if something is wrong:
-/// deldrift_last_error then gives the first violation; DELDRIFT_OUT_OF_MEMORY if t is periodic.
+/// Errors: DELDRIFT_INVALID_LEVEL, DELDRIFT_INVALID if something is wrong: deldrift_last_error then gives the first
+/// violation; DELDRIFT_OUT_OF_MEMORY if t is periodic.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_validate(t: *const deldrift_triangulation, level: u32) -> deldrift_status {
     given!(t: Reading);

@@ -8,41 +8,38 @@ use crate::delaunay::Dimension;
 use crate::in_its_dimension;
 use crate::motion::MovingTriangulation;
 
-/// The cells that a vertex at a place in one of some boxes could change: with deldrift_hull_facets_in_reach, what a process
-/// has to know of vertices that it does not have, given where they may be.
+/// The cells that a vertex at a place in one of some boxes could change. With deldrift_hull_facets_in_reach, they are
+/// what a process has to know of vertices that it does not have, given where these may be.
 ///
 /// A cell is in reach of a box if its closed circumscribed disc or ball meets the closed box. Exactly these are told,
-/// decided without rounding: none is missing, and none is too many. A vertex that is inserted, or moves to, a place in the box
-/// removes no other cell, whatever its id, and joins no facet of the hull but those in reach, and those in whose line or
-/// plane its place is, where the cell behind is in reach.
+/// decided without rounding. A vertex that is inserted at, or moves to, a place in the box removes no other cell,
+/// whatever its id. It joins no facet of the hull but those in reach, and those in whose line or plane its place is,
+/// where the cell behind is in reach.
 ///
-/// low, high: box_count rows of 2 (2D) or 3 (3D) numbers, the least and the greatest coordinates of each box, which may
-/// be infinite; NULL if box_count is 0. Places beyond the range of coordinates, of magnitudes above 1e57, do not count. A
-/// box is empty, and nothing in reach of it, where one of low is above that of high. It may be a place, or flat. The
-/// outside of a box is 4 (2D) or 6 (3D) boxes with infinite sides.
-/// mask: an entry for each vertex id; only cells count that have a corner at the place of a vertex whose entry is not 0.
-/// NULL for all cells. mask_count: deldrift_id_count; without a mask it is not looked at.
+/// low, high: box_count rows of the least and the greatest coordinates of each box, which may be infinite. Places
+/// beyond the range of coordinates, of magnitudes above 1e57, do not count. A box is empty, and nothing in reach of it,
+/// where one of low is above that of high. It may be a place, or flat. The outside of a box is 4 (2D) or 6 (3D) boxes
+/// with infinite sides. mask: an entry for each vertex id. Only cells count that have a corner at the place of a vertex
+/// whose entry is not 0. NULL for all cells. mask_count: deldrift_id_count; without a mask it is not looked at.
 ///
-/// cells, centres, radii: buffers with room for capacity cells. They receive the indices of those in reach of any of the
-/// boxes, ascending and each once; rows of 2 or 3 coordinates; and numbers. The closed ball with this centre and radius
-/// certainly has the closed disc or ball of the cell in it. It is larger by some 1e-12 of the radius and last bits of the
-/// coordinates, where the cell is nearly flat by up to 4e-9 of the radius. Where numbers do not suffice, the radius is
-/// infinite and the centre a corner of the cell. A ball may cover all vertices though few are in that of the cell, if its
-/// radius is 1e8 times their extent: whether the cell is in reach does not depend on that.
-/// One that is NULL is not filled. count: receives the number of cells, which is also written when the buffers are too
-/// small. NULL for all three with capacity 0 asks for the count alone.
+/// cells, centres, radii: buffers with room for capacity cells. They receive the indices of those in reach of any of
+/// the boxes, ascending and each once; points; and numbers. The closed ball with this centre and radius certainly has
+/// the closed disc or ball of the cell in it. It is larger by some 1e-12 of the radius and last bits of the
+/// coordinates, or by up to 4e-9 of the radius where the cell is nearly flat. Where numbers do not suffice, the radius
+/// is infinite and the centre a corner of the cell. A ball may cover all vertices though few are in that of the cell,
+/// if its radius is 1e8 times their extent: whether the cell is in reach does not depend on that. count: receives the
+/// number of cells.
 ///
-/// While there are no cells, as all vertices are in one line or plane, or fewer than 3 or 4, none are told: then a vertex
-/// anywhere could change all there is.
-/// Where cells are constrained by segments, they are those whose discs meet the box and that are connected, by such cells,
-/// with those that have a place of the box. Segments between them do not count. All that the insertion of a vertex in the
-/// box would remove are among them.
+/// While there are no cells, none are told: then a vertex anywhere could change all there is. Where cells are
+/// constrained by segments, those are told whose discs meet the box and that are connected, by such cells, with those
+/// that have a place of the box. Segments between them do not count. All that the insertion of a vertex in the box
+/// would remove are among them.
 ///
-/// Cost: for each box that of deldrift_locate, and the cells and hull facets in its reach, whether in the mask or not; k
-/// log k for the k cells told. After a change the first call also does what the first deldrift_cells does.
+/// Cost: for each box that of deldrift_locate, and the cells and hull facets in its reach, whether in the mask or not;
+/// k log k for the k cells told.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT for a mask
-/// of another length, DELDRIFT_INVALID_VALUE for NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT for a mask of another length, DELDRIFT_INVALID_VALUE for NaN,
+/// DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_cells_in_reach(
     t: *const deldrift_triangulation,
@@ -82,21 +79,20 @@ pub unsafe extern "C" fn deldrift_cells_in_reach(
     })
 }
 
-/// The facets of the convex hull that a place in one of some boxes is strictly beyond: those to which a vertex there
-/// would be joined. Exact.
+/// The facets of the convex hull that a place in one of some boxes is strictly beyond, exactly. A vertex there would be
+/// joined to them.
 ///
 /// low, high, box_count, mask, mask_count: as for deldrift_cells_in_reach; with a mask, only facets count that have a
-/// corner at the place of a vertex of it. cells, corners: buffers with room for capacity numbers, which receive the cell
-/// of each facet and which of its corners (0, 1, ...) is opposite, as deldrift_hull_facets has them, ascending and each
-/// once. One that is NULL is not filled. count: receives the number of facets, which is also written when the buffers are
-/// too small. NULL for both with capacity 0 asks for the count alone.
+/// corner at the place of a vertex of the mask. cells, corners: buffers with room for capacity numbers, which receive
+/// the cell of each facet and which of its corners (0, 1, ...) is opposite, as deldrift_hull_facets has them, ascending
+/// and each once. count: receives the number of facets.
 ///
 /// While there are no cells, there are none.
 ///
 /// Cost: that of deldrift_cells_in_reach.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT for a mask
-/// of another length, DELDRIFT_INVALID_VALUE for NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT for a mask of another length, DELDRIFT_INVALID_VALUE for NaN,
+/// DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_hull_facets_in_reach(
     t: *const deldrift_triangulation,
@@ -126,17 +122,16 @@ pub unsafe extern "C" fn deldrift_hull_facets_in_reach(
     })
 }
 
-/// For each of some boxes the vertices of the cells and hull facets in its reach: those that a process sends to another
-/// one whose vertices are in the box.
+/// For each of some boxes the vertices of the cells and hull facets in its reach. A process sends them to another one
+/// whose vertices are in the box.
 ///
-/// They are the corners of what deldrift_cells_in_reach and deldrift_hull_facets_in_reach tell for this box alone, and the
-/// vertices hidden behind them; with a mask, those of which the entry is not 0. low, high, box_count, mask, mask_count: as
-/// there.
+/// They are the corners of what deldrift_cells_in_reach and deldrift_hull_facets_in_reach tell for this box alone, and
+/// the vertices hidden behind them; with a mask, those of which the entry is not 0. low, high, box_count, mask,
+/// mask_count: as there.
 ///
 /// vertices: a buffer with room for capacity ids, which receives a list for each box, ascending, one after the other.
-/// offsets: a buffer with room for box_count + 1 numbers: the list of box k is in vertices from the index that is entry k of
-/// offsets on, and ends before entry k + 1. One that is NULL is not filled. count: receives the number of entries, which
-/// is also written when vertices is too small. NULL for both with capacity 0 asks for the count alone, which takes as long.
+/// offsets: a buffer with room for box_count + 1 numbers. The list of box k begins in vertices at the index that is
+/// entry k of offsets, and ends before entry k + 1. count: receives the number of entries.
 ///
 /// While there are no cells, a vertex anywhere could change all there is: all vertices of the mask are in reach of each
 /// box that is not empty.
@@ -144,8 +139,8 @@ pub unsafe extern "C" fn deldrift_hull_facets_in_reach(
 /// Cost: that of deldrift_cells_in_reach, and k log k for the k vertices of each list; while there are no cells, n for
 /// each box.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT for a mask
-/// of another length, DELDRIFT_INVALID_VALUE for NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT for a mask of another length, DELDRIFT_INVALID_VALUE for NaN,
+/// DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_vertices_in_reach(
     t: *const deldrift_triangulation,

@@ -48,80 +48,82 @@ pub enum deldrift_domain {
 /// Which cells are the domain as it arrives from C, where any number may be passed.
 pub type DomainCode = u32;
 
-/// What deldrift_refine and deldrift_coarsen work towards, and how. Initialise it with deldrift_quality_init, then set what
-/// should differ from the defaults: without a criterion nothing is done.
+/// What deldrift_refine and deldrift_coarsen work towards, and how. Initialise it with deldrift_quality_init, then set
+/// what should differ from the defaults. Without a criterion nothing is done.
 ///
-/// The structure may grow in later versions, as deldrift_options does: struct_size says how much of it the program knows.
-///
-/// Arrays are read during the call only.
+/// The structure may grow in later versions, as deldrift_options does. struct_size says how much of it the program
+/// knows.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct deldrift_quality {
     /// sizeof(deldrift_quality) as the program sees it.
     pub struct_size: usize,
-    /// The least angle of a cell in degrees, up to 34; 0, the default, for any. Up to 26.5 degrees all cells have it wherever
-    /// angles between segments are at least 60 degrees and no vertex is within 1,024 last places of the greatest coordinate of
-    /// another one or of a segment, as is proved; above they do in practice. Refinement ends for all angles and domains: no
-    /// vertex is inserted that is so near to another one.
+    /// The least angle of a cell in degrees, up to 34; 0, the default, for any. Up to 26.5 degrees it is proved that
+    /// all cells have it wherever angles between segments are at least 60 degrees and no vertex is within 1,024 last
+    /// places of the greatest coordinate of another one or of a segment. Above that they do in practice. Refinement
+    /// ends for all angles and domains, as no vertex is inserted that is so near to another one.
     pub least_angle: f64,
     /// The greatest area of a cell; 0, the default, for any.
     pub greatest_area: f64,
-    /// A label for each cell, in the order of deldrift_cells, as deldrift_label_cells gives them; NULL, the default, for those
-    /// of deldrift_regions, with 0 for other.
+    /// A label for each cell, in the order of deldrift_cells, as deldrift_label_cells gives them. NULL, the default,
+    /// stands for those of deldrift_regions, with 0 for other.
     pub labels: *const i32,
     /// How many labels there are: as many as cells, or 0.
     pub label_count: usize,
-    /// The greatest area of cells by label, 0 for any: entry k is that of label k, and labels below 0 and beyond have none.
-    /// New cells have the label of the region that they are in. NULL by default.
+    /// The greatest area of cells by label, 0 for any. Entry k is that of label k; labels below 0 and beyond the
+    /// entries have none. New cells have the label of the region that they are in. NULL by default.
     pub areas: *const f64,
     /// How many areas there are.
     pub area_count: usize,
     /// By vertex id the greatest length of edges there: no edge of a cell is longer than the mean at its corners. New
-    /// vertices have what is between. Above 0, infinity for any; entries of removed vertices are not used. NULL, the default,
-    /// for any.
+    /// vertices have sizes in between. Entries are above 0, infinity for any; those of removed vertices are not used.
+    /// NULL, the default, is no criterion.
     pub sizes: *const f64,
     /// How many sizes there are: as many as ids, or 0.
     pub size_count: usize,
-    /// Another criterion: whether a cell is too large, with the coordinates of its corners, 6 numbers, counter-clockwise: 1
-    /// if it is, otherwise 0. It has to give the same answer for the same corners, and 0 for cells that are small enough. A
-    /// number below 0 is to stop: it is not called again, and the call ends in DELDRIFT_CANCELLED and has had no effect. It is
-    /// called from inside the call as the callbacks of deldrift_options are. NULL, the default, for none.
+    /// Another criterion: whether a cell is too large, given the coordinates of its corners, 6 numbers,
+    /// counter-clockwise. It gives 1 if the cell is too large, otherwise 0. It has to give the same answer for the same
+    /// corners, and 0 for cells that are small enough. A number below 0 stops: it is not called again, and the call
+    /// ends in DELDRIFT_CANCELLED and has had no effect. It is called from inside the call as the callbacks of
+    /// deldrift_options are. NULL, the default, for none.
     pub is_too_large: Option<unsafe extern "C" fn(user_data: *mut c_void, corners: *const f64) -> c_int>,
     /// Handed to is_too_large as it is.
     pub user_data: *mut c_void,
-    /// Which segments deldrift_refine keeps whole: default DELDRIFT_KEPT_NONE. Cells at those that it keeps may stay bad.
+    /// Which segments deldrift_refine keeps whole: default DELDRIFT_KEPT_NONE. Cells at those that it keeps may stay
+    /// bad.
     pub keeps: KeptCode,
-    /// Not 0 if deldrift_refined_weights will be asked for. Default 0.
+    /// Not 0 if deldrift_refined_weights will be called. Default 0.
     pub has_weights: u32,
-    /// Not 0 if no corner of a cell is to be strictly inside the circle that has a segment at the cell for a diameter. Then no
-    /// vertex is inside the circle of a cell that it sees, segments or not: a conforming Delaunay triangulation. Segments that
-    /// are kept whole may have such corners, and those that a vertex touches (see unsplit). What is said of 26.5 degrees then
-    /// holds up to 20.7, and there are more cells.
-    /// Default 0: segments are split where angles, areas and lengths need it.
+    /// Not 0 if no corner of a cell is to be strictly inside the circle that has a segment at the cell for a diameter.
+    /// Then no vertex is inside the circle of a cell that it sees, segments or not: a conforming Delaunay
+    /// triangulation. Segments that are kept whole may still have such corners, and so may those that a vertex touches
+    /// (see unsplit). What is said of 26.5 degrees then holds up to 20.7, and there are more cells. Default 0: segments
+    /// are split where angles, areas and lengths need it.
     pub is_conforming: u32,
     /// Greatest number of vertices that deldrift_refine inserts: default SIZE_MAX.
     pub limit: usize,
-    /// By how many degrees the angles of cells that come by deldrift_coarsen have to be above the least one, so that the
-    /// vertex that went is not missed at once: from 0 to 30, default 2.
+    /// By how many degrees the angles of cells that deldrift_coarsen makes have to be above the least one, so that the
+    /// removed vertex is not needed again at once: from 0 to 30, default 2.
     pub margin: f64,
-    /// The share of the greatest areas and lengths that cells that come by deldrift_coarsen may have: above 0 and at most 1,
-    /// default 0.9.
+    /// The share of the greatest areas and lengths that cells may have that deldrift_coarsen makes: above 0 and at most
+    /// 1, default 0.9.
     pub share: f64,
-    /// Two pieces of a segment are joined by deldrift_coarsen if the vertex between them is on the line through their other
-    /// ends, or off it by no more than this share of the distance of these: from 0 to 1. Above 0 it may be off by 64 last
-    /// places of the greatest coordinate at least. The default, 1e-9, is above what the rounding of motions adds up to.
+    /// deldrift_coarsen joins two pieces of a segment if the vertex between them is on the line through their other
+    /// ends, or off it by no more than this share of their distance: from 0 to 1. If the share is above 0, the vertex
+    /// may always be off by 64 last places of the greatest coordinate. The default, 1e-9, is above what the rounding of
+    /// motions adds up to.
     pub joins: f64,
-    /// How many times as many vertices as a mesh made anew the mesh may have: 1 or more, default 1.1. Where deldrift_coarsen
-    /// leaves more of those that deldrift_refine has inserted, or takes many away for another quality, the next
-    /// deldrift_refine finds the mesh made anew, and if it has fewer by this factor takes it: in its one commit, the report of
-    /// which tells what was removed. Infinity for never. Not done with sizes.
+    /// How many times as many vertices as a mesh made anew the mesh may have: 1 or more, default 1.1. Where
+    /// deldrift_coarsen leaves more of those that deldrift_refine has inserted, or takes many away for another quality,
+    /// the next deldrift_refine makes the mesh anew on a copy. If that has fewer vertices by this factor it takes it,
+    /// in its one commit, and its report tells what was removed. Infinity for never. Not done with sizes.
     pub growth: f64,
-    /// Not 0 if deldrift_refine gives its vertices free ids, as deldrift_stage_insertions_at_free_ids does: of vertices
-    /// that earlier commits have removed, the lowest first, and then new ones; deldrift_refined_vertices tells which. So
-    /// deldrift_id_count does not grow for ever. From the first insertion on vertices have keys then, as if these had
-    /// been given (see deldrift_keys): those that deldrift_refine inserts the greatest one, the others their ids. Who
-    /// transfers means of cells takes the changes between deldrift_coarsen and deldrift_refine as well: a cell with the
-    /// ids of one that was is not listed. Default 0.
+    /// Not 0 if deldrift_refine gives its vertices free ids, as deldrift_stage_insertions_at_free_ids does: those of
+    /// vertices that earlier commits have removed, the lowest first, and then new ones. deldrift_refined_vertices tells
+    /// which. So deldrift_id_count does not grow for ever. From the first insertion on vertices then have keys, as if
+    /// these had been given (see deldrift_keys): those that deldrift_refine inserts the greatest one, the others their
+    /// ids. A program that transfers means of cells takes the changes between deldrift_coarsen and deldrift_refine as
+    /// well, as a cell with the ids of a former one is not listed. Default 0.
     pub reuses_ids: u32,
     /// Which cells are refined without a mask: default DELDRIFT_DOMAIN_NESTING.
     pub domain: DomainCode,
@@ -188,15 +190,15 @@ pub struct deldrift_quality_report {
     pub on_segments: u64,
     /// Vertices removed.
     pub removed: u64,
-    /// Segments removed, as pieces took the place of one, or one that of pieces.
+    /// Segments removed, as pieces have replaced a segment, or a segment pieces.
     pub replaced_segments: u64,
-    /// Segments that came. Their ids are the last ones that have been given.
+    /// Segments made. Their ids are the last ones that have been given.
     pub new_segments: u64,
-    /// Pieces that had to be split and are whole, as there is no room for a vertex: between their ends, or as a vertex touches
-    /// them, which is beside them by less than 1,024 last places of the greatest coordinate.
+    /// Pieces that had to be split and are whole, as there is no room for a vertex between their ends, or as a vertex
+    /// touches them: it is beside them by less than 1,024 last places of the greatest coordinate.
     pub unsplit: u64,
-    /// Cells that are still bad, of those that were to be refined: at small angles between segments, at segments that are
-    /// kept whole, and where the limit was reached. What is_conforming asks of segments does not count.
+    /// Cells that are still bad, of those that were to be refined: at small angles between segments, at segments that
+    /// are kept whole, and where the limit was reached. What is_conforming asks of segments does not count.
     pub bad_cells: u64,
     /// 1 if the limit was reached, otherwise 0.
     pub is_cut_short: u64,
@@ -223,8 +225,6 @@ impl From<QualityReport> for deldrift_quality_report {
 /// Sets a quality to the defaults: no criterion.
 ///
 /// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_quality_init(quality: *mut deldrift_quality) -> deldrift_status {
     given!(quality: Output);
@@ -234,36 +234,37 @@ pub unsafe extern "C" fn deldrift_quality_init(quality: *mut deldrift_quality) -
     })
 }
 
-/// Inserts vertices into cells of the plane, and on segments at these, until the cells there are of a quality: one commit of
-/// its own, all or nothing, of which deldrift_take_changes tells what it changed. docs/SEGMENTS.md has a loop that moves,
-/// commits, coarsens and refines.
+/// Inserts vertices into cells of the plane, and on segments at these, until the cells there are of a quality. It is
+/// one commit of its own, all or nothing, and deldrift_take_changes tells what it has changed. docs/SEGMENTS.md has a
+/// loop that moves, commits, coarsens and refines.
 ///
-/// quality: what is wanted. mask: mask_count bytes, one for each cell in the order of deldrift_cells (mask_count must be
-/// deldrift_cell_count): cells are refined if their byte is not 0. They have to end at segments: at an edge beyond which
-/// there is no cell, or one that is not refined, there has to be one. NULL with mask_count 0 for the domain (see
-/// deldrift_domain): by default the cells that have an odd nesting level. Read during the call only. report: receives what was
-/// done; may be NULL. Ends all views if anything was inserted or removed.
+/// quality: what is wanted. mask: mask_count bytes, one for each cell in the order of deldrift_cells (mask_count must
+/// be deldrift_cell_count). Cells are refined if their byte is not 0. They have to end at segments: an edge beyond
+/// which there is no cell, or one that is not refined, has to have one. NULL with mask_count 0 stands for the domain
+/// (see deldrift_domain): by default the cells that have an odd nesting level. report: receives what was done; may be
+/// NULL. Views end only if anything was inserted or removed.
 ///
-/// A segment that gets a vertex is removed, and pieces take its place, with its marker: see deldrift_original_segments. The
-/// places of new vertices are rounded, and pieces are straight between their own ends. Cells where the quality cannot be had
-/// stay: between segments at a small angle, at segments that stay whole, and where there is no room for a vertex. The report
-/// tells how many.
+/// A segment that gets a vertex is removed, and pieces take its place, with its marker (see
+/// deldrift_original_segments). The places of new vertices are rounded, and pieces are straight between their own ends.
+/// Some cells stay bad: between segments at a small angle, at segments that stay whole, and where there is no room for
+/// a vertex. The report tells how many.
 ///
-/// After a deldrift_coarsen it may make the mesh anew, where that has fewer vertices by a factor (see growth): then it removes
-/// vertices that it has inserted, too, in its one commit.
+/// After a deldrift_coarsen it may make the mesh anew, where that has fewer vertices by a factor (see growth). Then it
+/// also removes vertices that it has inserted, in its one commit.
 ///
 /// Where all is good already, nothing is committed.
 ///
-/// Cost: m, s log s for s segments, and for each vertex inserted, on the average, a constant. Where no place, cell or segment
-/// has changed since this call, or deldrift_coarsen, has found all to be good with these numbers: comparing mask and labels.
+/// Cost: m, s log s for s segments, and for each vertex inserted, on the average, a constant. If this call, or
+/// deldrift_coarsen, has found all to be good with these numbers, and no place, cell or segment has changed since:
+/// comparing mask and labels.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
-/// DELDRIFT_INVALID_OPTIONS for struct_size, keeps and domain, DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE for a number of
-/// quality that has no meaning, those for deldrift_coarsen included, and for a mask that does not end at segments,
-/// DELDRIFT_UNDECIDED_REGIONS where the labels of regions are used: for the domain, and for areas without labels of cells,
-/// DELDRIFT_STAGED_VERTEX if anything is staged, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY,
-/// DELDRIFT_CANCELLED, and DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING where pieces that are bent by rounding would touch
-/// others (see deldrift_segment_conflicts). Not to be called at the same time as any other call on t.
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS for struct_size, keeps
+/// and domain, DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE for a number of quality that has no meaning, those for
+/// deldrift_coarsen included, and for a mask that does not end at segments, DELDRIFT_UNDECIDED_REGIONS where the labels
+/// of regions are used: for the domain, and for areas without labels of cells, DELDRIFT_STAGED_VERTEX if anything is
+/// staged, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED, and
+/// DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING where pieces that are bent by rounding would touch others (see
+/// deldrift_segment_conflicts).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_refine(
     t: *mut deldrift_triangulation,
@@ -285,26 +286,25 @@ pub unsafe extern "C" fn deldrift_refine(
     })
 }
 
-/// Removes vertices that deldrift_refine has inserted and that are not needed any more: those around which the cells would
-/// still be of the quality, by a margin. Pieces of a segment are joined again. One commit of its own, all or nothing, of
-/// which deldrift_take_changes tells what it changed.
+/// Removes vertices that deldrift_refine has inserted and that are not needed any more. Without them the cells are
+/// still of the quality, by a margin. Pieces of a segment are joined again. It is one commit of its own, all or
+/// nothing, and deldrift_take_changes tells what it has changed.
 ///
-/// The arguments are those of deldrift_refine. has_weights, limit and reuses_ids of the quality are not used; keeps says
-/// what it would do.
+/// The arguments are those of deldrift_refine. has_weights, limit and reuses_ids of the quality are not used; keeps
+/// says what it would do.
 ///
-/// Around cells that are of lower quality already, those that come may have angles as small: call it before deldrift_refine,
-/// which then has less to insert. Ids of the vertices that stay are as they were, and so are values by id: one pass after
-/// deldrift_refine carries them over both, see deldrift_refined_weights.
+/// Around cells that are of lower quality already, new cells may have angles as small. So call it before
+/// deldrift_refine, which then has less to insert. Vertices that stay keep their ids, and so values by id stay, too:
+/// one pass after deldrift_refine carries them over both (see deldrift_refined_weights).
 ///
-/// Cost: that of deldrift_refine where all is good, and for each vertex that deldrift_refine has inserted at most that of
-/// looking at the cells around it. Where no place, cell or segment has changed since this call has found nothing to remove
-/// with these numbers: comparing mask and labels.
+/// Cost: that of deldrift_refine where all is good, and for each vertex that deldrift_refine has inserted at most that
+/// of looking at the cells around it. If this call has found nothing to remove with these numbers, and no place, cell
+/// or segment has changed since: comparing mask and labels.
 ///
-/// Errors: those of deldrift_refine: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT,
-/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS for struct_size, keeps and domain,
-/// DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE, DELDRIFT_UNDECIDED_REGIONS, DELDRIFT_STAGED_VERTEX,
-/// DELDRIFT_TOO_MANY_VERTICES for ids of segments, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED,
-/// DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING. Not to be called at the same time as any other call on t.
+/// Errors: those of deldrift_refine: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS
+/// for struct_size, keeps and domain, DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE, DELDRIFT_UNDECIDED_REGIONS,
+/// DELDRIFT_STAGED_VERTEX, DELDRIFT_TOO_MANY_VERTICES for ids of segments, DELDRIFT_TOO_MANY_CELLS,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED, DELDRIFT_ON_SEGMENT and DELDRIFT_CROSSING.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_coarsen(
     t: *mut deldrift_triangulation,
@@ -321,15 +321,12 @@ pub unsafe extern "C" fn deldrift_coarsen(
 
 /// The vertices that deldrift_refine has inserted and that are present, ascending by id.
 ///
-/// vertices: a buffer with room for capacity ids; segments: for as many: the segment that the vertex was put on, by the id
-/// that it had before it was split, DELDRIFT_NONE if there is none. One that is NULL is not filled. count: receives the
-/// number of vertices, which is also written when the buffers are too small. NULL for both with capacity 0 asks for the
-/// count alone.
+/// vertices: a buffer with room for capacity ids. segments: room for as many: the segment that the vertex was put on,
+/// by the id that it had before it was split, DELDRIFT_NONE if there is none. count: receives the number of vertices.
 ///
 /// Cost: the vertices inserted so far.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_BUFFER_TOO_SMALL.
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_made_vertices(
     t: *const deldrift_triangulation,
@@ -351,17 +348,15 @@ pub unsafe extern "C" fn deldrift_made_vertices(
     })
 }
 
-/// For each segment in force, in the order of deldrift_segments, the id of the segment that the program staged and of which
-/// deldrift_stage_splits or deldrift_refine has made it a piece; its own id if it is whole. That segment is not in force any
-/// more, or, where it was split before it was made, has never been.
+/// The original of each segment in force, in the order of deldrift_segments. For a piece that deldrift_stage_splits or
+/// deldrift_refine has made it is the id of the segment that the program staged; for a whole segment it is its own id.
+/// The original of a piece is not in force any more, or, where it was split before it was made, has never been.
 ///
-/// originals: a buffer with room for capacity ids. count: receives the number of segments, which is also written when the
-/// buffer is too small. NULL with capacity 0 asks for the count alone.
+/// originals: a buffer with room for capacity ids. count: receives the number of segments.
 ///
 /// Cost: of s segments in force s log s.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_BUFFER_TOO_SMALL.
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_original_segments(
     t: *const deldrift_triangulation,
@@ -378,25 +373,24 @@ pub unsafe extern "C" fn deldrift_original_segments(
     })
 }
 
-/// For each vertex that the last deldrift_refine inserted, in the order of their ids, how linear values there follow from
-/// those at the vertices before: the sum of the values of three vertices by their weights. So
+/// How linear values at the vertices that the last deldrift_refine inserted, in the order of their ids, follow from
+/// those at the vertices before. Each is a sum of the values of three vertices by their weights. So
 ///
 ///   value(new(k)) = sum of weights(3 k + i) * value(vertices(3 k + i)) for i = 0, 1, 2
 ///
 /// carries values at vertices over, where new(k) is what deldrift_refined_vertices tells, or, without reuses_ids,
-/// id_count - inserted + k. Those on the right may have been removed by the call, which has not given their ids again, and
-/// by no deldrift_coarsen before it: one pass with values from before both carries them over both. It has to have been
-/// called with has_weights, and neither a commit nor a compaction must have come since; otherwise there are none.
+/// id_count - inserted + k. Vertices on the right may have been removed by this deldrift_refine, which has not given
+/// their ids again, but not by a deldrift_coarsen before it: one pass with values from before both carries them over
+/// both. deldrift_refine has to have been called with has_weights, and neither a commit nor a compaction must have come
+/// since; otherwise there are none.
 ///
-/// vertices: a buffer with room for capacity rows of 3 ids, those of the corners of the cell that the vertex was put into;
-/// on a segment, or an edge, its two ends, the first one twice. weights: for as many rows of 3 numbers, from 0 to 1,
-/// with a sum of 1 but for rounding. One that is NULL is not filled. count: receives the number of vertices, which is
-/// also written when the buffers are too small. NULL for both with capacity 0 asks for the count alone.
+/// vertices: a buffer with room for capacity rows of 3 ids: the corners of the cell that the vertex was put into, or
+/// the two ends of its segment or edge, the first one twice. weights: room for as many rows of 3 numbers, from 0 to 1,
+/// with a sum of 1 but for rounding. count: receives the number of vertices.
 ///
 /// Cost: the vertices inserted.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_BUFFER_TOO_SMALL.
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_refined_weights(
     t: *const deldrift_triangulation,
@@ -419,18 +413,16 @@ pub unsafe extern "C" fn deldrift_refined_weights(
     })
 }
 
-/// For each vertex that the last deldrift_refine inserted, in the order of their ids, the greatest length of edges that it had
-/// there, from those given in quality.sizes at the vertices before. With these by id, behind the others unless reuses_ids
-/// was set, a second call finds nothing to do. It has to have been called with sizes, and neither a commit nor a
-/// compaction must have come since; otherwise there are none.
+/// The sizes of the vertices that the last deldrift_refine inserted, in the order of their ids: the greatest length of
+/// edges that it had there, from those given in quality.sizes at the vertices before. With these by id, behind the
+/// others unless reuses_ids was set, a second call finds nothing to do. deldrift_refine has to have been called with
+/// sizes, and neither a commit nor a compaction must have come since; otherwise there are none.
 ///
-/// sizes: a buffer with room for capacity numbers. count: receives the number of vertices, which is also written when the
-/// buffer is too small. NULL with capacity 0 asks for the count alone.
+/// sizes: a buffer with room for capacity numbers. count: receives the number of vertices.
 ///
 /// Cost: the vertices inserted.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_BUFFER_TOO_SMALL.
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_refined_sizes(
     t: *const deldrift_triangulation,
@@ -445,17 +437,15 @@ pub unsafe extern "C" fn deldrift_refined_sizes(
     })
 }
 
-/// The vertices that the last deldrift_refine inserted, ascending by id: those of which deldrift_refined_weights and
-/// deldrift_refined_sizes tell, in this order. Neither a commit nor a compaction must have come since; otherwise there are
-/// none.
+/// The vertices that the last deldrift_refine inserted, ascending by id. deldrift_refined_weights and
+/// deldrift_refined_sizes are in this order. Neither a commit nor a compaction must have come since; otherwise there
+/// are none.
 ///
-/// vertices: a buffer with room for capacity ids. count: receives the number of vertices, which is also written when the
-/// buffer is too small. NULL with capacity 0 asks for the count alone.
+/// vertices: a buffer with room for capacity ids. count: receives the number of vertices.
 ///
 /// Cost: the vertices inserted.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_BUFFER_TOO_SMALL.
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_refined_vertices(
     t: *const deldrift_triangulation,

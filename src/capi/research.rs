@@ -99,14 +99,13 @@ fn research_algorithm(code: ResearchAlgorithmCode) -> Result<Algorithm, Failure>
 /// Changes the algorithm of later commits to one of research, until deldrift_set_algorithm chooses another. Staged
 /// moves stay. What the new algorithm needs and the old one did not keep is computed by the next commit.
 ///
-/// options: NULL for the defaults; read during the call only. DELDRIFT_RESEARCH_REBUILDING_TOLERANCE goes by them from
-/// the next commit on; it starts over with rebuilding if another algorithm was in force. deldrift_get_algorithm gives
-/// the number of the algorithm.
+/// options: NULL for the defaults. DELDRIFT_RESEARCH_REBUILDING_TOLERANCE goes by them from the next commit on; it
+/// starts over with rebuilding if another algorithm was in force. deldrift_get_algorithm gives the number of the
+/// algorithm.
 ///
 /// Cost: n + m at most, to free what the old one keeps.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_OPTIONS. Not to be called at the same
-/// time as any other call on t.
+/// Errors: DELDRIFT_INVALID_OPTIONS.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_research_set_algorithm(
     t: *mut deldrift_triangulation,
@@ -130,8 +129,6 @@ pub unsafe extern "C" fn deldrift_research_set_algorithm(
 /// after.
 ///
 /// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_research_within_safe_region(
     t: *const deldrift_triangulation,
@@ -149,14 +146,12 @@ pub unsafe extern "C" fn deldrift_research_within_safe_region(
 /// with the same centre: the inner one through the vertices of the facet, the outer one through the two
 /// vertices opposite it. The widths are certified lower bounds, 0 where nothing is certain.
 ///
-/// widths: a buffer with room for capacity numbers. count: receives the number of entries, 3 (2D) or 4 (3D)
-/// times that of the cells, which is also written when the buffer is too small. NULL with capacity 0 asks
-/// for the count alone.
+/// widths: a buffer with room for capacity numbers. count: receives the number of entries, 3 (2D) or 4 (3D) times that
+/// of the cells.
 ///
-/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+/// Cost: m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_research_annulus_widths(
     t: *const deldrift_triangulation,
@@ -184,8 +179,7 @@ pub unsafe extern "C" fn deldrift_research_annulus_widths(
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET, DELDRIFT_OUT_OF_MEMORY. After
-/// a change the first call also does what the first deldrift_cells does.
+/// Errors: DELDRIFT_NO_SUCH_FACET, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_research_standard_delimiter(
     t: *const deldrift_triangulation,

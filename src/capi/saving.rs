@@ -17,21 +17,19 @@ use crate::machine::memory;
 use crate::motion::{Field, Saved};
 use crate::periodic::{AnyPeriodic, SavedPeriodic};
 
-/// Makes an independent triangulation that is as this one, to *out, which the caller has to hand to
-/// deldrift_destroy; it is written on success only.
+/// Makes an independent copy of the triangulation, to *out.
 ///
-/// Positions, ids, segments, cells with their indices, hidden vertices, staged moves, insertions and removals, the timestamp,
-/// statistics, options, the changes that deldrift_take_changes has not given yet, and what the algorithm keeps between
-/// commits are those of t, and so are the vectors of a periodic one, also those that are staged: after the same calls both have
-/// the same cells. The callbacks of the options are called for either, so what user_data points to must live as long as both.
-/// Views, and changes that have been taken, belong to t alone.
+/// All is as in t: positions, ids, segments, cells with their indices, hidden vertices, what is staged, the timestamp,
+/// statistics, options, vectors, the changes that deldrift_take_changes has not given yet, and what the algorithm keeps
+/// between commits. After the same calls both have the same cells. The callbacks of the options are called for either,
+/// so what user_data points to must live as long as both. Views, and changes that have been taken, belong to t alone.
 ///
 /// Takes a pass over the memory of t, and as much memory again; nothing is triangulated. If deldrift_cells has been
 /// called before, this also does what the next deldrift_cells would do.
 ///
 /// Cost: n + m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_clone(
     t: *const deldrift_triangulation,
@@ -50,22 +48,21 @@ pub unsafe extern "C" fn deldrift_clone(
 
 /// Saves the triangulation: writes bytes from which deldrift_load makes one like it, on this machine or any other.
 ///
-/// Saved are positions, ids, segments, removed and hidden vertices, cells with their indices, staged moves, insertions and
-/// removals, the timestamp and statistics. Not saved are the options, what the algorithm keeps between commits,
-/// which changes have been taken, the answers of deldrift_refined_weights, deldrift_refined_sizes and
-/// deldrift_refined_vertices, and what deldrift_segment_conflicts and deldrift_passings tell. docs/FORMAT.md describes
-/// the bytes. Of a periodic triangulation the vectors as deldrift_vectors tells them, those that are staged, and the
-/// periods of vertices are saved, too, and all images with their cells.
+/// Saved are positions, ids, segments, removed and hidden vertices, cells with their indices, staged moves, insertions
+/// and removals, the timestamp and statistics. Of a periodic triangulation the vectors as deldrift_vectors tells them,
+/// those that are staged, and the periods of vertices are saved, too, and all images with their cells. Not saved are
+/// the options, what the algorithm keeps between commits, which changes have been taken, the answers of
+/// deldrift_refined_weights, deldrift_refined_sizes and deldrift_refined_vertices, and what deldrift_segment_conflicts
+/// and deldrift_passings tell. docs/FORMAT.md describes the bytes.
 ///
-/// buffer: room for capacity bytes, with any alignment. count: receives the number of bytes, which is also written
-/// when the buffer is too small. NULL with capacity 0 asks for the count alone, in constant time.
+/// buffer: room for capacity bytes, with any alignment. count: receives the number of bytes. The count alone takes
+/// constant time.
 ///
-/// Takes a pass over what is saved, and does what deldrift_cells does.
+/// Takes a pass over what is saved.
 ///
 /// Cost: n + m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_save(
     t: *const deldrift_triangulation,
@@ -96,32 +93,29 @@ fn fill_front<'b>(buffer: &'b mut [MaybeUninit<u8>], bytes: &[u8]) -> &'b mut [M
     rest
 }
 
-/// Makes a triangulation of bytes that deldrift_save has written, to *out, which the caller has to hand to
-/// deldrift_destroy; it is written on success only.
+/// Makes a triangulation of bytes that deldrift_save has written, to *out.
 ///
-/// The triangulation is as the one that was saved, cells with their indices included (but where it is periodic and changes
-/// had been taken of it), and gives the same cells after the same calls; those cells that are new then may have other
-/// indices. It has given no changes yet: the first deldrift_take_changes lists all cells as created. Like one whose cells
-/// have been read, it keeps the arrays of deldrift_cells.
+/// The triangulation is as the one that was saved, and gives the same cells after the same calls. Cells have the same
+/// indices, except where it is periodic and changes had been taken; cells that are new after later calls may have
+/// others. It has given no changes yet: the first deldrift_take_changes lists all cells as created. Like one whose
+/// cells have been read, it keeps the arrays of deldrift_cells.
 ///
-/// data: size bytes, with any alignment, read during the call only. options: they are not
-/// saved; NULL stands for the defaults, whatever those of the triangulation that was saved. The callbacks are called.
+/// data: size bytes, with any alignment. options: as in deldrift_create, as they are not saved. NULL stands for the
+/// defaults, whatever those of the triangulation that was saved.
 ///
-/// Nothing is triangulated: takes a sort of the vertices and a few passes over the data, and memory for at most 16
-/// times as many bytes. This holds whatever the data are: what is not a Delaunay triangulation, exactly, is refused,
+/// Nothing is triangulated. It takes a sort of the vertices and a few passes over the data, and memory for at most 16
+/// times as many bytes. This holds whatever the data are. What is not a Delaunay triangulation, exactly, is refused,
 /// even if the checksum is right.
 ///
-/// Data of a periodic triangulation give one. Its images count as vertices: all that is in the data is checked, and that no
-/// image is missing. Where cells do not tell that at once, as after some commits, it takes a copy of the triangulation, into
-/// which images are inserted: as long as creation, and as much memory, at most, with data of any kind.
+/// Data of a periodic triangulation give one. Its images count as vertices: all that is in the data is checked, and
+/// that no image is missing. Where cells do not tell that at once, as after some commits, images are inserted into a
+/// copy of the triangulation. That takes at most the time and the memory of creation, with data of any kind.
 ///
 /// Cost: n log n + m, whatever the data are; of a periodic one that of creation at most.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS (also if
-/// the options reject coincidence and the data are of a periodic one),
-/// DELDRIFT_INVALID_DATA, DELDRIFT_COINCIDENT (if vertices are hidden and the options reject it),
-/// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. May be called from
-/// any number of threads at once.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS (also if the options reject coincidence and the data are of
+/// a periodic one), DELDRIFT_INVALID_DATA, DELDRIFT_COINCIDENT (if vertices are hidden and the options reject it),
+/// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_load(
     data: *const c_void,
@@ -211,18 +205,18 @@ fn bytes_of(file: &OldFile<'_>) -> Result<Vec<u8>, Failure> {
 /// Saves the triangulation to a file, as deldrift_save does.
 ///
 /// path: of a file that is made, or replaced. The bytes go to a new file in the same folder, which takes the place of
-/// the old one when it is complete and stored, so that after a failure or a crash there is either; only if the process
-/// is killed the new file may be left behind. A file that is replaced keeps its mode, and its owner, group and POSIX
-/// access control list where the system allows that; where it does not, nobody is allowed more than before. Other
-/// attributes are not kept. A symbolic link is replaced itself, and another hard link keeps what it has. A device or a
-/// pipe is written at once, and what is full is waited for; a named pipe that nobody reads is refused.
+/// the old one when it is complete and stored. So after a failure or a crash there is one or the other. Only if the
+/// process is killed the new file may be left behind. A file that is replaced keeps its mode. It keeps its owner, group
+/// and POSIX access control list where the system allows that; where it does not, nobody is allowed more than before.
+/// Other attributes are not kept. A symbolic link is replaced itself, and another hard link keeps what it has. A device
+/// or a pipe is written at once; if it is full, the call waits. A named pipe that nobody reads is refused.
 ///
-/// A pipe that is no longer read, and the limit on the size of files, are errors like any other: SIGPIPE and SIGXFSZ of
+/// A pipe that is no longer read, and the limit on the size of files, are errors like any other. SIGPIPE and SIGXFSZ of
 /// these writes do not reach the process, whose handlers stay as they are.
 ///
 /// Cost: n + m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_save_file(
     t: *const deldrift_triangulation,
@@ -239,15 +233,14 @@ pub unsafe extern "C" fn deldrift_save_file(
 
 /// Makes a triangulation of a file that deldrift_save_file has written, to *out, as deldrift_load does.
 ///
-/// Its header is read first, and the rest only if that is right and the file as long as it says; it is read as a whole
-/// then, so that memory for it is needed during the call, too. Pipes, devices, sockets and directories are refused with
+/// Its header is read first, and the rest only if that is right and the file is as long as it says. Then it is read as
+/// a whole, for which the call needs memory, too. Pipes, devices, sockets and directories are refused with
 /// DELDRIFT_IO_ERROR.
 ///
 /// Cost: that of deldrift_load.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_OPTIONS, DELDRIFT_IO_ERROR,
-/// DELDRIFT_INVALID_DATA, DELDRIFT_COINCIDENT, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS,
-/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. May be called from any number of threads at once.
+/// Errors: DELDRIFT_INVALID_OPTIONS, DELDRIFT_IO_ERROR, DELDRIFT_INVALID_DATA, DELDRIFT_COINCIDENT,
+/// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_load_file(
     path: *const c_char,
@@ -267,8 +260,8 @@ pub unsafe extern "C" fn deldrift_load_file(
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct deldrift_field {
-    /// What it is called: UTF-8, with a NUL at the end; without control characters, U+FFFE and U+FFFF, which XML does
-    /// not have. Fields of vertices have different names, none of them "vertex", and so have fields of cells, none of
+    /// Its name: UTF-8, with a NUL at the end, without control characters, U+FFFE and U+FFFF, which XML does not have.
+    /// Fields of vertices have different names, none of them "vertex". Fields of cells have different names, none of
     /// them "marker" if there are segments.
     pub name: *const c_char,
     /// components numbers for each vertex, by id (those of removed vertices are not written), or for each cell, by
@@ -324,19 +317,16 @@ unsafe fn fields_of<'a>(
 /// is hidden is the vertex that represents it. Their markers are the cell data "marker", which is 0 for cells that are
 /// no lines, and cell_fields are NaN for lines.
 ///
-/// Of a periodic triangulation the cells are together as deldrift_cell_shifts has them. A vertex is a point for each period
-/// in which a cell has it, ascending by id and by these shifts, all with its id and its numbers of fields; one that no cell
-/// has is a point at its position.
+/// In a periodic triangulation the cells are where deldrift_cell_shifts has them. A vertex is a point for each period
+/// in which a cell has it, ascending by id and by these shifts, all with its id and its numbers of fields. A vertex
+/// that no cell has is a point at its position.
 ///
 /// vertex_fields, cell_fields: numbers to be written along as point data and cell data, vertex_field_count and
-/// cell_field_count of them; NULL if the count is 0. All of it is read during the call only.
-///
-/// Does what deldrift_cells does.
+/// cell_field_count of them.
 ///
 /// Cost: n + m, and the numbers of the fields; m log m for a periodic triangulation.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_FIELD,
-/// DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_FIELD, DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_write_vtu(
     t: *const deldrift_triangulation,
@@ -372,23 +362,19 @@ pub unsafe extern "C" fn deldrift_write_vtu(
 
 /// Writes a file for Mmg, FreeFem, Gmsh and others: MEDIT's text format (.mesh).
 ///
-/// Its vertices are those that are present, hidden ones included, ascending by id and numbered from 1; the reference
-/// of each is its id. Its triangles or tetrahedra are the cells, in the order of deldrift_cells. If there are segments in
-/// force, those of deldrift_segments are its edges, in that order, behind the triangles; the reference of each is its
-/// marker, and an end that is hidden is the vertex that represents it. Reading the numbers gives the same doubles. Of a
+/// Its vertices are those that are present, hidden ones included, ascending by id and numbered from 1; the reference of
+/// each is its id. Its triangles or tetrahedra are the cells, in the order of deldrift_cells. If there are segments in
+/// force, those of deldrift_segments are its edges, in that order, behind the triangles. The reference of each is its
+/// marker, and an end that is hidden is the vertex that represents it. Reading the numbers gives the same doubles. In a
 /// periodic triangulation a vertex is there once for each period in which a cell has it, as in deldrift_write_vtu.
 ///
 /// references: reference_count numbers, the reference of each cell in the order of deldrift_cells (reference_count must
-/// be deldrift_cell_count), such as those of deldrift_label_cells; NULL with reference_count 0 for 1. They are read
-/// during the call only. path: of a file that is made, or replaced once the new one is complete,
-/// with what deldrift_save_file says of it.
-///
-/// Does what deldrift_cells does.
+/// be deldrift_cell_count), such as those of deldrift_label_cells; NULL with reference_count 0 for 1. path: of a file
+/// that is made, or replaced once the new one is complete, with what deldrift_save_file says of it.
 ///
 /// Cost: n + m; m log m for a periodic triangulation.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_IO_ERROR,
-/// DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_WRONG_COUNT, DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_write_medit(
     t: *const deldrift_triangulation,

@@ -20,8 +20,8 @@ pub enum deldrift_conflict_kind {
     /// A vertex is on the segment, and is not one of its ends: other is the one that represents the place: of
     /// several vertices there the lowest id, or key.
     DELDRIFT_CONFLICT_ON_SEGMENT = 1,
-    /// An end of the segment has been removed, or would be: other is the end, DELDRIFT_NONE if deldrift_compact has been
-    /// called since.
+    /// An end of the segment has been removed, or would be: other is the end, DELDRIFT_NONE if deldrift_compact has
+    /// been called since.
     DELDRIFT_CONFLICT_END_REMOVED = 2,
     /// Both ends of the segment would be at the same place: other is DELDRIFT_NONE.
     DELDRIFT_CONFLICT_ENDS_MEET = 3,
@@ -54,33 +54,33 @@ impl From<&Conflict> for deldrift_conflict {
     }
 }
 
-/// Stages segments between vertices: all of them, or none if it fails. From the next commit on, which makes them together
-/// with the staged moves, insertions and removals, each is an edge, and the cells are the constrained Delaunay
-/// triangulation of vertices and segments: the circle of a cell has no vertex inside that can be seen from the cell's
-/// inside, where segments are opaque. Ties are broken by id as everywhere, so the cells depend only on positions, ids and
-/// segments. Segments move with their ends, and stay until their removal is staged and committed. docs/SEGMENTS.md says
-/// more.
+/// Stages segments between vertices: all of them, or none if it fails. The next commit makes them, together with the
+/// staged moves, insertions and removals. From then on each is an edge, and the cells are the constrained Delaunay
+/// triangulation of vertices and segments. The circle of a cell has no vertex inside that can be seen from the cell's
+/// inside, where segments are opaque. Ties are broken by id as everywhere, so the cells depend only on positions, ids
+/// and segments. Segments move with their ends, and stay until their removal is staged and committed. docs/SEGMENTS.md
+/// says more.
 ///
-/// ends: count rows of two vertex ids, in any order, of vertices that are present or whose insertion is staged. markers:
-/// count numbers, which are kept with the segments, such as the kind of a boundary condition; NULL for zeros. Both are read
-/// during the call only, and may be NULL if count is 0. first_segment: receives the id of the first, which is one above the
-/// highest given so far; the others follow it in their order. It must not be NULL, even if count is 0: then it receives
-/// the id that would be given next. Ids of segments stay, also through deldrift_compact, and are not given again.
+/// ends: count rows of two vertex ids, in any order, of vertices that are present or whose insertion is staged.
+/// markers: count numbers, which are kept with the segments, such as the kind of a boundary condition; NULL for zeros.
+/// first_segment: receives the id of the first, which is one above the highest given so far. The others follow it in
+/// their order. It must not be NULL even if count is 0: then it receives the id that would be given next. Ids of
+/// segments stay, also through deldrift_compact, and are not given again.
 ///
-/// A segment may be given twice, and be a part of the hull; many may share a vertex. Where vertices are at the same place
-/// it goes to the one that represents them. Nothing is looked at before the commit, which is refused, as is
-/// deldrift_check_staged, where segments cross, a vertex is on one, an end is removed, or both ends are at the same place:
-/// see deldrift_segment_conflicts. Only the positions that it leads to count: a vertex may have gone from one side of a
-/// segment to the other, unless the options refuse that: see deldrift_check_passings. Segments that are in force are kept by
-/// calls that change one vertex at once, too, which are refused for the same reasons. deldrift_discard_moves forgets what is
-/// staged of segments, too, and the ids of staged ones are given again. deldrift_staged_count does not count segments.
+/// A segment may be given twice, and may be a part of the hull. Many segments may share a vertex. Where vertices are at
+/// the same place it goes to the one that represents them. Conflicts are looked for by the commit, and by
+/// deldrift_check_staged. Both are refused where segments cross, a vertex is on one, an end is removed, or both ends
+/// are at the same place (see deldrift_segment_conflicts). Only the positions after the commit count: a vertex may have
+/// gone from one side of a segment to the other, unless the options refuse that (see deldrift_check_passings). Calls
+/// that change one vertex at once keep segments, too, and are refused for the same reasons. deldrift_discard_moves also
+/// forgets what is staged of segments, and the ids of staged ones are given again. deldrift_staged_count does not count
+/// segments.
 ///
 /// Cost: count.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX (the message counts ids in ends: that of row
-/// k is ends[2 k] or ends[2 k + 1]), DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as
-/// any other call on t.
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX
+/// (the message counts ids in ends: that of row k is ends[2 k] or ends[2 k + 1]), DELDRIFT_TOO_MANY_VERTICES,
+/// DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_stage_segments(
     t: *mut deldrift_triangulation,
@@ -107,17 +107,16 @@ pub unsafe extern "C" fn deldrift_stage_segments(
     })
 }
 
-/// Stages the removal of segments: all of them, or none if it fails. From the next commit on they need not be edges any
+/// Stages the removal of segments: all of them, or none if it fails. After the next commit they need not be edges any
 /// more. Their vertices stay. A vertex that is an end of segments can be removed by the commit that removes these.
 ///
-/// segments: count ids of segments in force, each at most once, read during the call only; may be NULL if count is 0.
-/// Segments that are staged can only be forgotten, by deldrift_discard_moves.
+/// segments: count ids of segments in force, each at most once. Segments that are staged can only be forgotten, by
+/// deldrift_discard_moves.
 ///
 /// Cost: count, and that of looking for each among those staged before.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_SEGMENT for an id that is not in force, or whose removal is staged,
-/// DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_SEGMENT for an id that is not in
+/// force, or whose removal is staged, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_stage_segment_removals(
     t: *mut deldrift_triangulation,
@@ -131,18 +130,16 @@ pub unsafe extern "C" fn deldrift_stage_segment_removals(
     })
 }
 
-/// The segments in force, ascending by id: those of the last commit, and not what is staged. A segment whose removal is
-/// staged is in force until the commit.
+/// The segments in force, ascending by id. They are those of the last commit, and not what is staged. A segment whose
+/// removal is staged is in force until the commit.
 ///
-/// segments: a buffer with room for capacity ids; ends: for capacity rows of two vertex ids, in the order in which they were
-/// given, which is what left and right of a segment go by; markers: for capacity numbers. One that is NULL is not filled.
-/// count: receives the number of segments, which is also written when the buffers are too small.
-/// NULL for all with capacity 0 asks for the count alone.
+/// segments: a buffer with room for capacity ids. ends: room for capacity rows of two vertex ids, in the order in which
+/// they were given; left and right of a segment go by it. markers: room for capacity numbers. count: receives the
+/// number of segments.
 ///
 /// Cost: the segments in force.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_BUFFER_TOO_SMALL.
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_segments(
     t: *const deldrift_triangulation,
@@ -169,50 +166,47 @@ pub unsafe extern "C" fn deldrift_segments(
     })
 }
 
-/// Whether a commit of what is staged, moves, insertions, removals and segments, would be refused because of segments.
-/// Returns what deldrift_commit_timestamp would return as far as segments are concerned, and commits nothing: what is staged
-/// stays so. deldrift_segment_conflicts then tells all conflicts, so that a solver can cut its step. Without segments, in
-/// force or staged, nothing is looked at, and in 3D there are none. Ends all views, as a commit does.
+/// Whether a commit of what is staged would be refused because of segments. It returns what deldrift_commit_timestamp
+/// would return as far as segments are concerned, and commits nothing: what is staged stays so.
+/// deldrift_segment_conflicts then tells all conflicts, so that a solver can cut its step. Without segments, in force
+/// or staged, as in 3D, nothing is looked at. It ends views, as a commit does.
 ///
-/// A program that commits at once where nothing conflicts need not check first: a commit that is refused has no effect, and
-/// tells the conflicts as well.
+/// A program that commits at once where nothing conflicts need not check first: a commit that is refused has no effect,
+/// and tells the conflicts as well.
 ///
 /// Cost: at most that of the commit, and of taking it back.
 ///
-/// Errors: those of deldrift_commit_timestamp: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_CROSSING,
-/// DELDRIFT_ON_SEGMENT, DELDRIFT_END_REMOVED and DELDRIFT_ENDS_MEET for conflicts, of which the first is told,
-/// DELDRIFT_PASSES_SEGMENT (if the options refuse it; then conflicts have not been looked for), DELDRIFT_COINCIDENT (if the
-/// options reject it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time
-/// as any other call on t.
+/// Errors: those of deldrift_commit_timestamp: DELDRIFT_CROSSING, DELDRIFT_ON_SEGMENT, DELDRIFT_END_REMOVED and
+/// DELDRIFT_ENDS_MEET for conflicts, of which the first is told, DELDRIFT_PASSES_SEGMENT (if the options refuse it;
+/// then conflicts have not been looked for), DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_CELLS,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_check_staged(t: *mut deldrift_triangulation) -> deldrift_status {
     given!(t: Changing);
     t.change(|t| in_its_dimension!(t => Ok(t.check_staged()?)))
 }
 
-/// The conflicts for which the latest call that changes or checks t was refused: all of them, in ascending order of kind,
-/// segment and other. None if it was not refused for conflicts. Ids of segments and vertices may be of such as were staged, and
-/// have been discarded since.
+/// The conflicts for which the latest call that changes or checks t was refused, in ascending order of kind, segment
+/// and other. There are none if it was not refused for conflicts. Ids may be those of segments and vertices that were
+/// staged, and have been discarded since.
 ///
 /// This list and that of deldrift_passings are both of one call, the latest of deldrift_commit_timestamp,
 /// deldrift_commit_positions, deldrift_prepare_timestamp, deldrift_check_staged, deldrift_check_passings,
 /// deldrift_stage_splits, deldrift_relocate_vertex, deldrift_insert_vertex, deldrift_insert_vertex_with_key,
-/// deldrift_remove_vertex, deldrift_refine, deldrift_coarsen and deldrift_compact. Each of them empties both lists when it
-/// begins, whatever comes of it, unless it is turned away with DELDRIFT_PREPARED or DELDRIFT_BUSY, or for a pointer or a
-/// structure that is no good. Calls that stage, discard, publish, withdraw or ask keep them. A copy, and what is loaded, has
-/// none.
+/// deldrift_remove_vertex, deldrift_refine, deldrift_coarsen and deldrift_compact. Each of them empties both lists when
+/// it begins, whatever comes of it. It does not if it is turned away with DELDRIFT_PREPARED or DELDRIFT_BUSY, or for a
+/// pointer or a structure that is no good. Calls that stage, discard, publish, withdraw or ask keep both lists. A copy
+/// has none, and neither has what is loaded.
 ///
-/// conflicts: a buffer with room for capacity entries. count: receives their number, which is also written when the buffer
-/// is too small. NULL with capacity 0 asks for the count alone.
+/// conflicts: a buffer with room for capacity entries. count: receives their number.
 ///
-/// Where several segments are at one edge, each has conflicts of its own. A segment that loses both ends has a conflict for
-/// each. Those of a segment without two ends, which are of the kinds DELDRIFT_CONFLICT_END_REMOVED and
-/// DELDRIFT_CONFLICT_ENDS_MEET, are all that is told of it.
+/// Where several segments are at one edge, each has conflicts of its own. A segment that loses both ends has a conflict
+/// for each. A segment without two ends has conflicts of the kinds DELDRIFT_CONFLICT_END_REMOVED and
+/// DELDRIFT_CONFLICT_ENDS_MEET, and no others are looked for.
 ///
 /// Cost: the number of conflicts.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_BUFFER_TOO_SMALL.
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_segment_conflicts(
     t: *const deldrift_triangulation,
@@ -228,34 +222,35 @@ pub unsafe extern "C" fn deldrift_segment_conflicts(
     })
 }
 
-/// Whether vertices would pass segments in a commit of what is staged, whatever the options say of it. Commits nothing, and
-/// what is staged stays so. deldrift_passings then tells all that would. A program that asks before each commit knows
-/// which values to take over from the other side, or cuts its step; with an option, commits ask by themselves.
+/// Whether vertices would pass segments in a commit of what is staged, whatever the options say of passings. It commits
+/// nothing, and what is staged stays so. deldrift_passings then tells all that would. A program that asks before each
+/// commit knows which values to take over from the other side, or cuts its step. With the option passing, commits look
+/// for passings themselves.
 ///
-/// A commit compares positions at two timestamps, and accepts a vertex that has jumped across a segment, or a whole loop of
-/// segments that has jumped across a vertex. What has happened in between is defined so: each vertex goes straight from its
-/// old place to its new one, at constant speed, and so do both ends of each segment that is in force before and after. A
-/// vertex passes a segment, of which it is no end, if it goes through it and is not back on its side when the step ends:
-/// at f(s, t) = p(t) - a(t) - s (b(t) - a(t)) = 0, for s and t from 0 to 1, vertex p is on the segment from a to b, and it
-/// passes if the number of zeros, each counted as 1 or -1 by the direction, is not 0. That is the number of times that the
-/// quadrilateral p0 - a0, p0 - b0, p1 - b1, p1 - a1 winds around the origin. It also passes if the origin is on the
-/// quadrilateral: then it goes exactly through an end on its way, or stops on the segment. All of this is exact, at all
-/// positions.
+/// A commit compares positions at two timestamps. It accepts a vertex that has jumped across a segment, or a whole loop
+/// of segments that has jumped across a vertex. What has happened in between is defined so: each vertex goes straight
+/// from its old place to its new one, at constant speed, and so do both ends of each segment that is in force before
+/// and after. A vertex passes a segment, of which it is no end, if it goes through it and is not back on its side when
+/// the step ends. This is decided exactly. Where f(s, t) = p(t) - a(t) - s (b(t) - a(t)) is 0, for s and t from 0 to 1,
+/// vertex p is on the segment from a to b. It passes if the sum over these zeros, each counted as 1 or -1 by the
+/// direction, is not 0. The sum is the number of times that the quadrilateral p0 - a0, p0 - b0, p1 - b1, p1 - a1 winds
+/// around the origin. The vertex also passes if the origin is on the quadrilateral: then it goes exactly through an end
+/// on its way, or stops on the segment.
 ///
-/// Not told are: a vertex that goes through a segment and back in one step, as the end of the step is legal; one that is at
-/// the place of an end of the segment before or after, as it is on no side there; vertices that are inserted or removed by
-/// the commit, which do not move; and segments that are staged, or whose removal is, with their vertices. Ends of segments
-/// are vertices as others, so that two segments that go through each other are told by their ends, and so are hidden
-/// vertices, which move with those that represent them, or part from them. A vertex that goes around the end of a slit is
-/// told if it goes through the slit on its straight way: what passes is a matter of the step, not of the region that a
-/// vertex is in. One that enters a loop through one segment and leaves it through another is told for both.
+/// A vertex that crosses a segment and returns within one step is not told, as the end of the step is legal. Nor is one
+/// that is at the place of an end of the segment before or after, as it is on no side there. Vertices that the commit
+/// inserts or removes do not move, and pass nothing. Nothing passes segments that are staged, or whose removal is. Ends
+/// of segments are vertices as others, so two segments that go through each other are told by their ends. So are hidden
+/// vertices, which move with those that represent them, or part from them. A vertex that goes around the end of a slit
+/// is told if it goes through the slit on its straight way: what passes is a matter of the step, not of the region that
+/// a vertex is in. One that enters a loop through one segment and leaves it through another is told for both.
 ///
-/// Cost: where many vertices move, a pass over them, and for each near segments at any time of the step the test; less than
-/// a commit of small moves. Where some move, and no ends of segments, that of looking at them and the segments.
+/// Cost: where many vertices move, a pass over them, and a test for each that is near segments at any time of the step;
+/// less than a commit of small moves. Where some move, and no ends of segments, that of looking at them and the
+/// segments.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_PASSES_SEGMENT if
-/// a vertex would pass a segment, of which the message names the first, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same
-/// time as any other call on t.
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_PASSES_SEGMENT if a vertex would pass a segment, of which the
+/// message names the first, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_check_passings(t: *mut deldrift_triangulation) -> deldrift_status {
     given!(t: Changing);
@@ -265,19 +260,18 @@ pub unsafe extern "C" fn deldrift_check_passings(t: *mut deldrift_triangulation)
     })
 }
 
-/// The vertices that pass segments in the step that the latest call has looked at: deldrift_check_passings, or, where the
-/// options say that they look, a commit, deldrift_prepare_timestamp, deldrift_check_staged or deldrift_relocate_vertex; in
-/// ascending order of segment and vertex. With DELDRIFT_PASSING_TELL those that have passed in the latest commit, with
-/// DELDRIFT_PASSING_REFUSE those for which it was refused. deldrift_segment_conflicts says which calls empty the list.
+/// The vertices that pass segments in the step that the latest call has looked at, in ascending order of segment and
+/// vertex. That call is deldrift_check_passings or, if the options say so, a commit, deldrift_prepare_timestamp,
+/// deldrift_check_staged or deldrift_relocate_vertex. With DELDRIFT_PASSING_TELL these vertices have passed in the
+/// latest commit, with DELDRIFT_PASSING_REFUSE it was refused for them. deldrift_segment_conflicts says which calls
+/// empty the list.
 ///
-/// segments: a buffer with room for capacity ids; vertices: for capacity ids; entry k of vertices
-/// passes entry k of segments. One that is NULL is not filled. count: receives their number, which is also written when the
-/// buffers are too small. NULL for both with capacity 0 asks for the count alone.
+/// segments, vertices: buffers with room for capacity ids. Entry k of vertices passes entry k of segments. count:
+/// receives their number.
 ///
 /// Cost: their number.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_BUFFER_TOO_SMALL.
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_passings(
     t: *const deldrift_triangulation,

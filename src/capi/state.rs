@@ -1,7 +1,6 @@
-//! What a triangulation holds: counts, sums, and the positions of vertices.
+//! What a triangulation holds: counts, and the positions of vertices.
 
 use super::handle::{Content, Reading, deldrift_triangulation, in_any, tell_any};
-use super::motion::deldrift_commit_report;
 use super::pointers::{Buffer, Output, given};
 use super::status::deldrift_status;
 use crate::ids::VertexId;
@@ -10,8 +9,6 @@ use crate::in_its_dimension;
 /// How many vertices are present, hidden ones included and removed ones not, to *count.
 ///
 /// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_vertex_count(
     t: *const deldrift_triangulation,
@@ -21,12 +18,10 @@ pub unsafe extern "C" fn deldrift_vertex_count(
     tell_any!(t, count => t.vertex_count())
 }
 
-/// How many ids have been given, or left by the latest deldrift_compact and given since, to *count: valid
-/// ids are below it, those of removed vertices and of staged insertions too.
+/// How many ids there are, to *count: those given so far, or left by the latest deldrift_compact and given since. All
+/// valid ids are below it, those of removed vertices and of staged insertions too.
 ///
 /// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_id_count(
     t: *const deldrift_triangulation,
@@ -39,8 +34,6 @@ pub unsafe extern "C" fn deldrift_id_count(
 /// How many cells there are, to *count.
 ///
 /// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_cell_count(
     t: *const deldrift_triangulation,
@@ -56,8 +49,6 @@ pub unsafe extern "C" fn deldrift_cell_count(
 /// How many moves are staged for the next timestamp, to *count.
 ///
 /// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_staged_count(
     t: *const deldrift_triangulation,
@@ -67,14 +58,13 @@ pub unsafe extern "C" fn deldrift_staged_count(
     tell_any!(t, count => t.staged_count())
 }
 
-/// How many bytes of memory the triangulation holds, to *bytes: what its views show and what it keeps as room
-/// for later calls included, and without what the system's allocator adds to each of its arrays. It may grow in any
-/// call on the triangulation, also in one that fails, and in one that takes it as const (deldrift_cells makes arrays);
-/// deldrift_compact makes it as small as that of a fresh one, but for arrays that are made again when asked for.
+/// How many bytes of memory the triangulation holds, to *bytes. What its views show is included, and so is what it
+/// keeps as room for later calls; what the system's allocator adds to each array is not. The number may grow in any
+/// call on the triangulation, also in one that fails, and in one that takes it as const (deldrift_cells makes arrays).
+/// deldrift_compact makes it as small as that of a fresh triangulation, but for arrays that are made again when asked
+/// for.
 ///
 /// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_memory_bytes(
     t: *const deldrift_triangulation,
@@ -84,11 +74,9 @@ pub unsafe extern "C" fn deldrift_memory_bytes(
     tell_any!(t, bytes => size_of::<deldrift_triangulation>() + t.memory_bytes())
 }
 
-/// The number of the current timestamp, to *timestamp: 0 at creation, one more at each commit.
+/// The number of the current timestamp, to *timestamp. It is 0 at creation, and one more after each commit.
 ///
 /// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_timestamp(
     t: *const deldrift_triangulation,
@@ -98,27 +86,10 @@ pub unsafe extern "C" fn deldrift_timestamp(
     tell_any!(t, timestamp => t.timestamp())
 }
 
-/// The sums of what all commits and immediate calls so far have done, to *report, whose timestamp and
-/// coincident are those of now.
+/// Whether a vertex of this id is present, to *present. It is not if it has been removed, or never was, or if only its
+/// insertion is staged. It is if only its removal is staged.
 ///
 /// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn deldrift_statistics(
-    t: *const deldrift_triangulation,
-    report: *mut deldrift_commit_report,
-) -> deldrift_status {
-    given!(t: Reading, report: Output);
-    tell_any!(t, report => t.statistics().into())
-}
-
-/// Whether a vertex of this id is present, to *present: false if it has been removed, or never was, or only its
-/// insertion is staged; true if only its removal is.
-///
-/// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_is_present(
     t: *const deldrift_triangulation,
@@ -129,12 +100,11 @@ pub unsafe extern "C" fn deldrift_is_present(
     tell_any!(t, present => t.is_present(VertexId::new(vertex)))
 }
 
-/// The position of a vertex, 2 or 3 numbers, to position: that of the current timestamp, not a staged one.
+/// The position of a vertex at the current timestamp, not a staged one, to position.
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its
-/// insertion is staged.
+/// Errors: DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_position(
     t: *const deldrift_triangulation,
@@ -153,16 +123,13 @@ pub unsafe extern "C" fn deldrift_position(
     })
 }
 
-/// The positions of all ids, in their order, 2 or 3 numbers each: of present vertices those of the current timestamp,
-/// of vertices whose insertion is staged those where they will be inserted, of removed vertices NaN. So the array can
-/// be changed and handed to deldrift_commit_positions.
+/// The positions of all ids, in their order. Present vertices have the positions of the current timestamp, vertices
+/// whose insertion is staged those where they will be inserted, and removed vertices NaN. So the array can be changed
+/// and handed to deldrift_commit_positions.
 ///
-/// positions: a buffer with room for capacity points. count: receives the number of ids, which is also
-/// written when the buffer is too small. NULL with capacity 0 asks for the count alone.
+/// positions: a buffer with room for capacity points. count: receives the number of ids.
 ///
 /// Cost: n.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_copy_positions(
     t: *const deldrift_triangulation,

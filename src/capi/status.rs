@@ -30,8 +30,8 @@ pub enum deldrift_status {
     DELDRIFT_INVALID_OPTIONS = 5,
     /// The level of deldrift_validate is not 1, 2 or 3.
     DELDRIFT_INVALID_LEVEL = 6,
-    /// A buffer has room for fewer entries than there are. How many there are is in the message, and has been written
-    /// to the count if the function has one.
+    /// A buffer has room for fewer entries than there are. Their number is in the message, and in the count if the
+    /// function has one.
     DELDRIFT_BUFFER_TOO_SMALL = 7,
     /// A coordinate is NaN or infinite.
     DELDRIFT_NOT_FINITE = 8,
@@ -43,8 +43,8 @@ pub enum deldrift_status {
     DELDRIFT_REMOVED_VERTEX = 11,
     /// A move of this vertex is already staged for the next timestamp.
     DELDRIFT_DUPLICATE_MOVE = 12,
-    /// An array has another number of entries than there have to be: one for each id, cell or component; or, without a
-    /// list of ids, more entries than there are ids.
+    /// An array does not have the number of entries that it must have: one for each id, cell or component. Or, without
+    /// a list of ids, it has more entries than there are ids.
     DELDRIFT_WRONG_COUNT = 13,
     /// Two vertices would be at the same place, and the options reject that.
     DELDRIFT_COINCIDENT = 14,
@@ -69,15 +69,15 @@ pub enum deldrift_status {
     DELDRIFT_NO_SUCH_FACET = 23,
     /// A number has no meaning for its argument, as a negative squared radius.
     DELDRIFT_INVALID_VALUE = 24,
-    /// Data are not those of a saved triangulation: they are damaged, incomplete or of another kind, or come from a
-    /// later version; the message says what is wrong, and where.
+    /// Data are not those of a saved triangulation. They are damaged, incomplete, of another kind, or from a later
+    /// version. The message says what is wrong, and where.
     DELDRIFT_INVALID_DATA = 25,
     /// The system cannot read or write a file; the message has the path, and what the system says.
     DELDRIFT_IO_ERROR = 26,
     /// A field has no name, one that is not UTF-8, or no components; the message has its index.
     DELDRIFT_INVALID_FIELD = 27,
-    /// The insertion of the vertex is staged, so that it is not there before the next commit; or its removal is staged,
-    /// and it can be neither moved with that commit nor removed twice. The message says which.
+    /// The insertion of the vertex is staged: it is not there before the next commit. Or its removal is staged: it can
+    /// be neither moved by that commit nor removed twice. The message says which.
     DELDRIFT_STAGED_VERTEX = 28,
     /// There is no segment of this id, or its removal is staged.
     DELDRIFT_NO_SUCH_SEGMENT = 29,
@@ -93,8 +93,8 @@ pub enum deldrift_status {
     DELDRIFT_AMBIGUOUS_SEED = 34,
     /// A vertex would pass a segment; deldrift_passings tells all that would.
     DELDRIFT_PASSES_SEGMENT = 35,
-    /// A timestamp is prepared, and the call is not one that may be made before deldrift_publish_timestamp or
-    /// deldrift_withdraw_timestamp; the message has the timestamp and the number of rounds.
+    /// A timestamp is prepared, and the call has to wait for deldrift_publish_timestamp or deldrift_withdraw_timestamp.
+    /// The message has the timestamp and the number of rounds.
     DELDRIFT_PREPARED = 36,
     /// No timestamp is prepared that could be published.
     DELDRIFT_NOT_PREPARED = 37,
@@ -102,11 +102,10 @@ pub enum deldrift_status {
     DELDRIFT_PERIODIC = 38,
     /// The vectors of a periodic box depend on each other, or nearly so, or are more than there are axes.
     DELDRIFT_DEPENDENT_VECTORS = 39,
-    /// The call needs the lists of the latest deldrift_take_changes, and cells have changed since, or ids are not
-    /// those of then.
+    /// The call needs the lists of the latest deldrift_take_changes, and cells or ids have changed since.
     DELDRIFT_CHANGES_NOT_TAKEN = 40,
-    /// The call works on regions by their labels, and the sides of one have none, or several; deldrift_regions counts the
-    /// cells.
+    /// The call works on regions by their labels, and the sides of a region have no label, or several. deldrift_regions
+    /// counts its cells.
     DELDRIFT_UNDECIDED_REGIONS = 41,
 }
 
@@ -370,8 +369,8 @@ impl fmt::Display for Failure {
     }
 }
 
-/// A status in a few words, in English, without a full stop. For a number that is no status of this
-/// version the text says so. The string is static. Never fails; may be called from any thread.
+/// A status in a few words, in English, without a full stop. For a number that is no status of this version the text
+/// says so. The string is static.
 ///
 /// Cost: constant.
 #[unsafe(no_mangle)]
@@ -379,9 +378,9 @@ pub extern "C" fn deldrift_status_string(status: StatusCode) -> *const c_char {
     deldrift_status::ALL.get(status as usize).map_or(c"unknown status", |s| s.text()).as_ptr()
 }
 
-/// The message of the last call on this thread that failed: which argument, which index, which value.
-/// An empty string if none has failed. Calls that succeed leave it as it is, so look at it only after
-/// a failure.
+/// The message of the last call on this thread that failed. It says which argument was wrong, at which index, and its
+/// value. It is an empty string if no call has failed. Calls that succeed leave it as it is, so look at it only after a
+/// failure.
 ///
 /// The string is never NULL, belongs to the library, and stays until the next failure on the same
 /// thread. It is at most 511 bytes long and valid UTF-8.

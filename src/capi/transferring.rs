@@ -37,11 +37,11 @@ pub struct deldrift_transfer_report {
     pub uncovered: u64,
     /// Zero; later versions may count more.
     pub reserved: [u64; 3],
-    /// The area or volume of the cells that are gone to which no cell has come, with its sign.
+    /// The area or volume, of the cells that are gone, where no cell has come, with its sign.
     pub lost_volume: f64,
-    /// That of the cells that have come of which none of those that are gone has had any, with its sign.
+    /// The area or volume, of the cells that have come, where no cell that is gone was, with its sign.
     pub gained_volume: f64,
-    /// By how much at most both are off: what is no more than that may be 0.
+    /// By how much at most both are off. What is no more than that may be 0.
     pub volume_error: f64,
     /// Zero; later versions may tell more.
     pub reserved_numbers: [f64; 3],
@@ -64,54 +64,53 @@ impl From<&TransferReport> for deldrift_transfer_report {
     }
 }
 
-/// Brings means in cells over to the cells of now: conservative transfer, by the latest deldrift_take_changes, of what
-/// a program keeps for each cell.
+/// Brings means in cells over to the cells of now. It is conservative transfer, by the latest deldrift_take_changes, of
+/// what a program keeps for each cell.
 ///
 /// A mean rides with its cell while vertices move, and a cell that lives keeps it. At the positions of now, the cells
 /// that are gone and those that have come cover the same region: each new cell gets the mean of what is in it. So the
-/// sum of mean times area or volume stays, where the hull does; a constant stays to the last bit; and no mean is
-/// beyond those of the cells around. What is kept is the sum with the volumes at the positions of now: a program that
-/// keeps the content of a cell while its volume changes divides it by the volume of now before, whatever the sign of
-/// that.
+/// sum of mean times area or volume stays where the hull does. A constant stays to the last bit. No mean is beyond
+/// those of the cells around. The sum is that with the volumes at the positions of now. A program that keeps the
+/// content of a cell while its volume changes first divides it by the volume of now, whatever the sign of that.
 ///
-/// positions: by id, where the vertices of the cells that were are now, or where they were when they were removed:
-/// what a program has given to its last commit, before it reads the positions of what has been inserted since.
-/// position_count rows of 2 or 3 numbers, of which those of vertices of cells that are gone are used. NULL for where
-/// they are now, if none of them has been removed. In a periodic triangulation they are where vertices have gone,
-/// through whatever periods: those before the program took any to another period. order: see deldrift_transfer_order.
-/// values: rows of n_values components, for each cell that there was at the deldrift_take_changes before the last one,
-/// in the order of that time; receives rows for the cells that there are, in the order of deldrift_cells. Numbers up
-/// to 1e300 in magnitude. value_count: how many cells there were. capacity: for how many rows there is room, at least
-/// for the cells that were and for those that are. report: receives what was met. lost, gained: receive n_values
-/// numbers each, see below. Each of the last three may be NULL.
+/// positions: by id, where the vertices of the former cells are now, or where they were when they were removed. That is
+/// what a program has given to its last commit, before it reads the positions of what has been inserted since. There
+/// are position_count rows of 2 or 3 numbers, of which those of vertices of cells that are gone are used. NULL stands
+/// for where they are now, if none of them has been removed. In a periodic triangulation they are where vertices have
+/// gone, through whatever periods: those before the program took any to another period. order: see
+/// deldrift_transfer_order. values: a row of n_values numbers, up to 1e300 in magnitude, for each cell that there was
+/// at the deldrift_take_changes before the last one, in the order of that time. It receives rows for the cells that
+/// there are, in the order of deldrift_cells. value_count: how many cells there were. capacity: for how many rows there
+/// is room, at least for the cells that were and for those that are. report: receives what was met. lost, gained:
+/// receive n_values numbers each, see below. Each of the last three may be NULL.
 ///
-/// Where the hull has changed, regions differ. The content, mean times volume, that was where no new cell is, is told
-/// as lost; that of new cells where nothing was, as gained: a new cell has the mean of what covers the rest of it, or,
-/// if nothing does, that of the nearest cell through facets, or 0 if there is none. With these the sums always agree:
-/// what there is, is what was less lost and with gained, but for rounding. Both are 0 where regions agree, but for
+/// Where the hull has changed, regions differ. lost is the content, mean times volume, that was where no new cell is.
+/// gained is the content of new cells where nothing was. Such a cell has the mean of what covers the rest of it, or, if
+/// nothing does, that of the nearest cell through facets, or 0 if there is none. With these the sums always agree but
+/// for rounding: what there is, is what was, less lost and with gained. Where regions agree both are 0 but for
 /// rounding: no more than volume_error times twice the greatest magnitude.
 ///
-/// A cell that is gone, and is turned over at the new positions, has a negative volume there, and what it has in
-/// common with others counts as negative; cells that live beneath it are both gone and come, and get other means, too.
-/// So the sum stays exact, and so does a constant, but means there may be beyond those of all others: turned_over
-/// tells of it, and shorter steps avoid it. A cell of now that was turned over since is gone as it was, and has come.
+/// A cell that is gone, and is turned over at the new positions, has a negative volume there. What it has in common
+/// with others counts as negative. Cells that live beneath it count as both gone and come, and get other means, too. So
+/// the sum stays exact, and so does a constant, but means there may be beyond those of all others. turned_over counts
+/// such cells, and shorter steps avoid them. A cell of now that was turned over since is gone as it was, and has come.
 ///
-/// With the second order, what gradients add is limited for each cell by what its new mean may be: no less and no more
-/// than the cells that it comes from have, their neighbours, and the neighbours of these. Gradients are fitted to the
+/// With the second order, what gradients add is limited for each cell. Its new mean is no less and no more than those
+/// of the cells that it comes from, of their neighbours, and of the neighbours of these. Gradients are fitted to the
 /// means of neighbours. Linear functions are kept but for rounding where that does not limit them, as it may at the
 /// hull.
 ///
-/// Cost: n log n for n cells in the list of changes and what they have in common, times n_values. For those that are
-/// turned over also log m each, and the cells of now that they meet, or would if they were half as large again; m, if no
-/// corner of one is in the convex hull, or they meet an eighth of all. In a periodic triangulation also n + m.
+/// Cost: n log n for n cells in the list of changes and what they have in common, times n_values. A cell that is turned
+/// over adds log m, and the cells of now that it meets, or would if it were half as large again. All such cells add m
+/// if no corner of one is in the convex hull, or if they meet an eighth of all cells. In a periodic triangulation also
+/// n + m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for an
-/// order that there is not, for a value that is used and is no number or a greater one, and for positions that take a
-/// cell through more than 64 periods, DELDRIFT_CHANGES_NOT_TAKEN if cells have changed since the latest
-/// deldrift_take_changes, if there was none, or if ids have been given anew since the one before,
-/// DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_NO_SUCH_VERTEX for a vertex beyond position_count,
-/// DELDRIFT_REMOVED_VERTEX for one where positions are NULL, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
-/// DELDRIFT_PREPARED, DELDRIFT_CANCELLED, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
+/// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for an order that there is not, for a value that is used and
+/// is no number or a greater one, and for positions that take a cell through more than 64 periods,
+/// DELDRIFT_CHANGES_NOT_TAKEN if cells have changed since the latest deldrift_take_changes, if there was none, or if
+/// ids have been given anew since the one before, DELDRIFT_WRONG_COUNT, DELDRIFT_NO_SUCH_VERTEX for a vertex beyond
+/// position_count, DELDRIFT_REMOVED_VERTEX for one where positions are NULL, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_PREPARED, DELDRIFT_CANCELLED, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_transfer_cells(
     t: *const deldrift_triangulation,

@@ -12,23 +12,19 @@ use crate::motion::{MAX_VERTICES, MovingTriangulation};
 
 /// Creates the Delaunay triangulation of count points in the plane or in space, at timestamp 0.
 ///
-/// dimension: 2 or 3. positions: count points one after the other, dimension numbers each (x, y or
-/// x, y, z), in any unit; read during the call only; may be NULL if count is 0. Vertex i is the i-th of
-/// them until the triangulation is destroyed, or deldrift_compact gives new ids. Any set is legal, the empty one,
-/// coincident points and points on one line or plane included; where the points do not span the dimension there are no
-/// cells. Every finite coordinate from -1e57 to 1e57 is accepted, however close to zero. options: NULL for the
-/// defaults; read during the call only.
+/// dimension: 2 or 3. positions: count points, in any unit. Vertex i is the i-th of them until the triangulation is
+/// destroyed, or deldrift_compact gives new ids. Any set is legal: the empty one, coincident points, points on one line
+/// or plane. Where the points do not span the dimension there are no cells. Every finite coordinate from -1e57 to 1e57
+/// is accepted, however close to zero. options: NULL for the defaults.
 ///
-/// out: receives the triangulation, which the caller has to hand to deldrift_destroy. It is written on
-/// success only.
+/// out: receives the triangulation.
 ///
 /// Cost: on all sets of docs/COSTS.md n log n and m. No set takes more than n² in 2D, or n m in 3D, where m is the most
 /// cells of any subset.
 ///
-/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_INVALID_OPTIONS, DELDRIFT_NULL_ARGUMENT,
-/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
-/// DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS,
-/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. May be called from any number of threads at once.
+/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_INVALID_OPTIONS, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_VERTICES,
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_create(
     dimension: u32,
@@ -87,9 +83,9 @@ pub(super) fn create(
     Ok(())
 }
 
-/// Destroys a triangulation: its memory is freed and its views end. NULL is legal and does nothing.
-/// A poisoned triangulation is destroyed like any other. From inside a callback of a call on the same
-/// triangulation this does nothing but set deldrift_last_error.
+/// Destroys a triangulation: its memory is freed and its views end. NULL is legal and does nothing. A poisoned
+/// triangulation is destroyed like any other. From inside a callback of a call on the same triangulation it does
+/// nothing but set deldrift_last_error.
 ///
 /// Cost: n + m at most.
 #[unsafe(no_mangle)]
@@ -101,8 +97,6 @@ pub unsafe extern "C" fn deldrift_destroy(t: *mut deldrift_triangulation) {
 /// The dimension of the triangulation, 2 or 3, to *dimension.
 ///
 /// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_dimension(
     t: *const deldrift_triangulation,
@@ -117,8 +111,7 @@ pub unsafe extern "C" fn deldrift_dimension(
 ///
 /// Cost: n + m at most, to free what the old one keeps.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_INVALID_OPTIONS for a number that is no algorithm of this
-/// version. Not to be called at the same time as any other call on t.
+/// Errors: DELDRIFT_INVALID_OPTIONS for a number that is no algorithm of this version.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_set_algorithm(
     t: *mut deldrift_triangulation,
@@ -132,12 +125,10 @@ pub unsafe extern "C" fn deldrift_set_algorithm(
     })
 }
 
-/// The algorithm in force, to *algorithm: the one chosen, thus DELDRIFT_AUTO where the library chooses; after
-/// deldrift_research_set_algorithm the number of that of deldrift/research.h.
+/// The algorithm in force, to *algorithm. It is the one that was set: DELDRIFT_AUTO where the library chooses, and
+/// after deldrift_research_set_algorithm the number of an algorithm of deldrift/research.h.
 ///
 /// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_get_algorithm(
     t: *const deldrift_triangulation,

@@ -24,15 +24,29 @@ pub fn names() -> BTreeSet<&'static str> {
 
 /// The functions that the headers declare, but for those defined in them.
 pub fn names_of_headers() -> BTreeSet<&'static str> {
-    let headers =
-        [include_str!("../../../include/deldrift.h"), include_str!("../../../include/deldrift/research.h")];
+    let parts = [
+        ("core", include_str!("../../../include/deldrift/core.h")),
+        ("motion", include_str!("../../../include/deldrift/motion.h")),
+        ("read", include_str!("../../../include/deldrift/read.h")),
+        ("geometry", include_str!("../../../include/deldrift/geometry.h")),
+        ("voronoi", include_str!("../../../include/deldrift/voronoi.h")),
+        ("segments", include_str!("../../../include/deldrift/segments.h")),
+        ("periodic", include_str!("../../../include/deldrift/periodic.h")),
+        ("files", include_str!("../../../include/deldrift/files.h")),
+    ];
+    let includes = include_str!("../../../include/deldrift.h").lines();
+    let included =
+        includes.filter_map(|line| line.strip_prefix("#include \"deldrift/")?.strip_suffix(".h\""));
+    assert!(included.eq(parts.map(|(name, _)| name)), "these are not the parts of deldrift.h");
+    let headers = parts.map(|(_, text)| text).into_iter();
+    let headers = headers.chain([include_str!("../../../include/deldrift/research.h")]);
     let is_declaration = |line: &&str| !line.starts_with(['/', ' ', '#', '*']) && !line.starts_with("static");
     let name = |line: &'static str| {
         let (before, _) = line.split_once('(')?;
         let name = before.rsplit([' ', '*']).next()?;
         name.starts_with("deldrift_").then_some(name)
     };
-    headers.into_iter().flat_map(str::lines).filter(is_declaration).filter_map(name).collect()
+    headers.flat_map(str::lines).filter(is_declaration).filter_map(name).collect()
 }
 
 /// Calls a C function.

@@ -461,5 +461,9 @@ impl History<'_> {
         };
         assert_eq!(sign.cmp(&0), wanted, "in-sphere sign of {places:?}");
         assert!(sign.abs() <= 1 && (wanted != Less || sign == -1));
+        // Weights that are equal make no difference.
+        let (weights, mut weighted) = ([numbers[0]; 5], 77);
+        self.ok(|| c!(deldrift_in_power_sphere(d as u32, numbers.as_ptr(), weights.as_ptr(), &mut weighted)));
+        assert_eq!(weighted, sign, "with one weight for all of {places:?}");
     }
 }

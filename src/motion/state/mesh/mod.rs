@@ -135,9 +135,10 @@ impl<G: Dimension> Mesh<G> {
     }
 
     /// Puts the cells in the order of the sites, and the arrays follow. Sorted cells stay as they are until `replaced`
-    /// times as many as there are have been replaced, and where rounds may be taken back: those name slots.
+    /// times as many as there are have been replaced, and where rounds may be taken back or a change has recorded cells: both name
+    /// slots.
     pub(in crate::motion) fn sort_cells(&mut self, replaced: f64) -> Result<()> {
-        if self.rounds.is_some() {
+        if self.rounds.is_some() || !self.kernel.complex().rows().is_empty() {
             return Ok(());
         }
         if let Some(index) = self.kernel.sort_cells(replaced)? {
