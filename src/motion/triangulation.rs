@@ -144,7 +144,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         vertex: VertexId,
     ) -> Result<SiteId> {
         let s = self.present_site(argument, index, vertex)?;
-        if self.edits.is_leaving(vertex) {
+        if self.edits.is_removal_staged(vertex) {
             return Err(Error::StagedVertex { argument, index, vertex, staged: StagedEdit::Removal });
         }
         Ok(s)
@@ -166,7 +166,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let ids = self.mesh.site_of.len();
         if vertex.index() >= ids {
             Error::NoSuchVertex { argument, index, vertex, ids }
-        } else if self.edits.is_coming(vertex) {
+        } else if self.edits.is_insertion_staged(vertex) {
             Error::StagedVertex { argument, index, vertex, staged: StagedEdit::Insertion }
         } else {
             Error::RemovedVertex { argument, index, vertex }

@@ -141,7 +141,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         memory::reserve_exact(&mut ids, n)?;
         if from == Ids::Free {
             let named = self.absent_ends()?;
-            let is_waiting = |v| self.edits.is_coming(v) || self.mesh.is_withheld(v);
+            let is_waiting = |v| self.edits.is_insertion_staged(v) || self.mesh.is_withheld(v);
             let is_free =
                 |&v: &VertexId| self.mesh.is_absent(v) && !is_waiting(v) && named.binary_search(&v).is_err();
             ids.extend(VertexId::range(0..n_ids).filter(is_free).take(n));
@@ -247,7 +247,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// The key that an id has, or will have with the insertion that is staged; 0 if there is no such vertex.
     pub fn key_of_id(&self, vertex: VertexId) -> u64 {
-        let is_known = self.mesh.is_present(vertex) || self.edits.is_coming(vertex);
+        let is_known = self.mesh.is_present(vertex) || self.edits.is_insertion_staged(vertex);
         if is_known { self.mesh.kernel.keys().of(vertex) } else { 0 }
     }
 

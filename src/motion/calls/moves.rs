@@ -81,11 +81,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         for (index, position) in positions.iter().enumerate() {
             let vertex = VertexId::at(index);
             let staged = if self.mesh.is_present(vertex) {
-                if self.edits.is_leaving(vertex) {
+                if self.edits.is_removal_staged(vertex) {
                     continue;
                 }
                 self.stage("vertices", index, vertex, position)
-            } else if self.edits.is_coming(vertex) {
+            } else if self.edits.is_insertion_staged(vertex) {
                 check_position::<G>("positions", index, position).map(drop)
             } else {
                 continue;
@@ -137,7 +137,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             segments.discard();
         }
         if let Some(made) = &mut self.made {
-            made.discard_coming();
+            made.discard_staged();
         }
         n
     }

@@ -18,7 +18,7 @@ impl MovingTriangulation<Plane> {
         segments: impl ExactSizeIterator<Item = Segment> + Clone,
     ) -> Result<SegmentId> {
         for (index, vertex) in segments.clone().flat_map(|segment| segment.ends).enumerate() {
-            if !self.edits.is_coming(vertex) {
+            if !self.edits.is_insertion_staged(vertex) {
                 self.present_site("ends", index, vertex)?;
             }
         }
@@ -33,7 +33,7 @@ impl MovingTriangulation<Plane> {
         let segments = memory::made(&mut self.mesh.segments)?;
         for (index, &segment) in removals.iter().enumerate() {
             let staged = match segments.get(segment) {
-                Some(_) if !segments.is_leaving(segment) => segments.stage_removal(segment),
+                Some(_) if !segments.is_removal_staged(segment) => segments.stage_removal(segment),
                 _ => {
                     Err(Error::NoSuchSegment { argument: "segments", index, segment, ids: segments.n_ids() })
                 }

@@ -198,7 +198,7 @@ impl MovingTriangulation<Plane> {
 
     /// Where a vertex will be, if it will be there.
     fn place_after(&self, v: VertexId) -> Option<[f64; 2]> {
-        if self.edits.is_leaving(v) {
+        if self.edits.is_removal_staged(v) {
             None
         } else if self.staging.is_staged(v) {
             Some(*self.staging.goal(v))
@@ -332,19 +332,19 @@ impl MovingTriangulation<Plane> {
     #[inline(never)]
     fn note_origins(&mut self, before: &StagedBefore, pieces: &[SegmentPiece]) -> Result<()> {
         let made = memory::made(&mut self.made)?;
-        made.reserve_coming(pieces.len())?;
+        made.reserve_staged(pieces.len())?;
         let segments = self.mesh.segments.as_ref().expect("there are pieces");
         let mut ids = SegmentId::range(before.first_piece.index()..segments.n_ids());
         for pieces in pieces.chunk_by(|a, b| a.of == b.of) {
             let segment = pieces[0].of;
             let last = pieces.len() - 1;
             let own = || Origin { segment, ends: [pieces[0].ends[0], pieces[last].ends[1]] };
-            let origin = made.origin_with_coming(segment).unwrap_or_else(own);
+            let origin = made.origin_with_staged(segment).unwrap_or_else(own);
             for (k, (piece, id)) in pieces.iter().zip(&mut ids).enumerate() {
                 // Where it is cut, other segments may meet it at any angle.
                 let start = if k == 0 { origin.ends[0] } else { piece.ends[0] };
                 let end = if k == last { origin.ends[1] } else { piece.ends[1] };
-                made.enter_coming(id, Origin { segment: origin.segment, ends: [start, end] });
+                made.enter_staged(id, Origin { segment: origin.segment, ends: [start, end] });
             }
         }
         Ok(())

@@ -31,7 +31,7 @@ impl<G: Dimension> Edits<G> {
 
     /// Whether the removal of a vertex is staged.
     #[inline(always)]
-    pub(in crate::motion) fn is_leaving(&self, vertex: VertexId) -> bool {
+    pub(in crate::motion) fn is_removal_staged(&self, vertex: VertexId) -> bool {
         !self.removals.is_empty() && self.place.get(vertex.index()).is_some_and(|&place| place != STAYS)
     }
 
@@ -46,7 +46,7 @@ impl<G: Dimension> Edits<G> {
 
     /// Forgets the removal of a vertex.
     pub(in crate::motion) fn forget_removal(&mut self, vertex: VertexId) {
-        if self.is_leaving(vertex) {
+        if self.is_removal_staged(vertex) {
             let place = std::mem::replace(&mut self.place[vertex.index()], STAYS);
             self.removals.swap_remove(place as usize);
             if let Some(&last) = self.removals.get(place as usize) {
@@ -86,7 +86,7 @@ impl<G: Dimension> Edits<G> {
     }
 
     /// Whether the insertion of a vertex is staged.
-    pub(in crate::motion) fn is_coming(&self, vertex: VertexId) -> bool {
+    pub(in crate::motion) fn is_insertion_staged(&self, vertex: VertexId) -> bool {
         self.insertion(vertex).is_some()
     }
 

@@ -45,7 +45,7 @@ pub(in crate::motion) struct Made {
     /// Ascending.
     pieces: Vec<(SegmentId, Origin)>,
     /// The staged pieces, ascending, above the others, for which there is room among them.
-    coming: Vec<(SegmentId, Origin)>,
+    staged: Vec<(SegmentId, Origin)>,
     /// By the last refinement.
     inserted: Inserted,
     /// How dense the mesh is.
@@ -63,7 +63,7 @@ impl Made {
 
     /// The pieces, ascending, with where they come from; those that are staged are the last.
     pub(in crate::motion) fn pieces(&self) -> impl Iterator<Item = &(SegmentId, Origin)> {
-        self.pieces.iter().chain(&self.coming)
+        self.pieces.iter().chain(&self.staged)
     }
 
     /// What saved lists say, each ascending: pieces from `n_enforced` on are staged.
@@ -73,11 +73,11 @@ impl Made {
         n_enforced: usize,
     ) -> Result<Self> {
         let first = pieces.partition_point(|&(piece, _)| piece.index() < n_enforced);
-        let mut coming = Vec::new();
-        memory::append(&mut coming, &pieces[first..])?;
+        let mut staged = Vec::new();
+        memory::append(&mut staged, &pieces[first..])?;
         // Its room stays, for when those are made.
         pieces.truncate(first);
-        let made = Made { vertices, pieces, coming, ..Made::default() };
+        let made = Made { vertices, pieces, staged, ..Made::default() };
         Ok(made)
     }
 
@@ -93,24 +93,24 @@ impl Made {
     }
 
     /// Where a segment comes from, if it is a piece, or is staged as one.
-    pub(in crate::motion) fn origin_with_coming(&self, piece: SegmentId) -> Option<Origin> {
-        self.origin(piece).or_else(|| origin_in(&self.coming, piece))
+    pub(in crate::motion) fn origin_with_staged(&self, piece: SegmentId) -> Option<Origin> {
+        self.origin(piece).or_else(|| origin_in(&self.staged, piece))
     }
 
     /// Makes room for more staged pieces, and for all of them once they are made.
-    pub(in crate::motion) fn reserve_coming(&mut self, n: usize) -> Result<()> {
-        memory::reserve(&mut self.coming, n)?;
-        memory::reserve(&mut self.pieces, self.coming.len() + n)
+    pub(in crate::motion) fn reserve_staged(&mut self, n: usize) -> Result<()> {
+        memory::reserve(&mut self.staged, n)?;
+        memory::reserve(&mut self.pieces, self.staged.len() + n)
     }
 
     /// Enters a staged piece of a higher id than all others; there is room.
-    pub(in crate::motion) fn enter_coming(&mut self, piece: SegmentId, origin: Origin) {
-        self.coming.push((piece, origin));
+    pub(in crate::motion) fn enter_staged(&mut self, piece: SegmentId, origin: Origin) {
+        self.staged.push((piece, origin));
     }
 
     /// What is staged is forgotten.
-    pub(in crate::motion) fn discard_coming(&mut self) {
-        self.coming.clear();
+    pub(in crate::motion) fn discard_staged(&mut self) {
+        self.staged.clear();
     }
 
     /// How many pieces there are, staged ones not counted.
@@ -121,12 +121,12 @@ impl Made {
     /// All but the first pieces have not been made.
     pub(in crate::motion) fn truncate_pieces(&mut self, n: usize) {
         self.pieces.truncate(n);
-        self.coming.clear();
+        self.staged.clear();
     }
 
     /// What was staged is made. Needs no memory.
     pub(in crate::motion) fn end_staging(&mut self) {
-        self.pieces.append(&mut self.coming);
+        self.pieces.append(&mut self.staged);
     }
 
     /// What the refinement of a timestamp inserted, if that was the last one.
@@ -177,9 +177,9 @@ impl Made {
     /// A copy.
     pub(in crate::motion) fn copied(&self) -> Result<Self> {
         let mut copy = Made { vertices: memory::copy_of(&self.vertices)?, ..Made::default() };
-        memory::reserve_exact(&mut copy.pieces, self.pieces.len() + self.coming.len())?;
+        memory::reserve_exact(&mut copy.pieces, self.pieces.len() + self.staged.len())?;
         copy.pieces.extend_from_slice(&self.pieces);
-        copy.coming = memory::copy_of(&self.coming)?;
+        copy.staged = memory::copy_of(&self.staged)?;
         let Inserted { vertices, weights, sizes } = &self.inserted;
         copy.inserted = Inserted {
             vertices: memory::copy_of(vertices)?,
@@ -196,7 +196,7 @@ impl Made {
         copy.inserted = Inserted::default();
         copy.vertices.iter_mut().for_each(|(v, _)| *v = ids[*v]);
         copy.vertices.retain(|&(v, _)| v != VertexId::NONE);
-        copy.pieces.iter_mut().chain(&mut copy.coming).for_each(|(_, origin)| {
+        copy.pieces.iter_mut().chain(&mut copy.staged).for_each(|(_, origin)| {
             origin.ends = origin.ends.map(|v| if v == VertexId::NONE { v } else { ids[v] });
         });
         Ok(copy)
@@ -205,7 +205,7 @@ impl Made {
     pub(in crate::motion) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.vertices)
             + memory::bytes_of(&self.pieces)
-            + memory::bytes_of(&self.coming)
+            + memory::bytes_of(&self.staged)
             + memory::bytes_of(&self.inserted.vertices)
             + memory::bytes_of(&self.inserted.weights)
             + memory::bytes_of(&self.inserted.sizes)

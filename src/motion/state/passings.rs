@@ -118,7 +118,7 @@ impl<G: Dimension> Step<'_, G> {
     /// A vertex on its way from its place, if it is there after.
     #[inline(always)]
     fn walker_from(&self, vertex: VertexId, from: &G::Point) -> Option<Walker> {
-        if self.edits.is_leaving(vertex) {
+        if self.edits.is_removal_staged(vertex) {
             return None;
         }
         let to = self.steps.goal(vertex).unwrap_or(*from);
@@ -130,7 +130,7 @@ impl<G: Dimension> Step<'_, G> {
         let mut swept = Vec::new();
         let Some(segments) = &self.mesh.segments else { return Ok(swept) };
         memory::reserve(&mut swept, segments.enforced().len())?;
-        for (id, segment) in segments.enforced().filter(|&(id, _)| !segments.is_leaving(id)) {
+        for (id, segment) in segments.enforced().filter(|&(id, _)| !segments.is_removal_staged(id)) {
             if let [Some(a), Some(b)] = segment.ends.map(|v| self.walker(v)) {
                 let place = segment.ends.map(|v| self.mesh.site_of[v].get());
                 swept.push(Swept { id, ends: [a, b], place: place[0].min(place[1]) });

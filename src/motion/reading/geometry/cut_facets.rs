@@ -123,7 +123,7 @@ impl CutFacet {
         [-self.normal[1], self.normal[0], 0]
     }
 
-    /// Makes it the facet of an edge between two places with a ring that is [oriented](Ring::orient), whole.
+    /// Makes it the facet of an edge between two places with a ring that is [oriented](EdgeRing::orient), whole.
     pub(super) fn fill(
         &mut self,
         edge: [Vector; 2],

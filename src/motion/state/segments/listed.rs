@@ -68,7 +68,7 @@ impl<G: Dimension> Segments<G> {
     }
 
     /// Whether the removal of a segment is staged.
-    pub(in crate::motion) fn is_leaving(&self, segment: SegmentId) -> bool {
+    pub(in crate::motion) fn is_removal_staged(&self, segment: SegmentId) -> bool {
         self.leaving.binary_search(&segment).is_ok()
     }
 
