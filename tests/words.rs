@@ -13,7 +13,7 @@ const POINTING_IN: [&str; 4] = ["capi", "delaunay", "refine", "motion/calls/refi
 /// How many names stand for several types: fewer is better.
 const MOST_SHARED: usize = 16;
 
-/// The sources below a folder, without files of tests: the path in src of each, and its lines up to its own tests.
+/// Reads the sources below a folder: the text of each, by its path in src.
 fn read(folder: &Path, path: &str, sources: &mut BTreeMap<String, String>) {
     for entry in fs::read_dir(folder).expect("a folder of sources") {
         let entry = entry.expect("an entry").path();
