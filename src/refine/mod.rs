@@ -30,7 +30,7 @@
 //! | `flat` | vertices that touch a piece: a few last places beside it |
 //! | `queue` | bad triangles in order |
 //! | `refining`, `splitting`, `telling` | refinement; where pieces are split; its calls, and what they tell |
-//! | `coarsening` | vertices that are not needed any more leave |
+//! | `coarsening`, `staying` | vertices that are not needed any more leave; those that surely stay |
 //!
 //! # What is exact
 //!
@@ -103,6 +103,7 @@ mod queue;
 mod refining;
 mod removal;
 mod splitting;
+mod staying;
 mod telling;
 mod walking;
 
@@ -112,4 +113,5 @@ pub(crate) use given::Given;
 pub(crate) use parts::NONE;
 pub use refining::Kept;
 pub(crate) use refining::Origins;
+pub(crate) use staying::keep;
 pub(crate) use telling::{Refined, mendable, refine, remesh};
