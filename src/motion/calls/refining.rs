@@ -214,6 +214,8 @@ impl MovingTriangulation<Plane> {
             return Ok(report);
         };
         if made.found.all_stay.holds(question) {
+            // What is due depends on timestamps, too.
+            self.set_coarsened(quality, options, report.removed);
             return Ok(report);
         }
         // After an error nothing is known.
