@@ -8,6 +8,8 @@ mod checks;
 mod reading;
 mod remeshing;
 mod staging;
+#[cfg(test)]
+mod tests;
 
 use crate::delaunay::{Keys, Plane};
 use crate::error::Result;
