@@ -35,8 +35,8 @@ impl Mesh<'_> {
         }
     }
 
-    /// Of a triangle that may not have been copied, as seen from one of its corners: the next corner and the one behind, the
-    /// triangle beyond the edge to the latter, and the label.
+    /// Of a triangle that may not have been copied, as seen from one of its corners: the next corner and the one
+    /// behind, the triangle beyond the edge to the latter, and the label.
     #[inline(always)]
     fn seen(&self, t: u32, v: VertexId) -> ([VertexId; 2], Option<u32>, u32) {
         let copy = if t & UNREAD == 0 { Some(t) } else { self.copy_of(t & !UNREAD) };

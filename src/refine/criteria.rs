@@ -196,8 +196,8 @@ impl<'a> Tests<'a> {
         })
     }
 
-    /// Whether an edge is surely longer than one of a triangle may be that has this sum of sizes at its corners, where lengths
-    /// are to be `share` as large.
+    /// Whether an edge is surely longer than one of a triangle may be that has this sum of sizes at its corners, where
+    /// lengths are to be `share` as large.
     #[inline(always)]
     pub(super) fn is_longer_than(&self, ends: [&[f64; 2]; 2], sum: f64, share: f64) -> bool {
         let u = minus::<f64, 2>(ends[1], ends[0]).map(|x| x * self.scale);
@@ -205,8 +205,8 @@ impl<'a> Tests<'a> {
         dot(&u, &u) > mean * mean * (1.0 + SURE)
     }
 
-    /// Whether a triangle is surely good: by fewer operations than it takes to measure it, and none that depend on which edge
-    /// is the shortest.
+    /// Whether a triangle is surely good: by fewer operations than it takes to measure it, and none that depend on
+    /// which edge is the shortest.
     #[inline(always)]
     pub(crate) fn is_surely_good(&self, p: [&[f64; 2]; 3], label: u32, corners: &[VertexId; 3]) -> bool {
         let Criteria { sizes, is_too_large, .. } = &self.criteria;

@@ -1,11 +1,11 @@
-//! Candidates of coarsening that surely stay, found in one pass over the cells: in a fraction of the time of a look around
-//! each.
+//! Candidates of coarsening that surely stay, found in one pass over the cells: in a fraction of the time of a look
+//! around each.
 //!
-//! What takes the place of a vertex is a triangulation of the polygon around it. It has two triangles fewer than there were,
-//! or one where all are on one side of a segment: their areas tell whether all could be small enough. And if the polygon has four
-//! corners or more, two of the triangles are ears: a corner with those before and behind it. So where all ears but one would
-//! have an edge that is too long, the vertex stays. The corners opposite an edge are the ends of the edge that an ear has in the
-//! polygon around either end of it, so that all are found by a look at each edge.
+//! What takes the place of a vertex is a triangulation of the polygon around it. It has two triangles fewer than there
+//! were, or one where all are on one side of a segment: their areas tell whether all could be small enough. And if the
+//! polygon has four corners or more, two of the triangles are ears: a corner with those before and behind it. So where
+//! all ears but one would have an edge that is too long, the vertex stays. The corners opposite an edge are the ends
+//! of the edge that an ear has in the polygon around either end of it, so that all are found by a look at each edge.
 
 use super::coarsening::{Candidate, Room};
 use super::criteria::Tests;
@@ -78,8 +78,8 @@ impl Around {
     }
 }
 
-/// Counts the ears that are not too long, for the first end of each edge of a cell: for the other one, that is done from the
-/// cell across.
+/// Counts the ears that are not too long, for the first end of each edge of a cell: for the other one, that is done
+/// from the cell across.
 #[inline(always)]
 fn look_at_edges(
     given: &Given,

@@ -1,4 +1,5 @@
-//! What refinement and coarsening remember from call to call changes nothing: copies, which remember nothing, go on alike.
+//! What refinement and coarsening remember from call to call changes nothing: copies, which remember nothing, go on
+//! alike.
 
 use super::ids::assert_same;
 use super::lives::domain_of;

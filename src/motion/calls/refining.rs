@@ -1,8 +1,9 @@
 //! Refinement and coarsening of the cells of a domain, each in one commit of its own.
 //!
-//! A pass over all cells finds those that are bad, and the vertices that may have become superfluous. What is to be done
-//! there is found on copies of the cells that are entered alone ([`refine`](crate::refine)). Then vertices, and pieces of
-//! segments in the place of these, are staged and committed.
+//! A pass over the cells finds those that are bad, and the vertices that may have become superfluous: of cells that
+//! are as at the last call it is known ([`looked`](crate::motion::state::looked)). What is to be done there is found
+//! on copies of the cells that are entered alone ([`refine`](crate::refine)). Then vertices, and pieces of segments in
+//! the place of these, are staged and committed.
 
 mod checks;
 mod reading;
@@ -40,7 +41,8 @@ impl MovingTriangulation<Plane> {
     /// factor [`growth`](CoarsenOptions::growth): then it removes vertices that it has made, too, and weights tell how values
     /// follow from those that there were. The report tells how many have gone.
     ///
-    /// Where all is good already: a pass over the cells, and a sort of the segments.
+    /// Where all is good already: a comparison of the cells with those of the last call, tests of those that are
+    /// others, and a sort of the segments.
     ///
     /// ```
     /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options, Quality, RefineOptions, Segment}};
@@ -192,9 +194,10 @@ impl MovingTriangulation<Plane> {
     /// Around cells that are of lower quality already, those that come may have angles as small: what `refine` then mends
     /// has fewer vertices than if it were called first.
     ///
-    /// Cost: a pass over the cells, and for each vertex added that of looking at the cells around it, unless these and their
-    /// places are those of the last call with this quality and these options. With sizes or a callback all are looked at.
-    /// Where nothing has changed since a call that removed nothing, masks and labels are compared.
+    /// Cost: a comparison of the cells with those of the last call, tests of those that are others, and for each
+    /// vertex added that of looking at the cells around it, unless these, their places and sizes are those of the last
+    /// call with this quality and these options. With a callback all are looked at. Where nothing has changed since a
+    /// call that removed nothing, masks, labels and sizes are compared.
     ///
     /// # Errors
     /// Those of [`refine`](Self::refine).
@@ -286,9 +289,9 @@ impl MovingTriangulation<Plane> {
         self.made.as_ref().and_then(|made| made.origin(segment)).map_or(segment, |origin| origin.segment)
     }
 
-    /// The mask of a domain that a program knows by this number, if the last refinement or coarsening has had it and nothing has
-    /// changed since: cells that the call itself has made are in the domain if those are that are reached from there without
-    /// crossing a segment.
+    /// The mask of a domain that a program knows by this number, if the last refinement or coarsening has had it and
+    /// nothing has changed since: cells that the call itself has made are in the domain if those are that are reached
+    /// from there without crossing a segment.
     pub(crate) fn mask_since(&self, domain: u32) -> Result<Option<Vec<u8>>> {
         let known = self.made.as_ref().and_then(|made| made.looked.of_domain(domain, self.mesh.n_changes));
         let Some((before, known)) = known else { return Ok(None) };
@@ -310,7 +313,8 @@ impl MovingTriangulation<Plane> {
         Ok(Some(mask))
     }
 
-    /// The refinement or coarsening that has ended had this mask, which is that of a domain that a program knows by this number.
+    /// The refinement or coarsening that has ended had this mask, which is that of a domain that a program knows by
+    /// this number.
     pub(crate) fn set_domain(&mut self, domain: u32, mask: &[u8]) {
         if let Some(made) = &mut self.made {
             made.looked.set_domain(domain, mask, self.mesh.n_changes);

@@ -1,9 +1,10 @@
-//! What refinement and coarsening have looked at, and what they have found: which cells are bad, and which vertices could
-//! not go.
+//! What refinement and coarsening have looked at, and what they have found: which cells are bad, and which vertices
+//! could not go.
 //!
 //! Whether a cell has a small angle or is too large depends on the places of its corners, on its label, and on what is
-//! asked for. Whether a vertex on no segment may go depends on that of the cells around it. Where all of that is what it
-//! was, neither is looked at again. Cells at segments are, and so are vertices of these: they depend on what is a segment.
+//! asked for. Whether a vertex on no segment may go depends on that of the cells around it. Where all of that is what
+//! it was, neither is looked at again. Cells at segments are, and so are vertices of these: they depend on what is a
+//! segment.
 
 use crate::error::Result;
 use crate::ids::VertexId;
@@ -46,8 +47,8 @@ pub(in crate::motion) struct Looked {
     labels: Vec<u32>,
     /// By cell, whether it is selected, and has a small angle or is too large.
     is_flawed: Vec<bool>,
-    /// The number of the domain of which that is the mask, and that of changes of the mesh up to which it is, but for cells that
-    /// have become others.
+    /// The number of the domain of which that is the mask, and that of changes of the mesh up to which it is, but for
+    /// cells that have become others.
     domain: Option<(u32, u64)>,
     /// By vertex, whether it could not go.
     stays: Vec<bool>,
@@ -150,9 +151,9 @@ impl Looked {
         is_known.then(|| std::mem::take(&mut self.places))
     }
 
-    /// A look at the cells of now begins, which [`look_at`](Self::look_at) goes on with for each. `has_moved`: whether vertices
-    /// may be at other places than at the last look. What is remembered is not to be taken for anything until it has
-    /// [ended](Self::end).
+    /// A look at the cells of now begins, which [`look_at`](Self::look_at) goes on with for each. `has_moved`: whether
+    /// vertices may be at other places than at the last look. What is remembered is not to be taken for anything until
+    /// it has [ended](Self::end).
     pub(in crate::motion) fn begin(&mut self, now: Looking, has_moved: bool) -> Result<Others> {
         let Question { asked, labels, sizes, .. } = now.question;
         self.domain = None;
@@ -242,21 +243,22 @@ impl Looked {
         Ok(&mut self.stays)
     }
 
-    /// All cells have been looked at, with vertices at these places, which are those of so many changes of the mesh if that
-    /// is known. It may be taken for what is asked for.
+    /// All cells have been looked at, with vertices at these places, which are those of so many changes of the mesh if
+    /// that is known. It may be taken for what is asked for.
     pub(in crate::motion) fn end(&mut self, asked: Vec<u64>, places: Places, placed_at: Option<u64>) {
         (self.asked, self.places, self.placed_at) = (asked, places, placed_at);
     }
 
-    /// The mask of the call that ends is that of a domain, and was so for the cells that it looked at, if it did. That holds up to so
-    /// many changes of the mesh: those since were made by the call, which keeps regions as they are.
+    /// The mask of the call that ends is that of a domain, and was so for the cells that it looked at, if it did. That
+    /// holds up to so many changes of the mesh: those since were made by the call, which keeps regions as they are.
     pub(in crate::motion) fn set_domain(&mut self, domain: u32, mask: &[u8], n_changes: u64) {
         // A call that knew what would be found has not looked, and another one may have, with another mask.
         let has_looked = !self.asked.is_empty() && self.mask == mask;
         self.domain = has_looked.then_some((domain, n_changes));
     }
 
-    /// The cells and the mask that were looked at last, if that is the mask of this domain but for cells that have become others.
+    /// The cells and the mask that were looked at last, if that is the mask of this domain but for cells that have
+    /// become others.
     pub(in crate::motion) fn of_domain(
         &self,
         domain: u32,

@@ -186,8 +186,8 @@ impl MovingTriangulation<Plane> {
         Ok(())
     }
 
-    /// Reads the cells, those alone that are others than at the last look: finds those that are bad. Checks that those selected
-    /// end at segments.
+    /// Reads the cells, those alone that are others than at the last look: finds those that are bad. Checks that those
+    /// selected end at segments.
     pub(super) fn read_cells(
         &self,
         read: &mut Read,

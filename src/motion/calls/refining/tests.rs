@@ -49,7 +49,8 @@ fn fresh(t: &Triangulation, domain: u32) -> Vec<u8> {
     }
 }
 
-/// The mask that is carried over what a call has changed is that of the cells by now, and after other changes there is none.
+/// The mask that is carried over what a call has changed is that of the cells by now, and after other changes there is
+/// none.
 #[test]
 fn masks_are_those_of_the_cells() {
     let mut n_known = 0;

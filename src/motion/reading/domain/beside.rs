@@ -34,7 +34,8 @@ impl MovingTriangulation<Plane> {
         self.rows_of_cells(SegmentId::NONE, |entry, id| *entry = id.min(*entry))
     }
 
-    /// The edges of cells at segments, by cell and the corner opposite, ascending, each with how many segments there are.
+    /// The edges of cells at segments, by cell and the corner opposite, ascending, each with how many segments there
+    /// are.
     pub(super) fn segments_at_edges(&self) -> Result<Vec<(CellId, usize, u32)>> {
         let (cells, mut edges) = (self.cell_arrays()?, Vec::new());
         let facets = self.facets_beside_segments()?;
