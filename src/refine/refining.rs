@@ -72,7 +72,7 @@ pub(super) struct Refinement<'a> {
     /// Pieces in the way of a vertex, each with where it is in the way.
     in_the_way: Vec<(u32, [f64; 2])>,
     /// Whether flat triangles have been seen.
-    has_flat: bool,
+    pub(super) has_flat: bool,
     /// Where vertices touch a piece.
     pub(super) touching: Vec<f64>,
 }
@@ -207,6 +207,9 @@ impl<'a> Refinement<'a> {
         let measured = self.measure(t);
         self.has_flat |= measured.flaw.is_some() && self.is_flat(t);
         for i in 0..3 {
+            if triangle.pieces[i] == NONE && !self.has_flat {
+                continue;
+            }
             if let Some((piece, cause)) = self.wanted_at(Side::new(t, i))?
                 && self.may_split(piece)
             {
@@ -218,25 +221,6 @@ impl<'a> Refinement<'a> {
         }
         let waiting = Waiting { triangle: t, corners: triangle.corners };
         self.queues.enter(waiting, measured.shortest)
-    }
-
-    /// The piece at a side of a triangle, or behind flat triangles there, if it has to be split for that triangle.
-    fn wanted_at(&mut self, side: Side) -> Result<Option<(u32, Option<[f64; 2]>)>> {
-        let triangle = *self.mesh.triangle(side.triangle());
-        let piece = triangle.pieces[side.index()];
-        if piece == NONE {
-            let is_wanted = self.has_flat && self.is_encroached_from(side);
-            let apex = *self.mesh.point(self.mesh.apex(side));
-            return match is_wanted {
-                true => Ok(self.piece_behind(side)?.map(|piece| (piece, Some(apex)))),
-                false => Ok(None),
-            };
-        }
-        let ends = triangle.ends(side.index()).map(|v| self.mesh.point(v));
-        if self.tests.is_too_long(ends, triangle.label) {
-            return Ok(Some((piece, Some([0, 1].map(|axis| 0.5 * (ends[0][axis] + ends[1][axis]))))));
-        }
-        Ok(self.is_encroached_from(side).then_some((piece, None)))
     }
 
     /// Whether a triangle is bad, and not for a reason that stays.

@@ -46,6 +46,38 @@ const N_OTHER_SHARES: u32 = 256;
 const GOLDEN: f64 = 0.618_033_988_749_895;
 
 impl Refinement<'_> {
+    /// The piece at a side of a triangle, or behind flat triangles there, if it has to be split for that triangle.
+    pub(super) fn wanted_at(&mut self, side: Side) -> Result<Option<(u32, Option<[f64; 2]>)>> {
+        let triangle = *self.mesh.triangle(side.triangle());
+        let piece = triangle.pieces[side.index()];
+        if piece == NONE {
+            let is_wanted = self.has_flat && self.is_encroached_from(side);
+            let apex = *self.mesh.point(self.mesh.apex(side));
+            return match is_wanted {
+                true => Ok(self.piece_behind(side)?.map(|piece| (piece, Some(apex)))),
+                false => Ok(None),
+            };
+        }
+        let ends = triangle.ends(side.index()).map(|v| self.mesh.point(v));
+        if self.tests.is_too_long(ends, triangle.label) || self.is_longer_than_sizes(side) {
+            return Ok(Some((piece, Some([0, 1].map(|axis| 0.5 * (ends[0][axis] + ends[1][axis]))))));
+        }
+        Ok(self.is_encroached_from(side).then_some((piece, None)))
+    }
+
+    /// Whether a side is longer than the sizes at its ends allow, and that opposite: a vertex inside would not make it
+    /// shorter, and would be in the way of those that split it.
+    fn is_longer_than_sizes(&self, side: Side) -> bool {
+        if !self.tests.has_sizes() {
+            return false;
+        }
+        let triangle = self.mesh.triangle(side.triangle());
+        let ends = triangle.ends(side.index());
+        let sum = self.sizes[ends[0]] + self.sizes[ends[1]];
+        let opposite = self.sizes[triangle.corners[side.index()]].max(0.5 * sum);
+        self.tests.is_longer_than(ends.map(|v| self.mesh.point(v)), sum + opposite, 1.0)
+    }
+
     /// Splits a piece: in the middle, or, at a small angle with another segment, at a round distance from its apex, so that
     /// what is on both is on common shells.
     pub(super) fn split(&mut self, piece: u32, cause: Option<[f64; 2]>) -> Result<()> {
