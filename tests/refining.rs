@@ -5,6 +5,7 @@ mod conforming;
 mod ids;
 mod lives;
 mod loops;
+mod remembered;
 
 use crate::common::{Rng, assert_same_cells, cell_set, check_adjacency, seeds};
 use deldrift::motion::{

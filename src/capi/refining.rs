@@ -254,9 +254,12 @@ pub unsafe extern "C" fn deldrift_quality_init(quality: *mut deldrift_quality) -
 ///
 /// Where all is good already, nothing is committed.
 ///
-/// Cost: m, s log s for s segments, and for each vertex inserted, on the average, a constant. If this call, or
-/// deldrift_coarsen, has found all to be good with these numbers, and no place, cell or segment has changed since:
-/// comparing mask and labels.
+/// Cost: a comparison of the m cells with those that this call or deldrift_coarsen has looked at last, a test of those
+/// alone that are others, or of which corners, labels or sizes are, s log s for s segments, and for each vertex
+/// inserted, on the average, a constant. Without a mask also that of deldrift_nesting_levels, or
+/// deldrift_crossing_numbers, unless nothing has changed since a call with the same domain. With is_too_large all
+/// cells are tested. Where no place, cell or segment has changed since one of the calls has found all to be good with
+/// these numbers: comparing mask, labels and sizes.
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS for struct_size, keeps
 /// and domain, DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE for a number of quality that has no meaning, those for
@@ -297,9 +300,10 @@ pub unsafe extern "C" fn deldrift_refine(
 /// deldrift_refine, which then has less to insert. Vertices that stay keep their ids, and so values by id stay, too:
 /// one pass after deldrift_refine carries them over both (see deldrift_refined_weights).
 ///
-/// Cost: that of deldrift_refine where all is good, and for each vertex that deldrift_refine has inserted at most that
-/// of looking at the cells around it. If this call has found nothing to remove with these numbers, and no place, cell
-/// or segment has changed since: comparing mask and labels.
+/// Cost: that of deldrift_refine where all is good, and for each vertex that deldrift_refine has inserted, and around
+/// which cells are others than at the last call, or at segments, at most that of looking at these. Where no place,
+/// cell or segment has changed since this call has found nothing to remove with these numbers: comparing mask, labels
+/// and sizes.
 ///
 /// Errors: those of deldrift_refine: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS
 /// for struct_size, keeps and domain, DELDRIFT_WRONG_COUNT, DELDRIFT_INVALID_VALUE, DELDRIFT_UNDECIDED_REGIONS,

@@ -1,7 +1,7 @@
 //! What is around a vertex, looked at without copying triangles.
 
 use super::mesh::Mesh;
-use super::parts::{NONE, Side, UNREAD, next, previous};
+use super::parts::{NONE, Side, Triangle, UNREAD, next, previous};
 use super::removal::{Hole, MAX_DEGREE, corner_of};
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
@@ -13,28 +13,52 @@ impl Mesh<'_> {
     pub(super) fn look_around(&self, v: VertexId, hole: &mut Hole) -> Result<Option<u32>> {
         hole.around.clear();
         hole.polygon.clear();
-        let mut t = self.at[v];
-        let first_corner = self.corners_of(t).0;
-        let first = first_corner[next(corner_of(first_corner, v))];
-        let mut label = None;
+        let (mut t, mut label) = (self.at[v], None);
         loop {
             if hole.around.len() >= MAX_DEGREE {
                 return Ok(None);
             }
-            let (corners, own_label) = self.corners_of(t);
-            let i = corner_of(corners, v);
+            let (corners, beyond, own_label) = self.seen(t, v);
             if *label.get_or_insert(own_label) != own_label {
                 return Ok(None);
             }
             memory::push(&mut hole.around, t)?;
-            memory::push(&mut hole.polygon, corners[next(i)])?;
-            if corners[previous(i)] == first {
+            memory::push(&mut hole.polygon, corners[0])?;
+            if corners[1] == hole.polygon[0] {
                 hole.begin_at_lowest();
                 return Ok(label);
             }
-            match self.beyond(t, next(i)) {
+            match beyond {
                 Some(beyond) => t = beyond,
                 None => return Ok(None),
+            }
+        }
+    }
+
+    /// Of a triangle that may not have been copied, as seen from one of its corners: the next corner and the one
+    /// behind, the triangle beyond the edge to the latter, and the label.
+    #[inline(always)]
+    fn seen(&self, t: u32, v: VertexId) -> ([VertexId; 2], Option<u32>, u32) {
+        let copy = if t & UNREAD == 0 { Some(t) } else { self.copy_of(t & !UNREAD) };
+        match copy {
+            Some(copy) => {
+                let &Triangle { corners, across, label, .. } = self.triangle(copy);
+                let i = corner_of(corners, v);
+                let across = across[next(i)];
+                (
+                    [corners[next(i)], corners[previous(i)]],
+                    (across != Side::NONE).then_some(across.triangle()),
+                    label,
+                )
+            }
+            // Whatever order its corners have.
+            None => {
+                let cell = t & !UNREAD;
+                let corners = self.given.corners[cell as usize];
+                let i = corner_of(corners, v);
+                let across = self.given.neighbours[cell as usize][next(i)];
+                let beyond = (across != CellId::NONE).then_some(across.get() | UNREAD);
+                ([corners[next(i)], corners[previous(i)]], beyond, self.given.label(cell))
             }
         }
     }
@@ -73,22 +97,6 @@ impl Mesh<'_> {
         match copy {
             Some(copy) => self.triangle(copy).pieces,
             None => self.given.sides_of(t & !UNREAD),
-        }
-    }
-
-    /// The triangle beyond a side of one that may not have been copied, and may not have been either.
-    #[inline(always)]
-    fn beyond(&self, t: u32, i: usize) -> Option<u32> {
-        let copy = if t & UNREAD == 0 { Some(t) } else { self.copy_of(t & !UNREAD) };
-        match copy {
-            Some(copy) => {
-                let across = self.triangle(copy).across[i];
-                (across != Side::NONE).then_some(across.triangle())
-            }
-            None => {
-                let across = self.given.across(t & !UNREAD)[i];
-                (across != CellId::NONE).then_some(across.get() | UNREAD)
-            }
         }
     }
 }

@@ -14,6 +14,12 @@ use std::ops::ControlFlow;
 /// off by half a last bit each.
 const ROUNDING: f64 = 1e-14;
 
+/// What passes by this share passes whatever the order of operations.
+const SURE: f64 = 1e-9;
+
+/// Products of squared lengths above it have all their digits.
+const UNDERFLOW: f64 = 1e-280;
+
 /// An off-centre is this much nearer than where the new triangle would just have the least angle, so that it has it after
 /// rounding, and its neighbours have room (Üngör, 10.1016/j.comgeo.2008.06.002, leaves the factor open).
 const OFF_CENTRE: f64 = 0.475;
@@ -114,6 +120,12 @@ impl<'a> Tests<'a> {
         !self.criteria.sizes.is_empty()
     }
 
+    /// Whether areas are bounded.
+    pub(super) fn has_areas(&self) -> bool {
+        let Criteria { greatest_area, areas, .. } = &self.criteria;
+        *greatest_area < f64::INFINITY || areas.iter().any(|&area| area < f64::INFINITY)
+    }
+
     /// Measures a triangle, of which the label says how large it may be. `size` is that at a corner.
     #[inline(always)]
     pub(crate) fn measure(&self, p: [&[f64; 2]; 3], label: u32, size: impl Fn(usize) -> f64) -> Measured {
@@ -182,6 +194,38 @@ impl<'a> Tests<'a> {
                         false
                     })
         })
+    }
+
+    /// Whether an edge is surely longer than one of a triangle may be that has this sum of sizes at its corners, where
+    /// lengths are to be `share` as large.
+    #[inline(always)]
+    pub(super) fn is_longer_than(&self, ends: [&[f64; 2]; 2], sum: f64, share: f64) -> bool {
+        let u = minus::<f64, 2>(ends[1], ends[0]).map(|x| x * self.scale);
+        let mean = sum * (self.scale * share / 3.0);
+        dot(&u, &u) > mean * mean * (1.0 + SURE)
+    }
+
+    /// Whether a triangle is surely good: by fewer operations than it takes to measure it, and none that depend on
+    /// which edge is the shortest.
+    #[inline(always)]
+    pub(crate) fn is_surely_good(&self, p: [&[f64; 2]; 3], label: u32, corners: &[VertexId; 3]) -> bool {
+        let Criteria { sizes, is_too_large, .. } = &self.criteria;
+        let edge = |i: usize, j: usize| minus::<f64, 2>(p[j], p[i]).map(|x| x * self.scale);
+        let edges = [edge(1, 2), edge(2, 0), edge(0, 1)];
+        let [a, b, c] = edges.map(|u| dot(&u, &u));
+        let (shortest, longest) = (a.min(b).min(c), a.max(b).max(c));
+        // The product of the squares of the two edges at the smallest angle, and that of these.
+        let product = longest * (a + b + c - shortest - longest);
+        let cosine = 0.5 * (a + b + c) - shortest;
+        let is_wide = cosine * cosine * (1.0 + SURE) <= self.squared_cosine * product && product > UNDERFLOW;
+        let bound = self.greatest_area(label) * self.scale * self.scale;
+        let (one, other) = (edges[0][0] * edges[1][1], edges[0][1] * edges[1][0]);
+        let is_small = 0.5 * ((one - other).abs() + SURE * (one.abs() + other.abs())) <= bound;
+        let is_short = sizes.is_empty() || {
+            let mean = (sizes[corners[0]] + sizes[corners[1]] + sizes[corners[2]]) * (self.scale / 3.0);
+            longest * (1.0 + SURE) <= mean * mean
+        };
+        is_wide && is_small && is_short && is_too_large.is_none()
     }
 
     /// Whether a triangle is bad.

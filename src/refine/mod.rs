@@ -32,7 +32,7 @@
 //! | `refinement` | what refinement knows, and what waits |
 //! | `examining`, `splitting`, `refining` | what is wanted; where pieces are split; what is done for bad triangles |
 //! | `telling` | the calls, and what they tell |
-//! | `coarsening` | vertices that are not needed any more leave |
+//! | `coarsening`, `staying` | vertices that are not needed any more leave; those that surely stay |
 //!
 //! # What is exact
 //!
@@ -107,6 +107,7 @@ mod refinement;
 mod refining;
 mod removal;
 mod splitting;
+mod staying;
 mod telling;
 mod walking;
 
@@ -116,4 +117,5 @@ pub(crate) use given::Given;
 pub(crate) use parts::NONE;
 pub use refinement::Kept;
 pub(crate) use refinement::Origins;
+pub(crate) use staying::keep;
 pub(crate) use telling::{Refined, mendable, refine, remesh};

@@ -53,7 +53,12 @@ pub(super) fn improve(
             true => decided_labels(t)?,
             false => Vec::new(),
         };
-        let cells = if is_whole_domain { cells_of(t, domain, &labels)? } else { Vec::new() };
+        let known = if is_whole_domain && !by_region { t.mask_since(domain as u32)? } else { None };
+        let cells = match known {
+            Some(cells) => cells,
+            None if is_whole_domain => cells_of(t, domain, &labels)?,
+            None => Vec::new(),
+        };
         let mask = if is_whole_domain { &cells } else { mask.get()? };
         let is_too_large = given.is_too_large.map(|is_too_large| {
             move |corners: [[f64; 2]; 3]| {
@@ -78,6 +83,9 @@ pub(super) fn improve(
             is_conforming: given.is_conforming != 0,
         };
         let done = body(t, &given, &quality, mask).map_err(of_quality)?;
+        if is_whole_domain && !by_region {
+            t.set_domain(domain as u32, mask);
+        }
         if let Some(report) = report {
             report.write(done.into());
         }

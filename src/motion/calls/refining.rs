@@ -1,24 +1,26 @@
 //! Refinement and coarsening of the cells of a domain, each in one commit of its own.
 //!
-//! A pass over all cells finds those that are bad, and the vertices that may have become superfluous. What is to be done
-//! there is found on copies of the cells that are entered alone ([`refine`](crate::refine)). Then vertices, and pieces of
-//! segments in the place of these, are staged and committed.
+//! A pass over the cells finds those that are bad, and the vertices that may have become superfluous: of cells that
+//! are as at the last call it is known ([`looked`](crate::motion::state::looked)). What is to be done there is found
+//! on copies of the cells that are entered alone ([`refine`](crate::refine)). Then vertices, and pieces of segments in
+//! the place of these, are staged and committed.
 
 mod checks;
 mod reading;
 mod remeshing;
 mod staging;
+#[cfg(test)]
+mod tests;
 
 use crate::delaunay::{Keys, Plane};
 use crate::error::Result;
-use crate::ids::{SegmentId, VertexId};
+use crate::ids::{CellId, SegmentId, VertexId};
 use crate::machine::memory;
 use crate::motion::options::{CoarsenOptions, Quality, RefineOptions};
 use crate::motion::report::QualityReport;
 use crate::motion::state::density::Due;
-use crate::motion::state::looked::{Looking, Question};
+use crate::motion::state::looked::{Looked, Places, Question};
 use crate::motion::state::made::{Inserted, Origin};
-use crate::motion::state::mesh::Standing;
 use crate::motion::state::segments::Segment;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::refine::{self, Candidate, Criteria, NONE, Origins, Refined, Room, Tests};
@@ -39,7 +41,8 @@ impl MovingTriangulation<Plane> {
     /// factor [`growth`](CoarsenOptions::growth): then it removes vertices that it has made, too, and weights tell how values
     /// follow from those that there were. The report tells how many have gone.
     ///
-    /// Where all is good already: a pass over the cells, and a sort of the segments.
+    /// Where all is good already: a comparison of the cells with those of the last call, tests of those that are
+    /// others, and a sort of the segments.
     ///
     /// ```
     /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options, Quality, RefineOptions, Segment}};
@@ -100,11 +103,17 @@ impl MovingTriangulation<Plane> {
             self.set_refined(quality, Inserted::default(), None);
             return Ok(QualityReport::default());
         }
-        let mut read = self.read_vertices()?;
-        let bounds = Bounds::new(quality, read.scale)?;
+        // After an error nothing is known.
+        let mut looked = self.made.as_mut().map(|made| std::mem::take(&mut made.looked)).unwrap_or_default();
+        let numbers = memory::copy_of(&asked)?;
+        let mut read = self.read_vertices(&mut looked)?;
+        let bounds = Bounds::new(quality, read.places.scale)?;
         let tests = bounds.tests(quality, &read);
-        self.read_cells(&mut read, &tests, mask, quality.labels, false)?;
+        self.read_cells(&mut read, &mut looked, &tests, question)?;
         tests.check_stop()?;
+        if !read.bad.is_empty() || due.is_some() {
+            read.read_cells_of_vertices(self.cells()?.corners)?;
+        }
         let mut report = QualityReport { bad_cells: read.bad.len(), ..Default::default() };
         let mut pace = std::mem::take(self.mesh.kernel.pace_mut());
         pace.begin();
@@ -117,7 +126,9 @@ impl MovingTriangulation<Plane> {
                 made.found.all_good.set(question)?;
             }
             // Nothing fails from here on.
+            looked.end(numbers, read.places, Some(question.n_changes));
             self.set_refined(quality, Inserted::default(), n_fresh);
+            self.set_looked(looked);
             return Ok(report);
         };
         report.inserted = refined.vertices.len();
@@ -127,11 +138,15 @@ impl MovingTriangulation<Plane> {
         report.is_cut_short = refined.is_cut_short;
         report.bad_cells = refined.n_bad;
         let mut inserted = Inserted { sizes: std::mem::take(&mut refined.sizes), ..Inserted::default() };
-        inserted.sizes.iter_mut().for_each(|size| *size /= read.scale);
+        inserted.sizes.iter_mut().for_each(|size| *size /= read.places.scale);
+        let mut placed_at = Some(question.n_changes);
         if report.inserted > 0 || report.removed > 0 {
+            placed_at = None;
             self.commit_refined(&read, &refined, options, &mut inserted, &mut report)?;
         }
+        looked.end(numbers, read.places, placed_at);
         self.set_refined(quality, inserted, n_fresh);
+        self.set_looked(looked);
         Ok(report)
     }
 
@@ -154,7 +169,7 @@ impl MovingTriangulation<Plane> {
         let mut refined = None;
         let is_enough = anew.as_ref().is_some_and(|anew| n > anew.most);
         if !is_enough && !read.bad.is_empty() && !tests.are_none() {
-            let points = memory::copy_of(&read.points)?;
+            let points = memory::copy_of(&read.places.points)?;
             let given = read.given(self.cells()?, mask, quality.labels, self.mesh.kernel.keys());
             let (origins, limit) = (self.origins(read)?, (options.keeps, options.limit));
             refined = Some(refine::refine(given, points, &read.bad, tests, origins, limit, ask)?);
@@ -179,9 +194,10 @@ impl MovingTriangulation<Plane> {
     /// Around cells that are of lower quality already, those that come may have angles as small: what `refine` then mends
     /// has fewer vertices than if it were called first.
     ///
-    /// Cost: a pass over the cells, and for each vertex added that of looking at the cells around it, unless these and their
-    /// places are those of the last call with this quality and these options. With sizes or a callback all are looked at.
-    /// Where nothing has changed since a call that removed nothing, masks and labels are compared.
+    /// Cost: a comparison of the cells with those of the last call, tests of those that are others, and for each
+    /// vertex added that of looking at the cells around it, unless these, their places and sizes are those of the last
+    /// call with this quality and these options. With a callback all are looked at. Where nothing has changed since a
+    /// call that removed nothing, masks, labels and sizes are compared.
     ///
     /// # Errors
     /// Those of [`refine`](Self::refine).
@@ -203,62 +219,53 @@ impl MovingTriangulation<Plane> {
             return Ok(report);
         };
         if made.found.all_stay.holds(question) {
+            // What is due depends on timestamps, too.
+            self.set_coarsened(quality, options, report.removed);
             return Ok(report);
         }
         // After an error nothing is known.
         let mut looked = std::mem::take(&mut made.looked);
-        let mut read = self.read_vertices()?;
-        let bounds = Bounds::new(quality, read.scale)?;
+        let numbers = memory::copy_of(&quality_asked)?;
+        let mut read = self.read_vertices(&mut looked)?;
+        let bounds = Bounds::new(quality, read.places.scale)?;
         let tests = bounds.tests(quality, &read);
-        self.read_cells(&mut read, &tests, mask, quality.labels, true)?;
+        self.read_cells(&mut read, &mut looked, &tests, Question { asked: &quality_asked, ..question })?;
         tests.check_stop()?;
         let cells = self.cells()?;
-        let looking = Looking {
-            asked: &all_asked,
-            points: &read.points,
-            corners: cells.corners,
-            mask,
-            labels: quality.labels.unwrap_or_default(),
-        };
-        let has_numbers = !all_asked.is_empty();
-        let mut known = if has_numbers { looked.known(looking)? } else { Vec::new() };
-        let points = memory::copy_of(&read.points)?;
+        read.read_cells_of_vertices(cells.corners)?;
+        let points = memory::copy_of(&read.places.points)?;
         let given = read.given(cells, mask, quality.labels, self.mesh.kernel.keys());
         let mendable = match read.bad[..] {
             [] => Vec::new(),
             _ => {
-                let (tests, points) = (bounds.tests(quality, &read), memory::copy_of(&read.points)?);
+                let (tests, points) = (bounds.tests(quality, &read), memory::copy_of(&points)?);
                 refine::mendable(given, points, &read.bad, tests, self.origins(&read)?, options.keeps)?
             }
         };
+        let stays = looked.stays_for(&all_asked)?;
         // More vertices may go around these.
-        if !known.is_empty() {
-            mendable.iter().flat_map(|&cell| cells.corners[cell as usize]).for_each(|v| known[v] = false);
-        }
+        mendable.iter().flat_map(|&cell| cells.corners[cell as usize]).for_each(|v| stays[v] = false);
         let mut candidates = self.candidates(&read)?;
-        read.sort_by_cell(&mut candidates, |candidate| candidate.vertex)?;
         for candidate in &mut candidates {
-            let is_inside = candidate.between.is_none();
-            let is_known = is_inside && known.get(candidate.vertex.index()) == Some(&true);
-            candidate.is_kept = is_known || !read.has_room(candidate.vertex, options.share, is_inside);
+            candidate.is_kept = candidate.between.is_none() && stays[candidate.vertex];
         }
         let room = Room { angle: options.margin, share: options.share, offset: options.joins };
+        refine::keep(given, &points, &tests, room, &mut candidates)?;
+        read.put_first(&mut candidates);
         let coarsened = refine::coarsen(given, points, tests, room, &mendable, &candidates)?;
-        let stays = stays(&read, cells.corners, &candidates, &coarsened.able)?;
-        if has_numbers {
-            looked.remember(looking, stays)?;
-        }
-        let made = self.made.as_mut().expect("it has vertices");
-        made.looked = looked;
+        remember(stays, &read, cells.corners, &candidates, &coarsened.able);
         report.removed = coarsened.vertices.len();
         if report.removed == 0 {
-            if has_numbers {
+            let made = self.made.as_mut().expect("it has vertices");
+            if !numbers.is_empty() {
                 made.found.all_stay.set(question)?;
                 if read.bad.is_empty() {
                     made.found.all_good.set(Question { asked: &quality_asked, ..question })?;
                 }
             }
+            looked.end(numbers, read.places, Some(question.n_changes));
             self.set_coarsened(quality, options, report.removed);
+            self.set_looked(looked);
             return Ok(report);
         }
         let mut changes = SegmentChanges::default();
@@ -269,7 +276,10 @@ impl MovingTriangulation<Plane> {
             changes.leave(read.segments_at(edge as usize))?;
         }
         self.commit_quality((&[], &[], &[]), &coarsened.vertices, changes, &mut report)?;
+        let is_bounded_alike = !coarsened.vertices.iter().any(|&v| read.places.bound(v));
+        looked.end(numbers, read.places, is_bounded_alike.then_some(self.mesh.n_changes));
         self.set_coarsened(quality, options, report.removed);
+        self.set_looked(looked);
         Ok(report)
     }
 
@@ -279,9 +289,49 @@ impl MovingTriangulation<Plane> {
         self.made.as_ref().and_then(|made| made.origin(segment)).map_or(segment, |origin| origin.segment)
     }
 
+    /// The mask of a domain that a program knows by this number, if the last refinement or coarsening has had it and
+    /// nothing has changed since: cells that the call itself has made are in the domain if those are that are reached
+    /// from there without crossing a segment.
+    pub(crate) fn mask_since(&self, domain: u32) -> Result<Option<Vec<u8>>> {
+        let known = self.made.as_ref().and_then(|made| made.looked.of_domain(domain, self.mesh.n_changes));
+        let Some((before, known)) = known else { return Ok(None) };
+        let corners = self.cells()?.corners;
+        let (mut mask, mut others) = (Vec::new(), Vec::new());
+        memory::reserve_exact(&mut mask, corners.len())?;
+        mask.extend_from_slice(&known[..known.len().min(corners.len())]);
+        mask.resize(corners.len(), 0);
+        for (cell, row) in CellId::range(0..corners.len()).zip(corners) {
+            if before.get(cell.index()) != Some(row) {
+                memory::push(&mut others, cell)?;
+            }
+        }
+        let (found, n_undecided) = self.labels_of(&others, |cell| i32::from(mask[cell.index()]), 0)?;
+        if n_undecided > 0 {
+            return Ok(None);
+        }
+        found.into_iter().for_each(|(cell, is_in)| mask[cell.index()] = is_in as u8);
+        Ok(Some(mask))
+    }
+
+    /// The refinement or coarsening that has ended had this mask, which is that of a domain that a program knows by
+    /// this number.
+    pub(crate) fn set_domain(&mut self, domain: u32, mask: &[u8]) {
+        if let Some(made) = &mut self.made {
+            made.looked.set_domain(domain, mask, self.mesh.n_changes);
+        }
+    }
+
     fn question<'a>(&self, asked: &'a [u64], quality: &Quality<'a>, mask: &'a [u8]) -> Question<'a> {
         let labels = quality.labels.unwrap_or_default();
-        Question { n_changes: self.mesh.n_changes, asked, mask, labels }
+        let sizes = quality.sizes.unwrap_or_default();
+        Question { n_changes: self.mesh.n_changes, asked, mask, labels, sizes }
+    }
+
+    /// Remembers what has been looked at, if there is anything that refinement has made.
+    fn set_looked(&mut self, looked: Looked) {
+        if let Some(made) = &mut self.made {
+            made.looked = looked;
+        }
     }
 
     /// Where a segment that is in force comes from.
@@ -314,7 +364,8 @@ impl MovingTriangulation<Plane> {
         for (edge, &ends) in read.edges.iter().enumerate() {
             for v in ends {
                 let Some(on) = made_on(v) else { continue };
-                if read.segments_at(edge).iter().any(|&(_, id)| self.original_segment(id) == on) {
+                let others = || read.segments_at(edge)[1..].iter();
+                if of_edges[edge].segment == on || others().any(|&(_, id)| self.original_segment(id) == on) {
                     memory::push(&mut origins.of_vertices, (v, origins.of_segments[edge]))?;
                 }
             }
@@ -334,8 +385,8 @@ impl MovingTriangulation<Plane> {
             behind[v] = edge;
         }
         let mut candidates = Vec::new();
-        for (vertex, on) in self.made_vertices() {
-            let Standing::Shown(s) = self.mesh.standing(vertex) else { continue };
+        let made = self.made.as_ref().map_or(&[][..], |made| made.vertices());
+        for &(vertex, on) in made.iter().filter(|&&(vertex, _)| read.cell_at(vertex) != NONE) {
             let pieces = [before[vertex], behind[vertex]];
             let (between, may_go) = match pieces {
                 // Also where the program has removed the segment that it was put on.
@@ -344,7 +395,7 @@ impl MovingTriangulation<Plane> {
                 [NONE, _] | [_, NONE] => (None, false),
                 _ => (Some(pieces), on != SegmentId::NONE && self.are_of_one_origin(read, pieces)),
             };
-            if may_go && !self.mesh.is_shared(s) {
+            if may_go && !self.mesh.is_shared(self.mesh.site_of[vertex]) {
                 memory::push(&mut candidates, Candidate { vertex, between, is_kept: false })?;
             }
         }
@@ -359,14 +410,15 @@ impl MovingTriangulation<Plane> {
     }
 }
 
-/// The bits of the numbers of a quality; empty if it is more than numbers.
+/// The bits of the numbers of a quality, but for sizes; empty if it is more than numbers.
 fn asked(quality: &Quality) -> Result<Vec<u64>> {
     let mut asked = Vec::new();
-    if quality.sizes.is_some() || quality.is_too_large.is_some() {
+    if quality.is_too_large.is_some() {
         return Ok(asked);
     }
     let is_conforming = f64::from(u8::from(quality.is_conforming));
-    let numbers = [quality.least_angle, quality.greatest_area, is_conforming];
+    let has_sizes = f64::from(u8::from(quality.sizes.is_some()));
+    let numbers = [quality.least_angle, quality.greatest_area, is_conforming, has_sizes];
     memory::collect(&mut asked, numbers.iter().chain(quality.areas).map(|x| x.to_bits()))?;
     Ok(asked)
 }
@@ -382,21 +434,20 @@ fn asked_with(quality: &[u64], options: &CoarsenOptions) -> Result<Vec<u64>> {
     Ok(asked)
 }
 
-/// By vertex, whether it is a candidate on no segment that could not go, and has no cells at segments.
-fn stays(
+/// Marks the vertices that are candidates on no segment, could not go, and have no cells at segments.
+fn remember(
+    stays: &mut [bool],
     read: &Read,
     corners: &[[VertexId; 3]],
     candidates: &[Candidate],
     able: &[VertexId],
-) -> Result<Vec<bool>> {
-    let mut stays = Vec::new();
-    memory::lengthen(&mut stays, read.points.len(), false)?;
+) {
+    stays.fill(false);
     for candidate in candidates.iter().filter(|candidate| candidate.between.is_none()) {
         stays[candidate.vertex] = true;
     }
     able.iter().for_each(|&v| stays[v] = false);
     read.corners_at_sides(corners).for_each(|v| stays[v] = false);
-    Ok(stays)
 }
 
 /// The bounds of a quality, multiplied as places are.
@@ -420,7 +471,7 @@ impl Bounds {
 
     /// The tests of a quality for what has been read.
     fn tests<'a>(&'a self, quality: &Quality<'a>, read: &Read) -> Tests<'a> {
-        let [lower, upper] = read.extent();
+        let Places { lower, upper, .. } = read.places;
         let criteria = Criteria {
             least_angle: quality.least_angle,
             greatest_area: self.greatest_area,
@@ -428,7 +479,7 @@ impl Bounds {
             sizes: &self.sizes,
             is_too_large: quality.is_too_large,
             is_conforming: quality.is_conforming,
-            scale: read.scale,
+            scale: read.places.scale,
         };
         Tests::new(criteria, lower, upper)
     }

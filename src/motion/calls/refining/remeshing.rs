@@ -56,9 +56,9 @@ impl MovingTriangulation<Plane> {
         candidates.retain(|candidate| options.keeps == Kept::None || candidate.between.is_none());
         // Those near each other are mostly soon after each other.
         candidates.sort_unstable_by_key(|candidate| read.cell_at(candidate.vertex));
-        let no_bounds = Bounds::new(&Quality::default(), read.scale)?;
+        let no_bounds = Bounds::new(&Quality::default(), read.places.scale)?;
         let (tests, no_tests) = (bounds.tests(quality, read), no_bounds.tests(&Quality::default(), read));
-        let points = memory::copy_of(&read.points)?;
+        let points = memory::copy_of(&read.places.points)?;
         let given = read.given(self.cells()?, mask, quality.labels, self.mesh.kernel.keys());
         let (origins, limit) = (self.origins(read)?, (options.keeps, options.limit));
         let made = (&candidates[..], no_tests, due.joins);
@@ -75,7 +75,7 @@ impl MovingTriangulation<Plane> {
         let Refined { vertices, into, .. } = refined;
         // Edges by the one that they have been joined to, along it.
         let mut along: Vec<(u32, f64, u32)> = Vec::new();
-        let place = |v| self.position(v).expect("it is an end").map(|x| x * read.scale);
+        let place = |v| self.position(v).expect("it is an end").map(|x| x * read.places.scale);
         let axis_of = |edge: u32| {
             let [p, q] = read.edges[edge as usize].map(place);
             let u = minus::<f64, 2>(&q, &p);

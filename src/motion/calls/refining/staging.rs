@@ -81,7 +81,10 @@ impl MovingTriangulation<Plane> {
             start = end;
         }
         let mut points = Vec::new();
-        memory::collect(&mut points, refined.vertices.iter().map(|&(p, _)| p.map(|x| x / read.scale)))?;
+        memory::collect(
+            &mut points,
+            refined.vertices.iter().map(|&(p, _)| p.map(|x| x / read.places.scale)),
+        )?;
         let on = |edge: u32| match edge {
             NONE => SegmentId::NONE,
             edge => self.origin_of(read.segments_at(edge as usize)[0].1).segment,

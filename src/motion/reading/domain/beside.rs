@@ -34,9 +34,21 @@ impl MovingTriangulation<Plane> {
         self.rows_of_cells(SegmentId::NONE, |entry, id| *entry = id.min(*entry))
     }
 
-    /// For each cell and each of its corners how many segments there are at the edge opposite it.
-    pub(super) fn segment_counts_of_cells(&self) -> Result<Vec<[u32; 3]>> {
-        self.rows_of_cells(0, |entry, _| *entry += 1)
+    /// The edges of cells at segments, by cell and the corner opposite, ascending, each with how many segments there
+    /// are.
+    pub(super) fn segments_at_edges(&self) -> Result<Vec<(CellId, usize, u32)>> {
+        let (cells, mut edges) = (self.cell_arrays()?, Vec::new());
+        let facets = self.facets_beside_segments()?;
+        memory::reserve(&mut edges, 2 * facets.len())?;
+        let facets = facets.into_iter().flat_map(|(_, sides)| sides).flatten();
+        edges.extend(facets.map(|facet| cells.shown(facet)).map(|(cell, corner)| (cell, corner, 1)));
+        edges.sort_unstable();
+        edges.dedup_by(|next, edge| {
+            let is_same = (next.0, next.1) == (edge.0, edge.1);
+            edge.2 += u32::from(is_same);
+            is_same
+        });
+        Ok(edges)
     }
 
     /// A row for each cell, in which each segment enters itself where it is opposite a corner.

@@ -22,22 +22,6 @@ fn of_seeds(mut error: Error) -> Error {
     error
 }
 
-/// Cells that are reached at a level later than those that wait for the next one; the first ones on top.
-type Later = BinaryHeap<(Reverse<u32>, CellId)>;
-
-/// Has a cell wait where it is reached, while all levels below `level` are known.
-fn await_at(
-    reached: u32,
-    cell: CellId,
-    (level, here, next, later): (u32, &mut Vec<CellId>, &mut Vec<CellId>, &mut Later),
-) -> Result<()> {
-    match reached - level {
-        0 => memory::push(here, cell),
-        1 => memory::push(next, cell),
-        _ => memory::enter(later, (Reverse(reached), cell)),
-    }
-}
-
 impl MovingTriangulation<Plane> {
     /// How many segments at least a way crosses from each cell to the outside, in the order of [`cells`](Self::cells).
     /// Cells outside of all closed chains of segments have 0, those of a domain 1, those of a hole in it 2. A segment
@@ -61,51 +45,50 @@ impl MovingTriangulation<Plane> {
     }
 
     /// The least length of a way from each cell to the outside, where an edge with so many segments has this length, which
-    /// is 0 without segments.
+    /// is 0 without segments and above it with them. All cells of a region have the same.
     fn least_crossed(&self, length: impl Fn(u32) -> u32) -> Result<Vec<u32>> {
         let cells = self.cell_arrays()?;
-        let at_edges = self.segment_counts_of_cells()?;
+        let at_edges = self.segments_at_edges()?;
+        let mut is_crossed = Vec::new();
+        memory::lengthen(&mut is_crossed, cells.corners().len(), [false; 3])?;
+        at_edges.iter().for_each(|&(cell, i, _)| is_crossed[cell.index()][i] = true);
+        let (regions, is_open) = self.regions(|cell, i| is_crossed[cell.index()][i])?;
+        // Ways between regions; the outside is one more, at level 0.
+        let outside = is_open.len() as u32;
+        let mut ways = Vec::new();
+        for &(cell, i, segments) in &at_edges {
+            let to = match cells.neighbours()[cell][i] {
+                NO_CELL => outside,
+                across => regions[across.index()],
+            };
+            let from = regions[cell.index()];
+            if from != to {
+                memory::append(&mut ways, &[(to, from, length(segments)), (from, to, length(segments))])?;
+            }
+        }
+        let open = (0..).zip(&is_open).filter(|&(_, &is_open)| is_open);
+        memory::collect(&mut ways, open.map(|(region, _)| (outside, region, 0)))?;
+        ways.sort_unstable();
+        ways.dedup();
         let mut levels = Vec::new();
-        memory::lengthen(&mut levels, at_edges.len(), UNKNOWN)?;
-        let mut level = 0;
-        // The cells at this level, at the next one, and at later ones.
-        let [mut here, mut next] = [Vec::new(), Vec::new()];
-        let mut later = Later::new();
-        for (cell, neighbours) in CellId::range(0..at_edges.len()).zip(cells.neighbours()) {
-            for i in (0..3).filter(|&i| neighbours[i] == NO_CELL) {
-                let crossed = length(at_edges[cell.index()][i]);
-                await_at(crossed, cell, (level, &mut here, &mut next, &mut later))?;
+        memory::lengthen(&mut levels, is_open.len() + 1, UNKNOWN)?;
+        let mut waiting = BinaryHeap::new();
+        memory::enter(&mut waiting, (Reverse(0), outside))?;
+        while let Some((Reverse(level), region)) = waiting.pop() {
+            if levels[region as usize] != UNKNOWN {
+                continue;
+            }
+            levels[region as usize] = level;
+            let first = ways.partition_point(|&(from, ..)| from < region);
+            for &(_, to, length) in ways[first..].iter().take_while(|&&(from, ..)| from == region) {
+                if levels[to as usize] == UNKNOWN {
+                    memory::enter(&mut waiting, (Reverse(level + length), to))?;
+                }
             }
         }
-        loop {
-            while let Some(cell) = here.pop() {
-                if levels[cell.index()] != UNKNOWN {
-                    continue;
-                }
-                levels[cell.index()] = level;
-                for (across, segments) in cells.neighbours()[cell].into_iter().zip(at_edges[cell.index()]) {
-                    if across != NO_CELL && levels[across.index()] == UNKNOWN {
-                        let reached = level + length(segments);
-                        await_at(reached, across, (level, &mut here, &mut next, &mut later))?;
-                    }
-                }
-            }
-            next.retain(|cell: &CellId| levels[cell.index()] == UNKNOWN);
-            if next.is_empty() {
-                let Some(&(Reverse(reached), _)) = later.peek() else { return Ok(levels) };
-                level = reached;
-            } else {
-                level += 1;
-                std::mem::swap(&mut here, &mut next);
-            }
-            while let Some(&(Reverse(reached), cell)) = later.peek() {
-                if reached > level {
-                    break;
-                }
-                later.pop();
-                memory::push(&mut here, cell)?;
-            }
-        }
+        let mut of_cells = regions;
+        of_cells.iter_mut().for_each(|region| *region = levels[*region as usize]);
+        Ok(of_cells)
     }
 
     /// The number of the region of each cell, in the order of [`cells`](Self::cells), and for each region whether the
