@@ -268,8 +268,8 @@ fn saved_labels_are_looked_at() {
     };
     assert_eq!(
         bytes.len(),
-        plain.len() + 96 + 8 * rotor.t.segments().count(),
-        "a history, and two labels each"
+        plain.len() + 96 + 8 + 12 * rotor.t.segments().count(),
+        "a history, how many are in force, and an id and two labels each"
     );
     let checked = |mut bytes: Vec<u8>| {
         let n = bytes.len() - 4;
@@ -291,16 +291,16 @@ fn saved_labels_are_looked_at() {
     }
     // Labels are the last two numbers of each segment; data that say there are some and have none are not what is saved.
     let n_rows = rotor.t.segments().count();
-    let first = bytes.len() - 4 - 20 * n_rows;
+    let first = bytes.len() - 4 - 24 * n_rows;
     let mut empty = bytes.clone();
     for k in 0..n_rows {
-        for at in [12, 16].map(|offset| first + 20 * k + offset) {
+        for at in [16, 20].map(|offset| first + 24 * k + offset) {
             empty[at..at + 4].copy_from_slice(&NO_LABEL.to_le_bytes());
         }
     }
     assert!(load(&checked(empty)).is_err());
     let mut other = bytes.clone();
-    other[first + 12] ^= 4;
+    other[first + 16] ^= 4;
     let other = checked(other);
     assert!(load(&other).expect("another label").saved().expect("room") == other);
 }

@@ -19,7 +19,7 @@ use crate::machine::memory;
 use crate::motion::options::{CoarsenOptions, Quality, RefineOptions};
 use crate::motion::report::QualityReport;
 use crate::motion::state::density::Due;
-use crate::motion::state::looked::{Looked, Places, Question};
+use crate::motion::state::looked::{Looked, Question, ScaledPlaces};
 use crate::motion::state::made::{Inserted, Origin};
 use crate::motion::state::segments::Segment;
 use crate::motion::triangulation::MovingTriangulation;
@@ -471,7 +471,7 @@ impl Bounds {
 
     /// The tests of a quality for what has been read.
     fn tests<'a>(&'a self, quality: &Quality<'a>, read: &Read) -> Tests<'a> {
-        let Places { lower, upper, .. } = read.places;
+        let ScaledPlaces { lower, upper, .. } = read.places;
         let criteria = Criteria {
             least_angle: quality.least_angle,
             greatest_area: self.greatest_area,

@@ -15,7 +15,7 @@ const LEAST_SHARE: f64 = 0.1;
 
 /// Where vertices are.
 #[derive(Debug)]
-pub(in crate::motion) struct Places {
+pub(in crate::motion) struct ScaledPlaces {
     /// By vertex, its place, multiplied by the scale.
     pub(in crate::motion) points: Vec<[f64; 2]>,
     /// A power of two: more than 1 where all coordinates are so small that the squares of lengths might underflow.
@@ -25,9 +25,14 @@ pub(in crate::motion) struct Places {
     pub(in crate::motion) upper: [f64; 2],
 }
 
-impl Default for Places {
+impl Default for ScaledPlaces {
     fn default() -> Self {
-        Places { points: Vec::new(), scale: 1.0, lower: [f64::INFINITY; 2], upper: [f64::NEG_INFINITY; 2] }
+        ScaledPlaces {
+            points: Vec::new(),
+            scale: 1.0,
+            lower: [f64::INFINITY; 2],
+            upper: [f64::NEG_INFINITY; 2],
+        }
     }
 }
 
@@ -38,7 +43,7 @@ pub(in crate::motion) struct Looked {
     asked: Vec<u64>,
     /// The sizes that were asked for.
     sizes: Vec<f64>,
-    places: Places,
+    places: ScaledPlaces,
     /// The number of changes of the mesh for which those are the places of now.
     placed_at: Option<u64>,
     corners: Vec<[VertexId; 3]>,
@@ -140,13 +145,13 @@ pub(in crate::motion) struct Looking<'a> {
 pub(in crate::motion) enum Others {
     /// All, or it is not known.
     All,
-    /// These, by vertex.
+    /// By vertex, whether it is one of the others.
     Some(Vec<bool>),
 }
 
 impl Looked {
     /// The places of vertices, if they are those of so many changes of the mesh, and of so many ids.
-    pub(in crate::motion) fn take_places(&mut self, n_changes: u64, n_ids: usize) -> Option<Places> {
+    pub(in crate::motion) fn take_places(&mut self, n_changes: u64, n_ids: usize) -> Option<ScaledPlaces> {
         let is_known = self.placed_at.take() == Some(n_changes) && self.places.points.len() == n_ids;
         is_known.then(|| std::mem::take(&mut self.places))
     }
@@ -245,7 +250,7 @@ impl Looked {
 
     /// All cells have been looked at, with vertices at these places, which are those of so many changes of the mesh if
     /// that is known. It may be taken for what is asked for.
-    pub(in crate::motion) fn end(&mut self, asked: Vec<u64>, places: Places, placed_at: Option<u64>) {
+    pub(in crate::motion) fn end(&mut self, asked: Vec<u64>, places: ScaledPlaces, placed_at: Option<u64>) {
         (self.asked, self.places, self.placed_at) = (asked, places, placed_at);
     }
 

@@ -4,7 +4,7 @@ use crate::delaunay::{Keys, Plane};
 use crate::error::{Error, Result};
 use crate::ids::{CellId, SegmentId, VertexId};
 use crate::machine::memory;
-use crate::motion::state::looked::{Looked, Looking, Places, Question};
+use crate::motion::state::looked::{Looked, Looking, Question, ScaledPlaces};
 use crate::motion::state::views::CellsView;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::refine::{Candidate, Given, NONE, Tests, power_of_two_below};
@@ -12,7 +12,7 @@ use crate::refine::{Candidate, Given, NONE, Tests, power_of_two_below};
 /// Vertices, segments, and which cells are bad.
 #[derive(Default)]
 pub(super) struct Read {
-    pub(super) places: Places,
+    pub(super) places: ScaledPlaces,
     /// Whether vertices may be at other places than at the last look.
     has_moved: bool,
     /// Segments by edge, the lower end first; sorted.
@@ -93,7 +93,7 @@ impl Read {
     }
 }
 
-impl Places {
+impl ScaledPlaces {
     /// Multiplies places by a power of two, which is exact, where their coordinates are very small.
     fn scale_up(&mut self) {
         let greatest = self.lower.iter().chain(&self.upper).fold(0.0, |most: f64, x| most.max(x.abs()));
@@ -128,7 +128,7 @@ impl MovingTriangulation<Plane> {
         Ok(read)
     }
 
-    fn read_places(&self, places: &mut Places) -> Result<()> {
+    fn read_places(&self, places: &mut ScaledPlaces) -> Result<()> {
         memory::lengthen(&mut places.points, self.id_count(), [0.0; 2])?;
         let kernel = &self.mesh.kernel;
         for s in kernel.live_sites() {
