@@ -76,23 +76,10 @@ impl Refinement<'_> {
             };
         }
         let ends = triangle.ends(side.index()).map(|v| self.mesh.point(v));
-        if self.tests.is_too_long(ends, triangle.label) || self.is_longer_than_sizes(side) {
+        if self.tests.is_too_long(ends, triangle.label) {
             return Ok(Some((piece, Some([0, 1].map(|axis| 0.5 * (ends[0][axis] + ends[1][axis]))))));
         }
         Ok(self.is_encroached_from(side).then_some((piece, None)))
-    }
-
-    /// Whether a side is longer than the sizes at its ends allow, and that opposite: a vertex inside would not make it
-    /// shorter, and would be in the way of those that split it.
-    fn is_longer_than_sizes(&self, side: Side) -> bool {
-        if !self.tests.has_sizes() {
-            return false;
-        }
-        let triangle = self.mesh.triangle(side.triangle());
-        let ends = triangle.ends(side.index());
-        let sum = self.sizes[ends[0]] + self.sizes[ends[1]];
-        let opposite = self.sizes[triangle.corners[side.index()]].max(0.5 * sum);
-        self.tests.is_longer_than(ends.map(|v| self.mesh.point(v)), sum + opposite, 1.0)
     }
 
     /// Whether a triangle is bad, and not for a reason that stays.
