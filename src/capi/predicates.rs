@@ -1,7 +1,7 @@
 //! Exact signs for points of the caller's own. They need no triangulation.
 
 use super::guard;
-use super::pointers::{Input, Output, given};
+use super::pointers::{Array, Output, given};
 use super::status::{Failure, deldrift_status};
 use crate::delaunay::{Dimension, Plane, Space};
 use crate::error::{Error, Result};
@@ -27,22 +27,13 @@ pub unsafe extern "C" fn deldrift_orientation(
     points: *const f64,
     sign: *mut i32,
 ) -> deldrift_status {
-    let in_plane = {
-        let points = points.cast();
-        given!(points: Input);
-        points
-    };
-    let in_space = {
-        let points = points.cast();
-        given!(points: Input);
-        points
-    };
-    given!(sign: Output);
+    let n = numbers_of(dimension, 1);
+    given!(points[n]: Array, sign: Output);
     tell(
         dimension,
         sign,
-        || in_plane.get().map(orientation_in_plane),
-        || in_space.get().map(orientation_in_space),
+        || Ok(orientation_in_plane(points_in(points.get()?))),
+        || Ok(orientation_in_space(points_in(points.get()?))),
     )
 }
 
@@ -61,18 +52,14 @@ pub unsafe extern "C" fn deldrift_in_sphere(
     points: *const f64,
     sign: *mut i32,
 ) -> deldrift_status {
-    let in_plane = {
-        let points = points.cast();
-        given!(points: Input);
-        points
-    };
-    let in_space = {
-        let points = points.cast();
-        given!(points: Input);
-        points
-    };
-    given!(sign: Output);
-    tell(dimension, sign, || in_plane.get().map(side_of_circle), || in_space.get().map(side_of_sphere))
+    let n = numbers_of(dimension, 2);
+    given!(points[n]: Array, sign: Output);
+    tell(
+        dimension,
+        sign,
+        || Ok(side_of_circle(points_in(points.get()?))),
+        || Ok(side_of_sphere(points_in(points.get()?))),
+    )
 }
 
 /// Whether a point with a weight is inside the power circle or power sphere of others, exactly, to *sign: 1 inside, -1
@@ -96,23 +83,29 @@ pub unsafe extern "C" fn deldrift_in_power_sphere(
     weights: *const f64,
     sign: *mut i32,
 ) -> deldrift_status {
-    let (in_plane, of_plane) = {
-        let (points, weights) = (points.cast(), weights.cast());
-        given!(points: Input, weights: Input);
-        (points, weights)
-    };
-    let (in_space, of_space) = {
-        let (points, weights) = (points.cast(), weights.cast());
-        given!(points: Input, weights: Input);
-        (points, weights)
-    };
-    given!(sign: Output);
+    let (n, n_points) = (numbers_of(dimension, 2), dimension.saturating_add(2) as usize);
+    given!(points[n]: Array, weights[n_points]: Array, sign: Output);
     tell(
         dimension,
         sign,
-        || Ok(side_of_power_circle(in_plane.get()?, of_plane.get()?)),
-        || Ok(side_of_power_sphere(in_space.get()?, of_space.get()?)),
+        || Ok(side_of_power_circle(points_in(points.get()?), all_of(weights.get()?))),
+        || Ok(side_of_power_sphere(points_in(points.get()?), all_of(weights.get()?))),
     )
+}
+
+/// How many coordinates there are of so many points more than a dimension has; none in one that there is not, which is refused.
+fn numbers_of(dimension: u32, n_more: u32) -> usize {
+    if matches!(dimension, 2 | 3) { (dimension * (dimension + n_more)) as usize } else { 0 }
+}
+
+/// The points of as many coordinates.
+fn points_in<const D: usize, const N: usize>(coordinates: &[f64]) -> &[[f64; D]; N] {
+    all_of(coordinates.as_chunks().0)
+}
+
+/// Entries of which there are as many as the dimension says.
+fn all_of<T, const N: usize>(entries: &[T]) -> &[T; N] {
+    entries.try_into().expect("as many as the dimension says")
 }
 
 /// Writes the sign of a determinant of points of the plane or of space, which has been made or refused.

@@ -53,7 +53,7 @@ pub use reading::geometry::{
     VoronoiFacet, VoronoiFacets,
 };
 pub(crate) use reading::geometry::{
-    EdgeWithCell, Ridges, VoronoiAsked, check_corners, check_simplices, find_in_stars, first_cells, is_flat,
+    EdgeWithCell, Ridges, VoronoiAsked, are_many, check_corners, check_simplices, find_in_stars, first_cells,
     list_boundary, nowhere, ordered_star, tell_all, without_flat_cells,
 };
 pub(crate) use reading::near::{BoxTree, Entry, Lists, PlacedVertex, Search};

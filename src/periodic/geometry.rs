@@ -7,9 +7,7 @@ use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
-use crate::motion::{
-    BoundaryFacet, check_not_negative, is_flat, list_boundary, tell_all, without_flat_cells,
-};
+use crate::motion::{BoundaryFacet, list_boundary, tell_all, without_flat_cells};
 use crate::periodic::lattice::HOME;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
@@ -81,12 +79,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// # Errors
     /// [`Error::InvalidValue`] if the tolerance is negative or NaN, [`Error::OutOfMemory`].
     pub fn mask_without_flat_cells(&self, tolerance: f64) -> Result<Vec<u8>> {
-        check_not_negative("tolerance", tolerance)?;
         let cells = self.read_cells()?;
         without_flat_cells::<G>(&cells.neighbours, tolerance, |cell| {
-            let corners = self.corners_of(cells, (cell, HOME));
-            let places = corners.each_ref().map(|(_, place)| place);
-            is_flat::<G>(&places[..=G::D], tolerance)
+            self.corners_of(cells, (cell, HOME)).map(|(_, place)| place)
         })
     }
 

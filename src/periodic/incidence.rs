@@ -7,12 +7,11 @@ use crate::delaunay::{Dimension, Plane};
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
-use crate::motion::{NO_CELL, NO_CORNER, Rows, check_simplices, find_in_stars, first_cells, ordered_star};
+use crate::motion::{
+    NO_CELL, NO_CORNER, Rows, are_many, check_simplices, find_in_stars, first_cells, ordered_star,
+};
 use crate::periodic::cells::PeriodicCells;
 use crate::periodic::triangulation::PeriodicTriangulation;
-
-/// From so many simplices for each vertex on, listing the cells of all vertices is faster.
-const LEAST_PER_VERTEX: f64 = 0.125;
 
 impl<G: Dimension> PeriodicTriangulation<G> {
     /// The vertices to which edges lead from each one, ascending: one for each edge, so that a vertex is there several times where
@@ -97,7 +96,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         check_simplices::<G>(vertices.len(), n_corners)?;
         self.check_present(vertices)?;
         let corners = &self.read_cells()?.corners;
-        let is_many = (vertices.len() / n_corners) as f64 > LEAST_PER_VERTEX * self.vertex_count() as f64;
+        let is_many = are_many(vertices.len() / n_corners, self.vertex_count());
         let all = if is_many { Some(self.vertex_cells()?) } else { None };
         let mut stars = [const { Vec::new() }; 4];
         for row in vertices.chunks_exact(n_corners) {

@@ -21,6 +21,23 @@ fn rectangle() -> Triangulation {
     t
 }
 
+/// Stages the removal of all segments, and the sides anew; the first of their ids.
+fn stage_others(t: &mut Triangulation) -> SegmentId {
+    let gone: Vec<_> = t.segments().map(|(id, _)| id).collect();
+    t.stage_segment_removals(&gone).expect("in force");
+    t.stage_segments((0..4).map(side)).expect("present")
+}
+
+/// A rectangle of whose 16 ids of segments the last four are in force.
+fn with_ids_that_are_gone() -> Triangulation {
+    let mut t = rectangle();
+    for _ in 0..3 {
+        stage_others(&mut t);
+        t.commit_timestamp().expect("no conflict");
+    }
+    t
+}
+
 /// The four bytes at a place, as a number.
 fn number(bytes: &[u8], at: usize) -> u32 {
     u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes"))
@@ -104,9 +121,7 @@ fn data_of_segments_do_not_grow_with_those_that_are_gone() {
     let mut t = rectangle();
     let mut sizes = Vec::new();
     for round in 0..60_u32 {
-        let gone: Vec<_> = t.segments().map(|(id, _)| id).collect();
-        t.stage_segment_removals(&gone).expect("in force");
-        let first = t.stage_segments((0..4).map(side)).expect("present");
+        let first = stage_others(&mut t);
         assert_eq!(first.get(), 4 * (round + 1));
         let staged = t.saved().expect("room");
         t.commit_timestamp().expect("no conflict");
@@ -125,13 +140,7 @@ fn data_of_segments_do_not_grow_with_those_that_are_gone() {
 
 #[test]
 fn each_number_of_a_list_of_segments_is_checked() {
-    let mut t = rectangle();
-    for _ in 0..3 {
-        let gone: Vec<_> = t.segments().map(|(id, _)| id).collect();
-        t.stage_segment_removals(&gone).expect("in force");
-        t.stage_segments((0..4).map(side)).expect("present");
-        t.commit_timestamp().expect("no conflict");
-    }
+    let mut t = with_ids_that_are_gone();
     t.stage_segments([side(0), side(1)].into_iter()).expect("present");
     let bytes = t.saved().expect("room");
     // Six counts, rows of those with ids 12 to 15 in force, and of 16 and 17 that are staged; nothing else.
@@ -175,13 +184,7 @@ fn each_number_of_a_list_of_segments_is_checked() {
 
 #[test]
 fn ids_of_segments_end() {
-    let mut t = rectangle();
-    for _ in 0..3 {
-        let gone: Vec<_> = t.segments().map(|(id, _)| id).collect();
-        t.stage_segment_removals(&gone).expect("in force");
-        t.stage_segments((0..4).map(side)).expect("present");
-        t.commit_timestamp().expect("no conflict");
-    }
+    let t = with_ids_that_are_gone();
     let mut bytes = t.saved().expect("room");
     let counts = bytes.len() - 4 - 4 * 4 * ROW - 6 * 8;
     // As many ids but three have been given as there are.

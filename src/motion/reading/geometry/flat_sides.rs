@@ -55,21 +55,21 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::InvalidValue`](crate::Error::InvalidValue) if the tolerance is negative or NaN,
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn mask_without_flat_cells(&self, tolerance: f64) -> Result<Vec<u8>> {
-        check_not_negative("tolerance", tolerance)?;
         let (kernel, cells) = (&self.mesh.kernel, self.cell_arrays()?);
         let slots = cells.slots();
-        without_flat_cells::<G>(cells.neighbours(), tolerance, |cell| {
-            is_flat::<G>(&kernel.places(slots[cell])[..=G::D], tolerance)
-        })
+        without_flat_cells::<G>(cells.neighbours(), tolerance, |cell| kernel.places(slots[cell]).map(|p| *p))
     }
 }
 
-/// For each cell 0 if it is flat and on the hull, or beside such a cell; else 1. With a tolerance of 0 none is flat.
+/// For each cell 0 if it is flat and on the hull, or beside such a cell; else 1. With a tolerance of 0 none is flat. The corners of
+/// a cell are where `places` says.
 pub(crate) fn without_flat_cells<G: Dimension>(
     neighbours: &[G::Neighbours],
     tolerance: f64,
-    is_flat: impl Fn(CellId) -> bool,
+    places: impl Fn(CellId) -> [G::Point; 4],
 ) -> Result<Vec<u8>> {
+    check_not_negative("tolerance", tolerance)?;
+    let is_flat = |cell| is_flat::<G>(&places(cell).each_ref()[..=G::D], tolerance);
     let (mut mask, mut waiting) = (Vec::new(), Vec::new());
     memory::lengthen(&mut mask, neighbours.len(), 1)?;
     let on_hull = |&cell: &CellId| neighbours[cell].as_ref().contains(&NO_CELL);
@@ -88,7 +88,7 @@ pub(crate) fn without_flat_cells<G: Dimension>(
 }
 
 /// Whether the least height of a cell is at most `tolerance` times its longest edge.
-pub(crate) fn is_flat<G: Dimension>(places: &[&G::Point], tolerance: f64) -> bool {
+fn is_flat<G: Dimension>(places: &[&G::Point], tolerance: f64) -> bool {
     let extent = (0..G::D).fold(0.0f64, |most, axis| {
         places[1..].iter().fold(most, |most, p| most.max((p[axis] - places[0][axis]).abs()))
     });

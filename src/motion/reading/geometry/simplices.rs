@@ -14,6 +14,11 @@ use crate::motion::triangulation::MovingTriangulation;
 /// From so many simplices for each vertex on, listing the cells of all vertices is faster.
 const LEAST_PER_VERTEX: f64 = 0.125;
 
+/// Whether there are so many simplices that listing the cells of all vertices is faster than looking at stars.
+pub(crate) fn are_many(n_simplices: usize, n_vertices: usize) -> bool {
+    n_simplices as f64 > LEAST_PER_VERTEX * n_vertices as f64
+}
+
 /// How many cells of a star are looked at first.
 const FIRST_CELLS: usize = 64;
 
@@ -52,7 +57,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             rows.for_each(|_| found(None));
             return Ok(());
         }
-        if rows.len() as f64 > LEAST_PER_VERTEX * self.vertex_count() as f64 {
+        if are_many(rows.len(), self.vertex_count()) {
             return self.find_in_lists(rows, found);
         }
         let index_of = self.cell_arrays()?.index_of();
