@@ -496,5 +496,8 @@ def test_tolerances_and_flat_cells(rng):
     t.move(points + rng.uniform(-0.7, 0.7, points.shape) * least)
     assert sorted(map(sorted, t.simplices.tolist())) == sorted(map(sorted, before))
     assert t.mask_without_flat(1e-9).all()
+    edges = np.array([[t.simplices[0][0], t.simplices[0][1]], [0, 1]])
+    for edge, simplex in zip(edges, t.simplices_with(edges)):
+        assert (simplex >= 0) == any(set(edge) <= set(row) for row in t.simplices.tolist())
     strip = deldrift.PeriodicDelaunay([[0, 0], [0.3, 1e-13], [0.6, 0], [0.5, 1]], [[1, 0]])
     assert not strip.mask_without_flat(1e-9).all() and strip.mask_without_flat(0).all()
