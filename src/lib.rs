@@ -68,7 +68,7 @@ pub use predicates::Coordinates;
 #[cfg(feature = "internals")]
 #[doc(hidden)]
 pub mod internals {
-    pub use crate::delaunay::{Delaunay, Insertion, Shortcut};
+    pub use crate::delaunay::{Delaunay, Insertion, PowerPlane, PowerSpace, Shortcut};
     pub use crate::ids::{SiteId, Slot};
     pub use crate::machine::threads::use_all_threads;
 

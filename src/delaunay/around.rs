@@ -1,11 +1,11 @@
 //! The cells around a site, listed without marks: for questions, which may not write any.
 
-use super::{Delaunay, Dimension, IndexSet};
+use super::{Delaunay, Geometry, IndexSet};
 use crate::complex::{Complex, Corners};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Calls `visit` for each cell around a site, ghost cells included, with the index of the site in it.
     pub fn for_star(&self, s: SiteId, mut visit: impl FnMut(Slot, usize)) -> Result<()> {
         let mut star = IndexSet::new();

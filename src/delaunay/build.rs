@@ -4,7 +4,7 @@
 //! before it to a cell that is in conflict with it. Rebuilding keeps the storage order of the sites, which small
 //! motions spoil little; the mean distance of sites that are next to each other in storage tells when to sort again.
 
-use super::{Delaunay, Dimension, Site};
+use super::{Delaunay, Geometry, Site};
 use crate::complex::INFINITE;
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
@@ -31,11 +31,11 @@ const GAP_AFTER: usize = 63;
 
 /// After how many cells there is a free one, for this number of ranges in which to flip: each needs free cells of its own
 /// in space.
-fn gap_after<G: Dimension>(n_ranges: usize) -> usize {
+fn gap_after<G: Geometry>(n_ranges: usize) -> usize {
     if G::D == 3 && n_ranges > 1 { GAP_AFTER } else { usize::MAX }
 }
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Adds a site for each of the points to a triangulation without any, be it an [empty](Self::empty_on) one: along a
     /// Hilbert curve, each with the index of its point for id, and with the sign of zeros made positive.
     /// [`rebuild`](Self::rebuild) must follow.
@@ -43,7 +43,7 @@ impl<G: Dimension> Delaunay<G> {
         let n = points.len();
         let site = |item: u32| {
             let mut point = points[item as usize];
-            for axis in 0..G::D {
+            for axis in 0..G::NUMBERS {
                 point[axis] += 0.0;
             }
             Site::new(point, VertexId::new(item))
@@ -138,6 +138,7 @@ impl<G: Dimension> Delaunay<G> {
             return Ok(None);
         }
         let index = self.complex.sort(self.sites.len(), gap_after::<G>(n_ranges))?;
+        self.renumber_covering_cells(&index)?;
         for site in &mut self.sites {
             if site.cell != Slot::NONE {
                 site.cell = index[site.cell];
@@ -203,6 +204,10 @@ impl<G: Dimension> Delaunay<G> {
             ..Delaunay::empty()
         };
         t.tighten_filter();
+        if t.has_cells() {
+            t.loosen_all()?;
+            t.settle()?;
+        }
         Ok((t, index))
     }
 

@@ -9,8 +9,8 @@
 //! Cost: in expectation 6 cells made and 4 deleted in the plane, about 27 and 20 in space, with one in-sphere test
 //! for each deleted cell and each rim facet.
 
-use super::dimension::Insert;
-use super::{Delaunay, Dimension};
+use super::geometry::Insert;
+use super::{Delaunay, Geometry};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
@@ -22,25 +22,28 @@ pub enum Insertion {
     New,
     /// This site was at the place already; nothing has changed.
     Coincident(SiteId),
+    /// Its weight hides the site, which stays live: it is above this cell.
+    Hidden(Slot),
     /// There were no cells, and with the site there would be: a kernel has to be built. Nothing has changed.
     Spans,
 }
 
 /// Insertions, and the scratch memory for them.
 #[derive(Debug, Default)]
-pub struct Cavity<G: Dimension> {
+pub struct Cavity<G: Geometry> {
     pub(super) scratch: G::Scratch,
     /// Cells crossed by the walks so far.
     pub(super) steps: u64,
 }
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Inserts a site that has been added; `near` is a cell to walk from, [`Slot::NONE`] for any. A coincident site is
     /// dropped; after an error the site is live and in no cell.
     pub fn insert_site(&mut self, s: SiteId, near: Slot) -> Result<Insertion> {
         self.go_on()?;
         // For the index, should the site be dropped.
         memory::reserve(&mut self.free_sites, 1)?;
+        self.make_room_to_hide()?;
         let q = self.site(s).point;
         self.cover(&q, &q);
         let inserted = if self.has_cells() {
@@ -48,9 +51,14 @@ impl<G: Dimension> Delaunay<G> {
             let mut cavity = std::mem::take(&mut self.cavity);
             let before = cavity.steps;
             let inserted = self.insert_into_cells::<false>(&mut cavity, s, near);
-            if inserted == Ok(Insertion::New) {
-                self.record(cavity.scratch.made());
-                self.pace.count(cavity.scratch.made().len());
+            match inserted {
+                Ok(Insertion::New) => {
+                    self.record(cavity.scratch.made());
+                    self.pace.count(cavity.scratch.made().len());
+                    self.list_swallowed();
+                }
+                Ok(Insertion::Hidden(cell)) => self.hide(s, cell),
+                _ => {}
             }
             self.pace.count((cavity.steps - before) as usize);
             self.cavity = cavity;
@@ -99,8 +107,15 @@ impl<G: Dimension> Delaunay<G> {
         } else {
             (self.walk(&self.filter, &q, near, steps), false)
         };
-        // What is inside the sphere of a cell is at no site.
-        if !is_inside && let Some(t) = self.corner_at(start, &q) {
+        if G::HAS_WEIGHTS {
+            let is_below = is_inside
+                || self.complex.cell(start).is_ghost()
+                || self.is_in_conflict(start, &q, self.site(s).id);
+            if !is_below {
+                return Ok(Insertion::Hidden(start));
+            }
+        } else if !is_inside && let Some(t) = self.corner_at(start, &q) {
+            // What is inside the sphere of a cell is at no site.
             return Ok(Insertion::Coincident(t));
         }
         let made = scratch.insert::<BUILD>(self, start, s)?;
@@ -116,6 +131,9 @@ impl<G: Dimension> Delaunay<G> {
             return Ok(Insertion::Coincident(t));
         }
         self.sites[s].cell = Slot::NONE;
+        if self.spans_without_cells() {
+            return Ok(Insertion::Spans);
+        }
         if self.extend_basis(s) {
             self.remove_flat(s);
             return Ok(Insertion::Spans);

@@ -10,7 +10,7 @@
 
 #![allow(unsafe_code)]
 
-use super::dimension::Insert;
+use super::geometry::Insert;
 use super::signs::Signs;
 use super::{Delaunay, Plane};
 use crate::complex::{Facet, INFINITE};

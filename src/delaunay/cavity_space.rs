@@ -9,10 +9,13 @@
 
 #![allow(unsafe_code)]
 
-use super::dimension::Insert;
+use super::Delaunay;
+use super::covered::Swallowed;
+use super::geometry::Insert;
 use super::meetings::{Meetings, Ridge, Row, SMALL_RIM};
+use super::shape::Space;
+use super::space::InSpace;
 use super::spheres::{IN_ZONE, Spheres, Table};
-use super::{Delaunay, Space};
 use crate::complex::Facet;
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
@@ -21,8 +24,8 @@ use crate::predicates::StaticFilter;
 use crate::simd::{LANES, Simd, in_lanes};
 
 /// Scratch memory.
-#[derive(Debug, Default)]
-pub struct Scratch {
+#[derive(Debug)]
+pub struct Scratch<P> {
     /// Two lists side by side: the first `n_zone` rows have the cells in conflict, the first `n_rim` the rim's facets.
     /// The rest is room to write before it is known whether to keep it.
     rows: Vec<Row>,
@@ -31,10 +34,23 @@ pub struct Scratch {
     n_ghosts: usize,
     n_rim: usize,
     meetings: Meetings,
-    pub(super) spheres: Spheres,
+    pub(super) spheres: Spheres<P>,
 }
 
-impl Insert<Space> for Scratch {
+impl<P> Default for Scratch<P> {
+    fn default() -> Self {
+        Scratch {
+            rows: Vec::new(),
+            n_zone: 0,
+            n_ghosts: 0,
+            n_rim: 0,
+            meetings: Meetings::default(),
+            spheres: Spheres::default(),
+        }
+    }
+}
+
+impl<P: InSpace> Insert<Space<P>> for Scratch<P> {
     fn begin_build(&mut self, n_cells: usize, is_weak: bool) -> Result<()> {
         self.spheres.begin(n_cells, is_weak)
     }
@@ -48,7 +64,7 @@ impl Insert<Space> for Scratch {
     }
 
     #[inline(always)]
-    fn is_inside(&self, filter: &StaticFilter, cell: Slot, q: &[f64; 3]) -> bool {
+    fn is_inside(&self, filter: &StaticFilter, cell: Slot, q: &P) -> bool {
         self.spheres.is_inside(filter, cell, q)
     }
 
@@ -57,14 +73,21 @@ impl Insert<Space> for Scratch {
     }
 
     #[inline(always)]
-    fn insert<const BUILD: bool>(&mut self, t: &mut Delaunay<Space>, start: Slot, s: SiteId) -> Result<Slot> {
+    fn insert<const BUILD: bool>(
+        &mut self,
+        t: &mut Delaunay<Space<P>>,
+        start: Slot,
+        s: SiteId,
+    ) -> Result<Slot> {
         let mut ridges = Vec::new();
         let dug = match (BUILD, self.spheres.has_lengths) {
-            (true, true) => dig_in_build::<true>(t, self, start, s),
-            (true, false) => dig_in_build::<false>(t, self, start, s),
-            _ => dig::<false, false>(t, self, start, s),
+            (true, true) => dig_in_build::<P, true>(t, self, start, s),
+            (true, false) => dig_in_build::<P, false>(t, self, start, s),
+            _ => dig::<P, false, false>(t, self, start, s),
         };
-        if let Err(error) = dug.and_then(|()| reserve::<BUILD>(t, &mut ridges, self)) {
+        let reserved = dug.and_then(|()| reserve::<P, BUILD>(t, &mut ridges, self));
+        let reserved = reserved.and_then(|()| if P::HAS_WEIGHT { self.swallow(t) } else { Ok(()) });
+        if let Err(error) = reserved {
             for row in &self.rows[..self.n_zone] {
                 t.complex.set_mark(row.found.cell(), 0);
             }
@@ -83,12 +106,27 @@ impl Insert<Space> for Scratch {
         for row in &mut self.rows[reused..n_rim] {
             row.cell = t.complex.create_blank(start);
         }
-        glue::<BUILD>(t, self, ridges);
+        glue::<P, BUILD>(t, self, ridges);
         Ok(self.rows[0].cell)
     }
 
     fn made(&self) -> impl ExactSizeIterator<Item = Slot> + '_ {
         self.rows[..self.n_rim].iter().map(|row| row.cell)
+    }
+}
+
+impl<P: InSpace> Scratch<P> {
+    /// Lists the sites that no facet of the rim has, which the new site hides, and loosens what the cells of the zone cover.
+    #[inline(never)]
+    fn swallow(&self, t: &mut Delaunay<Space<P>>) -> Result<()> {
+        let mut swallowed = Swallowed::begin(t);
+        for row in &self.rows[..self.n_rim] {
+            let [_, a, b, c] = row.corners;
+            swallowed.spare(t, [a, b, c], row.out.cell());
+        }
+        self.rows[..self.n_zone].iter().try_for_each(|row| swallowed.look_at(t, row.found.cell()))?;
+        swallowed.end(t, self.rows[..self.n_zone].iter().map(|row| row.found.cell()));
+        Ok(())
     }
 }
 
@@ -105,10 +143,10 @@ fn joined([a, b, c, d]: [SiteId; 4], i: usize, s: SiteId) -> [SiteId; 4] {
 
 /// Makes room for all that the new cells need.
 #[inline(always)]
-fn reserve<const BUILD: bool>(
-    t: &mut Delaunay<Space>,
+fn reserve<P: InSpace, const BUILD: bool>(
+    t: &mut Delaunay<Space<P>>,
     ridges: &mut Vec<Ridge>,
-    scratch: &Scratch,
+    scratch: &Scratch<P>,
 ) -> Result<()> {
     let Scratch { rows, n_zone, n_rim, .. } = scratch;
     let n_created = n_rim.saturating_sub(*n_zone);
@@ -124,22 +162,22 @@ fn reserve<const BUILD: bool>(
 /// Finds the zone of `s` from one cell of it, and its rim, during a build.
 // Not inlined: within the loop over all sites it would be slower.
 #[inline(never)]
-fn dig_in_build<const BY_LENGTHS: bool>(
-    t: &mut Delaunay<Space>,
-    scratch: &mut Scratch,
+fn dig_in_build<P: InSpace, const BY_LENGTHS: bool>(
+    t: &mut Delaunay<Space<P>>,
+    scratch: &mut Scratch<P>,
     start: Slot,
     s: SiteId,
 ) -> Result<()> {
     in_lanes!(_simd, (t, scratch), start, s => |(t, scratch), start, s| {
-        dig::<true, BY_LENGTHS>(t, scratch, start, s)
+        dig::<P, true, BY_LENGTHS>(t, scratch, start, s)
     })
 }
 
 /// Finds the zone of `s` from one cell of it, and its rim. After an error the zone is what has been marked.
 #[inline(always)]
-fn dig<const BUILD: bool, const BY_LENGTHS: bool>(
-    t: &mut Delaunay<Space>,
-    scratch: &mut Scratch,
+fn dig<P: InSpace, const BUILD: bool, const BY_LENGTHS: bool>(
+    t: &mut Delaunay<Space<P>>,
+    scratch: &mut Scratch<P>,
     start: Slot,
     s: SiteId,
 ) -> Result<()> {
@@ -224,35 +262,43 @@ fn grow(rows: &mut Vec<Row>, meetings: &mut Meetings, n: usize) -> Result<()> {
 
 /// Makes the new cells and glues them.
 #[inline(always)]
-fn glue<const BUILD: bool>(t: &mut Delaunay<Space>, scratch: &mut Scratch, ridges: Vec<Ridge>) {
+fn glue<P: InSpace, const BUILD: bool>(
+    t: &mut Delaunay<Space<P>>,
+    scratch: &mut Scratch<P>,
+    ridges: Vec<Ridge>,
+) {
     let Scratch { rows, n_rim, spheres, meetings, .. } = scratch;
     let rim = &mut rows[..*n_rim];
     meetings.glue(t, rim, ridges);
     if BUILD {
         if spheres.has_lengths {
-            prepare::<true>(t, rim, spheres);
+            prepare::<P, true>(t, rim, spheres);
         } else {
-            prepare::<false>(t, rim, spheres);
+            prepare::<P, false>(t, rim, spheres);
         }
     }
 }
 
 /// Prepares the spheres of the new cells.
 #[inline(never)]
-fn prepare<const BY_LENGTHS: bool>(t: &Delaunay<Space>, rim: &[Row], spheres: &mut Spheres) {
+fn prepare<P: InSpace, const BY_LENGTHS: bool>(
+    t: &Delaunay<Space<P>>,
+    rim: &[Row],
+    spheres: &mut Spheres<P>,
+) {
     let spheres = spheres.table();
     in_lanes!(simd, t, rim, spheres => |t, rim, spheres| {
-        prepare_in_lanes::<_, BY_LENGTHS>(simd, t, rim, spheres)
+        prepare_in_lanes::<_, P, BY_LENGTHS>(simd, t, rim, spheres)
     });
 }
 
 /// Four at a time; the last four are those at the end, some of them twice.
 #[inline(always)]
-fn prepare_in_lanes<S: Simd, const BY_LENGTHS: bool>(
+fn prepare_in_lanes<S: Simd, P: InSpace, const BY_LENGTHS: bool>(
     simd: S,
-    t: &Delaunay<Space>,
+    t: &Delaunay<Space<P>>,
     rim: &[Row],
-    mut spheres: Table,
+    mut spheres: Table<P>,
 ) {
     let last = rim.len() - LANES;
     let s = t.view().point(rim[0].corners[0]);

@@ -10,7 +10,7 @@ mod hull;
 use std::ops::Range;
 
 use super::uncertain::Doubts;
-use super::{Delaunay, Dimension, Failures};
+use super::{Delaunay, Geometry, Failures};
 use crate::complex::{Cell, Corners, Facet, INFINITE};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot};
@@ -40,7 +40,7 @@ impl Default for Waiting {
     }
 }
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Checks every certificate of the finite cells once, and lists the ghosts; `false`, before the end, when more than
     /// `most` cells have failed; then no sign is counted. What has been listed before an error is of no use. Where it is
     /// known where all vertices were `before`, by id, certificates of those that have not moved are not evaluated again in

@@ -1,6 +1,6 @@
 //! A record of the cells that change, for the layers above.
 
-use super::{Delaunay, Dimension};
+use super::{Delaunay, Geometry};
 use crate::error::Result;
 use crate::ids::Slot;
 use crate::machine::memory;
@@ -9,7 +9,7 @@ use crate::machine::memory;
 const SLOTS_PER_CELL_LISTED: usize = 32;
 const MAX_SLOTS_IN_CACHE: usize = 1 << 14;
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Starts a record of the cells that relocations, insertions and removals make or move, in `buffer`.
     pub fn record_changes(&mut self, mut buffer: Vec<Slot>) {
         buffer.clear();

@@ -1,10 +1,10 @@
 //! A copy of a kernel: sites and cells keep their names.
 
-use super::{Delaunay, Dimension};
+use super::{Delaunay, Geometry};
 use crate::error::Result;
 use crate::machine::memory;
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// A copy, without scratch memory and landmarks. No change must be under way.
     pub(crate) fn copied(&self) -> Result<Self> {
         Ok(Delaunay {
@@ -19,6 +19,7 @@ impl<G: Dimension> Delaunay<G> {
             lower: self.lower,
             upper: self.upper,
             flat: self.flat.copied()?,
+            covered: self.covered.copied()?,
             is_sorted: self.is_sorted,
             n_replaced: self.n_replaced,
             recent: self.recent,

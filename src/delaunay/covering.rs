@@ -1,9 +1,9 @@
 //! The static filter, and the box of the points for which it holds.
 
-use super::{Delaunay, Dimension, order};
+use super::{Delaunay, Geometry, order};
 use crate::predicates::StaticFilter;
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// The static filter.
     pub(crate) fn filter(&self) -> &StaticFilter {
         &self.filter
@@ -22,7 +22,7 @@ impl<G: Dimension> Delaunay<G> {
     /// Makes the static filter valid for points in a box.
     pub fn cover(&mut self, lower: &G::Point, upper: &G::Point) {
         let mut grown = false;
-        for k in 0..G::D {
+        for k in 0..G::NUMBERS {
             if lower[k] < self.lower[k] {
                 self.lower[k] = lower[k];
                 grown = true;
@@ -41,7 +41,7 @@ impl<G: Dimension> Delaunay<G> {
     #[inline(always)]
     pub(crate) fn is_covered(&self, p: &G::Point) -> bool {
         let mut is_covered = true;
-        for k in 0..G::D {
+        for k in 0..G::NUMBERS {
             is_covered &= (self.lower[k] <= p[k]) & (p[k] <= self.upper[k]);
         }
         is_covered

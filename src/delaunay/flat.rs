@@ -7,7 +7,7 @@
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
-use super::{Delaunay, Dimension};
+use super::{Delaunay, Geometry};
 use crate::complex::INFINITE;
 use crate::error::Result;
 use crate::ids::SiteId;
@@ -15,12 +15,12 @@ use crate::machine::memory;
 
 /// Places and basis; empty while there are cells.
 #[derive(Debug)]
-pub(super) struct Flat<G: Dimension> {
+pub(super) struct Flat<G: Geometry> {
     places: HashMap<[u64; 3], SiteId>,
     pub(super) basis: Basis<G>,
 }
 
-impl<G: Dimension> Default for Flat<G> {
+impl<G: Geometry> Default for Flat<G> {
     #[inline(always)]
     fn default() -> Self {
         Flat { places: HashMap::new(), basis: Basis::default() }
@@ -29,26 +29,26 @@ impl<G: Dimension> Default for Flat<G> {
 
 /// Affinely independent sites, `D + 1` at most.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Basis<G: Dimension> {
+pub(super) struct Basis<G: Geometry> {
     n: usize,
     sites: [SiteId; 4],
     points: [G::Point; 4],
 }
 
-impl<G: Dimension> Default for Basis<G> {
+impl<G: Geometry> Default for Basis<G> {
     #[inline(always)]
     fn default() -> Self {
         Basis { n: 0, sites: [INFINITE; 4], points: [G::Point::default(); 4] }
     }
 }
 
-impl<G: Dimension> Basis<G> {
+impl<G: Geometry> Basis<G> {
     pub(super) fn sites(&self) -> &[SiteId] {
         &self.sites[..self.n]
     }
 }
 
-fn key<G: Dimension>(point: &G::Point) -> [u64; 3] {
+fn key<G: Geometry>(point: &G::Point) -> [u64; 3] {
     let mut key = [0; 3];
     for k in 0..G::D {
         // The sum makes -0 into 0, so that equal places have equal bits.
@@ -57,14 +57,18 @@ fn key<G: Dimension>(point: &G::Point) -> [u64; 3] {
     key
 }
 
-impl<G: Dimension> Flat<G> {
-    /// The site at a place.
+impl<G: Geometry> Flat<G> {
+    /// The site at a place. With weights none is said: there may be several.
     pub(super) fn site_at(&self, q: &G::Point) -> Option<SiteId> {
         self.places.get(&key::<G>(q)).copied()
     }
 
-    /// Enters a site; the one that is there already, if any, stays and is returned.
+    /// Enters a site; the one that is there already, if any, stays and is returned. With weights several may be at a place, and
+    /// none is told.
     pub(super) fn enter(&mut self, s: SiteId, q: &G::Point) -> Result<Option<SiteId>> {
+        if G::HAS_WEIGHTS {
+            return Ok(None);
+        }
         memory::reserve_map(&mut self.places, 1)?;
         Ok(match self.places.entry(key::<G>(q)) {
             Entry::Occupied(there) => Some(*there.get()),
@@ -108,7 +112,7 @@ impl<G: Dimension> Flat<G> {
     }
 }
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Adds a site to the basis if it is independent of it; whether the basis is that of a cell now.
     pub(super) fn extend_basis(&mut self, s: SiteId) -> bool {
         let point = self.site(s).point;
@@ -118,6 +122,12 @@ impl<G: Dimension> Delaunay<G> {
             *n += 1;
         }
         *n == G::D + 1
+    }
+
+    /// Whether there are no cells and have to be some, for which a kernel has to be built: the last sites that were shown were in a
+    /// hyperplane, and those that they had hidden are not.
+    pub(crate) fn spans_without_cells(&self) -> bool {
+        G::HAS_WEIGHTS && !self.has_cells() && self.flat.basis.n == G::D + 1
     }
 
     /// Takes a site out while there are no cells; it stays live.

@@ -23,7 +23,7 @@ use untangling::Untangling;
 use super::flipper::Flipper;
 use super::flips::Flips;
 use super::site::Sites;
-use super::{Delaunay, Dimension};
+use super::{Delaunay, Geometry};
 use crate::complex::{Corners, Facet, Row, starts_of_ranges};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot};
@@ -55,7 +55,7 @@ enum WhenStuck {
 
 /// The flips of the last call, and the memory for those of the next one.
 #[derive(Debug)]
-pub(super) struct AllFlips<G: Dimension> {
+pub(super) struct AllFlips<G: Geometry> {
     /// Flips of the calling thread.
     own: Flips<G>,
     /// Flips of several threads, made before the calling thread's own.
@@ -65,7 +65,7 @@ pub(super) struct AllFlips<G: Dimension> {
     untangling: Untangling<G>,
 }
 
-impl<G: Dimension> Default for AllFlips<G> {
+impl<G: Geometry> Default for AllFlips<G> {
     fn default() -> Self {
         AllFlips {
             own: Flips::default(),
@@ -76,7 +76,7 @@ impl<G: Dimension> Default for AllFlips<G> {
     }
 }
 
-impl<G: Dimension> AllFlips<G> {
+impl<G: Geometry> AllFlips<G> {
     pub(super) fn memory_bytes(&self) -> usize {
         let flips = self.parts.iter().chain([&self.own]);
         flips.map(Flips::memory_bytes).sum::<usize>()
@@ -86,7 +86,7 @@ impl<G: Dimension> AllFlips<G> {
     }
 }
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Flips until no facet of a triangulation fails, where `suspects` are all that may; leaves in `stuck` those that
     /// fail still as they cannot be flipped, all of cells that are there. There are none in the plane; if there are,
     /// [`undo_flips`](Self::undo_flips) must follow. Returns the number of flips; `None` if more than `most`
@@ -274,6 +274,7 @@ impl<G: Dimension> Delaunay<G> {
                 self.recent = c;
             }
         }
+        self.loosen_rows(&flips.journal);
         // Keep the memory while timestamps change much, not after one that has changed everything.
         let (needed, held) = (flips.journal.len(), flips.journal.capacity());
         if held > self.sites.len().max(KEPT) && held > HELD_PER_NEEDED * needed {

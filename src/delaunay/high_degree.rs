@@ -7,7 +7,7 @@
 
 use super::facets::{ByCorners, facet_of};
 use super::hole::{Gap, Hole};
-use super::{Delaunay, Dimension, Shape};
+use super::{Delaunay, Geometry, Shape};
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
@@ -27,7 +27,7 @@ enum Across {
 /// New cells, and what is across their facets.
 type Filling<C> = Vec<(C, <C as Corners>::Of<Across>)>;
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Fills the hole of the gathered star by the triangulation of its link. After an error nothing has changed.
     #[cold]
     pub(super) fn remove_high_degree(&mut self, hole: &Hole<G>) -> Result<()> {

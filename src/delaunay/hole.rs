@@ -1,6 +1,6 @@
 //! The hole that a star would leave: its frontier, and the cells that are to fill it.
 
-use super::{Delaunay, Dimension, Shape};
+use super::{Delaunay, Geometry, Shape};
 use crate::complex::{Corners, Facet, MAX_CELLS};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
@@ -32,7 +32,7 @@ pub(super) type FacetsOf<G> = <<G as Shape>::Corners as Corners>::Of<Facet>;
 
 /// Scratch memory of removals.
 #[derive(Debug)]
-pub(super) struct Hole<G: Dimension> {
+pub(super) struct Hole<G: Geometry> {
     /// The frontier at first: the link, seen from outside.
     pub(super) link: Vec<Gap<G::Corners>>,
     /// Sites of the link, the ghost vertex included.
@@ -44,7 +44,7 @@ pub(super) struct Hole<G: Dimension> {
     pub(super) made_at: Vec<Slot>,
 }
 
-impl<G: Dimension> Default for Hole<G> {
+impl<G: Geometry> Default for Hole<G> {
     fn default() -> Self {
         Hole {
             link: Vec::new(),
@@ -57,7 +57,7 @@ impl<G: Dimension> Default for Hole<G> {
     }
 }
 
-impl<G: Dimension> Hole<G> {
+impl<G: Geometry> Hole<G> {
     pub(super) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.link)
             + memory::bytes_of(&self.sites)
@@ -68,7 +68,7 @@ impl<G: Dimension> Hole<G> {
     }
 }
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Lists the link of the gathered star and its sites. Each gets its position in the list as a label, kept in its
     /// `cell` field.
     pub(super) fn label_link(&mut self, hole: &mut Hole<G>) -> Result<()> {

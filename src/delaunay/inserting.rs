@@ -1,9 +1,9 @@
 //! Many sites, one after the other: from a first cell on, or into cells that are there.
 
 use super::cavity::Cavity;
-use super::dimension::Insert;
+use super::geometry::Insert;
 use super::order::in_rounds;
-use super::{Delaunay, Dimension, Insertion};
+use super::{Delaunay, Geometry, Insertion};
 use crate::complex::{Corners, INFINITE};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot};
@@ -21,7 +21,7 @@ const SAMPLED_PAIRS: usize = 64;
 /// large as the spacing.
 const WEAK_SHARE: f64 = 1.0 / 256.0;
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// The live sites in the order in which to insert them, if a basis of `D + 1` is among them, from which
     /// [`triangulate`](Self::triangulate) starts.
     pub(super) fn spanning_order(&mut self) -> Result<Option<Vec<SiteId>>> {
@@ -48,6 +48,7 @@ impl<G: Dimension> Delaunay<G> {
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Vec<(SiteId, SiteId)>> {
         self.complex.clear();
+        self.forget_covered();
         self.is_sorted = false;
         self.complex.reserve(Self::n_cells_of(n))?;
         for site in &mut self.sites {
@@ -62,6 +63,8 @@ impl<G: Dimension> Delaunay<G> {
         self.filter = filter;
         let coincident = inserted?;
         self.flat.clear();
+        self.loosen_all()?;
+        self.settle()?;
         Ok(coincident)
     }
 
@@ -139,6 +142,7 @@ impl<G: Dimension> Delaunay<G> {
                     self.record(cavity.scratch.made());
                 }
                 Insertion::Coincident(t) => memory::push(&mut coincident, (s, t))?,
+                Insertion::Hidden(_) => {}
                 Insertion::Spans => unreachable!("there are cells"),
             }
             work += cavity.steps - steps;

@@ -19,7 +19,7 @@ use std::sync::RwLock;
 use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering::Relaxed};
 
 use super::site::Sites;
-use super::{Delaunay, Dimension, Site};
+use super::{Delaunay, Geometry, Site};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
@@ -66,7 +66,7 @@ struct Tree {
     leaves: Vec<AtomicU32>,
 }
 
-fn is_in_cells<G: Dimension>(site: &Site<G>) -> bool {
+fn is_in_cells<G: Geometry>(site: &Site<G>) -> bool {
     site.is_live() && site.cell != Slot::NONE
 }
 
@@ -77,7 +77,7 @@ fn split(x: f64, axis: usize) -> f64 {
 
 impl Tree {
     /// A tree of about one site in six.
-    fn new<G: Dimension>(sites: &[Site<G>]) -> Result<Option<Self>> {
+    fn new<G: Geometry>(sites: &[Site<G>]) -> Result<Option<Self>> {
         let n = sites.len();
         if n < MIN_SITES {
             return Ok(None);
@@ -119,7 +119,7 @@ impl Tree {
 
     /// The leaf of a place.
     #[inline(always)]
-    fn leaf<G: Dimension>(&self, q: &G::Point) -> usize {
+    fn leaf<G: Geometry>(&self, q: &G::Point) -> usize {
         let n = self.splits.len();
         let mut node = 1;
         while node < n {
@@ -134,7 +134,7 @@ impl Tree {
 
 /// Parts items along the axis along which they extend farthest, and never two with one coordinate there: how many are
 /// the first ones, about half, and the split, in the middle between both, so that a goal goes to the nearer one.
-fn halve<G: Dimension>(items: &mut [(G::Point, SiteId)]) -> (usize, f64) {
+fn halve<G: Geometry>(items: &mut [(G::Point, SiteId)]) -> (usize, f64) {
     let (n, middle) = (items.len(), items.len() / 2);
     if n == 0 {
         return (0, 0.0);
@@ -169,7 +169,7 @@ fn partition<T>(items: &mut [T], is_first: impl Fn(&T) -> bool) -> usize {
 }
 
 /// The axis along which these places extend farthest.
-fn widest<G: Dimension>(items: &[(G::Point, SiteId)]) -> usize {
+fn widest<G: Geometry>(items: &[(G::Point, SiteId)]) -> usize {
     let (mut lower, mut upper) = (items[0].0, items[0].0);
     for (p, _) in items {
         for axis in 0..G::D {
@@ -183,7 +183,7 @@ fn widest<G: Dimension>(items: &[(G::Point, SiteId)]) -> usize {
 
 /// Of the corners of a cell the one that is nearest to `q`: from another one, where the cell is long, walks to goals
 /// beside `q` would not be short.
-fn nearest<G: Dimension>(sites: Sites<'_, G>, corners: &[SiteId], q: &G::Point) -> SiteId {
+fn nearest<G: Geometry>(sites: Sites<'_, G>, corners: &[SiteId], q: &G::Point) -> SiteId {
     let distance = |&s: &SiteId| squared_distance(sites.point(s), q);
     corners.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(SiteId::NONE)
 }
@@ -197,13 +197,13 @@ impl Landmarks {
 
     /// A site that was near `q` once; [`SiteId::NONE`] if no tree has been made, or one is being made.
     #[inline(always)]
-    fn near<G: Dimension>(&self, q: &G::Point) -> SiteId {
+    fn near<G: Geometry>(&self, q: &G::Point) -> SiteId {
         let Ok(tree) = self.tree.try_read() else { return SiteId::NONE };
         tree.as_ref().map_or(SiteId::NONE, |tree| SiteId::new(tree.leaves[tree.leaf::<G>(q)].load(Relaxed)))
     }
 
     /// The site `s` is the landmark near `q` from now on.
-    fn replace<G: Dimension>(&self, q: &G::Point, s: SiteId) {
+    fn replace<G: Geometry>(&self, q: &G::Point, s: SiteId) {
         if let Ok(tree) = self.tree.try_read()
             && let Some(tree) = tree.as_ref()
         {
@@ -212,7 +212,7 @@ impl Landmarks {
     }
 
     /// Enters a long walk of `steps` steps to `q`, near the site `s`.
-    fn follow_long<G: Dimension>(&self, sites: &[Site<G>], q: &G::Point, s: SiteId, steps: u64) {
+    fn follow_long<G: Geometry>(&self, sites: &[Site<G>], q: &G::Point, s: SiteId, steps: u64) {
         self.replace::<G>(q, s);
         let beyond = steps.saturating_sub(LONG_WALK) as usize;
         let all = self.steps.fetch_add(beyond, Relaxed) + beyond;
@@ -229,7 +229,7 @@ impl Landmarks {
     }
 }
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// A cell from which a walk to `q` is short: `near`, or one at a landmark if that is nearer.
     #[inline(always)]
     pub(super) fn cell_towards(&self, q: &G::Point, near: Slot) -> Slot {
@@ -322,7 +322,7 @@ mod tests {
         OnLines,
     }
 
-    fn place<G: Dimension>(rng: &mut Rng, kind: Kind) -> G::Point {
+    fn place<G: Geometry>(rng: &mut Rng, kind: Kind) -> G::Point {
         let mut p = G::Point::default();
         let centre = rng.within(0, 9) as f64;
         for axis in 0..G::D {
@@ -337,7 +337,7 @@ mod tests {
     }
 
     /// Cells crossed, in the mean, by walks to random places.
-    fn mean_steps<G: Dimension>(t: &Delaunay<G>, rng: &mut Rng, kind: Kind) -> f64 {
+    fn mean_steps<G: Geometry>(t: &Delaunay<G>, rng: &mut Rng, kind: Kind) -> f64 {
         let n = 500;
         let mut steps = 0;
         for _ in 0..n {
@@ -349,7 +349,7 @@ mod tests {
     }
 
     /// Walks become short by themselves.
-    fn walks_become_short<G: Dimension>(kinds: &[Kind]) {
+    fn walks_become_short<G: Geometry>(kinds: &[Kind]) {
         for &kind in kinds {
             let rng = &mut Rng::new(1);
             let mut t = Delaunay::<G>::on(Threads::ONE).expect("room");
@@ -367,7 +367,7 @@ mod tests {
     }
 
     /// Walks of sites that are relocated anywhere become short by themselves.
-    fn relocations_become_short<G: Dimension>() {
+    fn relocations_become_short<G: Geometry>() {
         let rng = &mut Rng::new(2);
         let n = 5_000;
         let places = std::iter::repeat_with(|| place::<G>(rng, Kind::Even)).take(n).collect::<Vec<_>>();

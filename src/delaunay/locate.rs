@@ -5,7 +5,7 @@
 //! 10.1007/BF02122779), so it needs no randomness. It ends in a cell whose closure holds the point, or in a
 //! ghost cell whose facet has the point strictly beyond it.
 
-use super::{Delaunay, Dimension, IndexSet};
+use super::{Delaunay, Geometry, IndexSet};
 use crate::complex::{Cell, Corners};
 use crate::ids::{SiteId, Slot};
 use crate::machine::prefetch::{CACHE_BYTES, prefetch};
@@ -27,7 +27,7 @@ pub enum Place {
     NoCells,
 }
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Cell where a walk to `q` from the cell `start` ends. `f` must hold for `q`. Counts its steps.
     #[inline(always)]
     pub(super) fn walk(&self, f: &StaticFilter, q: &G::Point, start: Slot, steps: &mut u64) -> Slot {
@@ -84,7 +84,7 @@ impl<G: Dimension> Delaunay<G> {
         if c.is_ghost() {
             return None;
         }
-        (0..G::Corners::N).map(|i| c.corners[i]).find(|&s| self.site(s).point == *q)
+        (0..G::Corners::N).map(|i| c.corners[i]).find(|&s| self.site(s).point.as_ref() == q.as_ref())
     }
 
     /// Where a point lies; `near` is a cell that may be near it, [`Slot::NONE`] if none is known.
@@ -110,11 +110,11 @@ impl<G: Dimension> Delaunay<G> {
 
     /// The static filter, widened where a point lies outside the box that it was made for.
     pub(crate) fn filter_for(&self, q: &G::Point) -> StaticFilter {
-        if (0..G::D).all(|k| self.lower[k] <= q[k] && q[k] <= self.upper[k]) {
+        if (0..G::NUMBERS).all(|k| self.lower[k] <= q[k] && q[k] <= self.upper[k]) {
             return self.filter;
         }
         let (mut lower, mut upper) = (self.lower, self.upper);
-        for k in 0..G::D {
+        for k in 0..G::NUMBERS {
             lower[k] = lower[k].min(q[k]);
             upper[k] = upper[k].max(q[k]);
         }

@@ -7,7 +7,9 @@
 
 use std::hint::select_unpredictable;
 
-use super::{Delaunay, Space};
+use super::Delaunay;
+use super::shape::Space;
+use super::space::InSpace;
 use crate::complex::{Facet, INFINITE, MAX_CELLS};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
@@ -63,7 +65,12 @@ impl Meetings {
     /// Puts the new cells of a rim, which have their slots, and glues them. Room has been [made](Self::make_room), and
     /// for all ridges of a rim that is larger than [`SMALL_RIM`].
     #[inline(always)]
-    pub(super) fn glue(&mut self, t: &mut Delaunay<Space>, rim: &mut [Row], ridges: Vec<Ridge>) {
+    pub(super) fn glue<P: InSpace>(
+        &mut self,
+        t: &mut Delaunay<Space<P>>,
+        rim: &mut [Row],
+        ridges: Vec<Ridge>,
+    ) {
         if rim.len() > SMALL_RIM {
             return glue_sorted(t, rim, ridges);
         }
@@ -74,9 +81,9 @@ impl Meetings {
 
 /// Labels for the sites of one rim, each of them at its first and at all further calls.
 #[inline(always)]
-fn labels() -> impl FnMut(&mut Delaunay<Space>, SiteId) -> usize {
+fn labels<P: InSpace>() -> impl FnMut(&mut Delaunay<Space<P>>, SiteId) -> usize {
     let mut next = FIRST_LABEL;
-    move |t, v| {
+    move |t: &mut Delaunay<Space<P>>, v| {
         let site = t.corner_mut(v);
         let old = site.cell.get();
         debug_assert!(
@@ -93,11 +100,11 @@ fn labels() -> impl FnMut(&mut Delaunay<Space>, SiteId) -> usize {
 
 /// Puts and glues the new cells of a rim by the table.
 #[inline(always)]
-fn glue_by_table(
-    t: &mut Delaunay<Space>,
+fn glue_by_table<P: InSpace>(
+    t: &mut Delaunay<Space<P>>,
     rim: &mut [Row],
     table: &mut [Facet; TABLE],
-    mut label: impl FnMut(&mut Delaunay<Space>, SiteId) -> usize,
+    mut label: impl FnMut(&mut Delaunay<Space<P>>, SiteId) -> usize,
 ) {
     for row in rim.iter_mut() {
         let cell = row.cell;
@@ -124,7 +131,7 @@ pub(super) type Ridge = ([SiteId; 2], Facet);
 /// Puts and glues the new cells of a rim that has too many sites for the table: the two facets of an edge are
 /// neighbours in sorted order. There is room for all `ridges`.
 #[cold]
-fn glue_sorted(t: &mut Delaunay<Space>, rim: &[Row], mut ridges: Vec<Ridge>) {
+fn glue_sorted<P: InSpace>(t: &mut Delaunay<Space<P>>, rim: &[Row], mut ridges: Vec<Ridge>) {
     for row in rim {
         let (cell, v) = (row.cell, row.corners);
         t.complex.put(cell, v);

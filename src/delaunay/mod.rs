@@ -1,13 +1,13 @@
 //! The kernel: a Delaunay triangulation of *sites* under insertion, removal and relocation.
 //!
-//! Written once for both dimensions, over [`Dimension`]. Ties between signs are broken by the keys of the sites' vertices,
+//! Written once for both dimensions, over [`Geometry`]. Ties between signs are broken by the keys of the sites' vertices,
 //! by default their ids (see [`crate::predicates`]), so the cells are a function of the live sites alone: whatever the order of
 //! insertions, removals and relocations, they are those of a fresh build.
 //!
 //! | file | what |
 //! |---|---|
 //! | `shape` | the two dimensions, as types, and the arrays that have a length for each |
-//! | `signs`, `lane_tests`, `exchange`, `dimension` | what differs between them, by what it is for |
+//! | `signs`, `lane_tests`, `exchange`, `geometry` | what differs between them, by what it is for |
 //! | `plane`, `space` | how they do it |
 //! | `order` | Hilbert curve and insertion rounds |
 //! | `inserting` | many sites, one after the other |
@@ -15,7 +15,8 @@
 //! | `parts`, `parallel`, `unite` | the same on several threads |
 //! | `locate`, `straight`, `landmarks` | the walk, and where it begins |
 //! | `around`, `star` | the cells around a site, for questions and for changes |
-//! | `cavity`, `cavity_plane`, `cavity_space` | insertion: dig the conflict zone, fill it |
+//! | `cavity`, `cavity_plane`, `cavity_space`, `cavity_marked` | insertion: dig the conflict zone, fill it |
+//! | `covered` | sites that weights hide |
 //! | `remove`, `hole`, `wrapping` | removal: fill the star by gift wrapping, in lanes where that is certain |
 //! | `high_degree` | removal of a vertex of high degree |
 //! | `relocate` | one site to a new place |
@@ -42,13 +43,15 @@
 mod around;
 mod build;
 mod cavity;
+mod cavity_marked;
 mod cavity_plane;
 mod cavity_space;
 mod certify;
 mod changes;
 mod copying;
+mod covered;
 mod covering;
-mod dimension;
+mod geometry;
 mod exchange;
 mod facets;
 mod failures;
@@ -92,10 +95,10 @@ mod wrapping;
 pub use build::Merge;
 pub use cavity::Insertion;
 pub(crate) use certify::Waiting;
-pub use dimension::Dimension;
 pub(crate) use facets::Mix;
 pub use failures::Failures;
 pub(crate) use flips::CERTIFICATES_PER_EXACT;
+pub use geometry::{Dimension, Geometry};
 pub(crate) use keys::Keys;
 pub use locate::Place;
 pub use relocate::{Relocation, Shortcut};
@@ -103,7 +106,7 @@ pub(crate) use restoring::Rows;
 pub(crate) use sample::Joint;
 pub(crate) use segments::{Crossing, InTheWay, Replaced};
 pub(crate) use set::IndexSet;
-pub use shape::{Plane, Shape, Space};
+pub use shape::{Plane, PowerPlane, PowerSpace, Shape, Space};
 pub use site::Site;
 pub(crate) use undo::KeptChange;
 pub use validate::{Level, Violation};
@@ -117,7 +120,8 @@ use crate::machine::prefetch::prefetch;
 use crate::machine::threads::Threads;
 use crate::predicates::StaticFilter;
 use cavity::Cavity;
-use dimension::Insert;
+use covered::Covered;
+use geometry::Insert;
 use flat::Flat;
 use flip::AllFlips;
 use hole::Hole;
@@ -129,7 +133,7 @@ const GHOST: VertexId = VertexId::new(0);
 
 /// A Delaunay triangulation of sites.
 #[derive(Debug)]
-pub struct Delaunay<G: Dimension> {
+pub struct Delaunay<G: Geometry> {
     sites: Vec<Site<G>>,
     /// What ranks the vertices at the sites.
     keys: Keys,
@@ -155,6 +159,8 @@ pub struct Delaunay<G: Dimension> {
     relocated: SiteId,
     landmarks: landmarks::Landmarks,
     cavity: Cavity<G>,
+    /// The sites that weights hide.
+    covered: Covered,
     /// The star gathered last: its cells, and the index of the site in each.
     star: Vec<(Slot, u8)>,
     /// The hole that the star gathered last would leave, once there was one.
@@ -177,7 +183,7 @@ pub struct Delaunay<G: Dimension> {
     pace: Pace,
 }
 
-impl<G: Dimension> Default for Delaunay<G> {
+impl<G: Geometry> Default for Delaunay<G> {
     /// # Panics
     /// Where there is no memory for a single site.
     fn default() -> Self {
@@ -185,7 +191,7 @@ impl<G: Dimension> Default for Delaunay<G> {
     }
 }
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Index of the last corner, the one that is infinite in a ghost cell.
     const LAST: usize = G::D;
 
@@ -217,6 +223,7 @@ impl<G: Dimension> Delaunay<G> {
             relocated: SiteId::NONE,
             landmarks: Default::default(),
             cavity: Cavity::default(),
+            covered: Covered::default(),
             star: Vec::new(),
             hole: None,
             wrapping: None,
@@ -487,6 +494,7 @@ impl<G: Dimension> Delaunay<G> {
             + self.flat.memory_bytes()
             + self.landmarks.memory_bytes()
             + self.cavity.scratch.memory_bytes()
+            + self.covered.memory_bytes()
             + memory::bytes_of(&self.star)
             + memory::bytes_of_made(&self.hole, Hole::memory_bytes)
             + memory::bytes_of_made(&self.wrapping, |_| 0)

@@ -9,13 +9,13 @@
 //! uneven densities have, are sorted again in their own bounding box, so that clusters within clusters are still
 //! visited along a curve.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Geometry;
 use crate::error::Result;
 use crate::ids::SiteId;
 use crate::machine::memory;
 
 /// Lower and upper corner of the bounding box.
-pub fn bounding_box<'p, G: Dimension>(
+pub fn bounding_box<'p, G: Geometry>(
     points: impl Iterator<Item = &'p G::Point>,
 ) -> Option<(G::Point, G::Point)>
 where
@@ -24,7 +24,7 @@ where
     let mut corners: Option<(G::Point, G::Point)> = None;
     for p in points {
         let (lower, upper) = corners.get_or_insert((*p, *p));
-        for k in 0..G::D {
+        for k in 0..G::NUMBERS {
             // The minimum and the maximum of finite numbers, in an operation each.
             lower[k] = if p[k] < lower[k] { p[k] } else { lower[k] };
             upper[k] = if upper[k] < p[k] { p[k] } else { upper[k] };
@@ -54,7 +54,7 @@ impl Keyed {
 }
 
 /// Sorts items, ascending as given, along the Hilbert curve of their points.
-pub fn hilbert_order<'p, G: Dimension>(
+pub fn hilbert_order<'p, G: Geometry>(
     mut items: Vec<Keyed>,
     point: impl Fn(u32) -> &'p G::Point + Copy,
 ) -> Result<Vec<Keyed>> {
@@ -79,7 +79,7 @@ const SMALL: f64 = 1e-100;
 const UP: f64 = f64::from_bits((1023 + 600) << 52);
 
 /// The items have the same key and are ascending; `spare` is as long, or there are [`MAX_COMPARED`] of them.
-fn sort_in_box<'p, G: Dimension>(
+fn sort_in_box<'p, G: Geometry>(
     point: impl Fn(u32) -> &'p G::Point + Copy,
     keyed: &mut [Keyed],
     spare: &mut [Keyed],
@@ -288,7 +288,7 @@ fn spread_3(x: u32) -> u32 {
 
 /// Splits `sites`, which is in storage order, into rounds, each `2^D` times as large as the one before in the mean;
 /// the order within a round stays. A [short run](SHORT_RUN) is a single round.
-pub fn in_rounds<G: Dimension>(sites: impl Iterator<Item = SiteId> + Clone) -> Result<Vec<SiteId>> {
+pub fn in_rounds<G: Geometry>(sites: impl Iterator<Item = SiteId> + Clone) -> Result<Vec<SiteId>> {
     const ROUNDS: usize = 16;
     let mut order = Vec::new();
     if sites.clone().nth(SHORT_RUN).is_none() {

@@ -24,7 +24,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 use super::order::{bounding_box, in_rounds};
 use super::parts::{self, Parts};
 use super::unite::Open;
-use super::{Delaunay, Dimension, Keys, Site};
+use super::{Delaunay, Geometry, Keys, Site};
 use crate::complex::INFINITE;
 use crate::error::{Error, Result};
 use crate::ids::SiteId;
@@ -41,7 +41,7 @@ type Monitor<'m> = &'m mut dyn FnMut(f64) -> bool;
 type Coincident = Vec<(SiteId, SiteId)>;
 
 /// What all threads read.
-struct Build<'t, G: Dimension> {
+struct Build<'t, G: Geometry> {
     parts: &'t Parts,
     keys: Keys,
     n_sites: usize,
@@ -58,7 +58,7 @@ struct Build<'t, G: Dimension> {
     stop: AtomicBool,
 }
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Triangulates the parts of the live sites at the same time; returns pairs of coincident sites, the
     /// second in the cells. `None`, and no cells, if there is but one part or no memory for several, or one
     /// is flat.
@@ -141,7 +141,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 }
 
-impl<G: Dimension> Build<'_, G> {
+impl<G: Geometry> Build<'_, G> {
     /// Triangulates parts, for the cells of which there is [room](Self::n_cells_of).
     fn triangulate(&self, t: &mut Delaunay<G>, parts: Range<usize>, monitor: Monitor) -> Result<Coincident> {
         let built = if parts.len() == 1 {
@@ -246,7 +246,7 @@ mod tests {
     use crate::delaunay::{Level, Plane, Space};
     use crate::random::Rng;
 
-    fn random<G: Dimension>(n: usize) -> Vec<G::Point> {
+    fn random<G: Geometry>(n: usize) -> Vec<G::Point> {
         let rng = &mut Rng::new(1);
         let mut points = vec![G::Point::default(); n];
         points.iter_mut().for_each(|p| (0..G::D).for_each(|k| p[k] = rng.unit()));
@@ -254,7 +254,7 @@ mod tests {
     }
 
     /// Parts are triangulated as such, and their sizes, hulls and counters are those of one triangulation.
-    fn unites<G: Dimension>() {
+    fn unites<G: Geometry>() {
         for threads in [2, 3, 5] {
             let mut t = Delaunay::<G>::on(Threads::exactly(threads)).expect("room for it");
             t.add_sites(&random::<G>(3000)).expect("room for it");
@@ -281,7 +281,7 @@ mod tests {
     /// What is built depends on the parts alone, slot by slot, and progress never goes back.
     #[test]
     fn threads_do_not_show() {
-        fn check<G: Dimension>() {
+        fn check<G: Geometry>() {
             for parts in [2, 5, 8] {
                 let on = |threads| {
                     let mut t =
@@ -317,7 +317,7 @@ mod tests {
     /// same.
     #[test]
     fn parts_that_overlap_are_united() {
-        fn unites<G: Dimension>() {
+        fn unites<G: Geometry>() {
             for threads in [2, 5] {
                 let mut t = Delaunay::<G>::on(Threads::exactly(threads)).expect("room for it");
                 t.add_sites(&random::<G>(3000)).expect("room for it");

@@ -5,7 +5,7 @@
 //! sample, and stay when sites move: before the next build, sites that have crossed one change places.
 
 use super::order::{Keyed, bounding_box, hilbert_order};
-use super::{Delaunay, Dimension, Site};
+use super::{Delaunay, Geometry, Site};
 use crate::complex::INFINITE;
 use crate::error::Result;
 use crate::ids::SiteId;
@@ -36,7 +36,7 @@ impl Parts {
     }
 
     /// Planes for `n_parts` parts with like shares of a sample.
-    fn of_sample<G: Dimension>(sample: &mut [G::Point], n_parts: usize) -> Result<Self> {
+    fn of_sample<G: Geometry>(sample: &mut [G::Point], n_parts: usize) -> Result<Self> {
         let mut parts = Parts::default();
         memory::lengthen(&mut parts.starts, n_parts, FIRST)?;
         memory::lengthen(&mut parts.planes, n_parts - 1, (0, 0.0))?;
@@ -44,7 +44,7 @@ impl Parts {
         Ok(parts)
     }
 
-    fn divide<G: Dimension>(&mut self, sample: &mut [G::Point], parts: Range<usize>) {
+    fn divide<G: Geometry>(&mut self, sample: &mut [G::Point], parts: Range<usize>) {
         let Some((lower, upper)) = bounding_box::<G>(sample.iter()) else { return };
         if parts.len() <= 1 {
             return;
@@ -94,7 +94,7 @@ impl Parts {
     }
 
     /// The items of a part.
-    fn items_in<'p, G: Dimension>(
+    fn items_in<'p, G: Geometry>(
         &self,
         part: usize,
         mut items: impl Iterator<Item = u32>,
@@ -128,7 +128,7 @@ impl Parts {
     }
 
     /// Lets sites that are on the wrong side of a plane change places.
-    fn restore<G: Dimension>(&mut self, sites: &mut [Site<G>], parts: Range<usize>) {
+    fn restore<G: Geometry>(&mut self, sites: &mut [Site<G>], parts: Range<usize>) {
         if parts.len() <= 1 {
             return;
         }
@@ -178,9 +178,13 @@ pub(super) fn end_from(part: usize, n_parts: usize) -> usize {
     parts.end
 }
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// In how many parts to build a triangulation of this number of sites.
     pub(crate) fn build_parts(&self, n: usize) -> usize {
+        // Parts are not united where weights may hide what is at their borders.
+        if G::HAS_WEIGHTS {
+            return 1;
+        }
         self.threads.parts_of(n, BUILT_AT_LEAST[G::D - 2], BUILT_IF_ASKED)
     }
 

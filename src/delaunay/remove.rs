@@ -16,17 +16,22 @@
 
 use super::flat::Flat;
 use super::hole::{FacetsOf, Gap, Hole, MAX_LINK, NEW, new_of};
-use super::{Delaunay, Dimension};
+use super::{Delaunay, Geometry};
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Removes a live site.
     pub fn remove_site(&mut self, s: SiteId) -> Result<()> {
         self.go_on()?;
         self.log_site(s)?;
+        if self.is_hidden(s) {
+            self.uncover(s);
+            self.drop_site(s);
+            return Ok(());
+        }
         if !self.has_cells() {
             self.remove_flat(s);
             self.drop_site(s);
@@ -38,7 +43,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Removes a live site unless its degree is high, so that its link would have to be triangulated; whether it has.
     pub(crate) fn remove_site_unless_high(&mut self, s: SiteId) -> Result<bool> {
-        if !self.has_cells() {
+        if !self.has_cells() || self.is_hidden(s) {
             return self.remove_site(s).map(|()| true);
         }
         self.go_on()?;
@@ -63,7 +68,7 @@ impl<G: Dimension> Delaunay<G> {
     /// How many sites of links the removal of a live site would triangulate: none where its degree is not high. A pass
     /// over its star.
     pub(crate) fn link_sites_of(&mut self, s: SiteId) -> Result<usize> {
-        if !self.has_cells() {
+        if !self.has_cells() || self.is_hidden(s) {
             return Ok(0);
         }
         self.gather_star(s)?;
@@ -80,6 +85,9 @@ impl<G: Dimension> Delaunay<G> {
         let mut hole = memory::take_made(&mut self.hole)?;
         let removed = self.remove_and_fill(s, &mut hole);
         self.hole = Some(hole);
+        if removed.is_ok() {
+            self.loosen_star();
+        }
         removed
     }
 
@@ -243,6 +251,7 @@ impl<G: Dimension> Delaunay<G> {
             flat.enter(s, &self.site(s).point)?;
         }
         self.give_up_cells()?;
+        self.forget_covered();
         self.flat = flat;
         self.changed = None;
         self.sites[1..].iter_mut().for_each(|site| site.cell = Slot::NONE);

@@ -5,7 +5,7 @@
 //! and one over the hull, whatever the cells are. Time and memory are in proportion to their number and that of the
 //! positions, but for the sort's `n log n`.
 
-use super::{Delaunay, Dimension, Failures, Keys, Site};
+use super::{Delaunay, Geometry, Failures, Keys, Site};
 use crate::complex::{Complex, Corners, Facet};
 use crate::damage::{Damage, LoadError};
 use crate::error::{Error, Result};
@@ -36,14 +36,14 @@ fn part_of(monitor: &mut dyn FnMut(f64) -> bool, from: f64, to: f64) -> impl FnM
 
 /// Cells as programs know them: the vertices of each, and its neighbours.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Rows<'r, G: Dimension> {
+pub(crate) struct Rows<'r, G: Geometry> {
     pub(crate) corners: &'r [G::Vertices],
     pub(crate) neighbours: &'r [G::Neighbours],
     /// Vertices that stand for their places, between which there have to be edges.
     pub(crate) segments: &'r [[VertexId; 2]],
 }
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// The triangulation of these cells: cell k is in slot k. `positions` are by vertex id, and all are in range;
     /// `is_site` tells which vertices stand for their places. Also the site of each of these.
     ///

@@ -1,7 +1,7 @@
 //! Certificates of a few cells, from which follows what a sweep of all would find; and how many cells that are to be
 //! flipped hang together.
 
-use super::{Delaunay, Dimension, Failures};
+use super::{Delaunay, Geometry, Failures};
 use crate::complex::{Corners, Facet};
 use crate::error::Result;
 use crate::ids::Slot;
@@ -30,7 +30,7 @@ pub(crate) enum Joint {
     Uncertain,
 }
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Checks the certificates of some cells, in runs at equal distances in storage, as [`sweep`](Self::sweep) does
     /// those of all. Returns how many slots each stands for; `None`, and nothing listed, if there are too few cells.
     /// What is listed is of use for nothing but to be counted.

@@ -22,7 +22,7 @@
 mod entering;
 
 use super::around::{list_ring, next_of_three, previous_of_three};
-use super::{Delaunay, Dimension};
+use super::{Delaunay, Geometry};
 use crate::complex::{Corners, Facet, INFINITE, Row};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
@@ -39,17 +39,17 @@ pub(crate) enum InTheWay {
 
 /// The cells that segments take the place of, as they are in the Delaunay triangulation.
 #[derive(Debug)]
-pub(crate) struct Replaced<G: Dimension> {
+pub(crate) struct Replaced<G: Geometry> {
     rows: Vec<Row<G::Corners>>,
 }
 
-impl<G: Dimension> Default for Replaced<G> {
+impl<G: Geometry> Default for Replaced<G> {
     fn default() -> Self {
         Replaced { rows: Vec::new() }
     }
 }
 
-impl<G: Dimension> Replaced<G> {
+impl<G: Geometry> Replaced<G> {
     /// Whether no segment was missing.
     pub(crate) fn is_empty(&self) -> bool {
         self.rows.is_empty()
@@ -127,7 +127,7 @@ impl Crossing {
 }
 
 /// Orientations along segments, in the plane; in space there are none.
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// The orientation of three sites of the plane.
     fn turn(&self, [a, b, c]: [SiteId; 3]) -> f64 {
         let place = |s| self.place(s);

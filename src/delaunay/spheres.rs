@@ -16,7 +16,9 @@
 
 #![allow(unsafe_code)]
 
-use super::{Delaunay, Space};
+use super::Delaunay;
+use super::shape::Space;
+use super::space::InSpace;
 use crate::complex::INFINITE;
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
@@ -39,36 +41,44 @@ const SAMPLED: usize = 1 << 8;
 /// A cell, its sphere, the place of its first corner, and the length of its edges there.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-struct Entry {
+struct Entry<P> {
     sphere: Sphere,
-    first: [f64; 3],
+    first: P,
     cell: Slot,
     /// See [`predicates::edge_length`]. Infinite until it has decided a test, if it is not prepared with the sphere.
     length: f32,
 }
 
 /// The table; without entries outside a build.
-#[derive(Debug, Default)]
-pub struct Spheres {
+#[derive(Debug)]
+pub struct Spheres<P> {
     /// Entries, as many as a power of two.
-    entries: Vec<Entry>,
+    entries: Vec<Entry<P>>,
     /// Whether spheres are prepared and tested by lengths.
     pub(super) has_lengths: bool,
 }
 
-impl Spheres {
+impl<P> Default for Spheres<P> {
+    fn default() -> Self {
+        Spheres { entries: Vec::new(), has_lengths: false }
+    }
+}
+
+impl<P: InSpace> Spheres<P> {
     pub(super) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.entries)
     }
 
     /// Gets ready for a build of about `n_cells` cells. `is_weak` if the static bound will leave most tests uncertain.
     pub(super) fn begin(&mut self, n_cells: usize, is_weak: bool) -> Result<()> {
-        self.has_lengths = is_weak;
+        // Lengths bound no weights.
+        self.has_lengths = is_weak && !P::HAS_WEIGHT;
         let n = n_cells.next_power_of_two().min(MOST_ENTRIES);
         self.entries.clear();
         memory::reserve_exact(&mut self.entries, n)?;
-        self.entries
-            .resize(n, Entry { sphere: [0.0; 4], first: [0.0; 3], cell: Slot::NONE, length: f32::INFINITY });
+        let none =
+            Entry { sphere: [0.0; 4], first: P::default(), cell: Slot::NONE, length: f32::INFINITY };
+        self.entries.resize(n, none);
         Ok(())
     }
 
@@ -90,45 +100,45 @@ impl Spheres {
 
     /// Whether the point is certainly in the sphere of this cell; not if that is not in the table.
     #[inline(always)]
-    pub(super) fn is_inside(&self, filter: &StaticFilter, cell: Slot, q: &[f64; 3]) -> bool {
+    pub(super) fn is_inside(&self, filter: &StaticFilter, cell: Slot, q: &P) -> bool {
         let Some(at) = self.entries.len().checked_sub(1) else { return false };
         let entry = &self.entries[cell.index() & at];
         let bound = if self.has_lengths {
-            predicates::side_bound_by_length(entry.length, &entry.first, q)
+            predicates::side_bound_by_length(entry.length, entry.first.place(), q.place())
         } else {
             filter.prepared
         };
-        predicates::side_of_sphere(&entry.sphere, &entry.first, q) > bound && entry.cell == cell
+        P::side(&entry.sphere, entry.first.alone(), q.alone()) > bound && entry.cell == cell
     }
 
     /// The table as a build uses it.
     #[inline(always)]
-    pub(super) fn table(&mut self) -> Table<'_> {
+    pub(super) fn table(&mut self) -> Table<'_, P> {
         Table(&mut self.entries)
     }
 }
 
 /// The entries, with what does not change at hand.
-pub(super) struct Table<'s>(&'s mut [Entry]);
+pub(super) struct Table<'s, P>(&'s mut [Entry<P>]);
 
 #[inline(always)]
-fn entry(entries: &mut [Entry], cell: Slot) -> &mut Entry {
+fn entry<P>(entries: &mut [Entry<P>], cell: Slot) -> &mut Entry<P> {
     debug_assert!(entries.len().is_power_of_two(), "only a build asks");
     let at = cell.index() & (entries.len() - 1);
     // SAFETY: the length is a power of two.
     unsafe { entries.get_unchecked_mut(at) }
 }
 
-impl Table<'_> {
+impl<P: InSpace> Table<'_, P> {
     /// Prepares the sphere of a cell with these corners, or what lies beyond the facet of a ghost cell.
     #[inline(always)]
     pub(super) fn put<const BY_LENGTHS: bool>(
         &mut self,
-        t: &Delaunay<Space>,
+        t: &Delaunay<Space<P>>,
         cell: Slot,
         corners: &[SiteId; 4],
     ) {
-        put::<BY_LENGTHS>(self.0, t, cell, corners);
+        put::<P, BY_LENGTHS>(self.0, t, cell, corners);
     }
 
     /// Prepares the spheres of four cells that have `a` for their first corner.
@@ -136,25 +146,24 @@ impl Table<'_> {
     pub(super) fn put_four<S: Simd, const BY_LENGTHS: bool>(
         &mut self,
         simd: S,
-        t: &Delaunay<Space>,
-        a: &[f64; 3],
+        t: &Delaunay<Space<P>>,
+        a: &P,
         cells: &[Slot; LANES],
         corners: [&[SiteId; 4]; LANES],
     ) {
-        let at = a.map(
-            #[inline(always)]
-            |x| simd.splat(x),
-        );
+        let at = a.in_all_lanes(simd);
         let others = |i: usize| {
-            simd.points(corners.map(
+            let points = corners.map(
                 #[inline(always)]
                 |corners| t.view().point(corners[i]),
-            ))
+            );
+            P::load(simd, points)
         };
         let (b, c, d) = (others(1), others(2), others(3));
-        let spheres = rows(predicates::sphere(&at, &b, &c, &d));
+        let spheres = rows(P::sphere(&at, &b, &c, &d));
         let lengths = if BY_LENGTHS {
-            predicates::edge_length(&at, &b, &c, &d).store()
+            let [at, b, c, d] = [&at, &b, &c, &d].map(P::place_of);
+            predicates::edge_length(at, b, c, d).store()
         } else {
             [f64::INFINITY; LANES]
         };
@@ -175,48 +184,53 @@ impl Table<'_> {
     #[inline(always)]
     pub(super) fn is_in_conflict<const BY_LENGTHS: bool>(
         &mut self,
-        t: &Delaunay<Space>,
+        t: &Delaunay<Space<P>>,
         cell: Slot,
-        q: &[f64; 3],
+        q: &P,
         id: VertexId,
         known: u8,
     ) -> u8 {
         let there = entry(self.0, cell);
         if there.cell != cell {
-            return prepare::<BY_LENGTHS>(self.0, t, cell, q, id, known);
+            return prepare::<P, BY_LENGTHS>(self.0, t, cell, q, id, known);
         }
-        is_inside::<BY_LENGTHS>(there, t, q, id, known)
+        is_inside::<P, BY_LENGTHS>(there, t, q, id, known)
     }
 }
 
 #[inline(always)]
-fn put<const BY_LENGTHS: bool>(
-    entries: &mut [Entry],
-    t: &Delaunay<Space>,
+fn put<P: InSpace, const BY_LENGTHS: bool>(
+    entries: &mut [Entry<P>],
+    t: &Delaunay<Space<P>>,
     cell: Slot,
     corners: &[SiteId; 4],
 ) {
-    let [a, b, c, d] = corners.map(|s| t.view().point(s));
+    let points = corners.map(|s| t.view().point(s));
+    let [a, b, c, d] = points.map(P::place);
+    let sphere = || {
+        let [a, b, c, d] = points.map(P::alone);
+        P::sphere(a, b, c, d)
+    };
     let (sphere, length) = match (corners[3] == INFINITE, BY_LENGTHS) {
-        (false, false) => (predicates::sphere(a, b, c, d), f32::INFINITY),
-        (false, true) => (predicates::sphere(a, b, c, d), predicates::edge_length(a, b, c, d) as f32),
+        (false, false) => (sphere(), f32::INFINITY),
+        (false, true) => (sphere(), predicates::edge_length(a, b, c, d) as f32),
         (true, false) => (predicates::half_space(&t.filter, a, b, c), f32::INFINITY),
         (true, true) => predicates::half_space_by_length(a, b, c),
     };
-    *entry(entries, cell) = Entry { sphere, first: *a, cell, length };
+    *entry(entries, cell) = Entry { sphere, first: *points[0], cell, length };
 }
 
 #[inline(always)]
-fn is_inside<const BY_LENGTHS: bool>(
-    entry: &mut Entry,
-    t: &Delaunay<Space>,
-    q: &[f64; 3],
+fn is_inside<P: InSpace, const BY_LENGTHS: bool>(
+    entry: &mut Entry<P>,
+    t: &Delaunay<Space<P>>,
+    q: &P,
     id: VertexId,
     known: u8,
 ) -> u8 {
-    let side = predicates::side_of_sphere(&entry.sphere, &entry.first, q);
+    let side = P::side(&entry.sphere, entry.first.alone(), q.alone());
     let bound = if BY_LENGTHS {
-        predicates::side_bound_by_length(entry.length, &entry.first, q)
+        predicates::side_bound_by_length(entry.length, entry.first.place(), q.place())
     } else {
         t.filter.prepared
     };
@@ -225,35 +239,35 @@ fn is_inside<const BY_LENGTHS: bool>(
     if side.abs() > bound {
         u8::from(side > 0.0) | known
     } else {
-        is_in_uncertain_conflict::<BY_LENGTHS>(entry, t, q, id, side).into()
+        is_in_uncertain_conflict::<P, BY_LENGTHS>(entry, t, q, id, side).into()
     }
 }
 
 /// Prepares the sphere of a cell that is not in the table yet, and answers as [`Table::is_in_conflict`] does.
 #[cold]
 #[inline(never)]
-fn prepare<const BY_LENGTHS: bool>(
-    entries: &mut [Entry],
-    t: &Delaunay<Space>,
+fn prepare<P: InSpace, const BY_LENGTHS: bool>(
+    entries: &mut [Entry<P>],
+    t: &Delaunay<Space<P>>,
     cell: Slot,
-    q: &[f64; 3],
+    q: &P,
     id: VertexId,
     known: u8,
 ) -> u8 {
     // Where one is missing in the table, so are its neighbours, which are looked at next.
     t.complex.prefetch_neighbours(cell);
-    put::<BY_LENGTHS>(entries, t, cell, &t.complex.cell(cell).corners);
-    is_inside::<BY_LENGTHS>(entry(entries, cell), t, q, id, known)
+    put::<P, BY_LENGTHS>(entries, t, cell, &t.complex.cell(cell).corners);
+    is_inside::<P, BY_LENGTHS>(entry(entries, cell), t, q, id, known)
 }
 
 /// Whether a point is in conflict with a cell where the first bound did not decide: by the cell's own bound, unless
 /// that was the first, from what has been computed.
 #[cold]
 #[inline(never)]
-fn is_in_uncertain_conflict<const BY_LENGTHS: bool>(
-    entry: &mut Entry,
-    t: &Delaunay<Space>,
-    q: &[f64; 3],
+fn is_in_uncertain_conflict<P: InSpace, const BY_LENGTHS: bool>(
+    entry: &mut Entry<P>,
+    t: &Delaunay<Space<P>>,
+    q: &P,
     id: VertexId,
     side: f64,
 ) -> bool {
@@ -261,22 +275,25 @@ fn is_in_uncertain_conflict<const BY_LENGTHS: bool>(
     if corners[3] == INFINITE {
         return t.is_in_conflict(entry.cell, q, id);
     }
-    let [a, b, c, d] = corners.map(|s| t.view().point(s));
+    let points = corners.map(|s| t.view().point(s));
+    let [a, b, c, d] = points.map(P::place);
     if t.filter.is_exact {
         // The side of the sphere is exact, so it is zero: a tie, which ids decide, as there are no keys.
         debug_assert_eq!(side, 0.0);
         let [i, j, k, l] = corners.map(|s| t.view().id(s).get());
-        return predicates::is_inside_cospherical_on_lattice([a, b, c, d, q], [i, j, k, l, id.get()]);
+        let ids = [i, j, k, l, id.get()];
+        return predicates::is_inside_cospherical_on_lattice([a, b, c, d, q.place()], ids);
     }
     // The sphere has been prepared from the corners in this order.
-    if !BY_LENGTHS || entry.length == f32::INFINITY {
+    if !P::HAS_WEIGHT && (!BY_LENGTHS || entry.length == f32::INFINITY) {
         let is_kept = entry.length < f32::INFINITY;
         let length = if is_kept { entry.length } else { predicates::edge_length(a, b, c, d) as f32 };
-        if side.abs() > predicates::side_bound_by_length(length, a, q) {
+        if side.abs() > predicates::side_bound_by_length(length, a, q.place()) {
             entry.length = length;
             return side > 0.0;
         }
     }
-    let is_certain = predicates::is_side_certain(side, [a, b, c, d, q]);
+    let [a, b, c, d] = points;
+    let is_certain = P::is_side_certain(side, [a, b, c, d, q]);
     if is_certain { side > 0.0 } else { t.is_in_conflict(entry.cell, q, id) }
 }

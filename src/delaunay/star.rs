@@ -10,7 +10,7 @@
 //! Cost: three marks a cell; a relocation that finds nothing to do spends nearly half of its time here.
 
 use super::around::{BESIDE, beside, list_ring, list_star};
-use super::{Delaunay, Dimension};
+use super::{Delaunay, Geometry};
 use crate::complex::{Complex, Corners};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
@@ -23,7 +23,7 @@ type Entry = (Slot, u8);
 /// Nearly all stars have fewer cells: a power of two.
 const FEW: usize = 64;
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Collects the star of a site. What a relocation reads next is asked for: the sites of the link and those beyond
     /// its facets.
     pub(crate) fn gather_star(&mut self, s: SiteId) -> Result<()> {

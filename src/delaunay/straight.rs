@@ -4,7 +4,7 @@
 //! Cost: the cells on the way, and those around the corner and around sites that the way passes.
 
 use super::around::{list_ring, next_of_three, previous_of_three};
-use super::{Delaunay, Dimension};
+use super::{Delaunay, Geometry};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::predicates::StaticFilter;
@@ -20,7 +20,7 @@ enum Next {
     Through(Slot, usize, [SiteId; 2]),
 }
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// The cell that holds `q`, for which `f` must hold, or a ghost cell beyond whose facet it is; on a straight way from
     /// a corner of `start`.
     #[cold]

@@ -1,12 +1,12 @@
 //! A kernel to be built beside another one, so that this stays as it is until the new one is complete.
 
-use super::{Delaunay, Dimension, Site};
+use super::{Delaunay, Geometry, Site};
 use crate::error::Result;
 use crate::ids::Slot;
 use crate::machine::memory;
 use crate::machine::prefetch::AHEAD;
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// A kernel with the same sites, but without cells, and with room for `more` of them. `place` tells where a live
     /// one is; `announce` is told of those that come later. The scratch memory goes along, until it is [given
     /// back](Self::give_scratch_to).

@@ -10,7 +10,7 @@
 //! own, which takes a seventh longer, until the static bound would do for most of a block.
 
 use super::lane_tests::Held;
-use super::{Delaunay, Dimension};
+use super::{Delaunay, Geometry};
 use crate::complex::{Corners, INFINITE};
 use crate::ids::{SiteId, Slot};
 use crate::machine::prefetch::{AHEAD, prefetch};
@@ -65,7 +65,7 @@ impl<const N: usize> Block<N> {
     }
 }
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Does what [`visit_uncertain`](Self::visit_uncertain) does, in lanes. `IS_FAR` if the cells are too many to stay
     /// in a cache near the processor: then neighbours and sites are asked for in advance, which would only cost time
     /// otherwise.
@@ -171,14 +171,14 @@ mod tests {
     use crate::random::Rng;
     use crate::simd::in_lanes;
 
-    fn point<G: Dimension>(mut coordinate: impl FnMut() -> f64) -> G::Point {
+    fn point<G: Geometry>(mut coordinate: impl FnMut() -> f64) -> G::Point {
         let mut p = G::Point::default();
         (0..G::D).for_each(|k| p[k] = coordinate());
         p
     }
 
     /// Random points, points of a small grid, or points on a sphere, so that there are very many ghosts.
-    fn points<G: Dimension>(kind: usize, n: usize, rng: &mut Rng) -> Vec<G::Point> {
+    fn points<G: Geometry>(kind: usize, n: usize, rng: &mut Rng) -> Vec<G::Point> {
         let mut points: Vec<G::Point> = (0..n)
             .map(|_| {
                 point::<G>(|| if kind == 1 { (rng.unit() * 7.0).floor() } else { rng.unit() * 6.0 - 3.0 })
@@ -194,7 +194,7 @@ mod tests {
     }
 
     /// Moves one site in every `one_in` by up to `size` along each axis.
-    fn move_sites<G: Dimension>(t: &mut Delaunay<G>, one_in: f64, size: f64, rng: &mut Rng) {
+    fn move_sites<G: Geometry>(t: &mut Delaunay<G>, one_in: f64, size: f64, rng: &mut Rng) {
         let (mut lower, mut upper) = (t.lower(), t.upper());
         for s in t.live_sites().collect::<Vec<_>>() {
             if rng.unit() * one_in < 1.0 {
@@ -210,7 +210,7 @@ mod tests {
     }
 
     /// What is found in the cells that this visits.
-    fn failures<G: Dimension>(
+    fn failures<G: Geometry>(
         t: &Delaunay<G>,
         visit_uncertain: impl FnOnce(&mut dyn FnMut(Slot, Doubts) -> bool),
     ) -> (Vec<Slot>, Vec<Facet>, Vec<Slot>) {
@@ -223,7 +223,7 @@ mod tests {
     }
 
     /// Returns how many of each have failed, and how many cells there were to look at.
-    fn agree<G: Dimension>(t: &Delaunay<G>, context: &str) -> [usize; 3] {
+    fn agree<G: Geometry>(t: &Delaunay<G>, context: &str) -> [usize; 3] {
         let all = Slot::range(0..t.complex.n_slots());
         let expected = failures(t, |visit| t.complex.live().for_each(|c| assert!(visit(c, Doubts::ALL))));
         let found = failures(t, |visit| {
@@ -243,7 +243,7 @@ mod tests {
     }
 
     /// All ways to find uncertain cells lead to the failures that a visit of all cells finds.
-    fn all_agree<G: Dimension>() {
+    fn all_agree<G: Geometry>() {
         let rng = &mut Rng::new(3);
         for kind in 0..3 {
             let mut total = [0; 3];
@@ -285,7 +285,7 @@ mod tests {
     /// Where the static bound says nothing, that is so from the second block on.
     #[test]
     fn cells_at_rest_pass() {
-        fn n_open<G: Dimension>(reach: f64) -> usize {
+        fn n_open<G: Geometry>(reach: f64) -> usize {
             let mut t = Delaunay::<G>::default();
             t.add_sites(&points::<G>(0, 1000, &mut Rng::new(5))).expect("room for it");
             t.rebuild(&mut |_| true).expect("room for it");
@@ -297,7 +297,7 @@ mod tests {
     }
 
     /// How many facets between finite cells hold, and for how many of these that is certain.
-    fn certain_of<G: Dimension>(t: &Delaunay<G>, context: &str) -> [usize; 2] {
+    fn certain_of<G: Geometry>(t: &Delaunay<G>, context: &str) -> [usize; 2] {
         let is_ghost = |facet: Facet| t.complex.cell(facet.cell()).is_ghost();
         let across = |facet: Facet| t.complex.cell(facet.cell()).neighbour(facet.index());
         let facets = t.complex.live().flat_map(|c| (0..G::Corners::N).map(move |i| Facet::new(c, i)));
@@ -319,7 +319,7 @@ mod tests {
 
     /// What is said of facets is so, and almost nothing that is so is left unsaid, also where the cells are so small
     /// next to all that a bound for all says nothing.
-    fn facets_are_certain<G: Dimension>() {
+    fn facets_are_certain<G: Geometry>() {
         let rng = &mut Rng::new(11);
         let mut n_failed = 0;
         for round in 0..40 {

@@ -12,7 +12,7 @@
 //! [`tighten_filter`]: Delaunay::tighten_filter
 
 use super::flat::Flat;
-use super::{Delaunay, Dimension, Site};
+use super::{Delaunay, Geometry, Site};
 use crate::complex::{Complex, Corners, KeptRecord};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
@@ -20,7 +20,7 @@ use crate::machine::memory;
 
 /// What a site was.
 #[derive(Clone, Copy, Debug)]
-struct Logged<G: Dimension> {
+struct Logged<G: Geometry> {
     s: SiteId,
     before: Site<G>,
     /// Whether its place was kept as well.
@@ -29,7 +29,7 @@ struct Logged<G: Dimension> {
 
 /// What sites were before a change.
 #[derive(Debug)]
-pub(super) struct Log<G: Dimension> {
+pub(super) struct Log<G: Geometry> {
     is_on: bool,
     /// The box for which the filter held before.
     lower: G::Point,
@@ -43,14 +43,14 @@ pub(super) struct Log<G: Dimension> {
     flat: Option<Box<Flat<G>>>,
 }
 
-impl<G: Dimension> Default for Log<G> {
+impl<G: Geometry> Default for Log<G> {
     fn default() -> Self {
         let none = G::Point::default();
         Log { is_on: false, lower: none, upper: none, sites: Vec::new(), n_aside: 0, cells: None, flat: None }
     }
 }
 
-impl<G: Dimension> Log<G> {
+impl<G: Geometry> Log<G> {
     pub(super) fn memory_bytes(&self) -> usize {
         self.sites.capacity() * size_of::<Logged<G>>()
     }
@@ -58,7 +58,7 @@ impl<G: Dimension> Log<G> {
 
 /// A change that has been made, set aside so that others can be made after it and all be undone.
 #[derive(Debug)]
-pub(crate) struct KeptChange<G: Dimension> {
+pub(crate) struct KeptChange<G: Geometry> {
     lower: G::Point,
     upper: G::Point,
     sites: Vec<Logged<G>>,
@@ -67,7 +67,7 @@ pub(crate) struct KeptChange<G: Dimension> {
     record: KeptRecord<G::Corners>,
 }
 
-impl<G: Dimension> KeptChange<G> {
+impl<G: Geometry> KeptChange<G> {
     pub(crate) fn memory_bytes(&self) -> usize {
         self.sites.capacity() * size_of::<Logged<G>>()
             + self.record.memory_bytes()
@@ -76,7 +76,7 @@ impl<G: Dimension> KeptChange<G> {
     }
 }
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Ends a change, and sets aside what undoes it.
     pub(crate) fn set_change_aside(&mut self) -> KeptChange<G> {
         self.n_replaced += self.complex.rows().len();
@@ -111,6 +111,7 @@ impl<G: Dimension> Delaunay<G> {
     /// Begins a change that may be undone.
     pub(crate) fn begin(&mut self) -> Result<()> {
         debug_assert!(!self.log.is_on);
+        self.make_room_to_hide()?;
         self.complex.begin_record()?;
         self.log.is_on = true;
         self.pace.begin();
@@ -199,6 +200,9 @@ impl<G: Dimension> Delaunay<G> {
         }
         self.log.sites = logged;
         self.find_cells_of_sites(gave_up);
+        if G::HAS_WEIGHTS && self.has_cells() {
+            self.find_hidden_again();
+        }
         self.end();
     }
 

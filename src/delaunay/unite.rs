@@ -30,14 +30,14 @@
 
 use super::facets::{ByCorners, facet_of};
 use super::order::in_rounds;
-use super::{Delaunay, Dimension, Site};
+use super::{Delaunay, Geometry, Site};
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 
 /// A triangulation without its zone.
-pub(super) struct Open<G: Dimension> {
+pub(super) struct Open<G: Geometry> {
     t: Delaunay<G>,
     /// The sites of the zone, ascending. Their records name no cell.
     border: Vec<SiteId>,
@@ -48,7 +48,7 @@ pub(super) struct Open<G: Dimension> {
 const IN_ZONE: u8 = 1;
 const SEEN: u8 = 2;
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Takes out the cells that may be in conflict with points in a box.
     pub(super) fn open(mut self, lower: &G::Point, upper: &G::Point) -> Result<Open<G>> {
         let is_apart = (0..G::D).any(|k| upper[k] < self.lower[k] || self.upper[k] < lower[k]);

@@ -7,14 +7,14 @@
 //! hull facet. By (2) the hull, and so the whole map of the complex into space completed by a point at infinity, has
 //! degree one; a map of degree one whose cells are all positive covers every generic point exactly once: the cells
 //! are a triangulation of the convex hull. (3) Empty spheres across every facet, ties broken by id, then make it
-//! *the* Delaunay triangulation. (4) Every live site is a corner, so nothing is left out.
+//! *the* Delaunay triangulation. (4) Every live site is a corner, or is above the cell that has its place, so nothing is left out.
 //!
 //! Cost: one orientation per cell, one in-sphere test per facet. Nothing of this needs memory but the message, which is
 //! cut off where there is none.
 
 use std::fmt;
 
-use super::{Delaunay, Dimension};
+use super::{Delaunay, Geometry};
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::ids::Slot;
 use crate::machine::memory;
@@ -55,12 +55,12 @@ macro_rules! text {
 }
 
 /// Vertex ids of a cell, to be written.
-struct Description<'t, G: Dimension> {
+struct Description<'t, G: Geometry> {
     t: &'t Delaunay<G>,
     cell: Slot,
 }
 
-impl<G: Dimension> fmt::Display for Description<'_, G> {
+impl<G: Geometry> fmt::Display for Description<'_, G> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (k, &s) in self.t.complex.cell(self.cell).corners.as_ref().iter().enumerate() {
             f.write_str(if k == 0 { "(" } else { ", " })?;
@@ -78,7 +78,7 @@ fn ensure(holds: bool, level: Level, message: impl FnOnce() -> String) -> Check 
     if holds { Ok(()) } else { Err(Violation { level, message: message() }) }
 }
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Checks the triangulation up to a level.
     pub fn validate(&self, level: Level) -> Check {
         self.check_structure()?;
@@ -154,9 +154,14 @@ impl<G: Dimension> Delaunay<G> {
         for s in self.live_sites() {
             let site = self.site(s);
             if !self.has_cells() {
-                ensure(self.flat.site_at(&site.point) == Some(s), level, || {
+                ensure(G::HAS_WEIGHTS || self.flat.site_at(&site.point) == Some(s), level, || {
                     text!("vertex {} is not at its place", site.id)
                 })?;
+                continue;
+            }
+            if self.is_hidden(s) {
+                let covers = self.complex.is_live(self.covering_cell(s)) && self.is_listed(s);
+                ensure(covers, level, || text!("no cell covers vertex {}, which is in none", site.id))?;
                 continue;
             }
             // So it is a corner of some cell.
@@ -240,7 +245,28 @@ impl<G: Dimension> Delaunay<G> {
         })
     }
 
+    /// Every hidden site is at the place of the cell that covers it, and above that.
+    fn check_hidden(&self) -> Check {
+        for s in self.live_sites().filter(|&s| self.is_hidden(s)) {
+            let (site, c) = (self.site(s), self.covering_cell(s));
+            let corners = &self.complex.cell(c).corners;
+            let is_there = !self.complex.cell(c).is_ghost()
+                && (0..G::Corners::N).all(|i| {
+                    G::orientation_with(&self.filter, self.view(), corners, i, &site.point) >= 0.0
+                });
+            ensure(is_there, Level::Delaunay, || {
+                text!("vertex {} is not in cell {}, which covers it", site.id, self.describe(c))
+            })?;
+            let is_above = !self.is_in_conflict(c, &site.point, site.id);
+            ensure(is_above, Level::Delaunay, || {
+                text!("vertex {} is hidden, and is below cell {}", site.id, self.describe(c))
+            })?;
+        }
+        Ok(())
+    }
+
     fn check_spheres(&self) -> Check {
+        self.check_hidden()?;
         for c in self.complex.finite() {
             self.prefetch_around_cells_after(c);
             for i in 0..G::Corners::N {

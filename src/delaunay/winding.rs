@@ -22,14 +22,14 @@
 //! times as many at most. Nothing is asked for.
 
 use super::signs::Signs;
-use super::{Delaunay, Dimension, Plane};
+use super::{Delaunay, Geometry, Plane};
 use crate::complex::Corners;
 use crate::ids::Slot;
 use crate::predicates::{self, StaticFilter};
 use crate::simd::{ALL, LANES, in_lanes};
 
 /// A point of a box, drawn by a fixed rule.
-fn aim_in<G: Dimension>(lower: &G::Point, upper: &G::Point) -> G::Point {
+fn aim_in<G: Geometry>(lower: &G::Point, upper: &G::Point) -> G::Point {
     let mut aim = G::Point::default();
     for k in 0..G::D {
         let hash = (k as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 11;
@@ -40,13 +40,13 @@ fn aim_in<G: Dimension>(lower: &G::Point, upper: &G::Point) -> G::Point {
 }
 
 /// A point strictly inside a cell, infinitesimally far from its first corner.
-pub(super) struct Inner<'p, G: Dimension> {
+pub(super) struct Inner<'p, G: Geometry> {
     corners: [&'p G::Point; 4],
     /// Error bounds for places without their last coordinates.
     shadows: StaticFilter,
 }
 
-impl<G: Dimension> Inner<'_, G> {
+impl<G: Geometry> Inner<'_, G> {
     /// The sign at this point of an affine function, by its values at the corners.
     fn sign(&self, value: impl Fn(&G::Point) -> f64) -> f64 {
         let values = self.corners[..G::Corners::N].iter().map(|corner| value(corner));
@@ -67,7 +67,7 @@ impl<G: Dimension> Inner<'_, G> {
     }
 }
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// A point strictly inside some finite cell.
     pub(super) fn inner_point(&self) -> Option<G::Point> {
         self.complex.finite().find_map(|c| self.point_inside(c))

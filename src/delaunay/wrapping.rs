@@ -25,7 +25,7 @@
 
 use super::hole::{Hole, NEW, new_of};
 use super::site::Sites;
-use super::{Delaunay, Dimension};
+use super::{Delaunay, Geometry};
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
@@ -93,7 +93,7 @@ impl Default for Wrapping {
     }
 }
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Finds the cells that fill the hole of the gathered star of `s`, whose link's sites are labelled; whether it has.
     #[inline(always)]
     pub(super) fn wrap_in_lanes(&mut self, s: SiteId, hole: &mut Hole<G>) -> Result<bool> {
@@ -132,7 +132,7 @@ impl Wrapping {
     /// Finds the cells that fill the hole of `s`, whose link has no more than [`MOST_SITES`] sites, none of them the
     /// ghost vertex; there is room for [`MOST_CELLS`] cells. Whether it has.
     #[inline(always)]
-    fn find<S: Simd, G: Dimension>(
+    fn find<S: Simd, G: Geometry>(
         &mut self,
         simd: S,
         t: &Delaunay<G>,
@@ -153,7 +153,7 @@ impl Wrapping {
     }
 
     #[inline(always)]
-    fn see<G: Dimension>(&mut self, sites: Sites<G>, link: &[SiteId], s: SiteId) {
+    fn see<G: Geometry>(&mut self, sites: Sites<G>, link: &[SiteId], s: SiteId) {
         let origin = sites.point(s);
         for (label, &site) in link.iter().enumerate().take(MOST_SITES) {
             let p = sites.point(site);
@@ -169,7 +169,7 @@ impl Wrapping {
 
     /// The frontier at first.
     #[inline(always)]
-    fn open_link<G: Dimension>(&mut self, t: &Delaunay<G>, hole: &Hole<G>) -> bool {
+    fn open_link<G: Geometry>(&mut self, t: &Delaunay<G>, hole: &Hole<G>) -> bool {
         self.n_open = 0;
         for gap in &hole.link {
             let corners = gap.corners.rotated_to_last(gap.at);
@@ -197,7 +197,7 @@ impl Wrapping {
 
     /// Puts a cell on the inner side of every facet of the frontier; whether that can be done.
     #[inline(always)]
-    fn wrap<S: Simd, G: Dimension>(&mut self, simd: S, hole: &mut Hole<G>) -> bool {
+    fn wrap<S: Simd, G: Geometry>(&mut self, simd: S, hole: &mut Hole<G>) -> bool {
         while let Some(last) = self.n_open.checked_sub(1) {
             self.n_open = last;
             let open = self.open[last];
@@ -214,7 +214,7 @@ impl Wrapping {
 
     /// Puts a cell on the inner side of a facet.
     #[inline(always)]
-    fn put_cell<S: Simd, G: Dimension>(&mut self, simd: S, hole: &mut Hole<G>, open: &Open) -> bool {
+    fn put_cell<S: Simd, G: Geometry>(&mut self, simd: S, hole: &mut Hole<G>, open: &Open) -> bool {
         let n = hole.made.len();
         if n == MOST_CELLS {
             return false;
@@ -264,7 +264,7 @@ impl Wrapping {
     /// The label of the apex of the cell on the inner side of a facet, if there seems to be one; the floor of the cell,
     /// number `n` of the new ones, is entered.
     #[inline(always)]
-    fn apex<S: Simd, G: Dimension>(&mut self, simd: S, open: &Open, n_sites: usize, n: usize) -> Option<u8> {
+    fn apex<S: Simd, G: Geometry>(&mut self, simd: S, open: &Open, n_sites: usize, n: usize) -> Option<u8> {
         let [a, b, c] = [open.labels[0], open.labels[1], open.labels[2]];
         let seen = |label: u8| &self.seen[usize::from(label) % MOST_SITES];
         // The plane of the facet, on which `normal · (x, y, z) + offset` is zero.
@@ -355,7 +355,7 @@ fn floor_of_triangle(
 
 /// The number of a set of labels, and whether these are an odd permutation of those in ascending order.
 #[inline(always)]
-fn set_of<G: Dimension>([a, b, c]: [u8; 3]) -> (usize, bool) {
+fn set_of<G: Geometry>([a, b, c]: [u8; 3]) -> (usize, bool) {
     let ordered = |x: u8, y: u8| (x.min(y), x.max(y), x > y);
     let pairs = |x: u8| usize::from(PAIRS[usize::from(x) % MOST_SITES]);
     let (a, b, first) = ordered(a, b);
@@ -385,7 +385,7 @@ const fn below(of: usize) -> [u16; MOST_SITES] {
 
 /// Whether all certificates of the new cells surely hold.
 #[inline(always)]
-fn are_certain<S: Simd, G: Dimension>(simd: S, t: &Delaunay<G>, hole: &Hole<G>) -> bool {
+fn are_certain<S: Simd, G: Geometry>(simd: S, t: &Delaunay<G>, hole: &Hole<G>) -> bool {
     let (filter, sites) = (&t.filter, t.view());
     let last = hole.made.len() - 1;
     let mut first = 0;

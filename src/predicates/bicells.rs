@@ -5,8 +5,10 @@
 
 use std::fmt::Debug;
 
-use super::filter::{semi_static_bounds_2d, semi_static_bounds_3d};
-use super::vectors::{cross, dot, minor, minus};
+use super::located::{Located, Seen};
+use super::points::{PlanePoint, SpacePoint};
+use super::sphere::{circle_seen, side_of_circle_seen, side_of_sphere_seen, sphere_seen};
+use super::vectors::{cross, dot, minor};
 use super::{
     BiCells, Delimiter, StaticFilter, delimiter2d, delimiter3d, orientation_tolerance2d,
     orientation_tolerance3d, separator3d, tolerances2d, tolerances3d,
@@ -59,7 +61,7 @@ impl BiCellTolerances for [f64; 2] {
 
     #[inline]
     fn bicells_hold(f: &StaticFilter, bicells: &BiCells<2, 4>) -> [bool; LANES] {
-        bits(in_lanes!(simd => bicells_surely_hold2d(f, &bicells.lanes(simd)).bits()))
+        bits(in_lanes!(simd => bicells_surely_hold2d::<[f64; 2], _>(f, &bicells.lanes(simd)).bits()))
     }
 
     #[inline(always)]
@@ -96,7 +98,7 @@ impl BiCellTolerances for [f64; 3] {
 
     #[inline]
     fn bicells_hold(f: &StaticFilter, bicells: &BiCells<3, 5>) -> [bool; LANES] {
-        bits(in_lanes!(simd => bicells_surely_hold3d(f, &bicells.lanes(simd)).bits()))
+        bits(in_lanes!(simd => bicells_surely_hold3d::<[f64; 3], _>(f, &bicells.lanes(simd)).bits()))
     }
 
     #[inline(always)]
@@ -112,54 +114,86 @@ fn bits(mask: u32) -> [bool; LANES] {
 /// Whether both triangles, of the edge `ab` with `c` and `d`, surely are positively oriented, the second with the edge
 /// reversed, and `d` is outside the circle of the first: of one bi-cell or of those in lanes.
 #[inline(always)]
-pub(crate) fn bicells_surely_hold2d<T: Real>(filter: &StaticFilter, bicells: &[[T; 2]; 4]) -> T::Mask {
-    let any = bicells[0][0];
+pub(crate) fn bicells_surely_hold2d<P: PlanePoint, T: Real>(
+    filter: &StaticFilter,
+    bicells: &[P::Of<T>; 4],
+) -> T::Mask {
+    let any = P::place_of(&bicells[0])[0];
     let bounds = [any.splat(filter.orient), any.splat(filter.prepared)];
-    Certificates::in_plane(&differences(bicells)).exceed(bounds)
+    Certificates::in_plane(&seen_from_first::<P, _, 2, 4, 3>(bicells)).exceed(bounds)
 }
 
 /// Whether both tetrahedra, of the facet with `c` and `d`, surely are positively oriented, the second with the facet
 /// reversed, and `d` is outside the sphere of the first: of one bi-cell or of those in lanes.
 #[inline(always)]
-pub(crate) fn bicells_surely_hold3d<T: Real>(filter: &StaticFilter, bicells: &[[T; 3]; 5]) -> T::Mask {
-    let any = bicells[0][0];
+pub(crate) fn bicells_surely_hold3d<P: SpacePoint, T: Real>(
+    filter: &StaticFilter,
+    bicells: &[P::Of<T>; 5],
+) -> T::Mask {
+    let any = P::place_of(&bicells[0])[0];
     let bounds = [any.splat(filter.orient), any.splat(filter.prepared)];
-    Certificates::in_space(&differences(bicells)).exceed(bounds)
+    Certificates::in_space(&seen_from_first::<P, _, 3, 5, 4>(bicells)).exceed(bounds)
 }
 
 /// What [`bicells_surely_hold2d`] tells, by bounds of each bi-cell's own extents in place of the static filter's.
 #[inline(always)]
-pub(crate) fn bicells_hold_for_their_size2d<T: Real>(bicells: &[[T; 2]; 4]) -> T::Mask {
-    let differences = differences(bicells);
-    Certificates::in_plane(&differences).exceed(semi_static_bounds_2d(extents(&differences)))
+pub(crate) fn bicells_hold_for_their_size2d<P: PlanePoint, T: Real>(bicells: &[P::Of<T>; 4]) -> T::Mask {
+    let seen = seen_from_first::<P, _, 2, 4, 3>(bicells);
+    let bounds = P::semi_static(extents(&seen.map(|seen| seen.difference)), weights_apart::<P, _, 2, 4, 3>(bicells));
+    Certificates::in_plane(&seen).exceed(bounds)
 }
 
 /// What [`bicells_surely_hold3d`] tells, by bounds of each bi-cell's own extents in place of the static filter's.
 #[inline(always)]
-pub(crate) fn bicells_hold_for_their_size3d<T: Real>(bicells: &[[T; 3]; 5]) -> T::Mask {
-    let differences = differences(bicells);
-    Certificates::in_space(&differences).exceed(semi_static_bounds_3d(extents(&differences)))
+pub(crate) fn bicells_hold_for_their_size3d<P: SpacePoint, T: Real>(bicells: &[P::Of<T>; 5]) -> T::Mask {
+    let seen = seen_from_first::<P, _, 3, 5, 4>(bicells);
+    let bounds = P::semi_static(extents(&seen.map(|seen| seen.difference)), weights_apart::<P, _, 3, 5, 4>(bicells));
+    Certificates::in_space(&seen).exceed(bounds)
 }
 
-/// The differences from the first point to the `N` others.
+/// The `N` others, seen from the first point.
 #[inline(always)]
-fn differences<T: Real, const D: usize, const P: usize, const N: usize>(points: &[[T; D]; P]) -> [[T; D]; N] {
-    const { assert!(N + 1 == P) };
-    let mut differences = [points[0]; N];
-    for k in 0..N {
-        differences[k] = minus(&points[k + 1], &points[0]);
+fn seen_from_first<P: Located<D>, T: Real, const D: usize, const M: usize, const N: usize>(
+    points: &[P::Of<T>; M],
+) -> [Seen<T, D>; N] {
+    const { assert!(N + 1 == M) };
+    let mut seen = [P::seen(&points[1], &points[0]); N];
+    for k in 1..N {
+        seen[k] = P::seen(&points[k + 1], &points[0]);
     }
-    differences
+    seen
+}
+
+/// The greatest difference of a weight from the first one.
+#[inline(always)]
+fn weights_apart<P: Located<D>, T: Real, const D: usize, const M: usize, const N: usize>(
+    points: &[P::Of<T>; M],
+) -> T {
+    let mut apart = [P::weight_apart(&points[1], &points[0]); N];
+    for k in 1..N {
+        apart[k] = P::weight_apart(&points[k + 1], &points[0]);
+    }
+    greatest(&apart)
 }
 
 /// The greatest magnitude along each axis.
 #[inline(always)]
-fn extents<T: Real, const D: usize, const N: usize>(differences: &[[T; D]; N]) -> [T; D] {
+pub(super) fn extents<T: Real, const D: usize, const N: usize>(differences: &[[T; D]; N]) -> [T; D] {
     let mut greatest = [differences[0][0].splat(0.0); D];
     for difference in differences {
         for axis in 0..D {
             greatest[axis] = difference[axis].abs().max(greatest[axis]);
         }
+    }
+    greatest
+}
+
+/// The greatest one of some magnitudes.
+#[inline(always)]
+pub(super) fn greatest<T: Real, const N: usize>(magnitudes: &[T; N]) -> T {
+    let mut greatest = magnitudes[0];
+    for &magnitude in &magnitudes[1..] {
+        greatest = magnitude.max(greatest);
     }
     greatest
 }
@@ -174,24 +208,17 @@ struct Certificates<T> {
 
 impl<T: Real> Certificates<T> {
     #[inline(always)]
-    fn in_plane([u, v, s]: &[[T; 2]; 3]) -> Self {
-        let (uu, vv, ss) = (dot(u, u), dot(v, v), dot(s, s));
-        let n = [uu * v[1] - vv * u[1], vv * u[0] - uu * v[0]];
-        let volume = minor(u, v);
-        Certificates { volume, beyond: minor(s, u), side: dot(s, &n) - ss * volume }
+    fn in_plane([b, c, d]: &[Seen<T, 2>; 3]) -> Self {
+        let circle = circle_seen(b, c);
+        let beyond = minor(&d.difference, &b.difference);
+        Certificates { volume: circle[2], beyond, side: side_of_circle_seen(&circle, d) }
     }
 
     #[inline(always)]
-    fn in_space([u, v, w, s]: &[[T; 3]; 4]) -> Self {
-        let (uu, vv, ww, ss) = (dot(u, u), dot(v, v), dot(w, w), dot(s, s));
-        let (vw, uw, uv) = (cross(v, w), cross(u, w), cross(u, v));
-        let mut n = [uu; 3];
-        for k in 0..3 {
-            n[k] = uu * vw[k] - vv * uw[k] + ww * uv[k];
-        }
-        let volume = dot(u, &vw);
-        let beyond = volume.splat(0.0) - dot(s, &uv);
-        Certificates { volume, beyond, side: dot(s, &n) - ss * volume }
+    fn in_space([b, c, d, e]: &[Seen<T, 3>; 4]) -> Self {
+        let sphere = sphere_seen(b, c, d);
+        let beyond = sphere[3].splat(0.0) - dot(&e.difference, &cross(&b.difference, &c.difference));
+        Certificates { volume: sphere[3], beyond, side: side_of_sphere_seen(&sphere, e) }
     }
 
     /// Whether all three surely have the sign wanted, given the bounds of the volumes and of the side.

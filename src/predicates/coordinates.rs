@@ -1,14 +1,13 @@
-//! Points: arrays of coordinates, of either dimension.
+//! Points: arrays of coordinates, of either dimension, with a weight or without.
 
 use std::fmt::Debug;
 use std::ops::{Index, IndexMut};
 
 use super::array::PointArray;
-use super::bicells::BiCellTolerances;
-use super::measures::Measures;
-use super::reach::Reach;
+use super::weighted::WeightedPoint;
 
-/// Coordinates of one point: `[f64; D]`.
+/// What is known of one point: `[f64; D]`, or a [`WeightedPoint`], of which an index of `D` has the weight. As a slice it is its
+/// place.
 pub trait Coordinates:
     Copy
     + Debug
@@ -18,12 +17,12 @@ pub trait Coordinates:
     + IndexMut<usize>
     + AsRef<[f64]>
     + PointArray
-    + BiCellTolerances
-    + Measures
-    + Reach
     + Send
     + Sync
+    + 'static
 {
 }
 impl Coordinates for [f64; 2] {}
 impl Coordinates for [f64; 3] {}
+impl Coordinates for WeightedPoint<2> {}
+impl Coordinates for WeightedPoint<3> {}

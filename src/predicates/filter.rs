@@ -75,6 +75,7 @@
 //! extent. So one formula gives both the static bound, from a box of all points there are, and the
 //! semi-static bound, from the box of the few points at hand.
 
+use super::weighted::WeightedPoint;
 use crate::simd::Real;
 
 /// Unit roundoff, u.
@@ -132,6 +133,26 @@ const PREPARED_2D: f64 = {
 /// Bound of a prepared sphere / (extent x · extent y · extent z · largest extent²), see `sphere.rs`.
 const PREPARED_3D: f64 = {
     let lift = SQUARE.plus(SQUARE).plus(SQUARE);
+    let part = lift.times(MINOR);
+    let term = part.plus(part).plus(part).times(DIFFERENCE);
+    let volume = MINOR.times(DIFFERENCE);
+    let volume = volume.plus(volume).plus(volume);
+    term.plus(term).plus(term).last_plus(lift.times(volume))
+};
+
+/// Bound of a prepared power circle / (extent x · extent y · the greater one of the square of the largest extent and the extent of
+/// the weights), which bounds each of the three terms of a lift.
+const POWER_PREPARED_2D: f64 = {
+    let lift = SQUARE.plus(SQUARE).plus(DIFFERENCE);
+    let part = lift.times(DIFFERENCE);
+    let term = part.plus(part).times(DIFFERENCE);
+    term.plus(term).last_plus(lift.times(SQUARE.plus(SQUARE)))
+};
+
+/// Bound of a prepared power sphere / (extent x · extent y · extent z · the greater one of the square of the largest extent and the
+/// extent of the weights).
+const POWER_PREPARED_3D: f64 = {
+    let lift = SQUARE.plus(SQUARE).plus(SQUARE).plus(DIFFERENCE);
     let part = lift.times(MINOR);
     let term = part.plus(part).plus(part).times(DIFFERENCE);
     let volume = MINOR.times(DIFFERENCE);
@@ -217,7 +238,7 @@ pub struct StaticFilter {
     pub in_sphere: f64,
     /// Bound of `side_of_circle` and `side_of_seen_circle`, or of `side_of_sphere`.
     pub prepared: f64,
-    /// Square of the largest extent.
+    /// Square of the largest extent, or the extent of the weights if that is greater: the greatest term of a lift.
     pub largest_square: f64,
     /// Whether rounded determinants are exact, so that one that is zero is a tie.
     pub is_exact: bool,
@@ -246,6 +267,24 @@ impl StaticFilter {
             largest_square: largest(extents) * largest(extents),
             is_exact: false,
         }
+    }
+
+    /// Bounds for `orient2d` and power circles of points between `lower` and `upper`, inclusive, of which the weights are in a range as
+    /// well. `in_sphere` is the bound of `incircle`.
+    pub fn power_plane(lower: &WeightedPoint<2>, upper: &WeightedPoint<2>) -> Self {
+        let [weight] = box_extents(&[lower.weight], &[upper.weight]);
+        let filter = Self::plane(lower.place, upper.place);
+        let [_, prepared] = power_bounds_2d(box_extents(&lower.place, &upper.place), weight);
+        Self { prepared, largest_square: filter.largest_square.max(weight), ..filter }
+    }
+
+    /// Bounds for `orient3d` and power spheres of points between `lower` and `upper`, inclusive, of which the weights are in a range as
+    /// well. `in_sphere` is the bound of `insphere`.
+    pub fn power_space(lower: &WeightedPoint<3>, upper: &WeightedPoint<3>) -> Self {
+        let [weight] = box_extents(&[lower.weight], &[upper.weight]);
+        let filter = Self::space(lower.place, upper.place);
+        let [_, prepared] = power_bounds_3d(box_extents(&lower.place, &upper.place), weight);
+        Self { prepared, largest_square: filter.largest_square.max(weight), ..filter }
     }
 }
 
@@ -345,6 +384,32 @@ pub(super) fn semi_static_bounds_3d<T: Real>([x, y, z]: [T; 3]) -> [T; 2] {
         x.splat(ORIENT_3D) * volume + underflow * amplified,
         x.splat(PREPARED_3D) * volume * (largest * largest) + underflow * (amplified * amplified * amplified),
     ]
+}
+
+/// Bounds of `orient2d` and of a prepared power circle for differences of at most these magnitudes, and weights that are no
+/// further apart than `weight`.
+///
+/// In units of products of M, the square of which is the greatest term of a lift or 1, a lift is of degree two, as it is without
+/// weights; so underflow adds what it adds there.
+#[inline(always)]
+pub(super) fn power_bounds_2d<T: Real>([x, y]: [T; 2], weight: T) -> [T; 2] {
+    let largest = x.max(y);
+    let square = (largest * largest).max(weight);
+    let [orient, _] = semi_static_bounds_2d([x, y]);
+    let underflow = x.splat(UNDERFLOW) * square.max(x.splat(1.0));
+    [orient, x.splat(POWER_PREPARED_2D) * (x * y) * square + underflow]
+}
+
+/// Bounds of `orient3d` and of a prepared power sphere for differences of at most these magnitudes, and weights that are no
+/// further apart than `weight`; of underflow as in [`power_bounds_2d`].
+#[inline(always)]
+pub(super) fn power_bounds_3d<T: Real>([x, y, z]: [T; 3], weight: T) -> [T; 2] {
+    let largest = x.max(y).max(z);
+    let square = (largest * largest).max(weight);
+    let [orient, _] = semi_static_bounds_3d([x, y, z]);
+    let amplified = square.max(x.splat(1.0));
+    let underflow = x.splat(UNDERFLOW) * (amplified * amplified.sqrt());
+    [orient, x.splat(POWER_PREPARED_3D) * (x * y * z) * square + underflow]
 }
 
 fn lifted_bound_2d(constant: f64, extents @ [x, y]: [f64; 2]) -> f64 {

@@ -94,6 +94,7 @@ mod lanes;
 mod lattice;
 mod lengths;
 mod lifted;
+mod located;
 mod measures;
 #[cfg(test)]
 mod near_ties;
@@ -101,6 +102,7 @@ mod passing;
 mod path;
 mod perturbation;
 mod plane;
+mod points;
 mod power;
 mod reach;
 mod running;
@@ -110,6 +112,7 @@ mod sphere;
 mod tolerance;
 mod two_heights;
 mod vectors;
+mod weighted;
 
 pub use crate::machine::tally::exact_calls;
 pub use crate::simd::LANES;
@@ -133,15 +136,20 @@ pub use lifted::{Lifted, seen_circle_bound, seen_circle_running_bound, side_of_s
 pub use measures::Measures;
 pub use passing::passes;
 pub use path::{stays_positive2d, stays_positive3d};
-pub use perturbation::{incircle_perturbed, insphere_perturbed, is_inside_cospherical_on_lattice};
+pub use perturbation::{
+    in_power_circle_perturbed, in_power_sphere_perturbed, incircle_perturbed, insphere_perturbed,
+    is_inside_cospherical_on_lattice,
+};
+pub use located::{Located, Seen};
 pub use plane::{incircle, orient2d};
+pub use points::{OwnBounds, PlanePoint, SpacePoint};
 pub use power::{MAX_WEIGHT, in_power_circle, in_power_sphere};
 pub use reach::Reach;
 pub use separator::{delimiter3d, separator3d, tolerances3d};
 pub use space::{insphere, orient3d};
 pub use sphere::{
-    OwnBounds2d, OwnBounds3d, Sphere, circle, edge_length, half_space, half_space_by_length,
-    is_box_outside_circle, is_box_outside_sphere, is_side_certain, side_bound_by_length, side_of_circle,
+    Circle, OwnBounds2d, OwnBounds3d, Sphere, circle, edge_length, half_space, half_space_by_length,
+    is_box_outside_circle, is_box_outside_sphere, side_bound_by_length, side_of_circle,
     side_of_sphere, sphere,
 };
 pub use tolerance::{
@@ -151,6 +159,7 @@ pub use tolerance::{
 };
 pub(crate) use tolerance::{are_within, distances_above};
 pub(crate) use vectors::{cross, dot, minus};
+pub use weighted::WeightedPoint;
 
 /// Largest magnitude of an accepted coordinate.
 pub const MAX_MAGNITUDE: f64 = 1e57;

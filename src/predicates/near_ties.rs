@@ -11,7 +11,7 @@ use super::plane::{incircle_rounded, incircle_sign, own_incircle_bound};
 use super::space::{insphere_magnitudes, insphere_rounded, insphere_sign, orient3d_sign, volume};
 use super::vectors::minus;
 use super::{
-    MAX_MAGNITUDE, OwnBounds2d, OwnBounds3d, big, circle, edge_length, half_space_by_length, is_side_certain,
+    MAX_MAGNITUDE, OwnBounds2d, OwnBounds3d, SpacePoint, big, circle, edge_length, half_space_by_length,
     side_bound_by_length, side_of_circle, side_of_sphere, sphere,
 };
 use crate::random::Rng;
@@ -148,7 +148,7 @@ fn stages_after_the_static_bound_of_spheres_are_exact() {
         let (extents, det) = (extents(refs), insphere_rounded(refs));
         let expected = sign(big::insphere(1.0, refs));
         let side = side_of_sphere(&sphere(a, b, c, d), a, q);
-        if is_side_certain(side, refs) {
+        if SpacePoint::is_side_certain(side, refs) {
             assert_eq!(sign(side), expected, "{points:?}");
             n_sides += 1;
         }

@@ -26,6 +26,10 @@
 //! speak of one and the same set of lifted points in general position. Its lower hull is unique: the
 //! triangulation is a function of positions and ids alone.
 //!
+//! Weights are terms of the lift, and raised lifts stay so: the rule is one for points with weights. Two of these may be at one
+//! place. Then, where their weights are equal, λ is 1 for the one that is a corner, and 0 for all others: the one of the lower
+//! id is below, and hides the other one.
+//!
 //! # Cost
 //!
 //! The cost of the in-sphere test, then, on ties only, one orientation as a rule. In the plane it is exactly
@@ -34,8 +38,11 @@
 
 use super::filter::StaticFilter;
 use super::plane::{incircle, orient2d};
+use super::points::{PlanePoint, SpacePoint};
+use super::power::{in_power_circle, in_power_sphere};
 use super::space::{insphere, orient3d};
 use super::vectors::{minor, minus};
+use super::weighted::WeightedPoint;
 
 /// Whether the last point is inside the circle of the first three, ties being decided by `ids`, which only these ask
 /// for.
@@ -68,6 +75,47 @@ fn is_inside_cocircular(f: &StaticFilter, [a, b, c, d]: [&[f64; 2]; 4], ids: [u3
         1 => orient2d(f, a, d, c),
         _ => orient2d(f, a, b, d),
     })
+}
+
+/// Whether the last point is inside the power circle of the first three, ties being decided by `ids`, which only these ask for:
+/// of two points at one place, which have a weight in common, the one of the higher id is above the other one.
+///
+/// The first three points are in counter-clockwise order; ids are distinct.
+#[inline(always)]
+pub fn in_power_circle_perturbed(
+    f: &StaticFilter,
+    points: [&WeightedPoint<2>; 4],
+    ids: impl FnOnce() -> [u32; 4],
+) -> bool {
+    type P = WeightedPoint<2>;
+    let [a, b, c, q] = points;
+    let side = P::side::<f64>(&P::circle::<f64>(a, b, c), a, q);
+    if side.abs() > f.prepared {
+        return side > 0.0;
+    }
+    let (places, weights) = (points.map(|p| &p.place), points.map(|p| p.weight));
+    let det = in_power_circle(f, places, &weights);
+    if det != 0.0 { det > 0.0 } else { is_inside_cocircular(f, places, ids()) }
+}
+
+/// Whether the last point is inside the power sphere of the first four, ties being decided as by [`in_power_circle_perturbed`].
+///
+/// The first four points are in positive orientation; ids are distinct.
+#[inline(always)]
+pub fn in_power_sphere_perturbed(
+    f: &StaticFilter,
+    points: [&WeightedPoint<3>; 5],
+    ids: impl FnOnce() -> [u32; 5],
+) -> bool {
+    type P = WeightedPoint<3>;
+    let [a, b, c, d, q] = points;
+    let side = P::side::<f64>(&P::sphere::<f64>(a, b, c, d), a, q);
+    if side.abs() > f.prepared {
+        return side > 0.0;
+    }
+    let (places, weights) = (points.map(|p| &p.place), points.map(|p| p.weight));
+    let det = in_power_sphere(f, places, &weights);
+    if det != 0.0 { det > 0.0 } else { is_inside_cospherical(f, places, ids()) }
 }
 
 /// What [`insphere_perturbed`] tells, of points that are cospherical: by ids.

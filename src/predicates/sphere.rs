@@ -26,11 +26,12 @@
 //! exceed infinity.
 
 use super::StaticFilter;
-use super::filter::{extents, largest, prepared_bound_2d, prepared_bound_3d, semi_static_bounds_3d};
+use super::filter::{extents, largest, prepared_bound_2d, prepared_bound_3d};
 use super::lengths::{
     HALF_SPACE_SCALE, LEAST_LENGTH, area_bound_by_length, prepared_bound_by_length_2d,
     prepared_bound_by_length_3d, volume_bound_by_length,
 };
+use super::located::Seen;
 use super::vectors::{cross, dot, minor, minus};
 use crate::simd::Real;
 
@@ -42,8 +43,14 @@ pub type Sphere<T = f64> = [T; 4];
 /// The circle of the triangle `abc`.
 #[inline(always)]
 pub fn circle<T: Real>(a: &[T; 2], b: &[T; 2], c: &[T; 2]) -> Circle<T> {
-    let (u, v) = (minus(b, a), minus(c, a));
-    let (uu, vv) = (dot(&u, &u), dot(&v, &v));
+    circle_seen(&Seen::from(b, a), &Seen::from(c, a))
+}
+
+/// The circle, or the power circle, of a triangle, of which two corners are seen from the first one.
+#[inline(always)]
+pub fn circle_seen<T: Real>(b: &Seen<T, 2>, c: &Seen<T, 2>) -> Circle<T> {
+    let Seen { difference: u, lift: uu } = *b;
+    let Seen { difference: v, lift: vv } = *c;
     [uu * v[1] - vv * u[1], vv * u[0] - uu * v[0], minor(&u, &v)]
 }
 
@@ -51,16 +58,28 @@ pub fn circle<T: Real>(a: &[T; 2], b: &[T; 2], c: &[T; 2]) -> Circle<T> {
 /// magnitude is not above [`StaticFilter::prepared`]. (Two numbers, not one answer of three: a branch on it
 /// would be mispredicted.)
 #[inline(always)]
-pub fn side_of_circle<T: Real>(&[x, y, volume]: &Circle<T>, a: &[T; 2], q: &[T; 2]) -> T {
-    let s = minus(q, a);
-    dot(&s, &[x, y]) - dot(&s, &s) * volume
+pub fn side_of_circle<T: Real>(circle: &Circle<T>, a: &[T; 2], q: &[T; 2]) -> T {
+    side_of_circle_seen(circle, &Seen::from(q, a))
+}
+
+/// [`side_of_circle`] of a point that is seen from the first corner.
+#[inline(always)]
+pub fn side_of_circle_seen<T: Real>(&[x, y, volume]: &Circle<T>, q: &Seen<T, 2>) -> T {
+    dot(&q.difference, &[x, y]) - q.lift * volume
 }
 
 /// The sphere of the tetrahedron `abcd`.
 #[inline(always)]
 pub fn sphere<T: Real>(a: &[T; 3], b: &[T; 3], c: &[T; 3], d: &[T; 3]) -> Sphere<T> {
-    let (u, v, w) = (minus(b, a), minus(c, a), minus(d, a));
-    let (uu, vv, ww) = (dot(&u, &u), dot(&v, &v), dot(&w, &w));
+    sphere_seen(&Seen::from(b, a), &Seen::from(c, a), &Seen::from(d, a))
+}
+
+/// The sphere, or the power sphere, of a tetrahedron, of which three corners are seen from the first one.
+#[inline(always)]
+pub fn sphere_seen<T: Real>(b: &Seen<T, 3>, c: &Seen<T, 3>, d: &Seen<T, 3>) -> Sphere<T> {
+    let Seen { difference: u, lift: uu } = *b;
+    let Seen { difference: v, lift: vv } = *c;
+    let Seen { difference: w, lift: ww } = *d;
     let (vw, uw, uv) = (cross(&v, &w), cross(&u, &w), cross(&u, &v));
     let n = |axis: usize| uu * vw[axis] - vv * uw[axis] + ww * uv[axis];
     [n(0), n(1), n(2), dot(&u, &vw)]
@@ -86,23 +105,14 @@ pub fn half_space_by_length(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) -> (Sphere
 /// magnitude is not above [`StaticFilter::prepared`]. (Two numbers, not one answer of three: a branch on it
 /// would be mispredicted.)
 #[inline(always)]
-pub fn side_of_sphere<T: Real>(&[x, y, z, volume]: &Sphere<T>, a: &[T; 3], q: &[T; 3]) -> T {
-    let s = minus(q, a);
-    dot(&s, &[x, y, z]) - dot(&s, &s) * volume
+pub fn side_of_sphere<T: Real>(sphere: &Sphere<T>, a: &[T; 3], q: &[T; 3]) -> T {
+    side_of_sphere_seen(sphere, &Seen::from(q, a))
 }
 
-/// Whether the side of `q`, as computed from the sphere of `abcd`, is certain where it does not exceed
-/// [`StaticFilter::prepared`]: by the same bound for the greatest differences of these points from `a`, which are all
-/// that it has been computed from.
+/// [`side_of_sphere`] of a point that is seen from the first corner.
 #[inline(always)]
-pub fn is_side_certain(side: f64, [a, b, c, d, q]: [&[f64; 3]; 5]) -> bool {
-    let differences = [b, c, d, q].map(|p| minus(p, a));
-    let greatest = |axis: usize| {
-        let [u, v, w, s] = differences.map(|difference| difference[axis].abs());
-        Real::max(Real::max(u, v), Real::max(w, s))
-    };
-    let [_, bound] = semi_static_bounds_3d([greatest(0), greatest(1), greatest(2)]);
-    side.abs() > bound
+pub fn side_of_sphere_seen<T: Real>(&[x, y, z, volume]: &Sphere<T>, q: &Seen<T, 3>) -> T {
+    dot(&q.difference, &[x, y, z]) - q.lift * volume
 }
 
 /// What the magnitude of [`side_of_sphere`] exceeds if it is certain, where edges from the first corner, `a`, of the

@@ -3,13 +3,13 @@
 //! A ridge is named as the facet of a ghost cell that it has in common with another one.
 
 use crate::complex::{Corners, Facet};
-use crate::delaunay::{Delaunay, Dimension, Failures};
+use crate::delaunay::{Delaunay, Geometry, Failures};
 use crate::error::Result;
 use crate::ids::{Slot, VertexId};
 use crate::machine::memory;
 use crate::simd::{LANES, in_lanes};
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Checks the ridges of the ghost cells that are open; what is listed may be none any more, where flips have been
     /// undone. Finite cells must be positive. `before` tells, by id, from where a vertex has come, if it has moved.
     pub(crate) fn check_ridges<'p>(

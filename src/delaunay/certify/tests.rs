@@ -61,7 +61,7 @@ fn ridges_that_were_flat_may_wind() {
 /// What a sweep lists and counts does not depend on how many threads there are, also where it ends early.
 #[test]
 fn sweeps_find_the_same_on_any_number_of_threads() {
-    fn check<G: Dimension>(side: usize) {
+    fn check<G: Geometry>(side: usize) {
         let points: Vec<G::Point> = (0..side.pow(G::D as u32))
             .map(|i| {
                 let mut p = G::Point::default();

@@ -5,7 +5,7 @@
 use super::key;
 use super::untangling::Untangling;
 use crate::complex::{Corners, Facet, INFINITE, NewCell};
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Geometry};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
@@ -64,7 +64,7 @@ fn with_ghost_last<C: Corners>(corners: C) -> C {
     ghost.map_or(corners, |i| corners.rotated_to_last(i))
 }
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Exchanges the cells at a facet, or those at an edge of it if these are three; given a point within all, only if
     /// the new cells are positive. Whether that has been done.
     pub(super) fn exchange_across(

@@ -16,7 +16,7 @@ use super::key;
 use crate::complex::{Corners, Facet, NewCell};
 use crate::delaunay::flips::Flips;
 use crate::delaunay::site::Sites;
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Geometry};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
@@ -86,13 +86,13 @@ impl<C: Corners> Island<C> {
 }
 
 /// The predicates, and how many in-sphere tests there have been.
-struct Tests<'t, G: Dimension> {
+struct Tests<'t, G: Geometry> {
     filter: &'t StaticFilter,
     sites: Sites<'t, G>,
     certificates: u64,
 }
 
-impl<G: Dimension> Tests<'_, G> {
+impl<G: Geometry> Tests<'_, G> {
     fn is_in_sphere(&mut self, corners: &G::Corners, s: SiteId) -> bool {
         self.certificates += 1;
         G::is_in_sphere(self.filter, self.sites, corners, self.sites.point(s), self.sites.id(s))
@@ -116,7 +116,7 @@ impl<G: Dimension> Tests<'_, G> {
     }
 }
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Triangulates around facets that are stuck; whether any have been. The facets of what is new are suspects.
     pub(super) fn fill_islands(
         &mut self,

@@ -9,7 +9,7 @@
 //! not flat itself: flat facets at the rim of a side lead below what covers the rest of it.
 
 use super::untangling::Untangling;
-use super::{Delaunay, Dimension};
+use super::{Delaunay, Geometry};
 use crate::complex::{Corners, Facet};
 use crate::delaunay::around::list_star;
 use crate::error::Result;
@@ -29,7 +29,7 @@ const TAKEN_PER_INVERTED: usize = 64;
 /// Cells of a star that are looked at in the time of a certificate.
 const SEEN_PER_CERTIFICATE: usize = 8;
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Takes flat cells at the hull away until all that are left of those listed are positive; whether that could be
     /// done.
     pub(super) fn peel(&mut self, untangling: &mut Untangling<G>) -> Result<bool> {

@@ -7,7 +7,7 @@ use crate::random::Rng;
 
 /// A triangulation whose sites have moved by up to `size` along each axis, and the facets that fail; no cell is
 /// inverted.
-fn moved<G: Dimension>(n: usize, threads: u32, size: f64) -> (Delaunay<G>, Vec<Facet>) {
+fn moved<G: Geometry>(n: usize, threads: u32, size: f64) -> (Delaunay<G>, Vec<Facet>) {
     let rng = &mut Rng::new(5);
     let mut points = vec![G::Point::default(); n];
     points.iter_mut().for_each(|p| (0..G::D).for_each(|k| p[k] = rng.unit()));
@@ -24,7 +24,7 @@ fn moved<G: Dimension>(n: usize, threads: u32, size: f64) -> (Delaunay<G>, Vec<F
 }
 
 /// Moves the sites for which there is a place, but those that would invert a cell; returns the facets that fail.
-fn move_sites<G: Dimension>(
+fn move_sites<G: Geometry>(
     t: &mut Delaunay<G>,
     mut place: impl FnMut(&G::Point) -> Option<G::Point>,
 ) -> Vec<Facet> {
@@ -46,7 +46,7 @@ fn move_sites<G: Dimension>(
 }
 
 /// Flips on several threads lead to a Delaunay triangulation, and most of them are done side by side.
-fn threads_flip<G: Dimension>(size: f64) {
+fn threads_flip<G: Geometry>(size: f64) {
     for threads in [2, 3, 7] {
         let (mut t, mut suspects) = moved::<G>(4000, threads, size);
         assert!(suspects.len() > 300, "{}", suspects.len());

@@ -33,7 +33,7 @@
 
 use super::untangling::Untangling;
 use crate::complex::{Corners, Facet};
-use crate::delaunay::{Delaunay, Dimension, Failures};
+use crate::delaunay::{Delaunay, Geometry, Failures};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
@@ -73,7 +73,7 @@ enum Turned {
 /// taken back, or too many have been.
 pub(crate) type TakeBack<'f, G> = &'f mut dyn FnMut(&mut Delaunay<G>, &[SiteId]) -> Result<Option<SiteId>>;
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Makes all cells positive and the hull convex at every ridge, where flips can do that in at most `most`
     /// certificates once some vertices have been taken back; whether that has been done. Facets of new cells are added
     /// to `suspects`, those around vertices taken back to what has failed. What is done is part of the next

@@ -1,14 +1,14 @@
 //! What has been exchanged to untangle cells.
 
 use crate::complex::Facet;
-use crate::delaunay::Dimension;
+use crate::delaunay::Geometry;
 use crate::delaunay::flips::Flips;
 use crate::ids::Slot;
 use crate::machine::memory;
 
 /// What has been exchanged, and scratch memory.
 #[derive(Debug)]
-pub(super) struct Untangling<G: Dimension> {
+pub(super) struct Untangling<G: Geometry> {
     /// The exchanges made. Their suspects are facets of new cells.
     pub(super) flips: Flips<G>,
     /// Cells that are not positive, and then flat ones around them.
@@ -20,7 +20,7 @@ pub(super) struct Untangling<G: Dimension> {
     pub(super) slots: Vec<Slot>,
 }
 
-impl<G: Dimension> Default for Untangling<G> {
+impl<G: Geometry> Default for Untangling<G> {
     fn default() -> Self {
         Untangling {
             flips: Flips::default(),
@@ -32,7 +32,7 @@ impl<G: Dimension> Default for Untangling<G> {
     }
 }
 
-impl<G: Dimension> Untangling<G> {
+impl<G: Geometry> Untangling<G> {
     pub(super) fn memory_bytes(&self) -> usize {
         self.flips.memory_bytes()
             + memory::bytes_of(&self.cells)

@@ -2,12 +2,12 @@
 
 use super::{Crossing, Passed, Waiting};
 use crate::complex::{Corners, Facet};
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Geometry};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 
-impl<G: Dimension> Delaunay<G> {
+impl<G: Geometry> Delaunay<G> {
     /// Enters a segment that has been [looked along](Self::look_along), unless it crosses one that has been entered since.
     /// Returns whether it is there.
     pub(crate) fn enter_segment(

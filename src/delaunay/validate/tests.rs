@@ -6,7 +6,7 @@ use crate::ids::{SiteId, VertexId};
 use crate::machine::threads::Threads;
 use crate::random::Rng;
 
-fn built<G: Dimension>(points: &[G::Point]) -> Delaunay<G> {
+fn built<G: Geometry>(points: &[G::Point]) -> Delaunay<G> {
     let mut t = Delaunay::<G>::on(Threads::ONE).expect("room");
     t.add_sites(points).expect("room");
     t.rebuild(&mut |_| true).expect("room");
@@ -14,7 +14,7 @@ fn built<G: Dimension>(points: &[G::Point]) -> Delaunay<G> {
     t
 }
 
-fn cloud<G: Dimension>() -> Delaunay<G> {
+fn cloud<G: Geometry>() -> Delaunay<G> {
     let rng = &mut Rng::new(5);
     let mut points = vec![G::Point::default(); 60];
     points.iter_mut().for_each(|p| (0..G::D).for_each(|k| p[k] = rng.unit()));
@@ -23,14 +23,14 @@ fn cloud<G: Dimension>() -> Delaunay<G> {
 
 /// Plants a fault in a cloud; it is found at this level, not below, and the message contains this.
 #[track_caller]
-fn finds<G: Dimension>(level: Level, message: &str, plant: impl FnOnce(&mut Delaunay<G>)) {
+fn finds<G: Geometry>(level: Level, message: &str, plant: impl FnOnce(&mut Delaunay<G>)) {
     let mut t = cloud::<G>();
     plant(&mut t);
     is_found(&t, level, message);
 }
 
 #[track_caller]
-fn is_found<G: Dimension>(t: &Delaunay<G>, level: Level, message: &str) {
+fn is_found<G: Geometry>(t: &Delaunay<G>, level: Level, message: &str) {
     for below in [Level::Structure, Level::Embedding].into_iter().filter(|&below| below < level) {
         t.validate(below).expect("valid below the level of the fault");
     }
@@ -40,18 +40,18 @@ fn is_found<G: Dimension>(t: &Delaunay<G>, level: Level, message: &str) {
 }
 
 /// Puts a vertex elsewhere, and changes nothing else.
-fn place<G: Dimension>(t: &mut Delaunay<G>, id: u32, point: G::Point) {
+fn place<G: Geometry>(t: &mut Delaunay<G>, id: u32, point: G::Point) {
     let s = t.live_sites().find(|&s| t.site(s).id == VertexId::new(id)).expect("a vertex");
     t.sites[s].point = point;
 }
 
 /// A finite cell, and its corners.
-fn finite<G: Dimension>(t: &Delaunay<G>) -> (Slot, G::Corners) {
+fn finite<G: Geometry>(t: &Delaunay<G>) -> (Slot, G::Corners) {
     let c = t.complex.finite().next().expect("a cell");
     (c, t.complex.cell(c).corners)
 }
 
-fn faults_of_structure<G: Dimension>() {
+fn faults_of_structure<G: Geometry>() {
     let finds = |message, plant: fn(&mut Delaunay<G>)| finds::<G>(Level::Structure, message, plant);
     finds("is outside the box for which the filters hold", |t| t.sites[5].point[0] = 1e9);
     finds("has no such site 999", |t| {
@@ -102,7 +102,7 @@ fn faults_of_structure<G: Dimension>() {
 }
 
 /// Vertices that leave their stars, a hull that is dented, and one that has more facets than are counted.
-fn faults_of_embedding<G: Dimension>() {
+fn faults_of_embedding<G: Geometry>() {
     finds::<G>(Level::Embedding, "is not positively oriented", |t| {
         let far = t.sites[9].point;
         t.sites[5].point = far;

@@ -6,7 +6,7 @@ use crate::delaunay::{Failures, Plane, Space};
 use crate::random::Rng;
 
 /// Random points, points of a small grid, or points on a sphere.
-fn points<G: Dimension>(kind: usize, n: usize, rng: &mut Rng) -> Vec<G::Point> {
+fn points<G: Geometry>(kind: usize, n: usize, rng: &mut Rng) -> Vec<G::Point> {
     let mut points = vec![G::Point::default(); n];
     for p in &mut points {
         (0..G::D).for_each(|k| p[k] = rng.unit() * 6.0 - 3.0);
@@ -20,13 +20,13 @@ fn points<G: Dimension>(kind: usize, n: usize, rng: &mut Rng) -> Vec<G::Point> {
     points
 }
 
-fn ghosts<G: Dimension>(t: &Delaunay<G>) -> Vec<Slot> {
+fn ghosts<G: Geometry>(t: &Delaunay<G>) -> Vec<Slot> {
     t.complex.live().filter(|&c| t.complex.cell(c).is_ghost()).collect()
 }
 
 /// Whether the ray from `o` through `aim` crosses the facet of a ghost cell, of which `o` is on the inner side; `None`
 /// if it meets the boundary of the facet, or there is no ray.
-fn crosses<G: Dimension>(t: &Delaunay<G>, ghost: Slot, o: &G::Point, aim: &G::Point) -> Option<bool> {
+fn crosses<G: Geometry>(t: &Delaunay<G>, ghost: Slot, o: &G::Point, aim: &G::Point) -> Option<bool> {
     let mut crosses = Some(true);
     for i in 0..G::D {
         let mut points = t.view().points(&t.complex.cell(ghost).corners);
@@ -43,7 +43,7 @@ fn crosses<G: Dimension>(t: &Delaunay<G>, ghost: Slot, o: &G::Point, aim: &G::Po
 }
 
 /// Each bit is right; returns how many there are, by what they say.
-fn rays_agree<G: Dimension>(t: &Delaunay<G>, o: &G::Point, aim: &G::Point) -> [usize; 3] {
+fn rays_agree<G: Geometry>(t: &Delaunay<G>, o: &G::Point, aim: &G::Point) -> [usize; 3] {
     let mut n_certain = [0; 3];
     for four in ghosts(t).chunks_exact(LANES) {
         let corners = [0, 1, 2, 3].map(|k| t.complex.cell(four[k]).corners);
@@ -66,7 +66,7 @@ fn rays_agree<G: Dimension>(t: &Delaunay<G>, o: &G::Point, aim: &G::Point) -> [u
 }
 
 /// What is dropped has convex ridges alone; returns how many are dropped, and how many kept in vain.
-fn dropped_ones_are_convex<G: Dimension>(t: &Delaunay<G>) -> [usize; 2] {
+fn dropped_ones_are_convex<G: Geometry>(t: &Delaunay<G>) -> [usize; 2] {
     let is_convex = |g: Slot| (0..G::D).all(|i| t.is_convex(Facet::new(g, i)));
     let ghosts = ghosts(t);
     let mut failures = Failures { open_ghosts: ghosts.clone(), may_wind_twice: true, ..Failures::default() };
@@ -80,7 +80,7 @@ fn dropped_ones_are_convex<G: Dimension>(t: &Delaunay<G>) -> [usize; 2] {
     [ghosts.len() - kept.len(), kept.iter().filter(|&&g| is_convex(g)).count()]
 }
 
-fn all_agree<G: Dimension>() {
+fn all_agree<G: Geometry>() {
     let rng = &mut Rng::new(7);
     for kind in 0..3 {
         let (mut n_certain, mut n_convex, mut n_once) = ([0; 3], [0; 2], [0; 2]);

@@ -9,7 +9,7 @@ use crate::random::Rng;
 type Found = Vec<(SiteId, Option<Facet>, Vec<SiteId>)>;
 
 /// The cells of a filling.
-fn cells<G: Dimension>(hole: &Hole<G>) -> Vec<Found> {
+fn cells<G: Geometry>(hole: &Hole<G>) -> Vec<Found> {
     let ascending = |corners: &G::Corners| {
         let mut corners = corners.as_ref().to_vec();
         corners.sort_unstable();
@@ -34,7 +34,7 @@ fn cells<G: Dimension>(hole: &Hole<G>) -> Vec<Found> {
 
 /// For these points, in how many removals cells were found, how often they were not, and how often they were not looked
 /// for. What is found is what exact signs find.
-fn found<G: Dimension>(points: &[G::Point]) -> [usize; 3] {
+fn found<G: Geometry>(points: &[G::Point]) -> [usize; 3] {
     let mut t = Delaunay::<G>::default();
     t.add_sites(points).expect("room");
     t.rebuild(&mut |_| true).expect("room");
@@ -64,13 +64,13 @@ fn found<G: Dimension>(points: &[G::Point]) -> [usize; 3] {
     n
 }
 
-fn points<G: Dimension>(n: usize, mut coordinate: impl FnMut() -> f64) -> Vec<G::Point> {
+fn points<G: Geometry>(n: usize, mut coordinate: impl FnMut() -> f64) -> Vec<G::Point> {
     let mut points = vec![G::Point::default(); n];
     points.iter_mut().for_each(|p| (0..G::D).for_each(|axis| p[axis] = coordinate()));
     points
 }
 
-fn all_agree<G: Dimension>() {
+fn all_agree<G: Geometry>() {
     let rng = &mut Rng::new(1);
     let of_random = found::<G>(&points::<G>(3000, || rng.unit()));
     let scales = [1.0, 1e-3, 1e-6, 1e-9];

@@ -175,7 +175,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 t.mesh.log_vertex(id)?;
                 t.mesh.site_of[id] = s;
                 match t.mesh.kernel.insert_site(s, near)? {
-                    Insertion::New => near = t.mesh.kernel.site(s).cell,
+                    Insertion::New | Insertion::Hidden(_) => near = t.mesh.kernel.site(s).cell,
                     Insertion::Coincident(at) => t.mesh.hide(id, at)?,
                     Insertion::Spans => return Ok(SingleEdits::NeedBuild),
                 }

@@ -214,7 +214,7 @@ impl<G: Dimension> Mesh<G> {
         let own = self.kernel.add_site(*q, vertex)?;
         self.site_of[vertex] = own;
         match self.kernel.insert_site(own, self.kernel.site(s).cell)? {
-            Insertion::New => {}
+            Insertion::New | Insertion::Hidden(_) => {}
             Insertion::Coincident(t) => self.hide(vertex, t)?,
             Insertion::Spans => return Ok(Placed::NeedBuild),
         }

@@ -6,7 +6,7 @@ use crate::machine::threads::Threads;
 use crate::random::Rng;
 
 /// A lattice, in any order.
-fn lattice<G: Dimension>(side: usize, rng: &mut Rng) -> Vec<G::Point> {
+fn lattice<G: Geometry>(side: usize, rng: &mut Rng) -> Vec<G::Point> {
     let mut points: Vec<G::Point> = (0..side.pow(G::D as u32))
         .map(|i| {
             let mut p = G::Point::default();
@@ -20,11 +20,11 @@ fn lattice<G: Dimension>(side: usize, rng: &mut Rng) -> Vec<G::Point> {
     points
 }
 
-fn built<G: Dimension>(points: &[G::Point]) -> Delaunay<G> {
+fn built<G: Geometry>(points: &[G::Point]) -> Delaunay<G> {
     built_on(points, 1)
 }
 
-fn built_on<G: Dimension>(points: &[G::Point], threads: u32) -> Delaunay<G> {
+fn built_on<G: Geometry>(points: &[G::Point], threads: u32) -> Delaunay<G> {
     let mut t = Delaunay::<G>::on(Threads::exactly(threads)).expect("room for it");
     t.add_sites(points).expect("room for it");
     t.rebuild(&mut |_| true).expect("room for it");
@@ -32,7 +32,7 @@ fn built_on<G: Dimension>(points: &[G::Point], threads: u32) -> Delaunay<G> {
 }
 
 /// Moves all sites, and sweeps.
-fn move_all<G: Dimension>(t: &mut Delaunay<G>, points: &[G::Point]) -> Failures {
+fn move_all<G: Geometry>(t: &mut Delaunay<G>, points: &[G::Point]) -> Failures {
     for s in t.live_sites().collect::<Vec<_>>() {
         let q = points[t.site(s).id.index()];
         t.cover(&q, &q);
@@ -44,7 +44,7 @@ fn move_all<G: Dimension>(t: &mut Delaunay<G>, points: &[G::Point]) -> Failures 
 }
 
 /// What there is: how many ghosts, and of every cell its slot, corners and neighbours.
-fn contents<G: Dimension>(t: &Delaunay<G>) -> Vec<u32> {
+fn contents<G: Geometry>(t: &Delaunay<G>) -> Vec<u32> {
     let mut numbers = vec![t.complex.n_ghosts() as u32];
     for c in t.complex.live() {
         let cell = t.complex.cell(c);
@@ -55,24 +55,24 @@ fn contents<G: Dimension>(t: &Delaunay<G>) -> Vec<u32> {
     numbers
 }
 
-fn n_ghosts_counted<G: Dimension>(t: &Delaunay<G>) -> usize {
+fn n_ghosts_counted<G: Geometry>(t: &Delaunay<G>) -> usize {
     t.complex.live().filter(|&c| t.complex.cell(c).is_ghost()).count()
 }
 
 /// Whether all cells are positive and the hull is convex.
-fn is_untangled<G: Dimension>(t: &Delaunay<G>) -> bool {
+fn is_untangled<G: Geometry>(t: &Delaunay<G>) -> bool {
     let is_right = |c: Slot| {
         if t.is_ghost(c) { (0..G::D).all(|i| t.is_convex(Facet::new(c, i))) } else { t.is_positive(c) }
     };
     t.complex.live().all(is_right)
 }
 
-fn take_none_back<G: Dimension>(_: &mut Delaunay<G>, _: &[SiteId]) -> Result<Option<SiteId>> {
+fn take_none_back<G: Geometry>(_: &mut Delaunay<G>, _: &[SiteId]) -> Result<Option<SiteId>> {
     Ok(None)
 }
 
 /// Untangles, undoes that, does it again, and flips; whether it could be done. If not, nothing has changed.
-fn mends<G: Dimension>(t: &mut Delaunay<G>, failures: &mut Failures) -> bool {
+fn mends<G: Geometry>(t: &mut Delaunay<G>, failures: &mut Failures) -> bool {
     let before = contents(t);
     let mut suspects = Vec::new();
     let is_done = t.untangle(failures, &mut suspects, u64::MAX, &mut take_none_back).expect("room for it");
@@ -97,7 +97,7 @@ fn mends<G: Dimension>(t: &mut Delaunay<G>, failures: &mut Failures) -> bool {
 
 /// The sides of a lattice that is sheared, again and again, are in a plane but for rounding. Returns how often cells
 /// were not positive, and how often all of them were, but the hull was dented.
-fn sheared_lattices<G: Dimension>(side: usize, n_steps: usize) -> [usize; 2] {
+fn sheared_lattices<G: Geometry>(side: usize, n_steps: usize) -> [usize; 2] {
     let mut points = lattice::<G>(side, &mut Rng::new(1));
     let mut n_tangled = [0; 2];
     for _ in 0..n_steps {
@@ -125,7 +125,7 @@ fn sheared_lattices_are_untangled() {
 
 /// Random points go farther and farther: at first nearly always all can be mended, in the end it is not even tried for
 /// long.
-fn random_points<G: Dimension>(n: usize, sizes: [f64; 2]) {
+fn random_points<G: Geometry>(n: usize, sizes: [f64; 2]) {
     let rng = &mut Rng::new(2);
     for (size, is_large) in sizes.into_iter().zip([false, true]) {
         let (mut n_tangled, mut n_mended) = (0, 0);
@@ -158,7 +158,7 @@ fn random_cells_are_untangled() {
 
 /// Where vertices of cells and ridges that cannot be exchanged are taken back, all can be untangled, though some only
 /// from the start again; what is left where it cannot is the cells from before.
-fn vertices_are_taken_back<G: Dimension>(n: usize, size: f64) {
+fn vertices_are_taken_back<G: Geometry>(n: usize, size: f64) {
     let rng = &mut Rng::new(4);
     let (mut n_tangled, mut n_mended, mut n_again, mut n_back) = (0, 0, 0, 0);
     for _ in 0..80 {

@@ -72,7 +72,7 @@ impl MovingTriangulation<Plane> {
         let (kernel, cells) = (&self.mesh.kernel, self.cell_arrays()?);
         let start = (!cells.corners().is_empty()).then(|| {
             let around = kernel.site(s).cell;
-            let behind = kernel.complex().cell(around).neighbour(Plane::D).cell();
+            let behind = kernel.complex().cell(around).neighbour(<Plane>::D).cell();
             let is_ghost = kernel.complex().cell(around).is_ghost();
             let cell = cells.index_of()[if is_ghost { behind } else { around }];
             let at = cells.corners()[cell].iter().position(|&v| v == kernel.site(s).id).expect("a corner");

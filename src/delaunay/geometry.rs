@@ -1,22 +1,29 @@
-//! A dimension: all that differs between the plane and space.
+//! A geometry: all that differs between the plane and space, with weights and without.
 
 use std::fmt::Debug;
 
 use super::Delaunay;
 use super::exchange::Exchange;
 use super::flipper::Flip;
+use super::shape::{Plane, Space};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
-use crate::predicates::StaticFilter;
+use crate::predicates::{BiCellTolerances, Measures, Reach, StaticFilter};
 
-/// A dimension: [`Plane`](super::Plane) or [`Space`](super::Space).
-pub trait Dimension: Flip + Exchange {
+/// The plane or space, with places by a power distance or without: what the kernel asks of it.
+pub trait Geometry: Flip {
     /// Scratch memory of insertions.
     type Scratch: Insert<Self>;
 }
 
-/// How a dimension inserts, and the scratch memory for that.
-pub trait Insert<G: Dimension>: Debug + Default + Send + Sync {
+/// A dimension in which vertices move: [`Plane`] or [`Space`].
+pub trait Dimension: Geometry<Point: BiCellTolerances + Measures + Reach> + Exchange {}
+
+impl Dimension for Plane {}
+impl Dimension for Space {}
+
+/// How a geometry inserts, and the scratch memory for that.
+pub trait Insert<G: Geometry>: Debug + Default + Send + Sync {
     /// Gets ready to insert very many sites, which will have `n_cells` cells: after that, and until
     /// [`end_build`](Self::end_build), `BUILD` is true. The complex keeps no record meanwhile. `is_weak` if the static
     /// filter is.

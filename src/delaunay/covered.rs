@@ -1,0 +1,386 @@
+//! Sites that weights hide: live, and corners of no cell.
+//!
+//! With weights a site may be above the lower hull of all lifted ones: *hidden*, until it or others change. It is above the cell that
+//! has its place, which *covers* it; that is all there is to test, as the lifted cells are one function of the place. What is hidden
+//! can only come back where cells have gone or corners have moved or been raised, and what is inserted only hides more.
+//!
+//! So a change of cells *loosens* the sites that these cover, and [`settle`](Delaunay::settle), after one change or after many,
+//! looks for the cell that covers each: a site that is below it is inserted, and may hide others. Between these calls the
+//! cells are those of the sites that are shown. Every insertion lowers the hull, so there is an end.
+//!
+//! Sites at one place are no case of their own: the one of the greatest weight, then of the lowest rank, is below the others.
+//!
+//! What a cell covers is a list through the sites: to enter one and to take one out need no memory.
+//!
+//! Invariants: a live site has a cell if it is shown, else [`Slot::NONE`]; after `settle` each hidden one is in the list of one live,
+//! finite cell that has its place.
+//!
+//! Cost: a walk of few steps for each site that was loosened; 16 bytes a site and 4 a cell, where there are weights.
+
+use super::cavity::Cavity;
+use super::geometry::Insert;
+use super::{Delaunay, Geometry};
+use crate::complex::Row;
+use crate::error::Result;
+use crate::ids::{SiteId, Slot};
+use crate::machine::memory;
+
+/// Where a hidden site is listed.
+#[derive(Clone, Copy, Debug)]
+struct Link {
+    /// The cell that covers it, or did; [`Slot::NONE`] of a site that is shown, or free.
+    cell: Slot,
+    /// The sites after it and before it in the list of that cell, or of those that are loose.
+    next: SiteId,
+    previous: SiteId,
+    is_loose: bool,
+}
+
+const SHOWN: Link = Link { cell: Slot::NONE, next: SiteId::NONE, previous: SiteId::NONE, is_loose: false };
+
+/// The hidden sites.
+#[derive(Debug)]
+pub(super) struct Covered {
+    /// By site.
+    links: Vec<Link>,
+    /// The first site that each cell covers.
+    first: Vec<SiteId>,
+    /// The first one that is loose.
+    loose: SiteId,
+    n: usize,
+    /// Those that the last insertion has hidden, and a cell that each had before.
+    swallowed: Vec<(SiteId, Slot)>,
+}
+
+impl Default for Covered {
+    fn default() -> Self {
+        Covered {
+            links: Vec::new(),
+            first: Vec::new(),
+            loose: SiteId::NONE,
+            n: 0,
+            swallowed: Vec::new(),
+        }
+    }
+}
+
+impl Covered {
+    pub(super) fn memory_bytes(&self) -> usize {
+        memory::bytes_of(&self.links) + memory::bytes_of(&self.first) + memory::bytes_of(&self.swallowed)
+    }
+
+    /// A copy, without scratch memory.
+    pub(super) fn copied(&self) -> Result<Self> {
+        Ok(Covered {
+            links: memory::copy_of(&self.links)?,
+            first: memory::copy_of(&self.first)?,
+            swallowed: Vec::new(),
+            ..*self
+        })
+    }
+
+    /// Makes room for this number of sites and of slots.
+    fn reserve(&mut self, n_sites: usize, n_slots: usize) -> Result<()> {
+        if self.links.len() < n_sites {
+            memory::lengthen(&mut self.links, n_sites, SHOWN)?;
+        }
+        if self.first.len() < n_slots {
+            memory::lengthen(&mut self.first, n_slots, SiteId::NONE)?;
+        }
+        Ok(())
+    }
+
+    /// Enters a site into the list of a cell; none of those that are loose.
+    fn enter(&mut self, s: SiteId, cell: Option<Slot>) {
+        let Covered { links, first, loose, n, .. } = self;
+        let head = cell.map_or(loose, |cell| &mut first[cell.index()]);
+        let next = std::mem::replace(head, s);
+        if next != SiteId::NONE {
+            links[next.index()].previous = s;
+        }
+        let link = &mut links[s.index()];
+        *link = Link {
+            cell: cell.unwrap_or(link.cell),
+            next,
+            previous: SiteId::NONE,
+            is_loose: cell.is_none(),
+        };
+        *n += 1;
+    }
+
+    /// Takes a site out of the list that it is in.
+    fn take_out(&mut self, s: SiteId) {
+        let Link { cell, next, previous, is_loose } = self.links[s.index()];
+        if next != SiteId::NONE {
+            self.links[next.index()].previous = previous;
+        }
+        let before = if previous != SiteId::NONE {
+            &mut self.links[previous.index()].next
+        } else if is_loose {
+            &mut self.loose
+        } else {
+            &mut self.first[cell.index()]
+        };
+        *before = next;
+        self.links[s.index()] = SHOWN;
+        self.n -= 1;
+    }
+
+    /// Whether a site is in a list.
+    fn has(&self, s: SiteId) -> bool {
+        self.links.get(s.index()).is_some_and(|link| link.is_loose || link.cell != Slot::NONE)
+    }
+
+    /// Loosens what a cell covers.
+    fn loosen(&mut self, cell: Slot) {
+        while let Some(&s) = self.first.get(cell.index()).filter(|&&s| s != SiteId::NONE) {
+            self.take_out(s);
+            self.links[s.index()].cell = cell;
+            self.enter(s, None);
+        }
+    }
+
+    /// The sites that a cell covers.
+    fn of(&self, cell: Slot) -> impl Iterator<Item = SiteId> + '_ {
+        let first = self.first.get(cell.index()).copied();
+        let some = |s: &SiteId| *s != SiteId::NONE;
+        std::iter::successors(first.filter(some), move |s| Some(self.links[s.index()].next).filter(some))
+    }
+}
+
+/// The sites that an insertion hides: corners of the zone and of no facet of its rim.
+pub(super) struct Swallowed(Vec<(SiteId, Slot)>);
+
+impl Swallowed {
+    /// Begins with the corners of the rim, each to be [spared](Self::spare).
+    pub(super) fn begin<G: Geometry>(t: &mut Delaunay<G>) -> Self {
+        let mut list = std::mem::take(&mut t.covered.swallowed);
+        list.clear();
+        Swallowed(list)
+    }
+
+    /// These sites stay: they have this cell, which is not in the zone.
+    #[inline(always)]
+    pub(super) fn spare<G: Geometry, const N: usize>(
+        &mut self,
+        t: &mut Delaunay<G>,
+        sites: [SiteId; N],
+        cell: Slot,
+    ) {
+        sites.into_iter().for_each(|s| t.corner_mut(s).cell = cell);
+    }
+
+    /// Lists the corners of a cell of the zone, which is marked, that have not been spared. On an error all have the cells again
+    /// that they had, or others that there are.
+    #[inline(always)]
+    pub(super) fn look_at<G: Geometry>(&mut self, t: &mut Delaunay<G>, cell: Slot) -> Result<()> {
+        let corners = t.complex.cell(cell).corners;
+        for &s in corners.as_ref() {
+            let of = t.site(s).cell;
+            if of == Slot::NONE || t.complex.mark(of) == 0 {
+                continue;
+            }
+            if let Err(error) = memory::push(&mut self.0, (s, of)) {
+                self.0.drain(..).for_each(|(s, cell)| t.corner_mut(s).cell = cell);
+                return Err(error);
+            }
+            t.corner_mut(s).cell = Slot::NONE;
+        }
+        Ok(())
+    }
+
+    /// Ends with the list complete.
+    pub(super) fn end<G: Geometry>(self, t: &mut Delaunay<G>, zone: impl Iterator<Item = Slot>) {
+        t.covered.swallowed = self.0;
+        zone.for_each(|cell| t.covered.loosen(cell));
+    }
+}
+
+impl<G: Geometry> Delaunay<G> {
+    /// Whether a live site is hidden by weight.
+    #[inline(always)]
+    pub(crate) fn is_hidden(&self, s: SiteId) -> bool {
+        G::HAS_WEIGHTS && self.has_cells() && self.site(s).cell == Slot::NONE
+    }
+
+    /// How many sites are hidden.
+    pub fn n_hidden(&self) -> usize {
+        self.covered.n
+    }
+
+    /// The cell that covers a hidden site, once all are [settled](Self::settle); [`Slot::NONE`] of others.
+    pub fn covering_cell(&self, s: SiteId) -> Slot {
+        self.covered.links.get(s.index()).map_or(Slot::NONE, |link| link.cell)
+    }
+
+    /// Whether a site is in the list of the cell that covers it.
+    pub(super) fn is_listed(&self, s: SiteId) -> bool {
+        let link = self.covered.links[s.index()];
+        !link.is_loose && self.covered.of(link.cell).any(|other| other == s)
+    }
+
+    /// Makes room for what an insertion may hide.
+    #[inline(always)]
+    pub(super) fn make_room_to_hide(&mut self) -> Result<()> {
+        if G::HAS_WEIGHTS { self.covered.reserve(self.sites.len(), self.complex.n_slots()) } else { Ok(()) }
+    }
+
+    /// Lists what the last insertion has hidden. There is [room](Self::make_room_to_hide).
+    #[inline(always)]
+    pub(super) fn list_swallowed(&mut self) {
+        if G::HAS_WEIGHTS {
+            let swallowed = std::mem::take(&mut self.covered.swallowed);
+            for &(s, _) in &swallowed {
+                self.covered.enter(s, None);
+            }
+            self.covered.swallowed = swallowed;
+        }
+    }
+
+    /// Lists a site that an insertion has found to be hidden. There is [room](Self::make_room_to_hide).
+    pub(super) fn hide(&mut self, s: SiteId, cell: Slot) {
+        self.covered.enter(s, Some(cell));
+    }
+
+    /// Takes a hidden site out of its list.
+    pub(super) fn uncover(&mut self, s: SiteId) {
+        if self.covered.has(s) {
+            self.covered.take_out(s);
+        }
+    }
+
+    /// Loosens a hidden site, whose place or weight is another one.
+    pub(super) fn loosen_site(&mut self, s: SiteId) {
+        let Link { cell, is_loose, .. } = self.covered.links[s.index()];
+        if !is_loose {
+            self.covered.take_out(s);
+            self.covered.links[s.index()].cell = cell;
+            self.covered.enter(s, None);
+        }
+    }
+
+    /// Loosens the sites that the cells of the gathered star cover.
+    #[inline(always)]
+    pub(super) fn loosen_star(&mut self) {
+        if G::HAS_WEIGHTS && self.covered.n > 0 {
+            let Self { covered, star, .. } = self;
+            star.iter().for_each(|&(cell, _)| covered.loosen(cell));
+        }
+    }
+
+    /// Loosens the sites that cells covered which have been changed.
+    pub(super) fn loosen_rows(&mut self, rows: &[Row<G::Corners>]) {
+        if G::HAS_WEIGHTS && self.covered.n > 0 {
+            rows.iter().for_each(|row| self.covered.loosen(row.slot));
+        }
+    }
+
+    /// Lists all hidden sites anew, as loose: after a build, or where all may have moved.
+    pub(crate) fn loosen_all(&mut self) -> Result<()> {
+        if !G::HAS_WEIGHTS {
+            return Ok(());
+        }
+        self.make_room_to_hide()?;
+        for s in SiteId::range(1..self.sites.len()) {
+            if self.is_hidden(s) && self.site(s).is_live() {
+                if self.covered.has(s) { self.loosen_site(s) } else { self.covered.enter(s, None) }
+            }
+        }
+        Ok(())
+    }
+
+    /// Forgets the hidden sites: there are no cells, or all are going to be listed [anew](Self::loosen_all).
+    pub(super) fn forget_covered(&mut self) {
+        if G::HAS_WEIGHTS {
+            self.covered.links.fill(SHOWN);
+            self.covered.first.fill(SiteId::NONE);
+            (self.covered.loose, self.covered.n) = (SiteId::NONE, 0);
+        }
+    }
+
+    /// Finds the cell that covers each loose site, and inserts those that are below it. After an error those that are left are loose
+    /// still.
+    pub fn settle(&mut self) -> Result<()> {
+        if !G::HAS_WEIGHTS || !self.has_cells() {
+            return Ok(());
+        }
+        while self.covered.loose != SiteId::NONE {
+            self.go_on()?;
+            self.make_room_to_hide()?;
+            self.settle_one(self.covered.loose)?;
+        }
+        Ok(())
+    }
+
+    fn settle_one(&mut self, s: SiteId) -> Result<()> {
+        let (q, id) = (self.site(s).point, self.site(s).id);
+        let hint = self.covered.links[s.index()].cell;
+        let near = if self.complex.is_live(hint) { hint } else { self.recent };
+        let mut cavity = std::mem::take(&mut self.cavity);
+        let cell = self.walk(&self.filter, &q, near, &mut cavity.steps);
+        let shown = if self.complex.cell(cell).is_ghost() || self.is_in_conflict(cell, &q, id) {
+            self.insert_from(&mut cavity, cell, s).map(|()| true)
+        } else {
+            Ok(false)
+        };
+        self.cavity = cavity;
+        if !shown? {
+            self.covered.take_out(s);
+            self.covered.enter(s, Some(cell));
+        }
+        Ok(())
+    }
+
+    /// Inserts a loose site, of whose zone this is a cell.
+    fn insert_from(&mut self, cavity: &mut Cavity<G>, cell: Slot, s: SiteId) -> Result<()> {
+        let made = cavity.scratch.insert::<false>(self, cell, s)?;
+        self.covered.take_out(s);
+        self.recent = made;
+        self.sites[s].cell = made;
+        self.record(cavity.scratch.made());
+        self.pace.count(cavity.scratch.made().len());
+        self.list_swallowed();
+        Ok(())
+    }
+
+    /// Follows a change of the slots of cells, which leaves as many or fewer: those of what is there are listed by the old ones.
+    pub(super) fn renumber_covering_cells(&mut self, index: &[Slot]) -> Result<()> {
+        if !G::HAS_WEIGHTS || self.covered.n == 0 {
+            return Ok(());
+        }
+        let mut first = Vec::new();
+        memory::lengthen(&mut first, self.covered.first.len(), SiteId::NONE)?;
+        let Covered { links, first: old, .. } = &mut self.covered;
+        for (slot, &s) in old.iter().enumerate().filter(|&(_, &s)| s != SiteId::NONE) {
+            first[index[Slot::at(slot)].index()] = s;
+        }
+        for link in links.iter_mut().filter(|link| link.cell != Slot::NONE) {
+            link.cell = index.get(link.cell.index()).copied().unwrap_or(Slot::NONE);
+        }
+        self.covered.first = first;
+        Ok(())
+    }
+
+    /// After a change has been undone: which sites are shown, and all others as loose ones. Needs no memory, as there was
+    /// [room](Self::make_room_to_hide) when the change began.
+    pub(super) fn find_hidden_again(&mut self) {
+        self.forget_covered();
+        for s in SiteId::range(1..self.sites.len()) {
+            let site = &mut self.sites[s];
+            if !site.is_live() {
+                continue;
+            }
+            let cell = site.cell;
+            let is_shown =
+                self.complex.is_live(cell) && self.complex.cell(cell).corners.as_ref().contains(&s);
+            if !is_shown {
+                site.cell = Slot::NONE;
+                self.covered.links[s.index()].cell = cell;
+                self.covered.enter(s, None);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
