@@ -598,7 +598,7 @@ fn ids_are_given_again_where_nothing_knows_them() {
     t.remove_vertex(VertexId::new(4)).expect("present");
     assert_eq!(given(&mut t, 1), [1]);
     assert_eq!(given(&mut t, 2), [4, 5]);
-    assert_eq!(given(&mut t, 0), []);
+    assert!(given(&mut t, 0).is_empty());
     t.discard_moves();
     assert_eq!((t.id_count(), given(&mut t, 3)), (5, vec![1, 4, 5]));
     t.commit_timestamp().expect("room");

@@ -42,5 +42,6 @@ mod suites;
 mod threads;
 mod tolerances;
 mod transferring;
+mod weights;
 mod words;
 mod work;

@@ -330,7 +330,7 @@ fn stages_after_the_static_bound_of_spheres_are_exact() {
             let expected = exact_sign(&points, &mut tally);
             let [a, b, c, d, q] = points.each_ref();
             let side = side_of_sphere(&sphere(a, b, c, d), a, q);
-            if is_side_certain(side, [a, b, c, d, q]) {
+            if <[f64; 3]>::is_side_certain(side, [a, b, c, d, q]) {
                 assert_eq!(side.partial_cmp(&0.0), Some(expected), "{points:?}");
                 n_certain += 1;
             }

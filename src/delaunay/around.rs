@@ -25,7 +25,7 @@ impl<G: Geometry> Delaunay<G> {
         star: &mut IndexSet<Slot>,
         found: impl FnMut(Slot),
     ) -> Result<()> {
-        if !self.has_cells() {
+        if !self.has_cells() || self.is_hidden(s) {
             return Ok(());
         }
         list_star(&self.complex, self.site(s).cell, s, star, found)

@@ -205,8 +205,8 @@ impl<G: Geometry> Delaunay<G> {
         };
         t.tighten_filter();
         if t.has_cells() {
-            t.loosen_all()?;
-            t.settle()?;
+            t.list_hidden()?;
+            t.settle(|_| Ok(()))?;
         }
         Ok((t, index))
     }

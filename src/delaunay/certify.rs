@@ -10,7 +10,7 @@ mod hull;
 use std::ops::Range;
 
 use super::uncertain::Doubts;
-use super::{Delaunay, Geometry, Failures};
+use super::{Delaunay, Failures, Geometry};
 use crate::complex::{Cell, Corners, Facet, INFINITE};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot};

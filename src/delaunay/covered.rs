@@ -12,6 +12,9 @@
 //!
 //! What a cell covers is a list through the sites: to enter one and to take one out need no memory.
 //!
+//! A change that is undone leaves all of them loose, as vertices may not be back at their places yet; the next one begins by looking
+//! for their cells.
+//!
 //! Invariants: a live site has a cell if it is shown, else [`Slot::NONE`]; after `settle` each hidden one is in the list of one live,
 //! finite cell that has its place.
 //!
@@ -54,13 +57,7 @@ pub(super) struct Covered {
 
 impl Default for Covered {
     fn default() -> Self {
-        Covered {
-            links: Vec::new(),
-            first: Vec::new(),
-            loose: SiteId::NONE,
-            n: 0,
-            swallowed: Vec::new(),
-        }
+        Covered { links: Vec::new(), first: Vec::new(), loose: SiteId::NONE, n: 0, swallowed: Vec::new() }
     }
 }
 
@@ -99,12 +96,8 @@ impl Covered {
             links[next.index()].previous = s;
         }
         let link = &mut links[s.index()];
-        *link = Link {
-            cell: cell.unwrap_or(link.cell),
-            next,
-            previous: SiteId::NONE,
-            is_loose: cell.is_none(),
-        };
+        *link =
+            Link { cell: cell.unwrap_or(link.cell), next, previous: SiteId::NONE, is_loose: cell.is_none() };
         *n += 1;
     }
 
@@ -205,18 +198,19 @@ impl<G: Geometry> Delaunay<G> {
 
     /// How many sites are hidden.
     pub fn n_hidden(&self) -> usize {
-        self.covered.n
+        if G::HAS_WEIGHTS { self.covered.n } else { 0 }
     }
 
-    /// The cell that covers a hidden site, once all are [settled](Self::settle); [`Slot::NONE`] of others.
+    /// The cell that covers a hidden site.
     pub fn covering_cell(&self, s: SiteId) -> Slot {
-        self.covered.links.get(s.index()).map_or(Slot::NONE, |link| link.cell)
+        let link = self.covered.links[s.index()];
+        if link.is_loose { self.cell_over(s) } else { link.cell }
     }
 
-    /// Whether a site is in the list of the cell that covers it.
+    /// Whether a site is in the list of the cell that covers it, or of those that an undone change has left loose.
     pub(super) fn is_listed(&self, s: SiteId) -> bool {
         let link = self.covered.links[s.index()];
-        !link.is_loose && self.covered.of(link.cell).any(|other| other == s)
+        link.is_loose || self.covered.of(link.cell).any(|other| other == s)
     }
 
     /// Makes room for what an insertion may hide.
@@ -259,6 +253,20 @@ impl<G: Geometry> Delaunay<G> {
         }
     }
 
+    /// Loosens the sites that the cells around a site cover, which has moved and leaves them as they are.
+    pub(crate) fn loosen_around(&mut self, s: SiteId) -> Result<()> {
+        if !G::HAS_WEIGHTS || self.covered.n == 0 {
+            return Ok(());
+        }
+        if self.is_hidden(s) {
+            self.loosen_site(s);
+            return Ok(());
+        }
+        self.gather_star(s)?;
+        self.loosen_star();
+        Ok(())
+    }
+
     /// Loosens the sites that the cells of the gathered star cover.
     #[inline(always)]
     pub(super) fn loosen_star(&mut self) {
@@ -275,18 +283,34 @@ impl<G: Geometry> Delaunay<G> {
         }
     }
 
-    /// Lists all hidden sites anew, as loose: after a build, or where all may have moved.
-    pub(crate) fn loosen_all(&mut self) -> Result<()> {
+    /// Lists the hidden sites after a build, as loose.
+    pub(super) fn list_hidden(&mut self) -> Result<()> {
         if !G::HAS_WEIGHTS {
             return Ok(());
         }
         self.make_room_to_hide()?;
         for s in SiteId::range(1..self.sites.len()) {
             if self.is_hidden(s) && self.site(s).is_live() {
-                if self.covered.has(s) { self.loosen_site(s) } else { self.covered.enter(s, None) }
+                self.covered.enter(s, None);
             }
         }
         Ok(())
+    }
+
+    /// Loosens all hidden sites, where any site may have moved.
+    pub(crate) fn loosen_all(&mut self) {
+        if G::HAS_WEIGHTS && self.covered.n > 0 {
+            for s in SiteId::range(1..self.covered.links.len()) {
+                if self.covered.has(s) {
+                    self.loosen_site(s);
+                }
+            }
+        }
+    }
+
+    /// Whether there are sites to be [settled](Self::settle).
+    pub(crate) fn has_loose(&self) -> bool {
+        G::HAS_WEIGHTS && self.covered.loose != SiteId::NONE
     }
 
     /// Forgets the hidden sites: there are no cells, or all are going to be listed [anew](Self::loosen_all).
@@ -298,37 +322,54 @@ impl<G: Geometry> Delaunay<G> {
         }
     }
 
-    /// Finds the cell that covers each loose site, and inserts those that are below it. After an error those that are left are loose
-    /// still.
-    pub fn settle(&mut self) -> Result<()> {
+    /// Finds the cell that covers each loose site, and inserts those that are below it, which `shown` is told. After an error those
+    /// that are left are loose still.
+    pub fn settle(&mut self, mut shown: impl FnMut(SiteId) -> Result<()>) -> Result<()> {
         if !G::HAS_WEIGHTS || !self.has_cells() {
             return Ok(());
         }
         while self.covered.loose != SiteId::NONE {
             self.go_on()?;
             self.make_room_to_hide()?;
-            self.settle_one(self.covered.loose)?;
+            let s = self.covered.loose;
+            let cell = self.cell_over(s);
+            if self.is_above(s, cell) {
+                self.covered.take_out(s);
+                self.covered.enter(s, Some(cell));
+                continue;
+            }
+            let mut cavity = std::mem::take(&mut self.cavity);
+            let inserted = self.insert_from(&mut cavity, cell, s);
+            self.cavity = cavity;
+            inserted?;
+            shown(s)?;
         }
         Ok(())
     }
 
-    fn settle_one(&mut self, s: SiteId) -> Result<()> {
-        let (q, id) = (self.site(s).point, self.site(s).id);
-        let hint = self.covered.links[s.index()].cell;
-        let near = if self.complex.is_live(hint) { hint } else { self.recent };
-        let mut cavity = std::mem::take(&mut self.cavity);
-        let cell = self.walk(&self.filter, &q, near, &mut cavity.steps);
-        let shown = if self.complex.cell(cell).is_ghost() || self.is_in_conflict(cell, &q, id) {
-            self.insert_from(&mut cavity, cell, s).map(|()| true)
-        } else {
-            Ok(false)
-        };
-        self.cavity = cavity;
-        if !shown? {
+    /// Finds the cell that covers each site that an undone change has left loose: all of them are hidden. There is
+    /// [room](Self::make_room_to_hide).
+    pub(super) fn settle_undone(&mut self) {
+        while self.has_cells() && self.has_loose() {
+            let s = self.covered.loose;
+            let cell = self.cell_over(s);
+            debug_assert!(self.is_above(s, cell));
             self.covered.take_out(s);
             self.covered.enter(s, Some(cell));
         }
-        Ok(())
+    }
+
+    /// The cell that has the place of a loose site.
+    fn cell_over(&self, s: SiteId) -> Slot {
+        let hint = self.covered.links[s.index()].cell;
+        let near = if self.complex.is_live(hint) { hint } else { self.recent };
+        self.walk(&self.filter, &self.site(s).point, near, &mut 0)
+    }
+
+    /// Whether a site is above the cell that has its place.
+    fn is_above(&self, s: SiteId, cell: Slot) -> bool {
+        let site = self.site(s);
+        !self.complex.cell(cell).is_ghost() && !self.is_in_conflict(cell, &site.point, site.id)
     }
 
     /// Inserts a loose site, of whose zone this is a cell.

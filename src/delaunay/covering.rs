@@ -47,12 +47,13 @@ impl<G: Geometry> Delaunay<G> {
         is_covered
     }
 
-    /// Makes the static filter valid for points in a box and up to `distance` off it.
+    /// Makes the static filter valid for points in a box and up to `distance` off it: so far is a weight that is off by the square.
     pub(crate) fn cover_around(&mut self, lower: &G::Point, upper: &G::Point, distance: f64) {
         let (mut lower, mut upper) = (*lower, *upper);
-        for axis in 0..G::D {
-            lower[axis] = (lower[axis] - distance).next_down();
-            upper[axis] = (upper[axis] + distance).next_up();
+        for k in 0..G::NUMBERS {
+            let most = if k < G::D { distance } else { (distance * distance).next_up() };
+            lower[k] = (lower[k] - most).next_down();
+            upper[k] = (upper[k] + most).next_up();
         }
         self.cover(&lower, &upper);
     }

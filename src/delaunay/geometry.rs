@@ -5,10 +5,10 @@ use std::fmt::Debug;
 use super::Delaunay;
 use super::exchange::Exchange;
 use super::flipper::Flip;
-use super::shape::{Plane, Space};
+use super::shape::{Plane, PowerPlane, PowerSpace, Space};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
-use crate::predicates::{BiCellTolerances, Measures, Reach, StaticFilter};
+use crate::predicates::{BiCellTolerances, Measures, StaticFilter};
 
 /// The plane or space, with places by a power distance or without: what the kernel asks of it.
 pub trait Geometry: Flip {
@@ -16,11 +16,13 @@ pub trait Geometry: Flip {
     type Scratch: Insert<Self>;
 }
 
-/// A dimension in which vertices move: [`Plane`] or [`Space`].
-pub trait Dimension: Geometry<Point: BiCellTolerances + Measures + Reach> + Exchange {}
+/// A dimension in which vertices move: [`Plane`] or [`Space`], of points with weights or without.
+pub trait Dimension: Geometry<Point: BiCellTolerances + Measures> + Exchange {}
 
 impl Dimension for Plane {}
 impl Dimension for Space {}
+impl Dimension for PowerPlane {}
+impl Dimension for PowerSpace {}
 
 /// How a geometry inserts, and the scratch memory for that.
 pub trait Insert<G: Geometry>: Debug + Default + Send + Sync {

@@ -63,8 +63,8 @@ impl<G: Geometry> Delaunay<G> {
         self.filter = filter;
         let coincident = inserted?;
         self.flat.clear();
-        self.loosen_all()?;
-        self.settle()?;
+        self.list_hidden()?;
+        self.settle(|_| Ok(()))?;
         Ok(coincident)
     }
 

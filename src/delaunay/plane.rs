@@ -1,14 +1,14 @@
 //! What the plane does on its own.
 
 use super::around::{next_of_three, previous_of_three};
-use super::{cavity_marked, cavity_plane};
-use super::geometry::Geometry;
 use super::flipper::{Flip, Flipper};
 use super::flips::Flips;
+use super::geometry::Geometry;
 use super::lane_tests::{Held, LaneTests, Ray, apexes_beyond, corners_at};
 use super::shape::{Plane, PowerPlane};
 use super::signs::Signs;
 use super::site::Sites;
+use super::{cavity_marked, cavity_plane};
 use crate::complex::{Complex, Facet, INFINITE, Obstacle};
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::predicates::{self, OwnBounds, PlanePoint, StaticFilter};
@@ -177,12 +177,7 @@ impl<P: PlanePoint> LaneTests for Plane<P> {
     }
 
     #[inline(always)]
-    fn bicell_holds(
-        f: &StaticFilter,
-        sites: Sites<Self>,
-        cells: &Complex<[SiteId; 3]>,
-        edge: Facet,
-    ) -> bool {
+    fn bicell_holds(f: &StaticFilter, sites: Sites<Self>, cells: &Complex<[SiteId; 3]>, edge: Facet) -> bool {
         let cell = cells.cell(edge.cell());
         let across = cell.neighbour(edge.index());
         let corners = cells.cell(across.cell()).corners;
@@ -215,7 +210,11 @@ impl<P: PlanePoint> LaneTests for Plane<P> {
             points(simd, sites, apexes_beyond(cells, edges)),
         ];
         let hold = predicates::bicells_surely_hold2d::<P, _>(f, &bicells).bits();
-        if hold == ALL { ALL } else { hold | predicates::bicells_hold_for_their_size2d::<P, _>(&bicells).bits() }
+        if hold == ALL {
+            ALL
+        } else {
+            hold | predicates::bicells_hold_for_their_size2d::<P, _>(&bicells).bits()
+        }
     }
 
     #[inline(always)]
@@ -268,19 +267,11 @@ fn corners<S: Simd, P: PlanePoint>(
 }
 
 #[inline(always)]
-fn points<S: Simd, P: PlanePoint>(
-    simd: S,
-    all: Sites<Plane<P>>,
-    sites: [SiteId; LANES],
-) -> P::Of<S::Lanes> {
+fn points<S: Simd, P: PlanePoint>(simd: S, all: Sites<Plane<P>>, sites: [SiteId; LANES]) -> P::Of<S::Lanes> {
     P::load(simd, sites.map(|s| all.point(s)))
 }
 
 #[inline(always)]
-fn places<S: Simd, P: PlanePoint>(
-    simd: S,
-    all: Sites<Plane<P>>,
-    sites: [SiteId; LANES],
-) -> [S::Lanes; 2] {
+fn places<S: Simd, P: PlanePoint>(simd: S, all: Sites<Plane<P>>, sites: [SiteId; LANES]) -> [S::Lanes; 2] {
     simd.pairs(sites.map(|s| all.point(s).place()))
 }

@@ -5,7 +5,7 @@
 //! and one over the hull, whatever the cells are. Time and memory are in proportion to their number and that of the
 //! positions, but for the sort's `n log n`.
 
-use super::{Delaunay, Geometry, Failures, Keys, Site};
+use super::{Delaunay, Failures, Geometry, Keys, Site};
 use crate::complex::{Complex, Corners, Facet};
 use crate::damage::{Damage, LoadError};
 use crate::error::{Error, Result};

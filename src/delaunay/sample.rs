@@ -1,7 +1,7 @@
 //! Certificates of a few cells, from which follows what a sweep of all would find; and how many cells that are to be
 //! flipped hang together.
 
-use super::{Delaunay, Geometry, Failures};
+use super::{Delaunay, Failures, Geometry};
 use crate::complex::{Corners, Facet};
 use crate::error::Result;
 use crate::ids::Slot;

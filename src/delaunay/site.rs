@@ -6,7 +6,7 @@
 #![allow(unsafe_code)]
 
 use super::keys::Keys;
-use super::shape::{Shape, Space};
+use super::shape::{PowerPlane, Shape, Space};
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::prefetch::prefetch;
 
@@ -88,8 +88,6 @@ impl<'s, G: Shape> Sites<'s, G> {
     }
 }
 
-const _: () = assert!(size_of::<Site<Space>>() == size_of::<[f64; 4]>());
-
 impl<'s> Sites<'s, Space> {
     /// The place of a corner, and a fourth number without a meaning: one load for all three coordinates.
     #[inline(always)]
@@ -98,17 +96,28 @@ impl<'s> Sites<'s, Space> {
     }
 }
 
-impl Site<Space> {
-    /// The place, and a fourth number without a meaning.
+/// A shape whose points are three numbers.
+pub trait ThreeNumbers: Shape {
+    /// Whether a site is as long as four numbers.
+    const FITS: () = assert!(size_of::<Site<Self>>() == size_of::<[f64; 4]>() && Self::NUMBERS == 3);
+}
+
+impl ThreeNumbers for Space {}
+impl ThreeNumbers for PowerPlane {}
+
+impl<G: ThreeNumbers> Site<G> {
+    /// The three numbers of the point, and a fourth one without a meaning.
     #[inline(always)]
     pub(super) fn padded(&self) -> &[f64; 4] {
+        const { G::FITS };
         // SAFETY: a site is as long as four numbers, all bits of it are set, and any bits are a number.
         unsafe { &*std::ptr::from_ref(self).cast() }
     }
 
-    /// The place, and a fourth number without a meaning, to write. That number is the site's cell and id.
+    /// The three numbers of the point, and a fourth one without a meaning, to write. That one is the site's cell and id.
     #[inline(always)]
     pub(super) fn padded_mut(&mut self) -> &mut [f64; 4] {
+        const { G::FITS };
         // SAFETY: a site is as long as four numbers, all bits of it are set, and any bits are numbers, or a cell and an
         // id.
         unsafe { &mut *std::ptr::from_mut(self).cast() }

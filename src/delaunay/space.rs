@@ -1,9 +1,9 @@
 //! What space does on its own.
 
 use super::cavity_space;
-use super::geometry::Geometry;
 use super::flipper::{Flip, Flipper};
 use super::flips::Flips;
+use super::geometry::Geometry;
 use super::lane_tests::{Held, LaneTests, Ray, apexes_beyond, corners_at};
 use super::shape::Space;
 use super::signs::Signs;
@@ -204,7 +204,11 @@ impl<P: InSpace> LaneTests for Space<P> {
             P::of_sites(simd, sites, apexes_beyond(cells, faces)),
         ];
         let hold = predicates::bicells_surely_hold3d::<P, _>(f, &bicells).bits();
-        if hold == ALL { ALL } else { hold | predicates::bicells_hold_for_their_size3d::<P, _>(&bicells).bits() }
+        if hold == ALL {
+            ALL
+        } else {
+            hold | predicates::bicells_hold_for_their_size3d::<P, _>(&bicells).bits()
+        }
     }
 
     #[inline(always)]

@@ -76,8 +76,7 @@ impl<P: InSpace> Spheres<P> {
         let n = n_cells.next_power_of_two().min(MOST_ENTRIES);
         self.entries.clear();
         memory::reserve_exact(&mut self.entries, n)?;
-        let none =
-            Entry { sphere: [0.0; 4], first: P::default(), cell: Slot::NONE, length: f32::INFINITY };
+        let none = Entry { sphere: [0.0; 4], first: P::default(), cell: Slot::NONE, length: f32::INFINITY };
         self.entries.resize(n, none);
         Ok(())
     }

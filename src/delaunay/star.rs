@@ -24,9 +24,13 @@ type Entry = (Slot, u8);
 const FEW: usize = 64;
 
 impl<G: Geometry> Delaunay<G> {
-    /// Collects the star of a site. What a relocation reads next is asked for: the sites of the link and those beyond
+    /// Collects the star of a site: nothing of one that weights hide. What a relocation reads next is asked for: the sites of the link and those beyond
     /// its facets.
     pub(crate) fn gather_star(&mut self, s: SiteId) -> Result<()> {
+        if self.is_hidden(s) {
+            self.star.clear();
+            return Ok(());
+        }
         self.gather_star_from(self.sites[s].cell, s)
     }
 

@@ -251,9 +251,8 @@ impl<G: Geometry> Delaunay<G> {
             let (site, c) = (self.site(s), self.covering_cell(s));
             let corners = &self.complex.cell(c).corners;
             let is_there = !self.complex.cell(c).is_ghost()
-                && (0..G::Corners::N).all(|i| {
-                    G::orientation_with(&self.filter, self.view(), corners, i, &site.point) >= 0.0
-                });
+                && (0..G::Corners::N)
+                    .all(|i| G::orientation_with(&self.filter, self.view(), corners, i, &site.point) >= 0.0);
             ensure(is_there, Level::Delaunay, || {
                 text!("vertex {} is not in cell {}, which covers it", site.id, self.describe(c))
             })?;

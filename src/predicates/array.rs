@@ -1,6 +1,7 @@
 //! What is the same for points of any dimension.
 
 use super::integer::two_difference;
+use super::tolerance::square_between;
 use crate::simd::{LANES, Simd};
 
 /// Points as arrays, whatever their length: written once, but only where that is known.
@@ -11,8 +12,11 @@ pub trait PointArray: Sized {
     fn flattened_mut(points: &mut [Self]) -> &mut [f64];
     /// The points of which the coordinates are given one after the other, and the coordinates left over.
     fn of_flattened(coordinates: &[f64]) -> (&[Self], &[f64]);
-    /// Each coordinate of several points, in lanes.
-    fn in_lanes<S: Simd>(simd: S, points: [&Self; LANES]) -> impl AsRef<[S::Lanes]>;
+    /// The square of the way from one to the other: of the distance of two places, and the magnitude of the difference of two
+    /// weights more.
+    fn squared_way(&self, other: &Self) -> f64;
+    /// The [`squared_way`](Self::squared_way) of several pairs of points, in lanes.
+    fn squared_ways<S: Simd>(simd: S, points: [&Self; LANES], others: [&Self; LANES]) -> S::Lanes;
     /// The vector to this point from another, if no coordinate of it is rounded; of points that are not finite none is
     /// known.
     fn exact_difference(&self, other: &Self) -> Option<Self>;
@@ -32,8 +36,13 @@ impl<const D: usize> PointArray for [f64; D] {
     }
 
     #[inline(always)]
-    fn in_lanes<S: Simd>(simd: S, points: [&Self; LANES]) -> impl AsRef<[S::Lanes]> {
-        simd.points(points)
+    fn squared_way(&self, other: &Self) -> f64 {
+        square_between(self, other)
+    }
+
+    #[inline(always)]
+    fn squared_ways<S: Simd>(simd: S, points: [&Self; LANES], others: [&Self; LANES]) -> S::Lanes {
+        square_between(&simd.points(points), &simd.points(others))
     }
 
     #[inline(always)]

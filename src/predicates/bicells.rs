@@ -139,7 +139,8 @@ pub(crate) fn bicells_surely_hold3d<P: SpacePoint, T: Real>(
 #[inline(always)]
 pub(crate) fn bicells_hold_for_their_size2d<P: PlanePoint, T: Real>(bicells: &[P::Of<T>; 4]) -> T::Mask {
     let seen = seen_from_first::<P, _, 2, 4, 3>(bicells);
-    let bounds = P::semi_static(extents(&seen.map(|seen| seen.difference)), weights_apart::<P, _, 2, 4, 3>(bicells));
+    let bounds =
+        P::semi_static(extents(&seen.map(|seen| seen.difference)), weights_apart::<P, _, 2, 4, 3>(bicells));
     Certificates::in_plane(&seen).exceed(bounds)
 }
 
@@ -147,7 +148,8 @@ pub(crate) fn bicells_hold_for_their_size2d<P: PlanePoint, T: Real>(bicells: &[P
 #[inline(always)]
 pub(crate) fn bicells_hold_for_their_size3d<P: SpacePoint, T: Real>(bicells: &[P::Of<T>; 5]) -> T::Mask {
     let seen = seen_from_first::<P, _, 3, 5, 4>(bicells);
-    let bounds = P::semi_static(extents(&seen.map(|seen| seen.difference)), weights_apart::<P, _, 3, 5, 4>(bicells));
+    let bounds =
+        P::semi_static(extents(&seen.map(|seen| seen.difference)), weights_apart::<P, _, 3, 5, 4>(bicells));
     Certificates::in_space(&seen).exceed(bounds)
 }
 

@@ -98,7 +98,7 @@ fn insphere_term<'r, const N: usize>(
 #[inline(never)]
 pub(super) fn in_power_circle(rounded: f64, [a, b, c, d]: [&[f64; 2]; 4], weights: &[f64; 4]) -> f64 {
     let room = LimbRoom::<POWER_LIMBS>::of_any_size();
-    let ([u, v, w], [of_u, of_v, of_w]) = lifted(&room, d, [a, b, c], weights);
+    let (_, [u, v, w], [of_u, of_v, of_w]) = lifted(&room, d, [a, b, c], weights);
     let det = of_u * minor(&v, &w) + of_v * minor(&w, &u) + of_w * minor(&u, &v);
     with_sign(rounded, det.sign())
 }
@@ -108,30 +108,37 @@ pub(super) fn in_power_circle(rounded: f64, [a, b, c, d]: [&[f64; 2]; 4], weight
 #[inline(never)]
 pub(super) fn in_power_sphere(rounded: f64, [a, b, c, d, e]: [&[f64; 3]; 5], weights: &[f64; 5]) -> f64 {
     let room = LimbRoom::<POWER_LIMBS>::of_any_size();
-    let ([u, v, w, s], [of_u, of_v, of_w, of_s]) = lifted(&room, e, [a, b, c, d], weights);
+    let (_, [u, v, w, s], [of_u, of_v, of_w, of_s]) = lifted(&room, e, [a, b, c, d], weights);
     let det = lifted_term(of_u, [&v, &w, &s]) - lifted_term(of_v, [&u, &w, &s])
         + lifted_term(of_w, [&u, &v, &s])
         - lifted_term(of_s, [&u, &v, &w]);
     with_sign(rounded, det.sign())
 }
 
-/// The differences from a point to others in a unit of their own, and in its square their squares, less what their weights are more
-/// than that of the point, which comes last.
-fn lifted<'r, const D: usize, const N: usize, const LIMBS: usize>(
+/// The differences from a point to others, after the exponent of their unit, and in its square their squares, less what their weights
+/// are more than that of the point, which comes after theirs. The unit's square divides any numbers after that as well.
+pub(super) fn lifted<'r, const D: usize, const N: usize, const LIMBS: usize>(
     room: &'r LimbRoom<LIMBS>,
     origin: &[f64; D],
     points: [&[f64; D]; N],
     weights: &[f64],
-) -> ([[Integer<'r, LIMBS>; D]; N], [Integer<'r, LIMBS>; N]) {
+) -> (i32, [[Integer<'r, LIMBS>; D]; N], [Integer<'r, LIMBS>; N]) {
     let of_weights = weights.iter().filter(|&&weight| weight != 0.0).map(|&weight| decode(weight).1);
     let most = of_weights.min().map_or(i32::MAX, |exponent| exponent.div_euclid(2));
     let (unit, differences) = differences_in_units(room, origin, points, most);
-    let weight = |k: usize| {
-        let (mantissa, exponent) = decode(weights[k]);
-        Integer::shifted(room, mantissa, if mantissa == 0 { 0 } else { (exponent - 2 * unit) as u32 })
-    };
+    let weight = |k: usize| in_square_of_unit(room, weights[k], unit);
     let own = weight(N);
-    (differences, std::array::from_fn(|k| square(&differences[k]) - (weight(k) - own)))
+    (unit, differences, std::array::from_fn(|k| square(&differences[k]) - (weight(k) - own)))
+}
+
+/// A number in the square of a unit, which divides it.
+pub(super) fn in_square_of_unit<const LIMBS: usize>(
+    room: &LimbRoom<LIMBS>,
+    x: f64,
+    unit: i32,
+) -> Integer<'_, LIMBS> {
+    let (mantissa, exponent) = decode(x);
+    Integer::shifted(room, mantissa, if mantissa == 0 { 0 } else { (exponent - 2 * unit) as u32 })
 }
 
 /// A lift times a volume, in the room of these; all that is made on the way is elsewhere, for the time of this call.
@@ -289,6 +296,14 @@ const LIMBS: usize = 4800;
 /// for each side of the box a product of 80 and a difference of 82; for each axis a square of 162 and a difference of at
 /// most 165. These are 6,712.
 pub(super) const MOST_LIMBS: usize = 6720;
+
+/// Limbs of all integers that comparing the radius of a power sphere takes (`power_measures.rs`).
+///
+/// As for a sphere, with lifts of 44 in the place of squares: 12 coordinates and 9 differences, 21 · 21; three squares of 202, four
+/// weights and three differences of 43, three lifts of 44; nine minors of 121; a volume, 484; a vector, three times 3 · 84 + 2 · 85;
+/// its square, 3 · 170 + 2 · 171; that of the volume, 122; two numbers and their sum, 3 · 44, its product with that, 166, and
+/// a difference of 173. These are 5,540.
+pub(super) const POWER_RADIUS_LIMBS: usize = 5544;
 
 /// Room for integers, which are given up together.
 pub(super) struct LimbRoom<const N: usize = LIMBS> {

@@ -172,6 +172,18 @@ pub(super) const SPHERE_VECTOR: f64 = {
     part.plus(part).plus(part).error * ROUND_UP
 };
 
+/// Error of the vector of a power circle / (largest extent · q²), see `power_measures.rs`.
+pub(super) const POWER_CIRCLE_VECTOR: f64 = {
+    let part = SQUARE.plus(SQUARE).plus(DIFFERENCE).times(DIFFERENCE);
+    part.plus(part).error * ROUND_UP
+};
+
+/// Error of the vector of a power sphere / (largest extent · second largest extent · q²), see `power_measures.rs`.
+pub(super) const POWER_SPHERE_VECTOR: f64 = {
+    let part = SQUARE.plus(SQUARE).plus(SQUARE).plus(DIFFERENCE).times(MINOR);
+    part.plus(part).plus(part).error * ROUND_UP
+};
+
 /// Planes in place of spheres keep the bound of those, see `sphere.rs`. The rounded square of the largest
 /// extent is their exact scale: [`SQUARE`] grants it an error that it has not.
 const _: () = {

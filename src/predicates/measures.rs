@@ -31,17 +31,17 @@ use crate::simd::Real;
 use std::cmp::Ordering;
 
 /// By how much a rounded determinant must exceed its bound to be used as a value.
-const SHARP: f64 = (1u64 << 30) as f64;
+pub(super) const SHARP: f64 = (1u64 << 30) as f64;
 
 /// By how much a rounded determinant must exceed its bound to be used where quotients of volumes are weights.
 const VERY_SHARP: f64 = (1u64 << 43) as f64;
 
 /// Determinants and differences above these have not suffered from underflow.
-const LEAST_VOLUME: f64 = 1e-250;
-const LEAST_EXTENT: f64 = 1e-60;
+pub(super) const LEAST_VOLUME: f64 = 1e-250;
+pub(super) const LEAST_EXTENT: f64 = 1e-60;
 
 /// What a squared radius must differ by from a rounded one, relatively, to be certainly less or greater.
-const MARGIN: f64 = 1.0 / (1u64 << 27) as f64;
+pub(super) const MARGIN: f64 = 1.0 / (1u64 << 27) as f64;
 
 /// Measures of a positively oriented cell, given by its `D + 1` corners.
 pub trait Measures: Sized {
@@ -61,7 +61,8 @@ pub trait Measures: Sized {
     fn volume_by(cell: &[&Self], sharp: f64) -> f64;
 
     /// Circumcentre and squared circumradius. A coordinate is off by at most 10⁻⁹ circumradii and its own rounding, the
-    /// square by 4·10⁻⁹ of itself. What is beyond the range of numbers is infinite.
+    /// square by 4·10⁻⁹ of itself. What is beyond the range of numbers is infinite. Of points with weights (`power_measures.rs`) they
+    /// are those of the power sphere.
     fn circumsphere(cell: &[&Self]) -> (Self, f64);
 
     /// Whether the squared circumradius is at most `squared`, which is not negative: exactly.
@@ -190,17 +191,25 @@ fn finish<const D: usize>(
 }
 
 /// The vector and the determinant of a circle.
-pub(super) fn exact_circle<T: Ring>([u, v]: &[[T; 2]; 2]) -> ([T; 2], T) {
-    let (uu, vv) = (square(u), square(v));
+pub(super) fn exact_circle<T: Ring>(differences: &[[T; 2]; 2]) -> ([T; 2], T) {
+    lifted_circle(differences, differences.each_ref().map(square))
+}
+
+/// The vector and the determinant of a circle of differences with these lifts.
+pub(super) fn lifted_circle<T: Ring>([u, v]: &[[T; 2]; 2], [uu, vv]: [T; 2]) -> ([T; 2], T) {
     ([uu * v[1] - vv * u[1], vv * u[0] - uu * v[0]], big_minor(u, v))
 }
 
 /// The vector and the determinant of a sphere.
-pub(super) fn exact_sphere<T: Ring>([u, v, w]: &[[T; 3]; 3]) -> ([T; 3], T) {
+pub(super) fn exact_sphere<T: Ring>(differences: &[[T; 3]; 3]) -> ([T; 3], T) {
+    lifted_sphere(differences, differences.each_ref().map(square))
+}
+
+/// The vector and the determinant of a sphere of differences with these lifts.
+pub(super) fn lifted_sphere<T: Ring>([u, v, w]: &[[T; 3]; 3], [uu, vv, ww]: [T; 3]) -> ([T; 3], T) {
     let cross = |p: &[T; 3], q: &[T; 3]| {
         [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
     };
-    let (uu, vv, ww) = (square(u), square(v), square(w));
     let (vw, uw, uv) = (cross(v, w), cross(u, w), cross(u, v));
     let n = std::array::from_fn(|axis| uu * vw[axis] - vv * uw[axis] + ww * uv[axis]);
     (n, u[0] * vw[0] + u[1] * vw[1] + u[2] * vw[2])
@@ -260,7 +269,7 @@ fn is_exactly_within<const D: usize, const M: usize, const N: usize>(
 }
 
 /// All but the first.
-fn others<P: Copy, const M: usize, const N: usize>(points: [P; N]) -> [P; M] {
+pub(super) fn others<P: Copy, const M: usize, const N: usize>(points: [P; N]) -> [P; M] {
     const { assert!(M + 1 == N) };
     std::array::from_fn(|k| points[k + 1])
 }

@@ -104,6 +104,8 @@ mod perturbation;
 mod plane;
 mod points;
 mod power;
+mod power_measures;
+mod power_tolerance;
 mod reach;
 mod running;
 mod separator;
@@ -133,6 +135,7 @@ pub use hull::{area, ray_and_segment, ray_and_triangle, volumes_over};
 pub use lanes::BiCells;
 pub use lattice::exact_filter;
 pub use lifted::{Lifted, seen_circle_bound, seen_circle_running_bound, side_of_seen_circle};
+pub use located::{Located, Seen};
 pub use measures::Measures;
 pub use passing::passes;
 pub use path::{stays_positive2d, stays_positive3d};
@@ -140,7 +143,6 @@ pub use perturbation::{
     in_power_circle_perturbed, in_power_sphere_perturbed, incircle_perturbed, insphere_perturbed,
     is_inside_cospherical_on_lattice,
 };
-pub use located::{Located, Seen};
 pub use plane::{incircle, orient2d};
 pub use points::{OwnBounds, PlanePoint, SpacePoint};
 pub use power::{MAX_WEIGHT, in_power_circle, in_power_sphere};
@@ -149,8 +151,8 @@ pub use separator::{delimiter3d, separator3d, tolerances3d};
 pub use space::{insphere, orient3d};
 pub use sphere::{
     Circle, OwnBounds2d, OwnBounds3d, Sphere, circle, edge_length, half_space, half_space_by_length,
-    is_box_outside_circle, is_box_outside_sphere, side_bound_by_length, side_of_circle,
-    side_of_sphere, sphere,
+    is_box_outside_circle, is_box_outside_sphere, side_bound_by_length, side_of_circle, side_of_sphere,
+    sphere,
 };
 pub use tolerance::{
     Delimiter, delimiter2d, displacement_limit, distance_above, is_certainly_inside,

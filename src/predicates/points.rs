@@ -269,11 +269,7 @@ impl PlanePoint for WeightedPoint<2> {
     }
 
     /// None: the lattice would have to be one of weights as well.
-    fn exact_filter<'p>(
-        _: &'p Self,
-        _: &'p Self,
-        _: impl Iterator<Item = &'p Self>,
-    ) -> Option<StaticFilter> {
+    fn exact_filter<'p>(_: &'p Self, _: &'p Self, _: impl Iterator<Item = &'p Self>) -> Option<StaticFilter> {
         None
     }
 
@@ -312,11 +308,7 @@ impl SpacePoint for WeightedPoint<3> {
     }
 
     /// None: the lattice would have to be one of weights as well.
-    fn exact_filter<'p>(
-        _: &'p Self,
-        _: &'p Self,
-        _: impl Iterator<Item = &'p Self>,
-    ) -> Option<StaticFilter> {
+    fn exact_filter<'p>(_: &'p Self, _: &'p Self, _: impl Iterator<Item = &'p Self>) -> Option<StaticFilter> {
         None
     }
 

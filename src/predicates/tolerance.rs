@@ -180,31 +180,31 @@ pub(super) fn square_between<T: Real>(p: &[T], q: &[T]) -> T {
     sum
 }
 
-/// Upper bound of the distance.
+/// Upper bound of the [way](PointArray::squared_way) from one to the other.
 #[inline(always)]
-pub fn distance_above<P: AsRef<[f64]> + PartialEq>(p: &P, q: &P) -> f64 {
-    let square = squared_distance(p, q);
+pub fn distance_above<P: PointArray + PartialEq>(p: &P, q: &P) -> f64 {
+    let square = p.squared_way(q);
     if square < LEAST * LEAST {
         return if p == q { 0.0 } else { LEAST * ABOVE };
     }
     square.sqrt() * ABOVE
 }
 
-/// Upper bounds of the distances of several points, each from another one.
+/// Upper bounds of the ways of several points, each from another one.
 #[inline(always)]
-pub(crate) fn distances_above<S: Simd, P: PointArray + AsRef<[f64]> + PartialEq>(
+pub(crate) fn distances_above<S: Simd, P: PointArray + PartialEq>(
     simd: S,
     p: [&P; LANES],
     q: [&P; LANES],
 ) -> [f64; LANES] {
-    let square = square_between(P::in_lanes(simd, p).as_ref(), P::in_lanes(simd, q).as_ref());
+    let square = P::squared_ways(simd, p, q);
     if square.is_less(simd.splat(LEAST * LEAST)).bits() != 0 {
         return [0, 1, 2, 3].map(|k| distance_above(p[k], q[k]));
     }
     (square.sqrt() * simd.splat(ABOVE)).store()
 }
 
-/// What the [`squared_distance`] of a vertex from its fixed position must be below for the distance to be
+/// What the [square of the way](PointArray::squared_way) of a vertex from its fixed position must be below for the way to be
 /// certainly below its tolerance; 0, which nothing is below, if that is too small to tell.
 #[inline(always)]
 pub fn displacement_limit(tolerance: f64) -> f64 {
@@ -230,8 +230,7 @@ pub(crate) fn are_within<S: Simd, P: PointArray>(
     tolerances: &[f64; LANES],
     places: [&P; LANES],
 ) -> u32 {
-    let (fixed, places) = (P::in_lanes(simd, fixed), P::in_lanes(simd, places));
-    square_between(fixed.as_ref(), places.as_ref()).is_less(limit(simd.load(tolerances))).bits()
+    P::squared_ways(simd, fixed, places).is_less(limit(simd.load(tolerances))).bits()
 }
 
 /// Whether `p` is certainly strictly inside the sphere.

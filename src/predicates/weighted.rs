@@ -6,7 +6,8 @@ use std::ops::{Index, IndexMut};
 
 use super::array::PointArray;
 use super::integer::two_difference;
-use crate::simd::{LANES, Simd};
+use super::tolerance::square_between;
+use crate::simd::{LANES, Real, Simd};
 
 /// A place and its weight; or several, in lanes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,11 +68,31 @@ impl<const D: usize> PointArray for WeightedPoint<D> {
     }
 
     #[inline(always)]
-    fn in_lanes<S: Simd>(simd: S, points: [&Self; LANES]) -> impl AsRef<[S::Lanes]> {
-        simd.points(points.map(
+    fn squared_way(&self, other: &Self) -> f64 {
+        square_between(&self.place, &other.place) + (self.weight - other.weight).abs()
+    }
+
+    #[inline(always)]
+    fn squared_ways<S: Simd>(simd: S, points: [&Self; LANES], others: [&Self; LANES]) -> S::Lanes {
+        let [places, goals] = [points, others].map(
             #[inline(always)]
-            |p| &p.place,
-        ))
+            |points| {
+                simd.points(points.map(
+                    #[inline(always)]
+                    |p| &p.place,
+                ))
+            },
+        );
+        let [from, to] = [points, others].map(
+            #[inline(always)]
+            |points| {
+                simd.load(&points.map(
+                    #[inline(always)]
+                    |p| p.weight,
+                ))
+            },
+        );
+        square_between(&places, &goals) + (from - to).abs()
     }
 
     #[inline(always)]

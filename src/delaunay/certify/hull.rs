@@ -3,7 +3,7 @@
 //! A ridge is named as the facet of a ghost cell that it has in common with another one.
 
 use crate::complex::{Corners, Facet};
-use crate::delaunay::{Delaunay, Geometry, Failures};
+use crate::delaunay::{Delaunay, Failures, Geometry};
 use crate::error::Result;
 use crate::ids::{Slot, VertexId};
 use crate::machine::memory;

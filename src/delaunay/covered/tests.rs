@@ -199,7 +199,7 @@ fn histories<G: Geometry>(n_histories: usize) {
                 }
             }
             if rng.below(3) > 0 {
-                t.settle().expect("room");
+                t.settle(|_| Ok(())).expect("room");
                 t.end();
                 if t.has_cells() {
                     assert_eq!(shown(&t), lower_hull(&points, G::D), "seed {seed}, step {step}");
@@ -210,7 +210,7 @@ fn histories<G: Geometry>(n_histories: usize) {
             }
         }
         if t.has_cells() {
-            t.settle().expect("room");
+            t.settle(|_| Ok(())).expect("room");
             assert_eq!(shown(&t), lower_hull(&points, G::D), "seed {seed}, at the end");
             assert_eq!(shown(&t), shown(&built::<G>(&points)));
         }

@@ -33,7 +33,7 @@
 
 use super::untangling::Untangling;
 use crate::complex::{Corners, Facet};
-use crate::delaunay::{Delaunay, Geometry, Failures};
+use crate::delaunay::{Delaunay, Failures, Geometry};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;

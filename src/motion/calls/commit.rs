@@ -78,7 +78,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.mesh.reject_coincidence(self.options.coincidence)
         } else {
             self.mesh.begin(Aim::Commit)?;
-            self.edit_and_advance(moves, &mut report).and_then(|()| self.mesh.enforce_segments())
+            self.edit_and_advance(moves, &mut report)
+                .and_then(|()| self.settle_hidden(true, &mut report))
+                .and_then(|()| self.mesh.enforce_segments())
         };
         if let Err(error) = advanced.and_then(|()| self.mesh.views.prepare(&self.mesh.kernel)) {
             self.undo();

@@ -199,8 +199,10 @@ impl<G: Dimension> MovingTriangulation<G> {
     #[inline(always)]
     pub(crate) fn relocate_within_tolerance(&mut self, vertex: VertexId, position: &G::Point) -> bool {
         let v = vertex.index();
-        // Tolerances are of the Delaunay triangulation, which has other cells beside segments.
-        let Some(tolerances) = self.regions.tolerances().filter(|_| self.mesh.segments.is_none()) else {
+        // Tolerances are of the Delaunay triangulation, which has other cells beside segments, and of what cells cover they say
+        // nothing.
+        let says_all = self.mesh.segments.is_none() && self.mesh.kernel.n_hidden() == 0;
+        let Some(tolerances) = self.regions.tolerances().filter(|_| says_all) else {
             return false;
         };
         let (Some(s), Some(fixed)) = (self.mesh.site(vertex), tolerances.fixed().get(v)) else {
@@ -237,9 +239,10 @@ impl<G: Dimension> MovingTriangulation<G> {
             return self.relocate_alone(vertex, q, report);
         };
         self.prepare_regions(filter, &[], report)?;
-        if self.accept(vertex, q, report).is_some() {
+        if let Some(origin) = self.accept(vertex, q, report) {
             report.moved = 1;
-            return Ok(());
+            let s = self.mesh.site_of[vertex];
+            return self.mesh.kernel.loosen_around(s).inspect_err(|_| self.mesh.kernel.set_point(s, origin));
         }
         match self.with_regions(report, |t, report| t.relocate_noted(vertex, q, report))? {
             Placed::InCells => Ok(()),

@@ -4,7 +4,8 @@
 //!
 //! **In space a safe region is not enough.** The report's Proposition 1 fails there for bi-cells whose flip would be
 //! 3-2 (see [`predicates::Delimiter::reach`](crate::predicates::Delimiter)): a vertex must also stay within the
-//! *reach* of its bi-cells, which is infinite in the plane.
+//! *reach* of its bi-cells, which is infinite in the plane. With weights no sphere has sides that say enough (see
+//! `predicates/power_tolerance.rs`): the reach is the tolerance, and a safe region the ball of that.
 //!
 //! At the hull a bi-cell has no sphere. Its certificate is the orientation of `D + 1` points, and its tolerance and its
 //! reach are half the least width of their simplex.
@@ -17,9 +18,7 @@ use crate::machine::memory;
 use crate::motion::filters::bicell::{BiCell, for_bicells};
 use crate::motion::filters::store::{Store, TimestampSteps};
 use crate::motion::filters::tolerance::Tolerances;
-use crate::predicates::{
-    displacement_limit, is_certainly_inside, is_path_certainly_outside, squared_distance,
-};
+use crate::predicates::{PointArray, displacement_limit, is_certainly_inside, is_path_certainly_outside};
 
 /// What lets a vertex move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,8 +83,12 @@ impl<G: Dimension> SafeRegions<G> {
     fn is_in_safe_region(&self, kernel: &mut Delaunay<G>, s: SiteId, p: &G::Point) -> bool {
         let &Site { point: here, id, .. } = kernel.site(s);
         let from = self.tolerances.fixed()[id].point();
-        if squared_distance(from, p) >= displacement_limit(self.reach[id]) {
+        if from.squared_way(p) >= displacement_limit(self.reach[id]) {
             return false;
+        }
+        if G::HAS_WEIGHTS {
+            // A reach is a tolerance there.
+            return true;
         }
         // The outside of a sphere is not convex: a vertex must not jump over a delimiter.
         if kernel.gather_star(s).is_err() {

@@ -230,13 +230,20 @@ impl<G: Dimension> MovingTriangulation<G> {
         let n = if self.hidden_count() == 0 { 0 } else { self.id_count() };
         VertexId::range(0..n).filter_map(|v| match self.mesh.standing(v) {
             Standing::Hidden(s) => Some((v, self.mesh.kernel.site(s).id)),
-            Standing::Shown(_) | Standing::Gone => None,
+            Standing::Shown(_) | Standing::Covered(_) | Standing::Gone => None,
         })
     }
 
     /// How many vertices are hidden.
     pub fn hidden_count(&self) -> usize {
         self.mesh.hidden.count()
+    }
+
+    /// The vertices that are corners of no cell because of weights, ascending: each is above the cell that has its place. None while
+    /// there are no cells.
+    pub fn vertices_hidden_by_weight(&self) -> impl Iterator<Item = VertexId> {
+        let n = if self.mesh.kernel.n_hidden() == 0 { 0 } else { self.id_count() };
+        VertexId::range(0..n).filter(|&v| matches!(self.mesh.standing(v), Standing::Covered(_)))
     }
 
     /// Checks the triangulation: see [`Level`].

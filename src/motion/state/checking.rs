@@ -2,12 +2,12 @@
 
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
-use crate::predicates::{MAX_MAGNITUDE, PointArray, is_in_range};
+use crate::predicates::{MAX_MAGNITUDE, MAX_WEIGHT, PointArray, is_in_range};
 
 /// Whether two places, without negative zeros, differ.
 #[inline(always)]
 pub(in crate::motion) fn differ<G: Dimension>(p: &G::Point, q: &G::Point) -> bool {
-    (0..G::D).fold(0, |bits, axis| bits | (p[axis].to_bits() ^ q[axis].to_bits())) != 0
+    (0..G::NUMBERS).fold(0, |bits, axis| bits | (p[axis].to_bits() ^ q[axis].to_bits())) != 0
 }
 
 /// Copies positions, with the sign of zeros made positive; `false` if one is bad.
@@ -18,11 +18,19 @@ pub(in crate::motion) fn copy_checked<G: Dimension>(to: &mut [G::Point], positio
         bad |= u64::from(!is_in_range(value));
         *to = value + 0.0;
     }
-    bad == 0
+    bad == 0 || G::HAS_WEIGHTS && are_good::<G>(positions)
+}
+
+/// The greatest magnitude of a number of a point: of a coordinate, or of the weight after them.
+const fn limit<G: Dimension>(k: usize) -> f64 {
+    if k < G::D { MAX_MAGNITUDE } else { MAX_WEIGHT }
 }
 
 /// Whether all positions are good. Without a branch for each, several at a time are looked at.
 pub(in crate::motion) fn are_good<G: Dimension>(positions: &[G::Point]) -> bool {
+    if G::HAS_WEIGHTS {
+        return positions.iter().all(|p| (0..G::NUMBERS).all(|k| p[k].abs() <= limit::<G>(k)));
+    }
     G::Point::flattened(positions).iter().fold(true, |are_good, &x| are_good & is_in_range(x))
 }
 
@@ -41,14 +49,14 @@ pub(crate) fn check_position<G: Dimension>(
     p: &G::Point,
 ) -> Result<G::Point> {
     let mut checked = *p;
-    for axis in 0..G::D {
+    for axis in 0..G::NUMBERS {
         let value = p[axis];
         checked[axis] = value + 0.0;
-        if is_in_range(value) {
+        if value.abs() <= limit::<G>(axis) {
             continue;
         }
         return Err(if value.is_finite() {
-            Error::OutOfRange { argument, index, axis, value, limit: MAX_MAGNITUDE }
+            Error::OutOfRange { argument, index, axis, value, limit: limit::<G>(axis) }
         } else {
             Error::NotFinite { argument, index, axis, value }
         });

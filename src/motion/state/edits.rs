@@ -100,7 +100,7 @@ impl<G: Dimension> Edits<G> {
     pub(in crate::motion) fn place_insertions(&mut self, positions: &[G::Point]) {
         for (id, place) in &mut self.insertions {
             let Some(position) = positions.get(id.index()) else { return };
-            for axis in 0..G::D {
+            for axis in 0..G::NUMBERS {
                 // Places have no negative zeros.
                 place[axis] = position[axis] + 0.0;
             }

@@ -92,7 +92,7 @@ impl<'p, G: Dimension> Goals<'p, G> {
     #[inline(always)]
     pub(in crate::motion) fn of(self, vertex: VertexId) -> G::Point {
         let mut goal = self.positions[vertex];
-        (0..G::D).for_each(|axis| goal[axis] += 0.0);
+        (0..G::NUMBERS).for_each(|k| goal[k] += 0.0);
         goal
     }
 

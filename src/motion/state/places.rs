@@ -9,7 +9,7 @@ use crate::ids::{SiteId, VertexId};
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::machine::{memory, threads};
 use crate::motion::state::origins::VertexOrigins;
-use crate::predicates::squared_distance;
+use crate::predicates::PointArray;
 
 /// To find those of this number of vertices that have moved takes a few times as long as a thread takes to wake up.
 const LISTED_AT_LEAST: usize = 1 << 14;
@@ -61,7 +61,7 @@ impl Places {
                 return None;
             }
             let origin = origins.of(site.id);
-            (site.point != *origin).then(|| squared_distance(&site.point, origin))
+            (site.point != *origin).then(|| site.point.squared_way(origin))
         };
         let finite = sites.iter().filter(|&&s| s != INFINITE);
         let with_displacement = finite.filter_map(|&s| displacement(s).map(|d| (d, s)));

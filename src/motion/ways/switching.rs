@@ -15,7 +15,7 @@ use crate::motion::options::SwitchingRule;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::{Movers, Moves};
 use crate::motion::triangulation::MovingTriangulation;
-use crate::predicates::{displacement_limit, squared_distance};
+use crate::predicates::{PointArray, displacement_limit};
 
 impl<G: Dimension> MovingTriangulation<G> {
     pub(in crate::motion) fn commit_by_switching(
@@ -59,7 +59,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 continue;
             };
             let s = self.mesh.site_of[v];
-            let displacement = squared_distance(&self.mesh.kernel.site(s).point, &goals.of(v));
+            let displacement = self.mesh.kernel.site(s).point.squared_way(&goals.of(v));
             within +=
                 u32::from(displacement < displacement_limit(tolerance_of_site(&mut self.mesh.kernel, s)));
         }

@@ -9,7 +9,7 @@ use crate::motion::filters::bicell::{BiCell, for_bicells};
 use crate::motion::filters::margin::Margin;
 use crate::motion::filters::store::{Store, TimestampSteps};
 use crate::motion::filters::tolerance::batch::Batch;
-use crate::predicates::{LANES, displacement_limit, distance_above, squared_distance};
+use crate::predicates::{LANES, PointArray, displacement_limit, distance_above};
 
 /// Fixed position and tolerance of a vertex.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +22,7 @@ impl<G: Dimension> Fixed<G> {
     /// Whether `p` is certainly within tolerance.
     #[inline(always)]
     pub(in crate::motion) fn holds(&self, p: &G::Point) -> bool {
-        squared_distance(&self.point, p) < displacement_limit(self.tolerance)
+        self.point.squared_way(p) < displacement_limit(self.tolerance)
     }
 
     #[inline(always)]

@@ -7,7 +7,7 @@ use crate::ids::{SiteId, Slot, VertexId};
 use crate::motion::filters::store::{Store, TimestampSteps};
 use crate::motion::filters::tolerance::{Fixed, Tolerances};
 use crate::motion::filters::watching::watched::WatchedFacets;
-use crate::predicates::squared_distance;
+use crate::predicates::{PointArray, squared_distance};
 
 /// A bi-cell is either watched, and lowers no tolerance, or has lowered those of its vertices.
 #[derive(Debug, Default)]
@@ -88,7 +88,7 @@ fn longest_step<G: Dimension>(
     // A step longer than the bi-cell is a leap, which tells nothing about the next step.
     let step = |&v: &VertexId| {
         let there = steps.other_positions.get(v.index());
-        there.map(|p| squared_distance(here(v), p)).filter(|&step| step <= greatest).unwrap_or(0.0)
+        there.map(|p| here(v).squared_way(p)).filter(|&step| step <= greatest).unwrap_or(0.0)
     };
     vertices.iter().map(step).fold(0.0, f64::max)
 }
@@ -105,7 +105,7 @@ impl<G: Dimension> Store<G> for Watching<G> {
         tolerances.fix_all(kernel, n_ids)?;
         watched.grow(kernel.complex().n_slots())?;
         let pairs = tolerances.fixed().iter().zip(steps.other_positions);
-        let longest = pairs.map(|(fixed, p)| squared_distance(fixed.point(), p)).fold(0.0, f64::max);
+        let longest = pairs.map(|(fixed, p)| fixed.point().squared_way(p)).fold(0.0, f64::max);
         Ok(tolerances.measure_all(kernel, |fixed, facets, vertices, tolerance| {
             watched.set(facets, is_soon_beyond(fixed, vertices, tolerance, steps, longest))
         }))

@@ -99,20 +99,6 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.measures_of(cells, G::Point::circumsphere)
     }
 
-    /// For each of the cells of these indices, in their order, a centre and a radius of a closed ball that certainly has
-    /// the closed ball of the cell in it. It is larger by some 10⁻¹² of the radius and last bits of the coordinates, by up
-    /// to 4·10⁻⁹ of the radius where the cell is nearly flat. Where numbers do not suffice the radius is infinite, and the
-    /// centre is a corner.
-    ///
-    /// # Errors
-    /// [`Error::NoSuchCell`], [`Error::OutOfMemory`].
-    pub fn covering_balls_of<'t>(
-        &'t self,
-        cells: &'t [CellId],
-    ) -> Result<impl ExactSizeIterator<Item = (G::Point, f64)> + 't> {
-        self.measures_of(cells, G::Point::covering_ball)
-    }
-
     /// Area or volume of each cell, in the order of [`cells`](Self::cells): positive, with a relative error of at most
     /// 10⁻⁹, and of a few last bits unless the cell is nearly flat.
     ///
@@ -230,5 +216,23 @@ pub(crate) fn tell_all<T>(
 ) {
     for (k, value) in values.enumerate() {
         tell(cells.map_or_else(|| CellId::at(k), |cells| cells[k]), value);
+    }
+}
+impl<G: Dimension> MovingTriangulation<G>
+where
+    G::Point: Reach,
+{
+    /// For each of the cells of these indices, in their order, a centre and a radius of a closed ball that certainly has
+    /// the closed ball of the cell in it. It is larger by some 10⁻¹² of the radius and last bits of the coordinates, by up
+    /// to 4·10⁻⁹ of the radius where the cell is nearly flat. Where numbers do not suffice the radius is infinite, and the
+    /// centre is a corner.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchCell`], [`Error::OutOfMemory`].
+    pub fn covering_balls_of<'t>(
+        &'t self,
+        cells: &'t [CellId],
+    ) -> Result<impl ExactSizeIterator<Item = (G::Point, f64)> + 't> {
+        self.measures_of(cells, G::Point::covering_ball)
     }
 }

@@ -145,6 +145,21 @@ fn behind<G: Dimension>(kernel: &Delaunay<G>, slot: Slot) -> Slot {
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
+    /// A mask of vertices has an entry for each id.
+    pub(crate) fn check_vertex_mask(&self, given: usize) -> Result<()> {
+        let wanted = self.id_count();
+        if given == wanted {
+            Ok(())
+        } else {
+            Err(Error::WrongCount { argument: "mask_count", given, wanted, coming: 0 })
+        }
+    }
+}
+
+impl<G: Dimension> MovingTriangulation<G>
+where
+    G::Point: Reach,
+{
     /// The cells and the facets of the convex hull that a vertex at a place in one of some boxes could change: the cells
     /// of which the closed ball meets one of the closed boxes, and the facets that a place in a box is strictly beyond.
     /// Exactly these. Each box is between an entry of `low` and that of `high`, whose coordinates may be infinite; only
@@ -265,16 +280,6 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
         }
         Ok(())
-    }
-
-    /// A mask of vertices has an entry for each id.
-    pub(crate) fn check_vertex_mask(&self, given: usize) -> Result<()> {
-        let wanted = self.id_count();
-        if given == wanted {
-            Ok(())
-        } else {
-            Err(Error::WrongCount { argument: "mask_count", given, wanted, coming: 0 })
-        }
     }
 
     /// Whether a vertex of the mask is at a corner of a cell.

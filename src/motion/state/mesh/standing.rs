@@ -1,7 +1,7 @@
 //! What a vertex is to the cells: a corner of them, hidden, or gone.
 //!
-//! Two arrays say so, the site of each id and the id of each site, and only here are they read for it. Where vertices
-//! are hidden for another reason than their place, as weights may be, it is this that has to know.
+//! Two arrays say so, the site of each id and the id of each site, and only here are they read for it. With weights each vertex has a
+//! site of its own, and the kernel knows which ones are in no cell.
 
 use crate::delaunay::Dimension;
 use crate::ids::{SiteId, VertexId};
@@ -14,6 +14,8 @@ pub(in crate::motion) enum Standing {
     Shown(SiteId),
     /// At the site of a vertex of lower key, or of equal key and lower id, which is seen.
     Hidden(SiteId),
+    /// Above the cell that has its place, as its weight or that of others is such.
+    Covered(SiteId),
     /// Removed, to be inserted by the next commit, or never there.
     Gone,
 }
@@ -23,6 +25,7 @@ impl<G: Dimension> Mesh<G> {
     pub(in crate::motion) fn standing(&self, vertex: VertexId) -> Standing {
         match self.site(vertex) {
             None => Standing::Gone,
+            Some(s) if self.kernel.is_hidden(s) => Standing::Covered(s),
             Some(s) if self.kernel.site(s).id == vertex => Standing::Shown(s),
             Some(s) => Standing::Hidden(s),
         }
@@ -47,7 +50,8 @@ impl<G: Dimension> Mesh<G> {
 
     /// Whether a vertex that is present is hidden.
     pub(in crate::motion) fn is_hidden(&self, vertex: VertexId) -> bool {
-        self.hidden.count() != 0 && matches!(self.standing(vertex), Standing::Hidden(_))
+        let may_be = self.hidden.count() + self.kernel.n_hidden() != 0;
+        may_be && matches!(self.standing(vertex), Standing::Hidden(_) | Standing::Covered(_))
     }
 
     /// Every id that has been given, with what the vertex is to the cells.

@@ -41,7 +41,7 @@ struct Moved<G: Dimension> {
 impl<G: Dimension> Moved<G> {
     fn none() -> Self {
         let (mut lower, mut upper) = (G::Point::default(), G::Point::default());
-        for axis in 0..G::D {
+        for axis in 0..G::NUMBERS {
             (lower[axis], upper[axis]) = (f64::INFINITY, f64::NEG_INFINITY);
         }
         Moved { n: 0, are_good: true, lower, upper }
@@ -49,7 +49,7 @@ impl<G: Dimension> Moved<G> {
 
     #[inline(always)]
     fn hold(&mut self, lower: &G::Point, upper: &G::Point) {
-        for axis in 0..G::D {
+        for axis in 0..G::NUMBERS {
             self.hold_along(axis, lower[axis], upper[axis]);
         }
     }
@@ -64,8 +64,8 @@ impl<G: Dimension> Moved<G> {
     /// Holds a box in lanes, as exchanges of positions have them.
     fn hold_lanes<L: Lanes>(&mut self, [lower, upper]: [L; 2]) {
         for (lane, (lower, upper)) in lower.store().into_iter().zip(upper.store()).enumerate() {
-            let axis = lane % G::D.next_power_of_two();
-            if axis < G::D {
+            let axis = lane % G::NUMBERS.next_power_of_two();
+            if axis < G::NUMBERS {
                 self.hold_along(axis, lower, upper);
             }
         }

@@ -323,7 +323,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 continue;
             }
             let goal = goals.of(v);
-            for axis in 0..G::D {
+            for axis in 0..G::NUMBERS {
                 lower[axis] = if goal[axis] < lower[axis] { goal[axis] } else { lower[axis] };
                 upper[axis] = if goal[axis] > upper[axis] { goal[axis] } else { upper[axis] };
             }

@@ -1,0 +1,212 @@
+//! Triangulations of points with weights: any history against a fresh build, by every algorithm.
+
+use crate::common::inputs::{KINDS, Kind, draw_one};
+use crate::common::{CellSet, Rng, assert_same_cells, cell_set, check_adjacency, seeds};
+use deldrift::internals::{PowerPlane, PowerSpace};
+use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options};
+use deldrift::{Dimension, VertexId};
+
+/// Cells and the vertices that weights hide.
+type Shown = (CellSet, Vec<VertexId>);
+
+fn shown<G: Dimension>(t: &MovingTriangulation<G>) -> Shown {
+    t.validate(Level::Delaunay).expect("a regular triangulation");
+    (cell_set(t), t.vertices_hidden_by_weight().collect())
+}
+
+/// Those of a fresh build of the present vertices, by their ids here.
+fn fresh<G: Dimension>(points: &[Option<G::Point>]) -> Shown {
+    let present: Vec<VertexId> = VertexId::range(0..points.len()).filter(|&v| points[v].is_some()).collect();
+    let some: Vec<G::Point> = points.iter().copied().flatten().collect();
+    let t = MovingTriangulation::<G>::new(&some, Options::default()).expect("a fresh build");
+    let (cells, hidden) = shown(&t);
+    let named = |ids: &[VertexId]| ids.iter().map(|&v| present[v]).collect::<Vec<_>>();
+    (cells.iter().map(|cell| named(cell)).collect(), named(&hidden))
+}
+
+/// A history, and what it draws weights from.
+struct History<G: Dimension> {
+    t: MovingTriangulation<G>,
+    points: Vec<Option<G::Point>>,
+    kind: Kind,
+    n: usize,
+    /// Weights are integers from 0 to this, times `unit`.
+    most: i64,
+    unit: f64,
+    rng: Rng,
+    name: String,
+}
+
+impl<G: Dimension> History<G> {
+    fn new(kind: Kind, seed: u64) -> Self {
+        let mut rng = Rng::new(seed);
+        let n = G::D + 2 + rng.below(60);
+        let most = *rng.pick(&[0, 1, 9, 1000]);
+        // The square of a spacing, a tenth of it, or so many that few are left.
+        let spacing = match kind {
+            Kind::Random => 2000.0 / (n as f64).powf(1.0 / G::D as f64),
+            Kind::RoundedSphere | Kind::Sphere => 10.0,
+            Kind::Clusters => 100.0,
+            _ => 1.0,
+        };
+        let unit = spacing * spacing * *rng.pick(&[0.1, 1.0, 4.0]) / most.max(1) as f64;
+        let mut history = History {
+            t: MovingTriangulation::new(&[], Options::default()).expect("room"),
+            points: Vec::new(),
+            kind,
+            n,
+            most,
+            unit,
+            rng,
+            name: format!("{}D, {kind:?}, seed {seed}", G::D),
+        };
+        let points: Vec<G::Point> = (0..n).map(|_| history.draw()).collect();
+        history.t = MovingTriangulation::new(&points, Options::default()).expect("room");
+        history.points = points.into_iter().map(Some).collect();
+        history
+    }
+
+    fn weight(&mut self) -> f64 {
+        self.rng.within(0, self.most) as f64 * self.unit
+    }
+
+    fn draw(&mut self) -> G::Point {
+        let mut p = draw_one::<G>(self.kind, self.n, &mut self.rng);
+        p[G::D] = self.weight();
+        p
+    }
+
+    /// Where a vertex goes: near by, anywhere, on another one, or nowhere but with another weight.
+    fn goal(&mut self, p: &G::Point) -> G::Point {
+        let mut goal = *p;
+        match self.rng.below(6) {
+            0 => goal = self.draw(),
+            1 => {
+                let others: Vec<G::Point> = self.points.iter().copied().flatten().collect();
+                goal = *self.rng.pick(&others);
+                if self.rng.one_in(2) {
+                    goal[G::D] = self.weight();
+                }
+            }
+            2 | 3 => goal[G::D] = self.weight(),
+            _ => {
+                let step = 0.5f64.powi(self.rng.below(12) as i32);
+                (0..G::D).for_each(|k| goal[k] += step * (2.0 * self.rng.unit() - 1.0));
+                goal[G::D] += self.unit * step * (2.0 * self.rng.unit() - 1.0);
+            }
+        }
+        goal
+    }
+
+    fn present(&self) -> Vec<VertexId> {
+        VertexId::range(0..self.points.len()).filter(|&v| self.points[v].is_some()).collect()
+    }
+
+    fn step(&mut self, what: usize) {
+        let present = self.present();
+        let some = (!present.is_empty()).then(|| *self.rng.pick(&present));
+        match (what, some) {
+            (0, Some(v)) if present.len() > 2 => {
+                self.t.remove_vertex(v).expect("room");
+                self.points[v.index()] = None;
+            }
+            (1, _) => {
+                let q = self.draw();
+                self.t.insert_vertex(&q).expect("room");
+                self.points.push(Some(q));
+            }
+            (2, Some(v)) => {
+                let q = self.goal(&self.points[v.index()].expect("present"));
+                self.t.relocate_vertex(v, &q).expect("room");
+                self.points[v.index()] = Some(q);
+            }
+            _ => {
+                let share = *self.rng.pick(&[1, 1, 4, 20]);
+                let is_small = self.rng.one_in(2);
+                for v in present {
+                    if !self.rng.one_in(share) {
+                        continue;
+                    }
+                    let p = self.points[v.index()].expect("present");
+                    let mut q = p;
+                    if is_small {
+                        (0..=G::D).for_each(|k| q[k] += 1e-4 * self.unit * (2.0 * self.rng.unit() - 1.0));
+                    } else {
+                        q = self.goal(&p);
+                    }
+                    self.t.move_vertices(&[v], &[q]).expect("good places");
+                    self.points[v.index()] = Some(q);
+                }
+                self.commit();
+            }
+        }
+    }
+
+    fn commit(&mut self) {
+        let algorithm = *self.rng.pick(&Algorithm::ALL);
+        self.t.set_algorithm(algorithm);
+        if self.rng.one_in(4) {
+            // Prepared, taken back and staged again; or published.
+            let before = shown(&self.t);
+            self.t.prepare_timestamp().expect("room");
+            let prepared = shown(&self.t);
+            self.t.withdraw_timestamp();
+            assert_eq!(shown(&self.t), before, "{}: withdrawn", self.name);
+            for v in self.present() {
+                let q = self.points[v.index()].expect("present");
+                if self.t.position(v) != Ok(q) {
+                    self.t.move_vertices(&[v], &[q]).expect("good places");
+                }
+            }
+            self.t.prepare_timestamp().expect("room");
+            assert_eq!(shown(&self.t), prepared, "{}: prepared again", self.name);
+            self.t.publish_timestamp().expect("it is prepared");
+        } else {
+            self.t.commit_timestamp().expect("room");
+        }
+        self.name += &format!(" {algorithm:?}");
+    }
+
+    fn check(&self) {
+        let context = || self.name.clone();
+        let (cells, hidden) = shown(&self.t);
+        let (fresh_cells, fresh_hidden) = fresh::<G>(&self.points);
+        assert_same_cells(&cells, &fresh_cells, context);
+        assert_eq!(hidden, fresh_hidden, "{}", self.name);
+        check_adjacency(&self.t, &context);
+        for (v, p) in VertexId::range(0..self.points.len()).zip(&self.points) {
+            assert_eq!(self.t.position(v).ok(), *p, "{}: vertex {v}", self.name);
+        }
+    }
+}
+
+fn histories_match<G: Dimension>(n: u64) {
+    let mut n_hidden = 0;
+    for kind in KINDS {
+        for seed in seeds(n) {
+            let mut history = History::<G>::new(kind, seed);
+            history.check();
+            for _ in 0..16 {
+                let what = history.rng.below(8);
+                history.step(what);
+                history.check();
+                n_hidden += history.t.vertices_hidden_by_weight().count();
+                if history.rng.one_in(8) {
+                    history.t = history.t.try_clone(None).expect("room");
+                    history.check();
+                }
+            }
+        }
+    }
+    assert!(n_hidden as u64 > 50 * n, "{n_hidden} hidden");
+}
+
+#[test]
+fn histories_in_the_plane_match_fresh_builds() {
+    histories_match::<PowerPlane>(40);
+}
+
+#[test]
+fn histories_in_space_match_fresh_builds() {
+    histories_match::<PowerSpace>(25);
+}
