@@ -307,13 +307,13 @@ fn circles_seen_from_the_point_are_certain_or_open() {
 
 #[test]
 fn prepared_circles_are_certain_or_open() {
-    let side = |_: &StaticFilter, [a, b, c, q]: &[[f64; 2]; 4]| side_of_circle(&circle(a, b, c), a, q);
+    let side = |_: &StaticFilter, [a, b, c, q]: &[[f64; 2]; 4]| <[f64; 2]>::side(&circle(a, b, c), a, q);
     Prepared { filter: StaticFilter::plane, side }.check();
 }
 
 #[test]
 fn prepared_spheres_are_certain_or_open() {
-    let side = |_: &StaticFilter, [a, b, c, d, q]: &[[f64; 3]; 5]| side_of_sphere(&sphere(a, b, c, d), a, q);
+    let side = |_: &StaticFilter, [a, b, c, d, q]: &[[f64; 3]; 5]| <[f64; 3]>::side(&sphere(a, b, c, d), a, q);
     Prepared { filter: StaticFilter::space, side }.check();
 }
 
@@ -329,7 +329,7 @@ fn stages_after_the_static_bound_of_spheres_are_exact() {
             let points = family.points::<3, 5>(&mut random);
             let expected = exact_sign(&points, &mut tally);
             let [a, b, c, d, q] = points.each_ref();
-            let side = side_of_sphere(&sphere(a, b, c, d), a, q);
+            let side = <[f64; 3]>::side(&sphere(a, b, c, d), a, q);
             if <[f64; 3]>::is_side_certain(side, [a, b, c, d, q]) {
                 assert_eq!(side.partial_cmp(&0.0), Some(expected), "{points:?}");
                 n_certain += 1;
@@ -343,7 +343,7 @@ fn stages_after_the_static_bound_of_spheres_are_exact() {
 
 #[test]
 fn prepared_half_spaces_are_certain_or_open() {
-    let side = |f: &StaticFilter, [a, b, c, q]: &[[f64; 3]; 4]| side_of_sphere(&half_space(f, a, b, c), a, q);
+    let side = |f: &StaticFilter, [a, b, c, q]: &[[f64; 3]; 4]| <[f64; 3]>::side(&half_space(f, a, b, c), a, q);
     Prepared { filter: StaticFilter::space, side }.check();
 }
 

@@ -11,7 +11,58 @@ type Shown = (CellSet, Vec<VertexId>);
 
 fn shown<G: Dimension>(t: &MovingTriangulation<G>) -> Shown {
     t.validate(Level::Delaunay).expect("a regular triangulation");
-    (cell_set(t), t.vertices_hidden_by_weight().collect())
+    (cell_set(t), t.vertices_hidden_by_weight().expect("room"))
+}
+
+/// Whether a vertex is hidden in a line, by its definition: another one at its place or two beside it have it above them.
+fn is_above_on_line((x, w): (i64, i64), k: usize, all: &[(i64, i64)]) -> bool {
+    let lift = |(x, w): (i64, i64)| i128::from(x) * i128::from(x) - i128::from(w);
+    let others = || all.iter().copied().enumerate().filter(|&(i, _)| i != k);
+    // At one place the greater weight is below, then the lower id.
+    let beaten = others().any(|(i, (y, v))| y == x && (v > w || v == w && i < k));
+    beaten
+        || others().filter(|&(_, (y, _))| y < x).any(|(i, p)| {
+            others().filter(|&(_, (y, _))| y > x).any(|(j, q)| {
+                let (left, right) = (i128::from(x - p.0), i128::from(q.0 - x));
+                let apart = lift((x, w)) * (left + right) - lift(p) * right - lift(q) * left;
+                // A tie is decided by the vertex of the highest id, which is raised.
+                apart > 0 || apart == 0 && k > i && k > j
+            })
+        })
+}
+
+/// Who is hidden in a line in space, along any direction, with an end never, and among vertices at one place.
+#[test]
+fn vertices_on_a_line_are_hidden_by_the_hull_there() {
+    fn check<G: Dimension>(rng: &mut Rng) -> usize {
+        let (n, extent, most) = (1 + rng.below(12), 1 + rng.below(12) as i64, rng.below(40) as i64);
+        let all: Vec<(i64, i64)> = (0..n).map(|_| (rng.within(0, extent), rng.within(0, most))).collect();
+        let direction: Vec<i64> = loop {
+            let direction: Vec<i64> = (0..G::D).map(|_| rng.within(-2, 2)).collect();
+            if direction.iter().any(|&x| x != 0) {
+                break direction;
+            }
+        };
+        let square: i64 = direction.iter().map(|x| x * x).sum();
+        let points: Vec<G::Point> = all
+            .iter()
+            .map(|&(x, w)| {
+                let mut p = G::Point::default();
+                (0..G::D).for_each(|k| p[k] = (direction[k] * x) as f64);
+                // Along a direction distances are as many times as long.
+                p[G::D] = (w * square) as f64;
+                p
+            })
+            .collect();
+        let t = MovingTriangulation::<G>::new(&points, Options::default()).expect("a build");
+        let expected: Vec<VertexId> =
+            (0..n).filter(|&k| is_above_on_line(all[k], k, &all)).map(|k| VertexId::new(k as u32)).collect();
+        assert_eq!(t.vertices_hidden_by_weight().expect("room"), expected, "{all:?} along {direction:?}");
+        expected.len()
+    }
+    let rng = &mut Rng::new(1);
+    let n_hidden: usize = (0..1_500).map(|_| check::<PowerPlane>(rng) + check::<PowerSpace>(rng)).sum();
+    assert!(n_hidden > 3_000, "{n_hidden}");
 }
 
 /// Those of a fresh build of the present vertices, by their ids here.
@@ -190,7 +241,7 @@ fn histories_match<G: Dimension>(n: u64) {
                 let what = history.rng.below(8);
                 history.step(what);
                 history.check();
-                n_hidden += history.t.vertices_hidden_by_weight().count();
+                n_hidden += history.t.vertices_hidden_by_weight().expect("room").len();
                 if history.rng.one_in(8) {
                     history.t = history.t.try_clone(None).expect("room");
                     history.check();

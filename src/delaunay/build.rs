@@ -138,7 +138,7 @@ impl<G: Geometry> Delaunay<G> {
             return Ok(None);
         }
         let index = self.complex.sort(self.sites.len(), gap_after::<G>(n_ranges))?;
-        self.renumber_covering_cells(&index)?;
+        self.renumber_cells_below(&index)?;
         for site in &mut self.sites {
             if site.cell != Slot::NONE {
                 site.cell = index[site.cell];

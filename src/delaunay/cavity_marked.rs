@@ -4,7 +4,7 @@
 //! each corner starts one edge: while new triangles are glued, the corner's `cell` is that of the triangle at this edge.
 
 use super::Delaunay;
-use super::covered::Swallowed;
+use super::above::Swallowed;
 use super::geometry::Insert;
 use super::shape::PowerPlane;
 use crate::complex::{Facet, INFINITE};
@@ -112,7 +112,7 @@ impl Scratch {
         t.reserve_record(self.rim.len())
     }
 
-    /// Lists the sites inside the zone, which the new one hides, and loosens what its cells cover.
+    /// Lists the sites inside the zone, which the new one hides, and loosens what is above its cells.
     fn swallow(&self, t: &mut Delaunay<PowerPlane>) -> Result<()> {
         let mut swallowed = Swallowed::begin(t);
         // A polygon of triangles has two edges more than triangles, and two less for each vertex inside.

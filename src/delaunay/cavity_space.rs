@@ -10,7 +10,7 @@
 #![allow(unsafe_code)]
 
 use super::Delaunay;
-use super::covered::Swallowed;
+use super::above::Swallowed;
 use super::geometry::Insert;
 use super::meetings::{Meetings, Ridge, Row, SMALL_RIM};
 use super::shape::Space;
@@ -116,7 +116,7 @@ impl<P: InSpace> Insert<Space<P>> for Scratch<P> {
 }
 
 impl<P: InSpace> Scratch<P> {
-    /// Lists the sites that no facet of the rim has, which the new site hides, and loosens what the cells of the zone cover.
+    /// Lists the sites that no facet of the rim has, which the new site hides, and loosens what is above the cells of the zone.
     #[inline(never)]
     fn swallow(&self, t: &mut Delaunay<Space<P>>) -> Result<()> {
         let mut swallowed = Swallowed::begin(t);

@@ -19,7 +19,7 @@ impl<G: Geometry> Delaunay<G> {
             lower: self.lower,
             upper: self.upper,
             flat: self.flat.copied()?,
-            covered: self.covered.copied()?,
+            above: self.above.copied()?,
             is_sorted: self.is_sorted,
             n_replaced: self.n_replaced,
             recent: self.recent,

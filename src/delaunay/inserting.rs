@@ -48,7 +48,7 @@ impl<G: Geometry> Delaunay<G> {
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Vec<(SiteId, SiteId)>> {
         self.complex.clear();
-        self.forget_covered();
+        self.forget_all_hidden();
         self.is_sorted = false;
         self.complex.reserve(Self::n_cells_of(n))?;
         for site in &mut self.sites {

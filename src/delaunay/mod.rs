@@ -16,7 +16,7 @@
 //! | `locate`, `straight`, `landmarks` | the walk, and where it begins |
 //! | `around`, `star` | the cells around a site, for questions and for changes |
 //! | `cavity`, `cavity_plane`, `cavity_space`, `cavity_marked` | insertion: dig the conflict zone, fill it |
-//! | `covered` | sites that weights hide |
+//! | `above`, `cone` | sites that weights hide, with cells and without |
 //! | `remove`, `hole`, `wrapping` | removal: fill the star by gift wrapping, in lanes where that is certain |
 //! | `high_degree` | removal of a vertex of high degree |
 //! | `relocate` | one site to a new place |
@@ -40,6 +40,7 @@
 
 #![allow(unsafe_code)]
 
+mod above;
 mod around;
 mod build;
 mod cavity;
@@ -48,8 +49,8 @@ mod cavity_plane;
 mod cavity_space;
 mod certify;
 mod changes;
+mod cone;
 mod copying;
-mod covered;
 mod covering;
 mod exchange;
 mod facets;
@@ -106,7 +107,9 @@ pub(crate) use restoring::Rows;
 pub(crate) use sample::Joint;
 pub(crate) use segments::{Crossing, InTheWay, Replaced};
 pub(crate) use set::IndexSet;
-pub use shape::{Plane, PowerPlane, PowerSpace, Shape, Space};
+pub use shape::{Plane, Shape, Space};
+#[cfg(feature = "internals")]
+pub use shape::{PowerPlane, PowerSpace};
 pub use site::Site;
 pub(crate) use undo::KeptChange;
 pub use validate::{Level, Violation};
@@ -119,8 +122,8 @@ use crate::machine::pace::Pace;
 use crate::machine::prefetch::prefetch;
 use crate::machine::threads::Threads;
 use crate::predicates::StaticFilter;
+use above::Above;
 use cavity::Cavity;
-use covered::Covered;
 use flat::Flat;
 use flip::AllFlips;
 use geometry::Insert;
@@ -160,7 +163,7 @@ pub struct Delaunay<G: Geometry> {
     landmarks: landmarks::Landmarks,
     cavity: Cavity<G>,
     /// The sites that weights hide.
-    covered: Covered,
+    above: Above,
     /// The star gathered last: its cells, and the index of the site in each.
     star: Vec<(Slot, u8)>,
     /// The hole that the star gathered last would leave, once there was one.
@@ -223,7 +226,7 @@ impl<G: Geometry> Delaunay<G> {
             relocated: SiteId::NONE,
             landmarks: Default::default(),
             cavity: Cavity::default(),
-            covered: Covered::default(),
+            above: Above::default(),
             star: Vec::new(),
             hole: None,
             wrapping: None,
@@ -494,7 +497,7 @@ impl<G: Geometry> Delaunay<G> {
             + self.flat.memory_bytes()
             + self.landmarks.memory_bytes()
             + self.cavity.scratch.memory_bytes()
-            + self.covered.memory_bytes()
+            + self.above.memory_bytes()
             + memory::bytes_of(&self.star)
             + memory::bytes_of_made(&self.hole, Hole::memory_bytes)
             + memory::bytes_of_made(&self.wrapping, |_| 0)

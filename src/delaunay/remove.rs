@@ -28,7 +28,7 @@ impl<G: Geometry> Delaunay<G> {
         self.go_on()?;
         self.log_site(s)?;
         if self.is_hidden(s) {
-            self.uncover(s);
+            self.forget_hidden(s);
             self.drop_site(s);
             return Ok(());
         }
@@ -251,7 +251,7 @@ impl<G: Geometry> Delaunay<G> {
             flat.enter(s, &self.site(s).point)?;
         }
         self.give_up_cells()?;
-        self.forget_covered();
+        self.forget_all_hidden();
         self.flat = flat;
         self.changed = None;
         self.sites[1..].iter_mut().for_each(|site| site.cell = Slot::NONE);

@@ -160,8 +160,8 @@ impl<G: Geometry> Delaunay<G> {
                 continue;
             }
             if self.is_hidden(s) {
-                let covers = self.complex.is_live(self.covering_cell(s)) && self.is_listed(s);
-                ensure(covers, level, || text!("no cell covers vertex {}, which is in none", site.id))?;
+                let is_above = self.complex.is_live(self.cell_below(s)) && self.is_listed(s);
+                ensure(is_above, level, || text!("vertex {} is in no cell, and above none", site.id))?;
                 continue;
             }
             // So it is a corner of some cell.
@@ -245,20 +245,20 @@ impl<G: Geometry> Delaunay<G> {
         })
     }
 
-    /// Every hidden site is at the place of the cell that covers it, and above that.
+    /// Every hidden site is above a cell that has its place.
     fn check_hidden(&self) -> Check {
         for s in self.live_sites().filter(|&s| self.is_hidden(s)) {
-            let (site, c) = (self.site(s), self.covering_cell(s));
+            let (site, c) = (self.site(s), self.cell_below(s));
             let corners = &self.complex.cell(c).corners;
             let is_there = !self.complex.cell(c).is_ghost()
                 && (0..G::Corners::N)
                     .all(|i| G::orientation_with(&self.filter, self.view(), corners, i, &site.point) >= 0.0);
             ensure(is_there, Level::Delaunay, || {
-                text!("vertex {} is not in cell {}, which covers it", site.id, self.describe(c))
+                text!("vertex {} is not in cell {}, which it is above", site.id, self.describe(c))
             })?;
             let is_above = !self.is_in_conflict(c, &site.point, site.id);
             ensure(is_above, Level::Delaunay, || {
-                text!("vertex {} is hidden, and is below cell {}", site.id, self.describe(c))
+                text!("vertex {} is hidden, and below cell {}", site.id, self.describe(c))
             })?;
         }
         Ok(())

@@ -163,7 +163,9 @@ impl Wrapping {
                 self.by_axis[axis][label] = seen[axis];
             }
             self.seen[label] = seen;
-            self.by_axis[3][label] = dot(&seen, &seen);
+            let square = dot(&seen, &seen);
+            let weight = if G::HAS_WEIGHTS { p[G::D] - origin[G::D] } else { 0.0 };
+            self.by_axis[3][label] = if G::HAS_WEIGHTS { square - weight } else { square };
         }
     }
 

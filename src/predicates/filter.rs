@@ -248,7 +248,7 @@ pub struct StaticFilter {
     pub orient: f64,
     /// Bound of `incircle` or `insphere`.
     pub in_sphere: f64,
-    /// Bound of `side_of_circle` and `side_of_seen_circle`, or of `side_of_sphere`.
+    /// Bound of `side_of_circle_seen` and `side_of_seen_circle`, or of `side_of_sphere_seen`.
     pub prepared: f64,
     /// Square of the largest extent, or the extent of the weights if that is greater: the greatest term of a lift.
     pub largest_square: f64,

@@ -69,7 +69,7 @@ mod tests {
     use super::*;
     use crate::predicates::{
         incircle, insphere, insphere_perturbed, is_inside_cospherical_on_lattice, orient2d, orient3d,
-        side_of_sphere, sphere,
+        SpacePoint, sphere,
     };
     use crate::random::Rng;
 
@@ -125,7 +125,7 @@ mod tests {
             assert_eq!(sign(orient3d(&f, a, b, c, d)), volume(&u, &v, &w).cmp(&0));
             assert_eq!(sign(insphere(&f, a, b, c, d, e)), det.cmp(&0));
             if volume(&u, &v, &w) > 0 {
-                assert_eq!(sign(side_of_sphere(&sphere(a, b, c, d), a, e)), det.cmp(&0));
+                assert_eq!(sign(<[f64; 3]>::side(&sphere(a, b, c, d), a, e)), det.cmp(&0));
             }
             n_ties += u32::from(det == 0);
         }

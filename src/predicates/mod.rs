@@ -135,13 +135,13 @@ pub use hull::{area, ray_and_segment, ray_and_triangle, volumes_over};
 pub use lanes::BiCells;
 pub use lattice::exact_filter;
 pub use lifted::{Lifted, seen_circle_bound, seen_circle_running_bound, side_of_seen_circle};
-pub use located::{Located, Seen};
 pub use measures::Measures;
 pub use passing::passes;
 pub use path::{stays_positive2d, stays_positive3d};
+pub use perturbation::{incircle_perturbed, is_inside_cospherical_on_lattice};
+#[cfg(feature = "internals")]
 pub use perturbation::{
-    in_power_circle_perturbed, in_power_sphere_perturbed, incircle_perturbed, insphere_perturbed,
-    is_inside_cospherical_on_lattice,
+    in_power_circle_perturbed, in_power_sphere_perturbed, insphere_perturbed,
 };
 pub use plane::{incircle, orient2d};
 pub use points::{OwnBounds, PlanePoint, SpacePoint};
@@ -149,11 +149,9 @@ pub use power::{MAX_WEIGHT, in_power_circle, in_power_sphere};
 pub use reach::Reach;
 pub use separator::{delimiter3d, separator3d, tolerances3d};
 pub use space::{insphere, orient3d};
-pub use sphere::{
-    Circle, OwnBounds2d, OwnBounds3d, Sphere, circle, edge_length, half_space, half_space_by_length,
-    is_box_outside_circle, is_box_outside_sphere, side_bound_by_length, side_of_circle, side_of_sphere,
-    sphere,
-};
+pub use sphere::{Circle, Sphere, edge_length, half_space, half_space_by_length, side_bound_by_length};
+#[cfg(feature = "internals")]
+pub use sphere::{OwnBounds2d, OwnBounds3d, circle, is_box_outside_circle, is_box_outside_sphere, sphere};
 pub use tolerance::{
     Delimiter, delimiter2d, displacement_limit, distance_above, is_certainly_inside,
     is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d, squared_distance,

@@ -11,8 +11,8 @@ use super::plane::{incircle_rounded, incircle_sign, own_incircle_bound};
 use super::space::{insphere_magnitudes, insphere_rounded, insphere_sign, orient3d_sign, volume};
 use super::vectors::minus;
 use super::{
-    MAX_MAGNITUDE, OwnBounds2d, OwnBounds3d, SpacePoint, big, circle, edge_length, half_space_by_length,
-    side_bound_by_length, side_of_circle, side_of_sphere, sphere,
+    MAX_MAGNITUDE, OwnBounds2d, OwnBounds3d, PlanePoint, SpacePoint, big, circle, edge_length, half_space_by_length,
+    side_bound_by_length, sphere,
 };
 use crate::random::Rng;
 
@@ -147,7 +147,7 @@ fn stages_after_the_static_bound_of_spheres_are_exact() {
         let refs @ [a, b, c, d, q] = points.each_ref();
         let (extents, det) = (extents(refs), insphere_rounded(refs));
         let expected = sign(big::insphere(1.0, refs));
-        let side = side_of_sphere(&sphere(a, b, c, d), a, q);
+        let side = <[f64; 3]>::side(&sphere(a, b, c, d), a, q);
         if SpacePoint::is_side_certain(side, refs) {
             assert_eq!(sign(side), expected, "{points:?}");
             n_sides += 1;
@@ -167,7 +167,7 @@ fn stages_after_the_static_bound_of_spheres_are_exact() {
             n_by_lengths += 1;
         }
         let (half_space, length) = half_space_by_length(a, b, c);
-        let side = side_of_sphere(&half_space, a, q);
+        let side = <[f64; 3]>::side(&half_space, a, q);
         if side.abs() > side_bound_by_length(length, a, q) {
             assert_eq!(sign(side), sign(big::orient3d(1.0, [a, b, c, q])), "{points:?}");
             n_half_spaces += 1;
@@ -217,7 +217,7 @@ fn near_ties_of_circles_are_those_of_long_integers() {
         let det = incircle_rounded(points.each_ref());
         let [b, c, q] = others;
         let (prepared, own) = (circle(a, b, c), OwnBounds2d::new(a, b, c));
-        let side = side_of_circle(&prepared, a, q);
+        let side = <[f64; 2]>::side(&prepared, a, q);
         if side.abs() > own.side(a, q) {
             assert_eq!(sign(side), sign(big::incircle(1.0, points.each_ref())), "{points:?}");
             n_sides += 1;

@@ -12,7 +12,7 @@
 //! since u·n = |u|² V, and likewise for v and w, determines n. A test costs 9 or 14 operations instead of 25
 //! or 74, and fewer in lanes, where a product and a sum are one. The bound is derived like those of the
 //! other determinants, for this operation order. What the static bound leaves uncertain goes to
-//! [`incircle`](super::incircle), or in space to [`is_side_certain`] and then to [`insphere`](super::insphere).
+//! [`incircle`](super::incircle), or in space to [`SpacePoint::is_side_certain`](super::SpacePoint::is_side_certain) and then to [`insphere`](super::insphere).
 //!
 //! The half-space beyond a hull facet is the sphere of a ghost cell: V = 0 and n is the facet's outer normal,
 //! times [`StaticFilter::largest_square`], so that its values have the same degree. Their sign is that of the
@@ -54,15 +54,9 @@ pub fn circle_seen<T: Real>(b: &Seen<T, 2>, c: &Seen<T, 2>) -> Circle<T> {
     [uu * v[1] - vv * u[1], vv * u[0] - uu * v[0], minor(&u, &v)]
 }
 
-/// Positive if `q` is inside the circle of which `a` is the first corner, negative if outside; open if the
+/// Positive if a point, which is seen from the first corner of a circle, is inside, negative if outside; open if the
 /// magnitude is not above [`StaticFilter::prepared`]. (Two numbers, not one answer of three: a branch on it
 /// would be mispredicted.)
-#[inline(always)]
-pub fn side_of_circle<T: Real>(circle: &Circle<T>, a: &[T; 2], q: &[T; 2]) -> T {
-    side_of_circle_seen(circle, &Seen::from(q, a))
-}
-
-/// [`side_of_circle`] of a point that is seen from the first corner.
 #[inline(always)]
 pub fn side_of_circle_seen<T: Real>(&[x, y, volume]: &Circle<T>, q: &Seen<T, 2>) -> T {
     dot(&q.difference, &[x, y]) - q.lift * volume
@@ -101,21 +95,13 @@ pub fn half_space_by_length(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) -> (Sphere
     ([x, y, z, 0.0], length_above(squared) as f32)
 }
 
-/// Positive if `q` is inside the sphere of which `a` is the first corner, negative if outside; open if the
-/// magnitude is not above [`StaticFilter::prepared`]. (Two numbers, not one answer of three: a branch on it
-/// would be mispredicted.)
-#[inline(always)]
-pub fn side_of_sphere<T: Real>(sphere: &Sphere<T>, a: &[T; 3], q: &[T; 3]) -> T {
-    side_of_sphere_seen(sphere, &Seen::from(q, a))
-}
-
-/// [`side_of_sphere`] of a point that is seen from the first corner.
+/// Positive if a point, which is seen from the first corner of a sphere, is inside, negative if outside; open as of circles.
 #[inline(always)]
 pub fn side_of_sphere_seen<T: Real>(&[x, y, z, volume]: &Sphere<T>, q: &Seen<T, 3>) -> T {
     dot(&q.difference, &[x, y, z]) - q.lift * volume
 }
 
-/// What the magnitude of [`side_of_sphere`] exceeds if it is certain, where edges from the first corner, `a`, of the
+/// What the magnitude of [`side_of_sphere_seen`] exceeds if it is certain, where edges from the first corner, `a`, of the
 /// sphere's cell have at most this length, see [`edge_length`]; also for half-spaces by [`half_space_by_length`].
 #[inline(always)]
 pub fn side_bound_by_length(length: f32, a: &[f64; 3], q: &[f64; 3]) -> f64 {
@@ -169,7 +155,7 @@ impl<T: Real> OwnBounds2d<T> {
         area_bound_by_length(self.squared)
     }
 
-    /// What the magnitude of [`side_of_circle`] exceeds if it is certain.
+    /// What the magnitude of [`side_of_circle_seen`] exceeds if it is certain.
     #[inline(always)]
     pub fn side(&self, a: &[T; 2], q: &[T; 2]) -> T {
         prepared_bound_by_length_2d(self.squared, squared_length(a, q))
@@ -200,7 +186,7 @@ impl<T: Real> OwnBounds3d<T> {
         volume_bound_by_length(self.cubed)
     }
 
-    /// What the magnitude of [`side_of_sphere`] exceeds if it is certain.
+    /// What the magnitude of [`side_of_sphere_seen`] exceeds if it is certain.
     #[inline(always)]
     pub fn side(&self, a: &[T; 3], q: &[T; 3]) -> T {
         prepared_bound_by_length_3d(self.squared, self.cubed, squared_length(a, q))
@@ -210,7 +196,7 @@ impl<T: Real> OwnBounds3d<T> {
 /// Whether all points of a box are certainly outside the sphere of the positively oriented tetrahedron
 /// `abcd`.
 ///
-/// [`side_of_sphere`], with the computed *n* and *V* > 0, is a concave function of each difference s, so that
+/// [`side_of_sphere_seen`], with the computed *n* and *V* > 0, is a concave function of each difference s, so that
 /// its maximum over the box is at the s next to *n* / 2*V* along each axis; rounding being monotone, the
 /// differences of points in the box are between those of its corners. The bound, for the extents of the
 /// tetrahedron and the greatest difference, holds for all these points up to the last rounding, which the

@@ -51,7 +51,7 @@ pub fn in_plane(s: &mut Source) {
         assert_eq!(sign(orient2d(&f, b, a, d)), beyond, "orient2d {p:?} {f:?}");
         assert_eq!(sign(incircle(&f, a, b, c, d)), side, "incircle {p:?} {f:?}");
         assert_eq!(sign(incircle(&f, a, c, b, d)), side.reverse(), "incircle, exchanged {p:?} {f:?}");
-        for certain in [side_of_circle(&circle(a, b, c), a, d), seen] {
+        for certain in [<[f64; 2]>::side(&circle(a, b, c), a, d), seen] {
             // On a lattice a value of zero is a tie.
             if certain.abs() > f.prepared {
                 assert_eq!(sign(certain), side, "prepared {p:?} {f:?}");
@@ -87,12 +87,12 @@ pub fn in_space(s: &mut Source) {
     let [a, b, c, d, e] = &p;
     let (orientation, beyond) = (exact(&[*a, *b, *c, *d]), exact(&[*a, *c, *b, *e]));
     let side = exact(&p);
-    let prepared = side_of_sphere(&sphere(a, b, c, d), a, e);
+    let prepared = <[f64; 3]>::side(&sphere(a, b, c, d), a, e);
     if prepared.abs() > side_bound_by_length(edge_length(a, b, c, d) as f32, a, e) {
         assert_eq!(sign(prepared), side, "by lengths {p:?}");
     }
     let (half_space_by_length, length) = half_space_by_length(a, b, c);
-    let beyond_plane = side_of_sphere(&half_space_by_length, a, d);
+    let beyond_plane = <[f64; 3]>::side(&half_space_by_length, a, d);
     if beyond_plane.abs() > side_bound_by_length(length, a, d) {
         assert_eq!(sign(beyond_plane), orientation, "half-space by lengths {p:?}");
     }
@@ -101,10 +101,10 @@ pub fn in_space(s: &mut Source) {
         assert_eq!(sign(orient3d(&f, a, c, b, e)), beyond, "orient3d {p:?} {f:?}");
         assert_eq!(sign(insphere(&f, a, b, c, d, e)), side, "insphere {p:?} {f:?}");
         assert_eq!(sign(insphere(&f, b, a, c, d, e)), side.reverse(), "insphere, exchanged {p:?} {f:?}");
-        if prepared.abs() > f.prepared || is_side_certain(prepared, [a, b, c, d, e]) {
+        if prepared.abs() > f.prepared || <[f64; 3]>::is_side_certain(prepared, [a, b, c, d, e]) {
             assert_eq!(sign(prepared), side, "prepared {p:?} {f:?}");
         }
-        let beyond_plane = side_of_sphere(&half_space(&f, a, b, c), a, d);
+        let beyond_plane = <[f64; 3]>::side(&half_space(&f, a, b, c), a, d);
         if beyond_plane.abs() > f.prepared {
             assert_eq!(sign(beyond_plane), orientation, "half-space {p:?} {f:?}");
         }

@@ -199,8 +199,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     #[inline(always)]
     pub(crate) fn relocate_within_tolerance(&mut self, vertex: VertexId, position: &G::Point) -> bool {
         let v = vertex.index();
-        // Tolerances are of the Delaunay triangulation, which has other cells beside segments, and of what cells cover they say
-        // nothing.
+        // Tolerances are of the Delaunay triangulation, which has other cells beside segments, and say nothing of vertices above
+        // the cells.
         let says_all = self.mesh.segments.is_none() && self.mesh.kernel.n_hidden() == 0;
         let Some(tolerances) = self.regions.tolerances().filter(|_| says_all) else {
             return false;

@@ -230,7 +230,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let n = if self.hidden_count() == 0 { 0 } else { self.id_count() };
         VertexId::range(0..n).filter_map(|v| match self.mesh.standing(v) {
             Standing::Hidden(s) => Some((v, self.mesh.kernel.site(s).id)),
-            Standing::Shown(_) | Standing::Covered(_) | Standing::Gone => None,
+            Standing::Shown(_) | Standing::Above(_) | Standing::Gone => None,
         })
     }
 
@@ -239,11 +239,25 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.mesh.hidden.count()
     }
 
-    /// The vertices that are corners of no cell because of weights, ascending: each is above the cell that has its place. None while
-    /// there are no cells.
-    pub fn vertices_hidden_by_weight(&self) -> impl Iterator<Item = VertexId> {
-        let n = if self.mesh.kernel.n_hidden() == 0 { 0 } else { self.id_count() };
-        VertexId::range(0..n).filter(|&v| matches!(self.mesh.standing(v), Standing::Covered(_)))
+    /// The vertices that are corners of no cell because of weights, ascending: each is above the cell that has its place, or at the place of
+    /// a vertex of greater weight, or of the same weight and lower key, then lower id. Where there are no cells it is the
+    /// lower hull in the dimension that all vertices span which says who is hidden, at the cost of a build.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn vertices_hidden_by_weight(&self) -> Result<Vec<VertexId>> {
+        let kernel = &self.mesh.kernel;
+        let mut hidden = Vec::new();
+        if kernel.has_cells() {
+            let n = if kernel.n_hidden() == 0 { 0 } else { self.id_count() };
+            let are_covered = |&v: &VertexId| matches!(self.mesh.standing(v), Standing::Above(_));
+            memory::collect(&mut hidden, VertexId::range(0..n).filter(are_covered))?;
+        } else {
+            let sites = kernel.hidden_without_cells()?;
+            memory::collect(&mut hidden, sites.into_iter().map(|s| kernel.site(s).id))?;
+            hidden.sort_unstable();
+        }
+        Ok(hidden)
     }
 
     /// Checks the triangulation: see [`Level`].

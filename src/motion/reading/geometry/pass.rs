@@ -134,7 +134,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let none = |x| VoronoiCell { volume: x, area: x, centroid: nowhere::<G>() };
         match (self.mesh.standing(v), region) {
             (Standing::Gone, _) => none(f64::NAN),
-            (Standing::Hidden(_) | Standing::Covered(_), _) => none(0.0),
+            (Standing::Hidden(_) | Standing::Above(_), _) => none(0.0),
             (Standing::Shown(s), None) => whole_cell::<G>(found.unit, found.target(s)),
             (Standing::Shown(s), Some(region)) => {
                 cell_of::<G>(&region.clip, self.mesh.kernel.place(s), found.target(s))

@@ -15,7 +15,7 @@ pub(in crate::motion) enum Standing {
     /// At the site of a vertex of lower key, or of equal key and lower id, which is seen.
     Hidden(SiteId),
     /// Above the cell that has its place, as its weight or that of others is such.
-    Covered(SiteId),
+    Above(SiteId),
     /// Removed, to be inserted by the next commit, or never there.
     Gone,
 }
@@ -25,7 +25,7 @@ impl<G: Dimension> Mesh<G> {
     pub(in crate::motion) fn standing(&self, vertex: VertexId) -> Standing {
         match self.site(vertex) {
             None => Standing::Gone,
-            Some(s) if self.kernel.is_hidden(s) => Standing::Covered(s),
+            Some(s) if self.kernel.is_hidden(s) => Standing::Above(s),
             Some(s) if self.kernel.site(s).id == vertex => Standing::Shown(s),
             Some(s) => Standing::Hidden(s),
         }
@@ -51,7 +51,7 @@ impl<G: Dimension> Mesh<G> {
     /// Whether a vertex that is present is hidden.
     pub(in crate::motion) fn is_hidden(&self, vertex: VertexId) -> bool {
         let may_be = self.hidden.count() + self.kernel.n_hidden() != 0;
-        may_be && matches!(self.standing(vertex), Standing::Hidden(_) | Standing::Covered(_))
+        may_be && matches!(self.standing(vertex), Standing::Hidden(_) | Standing::Above(_))
     }
 
     /// Every id that has been given, with what the vertex is to the cells.

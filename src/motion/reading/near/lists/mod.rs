@@ -228,7 +228,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let n_looked_at = if self.hidden_count() > 0 { self.id_count() } else { 0 };
         let hidden =
             self.mesh.standings().take(n_looked_at).filter_map(|(vertex, standing)| match standing {
-                Standing::Hidden(s) | Standing::Covered(s) => Some((vertex, kernel.site(s).point)),
+                Standing::Hidden(s) | Standing::Above(s) => Some((vertex, kernel.site(s).point)),
                 _ => None,
             });
         let vertices = shown.chain(hidden);

@@ -1,19 +1,18 @@
-//! Sites that weights hide: live, and corners of no cell.
+//! Sites above the cells: those that weights hide.
 //!
-//! With weights a site may be above the lower hull of all lifted ones: *hidden*, until it or others change. It is above the cell that
-//! has its place, which *covers* it; that is all there is to test, as the lifted cells are one function of the place. What is hidden
-//! can only come back where cells have gone or corners have moved or been raised, and what is inserted only hides more.
+//! With weights a site may be above the lower hull of all lifted ones: *hidden*, until it or others change. It is live, and a corner of
+//! no cell; it is above the cell that has its place, and that is all there is to test, as the lifted cells are one function of
+//! the place. What is hidden can only come back where cells have gone, or corners have moved or been raised, and what is inserted
+//! only hides more.
 //!
-//! So a change of cells *loosens* the sites that these cover, and [`settle`](Delaunay::settle), after one change or after many,
-//! looks for the cell that covers each: a site that is below it is inserted, and may hide others. Between these calls the
-//! cells are those of the sites that are shown. Every insertion lowers the hull, so there is an end.
+//! So a change of cells *loosens* the sites above them, and [`settle`](Delaunay::settle), after one change or after many,
+//! looks for the cell that has the place of each: a site that is below it is inserted, and may hide others. Between these calls the
+//! cells are those of the sites that are shown. Every insertion lowers the hull, so there is an end. A change that is undone leaves
+//! all of them loose, as vertices may not be back at their places yet; the next one begins by looking for their cells.
 //!
 //! Sites at one place are no case of their own: the one of the greatest weight, then of the lowest rank, is below the others.
 //!
-//! What a cell covers is a list through the sites: to enter one and to take one out need no memory.
-//!
-//! A change that is undone leaves all of them loose, as vertices may not be back at their places yet; the next one begins by looking
-//! for their cells.
+//! What is above a cell is a list through the sites: to enter one and to take one out need no memory.
 //!
 //! Invariants: a live site has a cell if it is shown, else [`Slot::NONE`]; after `settle` each hidden one is in the list of one live,
 //! finite cell that has its place.
@@ -31,7 +30,7 @@ use crate::machine::memory;
 /// Where a hidden site is listed.
 #[derive(Clone, Copy, Debug)]
 struct Link {
-    /// The cell that covers it, or did; [`Slot::NONE`] of a site that is shown, or free.
+    /// The cell below it, or what was; [`Slot::NONE`] of a site that is shown, or free.
     cell: Slot,
     /// The sites after it and before it in the list of that cell, or of those that are loose.
     next: SiteId,
@@ -43,10 +42,10 @@ const SHOWN: Link = Link { cell: Slot::NONE, next: SiteId::NONE, previous: SiteI
 
 /// The hidden sites.
 #[derive(Debug)]
-pub(super) struct Covered {
+pub(super) struct Above {
     /// By site.
     links: Vec<Link>,
-    /// The first site that each cell covers.
+    /// The first site above each cell.
     first: Vec<SiteId>,
     /// The first one that is loose.
     loose: SiteId,
@@ -55,20 +54,20 @@ pub(super) struct Covered {
     swallowed: Vec<(SiteId, Slot)>,
 }
 
-impl Default for Covered {
+impl Default for Above {
     fn default() -> Self {
-        Covered { links: Vec::new(), first: Vec::new(), loose: SiteId::NONE, n: 0, swallowed: Vec::new() }
+        Above { links: Vec::new(), first: Vec::new(), loose: SiteId::NONE, n: 0, swallowed: Vec::new() }
     }
 }
 
-impl Covered {
+impl Above {
     pub(super) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.links) + memory::bytes_of(&self.first) + memory::bytes_of(&self.swallowed)
     }
 
     /// A copy, without scratch memory.
     pub(super) fn copied(&self) -> Result<Self> {
-        Ok(Covered {
+        Ok(Above {
             links: memory::copy_of(&self.links)?,
             first: memory::copy_of(&self.first)?,
             swallowed: Vec::new(),
@@ -89,7 +88,7 @@ impl Covered {
 
     /// Enters a site into the list of a cell; none of those that are loose.
     fn enter(&mut self, s: SiteId, cell: Option<Slot>) {
-        let Covered { links, first, loose, n, .. } = self;
+        let Above { links, first, loose, n, .. } = self;
         let head = cell.map_or(loose, |cell| &mut first[cell.index()]);
         let next = std::mem::replace(head, s);
         if next != SiteId::NONE {
@@ -124,7 +123,7 @@ impl Covered {
         self.links.get(s.index()).is_some_and(|link| link.is_loose || link.cell != Slot::NONE)
     }
 
-    /// Loosens what a cell covers.
+    /// Loosens what is above a cell.
     fn loosen(&mut self, cell: Slot) {
         while let Some(&s) = self.first.get(cell.index()).filter(|&&s| s != SiteId::NONE) {
             self.take_out(s);
@@ -133,7 +132,7 @@ impl Covered {
         }
     }
 
-    /// The sites that a cell covers.
+    /// The sites above a cell.
     fn of(&self, cell: Slot) -> impl Iterator<Item = SiteId> + '_ {
         let first = self.first.get(cell.index()).copied();
         let some = |s: &SiteId| *s != SiteId::NONE;
@@ -147,7 +146,7 @@ pub(super) struct Swallowed(Vec<(SiteId, Slot)>);
 impl Swallowed {
     /// Begins with the corners of the rim, each to be [spared](Self::spare).
     pub(super) fn begin<G: Geometry>(t: &mut Delaunay<G>) -> Self {
-        let mut list = std::mem::take(&mut t.covered.swallowed);
+        let mut list = std::mem::take(&mut t.above.swallowed);
         list.clear();
         Swallowed(list)
     }
@@ -184,8 +183,8 @@ impl Swallowed {
 
     /// Ends with the list complete.
     pub(super) fn end<G: Geometry>(self, t: &mut Delaunay<G>, zone: impl Iterator<Item = Slot>) {
-        t.covered.swallowed = self.0;
-        zone.for_each(|cell| t.covered.loosen(cell));
+        t.above.swallowed = self.0;
+        zone.for_each(|cell| t.above.loosen(cell));
     }
 }
 
@@ -198,64 +197,64 @@ impl<G: Geometry> Delaunay<G> {
 
     /// How many sites are hidden.
     pub fn n_hidden(&self) -> usize {
-        if G::HAS_WEIGHTS { self.covered.n } else { 0 }
+        if G::HAS_WEIGHTS { self.above.n } else { 0 }
     }
 
-    /// The cell that covers a hidden site.
-    pub fn covering_cell(&self, s: SiteId) -> Slot {
-        let link = self.covered.links[s.index()];
+    /// The cell below a hidden site.
+    pub fn cell_below(&self, s: SiteId) -> Slot {
+        let link = self.above.links[s.index()];
         if link.is_loose { self.cell_over(s) } else { link.cell }
     }
 
-    /// Whether a site is in the list of the cell that covers it, or of those that an undone change has left loose.
+    /// Whether a site is in the list of the cell below it, or of those that an undone change has left loose.
     pub(super) fn is_listed(&self, s: SiteId) -> bool {
-        let link = self.covered.links[s.index()];
-        link.is_loose || self.covered.of(link.cell).any(|other| other == s)
+        let link = self.above.links[s.index()];
+        link.is_loose || self.above.of(link.cell).any(|other| other == s)
     }
 
     /// Makes room for what an insertion may hide.
     #[inline(always)]
     pub(super) fn make_room_to_hide(&mut self) -> Result<()> {
-        if G::HAS_WEIGHTS { self.covered.reserve(self.sites.len(), self.complex.n_slots()) } else { Ok(()) }
+        if G::HAS_WEIGHTS { self.above.reserve(self.sites.len(), self.complex.n_slots()) } else { Ok(()) }
     }
 
     /// Lists what the last insertion has hidden. There is [room](Self::make_room_to_hide).
     #[inline(always)]
     pub(super) fn list_swallowed(&mut self) {
         if G::HAS_WEIGHTS {
-            let swallowed = std::mem::take(&mut self.covered.swallowed);
+            let swallowed = std::mem::take(&mut self.above.swallowed);
             for &(s, _) in &swallowed {
-                self.covered.enter(s, None);
+                self.above.enter(s, None);
             }
-            self.covered.swallowed = swallowed;
+            self.above.swallowed = swallowed;
         }
     }
 
     /// Lists a site that an insertion has found to be hidden. There is [room](Self::make_room_to_hide).
     pub(super) fn hide(&mut self, s: SiteId, cell: Slot) {
-        self.covered.enter(s, Some(cell));
+        self.above.enter(s, Some(cell));
     }
 
     /// Takes a hidden site out of its list.
-    pub(super) fn uncover(&mut self, s: SiteId) {
-        if self.covered.has(s) {
-            self.covered.take_out(s);
+    pub(super) fn forget_hidden(&mut self, s: SiteId) {
+        if self.above.has(s) {
+            self.above.take_out(s);
         }
     }
 
     /// Loosens a hidden site, whose place or weight is another one.
     pub(super) fn loosen_site(&mut self, s: SiteId) {
-        let Link { cell, is_loose, .. } = self.covered.links[s.index()];
+        let Link { cell, is_loose, .. } = self.above.links[s.index()];
         if !is_loose {
-            self.covered.take_out(s);
-            self.covered.links[s.index()].cell = cell;
-            self.covered.enter(s, None);
+            self.above.take_out(s);
+            self.above.links[s.index()].cell = cell;
+            self.above.enter(s, None);
         }
     }
 
-    /// Loosens the sites that the cells around a site cover, which has moved and leaves them as they are.
+    /// Loosens the sites above the cells around a site, which has moved and leaves them as they are.
     pub(crate) fn loosen_around(&mut self, s: SiteId) -> Result<()> {
-        if !G::HAS_WEIGHTS || self.covered.n == 0 {
+        if !G::HAS_WEIGHTS || self.above.n == 0 {
             return Ok(());
         }
         if self.is_hidden(s) {
@@ -267,19 +266,19 @@ impl<G: Geometry> Delaunay<G> {
         Ok(())
     }
 
-    /// Loosens the sites that the cells of the gathered star cover.
+    /// Loosens the sites above the cells of the gathered star.
     #[inline(always)]
     pub(super) fn loosen_star(&mut self) {
-        if G::HAS_WEIGHTS && self.covered.n > 0 {
-            let Self { covered, star, .. } = self;
-            star.iter().for_each(|&(cell, _)| covered.loosen(cell));
+        if G::HAS_WEIGHTS && self.above.n > 0 {
+            let Self { above, star, .. } = self;
+            star.iter().for_each(|&(cell, _)| above.loosen(cell));
         }
     }
 
-    /// Loosens the sites that cells covered which have been changed.
+    /// Loosens the sites above cells that have been changed.
     pub(super) fn loosen_rows(&mut self, rows: &[Row<G::Corners>]) {
-        if G::HAS_WEIGHTS && self.covered.n > 0 {
-            rows.iter().for_each(|row| self.covered.loosen(row.slot));
+        if G::HAS_WEIGHTS && self.above.n > 0 {
+            rows.iter().for_each(|row| self.above.loosen(row.slot));
         }
     }
 
@@ -291,7 +290,7 @@ impl<G: Geometry> Delaunay<G> {
         self.make_room_to_hide()?;
         for s in SiteId::range(1..self.sites.len()) {
             if self.is_hidden(s) && self.site(s).is_live() {
-                self.covered.enter(s, None);
+                self.above.enter(s, None);
             }
         }
         Ok(())
@@ -299,9 +298,9 @@ impl<G: Geometry> Delaunay<G> {
 
     /// Loosens all hidden sites, where any site may have moved.
     pub(crate) fn loosen_all(&mut self) {
-        if G::HAS_WEIGHTS && self.covered.n > 0 {
-            for s in SiteId::range(1..self.covered.links.len()) {
-                if self.covered.has(s) {
+        if G::HAS_WEIGHTS && self.above.n > 0 {
+            for s in SiteId::range(1..self.above.links.len()) {
+                if self.above.has(s) {
                     self.loosen_site(s);
                 }
             }
@@ -310,32 +309,32 @@ impl<G: Geometry> Delaunay<G> {
 
     /// Whether there are sites to be [settled](Self::settle).
     pub(crate) fn has_loose(&self) -> bool {
-        G::HAS_WEIGHTS && self.covered.loose != SiteId::NONE
+        G::HAS_WEIGHTS && self.above.loose != SiteId::NONE
     }
 
     /// Forgets the hidden sites: there are no cells, or all are going to be listed [anew](Self::loosen_all).
-    pub(super) fn forget_covered(&mut self) {
+    pub(super) fn forget_all_hidden(&mut self) {
         if G::HAS_WEIGHTS {
-            self.covered.links.fill(SHOWN);
-            self.covered.first.fill(SiteId::NONE);
-            (self.covered.loose, self.covered.n) = (SiteId::NONE, 0);
+            self.above.links.fill(SHOWN);
+            self.above.first.fill(SiteId::NONE);
+            (self.above.loose, self.above.n) = (SiteId::NONE, 0);
         }
     }
 
-    /// Finds the cell that covers each loose site, and inserts those that are below it, which `shown` is told. After an error those
+    /// Finds the cell at the place of each loose site, and inserts the sites that are below it, which `shown` is told. After an error those
     /// that are left are loose still.
     pub fn settle(&mut self, mut shown: impl FnMut(SiteId) -> Result<()>) -> Result<()> {
         if !G::HAS_WEIGHTS || !self.has_cells() {
             return Ok(());
         }
-        while self.covered.loose != SiteId::NONE {
+        while self.above.loose != SiteId::NONE {
             self.go_on()?;
             self.make_room_to_hide()?;
-            let s = self.covered.loose;
+            let s = self.above.loose;
             let cell = self.cell_over(s);
             if self.is_above(s, cell) {
-                self.covered.take_out(s);
-                self.covered.enter(s, Some(cell));
+                self.above.take_out(s);
+                self.above.enter(s, Some(cell));
                 continue;
             }
             let mut cavity = std::mem::take(&mut self.cavity);
@@ -347,21 +346,21 @@ impl<G: Geometry> Delaunay<G> {
         Ok(())
     }
 
-    /// Finds the cell that covers each site that an undone change has left loose: all of them are hidden. There is
+    /// Finds the cell below each site that an undone change has left loose: all of them are hidden. There is
     /// [room](Self::make_room_to_hide).
     pub(super) fn settle_undone(&mut self) {
         while self.has_cells() && self.has_loose() {
-            let s = self.covered.loose;
+            let s = self.above.loose;
             let cell = self.cell_over(s);
             debug_assert!(self.is_above(s, cell));
-            self.covered.take_out(s);
-            self.covered.enter(s, Some(cell));
+            self.above.take_out(s);
+            self.above.enter(s, Some(cell));
         }
     }
 
     /// The cell that has the place of a loose site.
     fn cell_over(&self, s: SiteId) -> Slot {
-        let hint = self.covered.links[s.index()].cell;
+        let hint = self.above.links[s.index()].cell;
         let near = if self.complex.is_live(hint) { hint } else { self.recent };
         self.walk(&self.filter, &self.site(s).point, near, &mut 0)
     }
@@ -375,7 +374,7 @@ impl<G: Geometry> Delaunay<G> {
     /// Inserts a loose site, of whose zone this is a cell.
     fn insert_from(&mut self, cavity: &mut Cavity<G>, cell: Slot, s: SiteId) -> Result<()> {
         let made = cavity.scratch.insert::<false>(self, cell, s)?;
-        self.covered.take_out(s);
+        self.above.take_out(s);
         self.recent = made;
         self.sites[s].cell = made;
         self.record(cavity.scratch.made());
@@ -385,27 +384,27 @@ impl<G: Geometry> Delaunay<G> {
     }
 
     /// Follows a change of the slots of cells, which leaves as many or fewer: those of what is there are listed by the old ones.
-    pub(super) fn renumber_covering_cells(&mut self, index: &[Slot]) -> Result<()> {
-        if !G::HAS_WEIGHTS || self.covered.n == 0 {
+    pub(super) fn renumber_cells_below(&mut self, index: &[Slot]) -> Result<()> {
+        if !G::HAS_WEIGHTS || self.above.n == 0 {
             return Ok(());
         }
         let mut first = Vec::new();
-        memory::lengthen(&mut first, self.covered.first.len(), SiteId::NONE)?;
-        let Covered { links, first: old, .. } = &mut self.covered;
+        memory::lengthen(&mut first, self.above.first.len(), SiteId::NONE)?;
+        let Above { links, first: old, .. } = &mut self.above;
         for (slot, &s) in old.iter().enumerate().filter(|&(_, &s)| s != SiteId::NONE) {
             first[index[Slot::at(slot)].index()] = s;
         }
         for link in links.iter_mut().filter(|link| link.cell != Slot::NONE) {
             link.cell = index.get(link.cell.index()).copied().unwrap_or(Slot::NONE);
         }
-        self.covered.first = first;
+        self.above.first = first;
         Ok(())
     }
 
     /// After a change has been undone: which sites are shown, and all others as loose ones. Needs no memory, as there was
     /// [room](Self::make_room_to_hide) when the change began.
     pub(super) fn find_hidden_again(&mut self) {
-        self.forget_covered();
+        self.forget_all_hidden();
         for s in SiteId::range(1..self.sites.len()) {
             let site = &mut self.sites[s];
             if !site.is_live() {
@@ -416,8 +415,8 @@ impl<G: Geometry> Delaunay<G> {
                 self.complex.is_live(cell) && self.complex.cell(cell).corners.as_ref().contains(&s);
             if !is_shown {
                 site.cell = Slot::NONE;
-                self.covered.links[s.index()].cell = cell;
-                self.covered.enter(s, None);
+                self.above.links[s.index()].cell = cell;
+                self.above.enter(s, None);
             }
         }
     }
