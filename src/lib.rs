@@ -57,7 +57,7 @@ mod refine;
 mod simd;
 
 pub use damage::{Damage, LoadError};
-pub use delaunay::{Dimension, Plane, Shape, Space};
+pub use delaunay::{Dimension, Moving, Plane, Shape, Space};
 pub use either::{AnyTriangulation, points_of};
 pub use error::{Conflict, Error, Passing, Result, StagedEdit};
 pub use ids::{CellId, SegmentId, VertexId};

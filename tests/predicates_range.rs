@@ -313,7 +313,8 @@ fn prepared_circles_are_certain_or_open() {
 
 #[test]
 fn prepared_spheres_are_certain_or_open() {
-    let side = |_: &StaticFilter, [a, b, c, d, q]: &[[f64; 3]; 5]| <[f64; 3]>::side(&sphere(a, b, c, d), a, q);
+    let side =
+        |_: &StaticFilter, [a, b, c, d, q]: &[[f64; 3]; 5]| <[f64; 3]>::side(&sphere(a, b, c, d), a, q);
     Prepared { filter: StaticFilter::space, side }.check();
 }
 
@@ -343,7 +344,8 @@ fn stages_after_the_static_bound_of_spheres_are_exact() {
 
 #[test]
 fn prepared_half_spaces_are_certain_or_open() {
-    let side = |f: &StaticFilter, [a, b, c, q]: &[[f64; 3]; 4]| <[f64; 3]>::side(&half_space(f, a, b, c), a, q);
+    let side =
+        |f: &StaticFilter, [a, b, c, q]: &[[f64; 3]; 4]| <[f64; 3]>::side(&half_space(f, a, b, c), a, q);
     Prepared { filter: StaticFilter::space, side }.check();
 }
 

@@ -4,7 +4,7 @@
 use crate::common::inputs::on_unit_sphere;
 use crate::common::{Rng, point, seeds, vertex};
 use crate::exact_oracle::reach::{ball_meets_box, is_box_beyond};
-use deldrift::internals::predicates::{Reach, exact_calls};
+use deldrift::internals::predicates::exact_calls;
 use deldrift::motion::{BoundaryFacet, MovingTriangulation, Options};
 use deldrift::{CellId, Dimension, Error, Plane, Space, VertexId};
 use std::collections::BTreeSet;
@@ -204,13 +204,7 @@ struct Compared {
     exact: usize,
 }
 
-fn check_set<G: Dimension<Point: Reach>>(
-    set: Set,
-    n: usize,
-    n_boxes: usize,
-    rng: &mut Rng,
-    compared: &mut Compared,
-) {
+fn check_set<G: Dimension>(set: Set, n: usize, n_boxes: usize, rng: &mut Rng, compared: &mut Compared) {
     let t = MovingTriangulation::<G>::new(&draw::<G>(set, n, rng), Options::default()).expect("good places");
     let all = All::new(&t);
     for kind in 0..n_boxes {
@@ -227,7 +221,7 @@ fn check_set<G: Dimension<Point: Reach>>(
     }
 }
 
-fn check_sets<G: Dimension<Point: Reach>>() {
+fn check_sets<G: Dimension>() {
     let mut compared = Compared::default();
     for seed in seeds(1) {
         for set in SETS {
@@ -253,7 +247,7 @@ fn a_flood_finds_what_a_pass_over_all_cells_finds() {
 }
 
 /// The vertices of cells and hull facets by definition, with the hidden ones and the mask.
-fn check_lists<G: Dimension<Point: Reach>>(seed: u64) {
+fn check_lists<G: Dimension>(seed: u64) {
     let rng = &mut Rng::new(seed);
     let mut points = draw::<G>(Set::Lattice, 80, rng);
     // Some are hidden, with other ids than what they are behind.
@@ -310,7 +304,7 @@ fn vertices_in_reach_are_those_of_cells_in_reach() {
 }
 
 /// What an insertion does remove, with any id, was in reach of its place.
-fn check_insertions<G: Dimension<Point: Reach>>(set: Set, rng: &mut Rng) {
+fn check_insertions<G: Dimension>(set: Set, rng: &mut Rng) {
     let t =
         MovingTriangulation::<G>::new(&draw::<G>(set, 100, rng), Options::default()).expect("good places");
     let all = All::new(&t);

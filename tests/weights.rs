@@ -4,12 +4,12 @@ use crate::common::inputs::{KINDS, Kind, draw_one};
 use crate::common::{CellSet, Rng, assert_same_cells, cell_set, check_adjacency, seeds};
 use deldrift::internals::{PowerPlane, PowerSpace};
 use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options};
-use deldrift::{Dimension, VertexId};
+use deldrift::{Moving, VertexId};
 
 /// Cells and the vertices that weights hide.
 type Shown = (CellSet, Vec<VertexId>);
 
-fn shown<G: Dimension>(t: &MovingTriangulation<G>) -> Shown {
+fn shown<G: Moving>(t: &MovingTriangulation<G>) -> Shown {
     t.validate(Level::Delaunay).expect("a regular triangulation");
     (cell_set(t), t.vertices_hidden_by_weight().expect("room"))
 }
@@ -34,7 +34,7 @@ fn is_above_on_line((x, w): (i64, i64), k: usize, all: &[(i64, i64)]) -> bool {
 /// Who is hidden in a line in space, along any direction, with an end never, and among vertices at one place.
 #[test]
 fn vertices_on_a_line_are_hidden_by_the_hull_there() {
-    fn check<G: Dimension>(rng: &mut Rng) -> usize {
+    fn check<G: Moving>(rng: &mut Rng) -> usize {
         let (n, extent, most) = (1 + rng.below(12), 1 + rng.below(12) as i64, rng.below(40) as i64);
         let all: Vec<(i64, i64)> = (0..n).map(|_| (rng.within(0, extent), rng.within(0, most))).collect();
         let direction: Vec<i64> = loop {
@@ -66,7 +66,7 @@ fn vertices_on_a_line_are_hidden_by_the_hull_there() {
 }
 
 /// Those of a fresh build of the present vertices, by their ids here.
-fn fresh<G: Dimension>(points: &[Option<G::Point>]) -> Shown {
+fn fresh<G: Moving>(points: &[Option<G::Point>]) -> Shown {
     let present: Vec<VertexId> = VertexId::range(0..points.len()).filter(|&v| points[v].is_some()).collect();
     let some: Vec<G::Point> = points.iter().copied().flatten().collect();
     let t = MovingTriangulation::<G>::new(&some, Options::default()).expect("a fresh build");
@@ -76,7 +76,7 @@ fn fresh<G: Dimension>(points: &[Option<G::Point>]) -> Shown {
 }
 
 /// A history, and what it draws weights from.
-struct History<G: Dimension> {
+struct History<G: Moving> {
     t: MovingTriangulation<G>,
     points: Vec<Option<G::Point>>,
     kind: Kind,
@@ -88,7 +88,7 @@ struct History<G: Dimension> {
     name: String,
 }
 
-impl<G: Dimension> History<G> {
+impl<G: Moving> History<G> {
     fn new(kind: Kind, seed: u64) -> Self {
         let mut rng = Rng::new(seed);
         let n = G::D + 2 + rng.below(60);
@@ -231,7 +231,7 @@ impl<G: Dimension> History<G> {
     }
 }
 
-fn histories_match<G: Dimension>(n: u64) {
+fn histories_match<G: Moving>(n: u64) {
     let mut n_hidden = 0;
     for kind in KINDS {
         for seed in seeds(n) {

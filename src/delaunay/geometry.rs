@@ -8,7 +8,7 @@ use super::flipper::Flip;
 use super::shape::{Plane, PowerPlane, PowerSpace, Space};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
-use crate::predicates::{BiCellTolerances, Measures, StaticFilter};
+use crate::predicates::{BiCellTolerances, Measures, Reach, StaticFilter};
 
 /// The plane or space, with places by a power distance or without: what the kernel asks of it.
 pub trait Geometry: Flip {
@@ -16,13 +16,19 @@ pub trait Geometry: Flip {
     type Scratch: Insert<Self>;
 }
 
-/// A dimension in which vertices move: [`Plane`] or [`Space`], of points with weights or without.
-pub trait Dimension: Geometry<Point: BiCellTolerances + Measures> + Exchange {}
+/// A geometry in which vertices move.
+pub trait Moving: Geometry<Point: BiCellTolerances + Measures> + Exchange {}
+
+impl Moving for Plane {}
+impl Moving for Space {}
+impl Moving for PowerPlane {}
+impl Moving for PowerSpace {}
+
+/// A dimension: [`Plane`] or [`Space`].
+pub trait Dimension: Moving<Point: Reach> {}
 
 impl Dimension for Plane {}
 impl Dimension for Space {}
-impl Dimension for PowerPlane {}
-impl Dimension for PowerSpace {}
 
 /// How a geometry inserts, and the scratch memory for that.
 pub trait Insert<G: Geometry>: Debug + Default + Send + Sync {

@@ -99,7 +99,7 @@ pub(crate) use certify::Waiting;
 pub(crate) use facets::Mix;
 pub use failures::Failures;
 pub(crate) use flips::CERTIFICATES_PER_EXACT;
-pub use geometry::{Dimension, Geometry};
+pub use geometry::{Dimension, Geometry, Moving};
 pub(crate) use keys::Keys;
 pub use locate::Place;
 pub use relocate::{Relocation, Shortcut};

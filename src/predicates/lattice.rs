@@ -68,8 +68,8 @@ pub fn exact_filter<'p, const D: usize>(
 mod tests {
     use super::*;
     use crate::predicates::{
-        incircle, insphere, insphere_perturbed, is_inside_cospherical_on_lattice, orient2d, orient3d,
-        SpacePoint, sphere,
+        SpacePoint, incircle, insphere, insphere_perturbed, is_inside_cospherical_on_lattice, orient2d,
+        orient3d, sphere,
     };
     use crate::random::Rng;
 

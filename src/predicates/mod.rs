@@ -138,11 +138,9 @@ pub use lifted::{Lifted, seen_circle_bound, seen_circle_running_bound, side_of_s
 pub use measures::Measures;
 pub use passing::passes;
 pub use path::{stays_positive2d, stays_positive3d};
-pub use perturbation::{incircle_perturbed, is_inside_cospherical_on_lattice};
 #[cfg(feature = "internals")]
-pub use perturbation::{
-    in_power_circle_perturbed, in_power_sphere_perturbed, insphere_perturbed,
-};
+pub use perturbation::{in_power_circle_perturbed, in_power_sphere_perturbed, insphere_perturbed};
+pub use perturbation::{incircle_perturbed, is_inside_cospherical_on_lattice};
 pub use plane::{incircle, orient2d};
 pub use points::{OwnBounds, PlanePoint, SpacePoint};
 pub use power::{MAX_WEIGHT, in_power_circle, in_power_sphere};

@@ -11,8 +11,8 @@ use super::plane::{incircle_rounded, incircle_sign, own_incircle_bound};
 use super::space::{insphere_magnitudes, insphere_rounded, insphere_sign, orient3d_sign, volume};
 use super::vectors::minus;
 use super::{
-    MAX_MAGNITUDE, OwnBounds2d, OwnBounds3d, PlanePoint, SpacePoint, big, circle, edge_length, half_space_by_length,
-    side_bound_by_length, sphere,
+    MAX_MAGNITUDE, OwnBounds2d, OwnBounds3d, PlanePoint, SpacePoint, big, circle, edge_length,
+    half_space_by_length, side_bound_by_length, sphere,
 };
 use crate::random::Rng;
 

@@ -215,8 +215,8 @@ mod tests {
             let (found, radius) = circumsphere(cell.each_ref());
             let square = squared as f64 * unit * unit;
             let scale = (3 * size) as f64 * unit;
-            for k in 0..D {
-                let apart = (found.place[k] - centre[k] as f64 * unit).abs();
+            for (x, centre) in found.place.into_iter().zip(centre) {
+                let apart = (x - centre as f64 * unit).abs();
                 assert!(apart < 1e-7 * scale, "{cell:?}: {apart}");
             }
             assert!((radius - square).abs() < 1e-7 * scale * scale, "{cell:?}: {radius}, {square}");

@@ -254,7 +254,7 @@ fn next_to(x: f64, lower: f64, upper: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::predicates::{incircle, insphere, orient2d, orient3d};
+    use crate::predicates::{SpacePoint, incircle, insphere, orient2d, orient3d};
     use crate::random::Rng;
 
     fn certain(f: &StaticFilter, value: f64) -> Option<bool> {
@@ -289,7 +289,7 @@ mod tests {
             });
             let f = StaticFilter::space([-6.0; 3], [6.0; 3]);
             let [a, b, c, d, q] = &p;
-            match certain(&f, side_of_sphere(&sphere(a, b, c, d), a, q)) {
+            match certain(&f, <[f64; 3]>::side(&sphere(a, b, c, d), a, q)) {
                 Some(inside) => {
                     n_certain += 1;
                     assert_eq!(inside, insphere(&f, a, b, c, d, q) > 0.0);
@@ -297,7 +297,7 @@ mod tests {
                 }
                 None => n_open += 1,
             }
-            if let Some(beyond) = certain(&f, side_of_sphere(&half_space(&f, a, b, c), a, q)) {
+            if let Some(beyond) = certain(&f, <[f64; 3]>::side(&half_space(&f, a, b, c), a, q)) {
                 assert_eq!(beyond, orient3d(&f, a, b, c, q) > 0.0);
                 assert_ne!(orient3d(&f, a, b, c, q), 0.0);
             }

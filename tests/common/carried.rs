@@ -2,7 +2,7 @@
 
 use super::{Rng, sorted};
 use deldrift::motion::{Changes, MovingTriangulation};
-use deldrift::{CellId, Dimension, VertexId};
+use deldrift::{CellId, Moving, VertexId};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A copy of a change list.
@@ -39,7 +39,7 @@ impl List {
 }
 
 /// Takes the changes.
-pub fn take<G: Dimension>(t: &mut MovingTriangulation<G>) -> deldrift::Result<List> {
+pub fn take<G: Moving>(t: &mut MovingTriangulation<G>) -> deldrift::Result<List> {
     t.take_changes().map(|changes| List::of(&changes))
 }
 
@@ -54,18 +54,14 @@ pub struct Carried {
 }
 
 /// The vertices that are hidden.
-pub fn hidden_of<G: Dimension>(t: &MovingTriangulation<G>) -> BTreeSet<VertexId> {
+pub fn hidden_of<G: Moving>(t: &MovingTriangulation<G>) -> BTreeSet<VertexId> {
     let is_hidden = |v: &VertexId| t.coincident_representative(*v).is_ok_and(|r| r != *v);
     VertexId::range(0..t.id_count()).filter(is_hidden).collect()
 }
 
 impl Carried {
     /// Takes the changes, carries all along, and compares it with what there is.
-    pub fn take<G: Dimension>(
-        &mut self,
-        t: &mut MovingTriangulation<G>,
-        context: &dyn Fn() -> String,
-    ) -> List {
+    pub fn take<G: Moving>(&mut self, t: &mut MovingTriangulation<G>, context: &dyn Fn() -> String) -> List {
         let list = take(t).expect("room");
         self.follow(t, &list, context);
         let again = take(t).expect("room");
@@ -74,7 +70,7 @@ impl Carried {
     }
 
     /// Carries all along by a list that has just been taken.
-    pub fn follow<G: Dimension>(
+    pub fn follow<G: Moving>(
         &mut self,
         t: &MovingTriangulation<G>,
         list: &List,

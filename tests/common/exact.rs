@@ -6,13 +6,13 @@
 //! vanishes, of the first cofactor of a lift that does not, from the highest id down.
 
 use super::{CellSet, sorted};
-use deldrift::{Dimension, VertexId};
+use deldrift::{Moving, VertexId};
 
 /// A point of integers.
 pub type Grid = Vec<i64>;
 
 /// As coordinates.
-pub fn to_point<G: Dimension>(p: &Grid) -> G::Point {
+pub fn to_point<G: Moving>(p: &Grid) -> G::Point {
     super::point::<G>(|k| p[k] as f64)
 }
 

@@ -7,7 +7,7 @@ use super::{
     CellSet, Rng, assert_same_cells, cell_set, check_adjacency, fresh_cells, point, sorted, vertices,
 };
 use deldrift::motion::{Algorithm, Level, Location, MovingTriangulation, Options};
-use deldrift::{CellId, Dimension, VertexId};
+use deldrift::{CellId, Moving, VertexId};
 use std::collections::BTreeMap;
 
 /// How a set of vertices moves from one timestamp to the next.
@@ -52,7 +52,7 @@ const MOTIONS: [Motion; 11] = [
 ];
 
 /// A triangulation under test, and what it should hold.
-pub struct History<G: Dimension> {
+pub struct History<G: Moving> {
     pub t: MovingTriangulation<G>,
     /// Positions by id at the timestamp; `None` once removed.
     pub positions: Vec<Option<G::Point>>,
@@ -67,7 +67,7 @@ pub struct History<G: Dimension> {
     pub rng: Rng,
 }
 
-impl<G: Dimension> History<G> {
+impl<G: Moving> History<G> {
     pub fn new(kind: Kind, n: usize, seed: u64) -> Self {
         let mut rng = Rng::new(seed);
         let points = draw::<G>(kind, n, &mut rng);
@@ -407,7 +407,7 @@ pub struct Snapshot<P> {
 
 impl<P> Snapshot<P> {
     /// Of a valid triangulation.
-    pub fn of<G: Dimension<Point = P>>(t: &MovingTriangulation<G>) -> Self {
+    pub fn of<G: Moving<Point = P>>(t: &MovingTriangulation<G>) -> Self {
         let ids = VertexId::range(0..t.id_count());
         if let Err(violation) = t.validate(Level::Delaunay) {
             panic!("{violation}");
@@ -424,6 +424,6 @@ impl<P> Snapshot<P> {
 }
 
 /// A displacement of at most so many quanta along each axis.
-pub fn nudged<G: Dimension>(p: &G::Point, quanta: i64, rng: &mut Rng) -> G::Point {
+pub fn nudged<G: Moving>(p: &G::Point, quanta: i64, rng: &mut Rng) -> G::Point {
     quantized::<G>(point::<G>(|k| p[k] + QUANTUM * rng.within(-quanta, quanta) as f64))
 }

@@ -3,7 +3,7 @@
 
 use super::exact::Grid;
 use super::{Rng, point};
-use deldrift::Dimension;
+use deldrift::Moving;
 
 /// All coordinates are multiples of this, ...
 pub const QUANTUM: f64 = 1.0 / (1u64 << 20) as f64;
@@ -11,12 +11,12 @@ pub const QUANTUM: f64 = 1.0 / (1u64 << 20) as f64;
 pub const LIMIT: f64 = 32768.0;
 
 /// The nearest point with allowed coordinates.
-pub fn quantized<G: Dimension>(p: G::Point) -> G::Point {
+pub fn quantized<G: Moving>(p: G::Point) -> G::Point {
     point::<G>(|k| (p[k].clamp(-LIMIT, LIMIT) / QUANTUM).round() * QUANTUM + 0.0)
 }
 
 /// In units of the quantum.
-pub fn to_grid<G: Dimension>(p: &G::Point) -> Grid {
+pub fn to_grid<G: Moving>(p: &G::Point) -> Grid {
     (0..G::D).map(|k| (p[k] / QUANTUM) as i64).collect()
 }
 
@@ -53,7 +53,7 @@ pub const KINDS: [Kind; 8] = [
 ];
 
 /// Draws `n` points.
-pub fn draw<G: Dimension>(kind: Kind, n: usize, rng: &mut Rng) -> Vec<G::Point> {
+pub fn draw<G: Moving>(kind: Kind, n: usize, rng: &mut Rng) -> Vec<G::Point> {
     let mut points: Vec<G::Point> = (0..n).map(|_| draw_one::<G>(kind, n, rng)).collect();
     if n > 0 && matches!(kind, Kind::Line | Kind::Hyperplane) {
         let off = rng.below(n);
@@ -63,7 +63,7 @@ pub fn draw<G: Dimension>(kind: Kind, n: usize, rng: &mut Rng) -> Vec<G::Point> 
 }
 
 /// Draws a point as one of `n`.
-pub fn draw_one<G: Dimension>(kind: Kind, n: usize, rng: &mut Rng) -> G::Point {
+pub fn draw_one<G: Moving>(kind: Kind, n: usize, rng: &mut Rng) -> G::Point {
     let side = (n as f64).powf(1.0 / G::D as f64).ceil() as i64;
     let p = match kind {
         Kind::Random => point::<G>(|_| 1000.0 * (2.0 * rng.unit() - 1.0)),
@@ -95,7 +95,7 @@ pub fn draw_one<G: Dimension>(kind: Kind, n: usize, rng: &mut Rng) -> G::Point {
 }
 
 /// Integer points at distance 65 (plane) or 15 (space) from the origin.
-pub fn integer_sphere<G: Dimension>() -> Vec<G::Point> {
+pub fn integer_sphere<G: Moving>() -> Vec<G::Point> {
     let radius: i64 = if G::D == 2 { 65 } else { 15 };
     let range = -radius..=radius;
     let mut points = Vec::new();
@@ -112,7 +112,7 @@ pub fn integer_sphere<G: Dimension>() -> Vec<G::Point> {
 }
 
 /// A point near the sphere of a radius around the origin.
-pub fn on_sphere<G: Dimension>(radius: f64, rng: &mut Rng) -> G::Point {
+pub fn on_sphere<G: Moving>(radius: f64, rng: &mut Rng) -> G::Point {
     loop {
         let p = point::<G>(|_| 2.0 * rng.unit() - 1.0);
         let norm = (0..G::D).map(|k| p[k] * p[k]).sum::<f64>().sqrt();

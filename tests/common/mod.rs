@@ -10,7 +10,7 @@ pub mod passing_by_roots;
 pub mod random;
 
 use deldrift::motion::{Level, MovingTriangulation, NO_CELL, Options};
-use deldrift::{CellId, Dimension, VertexId};
+use deldrift::{CellId, Moving, VertexId};
 pub use random::Rng;
 use std::collections::BTreeSet;
 use std::io::{self, Write};
@@ -31,7 +31,7 @@ pub fn skipped(what: &str, reason: &str) {
 }
 
 /// A point from coordinates.
-pub fn point<G: Dimension>(coordinate: impl FnMut(usize) -> f64) -> G::Point {
+pub fn point<G: Moving>(coordinate: impl FnMut(usize) -> f64) -> G::Point {
     let mut p = G::Point::default();
     for (k, x) in (0..G::D).map(coordinate).enumerate() {
         p[k] = x;
@@ -64,13 +64,13 @@ pub fn sorted(corners: &[VertexId]) -> Vec<VertexId> {
 }
 
 /// The cells of a triangulation.
-pub fn cell_set<G: Dimension>(t: &MovingTriangulation<G>) -> CellSet {
+pub fn cell_set<G: Moving>(t: &MovingTriangulation<G>) -> CellSet {
     t.cells().expect("room").corners.iter().map(|c| sorted(c.as_ref())).collect()
 }
 
 /// The cells of a fresh build of the present vertices, by their ids here: a build from scratch numbers its
 /// vertices from 0, so present ids are mapped in ascending order, on which alone ties depend.
-pub fn fresh_cells<G: Dimension>(positions: &[Option<G::Point>]) -> CellSet {
+pub fn fresh_cells<G: Moving>(positions: &[Option<G::Point>]) -> CellSet {
     let present: Vec<VertexId> =
         VertexId::range(0..positions.len()).filter(|&v| positions[v].is_some()).collect();
     let points: Vec<G::Point> = positions.iter().copied().flatten().collect();
@@ -97,7 +97,7 @@ pub fn assert_same_cells(found: &CellSet, expected: &CellSet, context: impl Fn()
 /// Checks what a caller relies on when reading cells: no cell is listed twice; neighbour
 /// `i` is opposite corner `i`, has the other corners too and knows its way back; where
 /// there is none, the facet is in no other cell.
-pub fn check_adjacency<G: Dimension>(t: &MovingTriangulation<G>, context: &dyn Fn() -> String) {
+pub fn check_adjacency<G: Moving>(t: &MovingTriangulation<G>, context: &dyn Fn() -> String) {
     let view = t.cells().expect("room");
     assert_eq!(view.corners.len(), view.neighbours.len(), "{}", context());
     assert_eq!(view.corners.len(), t.cell_count(), "{}", context());

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::delaunay::Dimension;
+use crate::delaunay::{Dimension, Moving};
 use crate::error::{Error, Result};
 use crate::ids::{CellId, Slot};
 use crate::machine::prefetch::{AHEAD, prefetch};
@@ -10,7 +10,7 @@ use crate::motion::state::checking::check_not_negative;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::{Measures, Reach};
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// What `measure` gives for the corners of the cells in some slots; `later` tells which of them is at an index.
     #[inline(always)]
     fn measures<'t, T: 't>(
@@ -218,10 +218,7 @@ pub(crate) fn tell_all<T>(
         tell(cells.map_or_else(|| CellId::at(k), |cells| cells[k]), value);
     }
 }
-impl<G: Dimension> MovingTriangulation<G>
-where
-    G::Point: Reach,
-{
+impl<G: Dimension> MovingTriangulation<G> {
     /// For each of the cells of these indices, in their order, a centre and a radius of a closed ball that certainly has
     /// the closed ball of the cell in it. It is larger by some 10⁻¹² of the radius and last bits of the coordinates, by up
     /// to 4·10⁻⁹ of the radius where the cell is nearly flat. Where numbers do not suffice the radius is infinite, and the

@@ -3,7 +3,7 @@
 //! Two arrays say so, the site of each id and the id of each site, and only here are they read for it. With weights each vertex has a
 //! site of its own, and the kernel knows which ones are in no cell.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::ids::{SiteId, VertexId};
 use crate::motion::state::mesh::Mesh;
 
@@ -20,7 +20,7 @@ pub(in crate::motion) enum Standing {
     Gone,
 }
 
-impl<G: Dimension> Mesh<G> {
+impl<G: Moving> Mesh<G> {
     /// What a vertex is to the cells.
     pub(in crate::motion) fn standing(&self, vertex: VertexId) -> Standing {
         match self.site(vertex) {
