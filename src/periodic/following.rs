@@ -187,7 +187,7 @@ impl Joined {
 }
 
 /// What was there before a change.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct InsideBefore {
     /// Ids that vertices had been given.
     pub(super) n_vertices: usize,
@@ -201,11 +201,11 @@ impl<G: Dimension> Inside<G> {
         lattice.rank() == G::D && self.t.cell_count() > 0 && self.t.hidden_count() == 0
     }
 
-    /// The images that are missing after changes, where before all was as in the repeating set.
-    pub(super) fn missing(&self, lattice: &Lattice<G>, before: InsideBefore) -> Result<Needed> {
-        if before.is_plain
+    /// The images that are missing after rounds, where before them all was as in the repeating set.
+    pub(super) fn missing(&self, lattice: &Lattice<G>) -> Result<Needed> {
+        if self.since.is_plain
             && self.is_plain(lattice)
-            && let Some(needed) = self.missing_at_changes(lattice, before.n_vertices)?
+            && let Some(needed) = self.missing_at_changes(lattice, self.since.n_vertices)?
         {
             return Ok(needed);
         }
@@ -285,7 +285,8 @@ impl<G: Dimension> Inside<G> {
             }
         }
         // The first of a set has the lowest id.
-        let mut coming = VertexId::range(n_before..self.images.n_vertices());
+        let mut coming = VertexId::range(n_before..self.images.n_vertices())
+            .filter(|&vertex| self.images.home(vertex) != VertexId::NONE);
         if !coming.all(|vertex| joined.first(Image { vertex, shift: HOME }).vertex.index() < n_before) {
             return Ok(false);
         }

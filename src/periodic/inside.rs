@@ -2,6 +2,7 @@
 
 use crate::delaunay::Dimension;
 use crate::motion::MovingTriangulation;
+use crate::periodic::following::InsideBefore;
 use crate::periodic::images::Images;
 use crate::periodic::lattice::Occupied;
 
@@ -19,6 +20,8 @@ pub(super) struct Inside<G: Dimension> {
     pub(super) occupied: Occupied,
     /// The mean distance of vertices when this was built.
     pub(super) spacing: f64,
+    /// What there was at the timestamp from which rounds go on.
+    pub(super) since: InsideBefore,
 }
 
 /// All shifts in these ranges.

@@ -1,10 +1,13 @@
 //! Commits in two phases: a timestamp is prepared, in one round or several, and then published or withdrawn.
 
+#[cfg(test)]
+mod tests;
+
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Moves;
-use crate::motion::state::rounds::Published;
+use crate::motion::state::rounds::Mark;
 use crate::motion::triangulation::MovingTriangulation;
 
 impl<G: Dimension> MovingTriangulation<G> {
@@ -34,9 +37,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub fn prepare_timestamp(&mut self) -> Result<CommitReport> {
         self.mesh.last_found.begin();
         self.apply_passing_policy_to_staged()?;
-        if self.mesh.rounds.is_none() {
-            let before = self.published();
-            self.mesh.open_rounds(before)?;
+        if !self.is_prepared() {
+            self.set_mark()?;
         }
         self.regions.release();
         let mut staging = std::mem::take(&mut self.staging);
@@ -72,37 +74,48 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Tolerances are forgotten; what auto has learnt stays, but it checks all certificates for a while before it computes
     /// tolerances again.
     pub fn withdraw_timestamp(&mut self) {
+        self.withdraw(true);
+    }
+
+    /// Takes back the rounds since the last [mark](Self::set_mark), which is forgotten, as
+    /// [`withdraw_timestamp`](Self::withdraw_timestamp) takes back all.
+    pub(crate) fn withdraw_to_mark(&mut self) {
+        self.withdraw(false);
+    }
+
+    fn withdraw(&mut self, are_all: bool) {
         self.regions.release();
-        let Some(before) = self.mesh.withdraw_rounds() else { return };
+        let Some(mark) = self.mesh.withdraw_rounds(are_all) else { return };
         self.auto.note_withdrawn(self.mesh.constants);
         self.regions.invalidate();
-        self.statistics = before.statistics;
+        self.statistics = mark.statistics;
         self.staging.clear();
         self.edits.clear();
-        self.staging.shrink(before.n_ids);
+        self.staging.shrink(mark.n_ids);
         if let Some(segments) = &mut self.mesh.segments {
             segments.discard();
         }
-        match (&mut self.made, before.n_pieces) {
+        match (&mut self.made, mark.n_pieces) {
             (Some(made), Some(n)) => made.truncate_pieces(n),
             (made, _) => *made = None,
         }
     }
 
-    /// What this is at its timestamp, as far as numbers tell that.
-    fn published(&self) -> Published {
+    /// From here on rounds can be [taken back](Self::withdraw_to_mark) by themselves.
+    pub(crate) fn set_mark(&mut self) -> Result<()> {
         let (mut n_ids, mut has_keys) = (self.mesh.site_of.len(), self.has_keys());
         if self.edits.has_insertions() {
             n_ids = n_ids.min(self.edits.n_known());
             has_keys = self.edits.had_keys();
         }
-        Published {
+        self.mesh.set_mark(Mark {
+            n_rounds: self.mesh.n_rounds(),
             statistics: self.statistics,
             n_ids,
             n_pieces: self.made.as_ref().map(|made| made.n_pieces()),
             has_segments: self.mesh.segments.is_some(),
             has_keys,
-        }
+        })
     }
 
     /// Makes the moves and the staged edits as a round.

@@ -67,9 +67,11 @@ impl<G: Dimension> Round<G> {
     }
 }
 
-/// What a triangulation was at its timestamp, as far as numbers tell that.
+/// What a triangulation was where rounds may be withdrawn to, as far as numbers tell that.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::motion) struct Published {
+pub(in crate::motion) struct Mark {
+    /// How many rounds had been made.
+    pub(in crate::motion) n_rounds: usize,
     pub(in crate::motion) statistics: CommitReport,
     /// Ids of vertices, those of staged insertions that can be given back not counted.
     pub(in crate::motion) n_ids: usize,
@@ -83,7 +85,8 @@ pub(in crate::motion) struct Published {
 /// The rounds of a timestamp that is being prepared.
 #[derive(Debug)]
 pub(in crate::motion) struct Rounds<G: Dimension> {
-    pub(in crate::motion) before: Published,
+    /// The first one is of the timestamp before; later ones have more rounds, or as many.
+    pub(in crate::motion) marks: Vec<Mark>,
     pub(in crate::motion) earlier: Vec<Round<G>>,
     /// The last round, or the one being made.
     pub(in crate::motion) last: Settled<G>,
@@ -95,10 +98,10 @@ pub(in crate::motion) struct Rounds<G: Dimension> {
     pub(in crate::motion) wants_order: bool,
 }
 
-impl<G: Dimension> Rounds<G> {
-    pub(in crate::motion) fn new(before: Published) -> Self {
+impl<G: Dimension> Default for Rounds<G> {
+    fn default() -> Self {
         Rounds {
-            before,
+            marks: Vec::new(),
             earlier: Vec::new(),
             last: Settled::default(),
             has_last: false,
@@ -106,7 +109,9 @@ impl<G: Dimension> Rounds<G> {
             wants_order: false,
         }
     }
+}
 
+impl<G: Dimension> Rounds<G> {
     /// How many have been made.
     pub(in crate::motion) fn count(&self) -> usize {
         self.earlier.len() + usize::from(self.has_last)
@@ -117,5 +122,6 @@ impl<G: Dimension> Rounds<G> {
             + self.earlier.iter().map(Round::memory_bytes).sum::<usize>()
             + self.last.memory_bytes()
             + memory::bytes_of(&self.removed)
+            + memory::bytes_of(&self.marks)
     }
 }

@@ -8,6 +8,7 @@ use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::{MAX_VERTICES, MovingTriangulation, Options, Reader, Saved, check_position};
+use crate::periodic::following::InsideBefore;
 use crate::periodic::images::{Image, Images};
 use crate::periodic::inside::Inside;
 use crate::periodic::lattice::{HOME, Lattice, Occupied};
@@ -258,7 +259,16 @@ fn placed<G: Dimension>(
     }
     let spacing = spacing(lattice, &home);
     t.begin_changes()?;
-    Ok(Inside { t, n_built: images.n_present(), images, places, goals: Vec::new(), occupied, spacing })
+    Ok(Inside {
+        t,
+        n_built: images.n_present(),
+        images,
+        places,
+        goals: Vec::new(),
+        occupied,
+        spacing,
+        since: InsideBefore::default(),
+    })
 }
 
 /// Checks by which translations vertices have come home.

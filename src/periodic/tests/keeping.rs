@@ -4,6 +4,7 @@
 use super::*;
 use crate::damage::{Damage, LoadError};
 use crate::motion::Saved;
+use crate::periodic::following::InsideBefore;
 use crate::periodic::images::{Image, Images};
 use crate::periodic::inside::Inside;
 use crate::periodic::lattice::{HOME, Lattice, Occupied};
@@ -312,7 +313,16 @@ fn with_images(shifts: &[[i32; 2]]) -> PeriodicTriangulation<Plane> {
     let keys = keys_of(images.as_slice()).unwrap();
     let inside = MovingTriangulation::with_keys(&places, &keys, Options::default()).unwrap();
     let (spacing, n_built) = (t.inside.spacing, 1);
-    t.inside = Inside { t: inside, images, n_built, places, goals: Vec::new(), occupied, spacing };
+    t.inside = Inside {
+        t: inside,
+        images,
+        n_built,
+        places,
+        goals: Vec::new(),
+        occupied,
+        spacing,
+        since: InsideBefore::default(),
+    };
     t
 }
 

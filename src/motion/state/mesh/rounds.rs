@@ -2,11 +2,11 @@
 
 use crate::delaunay::{Delaunay, Dimension, Keys};
 use crate::error::Result;
-use crate::ids::VertexId;
+use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::motion::state::hidden::Hidden;
 use crate::motion::state::mesh::{Mesh, REPLACED_TO_SORT_FIRST};
-use crate::motion::state::rounds::{Former, Published, Rounds, Settled};
+use crate::motion::state::rounds::{Former, Mark, Round, Rounds, Settled};
 
 impl<G: Dimension> Mesh<G> {
     /// How many rounds have been made.
@@ -14,12 +14,15 @@ impl<G: Dimension> Mesh<G> {
         self.rounds.as_ref().map_or(0, |rounds| rounds.count())
     }
 
-    /// From now on changes are rounds.
-    pub(in crate::motion) fn open_rounds(&mut self, before: Published) -> Result<()> {
-        let rounds = memory::boxed(Rounds::new(before))?;
-        self.views.open_rounds()?;
-        self.rounds = Some(rounds);
-        Ok(())
+    /// From now on changes are rounds, and those from here on can be [withdrawn](Self::withdraw_rounds) by themselves.
+    pub(in crate::motion) fn set_mark(&mut self, mark: Mark) -> Result<()> {
+        let mut rounds = self.rounds.take().map_or_else(|| memory::boxed(Rounds::default()), Ok)?;
+        let done = memory::reserve(&mut rounds.marks, 1).and_then(|()| self.views.set_mark());
+        if done.is_ok() {
+            rounds.marks.push(mark);
+        }
+        self.rounds = Some(rounds).filter(|rounds| !rounds.marks.is_empty());
+        done
     }
 
     /// Ends the rounds if none has been made.
@@ -111,40 +114,50 @@ impl<G: Dimension> Mesh<G> {
         }
     }
 
-    /// Takes all rounds back. Needs no memory.
-    pub(in crate::motion) fn withdraw_rounds(&mut self) -> Option<Published> {
-        let rounds = *self.rounds.take()?;
-        if rounds.has_last {
-            self.unsettle(rounds.last);
+    /// Takes the rounds since the last mark back, or all of them, and forgets the mark, which it returns. Needs no memory.
+    pub(in crate::motion) fn withdraw_rounds(&mut self, are_all: bool) -> Option<Mark> {
+        let mut rounds = self.rounds.take()?;
+        if are_all {
+            rounds.marks.truncate(1);
+        }
+        let mark = rounds.marks.pop()?;
+        if rounds.count() > mark.n_rounds && std::mem::take(&mut rounds.has_last) {
+            self.unsettle(std::mem::take(&mut rounds.last));
             self.undo();
         }
-        for round in rounds.earlier.into_iter().rev() {
-            let origins = self.transaction.take_up(round.transaction);
-            if let Some(kept) = round.kernel {
-                self.kernel.take_change_up(kept);
+        while rounds.count() > mark.n_rounds
+            && let Some(Round { settled, kernel, transaction, segments: kept }) = rounds.earlier.pop()
+        {
+            let origins = self.transaction.take_up(transaction);
+            if let Some(kernel) = kernel {
+                self.kernel.take_change_up(kernel);
             }
-            if let (Some(segments), Some(kept)) = (&mut self.segments, round.segments) {
+            if let (Some(segments), Some(kept)) = (&mut self.segments, kept) {
                 segments.take_up(kept);
             }
-            self.unsettle(round.settled);
+            self.unsettle(settled);
             self.undo();
             origins.put_back(&mut self.kernel, &self.site_of);
         }
-        self.views.withdraw_rounds();
-        if let Some(segments) = &mut self.segments {
+        self.views.withdraw_to_mark(rounds.marks.len());
+        if let Some(segments) = self.segments.as_mut().filter(|_| !rounds.has_last) {
             segments.end_rounds();
         }
-        if !rounds.before.has_segments {
+        if !mark.has_segments {
             self.segments = None;
         }
-        self.site_of.truncate(rounds.before.n_ids);
-        if rounds.before.has_keys {
-            self.kernel.keys_mut().truncate(rounds.before.n_ids);
+        self.site_of.truncate(mark.n_ids);
+        if mark.has_keys {
+            self.kernel.keys_mut().truncate(mark.n_ids);
         } else {
             *self.kernel.keys_mut() = Keys::default();
         }
         self.n_changes += 1;
-        Some(rounds.before)
+        if !rounds.marks.is_empty() {
+            rounds.removed.retain(|v| self.site_of.get(v.index()) == Some(&SiteId::NONE));
+            self.rounds = Some(rounds);
+        }
+        Some(mark)
     }
 
     /// Brings what a round has left to where [`undo`](Self::undo) begins.
