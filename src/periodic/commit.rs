@@ -15,6 +15,9 @@ use crate::periodic::lattice::{HOME, Lattice, Occupied};
 use crate::periodic::rounds::{MovedBefore, PlacesBefore, RoundBefore, Wraps};
 use crate::periodic::triangulation::PeriodicTriangulation;
 
+/// What a round of moves and few edits has done, and what there was before.
+type RoundMade<G> = (CommitReport, MovedBefore<G>);
+
 /// Where vertices go.
 #[derive(Clone, Copy)]
 pub(super) enum PeriodicGoals<'a, G: Dimension> {
@@ -82,7 +85,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
 
     /// Moves vertices and images, makes the edits, and inserts images that are missing; none, without a change, if a vertex would
     /// be too far from the unit cell, the lattice too different, or the edits too many.
-    fn moved(&mut self, goals: PeriodicGoals<'_, G>) -> Result<Option<(CommitReport, MovedBefore<G>)>> {
+    fn moved(&mut self, goals: PeriodicGoals<'_, G>) -> Result<Option<RoundMade<G>>> {
         let n = self.inside.images.n_vertices();
         let lattice = self.coming.as_ref().unwrap_or(&self.lattice);
         let edits = ImageEdits::of(&self.inside, lattice, &self.staged, |index| match goals {
@@ -93,7 +96,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         memory::reserve(&mut self.wraps, edits.wraps().len())?;
         let moved = match (goals, &self.coming) {
             (PeriodicGoals::Staged, None) => self.some_moved(&edits),
-            (PeriodicGoals::Of(positions), None) => self.all_moved(positions, &edits),
+            (PeriodicGoals::Of(positions), None) => {
+                self.inside.move_all(&self.lattice, positions, &edits, &self.wraps, |wrap| wrap)
+            }
             (PeriodicGoals::Of(positions), Some(_)) => self.all_moved_in_other(positions, &edits),
             (PeriodicGoals::Staged, Some(_)) => {
                 let mut positions = Vec::new();
@@ -112,7 +117,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     /// Of those whose moves are staged.
-    fn some_moved(&mut self, edits: &ImageEdits<G>) -> Result<Option<(CommitReport, MovedBefore<G>)>> {
+    fn some_moved(&mut self, edits: &ImageEdits<G>) -> Result<Option<RoundMade<G>>> {
         let Self { lattice, inside, wraps, staged, .. } = self;
         let (mut new_wraps, mut ids, mut places) = (Vec::new(), Vec::new(), Vec::new());
         let (mut occupied, mut n_moved, mut before) = (inside.occupied, 0, inside.before_round());
@@ -145,22 +150,13 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         Ok(Some((report, before)))
     }
 
-    /// Of all, to these positions by id.
-    fn all_moved(
-        &mut self,
-        positions: &[G::Point],
-        edits: &ImageEdits<G>,
-    ) -> Result<Option<(CommitReport, MovedBefore<G>)>> {
-        self.inside.move_all(&self.lattice, positions, edits, &self.wraps, |wrap| wrap)
-    }
-
     /// Of all, to these positions by id, in the lattice that is staged. Vertices go to the place that is nearest, images with
     /// them: each is translated by what is nearest to what it was translated by.
     fn all_moved_in_other(
         &mut self,
         positions: &[G::Point],
         edits: &ImageEdits<G>,
-    ) -> Result<Option<(CommitReport, MovedBefore<G>)>> {
+    ) -> Result<Option<RoundMade<G>>> {
         let Some(other) = &self.coming else { return Ok(None) };
         let Some(relation) = self.lattice.relation_to(other) else { return Ok(None) };
         let mut n_moved = 0;
@@ -262,7 +258,7 @@ impl<G: Dimension> Inside<G> {
         edits: &ImageEdits<G>,
         wraps: &Wraps,
         wrap_of: impl Fn([i64; 3]) -> [i64; 3],
-    ) -> Result<Option<(CommitReport, MovedBefore<G>)>> {
+    ) -> Result<Option<RoundMade<G>>> {
         let (mut goals, mut before) = (std::mem::take(&mut self.goals), self.before_round());
         let moved = self.goals_of(lattice, positions, edits, wraps, wrap_of, &mut goals);
         let done = moved.and_then(|moved| {
@@ -334,7 +330,7 @@ impl<G: Dimension> Inside<G> {
             self.since =
                 InsideBefore { n_vertices: self.images.n_vertices(), is_plain: self.is_plain(lattice) };
         }
-        if let Err(error) = self.t.set_mark() {
+        if let Err(error) = self.t.set_savepoint() {
             self.t.discard_moves();
             return Err(error);
         }
@@ -351,7 +347,7 @@ impl<G: Dimension> Inside<G> {
         });
         if done.is_err() {
             self.t.discard_moves();
-            self.t.withdraw_to_mark();
+            self.t.withdraw_to_savepoint();
             self.images.truncate(n_images);
             self.occupied = before;
         }

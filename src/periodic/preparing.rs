@@ -1,7 +1,7 @@
 //! Commits in two phases: a timestamp is prepared, in one round or several, and then published or withdrawn.
 //!
-//! A round is a commit whose rounds inside stay open, with a mark before the first of them: one that fails is taken back to its
-//! mark, and all are published or withdrawn together. What they have changed beside the triangulation inside is kept by
+//! A round is a commit whose rounds inside stay open, with a savepoint before the first of them: one that fails is taken back to its
+//! savepoint, and all are published or withdrawn together. What they have changed beside the triangulation inside is kept by
 //! [`RoundBefore`](crate::periodic::rounds::RoundBefore).
 
 use crate::delaunay::Dimension;

@@ -153,16 +153,8 @@ impl<G: Dimension> Inside<G> {
             })?;
         }
         let t = MovingTriangulation::unbuilt(options);
-        Ok(Inside {
-            t,
-            images,
-            n_built: home.len(),
-            places,
-            goals: Vec::new(),
-            occupied,
-            spacing,
-            since: InsideBefore::default(),
-        })
+        let (goals, since) = (Vec::new(), InsideBefore::default());
+        Ok(Inside { t, images, n_built: home.len(), places, goals, occupied, spacing, since })
     }
 
     /// Triangulates the vertices and images at these places, and inserts images that are missing. After an error it can only

@@ -7,7 +7,7 @@ use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Moves;
-use crate::motion::state::rounds::Mark;
+use crate::motion::state::rounds::Savepoint;
 use crate::motion::triangulation::MovingTriangulation;
 
 impl<G: Dimension> MovingTriangulation<G> {
@@ -38,7 +38,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.mesh.last_found.begin();
         self.apply_passing_policy_to_staged()?;
         if !self.is_prepared() {
-            self.set_mark()?;
+            self.set_savepoint()?;
         }
         self.regions.release();
         let mut staging = std::mem::take(&mut self.staging);
@@ -77,38 +77,38 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.withdraw(true);
     }
 
-    /// Takes back the rounds since the last [mark](Self::set_mark), which is forgotten, as
+    /// Takes back the rounds since the last [savepoint](Self::set_savepoint), which is forgotten, as
     /// [`withdraw_timestamp`](Self::withdraw_timestamp) takes back all.
-    pub(crate) fn withdraw_to_mark(&mut self) {
+    pub(crate) fn withdraw_to_savepoint(&mut self) {
         self.withdraw(false);
     }
 
     fn withdraw(&mut self, are_all: bool) {
         self.regions.release();
-        let Some(mark) = self.mesh.withdraw_rounds(are_all) else { return };
+        let Some(savepoint) = self.mesh.withdraw_rounds(are_all) else { return };
         self.auto.note_withdrawn(self.mesh.constants);
         self.regions.invalidate();
-        self.statistics = mark.statistics;
+        self.statistics = savepoint.statistics;
         self.staging.clear();
         self.edits.clear();
-        self.staging.shrink(mark.n_ids);
+        self.staging.shrink(savepoint.n_ids);
         if let Some(segments) = &mut self.mesh.segments {
             segments.discard();
         }
-        match (&mut self.made, mark.n_pieces) {
+        match (&mut self.made, savepoint.n_pieces) {
             (Some(made), Some(n)) => made.truncate_pieces(n),
             (made, _) => *made = None,
         }
     }
 
-    /// From here on rounds can be [taken back](Self::withdraw_to_mark) by themselves.
-    pub(crate) fn set_mark(&mut self) -> Result<()> {
+    /// From here on rounds can be [taken back](Self::withdraw_to_savepoint) by themselves.
+    pub(crate) fn set_savepoint(&mut self) -> Result<()> {
         let (mut n_ids, mut has_keys) = (self.mesh.site_of.len(), self.has_keys());
         if self.edits.has_insertions() {
             n_ids = n_ids.min(self.edits.n_known());
             has_keys = self.edits.had_keys();
         }
-        self.mesh.set_mark(Mark {
+        self.mesh.set_savepoint(Savepoint {
             n_rounds: self.mesh.n_rounds(),
             statistics: self.statistics,
             n_ids,

@@ -32,7 +32,7 @@ struct Behind<G: Dimension> {
     dirty: Marks<Slot>,
     /// Whether any slot may have changed.
     are_all: bool,
-    /// What there was at the marks that rounds may be taken back to, the last one last.
+    /// What there was at the savepoints that rounds may be taken back to, the last one last.
     before: Vec<ArraysBefore<G>>,
 }
 
@@ -48,7 +48,7 @@ struct ArraysBefore<G: Dimension> {
     n_dirty: usize,
     /// The slots that were dirty then, if the arrays have been brought up to date since.
     dirty: Option<Marks<Slot>>,
-    /// What was noted between the mark before and this one.
+    /// What was noted between the savepoint before and this one.
     journal: Option<Box<CellJournal<G>>>,
 }
 
@@ -199,7 +199,7 @@ impl<G: Dimension> Views<G> {
     }
 
     /// Rounds that may be taken back by themselves begin.
-    pub(in crate::motion) fn set_mark(&mut self) -> Result<()> {
+    pub(in crate::motion) fn set_savepoint(&mut self) -> Result<()> {
         let (existed, were_current) = (self.exist(), self.current.get().is_some());
         let Views { current, behind, .. } = self;
         let behind = behind.get_mut().unwrap_or_else(PoisonError::into_inner);
@@ -227,9 +227,9 @@ impl<G: Dimension> Views<G> {
         }
     }
 
-    /// Rounds have been taken back: puts the arrays back to what they were at the mark before which there are so many. Needs
+    /// Rounds have been taken back: puts the arrays back to what they were at the savepoint before which there are so many. Needs
     /// no memory.
-    pub(in crate::motion) fn withdraw_to_mark(&mut self, n_before: usize) {
+    pub(in crate::motion) fn withdraw_to_savepoint(&mut self, n_before: usize) {
         while self.behind().before.len() > n_before {
             self.withdraw_last();
         }
@@ -338,13 +338,13 @@ impl<G: Dimension> Views<G> {
     pub(in crate::motion) fn memory_bytes(&self) -> usize {
         let behind = self.lock();
         let kept = self.current.get().or(behind.cells.as_ref());
-        let of_mark = |before: &ArraysBefore<G>| {
+        let of_savepoint = |before: &ArraysBefore<G>| {
             before.dirty.as_ref().map_or(0, Marks::memory_bytes)
                 + memory::bytes_of_made(&before.journal, CellJournal::memory_bytes)
         };
         behind.dirty.memory_bytes()
             + memory::bytes_of(&behind.before)
-            + behind.before.iter().map(of_mark).sum::<usize>()
+            + behind.before.iter().map(of_savepoint).sum::<usize>()
             + kept.map_or(0, |cells| cells.memory_bytes() + size_of::<Cells<G>>())
             + self.visibilities.memory_bytes()
     }

@@ -259,16 +259,8 @@ fn placed<G: Dimension>(
     }
     let spacing = spacing(lattice, &home);
     t.begin_changes()?;
-    Ok(Inside {
-        t,
-        n_built: images.n_present(),
-        images,
-        places,
-        goals: Vec::new(),
-        occupied,
-        spacing,
-        since: InsideBefore::default(),
-    })
+    let (goals, since) = (Vec::new(), InsideBefore::default());
+    Ok(Inside { t, n_built: images.n_present(), images, places, goals, occupied, spacing, since })
 }
 
 /// Checks by which translations vertices have come home.

@@ -313,16 +313,8 @@ fn with_images(shifts: &[[i32; 2]]) -> PeriodicTriangulation<Plane> {
     let keys = keys_of(images.as_slice()).unwrap();
     let inside = MovingTriangulation::with_keys(&places, &keys, Options::default()).unwrap();
     let (spacing, n_built) = (t.inside.spacing, 1);
-    t.inside = Inside {
-        t: inside,
-        images,
-        n_built,
-        places,
-        goals: Vec::new(),
-        occupied,
-        spacing,
-        since: InsideBefore::default(),
-    };
+    let (goals, since) = (Vec::new(), InsideBefore::default());
+    t.inside = Inside { t: inside, images, n_built, places, goals, occupied, spacing, since };
     t
 }
 

@@ -96,8 +96,8 @@ fn is_as_anew<G: Dimension>(t: &PeriodicTriangulation<G>, context: &str) {
 }
 
 /// Rounds, some of them refused on the way, which leaves those before, are withdrawn, which leaves the bytes that there were, or
-/// published.
-fn prepared<G: Dimension>(seed: u64, n: usize, basis: &[G::Point]) {
+/// published. How many have been refused after others.
+fn prepared<G: Dimension>(seed: u64, n: usize, basis: &[G::Point]) -> usize {
     let rng = &mut Rng::new(seed);
     let points = random_points::<G>(rng, n, basis);
     let patience = Arc::new(AtomicI64::new(-1));
@@ -105,7 +105,7 @@ fn prepared<G: Dimension>(seed: u64, n: usize, basis: &[G::Point]) {
     let monitor = move |_: f64| left.fetch_sub(1, Relaxed) != 0;
     let options = Options { monitor: Some(Box::new(monitor)), ..Options::default() };
     let mut t = PeriodicTriangulation::<G>::new(&points, basis, options).unwrap();
-    let takes = rng.one_in(3);
+    let (takes, mut n_refused) = (rng.one_in(3), 0);
     for step in 0..6 {
         if takes {
             t.take_changes().unwrap();
@@ -122,11 +122,12 @@ fn prepared<G: Dimension>(seed: u64, n: usize, basis: &[G::Point]) {
             let mut is_made = false;
             if rng.one_in(2) {
                 let known = seen(&t);
-                patience.store(rng.below(8) as i64, Relaxed);
+                patience.store(rng.below(3) as i64, Relaxed);
                 let done = t.prepare_timestamp();
                 patience.store(-1, Relaxed);
                 is_made = done.is_ok();
                 if !is_made {
+                    n_refused += usize::from(round > 0);
                     assert_eq!(done.err(), Some(Error::Cancelled), "{context}");
                     assert!(seen(&t) == known, "{context}: a refused round is seen");
                     (t.cells, t.edges) = (OnceLock::new(), OnceLock::new());
@@ -185,19 +186,22 @@ fn prepared<G: Dimension>(seed: u64, n: usize, basis: &[G::Point]) {
             is_as_anew(&t, &context);
         }
     }
+    n_refused
 }
 
 #[test]
 fn rounds_are_published_or_withdrawn() {
     // `DELDRIFT_SOAK=125` makes a thousand of it.
     let soak: f64 = std::env::var("DELDRIFT_SOAK").map_or(1.0, |soak| soak.parse().unwrap());
+    let mut n_refused = 0;
     for seed in 0..(8.0 * soak).ceil() as u64 {
         let n = [1, 4, 40, 200][seed as usize % 4];
-        prepared::<Plane>(seed, n, &[[1.0, 0.0], [0.0, 1.0]]);
-        prepared::<Plane>(seed, n, &[[0.75, 0.25]]);
+        n_refused += prepared::<Plane>(seed, n, &[[1.0, 0.0], [0.0, 1.0]]);
+        n_refused += prepared::<Plane>(seed, n, &[[0.75, 0.25]]);
         let n = [1, 4, 30, 90][seed as usize % 4];
-        prepared::<Space>(seed, n, &[[1.0, 0.0, 0.0], [0.5, 1.0, 0.0], [0.25, -0.375, 0.75]]);
+        n_refused += prepared::<Space>(seed, n, &[[1.0, 0.0, 0.0], [0.5, 1.0, 0.0], [0.25, -0.375, 0.75]]);
     }
+    assert!(n_refused > 20, "{n_refused} rounds have been refused after others");
 }
 
 /// What is prepared again and again, and withdrawn or published, needs no more memory.

@@ -1,4 +1,4 @@
-//! Rounds that are withdrawn to marks, beside a twin that has never prepared anything, and copies made at the marks.
+//! Rounds that are withdrawn to savepoints, beside a twin that has never prepared anything, and copies made at the savepoints.
 
 use super::*;
 use crate::delaunay::{Level, Plane, Space};
@@ -100,31 +100,31 @@ fn history<G: Dimension>(seed: u64, more: Stage<G>) {
                 _ => {}
             }
         }
-        // What was known at each mark, and the bytes, for which cells had to be read.
-        let mut marks = Vec::new();
+        // What was known at each savepoint, and the bytes, for which cells had to be read.
+        let mut savepoints = Vec::new();
         for _ in 0..rng.below(12) {
             if !t.is_prepared() || rng.one_in(2) {
                 let is_read = rng.one_in(2);
                 if is_read && !t.is_prepared() {
                     twin.cells().unwrap();
                 }
-                marks.push((known(&t), is_read.then(|| bytes(&t))));
-                t.set_mark().unwrap();
+                savepoints.push((known(&t), is_read.then(|| bytes(&t))));
+                t.set_savepoint().unwrap();
             }
             let is_made = round(&mut t, rng, more);
             if !is_made && t.mesh.n_rounds() == 0 {
                 assert!(!t.is_prepared(), "{}", context());
-                marks.clear();
+                savepoints.clear();
             }
             if rng.one_in(3) {
                 t.cells().unwrap();
             }
             while rng.one_in(3)
-                && let Some((expected, expected_bytes)) = marks.pop()
+                && let Some((expected, expected_bytes)) = savepoints.pop()
             {
                 stage(&mut t, rng);
-                t.withdraw_to_mark();
-                assert_eq!(t.is_prepared(), !marks.is_empty(), "{}", context());
+                t.withdraw_to_savepoint();
+                assert_eq!(t.is_prepared(), !savepoints.is_empty(), "{}", context());
                 assert!(known(&t) == expected, "{}: what is known", context());
                 assert_eq!(t.validate(Level::Delaunay).err(), None, "{}", context());
                 if let Some(expected) = expected_bytes {
@@ -137,9 +137,9 @@ fn history<G: Dimension>(seed: u64, more: Stage<G>) {
         assert!(t.saved().unwrap() == twin.saved().unwrap(), "{}: all withdrawn", context());
     }
     for _ in 0..6 {
-        t.set_mark().unwrap();
+        t.set_savepoint().unwrap();
         if !round(&mut t, rng, more) || rng.one_in(3) {
-            t.withdraw_to_mark();
+            t.withdraw_to_savepoint();
         }
     }
     let n_published = u64::from(t.publish_timestamp().is_ok());
@@ -149,7 +149,7 @@ fn history<G: Dimension>(seed: u64, more: Stage<G>) {
 }
 
 #[test]
-fn rounds_are_withdrawn_to_marks() {
+fn rounds_are_withdrawn_to_savepoints() {
     for seed in 0..100 {
         history::<Plane>(seed, |_, _| {});
         history::<Space>(seed, |_, _| {});

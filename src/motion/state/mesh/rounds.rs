@@ -6,7 +6,7 @@ use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::motion::state::hidden::Hidden;
 use crate::motion::state::mesh::{Mesh, REPLACED_TO_SORT_FIRST};
-use crate::motion::state::rounds::{Former, Mark, Round, Rounds, Settled};
+use crate::motion::state::rounds::{Former, Round, Rounds, Savepoint};
 
 impl<G: Dimension> Mesh<G> {
     /// How many rounds have been made.
@@ -15,13 +15,13 @@ impl<G: Dimension> Mesh<G> {
     }
 
     /// From now on changes are rounds, and those from here on can be [withdrawn](Self::withdraw_rounds) by themselves.
-    pub(in crate::motion) fn set_mark(&mut self, mark: Mark) -> Result<()> {
+    pub(in crate::motion) fn set_savepoint(&mut self, savepoint: Savepoint) -> Result<()> {
         let mut rounds = self.rounds.take().map_or_else(|| memory::boxed(Rounds::default()), Ok)?;
-        let done = memory::reserve(&mut rounds.marks, 1).and_then(|()| self.views.set_mark());
+        let done = memory::reserve(&mut rounds.savepoints, 1).and_then(|()| self.views.set_savepoint());
         if done.is_ok() {
-            rounds.marks.push(mark);
+            rounds.savepoints.push(savepoint);
         }
-        self.rounds = Some(rounds).filter(|rounds| !rounds.marks.is_empty());
+        self.rounds = Some(rounds).filter(|rounds| !rounds.savepoints.is_empty());
         done
     }
 
@@ -114,55 +114,47 @@ impl<G: Dimension> Mesh<G> {
         }
     }
 
-    /// Takes the rounds since the last mark back, or all of them, and forgets the mark, which it returns. Needs no memory.
-    pub(in crate::motion) fn withdraw_rounds(&mut self, are_all: bool) -> Option<Mark> {
+    /// Takes the rounds since the last savepoint back, or all of them, and forgets the savepoint, which it returns. Needs no memory.
+    pub(in crate::motion) fn withdraw_rounds(&mut self, are_all: bool) -> Option<Savepoint> {
         let mut rounds = self.rounds.take()?;
         if are_all {
-            rounds.marks.truncate(1);
+            rounds.savepoints.truncate(1);
         }
-        let mark = rounds.marks.pop()?;
-        if rounds.count() > mark.n_rounds && std::mem::take(&mut rounds.has_last) {
-            self.unsettle(std::mem::take(&mut rounds.last));
-            self.undo();
+        let savepoint = rounds.savepoints.pop()?;
+        while rounds.count() > savepoint.n_rounds {
+            let is_open = std::mem::take(&mut rounds.has_last);
+            let round = if is_open { Some(std::mem::take(&mut rounds.last)) } else { rounds.earlier.pop() };
+            self.withdraw(round.unwrap_or_default());
         }
-        while rounds.count() > mark.n_rounds
-            && let Some(Round { settled, kernel, transaction, segments: kept }) = rounds.earlier.pop()
-        {
-            let origins = self.transaction.take_up(transaction);
-            if let Some(kernel) = kernel {
-                self.kernel.take_change_up(kernel);
-            }
-            if let (Some(segments), Some(kept)) = (&mut self.segments, kept) {
-                segments.take_up(kept);
-            }
-            self.unsettle(settled);
-            self.undo();
-            origins.put_back(&mut self.kernel, &self.site_of);
-        }
-        self.views.withdraw_to_mark(rounds.marks.len());
+        self.views.withdraw_to_savepoint(rounds.savepoints.len());
         if let Some(segments) = self.segments.as_mut().filter(|_| !rounds.has_last) {
             segments.end_rounds();
         }
-        if !mark.has_segments {
+        if !savepoint.has_segments {
             self.segments = None;
         }
-        self.site_of.truncate(mark.n_ids);
-        if mark.has_keys {
-            self.kernel.keys_mut().truncate(mark.n_ids);
+        self.site_of.truncate(savepoint.n_ids);
+        if savepoint.has_keys {
+            self.kernel.keys_mut().truncate(savepoint.n_ids);
         } else {
             *self.kernel.keys_mut() = Keys::default();
         }
         self.n_changes += 1;
-        if !rounds.marks.is_empty() {
+        if !rounds.savepoints.is_empty() {
             rounds.removed.retain(|v| self.site_of.get(v.index()) == Some(&SiteId::NONE));
             self.rounds = Some(rounds);
         }
-        Some(mark)
+        Some(savepoint)
     }
 
-    /// Brings what a round has left to where [`undo`](Self::undo) begins.
-    fn unsettle(&mut self, settled: Settled<G>) {
-        if let Some(former) = settled.former {
+    /// Takes a round back that no other one follows.
+    fn withdraw(&mut self, round: Round<G>) {
+        let Round { former, segments: before, kernel, transaction } = round;
+        let origins = transaction.map(|transaction| self.transaction.take_up(transaction));
+        if let Some(kernel) = kernel {
+            self.kernel.take_change_up(kernel);
+        }
+        if let Some(former) = former {
             let Former { mut kernel, hidden, site_of, sorted_stride } = *former;
             *kernel.pace_mut() = std::mem::take(self.kernel.pace_mut());
             self.kernel.give_scratch_to(&mut kernel);
@@ -171,8 +163,15 @@ impl<G: Dimension> Mesh<G> {
             self.site_of = site_of;
             self.transaction.reject();
         }
-        if let (Some(segments), Some(before)) = (&mut self.segments, settled.segments) {
+        if let (Some(segments), Some(mut before)) = (&mut self.segments, before) {
+            if origins.is_some() {
+                segments.take_up(&mut before);
+            }
             segments.unsettle(before);
+        }
+        self.undo();
+        if let Some(origins) = origins {
+            origins.put_back(&mut self.kernel, &self.site_of);
         }
     }
 }
