@@ -87,7 +87,7 @@ impl<G: Dimension> ImageEdits<G> {
         self.places[..self.wraps.len()].iter().for_each(|place| occupied.enter(&lattice.multiples(place)));
     }
 
-    /// Those that go are translated by nothing.
+    /// Vertices that go are translated by nothing.
     pub(super) fn forget_wraps(&self, wraps: &mut Vec<(VertexId, [i64; 3])>) -> Result<()> {
         memory::collect(wraps, self.going.iter().map(|&vertex| (vertex, [0; 3])))
     }

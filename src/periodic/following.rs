@@ -186,15 +186,6 @@ impl Joined {
     }
 }
 
-/// What was there before a change.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct InsideBefore {
-    /// Ids that vertices had been given.
-    pub(super) n_vertices: usize,
-    /// Whether the set [was plain](Inside::is_plain).
-    pub(super) is_plain: bool,
-}
-
 impl<G: Dimension> Inside<G> {
     /// Whether the set repeats along all axes, and no two of its vertices share a place.
     pub(super) fn is_plain(&self, lattice: &Lattice<G>) -> bool {

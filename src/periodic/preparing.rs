@@ -2,14 +2,14 @@
 //!
 //! A round is a commit whose rounds inside stay open, with a savepoint before the first of them: one that fails is taken back to its
 //! savepoint, and all are published or withdrawn together. What they have changed beside the triangulation inside is kept by
-//! [`RoundBefore`](crate::periodic::rounds::RoundBefore).
+//! [`RoundBefore`].
 
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::machine::memory;
 use crate::motion::CommitReport;
 use crate::periodic::commit::PeriodicGoals;
-use crate::periodic::rounds::BeforeRounds;
+use crate::periodic::rounds::{BeforeRounds, RoundBefore};
 use crate::periodic::triangulation::PeriodicTriangulation;
 
 impl<G: Dimension> PeriodicTriangulation<G> {
@@ -69,5 +69,27 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         self.inside.t.withdraw_timestamp();
         (self.statistics, self.cells, self.edges) = (statistics, cells, edges);
         self.discard_moves();
+    }
+
+    /// Puts what there was before the last round back, but for the rounds inside. Needs no memory.
+    fn put_back(&mut self, round: RoundBefore<G>) {
+        let lattice = match round {
+            RoundBefore::Built { inside, wraps, lattice } => {
+                let mut other = std::mem::replace(&mut self.inside, *inside);
+                self.inside.t.exchange_monitors(&mut other.t);
+                self.inside.t.set_algorithm(other.t.algorithm());
+                self.wraps = wraps;
+                lattice
+            }
+            RoundBefore::Moved(mut moved) => {
+                self.inside.put_back(&mut moved);
+                self.wraps.truncate(self.inside.images.n_vertices());
+                moved.exchange_wraps(&mut self.wraps);
+                moved.other.map(|(lattice, _)| lattice)
+            }
+        };
+        if let Some(lattice) = lattice {
+            self.lattice = lattice;
+        }
     }
 }

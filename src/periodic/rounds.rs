@@ -14,7 +14,6 @@ use crate::periodic::edges::PeriodicEdges;
 use crate::periodic::images::Image;
 use crate::periodic::inside::Inside;
 use crate::periodic::lattice::{Lattice, Occupied};
-use crate::periodic::triangulation::PeriodicTriangulation;
 
 /// What a triangulation was at its timestamp, while another one is prepared.
 #[derive(Debug)]
@@ -89,30 +88,6 @@ impl<G: Dimension> RoundBefore<G> {
     }
 }
 
-impl<G: Dimension> PeriodicTriangulation<G> {
-    /// Puts what there was before the last round back, but for the rounds inside. Needs no memory.
-    pub(super) fn put_back(&mut self, round: RoundBefore<G>) {
-        let lattice = match round {
-            RoundBefore::Built { inside, wraps, lattice } => {
-                let mut other = std::mem::replace(&mut self.inside, *inside);
-                self.inside.t.exchange_monitors(&mut other.t);
-                self.inside.t.set_algorithm(other.t.algorithm());
-                self.wraps = wraps;
-                lattice
-            }
-            RoundBefore::Moved(mut moved) => {
-                self.inside.put_back(&mut moved);
-                self.wraps.truncate(self.inside.images.n_vertices());
-                moved.exchange_wraps(&mut self.wraps);
-                moved.other.map(|(lattice, _)| lattice)
-            }
-        };
-        if let Some(lattice) = lattice {
-            self.lattice = lattice;
-        }
-    }
-}
-
 impl<G: Dimension> MovedBefore<G> {
     /// The vertices that have come home by other translations get these, for those that they have.
     pub(super) fn exchange_wraps(&mut self, wraps: &mut [[i64; 3]]) {
@@ -122,7 +97,7 @@ impl<G: Dimension> MovedBefore<G> {
 
 impl<G: Dimension> Inside<G> {
     /// Puts images and places back.
-    fn put_back(&mut self, before: &mut MovedBefore<G>) {
+    pub(super) fn put_back(&mut self, before: &mut MovedBefore<G>) {
         self.occupied = before.occupied;
         self.images.truncate(before.n_images);
         if let Some((_, images)) = &mut before.other {

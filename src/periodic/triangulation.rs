@@ -10,10 +10,9 @@ use crate::motion::{CoincidencePolicy, CommitReport, MAX_VERTICES, MovingTriangu
 use crate::periodic::cells::PeriodicCells;
 use crate::periodic::changes::Taking;
 use crate::periodic::edges::PeriodicEdges;
-use crate::periodic::following::InsideBefore;
 use crate::periodic::grid::ROOM;
 use crate::periodic::images::{Image, Images};
-use crate::periodic::inside::Inside;
+use crate::periodic::inside::{Inside, InsideBefore};
 use crate::periodic::lattice::{HOME, Lattice, Occupied};
 use crate::periodic::needed::{Needed, for_images, keys_of};
 use crate::periodic::rounds::{BeforeRounds, Wraps};
@@ -179,13 +178,6 @@ impl<G: Dimension> Inside<G> {
             return 0;
         }
         self.t.hidden_vertices().filter(|(hidden, _)| self.images.is_home(*hidden)).count()
-    }
-
-    pub(super) fn memory_bytes(&self) -> usize {
-        self.t.memory_bytes()
-            + self.images.memory_bytes()
-            + memory::bytes_of(&self.places)
-            + memory::bytes_of(&self.goals)
     }
 }
 

@@ -1,8 +1,5 @@
 //! Commits in two phases: a timestamp is prepared, in one round or several, and then published or withdrawn.
 
-#[cfg(test)]
-mod tests;
-
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::motion::report::CommitReport;
@@ -137,3 +134,6 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(report)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -4,9 +4,8 @@
 use super::*;
 use crate::damage::{Damage, LoadError};
 use crate::motion::Saved;
-use crate::periodic::following::InsideBefore;
 use crate::periodic::images::{Image, Images};
-use crate::periodic::inside::Inside;
+use crate::periodic::inside::{Inside, InsideBefore};
 use crate::periodic::lattice::{HOME, Lattice, Occupied};
 use crate::periodic::needed::keys_of;
 
