@@ -64,8 +64,8 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         Ok(report)
     }
 
-    /// Makes all that is staged a round of the next timestamp; on an error nothing has happened. Returns what there was before as
-    /// well. What was read is of the past then.
+    /// Makes all that is staged a round of the next timestamp; on an error nothing has happened. Returns what there
+    /// was before as well. What was read is of the past then.
     pub(super) fn make_round(
         &mut self,
         goals: PeriodicGoals<'_, G>,
@@ -242,14 +242,15 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 }
 
-/// What moves come to: what vertices at home occupy then, how many of them move, and which ones come home by another translation
-/// than before, and by which.
+/// What moves come to: what vertices at home occupy then, how many of them move, and which ones come home by another
+/// translation than before, and by which.
 type MovedHomes = (Occupied, u64, Vec<(VertexId, [i64; 3])>);
 
 impl<G: Dimension> Inside<G> {
-    /// Moves all to these positions by id, and inserts images that are missing, all of it or, on an error, nothing; returns what
-    /// there was before as well, where vertices have the translations by which they come home. None, without a change, if one
-    /// would be too far from the unit cell. `wrap_of` tells what a translation is by the vectors of the lattice.
+    /// Moves all to these positions by id, and inserts images that are missing, all of it or, on an error, nothing;
+    /// returns what there was before as well, where vertices have the translations by which they come home. None,
+    /// without a change, if one would be too far from the unit cell. `wrap_of` tells what a translation is by the
+    /// vectors of the lattice.
     fn move_all(
         &mut self,
         lattice: &Lattice<G>,

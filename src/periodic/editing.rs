@@ -141,8 +141,8 @@ impl<G: Dimension> Inside<G> {
         edits.images.iter().for_each(|&image| self.images.push(image));
     }
 
-    /// What a round of moves and edits has changed is known: vertices at home have the places in `before`, for those that they
-    /// had; what has come has places, and what has gone is known no more. There is room among the places.
+    /// What a round of moves and edits has changed is known: vertices at home have the places in `before`, for those
+    /// that they had; what has come has places, and what has gone is known no more. There is room among the places.
     pub(super) fn settle(&mut self, edits: &ImageEdits<G>, before: &mut MovedBefore<G>) {
         self.exchange_places(&mut before.places);
         if !edits.images.is_empty() {

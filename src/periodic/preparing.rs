@@ -1,8 +1,8 @@
 //! Commits in two phases: a timestamp is prepared, in one round or several, and then published or withdrawn.
 //!
-//! A round is a commit whose rounds inside stay open, with a savepoint before the first of them: one that fails is taken back to its
-//! savepoint, and all are published or withdrawn together. What they have changed beside the triangulation inside is kept by
-//! [`RoundBefore`].
+//! A round is a commit whose rounds inside stay open, with a savepoint before the first of them: one that fails goes
+//! back to its savepoint, and all are published or withdrawn together. What was before them, beside the triangulation
+//! inside, is in [`RoundBefore`].
 
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
@@ -61,7 +61,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// Takes back all rounds of the prepared state: all is as at the last timestamp, with nothing staged. Does nothing if no
     /// timestamp is prepared. Needs no memory.
     ///
-    /// Tolerances are forgotten, as by [`MovingTriangulation::withdraw_timestamp`](crate::motion::MovingTriangulation::withdraw_timestamp).
+    /// Tolerances are forgotten, so the next commits may take longer.
     pub fn withdraw_timestamp(&mut self) {
         let Some(former) = self.former.take() else { return };
         let BeforeRounds { statistics, cells, edges, rounds } = former;

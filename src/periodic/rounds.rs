@@ -1,7 +1,8 @@
-//! What undoes the rounds of a timestamp that is being prepared, beside what the triangulation inside keeps of its own rounds.
+//! What undoes the rounds of a timestamp that is being prepared, beside what the triangulation inside keeps of its
+//! own rounds.
 //!
-//! A round leaves here what it has put something else in the place of: arrays where all entries have changed, otherwise the
-//! entries that have. So nothing is copied for it, and to go back needs no memory.
+//! A round leaves here what it has put something else in the place of: arrays where all entries have changed,
+//! otherwise the entries that have. So nothing is copied for it, and to go back needs no memory.
 
 use std::sync::OnceLock;
 

@@ -85,8 +85,8 @@ struct Scene<G: Dimension> {
     heights: Vec<f64>,
 }
 
-/// All that there is to be seen: positions and vectors in bits, numbers, and cells with their indices, each as a set of vertices
-/// with shifts.
+/// All that there is to be seen: positions and vectors in bits, numbers, and cells with their indices, each as a set
+/// of vertices with shifts.
 #[derive(Debug, PartialEq)]
 struct State {
     positions: Vec<Option<Vec<u64>>>,

@@ -227,8 +227,8 @@ impl<G: Dimension> Views<G> {
         }
     }
 
-    /// Rounds have been taken back: puts the arrays back to what they were at the savepoint before which there are so many. Needs
-    /// no memory.
+    /// Rounds have been taken back: puts the arrays back to what they were when so many savepoints had been set.
+    /// Needs no memory.
     pub(in crate::motion) fn withdraw_to_savepoint(&mut self, n_before: usize) {
         while self.behind().before.len() > n_before {
             self.withdraw_last();
@@ -238,6 +238,7 @@ impl<G: Dimension> Views<G> {
         }
     }
 
+    /// Puts the arrays back to what they were at the last savepoint, and forgets that.
     fn withdraw_last(&mut self) {
         self.fall_behind();
         let behind = self.behind();

@@ -95,8 +95,8 @@ fn is_as_anew<G: Dimension>(t: &PeriodicTriangulation<G>, context: &str) {
     assert!(classes(t, &places, &vectors) == expected, "{context}");
 }
 
-/// Rounds, some of them refused on the way, which leaves those before, are withdrawn, which leaves the bytes that there were, or
-/// published. How many have been refused after others.
+/// Rounds, some of them refused on the way, which leaves those before, are withdrawn, which leaves the bytes that
+/// there were, or published. How many have been refused after others.
 fn prepared<G: Dimension>(seed: u64, n: usize, basis: &[G::Point]) -> usize {
     let rng = &mut Rng::new(seed);
     let points = random_points::<G>(rng, n, basis);

@@ -126,7 +126,8 @@ fn of_edits() {
     go::<Space>(100_000, &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
 }
 
-/// What a round costs that is published, and one that is withdrawn, beside a commit of the same moves: by the median of each.
+/// What a round costs that is published, and one that is withdrawn, beside a commit of the same moves: by the median
+/// of each.
 #[test]
 #[ignore = "prints times"]
 fn of_rounds() {

@@ -1,4 +1,5 @@
-//! Rounds that are withdrawn to savepoints, beside a twin that has never prepared anything, and copies made at the savepoints.
+//! Rounds that are withdrawn to savepoints, beside a twin that has never prepared anything, and copies made at the
+//! savepoints.
 
 use super::*;
 use crate::delaunay::{Level, Plane, Space};

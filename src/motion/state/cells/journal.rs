@@ -79,7 +79,7 @@ impl<G: Dimension> Cells<G> {
         memory::made(&mut self.journal).map(drop)
     }
 
-    /// What has been noted is for another one than what is going to be.
+    /// Begins another journal if there is one, and returns the one so far.
     pub(in crate::motion) fn set_journal_aside(&mut self) -> Result<Option<Box<CellJournal<G>>>> {
         if self.journal.is_none() {
             Ok(None)
@@ -188,8 +188,8 @@ impl<G: Dimension> Cells<G> {
         }
     }
 
-    /// Puts the arrays back to what they were when the journal was begun, and goes on with the one before, if there is one.
-    /// Needs no memory.
+    /// Puts the arrays back to what they were when the journal was begun, and goes on with the one before, if there
+    /// is one. Needs no memory.
     pub(in crate::motion) fn undo_journal(&mut self, before: Option<Box<CellJournal<G>>>) {
         if let Some(mut journal) = self.journal.take() {
             if let Some(whole) = journal.whole.take() {

@@ -114,7 +114,8 @@ impl<G: Dimension> Mesh<G> {
         }
     }
 
-    /// Takes the rounds since the last savepoint back, or all of them, and forgets the savepoint, which it returns. Needs no memory.
+    /// Takes the rounds since the last savepoint back, or all of them, and forgets the savepoint, which it returns.
+    /// Needs no memory.
     pub(in crate::motion) fn withdraw_rounds(&mut self, are_all: bool) -> Option<Savepoint> {
         let mut rounds = self.rounds.take()?;
         if are_all {
