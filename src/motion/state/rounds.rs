@@ -3,7 +3,7 @@
 //! Each round is a change like that of a commit. What undoes it is kept until the timestamp is published or withdrawn: of
 //! the last round where the change has left it, of those before in a list.
 
-use crate::delaunay::{Delaunay, Dimension, KeptChange};
+use crate::delaunay::{Delaunay, KeptChange, Moving};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::motion::report::CommitReport;
@@ -13,7 +13,7 @@ use crate::motion::state::transaction::KeptTransaction;
 
 /// A kernel that another one has taken the place of in a round, and what belongs to it.
 #[derive(Debug)]
-pub(in crate::motion) struct Former<G: Dimension> {
+pub(in crate::motion) struct Former<G: Moving> {
     pub(in crate::motion) kernel: Delaunay<G>,
     pub(in crate::motion) hidden: Hidden,
     pub(in crate::motion) site_of: Vec<SiteId>,
@@ -22,7 +22,7 @@ pub(in crate::motion) struct Former<G: Dimension> {
 
 /// What undoes a round.
 #[derive(Debug)]
-pub(in crate::motion) struct Round<G: Dimension> {
+pub(in crate::motion) struct Round<G: Moving> {
     /// The kernel before, if the round has built another one.
     pub(in crate::motion) former: Option<Box<Former<G>>>,
     /// If there were segments.
@@ -33,13 +33,13 @@ pub(in crate::motion) struct Round<G: Dimension> {
     pub(in crate::motion) transaction: Option<KeptTransaction<G>>,
 }
 
-impl<G: Dimension> Default for Round<G> {
+impl<G: Moving> Default for Round<G> {
     fn default() -> Self {
         Round { former: None, segments: None, kernel: None, transaction: None }
     }
 }
 
-impl<G: Dimension> Round<G> {
+impl<G: Moving> Round<G> {
     fn memory_bytes(&self) -> usize {
         let of_former = |former: &Former<G>| {
             former.kernel.memory_bytes() + former.hidden.memory_bytes() + memory::bytes_of(&former.site_of)
@@ -68,7 +68,7 @@ pub(in crate::motion) struct Savepoint {
 
 /// The rounds of a timestamp that is being prepared.
 #[derive(Debug)]
-pub(in crate::motion) struct Rounds<G: Dimension> {
+pub(in crate::motion) struct Rounds<G: Moving> {
     /// The first one is of the timestamp before; later ones have more rounds, or as many.
     pub(in crate::motion) savepoints: Vec<Savepoint>,
     pub(in crate::motion) earlier: Vec<Round<G>>,
@@ -82,7 +82,7 @@ pub(in crate::motion) struct Rounds<G: Dimension> {
     pub(in crate::motion) wants_order: bool,
 }
 
-impl<G: Dimension> Default for Rounds<G> {
+impl<G: Moving> Default for Rounds<G> {
     fn default() -> Self {
         Rounds {
             savepoints: Vec::new(),
@@ -95,7 +95,7 @@ impl<G: Dimension> Default for Rounds<G> {
     }
 }
 
-impl<G: Dimension> Rounds<G> {
+impl<G: Moving> Rounds<G> {
     /// How many have been made.
     pub(in crate::motion) fn count(&self) -> usize {
         self.earlier.len() + usize::from(self.has_last)

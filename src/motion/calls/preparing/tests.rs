@@ -10,7 +10,7 @@ use crate::motion::state::segments::Segment;
 use crate::random::Rng;
 
 /// What is known without a look at the arrays of cells.
-fn known<G: Dimension>(t: &MovingTriangulation<G>) -> impl PartialEq + use<G> {
+fn known<G: Moving>(t: &MovingTriangulation<G>) -> impl PartialEq + use<G> {
     let ids = || VertexId::range(0..t.id_count());
     let places: Vec<_> = ids().map(|v| t.position(v).ok().map(|p| p.as_ref().to_vec())).collect();
     let shown: Vec<_> = ids().map(|v| t.coincident_representative(v).ok()).collect();
@@ -23,19 +23,19 @@ fn known<G: Dimension>(t: &MovingTriangulation<G>) -> impl PartialEq + use<G> {
 }
 
 /// The bytes of a copy in which all that is prepared is published; cells have been read for that.
-fn bytes<G: Dimension>(t: &MovingTriangulation<G>) -> Vec<u8> {
+fn bytes<G: Moving>(t: &MovingTriangulation<G>) -> Vec<u8> {
     t.duplicate(None).unwrap().saved().unwrap()
 }
 
 /// A place on a coarse grid, so that some are shared, and sometimes all are on a line.
-fn place<G: Dimension>(rng: &mut Rng) -> G::Point {
+fn place<G: Moving>(rng: &mut Rng) -> G::Point {
     let mut p = G::Point::default();
     (0..G::D).for_each(|axis| p[axis] = rng.below(64) as f64 / 8.0);
     p
 }
 
 /// Stages moves of few or of all, insertions and removals.
-fn stage<G: Dimension>(t: &mut MovingTriangulation<G>, rng: &mut Rng) {
+fn stage<G: Moving>(t: &mut MovingTriangulation<G>, rng: &mut Rng) {
     let present: Vec<VertexId> = VertexId::range(0..t.id_count()).filter(|&v| t.is_present(v)).collect();
     let coming: Vec<G::Point> = (0..rng.below(4)).map(|_| place::<G>(rng)).collect();
     match rng.below(4) {
@@ -73,7 +73,7 @@ fn stage_segments(t: &mut MovingTriangulation<Plane>, rng: &mut Rng) {
 type Stage<G> = fn(&mut MovingTriangulation<G>, &mut Rng);
 
 /// A round, which segments may refuse.
-fn round<G: Dimension>(t: &mut MovingTriangulation<G>, rng: &mut Rng, more: Stage<G>) -> bool {
+fn round<G: Moving>(t: &mut MovingTriangulation<G>, rng: &mut Rng, more: Stage<G>) -> bool {
     t.set_algorithm(*rng.pick(&Algorithm::ALL));
     stage(t, rng);
     more(t, rng);
@@ -87,7 +87,7 @@ fn round<G: Dimension>(t: &mut MovingTriangulation<G>, rng: &mut Rng, more: Stag
     }
 }
 
-fn history<G: Dimension>(seed: u64, more: Stage<G>) {
+fn history<G: Moving>(seed: u64, more: Stage<G>) {
     let rng = &mut Rng::new(seed);
     let n = *rng.pick(&[1, 5, 30, 120]);
     let points: Vec<G::Point> = (0..n).map(|_| place::<G>(rng)).collect();

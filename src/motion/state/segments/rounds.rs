@@ -1,14 +1,14 @@
 //! Changes of segments that are settled, and can still be taken back: rounds of a timestamp that is being prepared.
 
 use super::{Aim, Segment, Segments};
-use crate::delaunay::{Dimension, Replaced};
+use crate::delaunay::{Moving, Replaced};
 use crate::error::Result;
 use crate::ids::{SegmentId, SiteId};
 use crate::machine::memory;
 
 /// What is to be known of segments to take back a change that has been settled.
 #[derive(Debug, Default)]
-pub(in crate::motion) struct SegmentsBefore<G: Dimension> {
+pub(in crate::motion) struct SegmentsBefore<G: Moving> {
     /// Whether nothing was relaxed.
     is_of_rest: bool,
     n_enforced: usize,
@@ -20,7 +20,7 @@ pub(in crate::motion) struct SegmentsBefore<G: Dimension> {
     required: Option<Vec<[SiteId; 2]>>,
 }
 
-impl<G: Dimension> SegmentsBefore<G> {
+impl<G: Moving> SegmentsBefore<G> {
     pub(in crate::motion) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.removed)
             + self.replaced.memory_bytes()
@@ -28,7 +28,7 @@ impl<G: Dimension> SegmentsBefore<G> {
     }
 }
 
-impl<G: Dimension> Segments<G> {
+impl<G: Moving> Segments<G> {
     /// What is to be known, before a change, to take it back once it has been [settled](Self::settle).
     pub(in crate::motion) fn before_settling(&self) -> Result<SegmentsBefore<G>> {
         let mut removed = Vec::new();
