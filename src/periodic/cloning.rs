@@ -51,7 +51,7 @@ impl<G: Dimension> Inside<G> {
     /// A copy, without the room for goals.
     pub(super) fn copied(&self, monitor: Option<Monitor>) -> Result<Self> {
         Ok(Inside {
-            t: self.t.try_clone(monitor)?,
+            t: self.t.duplicate(monitor)?,
             images: self.images.copied()?,
             places: memory::copy_of(&self.places)?,
             goals: Vec::new(),

@@ -8,15 +8,18 @@ use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::CommitReport;
 use crate::periodic::editing::ImageEdits;
-use crate::periodic::following::InsideBefore;
 use crate::periodic::images::Image;
-use crate::periodic::inside::Inside;
+use crate::periodic::inside::{Inside, InsideBefore};
 use crate::periodic::lattice::{HOME, Lattice, Occupied};
+use crate::periodic::rounds::{MovedBefore, PlacesBefore, RoundBefore, Wraps};
 use crate::periodic::triangulation::PeriodicTriangulation;
+
+/// What a round of moves and few edits has done, and what there was before.
+type RoundMade<G> = (CommitReport, MovedBefore<G>);
 
 /// Where vertices go.
 #[derive(Clone, Copy)]
-enum PeriodicGoals<'a, G: Dimension> {
+pub(super) enum PeriodicGoals<'a, G: Dimension> {
     /// To what is staged for them; others stay.
     Staged,
     /// To the entries of an array by id.
@@ -31,10 +34,6 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// [`Error::TooManyVertices`], [`Error::TooManyCells`], [`Error::Cancelled`], [`Error::Prepared`].
     pub fn commit_timestamp(&mut self) -> Result<CommitReport> {
         self.reject_prepared()?;
-        self.commit_staged()
-    }
-
-    pub(super) fn commit_staged(&mut self) -> Result<CommitReport> {
         self.commit(PeriodicGoals::Staged)
     }
 
@@ -58,24 +57,34 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     fn commit(&mut self, goals: PeriodicGoals<'_, G>) -> Result<CommitReport> {
-        let mut report = match self.moved(goals)? {
-            Some(report) => report,
+        let (report, before) = self.make_round(goals)?;
+        self.inside.publish([before]);
+        (self.cells, self.edges) = (OnceLock::new(), OnceLock::new());
+        self.statistics.timestamp += 1;
+        Ok(report)
+    }
+
+    /// Makes all that is staged a round of the next timestamp; on an error nothing has happened. Returns what there
+    /// was before as well. What was read is of the past then.
+    pub(super) fn make_round(
+        &mut self,
+        goals: PeriodicGoals<'_, G>,
+    ) -> Result<(CommitReport, RoundBefore<G>)> {
+        let (mut report, before) = match self.moved(goals)? {
+            Some((report, moved)) => (report, RoundBefore::Moved(moved)),
             None => self.rebuilt(goals)?,
         };
         self.staged.clear();
-        self.cells = OnceLock::new();
-        self.edges = OnceLock::new();
-        self.statistics.timestamp += 1;
-        report.timestamp = self.statistics.timestamp;
+        report.timestamp = self.statistics.timestamp + 1;
         report.coincident = self.inside.coincident() as u64;
         self.statistics.add(&report);
         self.statistics.coincident = report.coincident;
-        Ok(report)
+        Ok((report, before))
     }
 
     /// Moves vertices and images, makes the edits, and inserts images that are missing; none, without a change, if a vertex would
     /// be too far from the unit cell, the lattice too different, or the edits too many.
-    fn moved(&mut self, goals: PeriodicGoals<'_, G>) -> Result<Option<CommitReport>> {
+    fn moved(&mut self, goals: PeriodicGoals<'_, G>) -> Result<Option<RoundMade<G>>> {
         let n = self.inside.images.n_vertices();
         let lattice = self.coming.as_ref().unwrap_or(&self.lattice);
         let edits = ImageEdits::of(&self.inside, lattice, &self.staged, |index| match goals {
@@ -86,7 +95,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         memory::reserve(&mut self.wraps, edits.wraps().len())?;
         let moved = match (goals, &self.coming) {
             (PeriodicGoals::Staged, None) => self.some_moved(&edits),
-            (PeriodicGoals::Of(positions), None) => self.all_moved(positions, &edits),
+            (PeriodicGoals::Of(positions), None) => {
+                self.inside.move_all(&self.lattice, positions, &edits, &self.wraps, |wrap| wrap)
+            }
             (PeriodicGoals::Of(positions), Some(_)) => self.all_moved_in_other(positions, &edits),
             (PeriodicGoals::Staged, Some(_)) => {
                 let mut positions = Vec::new();
@@ -96,26 +107,30 @@ impl<G: Dimension> PeriodicTriangulation<G> {
                 self.all_moved_in_other(&positions, &edits)
             }
         };
-        let Some(mut report) = moved? else { return Ok(None) };
+        let Some((mut report, mut before)) = moved? else { return Ok(None) };
+        before.exchange_wraps(&mut self.wraps);
         self.wraps.extend_from_slice(edits.wraps());
-        edits.going().iter().for_each(|&vertex| self.wraps[vertex] = [0; 3]);
         (report.inserted, report.removed) = (edits.wraps().len() as u64, edits.going().len() as u64);
-        Ok(Some(report))
+        before.removed = edits.into_going_inside();
+        Ok(Some((report, before)))
     }
 
     /// Of those whose moves are staged.
-    fn some_moved(&mut self, edits: &ImageEdits<G>) -> Result<Option<CommitReport>> {
+    fn some_moved(&mut self, edits: &ImageEdits<G>) -> Result<Option<RoundMade<G>>> {
         let Self { lattice, inside, wraps, staged, .. } = self;
         let (mut new_wraps, mut ids, mut places) = (Vec::new(), Vec::new(), Vec::new());
-        let (mut occupied, mut n_moved) = (inside.occupied, 0);
+        let (mut occupied, mut n_moved, mut before) = (inside.occupied, 0, inside.before_round());
         edits.enter(lattice, &mut occupied);
+        edits.forget_wraps(&mut new_wraps)?;
         for &(vertex, position) in staged.moves().iter().filter(|&&(vertex, _)| !staged.goes(vertex)) {
             let near = inside.places[inside.images.home(vertex)];
             let mut wrap = wraps[vertex];
             let place = lattice.wrapped_near("positions", vertex.index(), &position, &near, &mut wrap)?;
             occupied.enter(&lattice.multiples(&place));
             n_moved += u64::from(place != near || wrap != wraps[vertex]);
-            memory::push(&mut new_wraps, (vertex, wrap))?;
+            if wrap != wraps[vertex] {
+                memory::push(&mut new_wraps, (vertex, wrap))?;
+            }
             for inner in inside.images.all_of(vertex) {
                 memory::push(&mut ids, inner)?;
                 memory::push(&mut places, lattice.translated(&place, inside.images.of(inner).shift))?;
@@ -127,26 +142,11 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let n_more = (inside.images.len() + edits.len()).saturating_sub(inside.places.len());
         memory::reserve(&mut inside.places, n_more)?;
         inside.t.move_vertices(&ids, &places)?;
-        let n_before = inside.images.len();
         let mut report = inside.commit_edits(lattice, occupied, edits)?;
         report.moved = n_moved;
-        new_wraps.into_iter().for_each(|(vertex, wrap)| wraps[vertex] = wrap);
-        for (&inner, &place) in ids.iter().zip(&places).filter(|(inner, _)| inside.images.is_home(**inner)) {
-            inside.places[inner] = place;
-        }
-        inside.settle(edits, n_before);
-        Ok(Some(report))
-    }
-
-    /// Of all, to these positions by id.
-    fn all_moved(&mut self, positions: &[G::Point], edits: &ImageEdits<G>) -> Result<Option<CommitReport>> {
-        let Self { lattice, inside, wraps, .. } = self;
-        let moved = inside.move_all(lattice, positions, edits, |vertex| wraps[vertex])?;
-        let Some((report, new_wraps)) = moved else {
-            return Ok(None);
-        };
-        new_wraps.into_iter().for_each(|(vertex, wrap)| wraps[vertex] = wrap);
-        Ok(Some(report))
+        (before.places, before.wraps) = (PlacesBefore::Some(ids, places), new_wraps);
+        inside.settle(edits, &mut before);
+        Ok(Some((report, before)))
     }
 
     /// Of all, to these positions by id, in the lattice that is staged. Vertices go to the place that is nearest, images with
@@ -155,7 +155,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         &mut self,
         positions: &[G::Point],
         edits: &ImageEdits<G>,
-    ) -> Result<Option<CommitReport>> {
+    ) -> Result<Option<RoundMade<G>>> {
         let Some(other) = &self.coming else { return Ok(None) };
         let Some(relation) = self.lattice.relation_to(other) else { return Ok(None) };
         let mut n_moved = 0;
@@ -174,29 +174,26 @@ impl<G: Dimension> PeriodicTriangulation<G> {
                 let short = shift.map(|n| i32::try_from(n).unwrap_or(i32::MAX));
                 other.may_need(short).then_some(short)
             });
-            let Some(shift) = shift else { return Ok(None) };
-            images.push(Image { vertex: image.vertex, shift });
+            match shift {
+                Some(shift) => images.push(Image { vertex: image.vertex, shift }),
+                None if inside.images.is_there(&image) => return Ok(None),
+                None => images.push(Image::GONE),
+            }
         }
         inside.images.exchange(&mut images);
-        let wrap_of = |vertex| relation.of(wraps[vertex]).unwrap_or(wraps[vertex]);
-        let moved = inside.move_all(other, positions, edits, wrap_of);
-        let Ok(Some((mut report, new_wraps))) = moved else {
+        let in_other = |wrap| relation.of(wrap).unwrap_or(wrap);
+        let moved = inside.move_all(other, positions, edits, wraps, in_other);
+        let Ok(Some((mut report, mut before))) = moved else {
             inside.images.exchange(&mut images);
-            return moved.map(|_| None);
+            return moved;
         };
-        if !relation.is_identity() {
-            wraps.iter_mut().for_each(|wrap| *wrap = relation.of(*wrap).unwrap_or(*wrap));
-        }
-        new_wraps.into_iter().for_each(|(vertex, wrap)| wraps[vertex] = wrap);
-        if let Some(other) = self.coming.take() {
-            self.lattice = other;
-        }
         report.moved = n_moved;
-        Ok(Some(report))
+        before.other = self.coming.take().map(|other| (std::mem::replace(&mut self.lattice, other), images));
+        Ok(Some((report, before)))
     }
 
     /// Builds another triangulation, with all that is staged, which takes the place of the present one.
-    fn rebuilt(&mut self, goals: PeriodicGoals<'_, G>) -> Result<CommitReport> {
+    fn rebuilt(&mut self, goals: PeriodicGoals<'_, G>) -> Result<(CommitReport, RoundBefore<G>)> {
         let lattice = self.coming.as_ref().unwrap_or(&self.lattice);
         let (n_before, n_ids) = (self.inside.images.n_vertices(), self.id_count());
         let mut positions = Vec::new();
@@ -228,53 +225,51 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             wraps[index] = wrap;
             home.push((vertex, place));
         }
-        let mut inside = Inside::unbuilt(lattice, &home, n_ids, self.inside.t.options_of_another())?;
+        let mut inside =
+            memory::boxed(Inside::unbuilt(lattice, &home, n_ids, self.inside.t.options_of_another())?)?;
         inside.t.exchange_monitors(&mut self.inside.t);
         if let Err(error) = inside.build(lattice) {
             inside.t.exchange_monitors(&mut self.inside.t);
             return Err(error);
         }
-        self.inside = inside;
-        self.wraps = wraps;
-        if let Some(lattice) = self.coming.take() {
-            self.lattice = lattice;
-        }
+        std::mem::swap(&mut self.inside, &mut inside);
+        std::mem::swap(&mut self.wraps, &mut wraps);
+        let lattice = self.coming.take().map(|lattice| std::mem::replace(&mut self.lattice, lattice));
         let (inserted, removed) =
             (self.staged.insertions().len() as u64, self.staged.removals().len() as u64);
         let report = CommitReport { moved, rebuilds: 1, inserted, removed, ..CommitReport::default() };
-        Ok(report)
+        Ok((report, RoundBefore::Built { inside, wraps, lattice }))
     }
 }
 
-/// What moves come to: what vertices at home occupy then, how many of them move, and which ones have come by another translation.
-type MovedHomes = (Occupied, u64, Wraps);
-
-/// Vertices, and by which translations they come home.
-type Wraps = Vec<(VertexId, [i64; 3])>;
+/// What moves come to: what vertices at home occupy then, how many of them move, and which ones come home by another
+/// translation than before, and by which.
+type MovedHomes = (Occupied, u64, Vec<(VertexId, [i64; 3])>);
 
 impl<G: Dimension> Inside<G> {
-    /// Moves all to these positions by id, and inserts images that are missing, all of it or, on an error, nothing; tells which
-    /// vertices come home by other translations than they did. None, without a change, if one would be too far from the unit
-    /// cell.
+    /// Moves all to these positions by id, and inserts images that are missing, all of it or, on an error, nothing;
+    /// returns what there was before as well, where vertices have the translations by which they come home. None,
+    /// without a change, if one would be too far from the unit cell. `wrap_of` tells what a translation is by the
+    /// vectors of the lattice.
     fn move_all(
         &mut self,
         lattice: &Lattice<G>,
         positions: &[G::Point],
         edits: &ImageEdits<G>,
-        wrap_of: impl Fn(VertexId) -> [i64; 3],
-    ) -> Result<Option<(CommitReport, Wraps)>> {
-        let mut goals = std::mem::take(&mut self.goals);
-        let moved = self.goals_of(lattice, positions, edits, wrap_of, &mut goals);
-        let n_before = self.images.len();
+        wraps: &Wraps,
+        wrap_of: impl Fn([i64; 3]) -> [i64; 3],
+    ) -> Result<Option<RoundMade<G>>> {
+        let (mut goals, mut before) = (std::mem::take(&mut self.goals), self.before_round());
+        let moved = self.goals_of(lattice, positions, edits, wraps, wrap_of, &mut goals);
         let done = moved.and_then(|moved| {
             let Some((occupied, n_moved, new_wraps)) = moved else { return Ok(None) };
             memory::reserve(&mut goals, edits.len())?;
             self.t.move_all(&goals)?;
             let mut report = self.commit_edits(lattice, occupied, edits)?;
             report.moved = n_moved;
-            std::mem::swap(&mut self.places, &mut goals);
-            self.settle(edits, n_before);
-            Ok(Some((report, new_wraps)))
+            (before.places, before.wraps) = (PlacesBefore::All(std::mem::take(&mut goals)), new_wraps);
+            self.settle(edits, &mut before);
+            Ok(Some((report, before)))
         });
         self.goals = goals;
         done
@@ -287,26 +282,28 @@ impl<G: Dimension> Inside<G> {
         lattice: &Lattice<G>,
         positions: &[G::Point],
         edits: &ImageEdits<G>,
-        wrap_of: impl Fn(VertexId) -> [i64; 3],
+        wraps: &Wraps,
+        wrap_of: impl Fn([i64; 3]) -> [i64; 3],
         goals: &mut Vec<G::Point>,
     ) -> Result<Option<MovedHomes>> {
         goals.clear();
         memory::lengthen(goals, self.images.len(), G::Point::default())?;
         let (mut occupied, mut n_moved, mut new_wraps) = (Occupied::NOTHING, 0, Vec::new());
         edits.enter(lattice, &mut occupied);
+        edits.forget_wraps(&mut new_wraps)?;
         let mut going = edits.going().iter().peekable();
         for (vertex, inner) in self.images.homes() {
             if going.next_if_eq(&&vertex).is_some() {
                 continue;
             }
-            let (before, near) = (wrap_of(vertex), &self.places[inner]);
+            let (before, near) = (wrap_of(wraps[vertex]), &self.places[inner]);
             let mut wrap = before;
             let (index, position) = (vertex.index(), &positions[vertex]);
             let place = lattice.wrapped_near("positions", index, position, near, &mut wrap)?;
             occupied.enter(&lattice.multiples(&place));
             n_moved += u64::from(place != *near || wrap != before);
             goals[inner] = place;
-            if wrap != before {
+            if wrap != wraps[vertex] {
                 memory::push(&mut new_wraps, (vertex, wrap))?;
             }
         }
@@ -314,7 +311,7 @@ impl<G: Dimension> Inside<G> {
             return Ok(None);
         }
         for (inner, image) in VertexId::range(0..self.images.len()).zip(self.images.as_slice()) {
-            if image.shift != HOME && *image != Image::GONE {
+            if image.shift != HOME && self.images.is_there(image) {
                 goals[inner] = lattice.translated(&goals[self.images.home(image.vertex)], image.shift);
             }
         }
@@ -329,32 +326,49 @@ impl<G: Dimension> Inside<G> {
         occupied: Occupied,
         edits: &ImageEdits<G>,
     ) -> Result<CommitReport> {
+        if !self.t.is_prepared() {
+            self.since =
+                InsideBefore { n_vertices: self.images.n_vertices(), is_plain: self.is_plain(lattice) };
+        }
+        if let Err(error) = self.t.set_savepoint() {
+            self.t.discard_moves();
+            return Err(error);
+        }
         let (before, n_images) = (self.occupied, self.images.len());
-        let since = InsideBefore { n_vertices: self.images.n_vertices(), is_plain: self.is_plain(lattice) };
         self.occupied = occupied;
-        let missing = |inside: &Self, lattice: &Lattice<G>| inside.missing(lattice, since);
         let done = self.stage(edits).and_then(|()| {
             let mut report = self.t.prepare_timestamp()?;
             self.enter_coming(edits);
-            self.complete(lattice, missing(self, lattice)?, missing, |t| {
+            self.complete(lattice, self.missing(lattice)?, Self::missing, |t| {
                 report.add(&t.prepare_timestamp()?);
                 Ok(())
             })?;
             Ok(report)
         });
-        match done {
-            Ok(report) => {
-                self.t.publish_timestamp()?;
-                // Without the memory for it the next commit looks at what has changed now, too.
-                let _ = self.t.take_changes();
-                Ok(report)
-            }
-            Err(error) => {
-                self.t.discard_moves();
-                self.t.withdraw_timestamp();
-                self.images.truncate(n_images);
-                self.occupied = before;
-                Err(error)
+        if done.is_err() {
+            self.t.discard_moves();
+            self.t.withdraw_to_savepoint();
+            self.images.truncate(n_images);
+            self.occupied = before;
+        }
+        done
+    }
+
+    /// The rounds stay: what they have removed is forgotten, and their room is for the next goals.
+    pub(super) fn publish(
+        &mut self,
+        rounds: impl IntoIterator<Item = RoundBefore<G>, IntoIter: DoubleEndedIterator>,
+    ) {
+        if self.t.publish_timestamp().is_ok() {
+            // Without the memory for it the next commit looks at what has changed now, too.
+            let _ = self.t.take_changes();
+        }
+        for round in rounds.into_iter().rev() {
+            // Before another triangulation was built, there were other ids inside.
+            let RoundBefore::Moved(MovedBefore { removed, places, .. }) = round else { return };
+            removed.into_iter().for_each(|inner| self.images.forget(inner));
+            if let PlacesBefore::All(places) = places {
+                self.goals = places;
             }
         }
     }

@@ -13,6 +13,7 @@ use crate::periodic::images::Image;
 use crate::periodic::inside::Inside;
 use crate::periodic::lattice::{HOME, Lattice, Occupied};
 use crate::periodic::needed::{for_images, keys_of};
+use crate::periodic::rounds::MovedBefore;
 use crate::periodic::staged::Staged;
 
 /// To build anew costs less than more than one edit and so many, as a share of the vertices.
@@ -31,7 +32,7 @@ pub(super) struct ImageEdits<G: Dimension> {
     wraps: Vec<[i64; 3]>,
     /// Vertices that go, ascending.
     going: Vec<VertexId>,
-    /// Their ids inside, images included.
+    /// Their ids inside, images included: those of a vertex one after the other, as it lists them.
     going_inside: Vec<VertexId>,
 }
 
@@ -86,6 +87,11 @@ impl<G: Dimension> ImageEdits<G> {
         self.places[..self.wraps.len()].iter().for_each(|place| occupied.enter(&lattice.multiples(place)));
     }
 
+    /// Vertices that go are translated by nothing.
+    pub(super) fn forget_wraps(&self, wraps: &mut Vec<(VertexId, [i64; 3])>) -> Result<()> {
+        memory::collect(wraps, self.going.iter().map(|&vertex| (vertex, [0; 3])))
+    }
+
     /// By vertex that comes, by which translation it comes home.
     pub(super) fn wraps(&self) -> &[[i64; 3]] {
         &self.wraps
@@ -94,6 +100,11 @@ impl<G: Dimension> ImageEdits<G> {
     /// Vertices that go, ascending.
     pub(super) fn going(&self) -> &[VertexId] {
         &self.going
+    }
+
+    /// The ids inside of vertices that go and their images, those of a vertex one after the other.
+    pub(super) fn into_going_inside(self) -> Vec<VertexId> {
+        self.going_inside
     }
 
     /// The number of vertices and images that come.
@@ -130,11 +141,12 @@ impl<G: Dimension> Inside<G> {
         edits.images.iter().for_each(|&image| self.images.push(image));
     }
 
-    /// The edits stay: what has come has places, and what has gone is known no more. Before the edits there were so many ids
-    /// inside; there is room among the places.
-    pub(super) fn settle(&mut self, edits: &ImageEdits<G>, n_before: usize) {
+    /// What a round of moves and edits has changed is known: vertices at home have the places in `before`, for those
+    /// that they had; what has come has places, and what has gone is known no more. There is room among the places.
+    pub(super) fn settle(&mut self, edits: &ImageEdits<G>, before: &mut MovedBefore<G>) {
+        self.exchange_places(&mut before.places);
         if !edits.images.is_empty() {
-            self.places.resize(n_before, G::Point::default());
+            self.places.resize(before.n_images, G::Point::default());
             self.places.extend_from_slice(&edits.places);
         }
         edits.going.iter().for_each(|&vertex| self.images.remove(vertex));

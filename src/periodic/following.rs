@@ -186,26 +186,17 @@ impl Joined {
     }
 }
 
-/// What was there before a change.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct InsideBefore {
-    /// Ids that vertices had been given.
-    pub(super) n_vertices: usize,
-    /// Whether the set [was plain](Inside::is_plain).
-    pub(super) is_plain: bool,
-}
-
 impl<G: Dimension> Inside<G> {
     /// Whether the set repeats along all axes, and no two of its vertices share a place.
     pub(super) fn is_plain(&self, lattice: &Lattice<G>) -> bool {
         lattice.rank() == G::D && self.t.cell_count() > 0 && self.t.hidden_count() == 0
     }
 
-    /// The images that are missing after changes, where before all was as in the repeating set.
-    pub(super) fn missing(&self, lattice: &Lattice<G>, before: InsideBefore) -> Result<Needed> {
-        if before.is_plain
+    /// The images that are missing after rounds, where before them all was as in the repeating set.
+    pub(super) fn missing(&self, lattice: &Lattice<G>) -> Result<Needed> {
+        if self.since.is_plain
             && self.is_plain(lattice)
-            && let Some(needed) = self.missing_at_changes(lattice, before.n_vertices)?
+            && let Some(needed) = self.missing_at_changes(lattice, self.since.n_vertices)?
         {
             return Ok(needed);
         }
@@ -285,7 +276,8 @@ impl<G: Dimension> Inside<G> {
             }
         }
         // The first of a set has the lowest id.
-        let mut coming = VertexId::range(n_before..self.images.n_vertices());
+        let mut coming = VertexId::range(n_before..self.images.n_vertices())
+            .filter(|&vertex| self.images.home(vertex) != VertexId::NONE);
         if !coming.all(|vertex| joined.first(Image { vertex, shift: HOME }).vertex.index() < n_before) {
             return Ok(false);
         }

@@ -13,7 +13,7 @@ pub(super) struct Image {
 }
 
 impl Image {
-    /// What an id inside is whose vertex has been removed.
+    /// What an id inside is whose vertex has been removed at an earlier timestamp.
     pub(super) const GONE: Self = Image { vertex: VertexId::NONE, shift: [i32::MIN; 3] };
 }
 
@@ -56,9 +56,14 @@ impl Images {
         self.images.len()
     }
 
-    /// All, by the ids inside; [`Image::GONE`] where a vertex has been removed.
+    /// All, by the ids inside; some may be of vertices that are [not there](Self::is_there).
     pub(super) fn as_slice(&self) -> &[Image] {
         &self.images
+    }
+
+    /// Whether the vertex of an image has not been removed.
+    pub(super) fn is_there(&self, image: &Image) -> bool {
+        *image != Image::GONE && self.home[image.vertex] != VertexId::NONE
     }
 
     /// The vertices that are there, in the order of ids, each with its id inside at home. These ids ascend as well.
@@ -158,15 +163,28 @@ impl Images {
         self.n_gone += 1;
     }
 
-    /// A vertex that is there is removed, with all of its images.
+    /// A vertex that is there is removed, with all of its images. What their ids inside were is known until it is
+    /// [forgotten](Self::forget).
     pub(super) fn remove(&mut self, vertex: VertexId) {
         let mut inside = std::mem::replace(&mut self.home[vertex], VertexId::NONE);
         self.n_present -= 1;
         while inside != VertexId::NONE {
-            self.images[inside] = Image::GONE;
             self.n_gone += 1;
             inside = std::mem::replace(&mut self.next[inside], VertexId::NONE);
         }
+    }
+
+    /// An id inside is of a removed vertex for good.
+    pub(super) fn forget(&mut self, inside: VertexId) {
+        self.images[inside] = Image::GONE;
+    }
+
+    /// An image of a vertex that has been removed is there again; those that its list had behind it are there already.
+    pub(super) fn put_back(&mut self, inside: VertexId) {
+        let image = self.images[inside];
+        self.next[inside] = std::mem::replace(&mut self.home[image.vertex], inside);
+        self.n_gone -= 1;
+        self.n_present += usize::from(image.shift == HOME);
     }
 
     /// Has all images with the shifts that another list of them has, which becomes what this has had.

@@ -63,6 +63,8 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let done = stage(self).and_then(|made| {
             self.commit_timestamp()?;
             self.statistics.timestamp -= 1;
+            // The timestamp does not tell that there is a change.
+            self.taking.iter_mut().for_each(|taking| taking.timestamp = None);
             Ok(made)
         });
         (self.staged, self.coming) = (staged, coming);

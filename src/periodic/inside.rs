@@ -1,6 +1,7 @@
 //! What is triangulated: vertices at home, and images of them.
 
 use crate::delaunay::Dimension;
+use crate::machine::memory;
 use crate::motion::MovingTriangulation;
 use crate::periodic::images::Images;
 use crate::periodic::lattice::Occupied;
@@ -19,6 +20,25 @@ pub(super) struct Inside<G: Dimension> {
     pub(super) occupied: Occupied,
     /// The mean distance of vertices when this was built.
     pub(super) spacing: f64,
+    pub(super) since: InsideBefore,
+}
+
+/// What there was at the timestamp from which rounds go on.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct InsideBefore {
+    /// Ids that vertices had been given.
+    pub(super) n_vertices: usize,
+    /// Whether the set [was plain](Inside::is_plain).
+    pub(super) is_plain: bool,
+}
+
+impl<G: Dimension> Inside<G> {
+    pub(super) fn memory_bytes(&self) -> usize {
+        self.t.memory_bytes()
+            + self.images.memory_bytes()
+            + memory::bytes_of(&self.places)
+            + memory::bytes_of(&self.goals)
+    }
 }
 
 /// All shifts in these ranges.

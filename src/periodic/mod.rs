@@ -58,6 +58,7 @@ mod preparing;
 mod reading;
 mod reduction;
 mod relation;
+mod rounds;
 mod saving;
 mod staged;
 mod staging;

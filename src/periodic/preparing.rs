@@ -1,13 +1,16 @@
 //! Commits in two phases: a timestamp is prepared, in one round or several, and then published or withdrawn.
 //!
-//! The rounds are commits of a copy. What was before the first one is kept as it is: to withdraw, it takes its place again, so
-//! nothing has to be undone. A copy costs less than twice what a commit by which all vertices move costs.
+//! A round is a commit whose rounds inside stay open, with a savepoint before the first of them: one that fails goes
+//! back to its savepoint, and all are published or withdrawn together. What was before them, beside the triangulation
+//! inside, is in [`RoundBefore`].
 
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::machine::memory;
 use crate::motion::CommitReport;
-use crate::periodic::triangulation::{BeforeRounds, PeriodicTriangulation};
+use crate::periodic::commit::PeriodicGoals;
+use crate::periodic::rounds::{BeforeRounds, RoundBefore};
+use crate::periodic::triangulation::PeriodicTriangulation;
 
 impl<G: Dimension> PeriodicTriangulation<G> {
     /// Brings the triangulation to what is staged, as a commit does, and keeps what it was: all that reads sees the prepared
@@ -17,7 +20,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     ///
     /// The report is of this round; its timestamp is the one that is prepared. Statistics count the round.
     ///
-    /// Cost: that of a commit, and in the first round that of a [copy](Self::try_clone).
+    /// Cost: that of a commit.
     ///
     /// ```
     /// use deldrift::{Plane, VertexId, motion::Options, periodic::PeriodicTriangulation};
@@ -35,21 +38,13 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// # Errors
     /// The errors of [`commit_timestamp`](Self::commit_timestamp), [`Error::OutOfMemory`] among them.
     pub fn prepare_timestamp(&mut self) -> Result<CommitReport> {
-        if self.former.is_none() {
-            self.set_aside()?;
-        }
-        let done = self.commit_staged();
-        let Some(former) = &mut self.former else { return done };
-        match &done {
-            Ok(_) => {
-                former.rounds += 1;
-                // The timestamp is not reached before it is published.
-                self.statistics.timestamp -= 1;
-            }
-            Err(_) if former.rounds == 0 => self.put_back(),
-            Err(_) => {}
-        }
-        done
+        let (statistics, mut rounds) = (self.statistics, Vec::new());
+        memory::reserve(self.former.as_mut().map_or(&mut rounds, |former| &mut former.rounds), 1)?;
+        let (report, round) = self.make_round(PeriodicGoals::Staged)?;
+        let (cells, edges) = (std::mem::take(&mut self.cells), std::mem::take(&mut self.edges));
+        let former = self.former.get_or_insert_with(|| BeforeRounds { statistics, cells, edges, rounds });
+        former.rounds.push(round);
+        Ok(report)
     }
 
     /// Makes the prepared state the next timestamp, which it returns. What has been staged since the last round stays so.
@@ -57,44 +52,44 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// # Errors
     /// [`Error::NotPrepared`].
     pub fn publish_timestamp(&mut self) -> Result<u64> {
-        self.former.take().ok_or(Error::NotPrepared)?;
+        let former = self.former.take().ok_or(Error::NotPrepared)?;
+        self.inside.publish(former.rounds);
         self.statistics.timestamp += 1;
         Ok(self.statistics.timestamp)
     }
 
     /// Takes back all rounds of the prepared state: all is as at the last timestamp, with nothing staged. Does nothing if no
     /// timestamp is prepared. Needs no memory.
+    ///
+    /// Tolerances are forgotten, so the next commits may take longer.
     pub fn withdraw_timestamp(&mut self) {
-        if self.former.is_some() {
-            let algorithm = self.algorithm();
-            self.put_back();
-            self.set_algorithm(algorithm);
-            self.discard_moves();
+        let Some(former) = self.former.take() else { return };
+        let BeforeRounds { statistics, cells, edges, rounds } = former;
+        rounds.into_iter().rev().for_each(|round| self.put_back(round));
+        self.inside.t.withdraw_timestamp();
+        (self.statistics, self.cells, self.edges) = (statistics, cells, edges);
+        self.discard_moves();
+    }
+
+    /// Puts what there was before the last round back, but for the rounds inside. Needs no memory.
+    fn put_back(&mut self, round: RoundBefore<G>) {
+        let lattice = match round {
+            RoundBefore::Built { inside, wraps, lattice } => {
+                let mut other = std::mem::replace(&mut self.inside, *inside);
+                self.inside.t.exchange_monitors(&mut other.t);
+                self.inside.t.set_algorithm(other.t.algorithm());
+                self.wraps = wraps;
+                lattice
+            }
+            RoundBefore::Moved(mut moved) => {
+                self.inside.put_back(&mut moved);
+                self.wraps.truncate(self.inside.images.n_vertices());
+                moved.exchange_wraps(&mut self.wraps);
+                moved.other.map(|(lattice, _)| lattice)
+            }
+        };
+        if let Some(lattice) = lattice {
+            self.lattice = lattice;
         }
-    }
-
-    /// Keeps what there is, and goes on with a copy of it.
-    fn set_aside(&mut self) -> Result<()> {
-        let taking = self.taking.take();
-        let copy = self.try_clone(None).and_then(memory::boxed);
-        self.taking = taking;
-        let mut other = copy?;
-        std::mem::swap(self, &mut other);
-        self.exchange_callers(&mut other);
-        self.former = Some(BeforeRounds { t: other, rounds: 0 });
-        Ok(())
-    }
-
-    /// What was kept takes its place again, with what was staged then.
-    fn put_back(&mut self) {
-        let Some(BeforeRounds { mut t, .. }) = self.former.take() else { return };
-        self.exchange_callers(&mut t);
-        std::mem::swap(self, &mut t);
-    }
-
-    /// Exchanges what belongs to the program's side: its callback, and which cells it knows.
-    fn exchange_callers(&mut self, other: &mut Self) {
-        self.inside.t.exchange_monitors(&mut other.inside.t);
-        std::mem::swap(&mut self.taking, &mut other.taking);
     }
 }

@@ -8,11 +8,6 @@ pub(super) struct Relation {
 }
 
 impl Relation {
-    /// Whether vectors correspond to each other in their order.
-    pub(super) fn is_identity(&self) -> bool {
-        self.rows == [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
-    }
-
     /// What a shift of the first lattice is in the second one; none of numbers that are too large.
     pub(super) fn of(&self, shift: [i64; 3]) -> Option<[i64; 3]> {
         let mut sum = [0i64; 3];

@@ -46,8 +46,10 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     pub fn voronoi_changed(&self, moved: &[VertexId]) -> Result<Vec<u8>> {
         let around = self.cells_around(moved)?;
         let cells = self.read_cells()?;
-        let is_fresh =
-            |taking: &&Taking<G>| taking.timestamp == Some(self.timestamp()) && !taking.is_strained;
+        let is_fresh = |taking: &&Taking<G>| {
+            let is_of_now = taking.timestamp == Some(self.timestamp()) && self.former.is_none();
+            is_of_now && !taking.is_strained
+        };
         let taking = self.taking.as_ref().filter(is_fresh).filter(|_| !cells.corners.is_empty());
         let mut mask = Vec::new();
         memory::lengthen(&mut mask, self.id_count(), u8::from(taking.is_none()))?;

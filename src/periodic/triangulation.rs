@@ -12,9 +12,10 @@ use crate::periodic::changes::Taking;
 use crate::periodic::edges::PeriodicEdges;
 use crate::periodic::grid::ROOM;
 use crate::periodic::images::{Image, Images};
-use crate::periodic::inside::Inside;
+use crate::periodic::inside::{Inside, InsideBefore};
 use crate::periodic::lattice::{HOME, Lattice, Occupied};
 use crate::periodic::needed::{Needed, for_images, keys_of};
+use crate::periodic::rounds::{BeforeRounds, Wraps};
 use crate::periodic::staged::Staged;
 
 /// Vertices may drift so many mean distances out of the unit cell before they are taken back.
@@ -35,7 +36,7 @@ pub struct PeriodicTriangulation<G: Dimension> {
     pub(super) lattice: Box<Lattice<G>>,
     pub(super) inside: Inside<G>,
     /// By vertex, the translation by which it went from where it was given to home: it is where it was given less that.
-    pub(super) wraps: Vec<[i64; 3]>,
+    pub(super) wraps: Wraps,
     pub(super) staged: Staged<G>,
     /// The lattice that is staged.
     pub(super) coming: Option<Box<Lattice<G>>>,
@@ -47,20 +48,6 @@ pub struct PeriodicTriangulation<G: Dimension> {
     pub(super) edges: OnceLock<PeriodicEdges>,
     /// What was at the timestamp, while another one is prepared.
     pub(super) former: Option<BeforeRounds<G>>,
-}
-
-/// What a triangulation was at its timestamp, while another one is prepared.
-#[derive(Debug)]
-pub(super) struct BeforeRounds<G: Dimension> {
-    pub(super) t: Box<PeriodicTriangulation<G>>,
-    /// How many rounds have been made.
-    pub(super) rounds: usize,
-}
-
-impl<G: Dimension> BeforeRounds<G> {
-    pub(super) fn memory_bytes(&self) -> usize {
-        size_of::<PeriodicTriangulation<G>>() + self.t.memory_bytes()
-    }
 }
 
 impl<G: Dimension> PeriodicTriangulation<G> {
@@ -106,7 +93,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         match &self.former {
             None => Ok(()),
             Some(former) => {
-                Err(Error::Prepared { timestamp: self.statistics.timestamp + 1, rounds: former.rounds })
+                Err(Error::Prepared { timestamp: self.statistics.timestamp + 1, rounds: former.rounds.len() })
             }
         }
     }
@@ -165,7 +152,8 @@ impl<G: Dimension> Inside<G> {
             })?;
         }
         let t = MovingTriangulation::unbuilt(options);
-        Ok(Inside { t, images, n_built: home.len(), places, goals: Vec::new(), occupied, spacing })
+        let (goals, since) = (Vec::new(), InsideBefore::default());
+        Ok(Inside { t, images, n_built: home.len(), places, goals, occupied, spacing, since })
     }
 
     /// Triangulates the vertices and images at these places, and inserts images that are missing. After an error it can only
@@ -190,13 +178,6 @@ impl<G: Dimension> Inside<G> {
             return 0;
         }
         self.t.hidden_vertices().filter(|(hidden, _)| self.images.is_home(*hidden)).count()
-    }
-
-    pub(super) fn memory_bytes(&self) -> usize {
-        self.t.memory_bytes()
-            + self.images.memory_bytes()
-            + memory::bytes_of(&self.places)
-            + memory::bytes_of(&self.goals)
     }
 }
 

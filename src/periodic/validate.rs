@@ -5,7 +5,6 @@ use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::{Level, NO_CELL, Violation};
-use crate::periodic::images::Image;
 use crate::periodic::inside::Inside;
 use crate::periodic::lattice::{HOME, Lattice};
 use crate::periodic::triangulation::PeriodicTriangulation;
@@ -61,7 +60,7 @@ impl<G: Dimension> Inside<G> {
     /// An image that is not a translation of its vertex at home, or has not its key.
     fn misplaced(&self, lattice: &Lattice<G>) -> Result<Option<VertexId>> {
         for (inner, image) in VertexId::range(0..self.images.len()).zip(self.images.as_slice()) {
-            if *image == Image::GONE {
+            if !self.images.is_there(image) {
                 if self.t.is_present(inner) {
                     return Ok(Some(inner));
                 }

@@ -6,7 +6,6 @@ use crate::common::Rng;
 use deldrift::motion::{Interpolation, Options, TransferOrder, VertexValues};
 use deldrift::periodic::PeriodicTriangulation;
 use deldrift::{Dimension, Error, Plane, Result, Space, VertexId};
-use std::collections::BTreeSet;
 use std::sync::atomic::Ordering::Relaxed;
 
 /// A call on a box.
@@ -25,7 +24,14 @@ enum Call {
     CommitVectors,
     Prepare,
     PrepareAgain,
+    /// Removals, other vectors, and then moves.
+    PrepareAfterEdits,
+    /// Of so many edits that all is built.
+    PrepareBuild,
+    Publish,
     Withdraw,
+    /// Where a round has built all.
+    WithdrawBuild,
     Cells,
     Edges,
     VoronoiVolumes,
@@ -39,7 +45,7 @@ enum Call {
     TransferCells,
 }
 
-const CALLS: [Call; 24] = [
+const CALLS: [Call; 28] = [
     Call::New,
     Call::MoveVertices,
     Call::StageInsertions,
@@ -52,7 +58,11 @@ const CALLS: [Call; 24] = [
     Call::CommitVectors,
     Call::Prepare,
     Call::PrepareAgain,
+    Call::PrepareAfterEdits,
+    Call::PrepareBuild,
+    Call::Publish,
     Call::Withdraw,
+    Call::WithdrawBuild,
     Call::Cells,
     Call::Edges,
     Call::VoronoiVolumes,
@@ -75,13 +85,14 @@ struct Scene<G: Dimension> {
     heights: Vec<f64>,
 }
 
-/// All that there is to be seen: positions and vectors in bits, numbers, and cells as sets of vertices with shifts.
+/// All that there is to be seen: positions and vectors in bits, numbers, and cells with their indices, each as a set
+/// of vertices with shifts.
 #[derive(Debug, PartialEq)]
 struct State {
     positions: Vec<Option<Vec<u64>>>,
     vectors: Vec<Vec<u64>>,
     numbers: [u64; 4],
-    cells: BTreeSet<Vec<(VertexId, [i64; 3])>>,
+    cells: Vec<Vec<(VertexId, [i64; 3])>>,
 }
 
 fn bits<P: AsRef<[f64]>>(p: &P) -> Vec<u64> {
@@ -134,10 +145,29 @@ impl<G: Dimension> Scene<G> {
                 t.take_changes().expect("room");
             }
             Call::Prepare => t.move_first(&goals).expect("moves"),
-            Call::PrepareAgain | Call::Withdraw => {
+            Call::PrepareAgain | Call::Publish | Call::Withdraw => {
                 t.stage_insertions(&goals[..5]).expect("insertions");
                 t.prepare_timestamp().expect("a round");
                 t.move_vertices(&ids([3, 4, 5]), &goals[3..6]).expect("moves");
+            }
+            Call::PrepareAfterEdits => {
+                t.stage_removals(&ids([7, 12])).expect("removals");
+                t.prepare_timestamp().expect("a round");
+                t.stage_vectors(&vectors).expect("vectors");
+                t.stage_insertions(&goals[..2]).expect("insertions");
+                t.prepare_timestamp().expect("a second round");
+                t.stage_removals(&ids([8])).expect("removals");
+                t.move_vertices(&ids([3, 4, 5]), &goals[3..6]).expect("moves");
+            }
+            Call::PrepareBuild | Call::WithdrawBuild => {
+                t.move_vertices(&ids([3, 4, 5]), &goals[3..6]).expect("moves");
+                t.prepare_timestamp().expect("a round");
+                t.stage_insertions(&goals[..30]).expect("insertions");
+                if let Call::WithdrawBuild = call {
+                    t.prepare_timestamp().expect("a second round");
+                    t.move_vertices(&ids([3, 4, 5]), &goals[4..7]).expect("moves");
+                    t.prepare_timestamp().expect("a third round");
+                }
             }
             _ => {}
         }
@@ -165,11 +195,12 @@ impl<G: Dimension> Scene<G> {
                 let report = given(t.commit_timestamp())?;
                 report.moved + 100 * report.inserted + 10_000 * report.removed
             }
-            Call::Prepare | Call::PrepareAgain => {
+            Call::Prepare | Call::PrepareAgain | Call::PrepareAfterEdits | Call::PrepareBuild => {
                 let report = given(t.prepare_timestamp())?;
                 report.moved + 100 * report.inserted + 10_000 * report.timestamp
             }
-            Call::Withdraw => {
+            Call::Publish => given(t.publish_timestamp())?,
+            Call::Withdraw | Call::WithdrawBuild => {
                 t.withdraw_timestamp();
                 disarm();
                 t.timestamp()
@@ -223,11 +254,11 @@ impl<G: Dimension> Scene<G> {
         let positions =
             VertexId::range(0..t.id_count()).map(|v| t.position(v).ok().map(|p| bits(&p))).collect();
         let shifts: Vec<_> = t.cell_shifts().expect("room").collect();
-        let mut cells = BTreeSet::new();
+        let mut cells = Vec::new();
         for (row, shifts) in t.cells().expect("room").corners.iter().zip(shifts.chunks_exact(G::D + 1)) {
             let mut corners: Vec<_> = row.as_ref().iter().copied().zip(shifts.iter().copied()).collect();
             corners.sort_unstable();
-            cells.insert(corners);
+            cells.push(corners);
         }
         let counts = [t.id_count(), t.vertex_count(), t.staged_count()].map(|n| n as u64);
         State {
@@ -238,7 +269,7 @@ impl<G: Dimension> Scene<G> {
         }
     }
 
-    /// What is to be seen after what is staged as well.
+    /// What is to be seen, and after what is staged as well, in whatever order cells are: that is of a history.
     fn finish(&mut self) -> [State; 2] {
         let now = self.state();
         match self.t.publish_timestamp() {
@@ -246,7 +277,9 @@ impl<G: Dimension> Scene<G> {
             Err(error) => panic!("{error}"),
         }
         self.t.commit_timestamp().expect("a commit");
-        [now, self.state()]
+        let mut both = [now, self.state()];
+        both.iter_mut().for_each(|state| state.cells.sort_unstable());
+        both
     }
 }
 
@@ -264,7 +297,7 @@ fn faults_of<G: Dimension>(faults: &mut Faults<'_>, call: Call, is_read: bool) {
         page.requests = REQUESTS.load(Relaxed);
         page.outcome = Outcome::Untouched;
     });
-    if matches!(call, Call::Withdraw) {
+    if matches!(call, Call::Withdraw | Call::WithdrawBuild) {
         assert_eq!(faults.page.requests, 0, "{name}: it asks for memory");
     }
     let stride = faults.page.requests.div_ceil(faults.most).max(1);

@@ -34,7 +34,7 @@ impl<G: Moving> MovingTriangulation<G> {
     }
 
     /// A copy, of the prepared state if there is one, which is published in the copy.
-    fn duplicate(&self, monitor: Option<Monitor>) -> Result<Self> {
+    pub(crate) fn duplicate(&self, monitor: Option<Monitor>) -> Result<Self> {
         let Options { algorithm, threads, parts, coincidence, passing, .. } = self.options;
         let mut mesh = self.mesh.copied()?;
         mesh.kernel.pace_mut().set_monitor(monitor);

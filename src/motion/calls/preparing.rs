@@ -4,7 +4,7 @@ use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Moves;
-use crate::motion::state::rounds::Published;
+use crate::motion::state::rounds::Savepoint;
 use crate::motion::triangulation::MovingTriangulation;
 
 impl<G: Moving> MovingTriangulation<G> {
@@ -34,9 +34,8 @@ impl<G: Moving> MovingTriangulation<G> {
     pub fn prepare_timestamp(&mut self) -> Result<CommitReport> {
         self.mesh.last_found.begin();
         self.apply_passing_policy_to_staged()?;
-        if self.mesh.rounds.is_none() {
-            let before = self.published();
-            self.mesh.open_rounds(before)?;
+        if !self.is_prepared() {
+            self.set_savepoint()?;
         }
         self.regions.release();
         let mut staging = std::mem::take(&mut self.staging);
@@ -72,37 +71,48 @@ impl<G: Moving> MovingTriangulation<G> {
     /// Tolerances are forgotten; what auto has learnt stays, but it checks all certificates for a while before it computes
     /// tolerances again.
     pub fn withdraw_timestamp(&mut self) {
+        self.withdraw(true);
+    }
+
+    /// Takes back the rounds since the last [savepoint](Self::set_savepoint), which is forgotten, as
+    /// [`withdraw_timestamp`](Self::withdraw_timestamp) takes back all.
+    pub(crate) fn withdraw_to_savepoint(&mut self) {
+        self.withdraw(false);
+    }
+
+    fn withdraw(&mut self, are_all: bool) {
         self.regions.release();
-        let Some(before) = self.mesh.withdraw_rounds() else { return };
+        let Some(savepoint) = self.mesh.withdraw_rounds(are_all) else { return };
         self.auto.note_withdrawn(self.mesh.constants);
         self.regions.invalidate();
-        self.statistics = before.statistics;
+        self.statistics = savepoint.statistics;
         self.staging.clear();
         self.edits.clear();
-        self.staging.shrink(before.n_ids);
+        self.staging.shrink(savepoint.n_ids);
         if let Some(segments) = &mut self.mesh.segments {
             segments.discard();
         }
-        match (&mut self.made, before.n_pieces) {
+        match (&mut self.made, savepoint.n_pieces) {
             (Some(made), Some(n)) => made.truncate_pieces(n),
             (made, _) => *made = None,
         }
     }
 
-    /// What this is at its timestamp, as far as numbers tell that.
-    fn published(&self) -> Published {
+    /// From here on rounds can be [taken back](Self::withdraw_to_savepoint) by themselves.
+    pub(crate) fn set_savepoint(&mut self) -> Result<()> {
         let (mut n_ids, mut has_keys) = (self.mesh.site_of.len(), self.has_keys());
         if self.edits.has_insertions() {
             n_ids = n_ids.min(self.edits.n_known());
             has_keys = self.edits.had_keys();
         }
-        Published {
+        self.mesh.set_savepoint(Savepoint {
+            n_rounds: self.mesh.n_rounds(),
             statistics: self.statistics,
             n_ids,
             n_pieces: self.made.as_ref().map(|made| made.n_pieces()),
             has_segments: self.mesh.segments.is_some(),
             has_keys,
-        }
+        })
     }
 
     /// Makes the moves and the staged edits as a round.
@@ -124,3 +134,6 @@ impl<G: Moving> MovingTriangulation<G> {
         Ok(report)
     }
 }
+
+#[cfg(test)]
+mod tests;

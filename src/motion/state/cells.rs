@@ -21,12 +21,13 @@ use crate::delaunay::{Delaunay, Moving};
 use crate::error::Result;
 use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
-use crate::motion::state::cells::journal::CellJournal;
 use crate::motion::state::changes::{Tracker, renumber};
 use crate::motion::state::marks::{Bits, Marks};
 use crate::motion::state::matching::Matcher;
 use crate::motion::state::ordering::Ordering;
 use crate::motion::state::taken::Taken;
+
+pub(in crate::motion) use journal::CellJournal;
 
 /// When more than this share of the slots has changed, all are compared.
 const MAX_SHARE_LISTED: f64 = 0.5;

@@ -8,7 +8,7 @@ use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::motion::report::CommitReport;
 use crate::motion::state::hidden::Hidden;
-use crate::motion::state::segments::{KeptSegments, SegmentsBefore};
+use crate::motion::state::segments::SegmentsBefore;
 use crate::motion::state::transaction::KeptTransaction;
 
 /// A kernel that another one has taken the place of in a round, and what belongs to it.
@@ -20,56 +20,42 @@ pub(in crate::motion) struct Former<G: Moving> {
     pub(in crate::motion) sorted_stride: f64,
 }
 
-/// What undoes a round beside what is kept where the change has left it.
+/// What undoes a round.
 #[derive(Debug)]
-pub(in crate::motion) struct Settled<G: Moving> {
+pub(in crate::motion) struct Round<G: Moving> {
     /// The kernel before, if the round has built another one.
     pub(in crate::motion) former: Option<Box<Former<G>>>,
     /// If there were segments.
-    pub(in crate::motion) segments: Option<SegmentsBefore>,
+    pub(in crate::motion) segments: Option<SegmentsBefore<G>>,
+    /// If others have followed, and the kernel is the same: a former one has it itself.
+    pub(in crate::motion) kernel: Option<KeptChange<G>>,
+    /// If others have followed.
+    pub(in crate::motion) transaction: Option<KeptTransaction<G>>,
 }
 
-impl<G: Moving> Default for Settled<G> {
+impl<G: Moving> Default for Round<G> {
     fn default() -> Self {
-        Settled { former: None, segments: None }
+        Round { former: None, segments: None, kernel: None, transaction: None }
     }
 }
 
-impl<G: Moving> Settled<G> {
+impl<G: Moving> Round<G> {
     fn memory_bytes(&self) -> usize {
         let of_former = |former: &Former<G>| {
             former.kernel.memory_bytes() + former.hidden.memory_bytes() + memory::bytes_of(&former.site_of)
         };
         memory::bytes_of_made(&self.former, of_former)
             + self.segments.as_ref().map_or(0, SegmentsBefore::memory_bytes)
-    }
-}
-
-/// A round that others have followed.
-#[derive(Debug)]
-pub(in crate::motion) struct Round<G: Moving> {
-    pub(in crate::motion) settled: Settled<G>,
-    /// `None` if the round has built another kernel: then the former one has it.
-    pub(in crate::motion) kernel: Option<KeptChange<G>>,
-    pub(in crate::motion) transaction: KeptTransaction<G>,
-    pub(in crate::motion) segments: Option<KeptSegments<G>>,
-}
-
-impl<G: Moving> Round<G> {
-    fn memory_bytes(&self) -> usize {
-        let of_segments = |(replaced, before): &KeptSegments<G>| {
-            replaced.memory_bytes() + before.as_ref().map_or(0, memory::bytes_of)
-        };
-        self.settled.memory_bytes()
             + self.kernel.as_ref().map_or(0, KeptChange::memory_bytes)
-            + self.transaction.memory_bytes()
-            + self.segments.as_ref().map_or(0, of_segments)
+            + self.transaction.as_ref().map_or(0, KeptTransaction::memory_bytes)
     }
 }
 
-/// What a triangulation was at its timestamp, as far as numbers tell that.
+/// What a triangulation was where rounds may be withdrawn to, as far as numbers tell that.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::motion) struct Published {
+pub(in crate::motion) struct Savepoint {
+    /// How many rounds had been made.
+    pub(in crate::motion) n_rounds: usize,
     pub(in crate::motion) statistics: CommitReport,
     /// Ids of vertices, those of staged insertions that can be given back not counted.
     pub(in crate::motion) n_ids: usize,
@@ -83,10 +69,11 @@ pub(in crate::motion) struct Published {
 /// The rounds of a timestamp that is being prepared.
 #[derive(Debug)]
 pub(in crate::motion) struct Rounds<G: Moving> {
-    pub(in crate::motion) before: Published,
+    /// The first one is of the timestamp before; later ones have more rounds, or as many.
+    pub(in crate::motion) savepoints: Vec<Savepoint>,
     pub(in crate::motion) earlier: Vec<Round<G>>,
     /// The last round, or the one being made.
-    pub(in crate::motion) last: Settled<G>,
+    pub(in crate::motion) last: Round<G>,
     /// Whether `last` is a round that has been made.
     pub(in crate::motion) has_last: bool,
     /// The vertices that the rounds have removed, ascending.
@@ -95,18 +82,20 @@ pub(in crate::motion) struct Rounds<G: Moving> {
     pub(in crate::motion) wants_order: bool,
 }
 
-impl<G: Moving> Rounds<G> {
-    pub(in crate::motion) fn new(before: Published) -> Self {
+impl<G: Moving> Default for Rounds<G> {
+    fn default() -> Self {
         Rounds {
-            before,
+            savepoints: Vec::new(),
             earlier: Vec::new(),
-            last: Settled::default(),
+            last: Round::default(),
             has_last: false,
             removed: Vec::new(),
             wants_order: false,
         }
     }
+}
 
+impl<G: Moving> Rounds<G> {
     /// How many have been made.
     pub(in crate::motion) fn count(&self) -> usize {
         self.earlier.len() + usize::from(self.has_last)
@@ -117,5 +106,6 @@ impl<G: Moving> Rounds<G> {
             + self.earlier.iter().map(Round::memory_bytes).sum::<usize>()
             + self.last.memory_bytes()
             + memory::bytes_of(&self.removed)
+            + memory::bytes_of(&self.savepoints)
     }
 }

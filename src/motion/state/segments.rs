@@ -20,7 +20,7 @@ use crate::ids::{SegmentId, SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::state::last_found::{LastFound, refuse_conflicts};
 
-pub(in crate::motion) use rounds::{KeptSegments, SegmentsBefore};
+pub(in crate::motion) use rounds::SegmentsBefore;
 
 /// What stands for the label of a side of a segment that has none.
 pub const NO_LABEL: i32 = i32::MIN;

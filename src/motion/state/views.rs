@@ -12,7 +12,7 @@ use crate::delaunay::{Delaunay, Moving};
 use crate::error::Result;
 use crate::ids::{Slot, VertexId};
 use crate::machine::memory;
-use crate::motion::state::cells::{Cells, are_most};
+use crate::motion::state::cells::{CellJournal, Cells, are_most};
 use crate::motion::state::marks::Marks;
 use crate::motion::state::visibility::Visibilities;
 
@@ -32,13 +32,13 @@ struct Behind<G: Moving> {
     dirty: Marks<Slot>,
     /// Whether any slot may have changed.
     are_all: bool,
-    /// What there was before the rounds of a timestamp that is being prepared.
-    before: Option<Box<ArraysBefore>>,
+    /// What there was at the savepoints that rounds may be taken back to, the last one last.
+    before: Vec<ArraysBefore<G>>,
 }
 
 /// What there was before rounds that may be taken back.
 #[derive(Debug)]
-struct ArraysBefore {
+struct ArraysBefore<G: Moving> {
     /// Whether there were arrays.
     existed: bool,
     /// Whether they were up to date.
@@ -48,18 +48,20 @@ struct ArraysBefore {
     n_dirty: usize,
     /// The slots that were dirty then, if the arrays have been brought up to date since.
     dirty: Option<Marks<Slot>>,
+    /// What was noted between the savepoint before and this one.
+    journal: Option<Box<CellJournal<G>>>,
 }
 
 impl<G: Moving> Default for Behind<G> {
     fn default() -> Self {
-        Behind { cells: None, dirty: Marks::default(), are_all: true, before: None }
+        Behind { cells: None, dirty: Marks::default(), are_all: true, before: Vec::new() }
     }
 }
 
 impl<G: Moving> Behind<G> {
     /// The arrays have been brought up to date: what was dirty before the rounds is kept, if there are rounds.
     fn keep_first_dirty(&mut self) {
-        if let Some(before) = &mut self.before
+        if let Some(before) = self.before.last_mut()
             && before.dirty.is_none()
         {
             let mut dirty = Marks::default();
@@ -73,7 +75,7 @@ impl<G: Moving> Behind<G> {
 
     /// All slots may have changed, and none is listed unless rounds may be taken back.
     fn forget_list(&mut self) {
-        if self.before.as_ref().is_none_or(|before| before.dirty.is_some()) {
+        if self.before.last().is_none_or(|before| before.dirty.is_some()) {
             self.dirty.clear();
         }
         self.are_all = true;
@@ -111,7 +113,7 @@ impl<G: Moving> Views<G> {
             Some(cells) => cells,
             None => memory::boxed(Cells::default())?,
         };
-        if behind.before.as_ref().is_some_and(|before| before.existed)
+        if behind.before.last().is_some_and(|before| before.existed)
             && let Err(error) = cells.keep_journal()
         {
             behind.cells = Some(cells);
@@ -196,13 +198,17 @@ impl<G: Moving> Views<G> {
         self.behind().forget_list();
     }
 
-    /// Rounds that may be taken back begin.
-    pub(in crate::motion) fn open_rounds(&mut self) -> Result<()> {
+    /// Rounds that may be taken back by themselves begin.
+    pub(in crate::motion) fn set_savepoint(&mut self) -> Result<()> {
         let (existed, were_current) = (self.exist(), self.current.get().is_some());
-        let behind = self.behind();
-        let n_dirty = behind.dirty.as_slice().len();
-        let before = ArraysBefore { existed, were_current, were_all: behind.are_all, n_dirty, dirty: None };
-        behind.before = Some(memory::boxed(before)?);
+        let Views { current, behind, .. } = self;
+        let behind = behind.get_mut().unwrap_or_else(PoisonError::into_inner);
+        memory::reserve(&mut behind.before, 1)?;
+        let cells = current.get_mut().or(behind.cells.as_mut());
+        let journal = cells.map_or(Ok(None), |cells| cells.set_journal_aside())?;
+        let (were_all, n_dirty) = (behind.are_all, behind.dirty.as_slice().len());
+        let before = ArraysBefore { existed, were_current, were_all, n_dirty, dirty: None, journal };
+        behind.before.push(before);
         Ok(())
     }
 
@@ -212,7 +218,7 @@ impl<G: Moving> Views<G> {
             cells.end_journal();
         }
         let behind = self.behind();
-        behind.before = None;
+        behind.before = Vec::new();
         if behind.are_all {
             behind.dirty.clear();
         }
@@ -221,12 +227,23 @@ impl<G: Moving> Views<G> {
         }
     }
 
-    /// All rounds have been taken back: puts the arrays back to what they were. Needs no memory.
-    pub(in crate::motion) fn withdraw_rounds(&mut self) {
+    /// Rounds have been taken back: puts the arrays back to what they were when so many savepoints had been set.
+    /// Needs no memory.
+    pub(in crate::motion) fn withdraw_to_savepoint(&mut self, n_before: usize) {
+        while self.behind().before.len() > n_before {
+            self.withdraw_last();
+        }
+        if n_before == 0 {
+            self.behind().before = Vec::new();
+        }
+    }
+
+    /// Puts the arrays back to what they were at the last savepoint, and forgets that.
+    fn withdraw_last(&mut self) {
         self.fall_behind();
         let behind = self.behind();
-        let Some(before) = behind.before.take() else { return };
-        let ArraysBefore { existed, were_current, were_all, n_dirty, dirty } = *before;
+        let Some(before) = behind.before.pop() else { return };
+        let ArraysBefore { existed, were_current, were_all, n_dirty, dirty, journal } = before;
         match dirty {
             // Without entries nothing but its memory differs.
             Some(_) if n_dirty == 0 => behind.dirty.clear(),
@@ -238,7 +255,7 @@ impl<G: Moving> Views<G> {
             behind.cells = None;
         }
         let Some(mut cells) = behind.cells.take() else { return };
-        cells.undo_journal();
+        cells.undo_journal(journal);
         if were_current {
             self.current = OnceLock::from(cells);
         } else {
@@ -322,7 +339,13 @@ impl<G: Moving> Views<G> {
     pub(in crate::motion) fn memory_bytes(&self) -> usize {
         let behind = self.lock();
         let kept = self.current.get().or(behind.cells.as_ref());
+        let of_savepoint = |before: &ArraysBefore<G>| {
+            before.dirty.as_ref().map_or(0, Marks::memory_bytes)
+                + memory::bytes_of_made(&before.journal, CellJournal::memory_bytes)
+        };
         behind.dirty.memory_bytes()
+            + memory::bytes_of(&behind.before)
+            + behind.before.iter().map(of_savepoint).sum::<usize>()
             + kept.map_or(0, |cells| cells.memory_bytes() + size_of::<Cells<G>>())
             + self.visibilities.memory_bytes()
     }

@@ -9,7 +9,7 @@ use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::{MAX_VERTICES, MovingTriangulation, Options, Reader, Saved, check_position};
 use crate::periodic::images::{Image, Images};
-use crate::periodic::inside::Inside;
+use crate::periodic::inside::{Inside, InsideBefore};
 use crate::periodic::lattice::{HOME, Lattice, Occupied};
 use crate::periodic::saving::SavedPeriodic;
 use crate::periodic::saving::header::{PeriodicHeader, SIZE};
@@ -258,7 +258,8 @@ fn placed<G: Dimension>(
     }
     let spacing = spacing(lattice, &home);
     t.begin_changes()?;
-    Ok(Inside { t, n_built: images.n_present(), images, places, goals: Vec::new(), occupied, spacing })
+    let (goals, since) = (Vec::new(), InsideBefore::default());
+    Ok(Inside { t, n_built: images.n_present(), images, places, goals, occupied, spacing, since })
 }
 
 /// Checks by which translations vertices have come home.

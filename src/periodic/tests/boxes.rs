@@ -167,6 +167,13 @@ fn cells_that_change_are_marked() {
     assert!(t.voronoi_changed(&[]).unwrap().iter().all(|&mark| mark == 1), "ids are others");
     t.take_changes().unwrap();
     assert!(t.voronoi_changed(&[]).unwrap().iter().all(|&mark| mark == 0), "nothing has happened");
+    t.stage_removals(&[VertexId::new(17)]).unwrap();
+    t.prepare_timestamp().unwrap();
+    assert!(t.voronoi_changed(&[]).unwrap().iter().all(|&mark| mark == 1), "a timestamp is prepared");
+    t.withdraw_timestamp();
+    assert!(t.voronoi_changed(&[]).unwrap().iter().all(|&mark| mark == 0), "nothing has happened");
+    t.remove_vertex(VertexId::new(398)).unwrap();
+    assert!(t.voronoi_changed(&[]).unwrap().iter().all(|&mark| mark == 1), "one has been removed at once");
     let refused = t.voronoi_changed(&[VertexId::new(399)]);
     assert!(matches!(refused, Err(Error::NoSuchVertex { index: 0, .. })), "{refused:?}");
 }

@@ -5,7 +5,7 @@ use super::*;
 use crate::damage::{Damage, LoadError};
 use crate::motion::Saved;
 use crate::periodic::images::{Image, Images};
-use crate::periodic::inside::Inside;
+use crate::periodic::inside::{Inside, InsideBefore};
 use crate::periodic::lattice::{HOME, Lattice, Occupied};
 use crate::periodic::needed::keys_of;
 
@@ -312,7 +312,8 @@ fn with_images(shifts: &[[i32; 2]]) -> PeriodicTriangulation<Plane> {
     let keys = keys_of(images.as_slice()).unwrap();
     let inside = MovingTriangulation::with_keys(&places, &keys, Options::default()).unwrap();
     let (spacing, n_built) = (t.inside.spacing, 1);
-    t.inside = Inside { t: inside, images, n_built, places, goals: Vec::new(), occupied, spacing };
+    let (goals, since) = (Vec::new(), InsideBefore::default());
+    t.inside = Inside { t: inside, images, n_built, places, goals, occupied, spacing, since };
     t
 }
 

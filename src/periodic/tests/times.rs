@@ -125,3 +125,61 @@ fn of_edits() {
     go::<Plane>(100_000, &[[1.0, 0.0], [0.0, 1.0]]);
     go::<Space>(100_000, &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
 }
+
+/// What a round costs that is published, and one that is withdrawn, beside a commit of the same moves: by the median
+/// of each.
+#[test]
+#[ignore = "prints times"]
+fn of_rounds() {
+    fn go<G: Dimension>(n: usize, n_moved: usize, basis: &[G::Point]) {
+        let rng = &mut Rng::new(1);
+        let mut points = random_points::<G>(rng, n, basis);
+        let mut boxes =
+            [0; 3].map(|_| PeriodicTriangulation::<G>::new(&points, basis, Options::default()).unwrap());
+        let spacing = (n as f64).powf(-1.0 / G::D as f64);
+        let mut times = [0; 3].map(|_| Vec::new());
+        for step in 0..60 {
+            let first = rng.below(n - n_moved + 1);
+            let moved = first..first + n_moved;
+            for p in &mut points[moved.clone()] {
+                (0..G::D)
+                    .for_each(|axis| p[axis] += 1e-3 * spacing * (rng.below(2001) as f64 / 1000.0 - 1.0));
+            }
+            for ((t, times), ending) in boxes.iter_mut().zip(&mut times).zip(0..) {
+                let vertices: Vec<VertexId> = VertexId::range(moved.clone()).collect();
+                t.move_vertices(&vertices, &points[moved.clone()]).unwrap();
+                let start = Instant::now();
+                match ending {
+                    0 => _ = t.commit_timestamp().unwrap(),
+                    1 => {
+                        t.prepare_timestamp().unwrap();
+                        t.publish_timestamp().unwrap();
+                    }
+                    _ => {
+                        t.prepare_timestamp().unwrap();
+                        t.withdraw_timestamp();
+                    }
+                }
+                if step >= 20 {
+                    times.push(1e3 * start.elapsed().as_secs_f64());
+                }
+            }
+        }
+        let [commit, published, withdrawn] = times.map(|mut times| {
+            times.sort_by(f64::total_cmp);
+            times[times.len() / 2]
+        });
+        println!(
+            "{}D, {n_moved} of {n}: commit {commit:.3} ms, published {:.2} times, withdrawn {:.2} times",
+            G::D,
+            published / commit,
+            withdrawn / commit
+        );
+    }
+    for n in [10_000, 100_000] {
+        for n_moved in [1, 100, n] {
+            go::<Plane>(n, n_moved, &[[1.0, 0.0], [0.0, 1.0]]);
+            go::<Space>(n, n_moved, &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+        }
+    }
+}

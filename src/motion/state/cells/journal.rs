@@ -64,7 +64,7 @@ impl<G: Moving> Default for CellJournal<G> {
 }
 
 impl<G: Moving> CellJournal<G> {
-    pub(super) fn memory_bytes(&self) -> usize {
+    pub(in crate::motion) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.refreshed)
             + memory::bytes_of(&self.rows)
             + memory::bytes_of(&self.sides)
@@ -77,6 +77,15 @@ impl<G: Moving> Cells<G> {
     /// From now on what brings the arrays up to date can be undone.
     pub(in crate::motion) fn keep_journal(&mut self) -> Result<()> {
         memory::made(&mut self.journal).map(drop)
+    }
+
+    /// Begins another journal if there is one, and returns the one so far.
+    pub(in crate::motion) fn set_journal_aside(&mut self) -> Result<Option<Box<CellJournal<G>>>> {
+        if self.journal.is_none() {
+            Ok(None)
+        } else {
+            Ok(self.journal.replace(memory::boxed(CellJournal::default())?))
+        }
     }
 
     /// Nothing is undone any more.
@@ -179,16 +188,19 @@ impl<G: Moving> Cells<G> {
         }
     }
 
-    /// Puts the arrays back to what they were when the journal was begun, and ends it. Needs no memory.
-    pub(in crate::motion) fn undo_journal(&mut self) {
-        let Some(mut journal) = self.journal.take() else { return };
-        if let Some(whole) = journal.whole.take() {
-            let scratch = std::mem::take(&mut self.scratch);
-            *self = Cells { scratch, ..*whole };
+    /// Puts the arrays back to what they were when the journal was begun, and goes on with the one before, if there
+    /// is one. Needs no memory.
+    pub(in crate::motion) fn undo_journal(&mut self, before: Option<Box<CellJournal<G>>>) {
+        if let Some(mut journal) = self.journal.take() {
+            if let Some(whole) = journal.whole.take() {
+                let scratch = std::mem::take(&mut self.scratch);
+                *self = Cells { scratch, ..*whole };
+            }
+            while let Some(refreshed) = journal.refreshed.pop() {
+                self.undo_refreshed(&mut journal, &refreshed);
+            }
         }
-        while let Some(refreshed) = journal.refreshed.pop() {
-            self.undo_refreshed(&mut journal, &refreshed);
-        }
+        self.journal = before;
     }
 
     /// Puts the arrays back to what they were before they were brought up to date last.

@@ -20,7 +20,7 @@ use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::motion::state::hidden::Hidden;
 use crate::motion::state::mesh::Mesh;
-use crate::motion::state::rounds::{Round, Settled};
+use crate::motion::state::rounds::Round;
 use crate::motion::state::segments::Aim;
 use crate::motion::state::transaction::{Counts, Event, VertexBefore};
 
@@ -55,7 +55,7 @@ impl<G: Moving> Mesh<G> {
     fn make_room_for_round(&mut self) -> Result<()> {
         self.set_round_aside()?;
         let Some(rounds) = &mut self.rounds else { return Ok(()) };
-        rounds.last = Settled::default();
+        rounds.last = Round::default();
         if let Some(segments) = &self.segments {
             rounds.last.segments = Some(segments.before_settling()?);
         }
@@ -66,17 +66,15 @@ impl<G: Moving> Mesh<G> {
     fn set_round_aside(&mut self) -> Result<()> {
         let Some(rounds) = self.rounds.as_mut().filter(|rounds| rounds.has_last) else { return Ok(()) };
         memory::reserve(&mut rounds.earlier, 1)?;
-        let has_former = rounds.last.former.is_some();
         let transaction = self.transaction.set_aside()?;
         // From here on nothing fails.
-        let kernel = (!has_former).then(|| self.kernel.set_change_aside());
-        let segments = self.segments.as_mut().map(|segments| segments.set_aside());
-        rounds.earlier.push(Round {
-            settled: std::mem::take(&mut rounds.last),
-            kernel,
-            transaction,
-            segments,
-        });
+        let mut round = std::mem::take(&mut rounds.last);
+        round.transaction = Some(transaction);
+        round.kernel = round.former.is_none().then(|| self.kernel.set_change_aside());
+        if let (Some(segments), Some(before)) = (&mut self.segments, &mut round.segments) {
+            segments.set_aside(before);
+        }
+        rounds.earlier.push(round);
         rounds.has_last = false;
         Ok(())
     }

@@ -2,11 +2,11 @@
 
 use crate::delaunay::{Delaunay, Keys, Moving};
 use crate::error::Result;
-use crate::ids::VertexId;
+use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::motion::state::hidden::Hidden;
 use crate::motion::state::mesh::{Mesh, REPLACED_TO_SORT_FIRST};
-use crate::motion::state::rounds::{Former, Published, Rounds, Settled};
+use crate::motion::state::rounds::{Former, Round, Rounds, Savepoint};
 
 impl<G: Moving> Mesh<G> {
     /// How many rounds have been made.
@@ -14,12 +14,15 @@ impl<G: Moving> Mesh<G> {
         self.rounds.as_ref().map_or(0, |rounds| rounds.count())
     }
 
-    /// From now on changes are rounds.
-    pub(in crate::motion) fn open_rounds(&mut self, before: Published) -> Result<()> {
-        let rounds = memory::boxed(Rounds::new(before))?;
-        self.views.open_rounds()?;
-        self.rounds = Some(rounds);
-        Ok(())
+    /// From now on changes are rounds, and those from here on can be [withdrawn](Self::withdraw_rounds) by themselves.
+    pub(in crate::motion) fn set_savepoint(&mut self, savepoint: Savepoint) -> Result<()> {
+        let mut rounds = self.rounds.take().map_or_else(|| memory::boxed(Rounds::default()), Ok)?;
+        let done = memory::reserve(&mut rounds.savepoints, 1).and_then(|()| self.views.set_savepoint());
+        if done.is_ok() {
+            rounds.savepoints.push(savepoint);
+        }
+        self.rounds = Some(rounds).filter(|rounds| !rounds.savepoints.is_empty());
+        done
     }
 
     /// Ends the rounds if none has been made.
@@ -111,45 +114,48 @@ impl<G: Moving> Mesh<G> {
         }
     }
 
-    /// Takes all rounds back. Needs no memory.
-    pub(in crate::motion) fn withdraw_rounds(&mut self) -> Option<Published> {
-        let rounds = *self.rounds.take()?;
-        if rounds.has_last {
-            self.unsettle(rounds.last);
-            self.undo();
+    /// Takes the rounds since the last savepoint back, or all of them, and forgets the savepoint, which it returns.
+    /// Needs no memory.
+    pub(in crate::motion) fn withdraw_rounds(&mut self, are_all: bool) -> Option<Savepoint> {
+        let mut rounds = self.rounds.take()?;
+        if are_all {
+            rounds.savepoints.truncate(1);
         }
-        for round in rounds.earlier.into_iter().rev() {
-            let origins = self.transaction.take_up(round.transaction);
-            if let Some(kept) = round.kernel {
-                self.kernel.take_change_up(kept);
-            }
-            if let (Some(segments), Some(kept)) = (&mut self.segments, round.segments) {
-                segments.take_up(kept);
-            }
-            self.unsettle(round.settled);
-            self.undo();
-            origins.put_back(&mut self.kernel, &self.site_of);
+        let savepoint = rounds.savepoints.pop()?;
+        while rounds.count() > savepoint.n_rounds {
+            let is_open = std::mem::take(&mut rounds.has_last);
+            let round = if is_open { Some(std::mem::take(&mut rounds.last)) } else { rounds.earlier.pop() };
+            self.withdraw(round.unwrap_or_default());
         }
-        self.views.withdraw_rounds();
-        if let Some(segments) = &mut self.segments {
+        self.views.withdraw_to_savepoint(rounds.savepoints.len());
+        if let Some(segments) = self.segments.as_mut().filter(|_| !rounds.has_last) {
             segments.end_rounds();
         }
-        if !rounds.before.has_segments {
+        if !savepoint.has_segments {
             self.segments = None;
         }
-        self.site_of.truncate(rounds.before.n_ids);
-        if rounds.before.has_keys {
-            self.kernel.keys_mut().truncate(rounds.before.n_ids);
+        self.site_of.truncate(savepoint.n_ids);
+        if savepoint.has_keys {
+            self.kernel.keys_mut().truncate(savepoint.n_ids);
         } else {
             *self.kernel.keys_mut() = Keys::default();
         }
         self.n_changes += 1;
-        Some(rounds.before)
+        if !rounds.savepoints.is_empty() {
+            rounds.removed.retain(|v| self.site_of.get(v.index()) == Some(&SiteId::NONE));
+            self.rounds = Some(rounds);
+        }
+        Some(savepoint)
     }
 
-    /// Brings what a round has left to where [`undo`](Self::undo) begins.
-    fn unsettle(&mut self, settled: Settled<G>) {
-        if let Some(former) = settled.former {
+    /// Takes a round back that no other one follows.
+    fn withdraw(&mut self, round: Round<G>) {
+        let Round { former, segments: before, kernel, transaction } = round;
+        let origins = transaction.map(|transaction| self.transaction.take_up(transaction));
+        if let Some(kernel) = kernel {
+            self.kernel.take_change_up(kernel);
+        }
+        if let Some(former) = former {
             let Former { mut kernel, hidden, site_of, sorted_stride } = *former;
             *kernel.pace_mut() = std::mem::take(self.kernel.pace_mut());
             self.kernel.give_scratch_to(&mut kernel);
@@ -158,8 +164,15 @@ impl<G: Moving> Mesh<G> {
             self.site_of = site_of;
             self.transaction.reject();
         }
-        if let (Some(segments), Some(before)) = (&mut self.segments, settled.segments) {
+        if let (Some(segments), Some(mut before)) = (&mut self.segments, before) {
+            if origins.is_some() {
+                segments.take_up(&mut before);
+            }
             segments.unsettle(before);
+        }
+        self.undo();
+        if let Some(origins) = origins {
+            origins.put_back(&mut self.kernel, &self.site_of);
         }
     }
 }

@@ -6,37 +6,39 @@ use crate::error::Result;
 use crate::ids::{SegmentId, SiteId};
 use crate::machine::memory;
 
-/// What is known of segments beside [`Segments::set_aside`] to take back a change that has been settled.
+/// What is to be known of segments to take back a change that has been settled.
 #[derive(Debug, Default)]
-pub(in crate::motion) struct SegmentsBefore {
+pub(in crate::motion) struct SegmentsBefore<G: Moving> {
     /// Whether nothing was relaxed.
     is_of_rest: bool,
     n_enforced: usize,
     /// The segments that the change has removed.
     removed: Vec<(SegmentId, Segment)>,
+    /// The cells that segments had taken the place of, once they have been [set aside](Segments::set_aside).
+    replaced: Replaced<G>,
+    /// The edges that a former kernel had to have, likewise.
+    required: Option<Vec<[SiteId; 2]>>,
 }
 
-impl SegmentsBefore {
+impl<G: Moving> SegmentsBefore<G> {
     pub(in crate::motion) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.removed)
+            + self.replaced.memory_bytes()
+            + self.required.as_ref().map_or(0, memory::bytes_of)
     }
 }
-
-/// The cells that segments had taken the place of before a change, and the edges that a kernel had to have, while it has
-/// others.
-pub(in crate::motion) type KeptSegments<G> = (Replaced<G>, Option<Vec<[SiteId; 2]>>);
 
 impl<G: Moving> Segments<G> {
     /// What is to be known, before a change, to take it back once it has been [settled](Self::settle).
-    pub(in crate::motion) fn before_settling(&self) -> Result<SegmentsBefore> {
+    pub(in crate::motion) fn before_settling(&self) -> Result<SegmentsBefore<G>> {
         let mut removed = Vec::new();
         let leaving = self.leaving.iter().filter_map(|&id| Some((id, self.get(id)?)));
         memory::collect(&mut removed, leaving)?;
-        Ok(SegmentsBefore { is_of_rest: false, n_enforced: self.n_enforced, removed })
+        Ok(SegmentsBefore { n_enforced: self.n_enforced, removed, ..SegmentsBefore::default() })
     }
 
     /// The change stays, and so does what was before it.
-    pub(in crate::motion) fn settle(&mut self, before: &mut SegmentsBefore) {
+    pub(in crate::motion) fn settle(&mut self, before: &mut SegmentsBefore<G>) {
         before.is_of_rest = self.aim == Aim::Rest;
         if !before.is_of_rest {
             std::mem::swap(&mut self.replaced, &mut self.next);
@@ -45,17 +47,17 @@ impl<G: Moving> Segments<G> {
     }
 
     /// Takes what was before a change that has been settled out of the way of the next one.
-    pub(in crate::motion) fn set_aside(&mut self) -> KeptSegments<G> {
-        (std::mem::take(&mut self.next), self.before.take())
+    pub(in crate::motion) fn set_aside(&mut self, before: &mut SegmentsBefore<G>) {
+        (before.replaced, before.required) = (std::mem::take(&mut self.next), self.before.take());
     }
 
     /// Takes up what was [set aside](Self::set_aside).
-    pub(in crate::motion) fn take_up(&mut self, kept: KeptSegments<G>) {
-        (self.next, self.before) = kept;
+    pub(in crate::motion) fn take_up(&mut self, before: &mut SegmentsBefore<G>) {
+        (self.next, self.before) = (std::mem::take(&mut before.replaced), before.required.take());
     }
 
     /// A change that has been settled is going to be [undone](Self::undo).
-    pub(in crate::motion) fn unsettle(&mut self, before: SegmentsBefore) {
+    pub(in crate::motion) fn unsettle(&mut self, before: SegmentsBefore<G>) {
         if !before.is_of_rest {
             std::mem::swap(&mut self.replaced, &mut self.next);
         }
