@@ -19,8 +19,6 @@
 //!
 //! Cost: a walk of few steps for each site that was loosened; 16 bytes a site and 4 a cell, where there are weights.
 
-use super::cavity::Cavity;
-use super::geometry::Insert;
 use super::{Delaunay, Geometry};
 use crate::complex::Row;
 use crate::error::Result;
@@ -61,6 +59,22 @@ impl Default for Above {
 }
 
 impl Above {
+    /// How many sites are hidden.
+    pub(super) fn count(&self) -> usize {
+        self.n
+    }
+
+    /// The first site that is loose, [`SiteId::NONE`] if none is.
+    pub(super) fn first_loose(&self) -> SiteId {
+        self.loose
+    }
+
+    /// Where a site is listed: the cell below it, or what was, and whether it is loose.
+    pub(super) fn link(&self, s: SiteId) -> (Slot, bool) {
+        let link = self.links[s.index()];
+        (link.cell, link.is_loose)
+    }
+
     pub(super) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.links) + memory::bytes_of(&self.first) + memory::bytes_of(&self.swallowed)
     }
@@ -87,7 +101,7 @@ impl Above {
     }
 
     /// Enters a site into the list of a cell; none of those that are loose.
-    fn enter(&mut self, s: SiteId, cell: Option<Slot>) {
+    pub(super) fn enter(&mut self, s: SiteId, cell: Option<Slot>) {
         let Above { links, first, loose, n, .. } = self;
         let head = cell.map_or(loose, |cell| &mut first[cell.index()]);
         let next = std::mem::replace(head, s);
@@ -101,7 +115,7 @@ impl Above {
     }
 
     /// Takes a site out of the list that it is in.
-    fn take_out(&mut self, s: SiteId) {
+    pub(super) fn take_out(&mut self, s: SiteId) {
         let Link { cell, next, previous, is_loose } = self.links[s.index()];
         if next != SiteId::NONE {
             self.links[next.index()].previous = previous;
@@ -200,12 +214,6 @@ impl<G: Geometry> Delaunay<G> {
         if G::HAS_WEIGHTS { self.above.n } else { 0 }
     }
 
-    /// The cell below a hidden site.
-    pub fn cell_below(&self, s: SiteId) -> Slot {
-        let link = self.above.links[s.index()];
-        if link.is_loose { self.cell_over(s) } else { link.cell }
-    }
-
     /// Whether a site is in the list of the cell below it, or of those that an undone change has left loose.
     pub(super) fn is_listed(&self, s: SiteId) -> bool {
         let link = self.above.links[s.index()];
@@ -250,20 +258,6 @@ impl<G: Geometry> Delaunay<G> {
             self.above.links[s.index()].cell = cell;
             self.above.enter(s, None);
         }
-    }
-
-    /// Loosens the sites above the cells around a site, which has moved and leaves them as they are.
-    pub(crate) fn loosen_around(&mut self, s: SiteId) -> Result<()> {
-        if !G::HAS_WEIGHTS || self.above.n == 0 {
-            return Ok(());
-        }
-        if self.is_hidden(s) {
-            self.loosen_site(s);
-            return Ok(());
-        }
-        self.gather_star(s)?;
-        self.loosen_star();
-        Ok(())
     }
 
     /// Loosens the sites above the cells of the gathered star.
@@ -321,68 +315,6 @@ impl<G: Geometry> Delaunay<G> {
         }
     }
 
-    /// Finds the cell at the place of each loose site, and inserts the sites that are below it, which `shown` is told. After an error those
-    /// that are left are loose still.
-    pub fn settle(&mut self, mut shown: impl FnMut(SiteId) -> Result<()>) -> Result<()> {
-        if !G::HAS_WEIGHTS || !self.has_cells() {
-            return Ok(());
-        }
-        while self.above.loose != SiteId::NONE {
-            self.go_on()?;
-            self.make_room_to_hide()?;
-            let s = self.above.loose;
-            let cell = self.cell_over(s);
-            if self.is_above(s, cell) {
-                self.above.take_out(s);
-                self.above.enter(s, Some(cell));
-                continue;
-            }
-            let mut cavity = std::mem::take(&mut self.cavity);
-            let inserted = self.insert_from(&mut cavity, cell, s);
-            self.cavity = cavity;
-            inserted?;
-            shown(s)?;
-        }
-        Ok(())
-    }
-
-    /// Finds the cell below each site that an undone change has left loose: all of them are hidden. There is
-    /// [room](Self::make_room_to_hide).
-    pub(super) fn settle_undone(&mut self) {
-        while self.has_cells() && self.has_loose() {
-            let s = self.above.loose;
-            let cell = self.cell_over(s);
-            debug_assert!(self.is_above(s, cell));
-            self.above.take_out(s);
-            self.above.enter(s, Some(cell));
-        }
-    }
-
-    /// The cell that has the place of a loose site.
-    fn cell_over(&self, s: SiteId) -> Slot {
-        let hint = self.above.links[s.index()].cell;
-        let near = if self.complex.is_live(hint) { hint } else { self.recent };
-        self.walk(&self.filter, &self.site(s).point, near, &mut 0)
-    }
-
-    /// Whether a site is above the cell that has its place.
-    fn is_above(&self, s: SiteId, cell: Slot) -> bool {
-        let site = self.site(s);
-        !self.complex.cell(cell).is_ghost() && !self.is_in_conflict(cell, &site.point, site.id)
-    }
-
-    /// Inserts a loose site, of whose zone this is a cell.
-    fn insert_from(&mut self, cavity: &mut Cavity<G>, cell: Slot, s: SiteId) -> Result<()> {
-        let made = cavity.scratch.insert::<false>(self, cell, s)?;
-        self.above.take_out(s);
-        self.recent = made;
-        self.sites[s].cell = made;
-        self.record(cavity.scratch.made());
-        self.pace.count(cavity.scratch.made().len());
-        self.list_swallowed();
-        Ok(())
-    }
-
     /// Follows a change of the slots of cells, which leaves as many or fewer: those of what is there are listed by the old ones.
     pub(super) fn renumber_cells_below(&mut self, index: &[Slot]) -> Result<()> {
         if !G::HAS_WEIGHTS || self.above.n == 0 {
@@ -421,6 +353,3 @@ impl<G: Geometry> Delaunay<G> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

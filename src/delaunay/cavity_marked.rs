@@ -18,7 +18,7 @@ const IN_ZONE: u8 = 1;
 
 /// An edge of the rim, which is counter-clockwise, and the new cell there.
 #[derive(Clone, Copy, Debug)]
-struct Rim {
+struct RimEdge {
     start: SiteId,
     end: SiteId,
     /// The edge seen from outside the zone.
@@ -30,7 +30,7 @@ struct Rim {
 #[derive(Debug, Default)]
 pub struct Scratch {
     zone: Vec<Slot>,
-    rim: Vec<Rim>,
+    rim: Vec<RimEdge>,
     n_ghosts: usize,
 }
 
@@ -94,7 +94,7 @@ impl Scratch {
                     t.complex.set_mark(out.cell(), IN_ZONE);
                 } else {
                     let [start, end] = [cell.corners[(i + 1) % 3], cell.corners[(i + 2) % 3]];
-                    memory::push(&mut self.rim, Rim { start, end, out, cell: Slot::NONE })?;
+                    memory::push(&mut self.rim, RimEdge { start, end, out, cell: Slot::NONE })?;
                 }
             }
         }
@@ -127,8 +127,8 @@ impl Scratch {
     /// Joins each edge of the rim to the site.
     fn fill(&self, t: &mut Delaunay<PowerPlane>, s: SiteId) {
         // The facet of the new cell at an edge that is opposite the edge's start, or its end. The ghost vertex comes last.
-        let opposite_start = |row: &Rim| Facet::new(row.cell, if row.start == INFINITE { 2 } else { 1 });
-        let opposite_end = |row: &Rim| Facet::new(row.cell, if row.start == INFINITE { 0 } else { 2 });
+        let opposite_start = |row: &RimEdge| Facet::new(row.cell, if row.start == INFINITE { 2 } else { 1 });
+        let opposite_end = |row: &RimEdge| Facet::new(row.cell, if row.start == INFINITE { 0 } else { 2 });
         for (k, row) in self.rim.iter().enumerate() {
             // For now, where the edge is listed: no slot.
             t.corner_mut(row.start).cell = Slot::at(k);

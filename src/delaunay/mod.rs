@@ -16,7 +16,7 @@
 //! | `locate`, `straight`, `landmarks` | the walk, and where it begins |
 //! | `around`, `star` | the cells around a site, for questions and for changes |
 //! | `cavity`, `cavity_plane`, `cavity_space`, `cavity_marked` | insertion: dig the conflict zone, fill it |
-//! | `above`, `cone` | sites that weights hide, with cells and without |
+//! | `above`, `settling`, `cone` | sites that weights hide, with cells and without |
 //! | `remove`, `hole`, `wrapping` | removal: fill the star by gift wrapping, in lanes where that is certain |
 //! | `high_degree` | removal of a vertex of high degree |
 //! | `relocate` | one site to a new place |
@@ -78,6 +78,7 @@ mod restoring;
 mod sample;
 mod segments;
 mod set;
+mod settling;
 mod shape;
 mod signs;
 pub mod site;

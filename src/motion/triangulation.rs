@@ -222,7 +222,6 @@ impl<G: Moving> MovingTriangulation<G> {
     ) -> Result<T> {
         self.mesh.begin(Aim::Other)?;
         let done = change(self).and_then(|done| {
-            self.settle_hidden(false, &mut CommitReport::default())?;
             self.mesh.enforce_segments()?;
             self.mesh.views.prepare(&self.mesh.kernel)?;
             Ok(done)
@@ -237,34 +236,6 @@ impl<G: Moving> MovingTriangulation<G> {
                 Err(error)
             }
         }
-    }
-
-    /// Shows those of the vertices that weights hide which are below the cells now; the regions that are kept follow. All of them are
-    /// looked at if others `have_moved` than have been placed alone.
-    pub(in crate::motion) fn settle_hidden(
-        &mut self,
-        have_moved: bool,
-        report: &mut CommitReport,
-    ) -> Result<()> {
-        // A new kernel has been built with all of them.
-        if !G::HAS_WEIGHTS || self.mesh.transaction.has_rebuilt() {
-            return Ok(());
-        }
-        if have_moved {
-            self.mesh.kernel.loosen_all();
-        }
-        if self.mesh.kernel.has_loose() {
-            self.with_regions(report, |t, _| {
-                let Self { mesh, regions, .. } = t;
-                let mut shown = Vec::new();
-                mesh.kernel.settle(|s| memory::push(&mut shown, s))?;
-                shown.iter().try_for_each(|&s| regions.note_relocated(mesh.kernel.site(s).id))
-            })?;
-        }
-        if self.mesh.kernel.spans_without_cells() {
-            self.rebuild_as_is(report)?;
-        }
-        Ok(())
     }
 
     /// Puts all back as it was when a change began. Needs no memory.

@@ -5,7 +5,7 @@
 
 use std::fmt::Debug;
 
-use super::located::{Located, Seen};
+use super::located::{Located, SeenPoint};
 use super::points::{PlanePoint, SpacePoint};
 use super::sphere::{circle_seen, side_of_circle_seen, side_of_sphere_seen, sphere_seen};
 use super::vectors::{cross, dot, minor};
@@ -157,7 +157,7 @@ pub(crate) fn bicells_hold_for_their_size3d<P: SpacePoint, T: Real>(bicells: &[P
 #[inline(always)]
 fn seen_from_first<P: Located<D>, T: Real, const D: usize, const M: usize, const N: usize>(
     points: &[P::Of<T>; M],
-) -> [Seen<T, D>; N] {
+) -> [SeenPoint<T, D>; N] {
     const { assert!(N + 1 == M) };
     let mut seen = [P::seen(&points[1], &points[0]); N];
     for k in 1..N {
@@ -210,14 +210,14 @@ struct Certificates<T> {
 
 impl<T: Real> Certificates<T> {
     #[inline(always)]
-    fn in_plane([b, c, d]: &[Seen<T, 2>; 3]) -> Self {
+    fn in_plane([b, c, d]: &[SeenPoint<T, 2>; 3]) -> Self {
         let circle = circle_seen(b, c);
         let beyond = minor(&d.difference, &b.difference);
         Certificates { volume: circle[2], beyond, side: side_of_circle_seen(&circle, d) }
     }
 
     #[inline(always)]
-    fn in_space([b, c, d, e]: &[Seen<T, 3>; 4]) -> Self {
+    fn in_space([b, c, d, e]: &[SeenPoint<T, 3>; 4]) -> Self {
         let sphere = sphere_seen(b, c, d);
         let beyond = sphere[3].splat(0.0) - dot(&e.difference, &cross(&b.difference, &c.difference));
         Certificates { volume: sphere[3], beyond, side: side_of_sphere_seen(&sphere, e) }

@@ -1,7 +1,7 @@
 //! What a point brings to the signs that decide: its place, and how high it is lifted.
 //!
 //! Circles and spheres are tested by differences from a corner, and by the *lifts* of these: their squares, less what the weight of
-//! the point is more than that of the corner. The tests are written over [`Seen`], and so once for points with weights and without.
+//! the point is more than that of the corner. The tests are written over [`SeenPoint`], and so once for points with weights and without.
 
 use super::coordinates::Coordinates;
 use super::vectors::{dot, minus};
@@ -10,19 +10,19 @@ use crate::simd::{LANES, Real, Simd};
 
 /// A point as it is seen from another one.
 #[derive(Clone, Copy, Debug)]
-pub struct Seen<T, const D: usize> {
+pub struct SeenPoint<T, const D: usize> {
     /// To it from the other one.
     pub difference: [T; D],
     /// The square of that, less what its weight is more than that of the other one.
     pub lift: T,
 }
 
-impl<T: Real, const D: usize> Seen<T, D> {
+impl<T: Real, const D: usize> SeenPoint<T, D> {
     /// The point `p`, seen from `a`, without weights.
     #[inline(always)]
     pub(super) fn from(p: &[T; D], a: &[T; D]) -> Self {
         let difference = minus(p, a);
-        Seen { difference, lift: dot(&difference, &difference) }
+        SeenPoint { difference, lift: dot(&difference, &difference) }
     }
 }
 
@@ -40,7 +40,7 @@ pub trait Located<const D: usize>: Coordinates {
     /// Itself, as one of numbers.
     fn alone(&self) -> &Self::Of<f64>;
     /// The point `p`, seen from `a`.
-    fn seen<T: Real>(p: &Self::Of<T>, a: &Self::Of<T>) -> Seen<T, D>;
+    fn seen<T: Real>(p: &Self::Of<T>, a: &Self::Of<T>) -> SeenPoint<T, D>;
     /// The magnitude of the difference of two weights.
     fn weight_apart<T: Real>(p: &Self::Of<T>, a: &Self::Of<T>) -> T;
     /// Several points, in lanes.
@@ -72,8 +72,8 @@ where
     }
 
     #[inline(always)]
-    fn seen<T: Real>(p: &[T; D], a: &[T; D]) -> Seen<T, D> {
-        Seen::from(p, a)
+    fn seen<T: Real>(p: &[T; D], a: &[T; D]) -> SeenPoint<T, D> {
+        SeenPoint::from(p, a)
     }
 
     #[inline(always)]
@@ -118,9 +118,9 @@ where
     }
 
     #[inline(always)]
-    fn seen<T: Real>(p: &WeightedPoint<D, T>, a: &WeightedPoint<D, T>) -> Seen<T, D> {
-        let Seen { difference, lift } = Seen::from(&p.place, &a.place);
-        Seen { difference, lift: lift - (p.weight - a.weight) }
+    fn seen<T: Real>(p: &WeightedPoint<D, T>, a: &WeightedPoint<D, T>) -> SeenPoint<T, D> {
+        let SeenPoint { difference, lift } = SeenPoint::from(&p.place, &a.place);
+        SeenPoint { difference, lift: lift - (p.weight - a.weight) }
     }
 
     #[inline(always)]

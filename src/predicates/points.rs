@@ -4,7 +4,7 @@ use super::bicells::{extents, greatest};
 use super::filter::{
     StaticFilter, power_bounds_2d, power_bounds_3d, semi_static_bounds_2d, semi_static_bounds_3d,
 };
-use super::located::{Located, Seen};
+use super::located::{Located, SeenPoint};
 use super::perturbation::{
     in_power_circle_perturbed, in_power_sphere_perturbed, incircle_perturbed, insphere_perturbed,
 };
@@ -192,14 +192,14 @@ pub struct Extents<T, const D: usize> {
 
 impl<T: Real, const D: usize> Extents<T, D> {
     #[inline(always)]
-    fn of<const N: usize>(others: [&Seen<T, D>; N], weights: [T; N]) -> Self {
+    fn of<const N: usize>(others: [&SeenPoint<T, D>; N], weights: [T; N]) -> Self {
         let of_place = extents(&others.map(|seen| seen.difference));
         Extents { of_place, of_weight: greatest(&weights) }
     }
 
     /// With one more point, which is seen from the first corner.
     #[inline(always)]
-    fn with(&self, other: &Seen<T, D>, weight: T) -> Self {
+    fn with(&self, other: &SeenPoint<T, D>, weight: T) -> Self {
         let mut more = *self;
         for axis in 0..D {
             more.of_place[axis] = other.difference[axis].abs().max(self.of_place[axis]);

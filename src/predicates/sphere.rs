@@ -31,7 +31,7 @@ use super::lengths::{
     HALF_SPACE_SCALE, LEAST_LENGTH, area_bound_by_length, prepared_bound_by_length_2d,
     prepared_bound_by_length_3d, volume_bound_by_length,
 };
-use super::located::Seen;
+use super::located::SeenPoint;
 use super::vectors::{cross, dot, minor, minus};
 use crate::simd::Real;
 
@@ -43,14 +43,14 @@ pub type Sphere<T = f64> = [T; 4];
 /// The circle of the triangle `abc`.
 #[inline(always)]
 pub fn circle<T: Real>(a: &[T; 2], b: &[T; 2], c: &[T; 2]) -> Circle<T> {
-    circle_seen(&Seen::from(b, a), &Seen::from(c, a))
+    circle_seen(&SeenPoint::from(b, a), &SeenPoint::from(c, a))
 }
 
 /// The circle, or the power circle, of a triangle, of which two corners are seen from the first one.
 #[inline(always)]
-pub fn circle_seen<T: Real>(b: &Seen<T, 2>, c: &Seen<T, 2>) -> Circle<T> {
-    let Seen { difference: u, lift: uu } = *b;
-    let Seen { difference: v, lift: vv } = *c;
+pub fn circle_seen<T: Real>(b: &SeenPoint<T, 2>, c: &SeenPoint<T, 2>) -> Circle<T> {
+    let SeenPoint { difference: u, lift: uu } = *b;
+    let SeenPoint { difference: v, lift: vv } = *c;
     [uu * v[1] - vv * u[1], vv * u[0] - uu * v[0], minor(&u, &v)]
 }
 
@@ -58,22 +58,22 @@ pub fn circle_seen<T: Real>(b: &Seen<T, 2>, c: &Seen<T, 2>) -> Circle<T> {
 /// magnitude is not above [`StaticFilter::prepared`]. (Two numbers, not one answer of three: a branch on it
 /// would be mispredicted.)
 #[inline(always)]
-pub fn side_of_circle_seen<T: Real>(&[x, y, volume]: &Circle<T>, q: &Seen<T, 2>) -> T {
+pub fn side_of_circle_seen<T: Real>(&[x, y, volume]: &Circle<T>, q: &SeenPoint<T, 2>) -> T {
     dot(&q.difference, &[x, y]) - q.lift * volume
 }
 
 /// The sphere of the tetrahedron `abcd`.
 #[inline(always)]
 pub fn sphere<T: Real>(a: &[T; 3], b: &[T; 3], c: &[T; 3], d: &[T; 3]) -> Sphere<T> {
-    sphere_seen(&Seen::from(b, a), &Seen::from(c, a), &Seen::from(d, a))
+    sphere_seen(&SeenPoint::from(b, a), &SeenPoint::from(c, a), &SeenPoint::from(d, a))
 }
 
 /// The sphere, or the power sphere, of a tetrahedron, of which three corners are seen from the first one.
 #[inline(always)]
-pub fn sphere_seen<T: Real>(b: &Seen<T, 3>, c: &Seen<T, 3>, d: &Seen<T, 3>) -> Sphere<T> {
-    let Seen { difference: u, lift: uu } = *b;
-    let Seen { difference: v, lift: vv } = *c;
-    let Seen { difference: w, lift: ww } = *d;
+pub fn sphere_seen<T: Real>(b: &SeenPoint<T, 3>, c: &SeenPoint<T, 3>, d: &SeenPoint<T, 3>) -> Sphere<T> {
+    let SeenPoint { difference: u, lift: uu } = *b;
+    let SeenPoint { difference: v, lift: vv } = *c;
+    let SeenPoint { difference: w, lift: ww } = *d;
     let (vw, uw, uv) = (cross(&v, &w), cross(&u, &w), cross(&u, &v));
     let n = |axis: usize| uu * vw[axis] - vv * uw[axis] + ww * uv[axis];
     [n(0), n(1), n(2), dot(&u, &vw)]
@@ -97,7 +97,7 @@ pub fn half_space_by_length(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) -> (Sphere
 
 /// Positive if a point, which is seen from the first corner of a sphere, is inside, negative if outside; open as of circles.
 #[inline(always)]
-pub fn side_of_sphere_seen<T: Real>(&[x, y, z, volume]: &Sphere<T>, q: &Seen<T, 3>) -> T {
+pub fn side_of_sphere_seen<T: Real>(&[x, y, z, volume]: &Sphere<T>, q: &SeenPoint<T, 3>) -> T {
     dot(&q.difference, &[x, y, z]) - q.lift * volume
 }
 

@@ -58,7 +58,8 @@ impl<G: Moving> MovingTriangulation<G> {
         let mut report = CommitReport { moved: 1, ..CommitReport::default() };
         let relocated = self.transact(|t| {
             t.mesh.reject_occupied(vertex, &q, t.options.coincidence)?;
-            t.relocate_filtered(vertex, &q, &mut report)
+            t.relocate_filtered(vertex, &q, &mut report)?;
+            t.settle_hidden(false, &mut report)
         });
         if let Err(error) = relocated {
             // Undoing does not know the place of a vertex that was only moved.
@@ -118,7 +119,8 @@ impl<G: Moving> MovingTriangulation<G> {
         let mut report = CommitReport { inserted: 1, ..CommitReport::default() };
         let inserted = self.transact(|t| {
             t.mesh.reject_occupied(id, &q, t.options.coincidence)?;
-            t.insert_at(id, &q, &mut report)
+            t.insert_at(id, &q, &mut report)?;
+            t.settle_hidden(false, &mut report)
         });
         if let Err(error) = inserted {
             self.mesh.site_of.pop();
@@ -179,7 +181,10 @@ impl<G: Moving> MovingTriangulation<G> {
         self.staging.list()?;
         let before = self.mesh.evaluations();
         let mut report = CommitReport { removed: 1, ..CommitReport::default() };
-        self.transact(|t| t.with_regions(&mut report, |t, _| t.remove_present(vertex)))?;
+        self.transact(|t| {
+            t.with_regions(&mut report, |t, _| t.remove_present(vertex))?;
+            t.settle_hidden(false, &mut report)
+        })?;
         self.staging.unstage(vertex);
         self.edits.forget_removal(vertex);
         self.enter_evaluations(&mut report, before);

@@ -3,6 +3,7 @@
 use crate::delaunay::{Moving, Shortcut};
 use crate::error::Result;
 use crate::ids::VertexId;
+use crate::machine::memory;
 use crate::motion::filters::safe_regions::Admission;
 use crate::motion::filters::store::TimestampSteps;
 use crate::motion::region_kind::RegionKind;
@@ -141,5 +142,33 @@ impl<G: Moving> MovingTriangulation<G> {
             None => self.regions.give_up(kept),
         }
         done
+    }
+
+    /// Shows those of the vertices that weights hide which are below the cells now; the regions that are kept follow. All of them are
+    /// looked at if others `have_moved` than have been placed alone.
+    pub(in crate::motion) fn settle_hidden(
+        &mut self,
+        have_moved: bool,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        // A new kernel has been built with all of them.
+        if !G::HAS_WEIGHTS || self.mesh.transaction.has_rebuilt() {
+            return Ok(());
+        }
+        if have_moved {
+            self.mesh.kernel.loosen_all();
+        }
+        if self.mesh.kernel.has_loose() {
+            self.with_regions(report, |t, _| {
+                let Self { mesh, regions, .. } = t;
+                let mut shown = Vec::new();
+                mesh.kernel.settle(|s| memory::push(&mut shown, s))?;
+                shown.iter().try_for_each(|&s| regions.note_relocated(mesh.kernel.site(s).id))
+            })?;
+        }
+        if self.mesh.kernel.spans_without_cells() {
+            self.rebuild_as_is(report)?;
+        }
+        Ok(())
     }
 }

@@ -34,6 +34,7 @@ impl<G: Moving> Mesh<G> {
             self.make_room_for_round()?;
         }
         self.kernel.begin()?;
+        self.kernel.settle_undone();
         let n_ids = self.site_of.len();
         let visibilities = match &self.rounds {
             // Rounds that may be taken back know how many there were.

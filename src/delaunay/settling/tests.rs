@@ -1,7 +1,8 @@
 use num_bigint::BigInt;
 
 use super::*;
-use crate::delaunay::{Geometry, Insertion, Level, PowerPlane, PowerSpace, Relocation, Shortcut};
+use crate::complex::Corners;
+use crate::delaunay::{Insertion, Level, PowerPlane, PowerSpace, Relocation, Shortcut};
 use crate::ids::VertexId;
 use crate::machine::threads::Threads;
 use crate::predicates::PointArray;
@@ -159,60 +160,55 @@ fn histories<G: Geometry>(n_histories: usize) {
         let mut t = built::<G>(&points);
         let mut next_id = n as u32;
         assert_eq!(shown(&t), lower_hull(&points, G::D), "seed {seed}, built");
-        for step in 0..12 {
+        'history: for step in 0..8 {
+            t.begin().expect("room");
+            for _ in 0..1 + rng.below(3) {
+                if !t.has_cells() {
+                    break;
+                }
+                let sites: std::collections::HashMap<u32, SiteId> =
+                    t.live_sites().map(|s| (t.site(s).id.get(), s)).collect();
+                let at = rng.below(points.len());
+                match rng.below(4) {
+                    0 if points.len() < 11 => {
+                        let numbers = kind.draw(rng, G::D);
+                        let s = t.add_site(point_of::<G>(&numbers), VertexId::new(next_id)).expect("room");
+                        let inserted = t.insert_site_anywhere(s).expect("room");
+                        assert!(matches!(inserted, Insertion::New | Insertion::Hidden(_)));
+                        points.push((next_id, numbers));
+                        next_id += 1;
+                    }
+                    1 if points.len() > G::D + 2 => {
+                        t.remove_site(sites[&points[at].0]).expect("room");
+                        points.remove(at);
+                    }
+                    kind_of_move => {
+                        let mut numbers = kind.draw(rng, G::D);
+                        if kind_of_move == 2 {
+                            // The weight alone.
+                            numbers[..G::D].copy_from_slice(&points[at].1[..G::D]);
+                        }
+                        let (id, s) = (points[at].0, sites[&points[at].0]);
+                        let q = point_of::<G>(&numbers);
+                        let shortcut = [Shortcut::Certificates, Shortcut::Flips][rng.below(2)];
+                        let done = t.relocate_site(s, &q, VertexId::new(id), shortcut).expect("room");
+                        points[at].1 = numbers;
+                        if done == Relocation::Spans {
+                            t.end();
+                            t = built::<G>(&points);
+                            continue 'history;
+                        }
+                    }
+                }
+            }
+            t.settle(|_| Ok(())).expect("room");
+            t.end();
             if !t.has_cells() {
                 break;
             }
-            let sites: std::collections::HashMap<u32, SiteId> =
-                t.live_sites().map(|s| (t.site(s).id.get(), s)).collect();
-            t.begin().expect("room");
-            let at = rng.below(points.len());
-            match rng.below(4) {
-                0 if points.len() < 11 => {
-                    let numbers = kind.draw(rng, G::D);
-                    let s = t.add_site(point_of::<G>(&numbers), VertexId::new(next_id)).expect("room");
-                    let inserted = t.insert_site_anywhere(s).expect("room");
-                    assert!(matches!(inserted, Insertion::New | Insertion::Hidden(_)));
-                    points.push((next_id, numbers));
-                    next_id += 1;
-                }
-                1 if points.len() > G::D + 2 => {
-                    t.remove_site(sites[&points[at].0]).expect("room");
-                    points.remove(at);
-                }
-                kind_of_move => {
-                    let mut numbers = kind.draw(rng, G::D);
-                    if kind_of_move == 2 {
-                        // The weight alone.
-                        numbers[..G::D].copy_from_slice(&points[at].1[..G::D]);
-                    }
-                    let (id, s) = (points[at].0, sites[&points[at].0]);
-                    let q = point_of::<G>(&numbers);
-                    let shortcut = [Shortcut::Certificates, Shortcut::Flips][rng.below(2)];
-                    let done = t.relocate_site(s, &q, VertexId::new(id), shortcut).expect("room");
-                    points[at].1 = numbers;
-                    if done == Relocation::Spans {
-                        t.end();
-                        t = built::<G>(&points);
-                        continue;
-                    }
-                }
-            }
-            if rng.below(3) > 0 {
-                t.settle(|_| Ok(())).expect("room");
-                t.end();
-                if t.has_cells() {
-                    assert_eq!(shown(&t), lower_hull(&points, G::D), "seed {seed}, step {step}");
-                    n_hidden += t.n_hidden();
-                }
-            } else {
-                t.end();
-            }
-        }
-        if t.has_cells() {
-            t.settle(|_| Ok(())).expect("room");
-            assert_eq!(shown(&t), lower_hull(&points, G::D), "seed {seed}, at the end");
+            assert_eq!(shown(&t), lower_hull(&points, G::D), "seed {seed}, step {step}");
             assert_eq!(shown(&t), shown(&built::<G>(&points)));
+            n_hidden += t.n_hidden();
         }
     }
     assert!(n_hidden > n_histories, "{n_hidden} hidden");

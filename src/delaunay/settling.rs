@@ -1,0 +1,94 @@
+//! Sites above the cells find the cells that are below them, or come to be corners again; see [`above`](super::above).
+
+use super::cavity::Cavity;
+use super::geometry::Insert;
+use super::{Delaunay, Geometry};
+use crate::error::Result;
+use crate::ids::{SiteId, Slot};
+
+impl<G: Geometry> Delaunay<G> {
+    /// The cell below a hidden site.
+    pub fn cell_below(&self, s: SiteId) -> Slot {
+        let (cell, is_loose) = self.above.link(s);
+        if is_loose { self.cell_over(s) } else { cell }
+    }
+
+    /// Loosens the sites above the cells around a site, which has moved and leaves them as they are.
+    pub(crate) fn loosen_around(&mut self, s: SiteId) -> Result<()> {
+        if !G::HAS_WEIGHTS || self.above.count() == 0 {
+            return Ok(());
+        }
+        if self.is_hidden(s) {
+            self.loosen_site(s);
+            return Ok(());
+        }
+        self.gather_star(s)?;
+        self.loosen_star();
+        Ok(())
+    }
+
+    /// Finds the cell at the place of each loose site, and inserts the sites that are below it, which `shown` is told. After an error those
+    /// that are left are loose still.
+    pub fn settle(&mut self, mut shown: impl FnMut(SiteId) -> Result<()>) -> Result<()> {
+        if !G::HAS_WEIGHTS || !self.has_cells() {
+            return Ok(());
+        }
+        while self.has_loose() {
+            self.go_on()?;
+            self.make_room_to_hide()?;
+            let s = self.above.first_loose();
+            let cell = self.cell_over(s);
+            if self.is_above(s, cell) {
+                self.above.take_out(s);
+                self.above.enter(s, Some(cell));
+                continue;
+            }
+            let mut cavity = std::mem::take(&mut self.cavity);
+            let inserted = self.insert_from(&mut cavity, cell, s);
+            self.cavity = cavity;
+            inserted?;
+            shown(s)?;
+        }
+        Ok(())
+    }
+
+    /// Finds the cell below each site that an undone change has left loose: all of them are hidden. There is
+    /// [room](Self::make_room_to_hide).
+    pub(crate) fn settle_undone(&mut self) {
+        while self.has_cells() && self.has_loose() {
+            let s = self.above.first_loose();
+            let cell = self.cell_over(s);
+            debug_assert!(self.is_above(s, cell));
+            self.above.take_out(s);
+            self.above.enter(s, Some(cell));
+        }
+    }
+
+    /// The cell that has the place of a loose site.
+    fn cell_over(&self, s: SiteId) -> Slot {
+        let (hint, _) = self.above.link(s);
+        let near = if self.complex.is_live(hint) { hint } else { self.recent };
+        self.walk(&self.filter, &self.site(s).point, near, &mut 0)
+    }
+
+    /// Whether a site is above the cell that has its place.
+    fn is_above(&self, s: SiteId, cell: Slot) -> bool {
+        let site = self.site(s);
+        !self.complex.cell(cell).is_ghost() && !self.is_in_conflict(cell, &site.point, site.id)
+    }
+
+    /// Inserts a loose site, of whose zone this is a cell.
+    fn insert_from(&mut self, cavity: &mut Cavity<G>, cell: Slot, s: SiteId) -> Result<()> {
+        let made = cavity.scratch.insert::<false>(self, cell, s)?;
+        self.above.take_out(s);
+        self.recent = made;
+        self.sites[s].cell = made;
+        self.record(cavity.scratch.made());
+        self.pace.count(cavity.scratch.made().len());
+        self.list_swallowed();
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests;
