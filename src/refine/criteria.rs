@@ -3,6 +3,7 @@
 //! Tests are rounded to the safe side: what passes fulfils the criteria in exact arithmetic. Lengths are scaled by a power
 //! of two so that their fourth powers neither overflow nor, where they matter, underflow.
 
+use super::gaps::NARROW;
 use super::parts::NOT_SELECTED;
 use crate::error::{Error, Result};
 use crate::ids::VertexId;
@@ -75,6 +76,8 @@ pub(crate) struct Tests<'a> {
     scale: f64,
     /// What is nearer touches.
     pub(super) resolution: f64,
+    /// No narrow gap is wider.
+    pub(super) widest_gap: f64,
     /// Whether the function of the criteria has said to stop: it is not asked any more.
     is_stopped: Cell<bool>,
 }
@@ -106,6 +109,7 @@ impl<'a> Tests<'a> {
             scale: if extent > 0.0 { power_of_two_below((1.0 / extent).min(f64::MAX)) } else { 1.0 },
             resolution: TOUCHING
                 * (f64::EPSILON * power_of_two_below(greatest)).max(LEAST_POSITIVE * criteria.scale),
+            widest_gap: 2.0 * NARROW * extent,
             is_stopped: Cell::new(false),
         }
     }
@@ -275,10 +279,21 @@ impl<'a> Tests<'a> {
     /// Whether a triangle is so flat that its corners touch its longest edge.
     #[inline(always)]
     pub(super) fn is_flat(&self, p: [&[f64; 2]; 3]) -> bool {
+        self.has_height_below(self.resolution, p)
+    }
+
+    /// Whether a triangle is so flat that its middle may be in a narrow gap.
+    #[inline(always)]
+    pub(super) fn is_thin(&self, p: [&[f64; 2]; 3]) -> bool {
+        self.has_height_below(2.0 * self.widest_gap, p)
+    }
+
+    #[inline(always)]
+    fn has_height_below(&self, height: f64, p: [&[f64; 2]; 3]) -> bool {
         let [u, v, w] =
             [[0, 1], [0, 2], [1, 2]].map(|[i, j]| minus::<f64, 2>(p[j], p[i]).map(|x| x * self.scale));
         let longest = [u, v, w].map(|u| dot(&u, &u)).into_iter().fold(0.0, f64::max);
-        (u[0] * v[1] - u[1] * v[0]).abs() < self.resolution * self.scale * longest.sqrt()
+        (u[0] * v[1] - u[1] * v[0]).abs() < height * self.scale * longest.sqrt()
     }
 
     /// Whether an edge, of this squared length by [`measure`](Self::measure), is so short that its ends touch.

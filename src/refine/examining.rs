@@ -90,6 +90,7 @@ impl Refinement<'_> {
                 !self.tests.is_short(measured.shortest)
                     && !self.is_flat(t)
                     && !self.is_hopeless(t, measured.narrowest)
+                    && !self.is_in_gap(t)
             }
             Some(Flaw::Size) => true,
         }
@@ -103,7 +104,8 @@ impl Refinement<'_> {
 
     /// Whether a piece at a side would have to be split for the corner opposite it.
     pub(super) fn is_encroached_from(&self, side: Side) -> bool {
-        self.is_seen_wide(side) && !self.is_flat(side.triangle())
+        let t = side.triangle();
+        self.is_seen_wide(side) && !self.is_flat(t) && !self.is_in_gap(t)
     }
 
     /// Whether the corner opposite a side is in the lens or circle of that, even if it touches it.

@@ -98,6 +98,7 @@ mod coarsening;
 mod criteria;
 mod examining;
 mod flat;
+mod gaps;
 mod given;
 mod insertion;
 mod mesh;

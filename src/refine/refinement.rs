@@ -26,6 +26,8 @@ pub enum Kept {
 pub(crate) struct Origins {
     /// Ends of each original segment.
     pub ends: Vec<[VertexId; 2]>,
+    /// How long each is from end to end.
+    pub lengths: Vec<f64>,
     /// The original of each segment.
     pub of_segments: Vec<u32>,
     /// Vertices that earlier calls have added, with the original that they are on.

@@ -208,7 +208,9 @@ impl Refinement<'_> {
         let mut w = [(v[1] * uu - u[1] * vv) * half, (u[0] * vv - v[0] * uu) * half];
         let off = [0.5 * u[0] - self.tests.off * u[1], 0.5 * u[1] + self.tests.off * u[0]];
         // One at an edge whose ends touch would touch them, too.
-        let is_nearer = dot(&off, &off) < dot(&w, &w) && !self.tests.is_short(measured.shortest);
+        let is_nearer = dot(&off, &off) < dot(&w, &w)
+            && !self.tests.is_short(measured.shortest)
+            && !(measured.flaw == Some(Flaw::Size) && self.is_in_gap(t));
         if is_nearer || !dot(&w, &w).is_finite() {
             w = off;
         }

@@ -23,6 +23,7 @@ use crate::motion::state::looked::{Looked, Question, ScaledPlaces};
 use crate::motion::state::made::{Inserted, Origin};
 use crate::motion::state::segments::Segment;
 use crate::motion::triangulation::MovingTriangulation;
+use crate::predicates::{dot, minus};
 use crate::refine::{self, Candidate, Criteria, NONE, Origins, Refined, Room, Tests};
 use reading::Read;
 use staging::SegmentChanges;
@@ -371,6 +372,13 @@ impl MovingTriangulation<Plane> {
             }
         }
         memory::collect(&mut origins.ends, sorted.iter().map(|origin| origin.ends))?;
+        let place = |v: VertexId| self.position(v).expect("it is an end").map(|x| x * read.places.scale);
+        let length = |origin: &Origin| {
+            let [p, q] = origin.ends.map(place);
+            let u = minus::<f64, 2>(&q, &p);
+            dot(&u, &u).sqrt()
+        };
+        memory::collect(&mut origins.lengths, sorted.iter().map(length))?;
         Ok(origins)
     }
 
