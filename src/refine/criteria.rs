@@ -364,7 +364,7 @@ pub(super) fn narrowest(p: [&[f64; 2]; 3]) -> usize {
     }))
 }
 
-pub(super) fn distance(p: &[f64; 2], q: &[f64; 2]) -> f64 {
+pub(crate) fn distance(p: &[f64; 2], q: &[f64; 2]) -> f64 {
     let u = minus::<f64, 2>(p, q);
     dot(&u, &u).sqrt()
 }

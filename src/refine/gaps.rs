@@ -7,7 +7,7 @@ use crate::ids::VertexId;
 use crate::predicates::{dot, minus};
 
 /// A gap between two segments is narrow if it is below this share of the shorter one's length.
-pub(super) const NARROW: f64 = 1e-4;
+pub(super) const NARROW: f64 = 1.0 / 8192.0;
 
 /// Two pieces have a gap between them, and not a corner, if the sine of their angle is no more than this.
 const PARALLEL: f64 = 1.0 / 256.0;

@@ -113,7 +113,7 @@ mod telling;
 mod walking;
 
 pub(crate) use coarsening::{Candidate, Room, coarsen};
-pub(crate) use criteria::{Criteria, Tests, power_of_two_below};
+pub(crate) use criteria::{Criteria, Tests, distance, power_of_two_below};
 pub(crate) use given::Given;
 pub(crate) use parts::NONE;
 pub use refinement::Kept;

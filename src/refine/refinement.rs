@@ -26,7 +26,7 @@ pub enum Kept {
 pub(crate) struct Origins {
     /// Ends of each original segment.
     pub ends: Vec<[VertexId; 2]>,
-    /// How long each is from end to end.
+    /// How long what is in force of each is.
     pub lengths: Vec<f64>,
     /// The original of each segment.
     pub of_segments: Vec<u32>,

@@ -7,7 +7,7 @@ use deldrift::VertexId;
 use deldrift::motion::{CoarsenOptions, Kept, Options, Quality, RefineOptions, Saved};
 
 /// A gap is left as it is below this share of the shorter segment's length.
-const NARROW: f64 = 1e-4;
+const NARROW: f64 = 1.0 / 8192.0;
 
 /// More vertices than any mesh here gets, but for those with a least angle of 33 degrees.
 const MOST: usize = 1_600;

@@ -6,6 +6,7 @@
 //! the place of these, are staged and committed.
 
 mod checks;
+mod origins;
 mod reading;
 mod remeshing;
 mod staging;
@@ -23,8 +24,7 @@ use crate::motion::state::looked::{Looked, Question, ScaledPlaces};
 use crate::motion::state::made::{Inserted, Origin};
 use crate::motion::state::segments::Segment;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::predicates::{dot, minus};
-use crate::refine::{self, Candidate, Criteria, NONE, Origins, Refined, Room, Tests};
+use crate::refine::{self, Candidate, Criteria, NONE, Refined, Room, Tests};
 use reading::Read;
 use staging::SegmentChanges;
 
@@ -344,42 +344,6 @@ impl MovingTriangulation<Plane> {
     fn segment_in_force(&self, segment: SegmentId) -> Segment {
         let segments = self.mesh.segments.as_ref().expect("there is one");
         segments.get(segment).expect("it is in force")
-    }
-
-    /// The original of each edge that is a segment, and those of vertices that have been added.
-    fn origins(&self, read: &Read) -> Result<Origins> {
-        let mut of_edges = Vec::new();
-        memory::collect(
-            &mut of_edges,
-            (0..read.edges.len()).map(|edge| self.origin_of(read.segments_at(edge)[0].1)),
-        )?;
-        let mut sorted = memory::copy_of(&of_edges)?;
-        sorted.sort_unstable();
-        sorted.dedup();
-        let place = |origin: &Origin| sorted.binary_search(origin).expect("it is listed") as u32;
-        let mut origins = Origins::default();
-        memory::collect(&mut origins.of_segments, of_edges.iter().map(place))?;
-        // Parts of one segment, between vertices at which others have split it, are originals of their own. A vertex is on
-        // that of the pieces beside it.
-        let made_on = |v: VertexId| self.made.as_ref().and_then(|made| made.is_on(v));
-        for (edge, &ends) in read.edges.iter().enumerate() {
-            for v in ends {
-                let Some(on) = made_on(v) else { continue };
-                let others = || read.segments_at(edge)[1..].iter();
-                if of_edges[edge].segment == on || others().any(|&(_, id)| self.original_segment(id) == on) {
-                    memory::push(&mut origins.of_vertices, (v, origins.of_segments[edge]))?;
-                }
-            }
-        }
-        memory::collect(&mut origins.ends, sorted.iter().map(|origin| origin.ends))?;
-        let place = |v: VertexId| self.position(v).expect("it is an end").map(|x| x * read.places.scale);
-        let length = |origin: &Origin| {
-            let [p, q] = origin.ends.map(place);
-            let u = minus::<f64, 2>(&q, &p);
-            dot(&u, &u).sqrt()
-        };
-        memory::collect(&mut origins.lengths, sorted.iter().map(length))?;
-        Ok(origins)
     }
 
     /// The vertices that may go.
