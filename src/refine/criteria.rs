@@ -284,7 +284,7 @@ impl<'a> Tests<'a> {
 
     /// Whether a triangle is so flat that its middle may be in a narrow gap.
     #[inline(always)]
-    pub(super) fn is_thin(&self, p: [&[f64; 2]; 3]) -> bool {
+    pub(crate) fn is_thin(&self, p: [&[f64; 2]; 3]) -> bool {
         self.has_height_below(2.0 * self.widest_gap, p)
     }
 

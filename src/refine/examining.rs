@@ -76,7 +76,7 @@ impl Refinement<'_> {
             };
         }
         let ends = triangle.ends(side.index()).map(|v| self.mesh.point(v));
-        if self.tests.is_too_long(ends, triangle.label) {
+        if self.tests.is_too_long(ends, triangle.label) && !self.is_in_gap(side.triangle()) {
             return Ok(Some((piece, Some([0, 1].map(|axis| 0.5 * (ends[0][axis] + ends[1][axis]))))));
         }
         Ok(self.is_encroached_from(side).then_some((piece, None)))
@@ -113,6 +113,11 @@ impl Refinement<'_> {
         let triangle = self.mesh.triangle(side.triangle());
         let ends = triangle.ends(side.index()).map(|v| self.mesh.point(v));
         self.tests.is_encroached(ends, self.mesh.point(triangle.corners[side.index()]))
+    }
+
+    /// Whether a triangle is in a narrow gap between segments.
+    pub(super) fn is_in_gap(&self, t: u32) -> bool {
+        self.mesh.gap_around(t, &self.tests, &self.origins).is_some()
     }
 
     pub(super) fn is_encroached(&self, piece: u32) -> bool {

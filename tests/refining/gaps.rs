@@ -294,7 +294,7 @@ fn gaps_are_left_at_any_scale() {
     }
 }
 
-/// A gap that closes and opens again, with the vertices in it, is left while it is narrow.
+/// A gap closes and opens again: while it is narrow it is left, and the vertices that it had go.
 #[test]
 fn gaps_close_and_open() {
     let widths = [0.2, 0.03, 0.004, 1e-5, 1e-6, 1e-8, 1e-9, 1e-8, 1e-5, 0.004, 0.03, 0.2];
@@ -302,7 +302,7 @@ fn gaps_close_and_open() {
         let domain = in_square(&[&[[-1.0, -0.2], [1.0, -0.2]], &[[-0.8, 0.2], [1.1, 0.2]]], &[]);
         let mut t = domain.build();
         let first = refine(&mut t, &asked, LIMIT).inserted;
-        let mut inserted = Vec::new();
+        let mut told = Vec::new();
         for pair in widths.windows(2) {
             // What is in between is squeezed, and what is outside stretched.
             let y = |y: f64| match y.abs() {
@@ -316,9 +316,9 @@ fn gaps_close_and_open() {
             t.commit_timestamp().expect("no conflict");
             coarsen(&mut t, &asked);
             let report = refine(&mut t, &asked, LIMIT);
-            inserted.push(report.inserted);
+            told.push((report.inserted, t.cell_count()));
             assert!(!report.is_cut_short, "{asked:?}, {pair:?}: {report:?}");
-            assert!(pair[1] > 1e-4 || report.inserted <= 600, "{asked:?}, {pair:?}: {report:?}");
+            assert!(pair[1] > 1e-4 || t.cell_count() <= 700, "{asked:?}, {pair:?}: {report:?}");
             let mut copy = loaded(&t);
             for _ in 0..2 {
                 coarsen(&mut copy, &asked);
@@ -329,6 +329,6 @@ fn gaps_close_and_open() {
             refine(&mut copy, &asked, LIMIT);
             assert!(bytes(&copy) == before, "{asked:?}, {pair:?}");
         }
-        println!("{asked:?}: {first}, then {inserted:?}");
+        println!("{asked:?}: {first} vertices come, then so many, and there are so many cells: {told:?}");
     }
 }

@@ -5,7 +5,7 @@ use deldrift::motion::{CoarsenOptions, Kept, MovingTriangulation, Quality, Quali
 use deldrift::{Error, Plane};
 
 /// More vertices than meshes here have.
-pub const LIMIT: usize = 1_000_000;
+pub const LIMIT: usize = 100_000;
 
 /// A quality, and by which means.
 #[derive(Clone, Debug)]

@@ -253,8 +253,16 @@ impl MovingTriangulation<Plane> {
         let room = Room { angle: options.margin, share: options.share, offset: options.joins };
         refine::keep(given, &points, &tests, room, &mut candidates)?;
         read.put_first(&mut candidates);
-        let coarsened = refine::coarsen(given, points, tests, room, &mendable, &candidates)?;
+        let thin = |&&cell: &&u32| tests.is_thin(cells.corners[cell as usize].map(|v| &points[v]));
+        let mut corners_of_thin = Vec::new();
+        for &cell in read.bad.iter().filter(thin) {
+            memory::append(&mut corners_of_thin, &cells.corners[cell as usize])?;
+        }
+        let origins = if corners_of_thin.is_empty() { None } else { Some(self.origins(&read)?) };
+        let coarsened = refine::coarsen(given, points, (tests, room), (&mendable, origins), &candidates)?;
         remember(stays, &read, cells.corners, &candidates, &coarsened.able);
+        // Whether they are in narrow gaps depends on more than the cells around them.
+        corners_of_thin.iter().for_each(|&v| stays[v] = false);
         report.removed = coarsened.vertices.len();
         if report.removed == 0 {
             let made = self.made.as_mut().expect("it has vertices");
