@@ -5,6 +5,7 @@
 //! for refinement to mend, with fewer vertices. Those at short edges go first.
 
 use super::criteria::{Tests, narrowest};
+use super::gaps::Gap;
 use super::given::Given;
 use super::mesh::Mesh;
 use super::parts::{NONE, next, previous};
@@ -21,9 +22,9 @@ const ROUNDED: f64 = 1.0 / 16.0;
 /// No squared cosine is greater.
 const NO_ANGLE: f64 = 2.0;
 
-/// A gap is narrow, whatever pieces are joined at it, if it is below this share of what would be too wide, and pieces are bent
-/// by no more than this share of its width.
-const SURELY: f64 = 0.9;
+/// A gap is narrow, whatever pieces are joined at it, if it is no wider than this share of what would be too wide, and pieces
+/// are bent by no more than this share of its width.
+const SURELY: f64 = 0.5;
 const BENT: f64 = 1.0 / 64.0;
 
 /// How much room the triangles must have that take the place of others.
@@ -264,8 +265,8 @@ impl<'a> Coarsening<'a> {
                 let (corners, label) = mesh.corners_of(t);
                 Tests::is_selected(label) && tests.is_flawed(corners.map(|v| mesh.point(v)), label, &corners)
             };
-            let is_in_gap = side.iter().all(|&t| mesh.gap_around(t, tests, origins).is_some());
-            if is_in_gap && side.iter().any(is_bad) {
+            let is_in_gap = |&t: &u32| mesh.gap_around(t, tests, origins).is_some_and(is_surely_narrow);
+            if side.iter().all(is_in_gap) && side.iter().any(is_bad) {
                 memory::append(in_gap, side)?;
             }
         }
@@ -383,7 +384,11 @@ fn is_left(
         && tests.measure_with(points, label, size, share, NO_ANGLE).flaw.is_none()
         && mesh
             .gap_of(corners, in_gap[k], tests, origins)
-            .is_some_and(|gap| gap.width <= SURELY * gap.limit && offset <= BENT * gap.width)
+            .is_some_and(|gap| offset <= BENT * gap.width && is_surely_narrow(gap))
+}
+
+fn is_surely_narrow(gap: Gap) -> bool {
+    gap.width <= SURELY * gap.limit
 }
 
 /// Squared cosine of the angle at a corner.

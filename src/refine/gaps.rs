@@ -80,15 +80,16 @@ impl Mesh<'_> {
             minus::<f64, 2>(q, p).map(|x| x / distance(p, q))
         });
         // From a common end on, a gap is as wide as the angle there makes it.
-        let have_common_end = origins.ends[one].iter().any(|end| origins.ends[other].contains(end));
-        let widest_angle = if have_common_end { NARROW } else { PARALLEL };
-        let gap = Gap {
-            width: to_one + to_other,
-            limit: NARROW * origins.lengths[one].min(origins.lengths[other]),
+        let is_common = |end: &&VertexId| {
+            origins.ends[other].contains(end) && self.at.get(end.index()).is_some_and(|&t| t != NONE)
         };
+        let apex = origins.ends[one].iter().find(is_common);
+        let from_apex = apex.map_or(f64::INFINITY, |&apex| distance(self.point(apex), from));
+        let length = origins.lengths[one].min(origins.lengths[other]).min(from_apex);
+        let gap = Gap { width: to_one + to_other, limit: NARROW * length };
         let is_narrow = one != other
             && gap.width < gap.limit
-            && turn(u, v).abs() <= widest_angle
+            && turn(u, v).abs() <= PARALLEL
             && turn(u, way).abs() >= ACROSS;
         is_narrow.then_some(gap)
     }

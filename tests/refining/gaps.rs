@@ -87,6 +87,11 @@ fn domains() -> Vec<(String, Domain)> {
     all
 }
 
+/// Those with the widest and the narrowest gaps.
+fn few_domains() -> impl Iterator<Item = (String, Domain)> {
+    domains().into_iter().filter(|(name, _)| !name.ends_with("1e-6") && !name.ends_with("1e-7"))
+}
+
 type Segment = [[f64; 2]; 2];
 
 /// How far a place is from the line of a segment, if it is beside it.
@@ -160,8 +165,8 @@ fn narrow_gaps_are_left() {
 /// that has been cut short.
 #[test]
 fn meshes_with_gaps_live() {
-    for (name, domain) in domains() {
-        for asked in [quality(20.0, 0.0), quality(25.0, 0.05), quality(30.0, 0.0), quality(33.0, 0.05)] {
+    for (name, domain) in few_domains() {
+        for asked in [quality(25.0, 0.05), quality(30.0, 0.0), quality(33.0, 0.05)] {
             let context = || format!("{name}, {asked:?}");
             let mut t = domain.build();
             refine(&mut t, &asked, LIMIT);
@@ -180,7 +185,7 @@ fn meshes_with_gaps_live() {
                 refine(copy, &asked, LIMIT);
                 assert_same(copy, &t, &context);
             }
-            for limit in [1, 2, 3, 5, 8, 13, 40] {
+            for limit in [1, 3, 8, 40] {
                 let mut t = domain.build();
                 refine(&mut t, &asked, limit);
                 let mut copy = loaded(&t);
@@ -268,8 +273,8 @@ fn gaps_beside_what_stays_whole_are_left() {
 /// Gaps are as narrow wherever they are, and however small and turned.
 #[test]
 fn gaps_are_left_at_any_scale() {
-    for (name, domain) in domains() {
-        for asked in [quality(20.0, 0.0), quality(25.0, 0.0), quality(30.0, 0.0)] {
+    for (name, domain) in few_domains() {
+        for asked in [quality(20.0, 0.0), quality(30.0, 0.0)] {
             let plain = refine(&mut domain.build(), &asked, LIMIT);
             let by_power = scaled(domain.clone(), 2f64.powi(-400), [0.0; 2]);
             assert_eq!(refine(&mut by_power.build(), &asked, LIMIT), plain, "{name}, {asked:?}");
