@@ -97,8 +97,8 @@ pub struct deldrift_quality {
     /// Not 0 if no corner of a cell is to be strictly inside the circle that has a segment at the cell for a diameter.
     /// Then no vertex is inside the circle of a cell that it sees, segments or not: a conforming Delaunay
     /// triangulation. Segments that are kept whole may still have such corners, and so may those that a vertex touches
-    /// and those at narrow gaps (see unsplit). What is said of 26.5 degrees then holds up to 20.7, and there are more cells. Default 0: segments
-    /// are split where angles, areas and lengths need it.
+    /// and those at narrow gaps (see unsplit). What is said of 26.5 degrees then holds up to 20.7, and there are more
+    /// cells. Default 0: segments are split where angles, areas and lengths need it.
     pub is_conforming: u32,
     /// Greatest number of vertices that deldrift_refine inserts: default SIZE_MAX.
     pub limit: usize,
@@ -200,7 +200,8 @@ pub struct deldrift_quality_report {
     /// 1 / 8,192 of the shorter one.
     pub unsplit: u64,
     /// Cells that are still bad, of those that were to be refined: at small angles between segments, in narrow gaps
-    /// between them, at segments that are kept whole, and where the limit was reached. What is_conforming asks of segments does not count.
+    /// between them, at segments that are kept whole, and where the limit was reached. What is_conforming asks of
+    /// segments does not count.
     pub bad_cells: u64,
     /// 1 if the limit was reached, otherwise 0.
     pub is_cut_short: u64,

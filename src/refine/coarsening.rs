@@ -22,8 +22,8 @@ const ROUNDED: f64 = 1.0 / 16.0;
 /// No squared cosine is greater.
 const NO_ANGLE: f64 = 2.0;
 
-/// A gap is narrow, whatever pieces are joined at it, if it is no wider than this share of what would be too wide, and pieces
-/// are bent by no more than this share of its width.
+/// A gap is narrow, whatever pieces are joined at it, if it is no wider than this share of what would be too wide, and
+/// pieces are bent by no more than this share of its width.
 const SURELY: f64 = 0.5;
 const BENT: f64 = 1.0 / 64.0;
 
@@ -77,8 +77,8 @@ struct Coarsening<'a> {
     is_near_bad: Vec<bool>,
     /// Of the segments, if narrow gaps between them are looked for.
     origins: Option<Origins>,
-    /// The triangles around the vertex that is looked at that are in narrow gaps, if what takes their place may be left as they
-    /// are.
+    /// The triangles around the vertex that is looked at that are in narrow gaps, if what takes their place may be left
+    /// as they are.
     in_gap: Vec<u32>,
 }
 
@@ -250,8 +250,8 @@ impl<'a> Coarsening<'a> {
         Ok(is_filled && !self.would_encroach(vertex, &self.hole.around, None))
     }
 
-    /// Lists the triangles around a vertex that has been looked at in whose place some may be left in a gap: those on one
-    /// side of its pieces, which meet in it from this end on, or all, if each is in a narrow gap, and one is bad.
+    /// Lists the triangles around a vertex that has been looked at in whose place some may be left in a gap: those on
+    /// one side of its pieces, which meet in it from this end on, or all, if each is in a narrow gap, and one is bad.
     fn list_in_gap(&mut self, start: Option<VertexId>) -> Result<()> {
         let Coarsening { mesh, tests, hole, origins, in_gap, .. } = self;
         in_gap.clear();
@@ -366,8 +366,8 @@ fn is_good(
         || tests.measure_with(points, label, size, share, squared_cosine).flaw.is_none()
 }
 
-/// Whether a triangle is one that refinement leaves as it is, in a narrow gap as those whose place it takes, and not too
-/// large. Pieces that are joined by less than this offset change nothing of that.
+/// Whether a triangle is one that refinement leaves as it is, in a narrow gap as those whose place it takes, and not
+/// too large. Pieces that are joined by less than this offset change nothing of that.
 fn is_left(
     mesh: &Mesh,
     (tests, origins): (&Tests, &Option<Origins>),

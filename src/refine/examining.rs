@@ -117,7 +117,11 @@ impl Refinement<'_> {
 
     /// Whether a triangle is in a narrow gap between segments.
     pub(super) fn is_in_gap(&self, t: u32) -> bool {
-        self.mesh.gap_around(t, &self.tests, &self.origins).is_some()
+        let is_in_gap = self.mesh.gap_around(t, &self.tests, &self.origins).is_some();
+        if is_in_gap {
+            self.has_gaps.set(true);
+        }
+        is_in_gap
     }
 
     pub(super) fn is_encroached(&self, piece: u32) -> bool {

@@ -1,11 +1,11 @@
 //! Narrow gaps between segments.
 //!
-//! Between two segments that are nearly parallel, and much longer than the gap is wide, cells without small angles are as
-//! small as the gap, and as many as it is longer than wide. So what is in such a gap is left: triangles are not mended for
-//! their angles, and pieces not split for what sees them across it. A triangle is in a gap if its middle is: if straight
-//! ways from there, along or across its longest edge, lead to pieces of two segments. That depends on the pieces alone, and
-//! not on the vertices between them. How narrow a gap is, is measured by the segments, and not by the pieces, so that no
-//! gap comes to be wide as pieces are split.
+//! Between two segments that are nearly parallel, and much longer than the gap is wide, cells without small angles are
+//! as small as the gap, and as many as it is longer than wide. So what is in such a gap is left: triangles are not
+//! mended for their angles, and pieces not split for what sees them across it. A triangle is in a gap if its middle is:
+//! if straight ways from there, along or across its longest edge, lead to pieces of two segments. That depends on the
+//! pieces alone, and not on the vertices between them. How narrow a gap is, is measured by the segments, and not by the
+//! pieces, so that no gap comes to be wide as pieces are split.
 
 use super::criteria::{Tests, distance};
 use super::mesh::Mesh;
@@ -14,8 +14,8 @@ use super::refinement::Origins;
 use crate::ids::VertexId;
 use crate::predicates::{dot, minus};
 
-/// A gap between two segments is narrow if its width is below this share of the shorter one's length. It is no round number,
-/// as widths and lengths often are.
+/// A gap between two segments is narrow if its width is below this share of the shorter one's length. It is no round
+/// number, as widths and lengths often are.
 pub(super) const NARROW: f64 = 1.0 / 8192.0;
 
 /// The greatest sine of the angle between two pieces that have a gap between them, and not a corner.
@@ -94,8 +94,8 @@ impl Mesh<'_> {
         is_narrow.then_some(gap)
     }
 
-    /// The piece to which a straight way of length 1 leads from inside a triangle, if it is not farther than this, and how far
-    /// it is.
+    /// The piece to which a straight way of length 1 leads from inside a triangle, if it is not farther than this, and
+    /// how far it is.
     fn piece_ahead(&self, t: u32, from: &[f64; 2], way: [f64; 2], farthest: f64) -> Option<(u32, f64)> {
         let is_left = |v: VertexId| turn(way, minus::<f64, 2>(self.point(v), from)) >= 0.0;
         let mut seen = self.seen_from_sides(t);

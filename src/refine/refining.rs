@@ -37,10 +37,12 @@ impl Refinement<'_> {
             // come where others go, it would not end.
             let has_changed = self.n_added != n_added || self.n_split > n_split;
             let is_going_round = self.n_split == n_split && self.n_cleared > n_cleared;
-            if !self.has_left || !has_changed || is_going_round {
+            let has_left = self.has_left || self.has_gaps.get();
+            if !has_left || !has_changed || is_going_round {
                 return Ok(false);
             }
             self.has_left = false;
+            self.has_gaps.set(false);
             self.mesh.pieces.iter_mut().for_each(|piece| piece.is_fixed = false);
             self.examine_all()?;
         }

@@ -161,8 +161,8 @@ fn narrow_gaps_are_left() {
     }
 }
 
-/// Nothing moves: no round changes a byte from the second one on. Clones and loaded copies go on alike, and so does a mesh
-/// that has been cut short.
+/// Nothing moves: no round changes a byte from the second one on. Clones and loaded copies go on alike, and so does a
+/// mesh that has been cut short.
 #[test]
 fn meshes_with_gaps_live() {
     for (name, domain) in few_domains() {

@@ -36,8 +36,8 @@ impl MovingTriangulation<Plane> {
     /// rounded; the pieces are straight between their own ends.
     ///
     /// Cells where the quality cannot be had stay: between segments at a small angle, at segments that stay whole, and where
-    /// there is no room for a vertex. So do those in gaps between nearly parallel segments that are narrower than 1 / 8,192
-    /// of the shorter one. The report tells how many.
+    /// there is no room for a vertex. So do those in narrow gaps: between nearly parallel segments, less wide than
+    /// 1 / 8,192 of the shorter one. The report tells how many.
     ///
     /// After a [`coarsen`](Self::coarsen) it may make the mesh anew, in its one commit, where that has fewer vertices by the
     /// factor [`growth`](CoarsenOptions::growth): then it removes vertices that it has made, too, and weights tell how values
