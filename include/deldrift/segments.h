@@ -217,8 +217,8 @@ typedef struct deldrift_quality {
     /// Not 0 if no corner of a cell is to be strictly inside the circle that has a segment at the cell for a diameter.
     /// Then no vertex is inside the circle of a cell that it sees, segments or not: a conforming Delaunay
     /// triangulation. Segments that are kept whole may still have such corners, and so may those that a vertex touches
-    /// and those at narrow gaps (see unsplit). What is said of 26.5 degrees then holds up to 20.7, and there are more cells. Default 0: segments
-    /// are split where angles, areas and lengths need it.
+    /// and those at narrow gaps (see unsplit). What is said of 26.5 degrees then holds up to 20.7, and there are more
+    /// cells. Default 0: segments are split where angles, areas and lengths need it.
     uint32_t is_conforming;
     /// Greatest number of vertices that deldrift_refine inserts: default SIZE_MAX.
     size_t limit;
@@ -268,7 +268,8 @@ typedef struct deldrift_quality_report {
     /// 1 / 8,192 of the shorter one.
     uint64_t unsplit;
     /// Cells that are still bad, of those that were to be refined: at small angles between segments, in narrow gaps
-    /// between them, at segments that are kept whole, and where the limit was reached. What is_conforming asks of segments does not count.
+    /// between them, at segments that are kept whole, and where the limit was reached. What is_conforming asks of
+    /// segments does not count.
     uint64_t bad_cells;
     /// 1 if the limit was reached, otherwise 0.
     uint64_t is_cut_short;

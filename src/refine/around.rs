@@ -8,7 +8,7 @@ use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 
 /// A triangle that may not have been copied.
-pub(super) struct Seen {
+pub(super) struct SeenTriangle {
     pub(super) corners: [VertexId; 3],
     /// What is beyond the side opposite each corner; nothing beyond the hull.
     pub(super) beyond: [Option<u32>; 3],
@@ -18,18 +18,18 @@ pub(super) struct Seen {
 
 impl Mesh<'_> {
     /// A triangle that may not have been copied, with what is beyond its sides.
-    pub(super) fn seen_from_sides(&self, t: u32) -> Seen {
+    pub(super) fn seen_from_sides(&self, t: u32) -> SeenTriangle {
         let copy = if t & UNREAD == 0 { Some(t) } else { self.copy_of(t & !UNREAD) };
         match copy {
             Some(copy) => {
                 let &Triangle { corners, across, pieces, .. } = self.triangle(copy);
                 let beyond = across.map(|side| (side != Side::NONE).then_some(side.triangle()));
-                Seen { corners, beyond, pieces }
+                SeenTriangle { corners, beyond, pieces }
             }
             None => {
                 let cell = t & !UNREAD;
                 let beyond = self.given.across(cell).map(|c| (c != CellId::NONE).then_some(c.get() | UNREAD));
-                Seen { corners: self.given.row(cell), beyond, pieces: self.given.sides_of(cell) }
+                SeenTriangle { corners: self.given.row(cell), beyond, pieces: self.given.sides_of(cell) }
             }
         }
     }

@@ -5,7 +5,7 @@
 //! for refinement to mend, with fewer vertices. Those at short edges go first.
 
 use super::criteria::{Tests, narrowest};
-use super::gaps::Gap;
+use super::gaps::NarrowGap;
 use super::given::Given;
 use super::mesh::Mesh;
 use super::parts::{NONE, next, previous};
@@ -387,7 +387,7 @@ fn is_left(
             .is_some_and(|gap| offset <= BENT * gap.width && is_surely_narrow(gap))
 }
 
-fn is_surely_narrow(gap: Gap) -> bool {
+fn is_surely_narrow(gap: NarrowGap) -> bool {
     gap.width <= SURELY * gap.limit
 }
 

@@ -3,7 +3,6 @@
 //! Tests are rounded to the safe side: what passes fulfils the criteria in exact arithmetic. Lengths are scaled by a power
 //! of two so that their fourth powers neither overflow nor, where they matter, underflow.
 
-use super::gaps::NARROW;
 use super::parts::NOT_SELECTED;
 use crate::error::{Error, Result};
 use crate::ids::VertexId;
@@ -29,6 +28,10 @@ const OFF_CENTRE: f64 = 0.475;
 /// touching: no vertex comes between them. Angles of triangles with longer edges and greater heights are off by less than a
 /// tenth of a degree.
 const TOUCHING: f64 = 1024.0;
+
+/// A gap between two segments is narrow if its width is below this share of the shorter one's length. It is no round
+/// number, as widths and lengths often are.
+pub(super) const NARROW: f64 = 1.0 / 8192.0;
 
 /// All coordinates are multiples of it.
 const LEAST_POSITIVE: f64 = f64::from_bits(1);

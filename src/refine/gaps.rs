@@ -7,16 +7,12 @@
 //! pieces alone, and not on the vertices between them. How narrow a gap is, is measured by the segments, and not by the
 //! pieces, so that no gap comes to be wide as pieces are split.
 
-use super::criteria::{Tests, distance};
+use super::criteria::{NARROW, Tests, distance};
 use super::mesh::Mesh;
 use super::parts::{NONE, next, previous, turn_of, turned};
 use super::refinement::Origins;
 use crate::ids::VertexId;
 use crate::predicates::{dot, minus};
-
-/// A gap between two segments is narrow if its width is below this share of the shorter one's length. It is no round
-/// number, as widths and lengths often are.
-pub(super) const NARROW: f64 = 1.0 / 8192.0;
 
 /// The greatest sine of the angle between two pieces that have a gap between them, and not a corner.
 const PARALLEL: f64 = 1.0 / 256.0;
@@ -28,7 +24,7 @@ const ACROSS: f64 = 0.6;
 const MAX_STEPS: usize = 256;
 
 /// A narrow gap, at one place.
-pub(super) struct Gap {
+pub(super) struct NarrowGap {
     pub(super) width: f64,
     /// It would not be narrow if it were as wide as this.
     pub(super) limit: f64,
@@ -36,7 +32,7 @@ pub(super) struct Gap {
 
 impl Mesh<'_> {
     /// The narrow gap in which the middle of a triangle is, which may not have been copied.
-    pub(super) fn gap_around(&self, t: u32, tests: &Tests, origins: &Origins) -> Option<Gap> {
+    pub(super) fn gap_around(&self, t: u32, tests: &Tests, origins: &Origins) -> Option<NarrowGap> {
         let (corners, _) = self.corners_of(t);
         self.gap_of(corners, t, tests, origins)
     }
@@ -48,7 +44,7 @@ impl Mesh<'_> {
         t: u32,
         tests: &Tests,
         origins: &Origins,
-    ) -> Option<Gap> {
+    ) -> Option<NarrowGap> {
         // Whatever order the corners have.
         let p = turned(corners, turn_of(&corners)).map(|v| self.point(v));
         if !tests.is_thin(p) {
@@ -70,7 +66,7 @@ impl Mesh<'_> {
         way: [f64; 2],
         tests: &Tests,
         origins: &Origins,
-    ) -> Option<Gap> {
+    ) -> Option<NarrowGap> {
         let (one, to_one) = self.piece_ahead(t, from, way, tests.widest_gap)?;
         let (other, to_other) = self.piece_ahead(t, from, way.map(|x| -x), tests.widest_gap)?;
         let pieces = [one, other].map(|piece| &self.pieces[piece as usize]);
@@ -86,7 +82,7 @@ impl Mesh<'_> {
         let apex = origins.ends[one].iter().find(is_common);
         let from_apex = apex.map_or(f64::INFINITY, |&apex| distance(self.point(apex), from));
         let length = origins.lengths[one].min(origins.lengths[other]).min(from_apex);
-        let gap = Gap { width: to_one + to_other, limit: NARROW * length };
+        let gap = NarrowGap { width: to_one + to_other, limit: NARROW * length };
         let is_narrow = one != other
             && gap.width < gap.limit
             && turn(u, v).abs() <= PARALLEL
