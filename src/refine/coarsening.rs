@@ -2,7 +2,8 @@
 //!
 //! A vertex goes if all triangles that take the place of those around it fulfil the criteria with some room: then it is not
 //! missed at once, and refinement does not add it again. Where triangles are bad before, they may be as bad after: that is
-//! for refinement to mend, with fewer vertices. Those at short edges go first.
+//! for refinement to mend, with fewer vertices. In narrow gaps they may be as refinement leaves them. Those at short edges
+//! go first.
 
 use super::criteria::{Tests, narrowest};
 use super::gaps::NarrowGap;
@@ -82,8 +83,8 @@ struct Coarsening<'a> {
     in_gap: Vec<u32>,
 }
 
-/// Takes candidates away. `points` are the places of vertices, and `bad` the cells that refinement would mend. Where no
-/// cell is bad, no origins are needed.
+/// Takes candidates away. `points` are the places of vertices, and `bad` the cells that refinement would mend. Origins
+/// are needed where a bad cell is so thin that it may be in a narrow gap.
 pub(crate) fn coarsen(
     given: Given,
     points: Vec<[f64; 2]>,
