@@ -2,6 +2,7 @@
 
 mod coarsening;
 mod conforming;
+mod gaps;
 mod ids;
 mod lives;
 mod loops;

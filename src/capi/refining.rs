@@ -97,8 +97,8 @@ pub struct deldrift_quality {
     /// Not 0 if no corner of a cell is to be strictly inside the circle that has a segment at the cell for a diameter.
     /// Then no vertex is inside the circle of a cell that it sees, segments or not: a conforming Delaunay
     /// triangulation. Segments that are kept whole may still have such corners, and so may those that a vertex touches
-    /// (see unsplit). What is said of 26.5 degrees then holds up to 20.7, and there are more cells. Default 0: segments
-    /// are split where angles, areas and lengths need it.
+    /// and those at narrow gaps (see unsplit). What is said of 26.5 degrees then holds up to 20.7, and there are more
+    /// cells. Default 0: segments are split where angles, areas and lengths need it.
     pub is_conforming: u32,
     /// Greatest number of vertices that deldrift_refine inserts: default SIZE_MAX.
     pub limit: usize,
@@ -194,11 +194,14 @@ pub struct deldrift_quality_report {
     pub replaced_segments: u64,
     /// Segments made. Their ids are the last ones that have been given.
     pub new_segments: u64,
-    /// Pieces that had to be split and are whole, as there is no room for a vertex between their ends, or as a vertex
-    /// touches them: it is beside them by less than 1,024 last places of the greatest coordinate.
+    /// Pieces that had to be split and are whole, as there is no room for a vertex between their ends, as a vertex
+    /// touches them (it is beside them by less than 1,024 last places of the greatest coordinate), or as what they
+    /// had to be split for is across a narrow gap: one between two nearly parallel segments that is narrower than
+    /// 1 / 8,192 of the shorter one.
     pub unsplit: u64,
-    /// Cells that are still bad, of those that were to be refined: at small angles between segments, at segments that
-    /// are kept whole, and where the limit was reached. What is_conforming asks of segments does not count.
+    /// Cells that are still bad, of those that were to be refined: at small angles between segments, in narrow gaps
+    /// between them, at segments that are kept whole, and where the limit was reached. What is_conforming asks of
+    /// segments does not count.
     pub bad_cells: u64,
     /// 1 if the limit was reached, otherwise 0.
     pub is_cut_short: u64,
@@ -246,8 +249,8 @@ pub unsafe extern "C" fn deldrift_quality_init(quality: *mut deldrift_quality) -
 ///
 /// A segment that gets a vertex is removed, and pieces take its place, with its marker (see
 /// deldrift_original_segments). The places of new vertices are rounded, and pieces are straight between their own ends.
-/// Some cells stay bad: between segments at a small angle, at segments that stay whole, and where there is no room for
-/// a vertex. The report tells how many.
+/// Some cells stay bad: between segments at a small angle, in narrow gaps between segments (see unsplit), at segments
+/// that stay whole, and where there is no room for a vertex. The report tells how many.
 ///
 /// After a deldrift_coarsen it may make the mesh anew, where that has fewer vertices by a factor (see growth). Then it
 /// also removes vertices that it has inserted, in its one commit.

@@ -113,11 +113,12 @@ pub struct QualityReport {
     pub replaced_segments: usize,
     /// Segments that came, with the highest ids of all.
     pub new_segments: usize,
-    /// Pieces that had to be split and are whole, as there is no room for a vertex: between their ends, or as a vertex touches
-    /// them.
+    /// Pieces that had to be split and are whole, as there is no room for a vertex between their ends, as a vertex
+    /// touches them, or as what they had to be split for is across a gap that is narrower than 1 / 8,192 of the
+    /// segments at it.
     pub unsplit: usize,
-    /// Cells that are still bad, of those selected: at small angles between segments, at segments that are kept whole, and
-    /// where the limit was reached.
+    /// Cells that are still bad, of those selected: at small angles between segments, in narrow gaps between them, at
+    /// segments that are kept whole, and where the limit was reached.
     pub bad_cells: usize,
     /// Whether the limit was reached.
     pub is_cut_short: bool,

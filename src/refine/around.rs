@@ -7,7 +7,33 @@ use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 
+/// A triangle that may not have been copied.
+pub(super) struct SeenTriangle {
+    pub(super) corners: [VertexId; 3],
+    /// What is beyond the side opposite each corner; nothing beyond the hull.
+    pub(super) beyond: [Option<u32>; 3],
+    /// The segments, or pieces of these, at the sides.
+    pub(super) pieces: [u32; 3],
+}
+
 impl Mesh<'_> {
+    /// A triangle that may not have been copied, with what is beyond its sides.
+    pub(super) fn seen_from_sides(&self, t: u32) -> SeenTriangle {
+        let copy = if t & UNREAD == 0 { Some(t) } else { self.copy_of(t & !UNREAD) };
+        match copy {
+            Some(copy) => {
+                let &Triangle { corners, across, pieces, .. } = self.triangle(copy);
+                let beyond = across.map(|side| (side != Side::NONE).then_some(side.triangle()));
+                SeenTriangle { corners, beyond, pieces }
+            }
+            None => {
+                let cell = t & !UNREAD;
+                let beyond = self.given.across(cell).map(|c| (c != CellId::NONE).then_some(c.get() | UNREAD));
+                SeenTriangle { corners: self.given.row(cell), beyond, pieces: self.given.sides_of(cell) }
+            }
+        }
+    }
+
     /// Finds the triangles around a vertex that no segment is at, and the polygon that they leave, without copying any.
     /// Returns their label, if it is one and they are all around.
     pub(super) fn look_around(&self, v: VertexId, hole: &mut Hole) -> Result<Option<u32>> {

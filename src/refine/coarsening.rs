@@ -2,12 +2,15 @@
 //!
 //! A vertex goes if all triangles that take the place of those around it fulfil the criteria with some room: then it is not
 //! missed at once, and refinement does not add it again. Where triangles are bad before, they may be as bad after: that is
-//! for refinement to mend, with fewer vertices. Those at short edges go first.
+//! for refinement to mend, with fewer vertices. In narrow gaps they may be as refinement leaves them. Those at short edges
+//! go first.
 
 use super::criteria::{Tests, narrowest};
+use super::gaps::NarrowGap;
 use super::given::Given;
 use super::mesh::Mesh;
 use super::parts::{NONE, next, previous};
+use super::refinement::Origins;
 use super::removal::Hole;
 use crate::error::Result;
 use crate::ids::VertexId;
@@ -16,6 +19,14 @@ use crate::predicates::{dot, minus};
 
 /// Motions round a place off a line by less than this share of the distance from which vertices touch: 64 last places.
 const ROUNDED: f64 = 1.0 / 16.0;
+
+/// No squared cosine is greater.
+const NO_ANGLE: f64 = 2.0;
+
+/// A gap is narrow, whatever pieces are joined at it, if it is no wider than this share of what would be too wide, and
+/// pieces are bent by no more than this share of its width.
+const SURELY: f64 = 0.5;
+const BENT: f64 = 1.0 / 64.0;
 
 /// How much room the triangles must have that take the place of others.
 #[derive(Clone, Copy, Debug)]
@@ -65,18 +76,24 @@ struct Coarsening<'a> {
     is_touched: Vec<bool>,
     /// By vertex, whether triangles at it may be bad.
     is_near_bad: Vec<bool>,
+    /// Of the segments, if narrow gaps between them are looked for.
+    origins: Option<Origins>,
+    /// The triangles around the vertex that is looked at that are in narrow gaps, if what takes their place may be left
+    /// as they are.
+    in_gap: Vec<u32>,
 }
 
-/// Takes candidates away. `points` are the places of vertices, and `bad` the cells that refinement would mend.
+/// Takes candidates away. `points` are the places of vertices, and `bad` the cells that refinement would mend. Origins
+/// are needed where a bad cell is so thin that it may be in a narrow gap.
 pub(crate) fn coarsen(
     given: Given,
     points: Vec<[f64; 2]>,
-    tests: Tests,
-    room: Room,
-    bad: &[u32],
+    (tests, room): (Tests, Room),
+    (bad, origins): (&[u32], Option<Origins>),
     candidates: &[Candidate],
 ) -> Result<Coarsened> {
     let mut coarsening = Coarsening::new(given, points, tests, room)?;
+    coarsening.origins = origins;
     for &cell in bad {
         given.corners[cell as usize].iter().for_each(|&v| coarsening.is_near_bad[v] = true);
     }
@@ -122,6 +139,8 @@ impl<'a> Coarsening<'a> {
             into,
             is_touched,
             is_near_bad,
+            origins: None,
+            in_gap: Vec::new(),
         })
     }
 
@@ -210,9 +229,12 @@ impl<'a> Coarsening<'a> {
             return Ok(false);
         }
         let worst = self.worst(vertex, &self.mesh.cells);
-        let Coarsening { mesh, tests, room, hole, .. } = self;
+        let offset = self.mesh.squared_offset(vertex, [a, b]).sqrt();
+        self.list_in_gap(Some(a))?;
+        let Coarsening { mesh, tests, room, hole, origins, in_gap, .. } = self;
         let is_filled = mesh.fill_joined([before, behind], hole, &|mesh, corners, label| {
             is_good(mesh, tests, room.share, worst, corners, label)
+                || is_left(mesh, (tests, origins), room.share, (in_gap, offset), corners, label)
         })?;
         Ok(is_filled && !self.would_encroach(vertex, &self.mesh.cells, Some([a, b])))
     }
@@ -220,11 +242,36 @@ impl<'a> Coarsening<'a> {
     fn may_go_inside(&mut self, vertex: VertexId) -> Result<bool> {
         let Some(label) = self.mesh.look_around(vertex, &mut self.hole)? else { return Ok(false) };
         let worst = self.worst(vertex, &self.hole.around);
-        let Coarsening { mesh, tests, room, hole, .. } = self;
+        self.list_in_gap(None)?;
+        let Coarsening { mesh, tests, room, hole, origins, in_gap, .. } = self;
         let is_filled = mesh.fill_polygon(hole, label, &|mesh, corners, label| {
             is_good(mesh, tests, room.share, worst, corners, label)
+                || is_left(mesh, (tests, origins), room.share, (in_gap, 0.0), corners, label)
         })?;
         Ok(is_filled && !self.would_encroach(vertex, &self.hole.around, None))
+    }
+
+    /// Lists the triangles around a vertex that has been looked at in whose place some may be left in a gap: those on
+    /// one side of its pieces, which meet in it from this end on, or all, if each is in a narrow gap, and one is bad.
+    fn list_in_gap(&mut self, start: Option<VertexId>) -> Result<()> {
+        let Coarsening { mesh, tests, hole, origins, in_gap, .. } = self;
+        in_gap.clear();
+        let Some(origins) = origins else { return Ok(()) };
+        let (left, right) = match start {
+            None => (&hole.around[..], &[][..]),
+            Some(start) => mesh.cells.split_at(mesh.rim.iter().position(|s| s.ends[0] == start).unwrap_or(0)),
+        };
+        for side in [left, right] {
+            let is_bad = |&t: &u32| {
+                let (corners, label) = mesh.corners_of(t);
+                Tests::is_selected(label) && tests.is_flawed(corners.map(|v| mesh.point(v)), label, &corners)
+            };
+            let is_in_gap = |&t: &u32| mesh.gap_around(t, tests, origins).is_some_and(is_surely_narrow);
+            if side.iter().all(is_in_gap) && side.iter().any(is_bad) {
+                memory::append(in_gap, side)?;
+            }
+        }
+        Ok(())
     }
 
     /// Whether what has been found would encroach a piece: one at the triangles around the vertex, or the joined one. What
@@ -318,6 +365,31 @@ fn is_good(
     let size = |i: usize| tests.given_sizes()[corners[i]];
     !Tests::is_selected(label)
         || tests.measure_with(points, label, size, share, squared_cosine).flaw.is_none()
+}
+
+/// Whether a triangle is one that refinement leaves as it is, in a narrow gap as those whose place it takes, and not
+/// too large. Pieces that are joined by less than this offset change nothing of that.
+fn is_left(
+    mesh: &Mesh,
+    (tests, origins): (&Tests, &Option<Origins>),
+    share: f64,
+    (in_gap, offset): (&[u32], f64),
+    corners: [VertexId; 3],
+    label: u32,
+) -> bool {
+    let Some(origins) = origins else { return false };
+    let Some(k) = mesh.place_of_middle(corners, in_gap) else { return false };
+    let points = corners.map(|v| mesh.point(v));
+    let size = |i: usize| tests.given_sizes()[corners[i]];
+    !tests.is_flat(points)
+        && tests.measure_with(points, label, size, share, NO_ANGLE).flaw.is_none()
+        && mesh
+            .gap_of(corners, in_gap[k], tests, origins)
+            .is_some_and(|gap| offset <= BENT * gap.width && is_surely_narrow(gap))
+}
+
+fn is_surely_narrow(gap: NarrowGap) -> bool {
+    gap.width <= SURELY * gap.limit
 }
 
 /// Squared cosine of the angle at a corner.

@@ -29,6 +29,10 @@ const OFF_CENTRE: f64 = 0.475;
 /// tenth of a degree.
 const TOUCHING: f64 = 1024.0;
 
+/// A gap between two segments is narrow if its width is below this share of the shorter one's length. It is no round
+/// number, as widths and lengths often are.
+pub(super) const NARROW: f64 = 1.0 / 8192.0;
+
 /// All coordinates are multiples of it.
 const LEAST_POSITIVE: f64 = f64::from_bits(1);
 
@@ -75,6 +79,8 @@ pub(crate) struct Tests<'a> {
     scale: f64,
     /// What is nearer touches.
     pub(super) resolution: f64,
+    /// No narrow gap is wider.
+    pub(super) widest_gap: f64,
     /// Whether the function of the criteria has said to stop: it is not asked any more.
     is_stopped: Cell<bool>,
 }
@@ -106,6 +112,7 @@ impl<'a> Tests<'a> {
             scale: if extent > 0.0 { power_of_two_below((1.0 / extent).min(f64::MAX)) } else { 1.0 },
             resolution: TOUCHING
                 * (f64::EPSILON * power_of_two_below(greatest)).max(LEAST_POSITIVE * criteria.scale),
+            widest_gap: 2.0 * NARROW * extent,
             is_stopped: Cell::new(false),
         }
     }
@@ -275,10 +282,21 @@ impl<'a> Tests<'a> {
     /// Whether a triangle is so flat that its corners touch its longest edge.
     #[inline(always)]
     pub(super) fn is_flat(&self, p: [&[f64; 2]; 3]) -> bool {
+        self.has_height_below(self.resolution, p)
+    }
+
+    /// Whether a triangle is so flat that its middle may be in a narrow gap.
+    #[inline(always)]
+    pub(crate) fn is_thin(&self, p: [&[f64; 2]; 3]) -> bool {
+        self.has_height_below(2.0 * self.widest_gap, p)
+    }
+
+    #[inline(always)]
+    fn has_height_below(&self, height: f64, p: [&[f64; 2]; 3]) -> bool {
         let [u, v, w] =
             [[0, 1], [0, 2], [1, 2]].map(|[i, j]| minus::<f64, 2>(p[j], p[i]).map(|x| x * self.scale));
         let longest = [u, v, w].map(|u| dot(&u, &u)).into_iter().fold(0.0, f64::max);
-        (u[0] * v[1] - u[1] * v[0]).abs() < self.resolution * self.scale * longest.sqrt()
+        (u[0] * v[1] - u[1] * v[0]).abs() < height * self.scale * longest.sqrt()
     }
 
     /// Whether an edge, of this squared length by [`measure`](Self::measure), is so short that its ends touch.
@@ -349,7 +367,7 @@ pub(super) fn narrowest(p: [&[f64; 2]; 3]) -> usize {
     }))
 }
 
-pub(super) fn distance(p: &[f64; 2], q: &[f64; 2]) -> f64 {
+pub(crate) fn distance(p: &[f64; 2], q: &[f64; 2]) -> f64 {
     let u = minus::<f64, 2>(p, q);
     dot(&u, &u).sqrt()
 }

@@ -76,7 +76,7 @@ impl Refinement<'_> {
             };
         }
         let ends = triangle.ends(side.index()).map(|v| self.mesh.point(v));
-        if self.tests.is_too_long(ends, triangle.label) {
+        if self.tests.is_too_long(ends, triangle.label) && !self.is_in_gap(side.triangle()) {
             return Ok(Some((piece, Some([0, 1].map(|axis| 0.5 * (ends[0][axis] + ends[1][axis]))))));
         }
         Ok(self.is_encroached_from(side).then_some((piece, None)))
@@ -90,6 +90,7 @@ impl Refinement<'_> {
                 !self.tests.is_short(measured.shortest)
                     && !self.is_flat(t)
                     && !self.is_hopeless(t, measured.narrowest)
+                    && !self.is_in_gap(t)
             }
             Some(Flaw::Size) => true,
         }
@@ -103,7 +104,8 @@ impl Refinement<'_> {
 
     /// Whether a piece at a side would have to be split for the corner opposite it.
     pub(super) fn is_encroached_from(&self, side: Side) -> bool {
-        self.is_seen_wide(side) && !self.is_flat(side.triangle())
+        let t = side.triangle();
+        self.is_seen_wide(side) && !self.is_flat(t) && !self.is_in_gap(t)
     }
 
     /// Whether the corner opposite a side is in the lens or circle of that, even if it touches it.
@@ -111,6 +113,15 @@ impl Refinement<'_> {
         let triangle = self.mesh.triangle(side.triangle());
         let ends = triangle.ends(side.index()).map(|v| self.mesh.point(v));
         self.tests.is_encroached(ends, self.mesh.point(triangle.corners[side.index()]))
+    }
+
+    /// Whether a triangle is in a narrow gap between segments.
+    pub(super) fn is_in_gap(&self, t: u32) -> bool {
+        let is_in_gap = self.mesh.gap_around(t, &self.tests, &self.origins).is_some();
+        if is_in_gap {
+            self.has_gaps.set(true);
+        }
+        is_in_gap
     }
 
     pub(super) fn is_encroached(&self, piece: u32) -> bool {

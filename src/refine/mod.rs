@@ -28,6 +28,7 @@
 //! | `removal` | removal of a vertex, from within or between two pieces |
 //! | `criteria` | what is bad, what is encroached |
 //! | `flat` | vertices that touch a piece: a few last places beside it |
+//! | `gaps` | narrow gaps between segments |
 //! | `queue` | bad triangles in order |
 //! | `refinement` | what refinement knows, and what waits |
 //! | `examining`, `splitting`, `refining` | what is wanted; where pieces are split; what is done for bad triangles |
@@ -71,7 +72,8 @@
 //! is no shorter than the pieces at the shell. Other triangles have angles that refinement mends.
 //! Vertices on common shells are in no circles of each other's pieces: from distance d at an angle w, the piece from d to
 //! 2d is seen under 90 degrees at most, since 2d² - 3d² cos w + d² is not negative. Places are rounded, and w² has to be
-//! above that: at angles below 1e-8 or so vertices on two segments are in each other's circles until the last bits.
+//! above that: at angles below 1e-8 or so vertices on two segments are in each other's circles until the last bits. Such
+//! angles are narrow gaps.
 //!
 //! A bad triangle waits again only after a piece has been split, and vertices on pieces stay. Pieces that cannot be split,
 //! since they are kept whole or there is no room, are left, and so are triangles that need it. But one of too large an area
@@ -79,12 +81,29 @@
 //! 2A / 3L away from its sides, so there can only be so many. When nothing waits, all that was left is looked at again, until
 //! a pass over all of it changes nothing. So a second call has nothing to do.
 //!
+//! # Narrow gaps
+//!
+//! Between two segments that are nearly parallel, by 0.2 degrees, cells without small angles are as small as the gap is
+//! wide, so that there are as many as it is longer than wide. Where it is narrower than 1 / 8,192 of the shorter segment,
+//! and of the distance from a common end, that is left (`gaps`): a triangle whose middle is there is not mended for its
+//! angle, and its corners encroach no piece. For its size it is mended by splits of pieces: it gets no off-centre, which
+//! would be at its shortest edge. A vertex beside a segment is no gap, nor is what is around the end of a gap: there
+//! triangles get larger with the distance, and are as many as its logarithm says.
+//!
+//! Widths are compared with segments, not with pieces, and straight ways lead across a gap whatever vertices are in it: so
+//! no vertex makes a gap a wide one, but for last places by which it bends a piece, and what has been left is looked at
+//! again. What is in a gap depends on the triangulation alone, not on what has been done to it. No number of vertices is
+//! proved by this beyond what is said above. In practice it is narrow gaps in which refinement does not end, and a gap that
+//! is hardly not narrow gets some 10,000 vertices.
+//!
 //! # At rest
 //!
 //! Coarsening takes a vertex away if all triangles that come are good, by a margin. Only around triangles that refinement
 //! would mend may they be as bad as those there: whether it would is found by its own rules ([`mendable`]). After a
 //! refinement there are none, so what coarsening then leaves is good, or was left by refinement too, and neither of the
-//! two finds anything to do.
+//! two finds anything to do. In a gap of half the width that is narrow a vertex goes if all triangles around it, or on one
+//! side of its pieces, are there, one of them is bad, and those that come are there as well, and not too large:
+//! refinement leaves these.
 //!
 //! # Made anew
 //!
@@ -98,6 +117,7 @@ mod coarsening;
 mod criteria;
 mod examining;
 mod flat;
+mod gaps;
 mod given;
 mod insertion;
 mod mesh;
@@ -112,7 +132,7 @@ mod telling;
 mod walking;
 
 pub(crate) use coarsening::{Candidate, Room, coarsen};
-pub(crate) use criteria::{Criteria, Tests, power_of_two_below};
+pub(crate) use criteria::{Criteria, Tests, distance, power_of_two_below};
 pub(crate) use given::Given;
 pub(crate) use parts::NONE;
 pub use refinement::Kept;

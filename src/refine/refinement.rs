@@ -8,6 +8,7 @@ use super::removal::Hole;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
+use std::cell::Cell;
 
 /// Which segments stay whole.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -26,6 +27,8 @@ pub enum Kept {
 pub(crate) struct Origins {
     /// Ends of each original segment.
     pub ends: Vec<[VertexId; 2]>,
+    /// How long what is in force of each is.
+    pub lengths: Vec<f64>,
     /// The original of each segment.
     pub of_segments: Vec<u32>,
     /// Vertices that earlier calls have added, with the original that they are on.
@@ -51,6 +54,9 @@ pub(super) struct Refinement<'a> {
     pub(super) n_cleared: usize,
     /// Whether something that is wanted has been left, as there was no room for it.
     pub(super) has_left: bool,
+    /// Whether something has been left since it is in a narrow gap, which may not be one after pieces have been split, as
+    /// rounding bends them.
+    pub(super) has_gaps: Cell<bool>,
     pub(super) hole: Hole,
     /// Pieces in the way of a vertex, each with where it is in the way.
     pub(super) in_the_way: Vec<(u32, [f64; 2])>,
@@ -91,6 +97,7 @@ impl<'a> Refinement<'a> {
             n_split: 0,
             n_cleared: 0,
             has_left: false,
+            has_gaps: Cell::new(false),
             hole: Hole::default(),
             in_the_way: Vec::new(),
             has_flat: false,

@@ -37,10 +37,12 @@ impl Refinement<'_> {
             // come where others go, it would not end.
             let has_changed = self.n_added != n_added || self.n_split > n_split;
             let is_going_round = self.n_split == n_split && self.n_cleared > n_cleared;
-            if !self.has_left || !has_changed || is_going_round {
+            let has_left = self.has_left || self.has_gaps.get();
+            if !has_left || !has_changed || is_going_round {
                 return Ok(false);
             }
             self.has_left = false;
+            self.has_gaps.set(false);
             self.mesh.pieces.iter_mut().for_each(|piece| piece.is_fixed = false);
             self.examine_all()?;
         }
@@ -208,7 +210,9 @@ impl Refinement<'_> {
         let mut w = [(v[1] * uu - u[1] * vv) * half, (u[0] * vv - v[0] * uu) * half];
         let off = [0.5 * u[0] - self.tests.off * u[1], 0.5 * u[1] + self.tests.off * u[0]];
         // One at an edge whose ends touch would touch them, too.
-        let is_nearer = dot(&off, &off) < dot(&w, &w) && !self.tests.is_short(measured.shortest);
+        let is_nearer = dot(&off, &off) < dot(&w, &w)
+            && !self.tests.is_short(measured.shortest)
+            && !(measured.flaw == Some(Flaw::Size) && self.is_in_gap(t));
         if is_nearer || !dot(&w, &w).is_finite() {
             w = off;
         }

@@ -12,7 +12,7 @@ pub(super) fn turned(points: &[[f64; 2]], angle: f64) -> Vec<[f64; 2]> {
     points.iter().map(|p| [p[0] * cosine - p[1] * sine, p[0] * sine + p[1] * cosine]).collect()
 }
 
-fn scaled(domain: Domain, scale: f64, shift: [f64; 2]) -> Domain {
+pub(super) fn scaled(domain: Domain, scale: f64, shift: [f64; 2]) -> Domain {
     let points = domain.points.iter().map(|p| [0, 1].map(|axis| p[axis] * scale + shift[axis])).collect();
     Domain { points, ..domain }
 }
@@ -177,7 +177,7 @@ pub(super) fn count_bad(t: &Triangulation, quality: &Quality) -> usize {
 }
 
 /// What is saved.
-fn bytes(t: &Triangulation) -> Vec<u8> {
+pub(super) fn bytes(t: &Triangulation) -> Vec<u8> {
     t.saved().expect("room")
 }
 

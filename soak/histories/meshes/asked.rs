@@ -4,8 +4,8 @@ use crate::common::Rng;
 use deldrift::motion::{CoarsenOptions, Kept, MovingTriangulation, Quality, QualityReport, RefineOptions};
 use deldrift::{Error, Plane};
 
-/// More vertices than meshes here have.
-pub const LIMIT: usize = 1_000_000;
+/// More vertices than meshes here have: gaps that are hardly not narrow get some ten thousand, and a domain has few.
+pub const LIMIT: usize = 100_000;
 
 /// A quality, and by which means.
 #[derive(Clone, Debug)]

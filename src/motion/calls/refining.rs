@@ -6,6 +6,7 @@
 //! the place of these, are staged and committed.
 
 mod checks;
+mod origins;
 mod reading;
 mod remeshing;
 mod staging;
@@ -23,7 +24,7 @@ use crate::motion::state::looked::{Looked, Question, ScaledPlaces};
 use crate::motion::state::made::{Inserted, Origin};
 use crate::motion::state::segments::Segment;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::refine::{self, Candidate, Criteria, NONE, Origins, Refined, Room, Tests};
+use crate::refine::{self, Candidate, Criteria, NONE, Refined, Room, Tests};
 use reading::Read;
 use staging::SegmentChanges;
 
@@ -35,7 +36,8 @@ impl MovingTriangulation<Plane> {
     /// rounded; the pieces are straight between their own ends.
     ///
     /// Cells where the quality cannot be had stay: between segments at a small angle, at segments that stay whole, and where
-    /// there is no room for a vertex. The report tells how many.
+    /// there is no room for a vertex. So do those in narrow gaps: between nearly parallel segments, less wide than
+    /// 1 / 8,192 of the shorter one. The report tells how many.
     ///
     /// After a [`coarsen`](Self::coarsen) it may make the mesh anew, in its one commit, where that has fewer vertices by the
     /// factor [`growth`](CoarsenOptions::growth): then it removes vertices that it has made, too, and weights tell how values
@@ -252,8 +254,16 @@ impl MovingTriangulation<Plane> {
         let room = Room { angle: options.margin, share: options.share, offset: options.joins };
         refine::keep(given, &points, &tests, room, &mut candidates)?;
         read.put_first(&mut candidates);
-        let coarsened = refine::coarsen(given, points, tests, room, &mendable, &candidates)?;
+        let thin = |&&cell: &&u32| tests.is_thin(cells.corners[cell as usize].map(|v| &points[v]));
+        let mut corners_of_thin = Vec::new();
+        for &cell in read.bad.iter().filter(thin) {
+            memory::append(&mut corners_of_thin, &cells.corners[cell as usize])?;
+        }
+        let origins = if corners_of_thin.is_empty() { None } else { Some(self.origins(&read)?) };
+        let coarsened = refine::coarsen(given, points, (tests, room), (&mendable, origins), &candidates)?;
         remember(stays, &read, cells.corners, &candidates, &coarsened.able);
+        // Whether they are in narrow gaps depends on more than the cells around them.
+        corners_of_thin.iter().for_each(|&v| stays[v] = false);
         report.removed = coarsened.vertices.len();
         if report.removed == 0 {
             let made = self.made.as_mut().expect("it has vertices");
@@ -343,35 +353,6 @@ impl MovingTriangulation<Plane> {
     fn segment_in_force(&self, segment: SegmentId) -> Segment {
         let segments = self.mesh.segments.as_ref().expect("there is one");
         segments.get(segment).expect("it is in force")
-    }
-
-    /// The original of each edge that is a segment, and those of vertices that have been added.
-    fn origins(&self, read: &Read) -> Result<Origins> {
-        let mut of_edges = Vec::new();
-        memory::collect(
-            &mut of_edges,
-            (0..read.edges.len()).map(|edge| self.origin_of(read.segments_at(edge)[0].1)),
-        )?;
-        let mut sorted = memory::copy_of(&of_edges)?;
-        sorted.sort_unstable();
-        sorted.dedup();
-        let place = |origin: &Origin| sorted.binary_search(origin).expect("it is listed") as u32;
-        let mut origins = Origins::default();
-        memory::collect(&mut origins.of_segments, of_edges.iter().map(place))?;
-        // Parts of one segment, between vertices at which others have split it, are originals of their own. A vertex is on
-        // that of the pieces beside it.
-        let made_on = |v: VertexId| self.made.as_ref().and_then(|made| made.is_on(v));
-        for (edge, &ends) in read.edges.iter().enumerate() {
-            for v in ends {
-                let Some(on) = made_on(v) else { continue };
-                let others = || read.segments_at(edge)[1..].iter();
-                if of_edges[edge].segment == on || others().any(|&(_, id)| self.original_segment(id) == on) {
-                    memory::push(&mut origins.of_vertices, (v, origins.of_segments[edge]))?;
-                }
-            }
-        }
-        memory::collect(&mut origins.ends, sorted.iter().map(|origin| origin.ends))?;
-        Ok(origins)
     }
 
     /// The vertices that may go.
