@@ -53,17 +53,18 @@ const FLOORS: [&str; 12] = [
 ];
 
 /// The floors of the kernel, from the top, each of several rooms.
-const KERNEL: [&str; 10] = [
-    "build parallel unite restoring copying successor validate",
+const KERNEL: [&str; 11] = [
+    "build parallel unite restoring copying successor validate cone",
     "relocate remove high_degree wrapping hole segments",
     "flip",
     "sample certify uncertain winding",
-    "inserting cavity",
+    "inserting",
+    "cavity settling",
     "star locate straight landmarks covering",
-    "plane space cavity_plane cavity_space",
-    "around undo changes flat parts order",
-    "dimension exchange flipper lane_tests signs spheres meetings flips",
-    "site keys shape facets failures set",
+    "plane space cavity_plane cavity_space cavity_marked",
+    "around undo changes flat parts order above",
+    "geometry exchange flipper lane_tests signs spheres meetings flips",
+    "site keys shape facets failures set in_space",
 ];
 
 /// A type is spread if it has methods in more than this number of files: nobody sees what calls what by opening one.

@@ -12,9 +12,9 @@
 use super::Delaunay;
 use super::above::Swallowed;
 use super::geometry::Insert;
+use super::in_space::InSpace;
 use super::meetings::{Meetings, Ridge, Row, SMALL_RIM};
 use super::shape::Space;
-use super::space::InSpace;
 use super::spheres::{IN_ZONE, Spheres, Table};
 use crate::complex::Facet;
 use crate::error::Result;

@@ -8,8 +8,8 @@
 use std::hint::select_unpredictable;
 
 use super::Delaunay;
+use super::in_space::InSpace;
 use super::shape::Space;
-use super::space::InSpace;
 use crate::complex::{Facet, INFINITE, MAX_CELLS};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};

@@ -62,6 +62,7 @@ mod flips;
 mod geometry;
 mod high_degree;
 mod hole;
+mod in_space;
 mod inserting;
 mod keys;
 mod landmarks;

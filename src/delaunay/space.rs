@@ -4,41 +4,15 @@ use super::cavity_space;
 use super::flipper::{Flip, Flipper};
 use super::flips::Flips;
 use super::geometry::Geometry;
+use super::in_space::InSpace;
 use super::lane_tests::{Held, LaneTests, Ray, apexes_beyond, corners_at};
 use super::shape::Space;
 use super::signs::Signs;
 use super::site::Sites;
 use crate::complex::{Complex, Facet, INFINITE, Obstacle, outer_of_three, outer_of_two};
 use crate::ids::{SiteId, VertexId};
-use crate::predicates::{self, OwnBounds, PointArray, SpacePoint, StaticFilter, WeightedPoint};
+use crate::predicates::{self, OwnBounds, StaticFilter};
 use crate::simd::{ALL, LANES, Lanes, Real, Simd, in_lanes};
-
-/// A point of space, as cells of several of them are read.
-pub trait InSpace: SpacePoint {
-    /// Several sites, in lanes.
-    fn of_sites<S: Simd>(simd: S, all: Sites<Space<Self>>, sites: [SiteId; LANES]) -> Self::Of<S::Lanes>;
-}
-
-impl InSpace for [f64; 3] {
-    #[inline(always)]
-    fn of_sites<S: Simd>(simd: S, all: Sites<Space>, sites: [SiteId; LANES]) -> [S::Lanes; 3] {
-        let [x, y, z, _] = simd.fours(sites.map(|s| all.padded_point(s)));
-        [x, y, z]
-    }
-}
-
-impl InSpace for WeightedPoint<3> {
-    #[inline(always)]
-    fn of_sites<S: Simd>(
-        simd: S,
-        all: Sites<Space<Self>>,
-        sites: [SiteId; LANES],
-    ) -> WeightedPoint<3, S::Lanes> {
-        let numbers = |s| Self::flattened(std::slice::from_ref(all.point(s))).first_chunk();
-        let [x, y, z, weight] = simd.fours(sites.map(|s| numbers(s).expect("four numbers")));
-        WeightedPoint { place: [x, y, z], weight }
-    }
-}
 
 impl<P: InSpace> Signs for Space<P> {
     fn filter(lower: &P, upper: &P) -> StaticFilter {

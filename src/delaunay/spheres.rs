@@ -17,8 +17,8 @@
 #![allow(unsafe_code)]
 
 use super::Delaunay;
+use super::in_space::InSpace;
 use super::shape::Space;
-use super::space::InSpace;
 use crate::complex::INFINITE;
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};

@@ -1,7 +1,7 @@
 //! What is the same for points of any dimension.
 
 use super::integer::two_difference;
-use super::tolerance::square_between;
+use super::vectors::square_between;
 use crate::simd::{LANES, Simd};
 
 /// Points as arrays, whatever their length: written once, but only where that is known.

@@ -8,7 +8,7 @@ use std::fmt::Debug;
 use super::located::{Located, SeenPoint};
 use super::points::{PlanePoint, SpacePoint};
 use super::sphere::{circle_seen, side_of_circle_seen, side_of_sphere_seen, sphere_seen};
-use super::vectors::{cross, dot, minor};
+use super::vectors::{cross, dot, greatest_along_axes, greatest_of, minor};
 use super::{
     BiCells, Delimiter, StaticFilter, delimiter2d, delimiter3d, orientation_tolerance2d,
     orientation_tolerance3d, separator3d, tolerances2d, tolerances3d,
@@ -139,8 +139,10 @@ pub(crate) fn bicells_surely_hold3d<P: SpacePoint, T: Real>(
 #[inline(always)]
 pub(crate) fn bicells_hold_for_their_size2d<P: PlanePoint, T: Real>(bicells: &[P::Of<T>; 4]) -> T::Mask {
     let seen = seen_from_first::<P, _, 2, 4, 3>(bicells);
-    let bounds =
-        P::semi_static(extents(&seen.map(|seen| seen.difference)), weights_apart::<P, _, 2, 4, 3>(bicells));
+    let bounds = P::semi_static(
+        greatest_along_axes(seen.each_ref().map(|seen| &seen.difference)),
+        weights_apart::<P, _, 2, 4, 3>(bicells),
+    );
     Certificates::in_plane(&seen).exceed(bounds)
 }
 
@@ -148,8 +150,10 @@ pub(crate) fn bicells_hold_for_their_size2d<P: PlanePoint, T: Real>(bicells: &[P
 #[inline(always)]
 pub(crate) fn bicells_hold_for_their_size3d<P: SpacePoint, T: Real>(bicells: &[P::Of<T>; 5]) -> T::Mask {
     let seen = seen_from_first::<P, _, 3, 5, 4>(bicells);
-    let bounds =
-        P::semi_static(extents(&seen.map(|seen| seen.difference)), weights_apart::<P, _, 3, 5, 4>(bicells));
+    let bounds = P::semi_static(
+        greatest_along_axes(seen.each_ref().map(|seen| &seen.difference)),
+        weights_apart::<P, _, 3, 5, 4>(bicells),
+    );
     Certificates::in_space(&seen).exceed(bounds)
 }
 
@@ -175,29 +179,7 @@ fn weights_apart<P: Located<D>, T: Real, const D: usize, const M: usize, const N
     for k in 1..N {
         apart[k] = P::weight_apart(&points[k + 1], &points[0]);
     }
-    greatest(&apart)
-}
-
-/// The greatest magnitude along each axis.
-#[inline(always)]
-pub(super) fn extents<T: Real, const D: usize, const N: usize>(differences: &[[T; D]; N]) -> [T; D] {
-    let mut greatest = [differences[0][0].splat(0.0); D];
-    for difference in differences {
-        for axis in 0..D {
-            greatest[axis] = difference[axis].abs().max(greatest[axis]);
-        }
-    }
-    greatest
-}
-
-/// The greatest one of some magnitudes.
-#[inline(always)]
-pub(super) fn greatest<T: Real, const N: usize>(magnitudes: &[T; N]) -> T {
-    let mut greatest = magnitudes[0];
-    for &magnitude in &magnitudes[1..] {
-        greatest = magnitude.max(greatest);
-    }
-    greatest
+    greatest_of(&apart)
 }
 
 /// The determinants that decide about a bi-cell: the volumes of both cells are to be positive, the side of the second

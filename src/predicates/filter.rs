@@ -75,7 +75,6 @@
 //! extent. So one formula gives both the static bound, from a box of all points there are, and the
 //! semi-static bound, from the box of the few points at hand.
 
-use super::weighted::WeightedPoint;
 use crate::simd::Real;
 
 /// Unit roundoff, u.
@@ -281,21 +280,21 @@ impl StaticFilter {
         }
     }
 
-    /// Bounds for `orient2d` and power circles of points between `lower` and `upper`, inclusive, of which the weights are in a range as
-    /// well. `in_sphere` is the bound of `incircle`.
-    pub fn power_plane(lower: &WeightedPoint<2>, upper: &WeightedPoint<2>) -> Self {
-        let [weight] = box_extents(&[lower.weight], &[upper.weight]);
-        let filter = Self::plane(lower.place, upper.place);
-        let [_, prepared] = power_bounds_2d(box_extents(&lower.place, &upper.place), weight);
+    /// Bounds for `orient2d` and power circles of points between `lower` and `upper`, inclusive, of which the weights are between these
+    /// two. `in_sphere` is the bound of `incircle`.
+    pub fn power_plane(lower: [f64; 2], upper: [f64; 2], weights: [f64; 2]) -> Self {
+        let [weight] = box_extents(&[weights[0]], &[weights[1]]);
+        let filter = Self::plane(lower, upper);
+        let [_, prepared] = power_bounds_2d(box_extents(&lower, &upper), weight);
         Self { prepared, largest_square: filter.largest_square.max(weight), ..filter }
     }
 
-    /// Bounds for `orient3d` and power spheres of points between `lower` and `upper`, inclusive, of which the weights are in a range as
-    /// well. `in_sphere` is the bound of `insphere`.
-    pub fn power_space(lower: &WeightedPoint<3>, upper: &WeightedPoint<3>) -> Self {
-        let [weight] = box_extents(&[lower.weight], &[upper.weight]);
-        let filter = Self::space(lower.place, upper.place);
-        let [_, prepared] = power_bounds_3d(box_extents(&lower.place, &upper.place), weight);
+    /// Bounds for `orient3d` and power spheres of points between `lower` and `upper`, inclusive, of which the weights are between these
+    /// two. `in_sphere` is the bound of `insphere`.
+    pub fn power_space(lower: [f64; 3], upper: [f64; 3], weights: [f64; 2]) -> Self {
+        let [weight] = box_extents(&[weights[0]], &[weights[1]]);
+        let filter = Self::space(lower, upper);
+        let [_, prepared] = power_bounds_3d(box_extents(&lower, &upper), weight);
         Self { prepared, largest_square: filter.largest_square.max(weight), ..filter }
     }
 }

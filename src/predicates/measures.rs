@@ -26,7 +26,7 @@ use super::big::{
 use super::filter::{CIRCLE_VECTOR, SPHERE_VECTOR, semi_static_bounds_2d, semi_static_bounds_3d};
 use super::integer::power_of_two;
 use super::sphere::{circle, sphere};
-use super::vectors::{dot, minor, minus, plus};
+use super::vectors::{dot, greatest_along_axes, minor, minus, plus};
 use crate::simd::Real;
 use std::cmp::Ordering;
 
@@ -107,7 +107,7 @@ impl Measures for [f64; 2] {
     fn volume_by(cell: &[&Self], sharp: f64) -> f64 {
         let &[a, b, c] = cell else { unreachable!("a triangle") };
         let (u, v) = (minus(b, a), minus(c, a));
-        let [bound, _] = semi_static_bounds_2d(greatest([&u, &v]));
+        let [bound, _] = semi_static_bounds_2d(greatest_along_axes([&u, &v]));
         let det = minor(&u, &v);
         if det > sharp * bound { 0.5 * det } else { exact_volume([a, b, c], |[u, v]| big_minor(u, v), 0.5) }
     }
@@ -131,7 +131,7 @@ impl Measures for [f64; 3] {
     fn volume_by(cell: &[&Self], sharp: f64) -> f64 {
         let &[a, b, c, d] = cell else { unreachable!("a tetrahedron") };
         let (u, v, w) = (minus(b, a), minus(c, a), minus(d, a));
-        let [bound, _] = semi_static_bounds_3d(greatest([&u, &v, &w]));
+        let [bound, _] = semi_static_bounds_3d(greatest_along_axes([&u, &v, &w]));
         let det = super::space::volume(&u, &v, &w);
         let sixth = 1.0 / 6.0;
         if det > sharp * bound {
@@ -155,16 +155,10 @@ impl Measures for [f64; 3] {
     }
 }
 
-/// The greatest magnitudes along each axis.
-#[inline(always)]
-pub(super) fn greatest<const D: usize, const N: usize>(differences: [&[f64; D]; N]) -> [f64; D] {
-    std::array::from_fn(|axis| differences.iter().fold(0.0, |most, u| Real::max(u[axis].abs(), most)))
-}
-
 #[inline(always)]
 pub(super) fn rounded2d([a, b, c]: [&[f64; 2]; 3]) -> Rounded<2> {
     let [x, y, volume] = circle(a, b, c);
-    let [e, f] = greatest([&minus(b, a), &minus(c, a)]);
+    let [e, f] = greatest_along_axes([&minus(b, a), &minus(c, a)]);
     let extent = Real::max(e, f);
     Rounded::new([x, y], volume, extent, 2.0 * SHARP * CIRCLE_VECTOR * (extent * extent))
 }
@@ -172,7 +166,7 @@ pub(super) fn rounded2d([a, b, c]: [&[f64; 2]; 3]) -> Rounded<2> {
 #[inline(always)]
 pub(super) fn rounded3d([a, b, c, d]: [&[f64; 3]; 4]) -> Rounded<3> {
     let [x, y, z, volume] = sphere(a, b, c, d);
-    let [e, f, g] = greatest([&minus(b, a), &minus(c, a), &minus(d, a)]);
+    let [e, f, g] = greatest_along_axes([&minus(b, a), &minus(c, a), &minus(d, a)]);
     let (more, less) = (Real::max(e, f), Real::min(e, f));
     let (extent, second) = (Real::max(more, g), Real::max(Real::min(more, g), less));
     let bound = 2.0 * SHARP * SPHERE_VECTOR * (extent * extent * second);

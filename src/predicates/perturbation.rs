@@ -37,10 +37,11 @@
 //! of the points are coplanar.
 
 use super::filter::StaticFilter;
+use super::located::Located;
 use super::plane::{incircle, orient2d};
-use super::points::{PlanePoint, SpacePoint};
 use super::power::{in_power_circle, in_power_sphere};
 use super::space::{insphere, orient3d};
+use super::sphere::{circle_seen, side_of_circle_seen, side_of_sphere_seen, sphere_seen};
 use super::vectors::{minor, minus};
 use super::weighted::WeightedPoint;
 
@@ -89,7 +90,7 @@ pub fn in_power_circle_perturbed(
 ) -> bool {
     type P = WeightedPoint<2>;
     let [a, b, c, q] = points;
-    let side = P::side::<f64>(&P::circle::<f64>(a, b, c), a, q);
+    let side = side_of_circle_seen(&circle_seen(&P::seen(b, a), &P::seen(c, a)), &P::seen(q, a));
     if side.abs() > f.prepared {
         return side > 0.0;
     }
@@ -109,7 +110,8 @@ pub fn in_power_sphere_perturbed(
 ) -> bool {
     type P = WeightedPoint<3>;
     let [a, b, c, d, q] = points;
-    let side = P::side::<f64>(&P::sphere::<f64>(a, b, c, d), a, q);
+    let sphere = sphere_seen(&P::seen(b, a), &P::seen(c, a), &P::seen(d, a));
+    let side: f64 = side_of_sphere_seen(&sphere, &P::seen(q, a));
     if side.abs() > f.prepared {
         return side > 0.0;
     }

@@ -1,6 +1,5 @@
 //! What points of the plane, and of space, bring to predicates, with weights and without.
 
-use super::bicells::{extents, greatest};
 use super::filter::{
     StaticFilter, power_bounds_2d, power_bounds_3d, semi_static_bounds_2d, semi_static_bounds_3d,
 };
@@ -12,6 +11,7 @@ use super::sphere::{
     OwnBounds2d, OwnBounds3d, circle_seen, is_box_outside_circle, is_box_outside_sphere, side_of_circle_seen,
     side_of_sphere_seen, sphere_seen,
 };
+use super::vectors::{greatest_along_axes, greatest_of};
 use super::weighted::WeightedPoint;
 use super::{Circle, Sphere, exact_filter};
 use crate::simd::Real;
@@ -106,7 +106,7 @@ pub trait SpacePoint: Located<3> {
         let others = [b, c, d, q];
         let seen = others.map(|p| Self::seen(p.alone(), a.alone()).difference);
         let weights = others.map(|p| Self::weight_apart(p.alone(), a.alone()));
-        let [_, bound] = Self::semi_static(extents(&seen), greatest(&weights));
+        let [_, bound] = Self::semi_static(greatest_along_axes(seen.each_ref()), greatest_of(&weights));
         side.abs() > bound
     }
 }
@@ -193,8 +193,8 @@ pub struct Extents<T, const D: usize> {
 impl<T: Real, const D: usize> Extents<T, D> {
     #[inline(always)]
     fn of<const N: usize>(others: [&SeenPoint<T, D>; N], weights: [T; N]) -> Self {
-        let of_place = extents(&others.map(|seen| seen.difference));
-        Extents { of_place, of_weight: greatest(&weights) }
+        let of_place = greatest_along_axes(others.map(|seen| &seen.difference));
+        Extents { of_place, of_weight: greatest_of(&weights) }
     }
 
     /// With one more point, which is seen from the first corner.
@@ -265,7 +265,7 @@ impl PlanePoint for WeightedPoint<2> {
     type OwnBounds<T: Real> = Extents<T, 2>;
 
     fn filter(lower: &Self, upper: &Self) -> StaticFilter {
-        StaticFilter::power_plane(lower, upper)
+        StaticFilter::power_plane(lower.place, upper.place, [lower.weight, upper.weight])
     }
 
     /// None: the lattice would have to be one of weights as well.
@@ -304,7 +304,7 @@ impl SpacePoint for WeightedPoint<3> {
     type OwnBounds<T: Real> = Extents<T, 3>;
 
     fn filter(lower: &Self, upper: &Self) -> StaticFilter {
-        StaticFilter::power_space(lower, upper)
+        StaticFilter::power_space(lower.place, upper.place, [lower.weight, upper.weight])
     }
 
     /// None: the lattice would have to be one of weights as well.

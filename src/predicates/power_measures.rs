@@ -16,11 +16,10 @@
 use super::big::{Integer, LimbRoom, POWER_RADIUS_LIMBS, in_square_of_unit, lifted, square};
 use super::filter::{POWER_CIRCLE_VECTOR, POWER_SPHERE_VECTOR};
 use super::measures::{
-    LEAST_EXTENT, LEAST_VOLUME, MARGIN, Measures, SHARP, greatest, lifted_circle, lifted_sphere, others,
-    scaled,
+    LEAST_EXTENT, LEAST_VOLUME, MARGIN, Measures, SHARP, lifted_circle, lifted_sphere, others, scaled,
 };
 use super::points::{PlanePoint, SpacePoint};
-use super::vectors::{dot, minus, plus};
+use super::vectors::{dot, greatest_along_axes, minus, plus};
 use super::weighted::WeightedPoint;
 use std::cmp::Ordering;
 
@@ -60,7 +59,7 @@ impl<const D: usize> Offset<D> {
 
 fn offset2d([a, b, c]: [&WeightedPoint<2>; 3]) -> Offset<2> {
     let [x, y, volume] = WeightedPoint::<2>::circle::<f64>(a, b, c);
-    let [e, f] = greatest([&minus(&b.place, &a.place), &minus(&c.place, &a.place)]);
+    let [e, f] = greatest_along_axes([&minus(&b.place, &a.place), &minus(&c.place, &a.place)]);
     let (extent, square) = (e.max(f), square_of_q([e, f], a, [b, c]));
     Offset::new([x, y], volume, square, POWER_CIRCLE_VECTOR * extent)
 }
@@ -68,7 +67,7 @@ fn offset2d([a, b, c]: [&WeightedPoint<2>; 3]) -> Offset<2> {
 fn offset3d([a, b, c, d]: [&WeightedPoint<3>; 4]) -> Offset<3> {
     let [x, y, z, volume] = WeightedPoint::<3>::sphere::<f64>(a, b, c, d);
     let differences = [b, c, d].map(|p| minus(&p.place, &a.place));
-    let mut extents = greatest(differences.each_ref());
+    let mut extents = greatest_along_axes(differences.each_ref());
     let square = square_of_q(extents, a, [b, c, d]);
     extents.sort_unstable_by(f64::total_cmp);
     Offset::new([x, y, z], volume, square, POWER_SPHERE_VECTOR * (extents[2] * extents[1]))

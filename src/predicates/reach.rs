@@ -49,11 +49,11 @@ use super::big::{Integer, LimbRoom, MOST_LIMBS, differences_in_units, square};
 use super::filter::{
     CIRCLE_VECTOR, SPHERE_VECTOR, UNDERFLOW, UNIT, semi_static_bounds_2d, semi_static_bounds_3d,
 };
-use super::measures::{Rounded, exact_circle, exact_offset, exact_sphere, greatest, rounded2d, rounded3d};
+use super::measures::{Rounded, exact_circle, exact_offset, exact_sphere, rounded2d, rounded3d};
 use super::plane::{incircle, orient2d};
 use super::space::{insphere, orient3d};
 use super::sphere::{circle, sphere};
-use super::vectors::{cross, dot, minus, plus};
+use super::vectors::{cross, dot, greatest_along_axes, minus, plus};
 use crate::machine::tally;
 use crate::simd::Real;
 
@@ -140,7 +140,7 @@ impl Reach for [f64; 2] {
             return cover_exact(a, exact_offset([a, b, c], |p| exact_circle(p)));
         }
         let [_, _, volume] = circle(a, b, c);
-        let [bound, _] = semi_static_bounds_2d(greatest([&minus(b, a), &minus(c, a)]));
+        let [bound, _] = semi_static_bounds_2d(greatest_along_axes([&minus(b, a), &minus(c, a)]));
         let extent = rounded.extent;
         cover_rounded(a, &rounded, volume, CIRCLE_VECTOR * (extent * extent * extent), bound)
     }
@@ -185,7 +185,8 @@ impl Reach for [f64; 3] {
             return cover_exact(a, exact_offset([a, b, c, d], |p| exact_sphere(p)));
         }
         let [_, _, _, volume] = sphere(a, b, c, d);
-        let [bound, _] = semi_static_bounds_3d(greatest([&minus(b, a), &minus(c, a), &minus(d, a)]));
+        let [bound, _] =
+            semi_static_bounds_3d(greatest_along_axes([&minus(b, a), &minus(c, a), &minus(d, a)]));
         let square = rounded.extent * rounded.extent;
         cover_rounded(a, &rounded, volume, SPHERE_VECTOR * (square * square), bound)
     }

@@ -1,8 +1,8 @@
 //! Delimiters and separators of space: see [`tolerance`](super::tolerance).
 
 use super::lanes::BiCells;
-use super::tolerance::{CROSS, Delimiter, LEAST, LEAST_DETERMINANT, ORIENT_3D, UNIT, middle, square_between};
-use super::vectors::{cross, dot, minus, plus};
+use super::tolerance::{CROSS, Delimiter, LEAST, LEAST_DETERMINANT, ORIENT_3D, UNIT, middle};
+use super::vectors::{cross, dot, minus, plus, square_between};
 use crate::simd::{ALL, LANES, Lanes, Real, Simd, in_lanes};
 
 /// The points of a bi-cell: the vertices of the facet, then the opposing ones, `c` and `d`.

@@ -115,7 +115,7 @@
 use super::array::PointArray;
 use super::filter::{extents, largest};
 use super::lanes::BiCells;
-use super::vectors::{cross, dot, minor, minus, plus};
+use super::vectors::{cross, dot, minor, minus, plus, square_between};
 use crate::simd::{LANES, Lanes, Real, Simd, in_lanes};
 
 /// Delimiter of a bi-cell: a sphere with the interior facet inside and the opposing vertices outside.
@@ -168,16 +168,6 @@ const HALF: f64 = 0.5 - 4.0 * UNIT;
 #[inline(always)]
 pub fn squared_distance<P: AsRef<[f64]>>(p: &P, q: &P) -> f64 {
     square_between(p.as_ref(), q.as_ref())
-}
-
-/// [`squared_distance`] for any [`Real`].
-#[inline(always)]
-pub(super) fn square_between<T: Real>(p: &[T], q: &[T]) -> T {
-    let mut sum = (p[0] - q[0]) * (p[0] - q[0]);
-    for axis in 1..p.len() {
-        sum = sum + (p[axis] - q[axis]) * (p[axis] - q[axis]);
-    }
-    sum
 }
 
 /// Upper bound of the [way](PointArray::squared_way) from one to the other.

@@ -55,3 +55,37 @@ pub(super) fn minor<T: Real, const D: usize>(p: &[T; D], q: &[T; D]) -> T {
 pub(crate) fn cross<T: Real>(p: &[T; 3], q: &[T; 3]) -> [T; 3] {
     [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
 }
+
+/// The square of the distance of two points, from the first axis on.
+#[inline(always)]
+pub(super) fn square_between<T: Real>(p: &[T], q: &[T]) -> T {
+    let mut sum = (p[0] - q[0]) * (p[0] - q[0]);
+    for axis in 1..p.len() {
+        sum = sum + (p[axis] - q[axis]) * (p[axis] - q[axis]);
+    }
+    sum
+}
+
+/// The greatest magnitude along each axis.
+#[inline(always)]
+pub(super) fn greatest_along_axes<T: Real, const D: usize, const N: usize>(
+    differences: [&[T; D]; N],
+) -> [T; D] {
+    let mut greatest = [differences[0][0].splat(0.0); D];
+    for difference in differences {
+        for axis in 0..D {
+            greatest[axis] = difference[axis].abs().max(greatest[axis]);
+        }
+    }
+    greatest
+}
+
+/// The greatest one of some magnitudes.
+#[inline(always)]
+pub(super) fn greatest_of<T: Real, const N: usize>(magnitudes: &[T; N]) -> T {
+    let mut greatest = magnitudes[0];
+    for &magnitude in &magnitudes[1..] {
+        greatest = magnitude.max(greatest);
+    }
+    greatest
+}

@@ -6,7 +6,7 @@ use std::ops::{Index, IndexMut};
 
 use super::array::PointArray;
 use super::integer::two_difference;
-use super::tolerance::square_between;
+use super::vectors::square_between;
 use crate::simd::{LANES, Real, Simd};
 
 /// A place and its weight; or several, in lanes.
