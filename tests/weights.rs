@@ -4,7 +4,7 @@ use crate::common::inputs::{KINDS, Kind, draw_one};
 use crate::common::{CellSet, Rng, assert_same_cells, cell_set, check_adjacency, seeds};
 use deldrift::internals::{PowerPlane, PowerSpace};
 use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options};
-use deldrift::{Moving, VertexId};
+use deldrift::{Moving, Shape, VertexId};
 
 /// Cells and the vertices that weights hide.
 type Shown = (CellSet, Vec<VertexId>);
@@ -63,6 +63,34 @@ fn vertices_on_a_line_are_hidden_by_the_hull_there() {
     let rng = &mut Rng::new(1);
     let n_hidden: usize = (0..1_500).map(|_| check::<PowerPlane>(rng) + check::<PowerSpace>(rng)).sum();
     assert!(n_hidden > 3_000, "{n_hidden}");
+}
+
+/// Vertices in a plane in space are hidden as they are in the plane itself, ties and several at one place included.
+#[test]
+fn vertices_in_a_plane_are_hidden_by_the_hull_there() {
+    let rng = &mut Rng::new(2);
+    let mut n_hidden = 0;
+    for _ in 0..800 {
+        let (n, extent, most) = (3 + rng.below(20), 1 + rng.below(9) as i64, rng.below(20) as i64);
+        let across = rng.below(3);
+        let (mut in_plane, mut in_space) = (Vec::new(), Vec::new());
+        for _ in 0..n {
+            let mut p = <PowerPlane as Shape>::Point::default();
+            let mut q = <PowerSpace as Shape>::Point::default();
+            (p[0], p[1], p[2]) =
+                (rng.within(0, extent) as f64, rng.within(0, extent) as f64, rng.within(0, most) as f64);
+            (q[across], q[(across + 1) % 3], q[(across + 2) % 3], q[3]) = (7.0, p[0], p[1], p[2]);
+            in_plane.push(p);
+            in_space.push(q);
+        }
+        let plane = MovingTriangulation::<PowerPlane>::new(&in_plane, Options::default()).expect("a build");
+        let space = MovingTriangulation::<PowerSpace>::new(&in_space, Options::default()).expect("a build");
+        let hidden = plane.vertices_hidden_by_weight().expect("room");
+        assert_eq!(space.cell_count(), 0);
+        assert_eq!(space.vertices_hidden_by_weight(), Ok(hidden.clone()), "{in_plane:?}");
+        n_hidden += hidden.len();
+    }
+    assert!(n_hidden > 2_000, "{n_hidden}");
 }
 
 /// Those of a fresh build of the present vertices, by their ids here.

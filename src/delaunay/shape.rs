@@ -25,11 +25,11 @@ pub trait Shape: Copy + Debug + Default + Send + Sync + 'static {
     type Neighbours: Corners<CellId>;
 }
 
-/// Two dimensions: points are `[f64; 2]`, or [`WeightedPoint<2>`](WeightedPoint) for power distances.
+/// Two dimensions: points are `[f64; 2]`, or `WeightedPoint<2>` for power distances.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Plane<P = [f64; 2]>(PhantomData<P>);
 
-/// Three dimensions: points are `[f64; 3]`, or [`WeightedPoint<3>`](WeightedPoint) for power distances.
+/// Three dimensions: points are `[f64; 3]`, or `WeightedPoint<3>` for power distances.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Space<P = [f64; 3]>(PhantomData<P>);
 

@@ -6,7 +6,7 @@ use std::ops::{Index, IndexMut};
 use super::array::PointArray;
 use super::weighted::WeightedPoint;
 
-/// What is known of one point: `[f64; D]`, or a [`WeightedPoint`], of which an index of `D` has the weight. As a slice it is its
+/// What is known of one point: `[f64; D]`, or a `WeightedPoint`, of which an index of `D` has the weight. As a slice it is its
 /// place.
 pub trait Coordinates:
     Copy

@@ -1,7 +1,6 @@
 use num_bigint::BigInt;
 
 use super::*;
-use crate::complex::Corners;
 use crate::delaunay::{Insertion, Level, PowerPlane, PowerSpace, Relocation, Shortcut};
 use crate::ids::VertexId;
 use crate::machine::threads::Threads;
