@@ -241,9 +241,33 @@ impl<G: Moving> History<G> {
             assert_eq!(shown(&self.t), prepared, "{}: prepared again", self.name);
             self.t.publish_timestamp().expect("it is prepared");
         } else {
+            self.stage_edits();
             self.t.commit_timestamp().expect("room");
         }
         self.name += &format!(" {algorithm:?}");
+    }
+
+    /// Sometimes: some vertices come, and others go.
+    fn stage_edits(&mut self) {
+        if self.rng.one_in(2) {
+            return;
+        }
+        let coming: Vec<G::Point> = (0..self.rng.below(4)).map(|_| self.draw()).collect();
+        self.t.stage_insertions(&coming).expect("room");
+        let present = self.present();
+        let n_going = if present.len() > 4 { self.rng.below(4) } else { 0 };
+        let mut going: Vec<VertexId> = (0..n_going).map(|_| *self.rng.pick(&present)).collect();
+        going.sort_unstable();
+        going.dedup();
+        self.t.stage_removals(&going).expect("present");
+        going.iter().for_each(|&v| self.points[v.index()] = None);
+        self.points.extend(coming.into_iter().map(Some));
+    }
+
+    /// The present vertices get the ids from 0 on; cells and the hidden ones follow.
+    fn compact(&mut self) {
+        self.t.compact().expect("room");
+        self.points.retain(Option::is_some);
     }
 
     fn check(&self) {
@@ -271,6 +295,10 @@ fn histories_match<G: Moving>(n: u64) {
                 history.check();
                 n_hidden += history.t.vertices_hidden_by_weight().expect("room").len();
                 if history.rng.one_in(8) {
+                    history.compact();
+                    history.check();
+                }
+                if history.rng.one_in(8) {
                     history.t = history.t.try_clone(None).expect("room");
                     history.check();
                 }
@@ -288,4 +316,41 @@ fn histories_in_the_plane_match_fresh_builds() {
 #[test]
 fn histories_in_space_match_fresh_builds() {
     histories_match::<PowerSpace>(25);
+}
+
+/// So many vertices that cells are sorted, and what is above them with them.
+fn large_sets_match<G: Moving>(n: usize) {
+    let rng = &mut Rng::new(3);
+    let mut point = |_| {
+        let mut p = G::Point::default();
+        (0..G::D).for_each(|k| p[k] = rng.unit());
+        p[G::D] = 0.8 * (n as f64).powf(-2.0 / G::D as f64) * rng.unit();
+        p
+    };
+    let mut points: Vec<G::Point> = (0..n).map(&mut point).collect();
+    let mut t = MovingTriangulation::<G>::new(&points, Options::default()).expect("a build");
+    for algorithm in [Algorithm::Repair, Algorithm::Watching, Algorithm::Tolerance, Algorithm::Auto] {
+        t.set_algorithm(algorithm);
+        for _ in 0..2 {
+            let unit = (n as f64).powf(-1.0 / G::D as f64);
+            for p in &mut points {
+                let other = point(0);
+                (0..G::D).for_each(|k| p[k] += 0.02 * unit * (other[k] - 0.5));
+                p[G::D] += 0.02 * (other[G::D] - p[G::D]);
+            }
+            t.commit_positions(&points).expect("room");
+        }
+        let (cells, hidden) = shown(&t);
+        let present: Vec<Option<G::Point>> = points.iter().copied().map(Some).collect();
+        let (fresh_cells, fresh_hidden) = fresh::<G>(&present);
+        assert_same_cells(&cells, &fresh_cells, || format!("{algorithm:?}"));
+        assert_eq!(hidden, fresh_hidden, "{algorithm:?}");
+        assert!(hidden.len() > n / 200, "{} hidden", hidden.len());
+    }
+}
+
+#[test]
+fn large_sets_match_fresh_builds() {
+    large_sets_match::<PowerPlane>(20_000);
+    large_sets_match::<PowerSpace>(6_000);
 }

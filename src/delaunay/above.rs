@@ -315,22 +315,28 @@ impl<G: Geometry> Delaunay<G> {
         }
     }
 
-    /// Follows a change of the slots of cells, which leaves as many or fewer: those of what is there are listed by the old ones.
-    pub(super) fn renumber_cells_below(&mut self, index: &[Slot]) -> Result<()> {
-        if !G::HAS_WEIGHTS || self.above.n == 0 {
-            return Ok(());
+    /// Makes the room that [`renumber_cells_below`](Self::renumber_cells_below) needs where there will be at most so many slots.
+    pub(super) fn room_to_renumber_cells_below(&self, n_slots: usize) -> Result<Vec<SiteId>> {
+        let mut room = Vec::new();
+        if self.n_hidden() > 0 {
+            memory::lengthen(&mut room, n_slots.max(self.above.first.len()), SiteId::NONE)?;
         }
-        let mut first = Vec::new();
-        memory::lengthen(&mut first, self.above.first.len(), SiteId::NONE)?;
-        let Above { links, first: old, .. } = &mut self.above;
-        for (slot, &s) in old.iter().enumerate().filter(|&(_, &s)| s != SiteId::NONE) {
-            first[index[Slot::at(slot)].index()] = s;
+        Ok(room)
+    }
+
+    /// Follows a change of the slots of cells: those of what is there are listed by the old ones.
+    pub(super) fn renumber_cells_below(&mut self, index: &[Slot], mut room: Vec<SiteId>) {
+        if self.n_hidden() == 0 {
+            return;
+        }
+        let Above { links, first, .. } = &mut self.above;
+        for (slot, &s) in first.iter().enumerate().filter(|&(_, &s)| s != SiteId::NONE) {
+            room[index[slot].index()] = s;
         }
         for link in links.iter_mut().filter(|link| link.cell != Slot::NONE) {
             link.cell = index.get(link.cell.index()).copied().unwrap_or(Slot::NONE);
         }
-        self.above.first = first;
-        Ok(())
+        self.above.first = room;
     }
 
     /// After a change has been undone: which sites are shown, and all others as loose ones. Needs no memory, as there was

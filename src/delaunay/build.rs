@@ -137,8 +137,10 @@ impl<G: Geometry> Delaunay<G> {
         if self.is_sorted && !self.is_disordered(replaced) || n_slots < LARGE && n_ranges == 1 {
             return Ok(None);
         }
+        // With free slots between there are more.
+        let room = self.room_to_renumber_cells_below(n_slots + n_slots / GAP_AFTER + 1)?;
         let index = self.complex.sort(self.sites.len(), gap_after::<G>(n_ranges))?;
-        self.renumber_cells_below(&index)?;
+        self.renumber_cells_below(&index, room);
         for site in &mut self.sites {
             if site.cell != Slot::NONE {
                 site.cell = index[site.cell];
