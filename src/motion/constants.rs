@@ -7,7 +7,7 @@
 //! A triangulation has a reference to those by which it decides. Numbers with which another value, a few times as large
 //! or small, makes no recorded motion slower by more than 1 % are not here, but beside the code that they are for.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::motion::report::Evaluations;
 
 /// What the parts of a commit cost, in nanoseconds; only the ratios matter.
@@ -204,7 +204,7 @@ pub static TABLE: Table = Table { plane: PLANE, space: SPACE };
 
 impl Table {
     /// The constants of a dimension.
-    pub fn of<G: Dimension>(&self) -> &Constants {
+    pub fn of<G: Moving>(&self) -> &Constants {
         if G::D == 2 { &self.plane } else { &self.space }
     }
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::ControlFlow;
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 pub use crate::machine::pace::Monitor;
 use crate::motion::algorithms::Algorithm;
 use crate::refine::Kept;
@@ -31,7 +31,7 @@ impl Default for SwitchingRule {
 
 impl SwitchingRule {
     /// The share in force in a dimension.
-    pub(super) fn share_for<G: Dimension>(&self) -> f64 {
+    pub(super) fn share_for<G: Moving>(&self) -> f64 {
         self.share.unwrap_or(if G::D == 2 { 0.75 } else { 0.55 })
     }
 }

@@ -1,6 +1,6 @@
 //! The triangulation: the place where its parts meet.
 
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Moving};
 use crate::error::{Error, Result, StagedEdit};
 use crate::ids::{SegmentId, SiteId, VertexId};
 use crate::machine::memory;
@@ -33,7 +33,7 @@ const MOVES_PER_FIT: u64 = 64;
 
 /// A Delaunay triangulation whose vertices move.
 #[derive(Debug)]
-pub struct MovingTriangulation<G: Dimension> {
+pub struct MovingTriangulation<G: Moving> {
     pub(in crate::motion) mesh: Mesh<G>,
     pub(in crate::motion) staging: Staging<G>,
     /// Memory for the vertices that a commit places.
@@ -56,7 +56,7 @@ pub struct MovingTriangulation<G: Dimension> {
     pub(in crate::motion) made: Option<Box<Made>>,
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Triangulates `positions`; vertex `i` is the `i`-th of them.
     ///
     /// ```

@@ -1,13 +1,13 @@
 //! A second triangulation like the first.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::machine::memory;
 use crate::motion::options::{Monitor, Options};
 use crate::motion::state::views::Views;
 use crate::motion::triangulation::MovingTriangulation;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// An independent triangulation that is as this one: positions, ids, cells with their indices, hidden vertices,
     /// what is staged, the timestamp, statistics, options, the changes that have not been taken, and what the algorithm
     /// keeps between commits. The callback of the options is `monitor`, as that of this one cannot be copied. Views,

@@ -1,6 +1,6 @@
 //! The commit: one timestamp, all or nothing.
 
-use crate::delaunay::{Dimension, Shortcut};
+use crate::delaunay::{Moving, Shortcut};
 use crate::error::{Error, Result};
 use crate::machine::memory;
 use crate::motion::algorithms::{Algorithm, for_algorithms};
@@ -14,7 +14,7 @@ use crate::motion::triangulation::MovingTriangulation;
 use crate::motion::ways::attempt::Start;
 use crate::motion::ways::outlook::Outlook;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Makes the staged positions the next timestamp.
     ///
     /// On an error the triangulation is at the timestamp before, and the moves stay staged.
@@ -210,7 +210,7 @@ macro_rules! commit_by {
             by: $method:ident($($argument:expr),*),
         }
     )+) => {
-        impl<G: Dimension> MovingTriangulation<G> {
+        impl<G: Moving> MovingTriangulation<G> {
             /// Brings the vertices to their goals.
             fn commit_by(
                 &mut self,
@@ -239,7 +239,7 @@ mod tests {
 
     /// Memory that is lent is the program's: what a callback has written there after the check is refused where it is
     /// read again, and all is undone.
-    fn goals_that_turn_bad_are_refused<G: Dimension>() {
+    fn goals_that_turn_bad_are_refused<G: Moving>() {
         let rng = &mut Rng::new(7);
         let mut random = || {
             let mut points = vec![G::Point::default(); 300];

@@ -12,7 +12,7 @@
 //! Cost: the sort of a fresh build, without its insertions, and a pass over all old ids, sites and cells; while it
 //! lasts, the memory of a second triangulation.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
@@ -20,7 +20,7 @@ use crate::motion::filters::regions::Regions;
 use crate::motion::state::transaction::Transaction;
 use crate::motion::triangulation::MovingTriangulation;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Numbers the present vertices from 0 on, in the order of their ids, and frees what memory serves removed ones
     /// alone. Returns the new id of each old one, [`NO_VERTEX`](crate::motion::NO_VERTEX) for vertices that have been
     /// removed.

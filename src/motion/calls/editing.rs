@@ -6,7 +6,7 @@
 //! transaction.
 
 use crate::delaunay::order::{Keyed, hilbert_order};
-use crate::delaunay::{Delaunay, Dimension, Insertion, Keys};
+use crate::delaunay::{Delaunay, Insertion, Keys, Moving};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
@@ -37,7 +37,7 @@ enum SingleEdits {
     NeedBuild,
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Stages the insertion of vertices, all of them or, on an error, none; returns the id of the first, which those
     /// of the others follow. They are present from the next commit on.
     ///

@@ -1,6 +1,6 @@
 //! One vertex at a time: relocations, insertions and removals that are visible at once.
 
-use crate::delaunay::{Dimension, Insertion, Keys, Shortcut};
+use crate::delaunay::{Insertion, Keys, Moving, Shortcut};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
@@ -13,7 +13,7 @@ use crate::motion::state::passings::Steps;
 use crate::motion::triangulation::{MAX_VERTICES, MovingTriangulation};
 use crate::motion::ways::placement::Placed;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Moves one vertex at once, whatever is staged for others.
     ///
     /// ```

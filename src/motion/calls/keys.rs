@@ -4,7 +4,7 @@
 //! on; without one given it is the id. That of a staged insertion is kept from when it is staged, as the kernel of the
 //! commit finds it by id, and means nothing until then.
 
-use crate::delaunay::{Dimension, Keys};
+use crate::delaunay::{Keys, Moving};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
@@ -33,7 +33,7 @@ pub(in crate::motion) enum Ids {
     Free,
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Triangulates `positions`, as [`new`](Self::new) does; the vertices have these keys, which break ties and choose what
     /// represents a place, in the order of keys. They need not be different: vertices of equal keys are ranked by
     /// position, one coordinate after the other, and at the same place by id.

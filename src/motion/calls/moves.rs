@@ -1,12 +1,12 @@
 //! Calls that stage moves.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::motion::state::checking::check_position;
 use crate::motion::triangulation::MovingTriangulation;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Stages a move of `vertices[i]` to `positions[i]` for each `i`; all of them or, on an error, none.
     ///
     /// ```

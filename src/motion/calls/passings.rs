@@ -1,12 +1,12 @@
 //! Vertices that pass segments on their way: asked for, told, or refused.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Passing, Result};
 use crate::motion::options::PassingPolicy;
 use crate::motion::state::passings::{Steps, find};
 use crate::motion::triangulation::MovingTriangulation;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Whether vertices would pass segments in a commit of what is staged, which stays so; then
     /// [`passings`](Self::passings) has them.
     ///

@@ -1,13 +1,13 @@
 //! Commits in two phases: a timestamp is prepared, in one round or several, and then published or withdrawn.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Moves;
 use crate::motion::state::rounds::Published;
 use crate::motion::triangulation::MovingTriangulation;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Brings the triangulation to the staged positions, as a commit does, but keeps what it was: all that reads sees the
     /// prepared state, which [`publish_timestamp`](Self::publish_timestamp) makes the next timestamp, and
     /// [`withdraw_timestamp`](Self::withdraw_timestamp) takes back. More may be staged then, and prepared in another round

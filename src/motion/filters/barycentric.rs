@@ -1,10 +1,10 @@
 //! The weights of a place in a cell: `reading/geometry/weights.rs` has their errors.
 
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Moving};
 use crate::predicates::Measures;
 
 /// The weights of a place in a cell, given by its corners.
-pub(in crate::motion) fn barycentric<G: Dimension>(
+pub(in crate::motion) fn barycentric<G: Moving>(
     kernel: &Delaunay<G>,
     places: &[&G::Point],
     q: &G::Point,

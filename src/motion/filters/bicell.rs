@@ -1,20 +1,20 @@
 //! Bi-cells: two cells and the facet between them (report, section 2.2).
 
 use crate::complex::{Corners, Facet, INFINITE};
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Moving};
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::prefetch::CACHE_BYTES;
 use crate::predicates::{BiCellTolerances, Delimiter};
 
 /// The corners of a bi-cell that are not the ghost vertex.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::motion) struct BiCell<'k, G: Dimension> {
+pub(in crate::motion) struct BiCell<'k, G: Moving> {
     sites: [SiteId; 5],
     points: [&'k G::Point; 5],
     n: usize,
 }
 
-impl<'k, G: Dimension> BiCell<'k, G> {
+impl<'k, G: Moving> BiCell<'k, G> {
     /// The bi-cell of a facet: the opposing vertices are the first and the last of the `D + 2` corners of an interior
     /// one; the vertices of the facet and then the first of all are in the order of a positive orientation.
     /// At the hull only the `D + 1` finite corners are listed, in the order of a positive orientation.
@@ -97,10 +97,7 @@ impl<'k, G: Dimension> BiCell<'k, G> {
 
 /// Visits every bi-cell by one side of its facet; returns their number.
 #[inline(always)]
-pub(in crate::motion) fn for_bicells<G: Dimension>(
-    kernel: &Delaunay<G>,
-    mut visit: impl FnMut(Facet),
-) -> u64 {
+pub(in crate::motion) fn for_bicells<G: Moving>(kernel: &Delaunay<G>, mut visit: impl FnMut(Facet)) -> u64 {
     let complex = kernel.complex();
     let is_far = kernel.bytes_read() > CACHE_BYTES;
     let mut n = 0;
@@ -120,7 +117,7 @@ pub(in crate::motion) fn for_bicells<G: Dimension>(
 
 /// The tolerance of the vertex of a site that no two share: the least of the bi-cells around it; 0 without the memory
 /// to look.
-pub(in crate::motion) fn tolerance_of_site<G: Dimension>(kernel: &mut Delaunay<G>, s: SiteId) -> f64 {
+pub(in crate::motion) fn tolerance_of_site<G: Moving>(kernel: &mut Delaunay<G>, s: SiteId) -> f64 {
     if kernel.gather_star(s).is_err() {
         return 0.0;
     }
@@ -129,7 +126,7 @@ pub(in crate::motion) fn tolerance_of_site<G: Dimension>(kernel: &mut Delaunay<G
 }
 
 /// The least of a tolerance and those of a cell's bi-cells.
-pub(in crate::motion) fn tolerance_around<G: Dimension>(
+pub(in crate::motion) fn tolerance_around<G: Moving>(
     kernel: &Delaunay<G>,
     cell: Slot,
     tolerance: f64,

@@ -20,7 +20,7 @@
 //!
 //! [`with_regions`]: crate::motion::MovingTriangulation::with_regions
 
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Moving};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
@@ -36,14 +36,14 @@ const MAX_SHARE_FOLLOWED: f64 = 1.0 / 3.0;
 
 /// Regions that are valid.
 #[derive(Debug)]
-pub(in crate::motion) enum KeptRegions<G: Dimension> {
+pub(in crate::motion) enum KeptRegions<G: Moving> {
     Tolerance(Tolerances<G>),
     SafeRegion(SafeRegions<G>),
     Watching(Watching<G>),
     Slack(Slacks<G>),
 }
 
-impl<G: Dimension> KeptRegions<G> {
+impl<G: Moving> KeptRegions<G> {
     /// Nothing yet of a kind.
     fn empty(kind: RegionKind) -> Self {
         match kind {
@@ -97,7 +97,7 @@ impl<G: Dimension> KeptRegions<G> {
 
 /// The regions of one kind, if any are kept.
 #[derive(Debug, Default)]
-pub(in crate::motion) struct Regions<G: Dimension> {
+pub(in crate::motion) struct Regions<G: Moving> {
     kept: Option<Box<KeptRegions<G>>>,
     /// Regions that are no longer valid: their memory serves the next ones of that kind.
     spare: Option<Box<KeptRegions<G>>>,
@@ -109,7 +109,7 @@ pub(in crate::motion) struct Regions<G: Dimension> {
     relocated: Vec<VertexId>,
 }
 
-impl<G: Dimension> Regions<G> {
+impl<G: Moving> Regions<G> {
     /// A copy of what is kept.
     pub(in crate::motion) fn copied(&self) -> Result<Self> {
         let kept = self.kept.as_deref().map(|kept| memory::boxed(kept.copied()?)).transpose()?;

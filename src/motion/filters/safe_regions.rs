@@ -10,7 +10,7 @@
 //! reach are half the least width of their simplex.
 
 use crate::complex::{Corners, Facet};
-use crate::delaunay::{Delaunay, Dimension, Site};
+use crate::delaunay::{Delaunay, Moving, Site};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
@@ -33,7 +33,7 @@ pub(in crate::motion) enum Admission {
 /// A delimiter for each interior bi-cell, and a tolerance for each vertex. A vertex found inside its safe region may be
 /// outside the ball of its tolerance.
 #[derive(Debug)]
-pub(in crate::motion) struct SafeRegions<G: Dimension> {
+pub(in crate::motion) struct SafeRegions<G: Moving> {
     /// Whether the safe region is tested only where the tolerance fails.
     tests_tolerance: bool,
     tolerances: Tolerances<G>,
@@ -43,7 +43,7 @@ pub(in crate::motion) struct SafeRegions<G: Dimension> {
     delimiters: Vec<(G::Point, f64)>,
 }
 
-impl<G: Dimension> SafeRegions<G> {
+impl<G: Moving> SafeRegions<G> {
     pub(in crate::motion) fn new(tests_tolerance: bool) -> Self {
         let tolerances = Tolerances::default();
         SafeRegions { tests_tolerance, tolerances, reach: Vec::new(), delimiters: Vec::new() }
@@ -153,7 +153,7 @@ impl<G: Dimension> SafeRegions<G> {
     }
 }
 
-impl<G: Dimension> Store<G> for SafeRegions<G> {
+impl<G: Moving> Store<G> for SafeRegions<G> {
     fn prepare(&mut self, kernel: &mut Delaunay<G>, n_ids: usize, _: TimestampSteps<'_, G>) -> Result<u64> {
         self.reach.clear();
         self.delimiters.clear();

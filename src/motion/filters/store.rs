@@ -1,12 +1,12 @@
 //! What every kind of regions does.
 
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Moving};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 
 /// How far vertices go in a timestamp.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::motion) struct TimestampSteps<'s, G: Dimension> {
+pub(in crate::motion) struct TimestampSteps<'s, G: Moving> {
     /// Positions of the vertices, by id, at the timestamp before or the next one; none if that does not matter.
     pub(in crate::motion) other_positions: &'s [G::Point],
     /// The constant of this name.
@@ -14,7 +14,7 @@ pub(in crate::motion) struct TimestampSteps<'s, G: Dimension> {
 }
 
 /// Regions of one kind.
-pub(in crate::motion) trait Store<G: Dimension> {
+pub(in crate::motion) trait Store<G: Moving> {
     /// The report's pre-computations: every vertex is fixed where it is, and every bi-cell is computed. Returns the
     /// number of bi-cells.
     fn prepare(

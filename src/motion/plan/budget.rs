@@ -1,6 +1,6 @@
 //! What repairing and placing cost beside a rebuild, and when so much that to build all cells again would cost less.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::motion::constants::Constants;
 use crate::motion::report::{CommitReport, Evaluations};
 use crate::motion::state::mesh::Mesh;
@@ -21,7 +21,7 @@ pub(in crate::motion) const REPAIRED_ALONE: f64 = 0.3;
 /// Whether to give up placing is asked once this share of what a rebuild costs has been spent.
 const MIN_SHARE_SPENT: f64 = 1.0 / 16.0;
 
-impl<G: Dimension> Mesh<G> {
+impl<G: Moving> Mesh<G> {
     /// By what factor a task, of which one thread does this share alone, grows beside rebuilding, compared with a small
     /// triangulation on one thread: where caches do not hold all, and where several threads rebuild. With a number of parts
     /// given there are taken to be as many threads, so that what is done does not depend on how many there are.

@@ -1,6 +1,6 @@
 //! What programs read: the cells, and what has changed.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
@@ -8,7 +8,7 @@ use crate::motion::state::cells::OwnedCells;
 use crate::motion::state::taken::{Changes, Taken};
 use crate::motion::triangulation::MovingTriangulation;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// The arrays that [`cells`](Self::cells) shows, as the caller's own: for programs that have shown them to others,
     /// who may look at them for longer than until the next change. The triangulation goes on with copies.
     ///

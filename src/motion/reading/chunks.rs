@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Write};
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 
 /// Bytes that are handed on at a time, at most.
@@ -37,7 +37,7 @@ impl<E, P: FnMut(&[u8]) -> Result<(), E>> Chunks<P> {
         Ok(())
     }
 
-    pub(crate) fn point<G: Dimension>(&mut self, point: &G::Point) -> Result<(), E> {
+    pub(crate) fn point<G: Moving>(&mut self, point: &G::Point) -> Result<(), E> {
         (0..G::D).try_for_each(|axis| self.write(point[axis].to_le_bytes()))
     }
 

@@ -1,6 +1,6 @@
 //! Questions that change nothing. They may be asked from several threads at once.
 
-use crate::delaunay::{Dimension, IndexSet, Level, Place, Violation};
+use crate::delaunay::{IndexSet, Level, Moving, Place, Violation};
 use crate::error::Result;
 use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
@@ -33,7 +33,7 @@ pub(crate) fn cells_at(slots: &IndexSet<Slot>, index_of: &[CellId]) -> impl Iter
     slots.as_slice().iter().map(|&slot| index_of[slot]).filter(|&index| index != CellId::NONE)
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// The algorithm of commits.
     pub fn algorithm(&self) -> Algorithm {
         self.options.algorithm

@@ -1,7 +1,7 @@
 //! Tolerances, annulus widths and delimiters, for programs that ask (report, sections 2.2 to 2.4).
 
 use crate::complex::{Corners, Facet};
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Moving};
 use crate::error::Result;
 use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
@@ -10,7 +10,7 @@ use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::Delimiter;
 
 /// The least of a tolerance and those of a cell's bi-cells, of which some may have a segment for their facet.
-fn tolerance_at<G: Dimension>(kernel: &Delaunay<G>, cell: Slot, tolerance: f64) -> f64 {
+fn tolerance_at<G: Moving>(kernel: &Delaunay<G>, cell: Slot, tolerance: f64) -> f64 {
     let is_segment = |i: usize| !kernel.complex().cell(cell).is_ghost() && kernel.is_facet_required(cell, i);
     (0..G::Corners::N).fold(tolerance, |least, i| {
         let bicell = BiCell::of(kernel, Facet::new(cell, i));
@@ -18,7 +18,7 @@ fn tolerance_at<G: Dimension>(kernel: &Delaunay<G>, cell: Slot, tolerance: f64) 
     })
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Tolerance of a vertex at its current position: a certified lower bound of the distance that all vertices may
     /// move without a change of connectivity, as far as the bi-cells of this one go (report, section 2.4). 0 if it
     /// shares its place with another; infinite while there are no cells.

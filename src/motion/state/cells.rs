@@ -17,7 +17,7 @@ mod journal;
 mod renumbering;
 
 use crate::complex::{Corners, Facet};
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Moving};
 use crate::error::Result;
 use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
@@ -47,7 +47,7 @@ const KEPT_CHANGES: usize = 64;
 
 /// Rows of cells that a caller owns.
 #[derive(Clone, Debug)]
-pub struct OwnedCells<G: Dimension> {
+pub struct OwnedCells<G: Moving> {
     /// Vertex ids of each cell, positively oriented.
     pub corners: Vec<G::Vertices>,
     /// Index of the neighbour opposite each corner, [`NO_CELL`] on the hull.
@@ -56,7 +56,7 @@ pub struct OwnedCells<G: Dimension> {
 
 /// The arrays behind a view.
 #[derive(Debug)]
-pub(in crate::motion) struct Cells<G: Dimension> {
+pub(in crate::motion) struct Cells<G: Moving> {
     corners: Vec<G::Vertices>,
     neighbours: Vec<G::Neighbours>,
     /// By slot of the kernel's complex, the index of its cell in the arrays; [`NO_CELL`] if it has none.
@@ -123,7 +123,7 @@ impl<C: Corners<VertexId>> RefreshLists<C> {
 
 /// The vertex ids of a slot's corners.
 #[inline(always)]
-fn ids_of<G: Dimension>(kernel: &Delaunay<G>, slot: Slot) -> G::Vertices {
+fn ids_of<G: Moving>(kernel: &Delaunay<G>, slot: Slot) -> G::Vertices {
     let sites = kernel.complex().cell(slot).corners;
     let mut ids = G::Vertices::filled(VertexId::NONE);
     for i in 0..G::Corners::N {
@@ -134,11 +134,11 @@ fn ids_of<G: Dimension>(kernel: &Delaunay<G>, slot: Slot) -> G::Vertices {
 
 /// Whether a slot holds a finite cell.
 #[inline(always)]
-fn is_finite<G: Dimension>(kernel: &Delaunay<G>, slot: Slot) -> bool {
+fn is_finite<G: Moving>(kernel: &Delaunay<G>, slot: Slot) -> bool {
     kernel.complex().is_live(slot) && !kernel.complex().cell(slot).is_ghost()
 }
 
-impl<G: Dimension> Default for Cells<G> {
+impl<G: Moving> Default for Cells<G> {
     fn default() -> Self {
         Cells {
             corners: Vec::new(),
@@ -154,7 +154,7 @@ impl<G: Dimension> Default for Cells<G> {
     }
 }
 
-impl<G: Dimension> Cells<G> {
+impl<G: Moving> Cells<G> {
     /// Vertex ids of each cell.
     #[inline(always)]
     pub(in crate::motion) fn corners(&self) -> &[G::Vertices] {

@@ -1,18 +1,18 @@
 //! Positions that programs give: whether they are good, and equal.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::predicates::{MAX_MAGNITUDE, PointArray, is_in_range};
 
 /// Whether two places, without negative zeros, differ.
 #[inline(always)]
-pub(in crate::motion) fn differ<G: Dimension>(p: &G::Point, q: &G::Point) -> bool {
+pub(in crate::motion) fn differ<G: Moving>(p: &G::Point, q: &G::Point) -> bool {
     (0..G::D).fold(0, |bits, axis| bits | (p[axis].to_bits() ^ q[axis].to_bits())) != 0
 }
 
 /// Copies positions, with the sign of zeros made positive; `false` if one is bad.
 #[inline(always)]
-pub(in crate::motion) fn copy_checked<G: Dimension>(to: &mut [G::Point], positions: &[G::Point]) -> bool {
+pub(in crate::motion) fn copy_checked<G: Moving>(to: &mut [G::Point], positions: &[G::Point]) -> bool {
     let mut bad = 0u64;
     for (to, &value) in G::Point::flattened_mut(to).iter_mut().zip(G::Point::flattened(positions)) {
         bad |= u64::from(!is_in_range(value));
@@ -22,20 +22,20 @@ pub(in crate::motion) fn copy_checked<G: Dimension>(to: &mut [G::Point], positio
 }
 
 /// Whether all positions are good. Without a branch for each, several at a time are looked at.
-pub(in crate::motion) fn are_good<G: Dimension>(positions: &[G::Point]) -> bool {
+pub(in crate::motion) fn are_good<G: Moving>(positions: &[G::Point]) -> bool {
     G::Point::flattened(positions).iter().fold(true, |are_good, &x| are_good & is_in_range(x))
 }
 
 /// The first error in positions of which one is bad.
 #[cold]
-pub(in crate::motion) fn first_bad<G: Dimension>(positions: &[G::Point]) -> Error {
+pub(in crate::motion) fn first_bad<G: Moving>(positions: &[G::Point]) -> Error {
     let errors = positions.iter().enumerate().map(|(v, p)| check_position::<G>("positions", v, p));
     errors.filter_map(Result::err).next().expect("one is bad")
 }
 
 /// A position with the sign of zeros made positive, so that equal places are equal bits.
 #[inline(always)]
-pub(crate) fn check_position<G: Dimension>(
+pub(crate) fn check_position<G: Moving>(
     argument: &'static str,
     index: usize,
     p: &G::Point,

@@ -1,13 +1,13 @@
 //! What waits for the next commit beside moves: insertions and removals.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
 
 /// What waits.
 #[derive(Debug, Default)]
-pub(in crate::motion) struct Edits<G: Dimension> {
+pub(in crate::motion) struct Edits<G: Moving> {
     insertions: Vec<(VertexId, G::Point)>,
     /// How many ids had been given when the first of them was staged, or by calls that insert at once since: no insertion that
     /// is forgotten gives one of these back.
@@ -22,7 +22,7 @@ pub(in crate::motion) struct Edits<G: Dimension> {
 /// The place among the removals of a vertex that stays.
 const STAYS: u32 = u32::MAX;
 
-impl<G: Dimension> Edits<G> {
+impl<G: Moving> Edits<G> {
     /// Whether nothing waits.
     #[inline(always)]
     pub(in crate::motion) fn are_none(&self) -> bool {

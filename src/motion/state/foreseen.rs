@@ -12,7 +12,7 @@
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::ids::VertexId;
 use crate::machine::prefetch::CACHE_BYTES;
 use crate::motion::state::mesh::Mesh;
@@ -34,7 +34,7 @@ impl Foreseen {
     /// Asks for what the stars of the vertices after this one will read, where that is not in a cache anyway and is
     /// going to be needed.
     #[inline(always)]
-    pub(in crate::motion) fn prefetch_next_stars<G: Dimension>(&self, mesh: &Mesh<G>, vertex: VertexId) {
+    pub(in crate::motion) fn prefetch_next_stars<G: Moving>(&self, mesh: &Mesh<G>, vertex: VertexId) {
         if mesh.kernel.has_cells() && mesh.kernel.bytes_read() > CACHE_BYTES && self.note(vertex) {
             prefetch_stars_after(mesh, vertex);
         }
@@ -54,7 +54,7 @@ impl Foreseen {
 }
 
 #[inline(never)]
-fn prefetch_stars_after<G: Dimension>(mesh: &Mesh<G>, vertex: VertexId) {
+fn prefetch_stars_after<G: Moving>(mesh: &Mesh<G>, vertex: VertexId) {
     for (step, ahead) in AHEAD.into_iter().enumerate() {
         let next = vertex.index() + ahead;
         if next < mesh.site_of.len()
@@ -90,7 +90,7 @@ mod tests {
 
     /// More points than a cache holds, some of them at one place and some removed: the stars, read in the order of the
     /// ids, are those that the cells tell, and vertices are relocated in that order.
-    fn visits_in_order<G: Dimension>() {
+    fn visits_in_order<G: Moving>() {
         let (n, rng) = (20_000, &mut Rng::new(1));
         let mut points = vec![G::Point::default(); n];
         for p in &mut points {

@@ -7,7 +7,7 @@
 //!
 //! Where the vertices were that have gone there is in [`origins`](super::origins).
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::prefetch::prefetch;
@@ -24,13 +24,13 @@ pub(in crate::motion) enum Movers<'p> {
 
 /// The moves of a commit.
 #[derive(Debug)]
-pub(in crate::motion) struct Moves<'p, G: Dimension> {
+pub(in crate::motion) struct Moves<'p, G: Moving> {
     goals: &'p [G::Point],
     movers: Movers<'p>,
     are_checked: bool,
 }
 
-impl<'p, G: Dimension> Moves<'p, G> {
+impl<'p, G: Moving> Moves<'p, G> {
     /// Of all vertices, to positions that have not been looked at.
     pub(in crate::motion) fn lent(positions: &'p [G::Point]) -> Self {
         Moves { goals: positions, movers: Movers::All, are_checked: false }
@@ -82,12 +82,12 @@ impl<'p, G: Dimension> Moves<'p, G> {
 
 /// Where the vertices of a commit go, each at a good place.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::motion) struct Goals<'p, G: Dimension> {
+pub(in crate::motion) struct Goals<'p, G: Moving> {
     positions: &'p [G::Point],
     n_movers: usize,
 }
 
-impl<'p, G: Dimension> Goals<'p, G> {
+impl<'p, G: Moving> Goals<'p, G> {
     /// Where a vertex goes, with the sign of zeros made positive.
     #[inline(always)]
     pub(in crate::motion) fn of(self, vertex: VertexId) -> G::Point {

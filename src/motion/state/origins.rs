@@ -4,7 +4,7 @@
 //! check of certificates may take them to have held at the origins, and undoing puts all vertices back. Where vertices go
 //! is in [`goals`](super::goals), for as long as the commit takes.
 
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Moving};
 use crate::error::Result;
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
@@ -21,7 +21,7 @@ enum Known {
 
 /// Where the vertices of a change were when it began, by id: of those that have moved.
 #[derive(Debug, Default)]
-pub(in crate::motion) struct VertexOrigins<G: Dimension> {
+pub(in crate::motion) struct VertexOrigins<G: Moving> {
     positions: Vec<G::Point>,
     /// Vertices that have moved one by one. One that has been taken back in between is listed twice.
     listed: Vec<VertexId>,
@@ -29,7 +29,7 @@ pub(in crate::motion) struct VertexOrigins<G: Dimension> {
 }
 
 /// Puts all vertices back where they were. Ids that have been given since have no site.
-fn put_all_back<G: Dimension>(positions: &[G::Point], kernel: &mut Delaunay<G>, site_of: &[SiteId]) {
+fn put_all_back<G: Moving>(positions: &[G::Point], kernel: &mut Delaunay<G>, site_of: &[SiteId]) {
     for (&s, p) in std::iter::zip(site_of, positions).filter(|&(&s, _)| s != SiteId::NONE) {
         kernel.set_point(s, *p);
     }
@@ -37,12 +37,12 @@ fn put_all_back<G: Dimension>(positions: &[G::Point], kernel: &mut Delaunay<G>, 
 
 /// The origins of a change that has been set aside.
 #[derive(Debug)]
-pub(in crate::motion) enum KeptOrigins<G: Dimension> {
+pub(in crate::motion) enum KeptOrigins<G: Moving> {
     Listed(Vec<(VertexId, G::Point)>),
     All(Vec<G::Point>),
 }
 
-impl<G: Dimension> KeptOrigins<G> {
+impl<G: Moving> KeptOrigins<G> {
     /// Puts all vertices that have moved back where they were. Each is at the site that it had then.
     pub(in crate::motion) fn put_back(&self, kernel: &mut Delaunay<G>, site_of: &[SiteId]) {
         match self {
@@ -61,7 +61,7 @@ impl<G: Dimension> KeptOrigins<G> {
     }
 }
 
-impl<G: Dimension> VertexOrigins<G> {
+impl<G: Moving> VertexOrigins<G> {
     /// Sets the origins of a change aside: of few vertices they are copied, at the cost of these.
     pub(in crate::motion) fn set_aside(&mut self) -> Result<KeptOrigins<G>> {
         if self.known == Known::All {

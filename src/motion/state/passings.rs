@@ -13,7 +13,7 @@
 
 mod sweep;
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Passing, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -31,7 +31,7 @@ const FEW: usize = 8;
 
 /// Where vertices go in a step.
 #[derive(Debug)]
-pub(in crate::motion) enum Steps<'a, G: Dimension> {
+pub(in crate::motion) enum Steps<'a, G: Moving> {
     /// Every vertex goes to its goal.
     All(Goals<'a, G>),
     /// The staged ones do.
@@ -40,7 +40,7 @@ pub(in crate::motion) enum Steps<'a, G: Dimension> {
     One(VertexId, G::Point),
 }
 
-impl<G: Dimension> Steps<'_, G> {
+impl<G: Moving> Steps<'_, G> {
     #[inline(always)]
     fn goal(&self, vertex: VertexId) -> Option<G::Point> {
         match *self {
@@ -73,7 +73,7 @@ impl<G: Dimension> Steps<'_, G> {
 }
 
 /// The vertices that would pass segments, ascending by segment and vertex.
-pub(in crate::motion) fn find<G: Dimension>(
+pub(in crate::motion) fn find<G: Moving>(
     mesh: &Mesh<G>,
     edits: &Edits<G>,
     steps: &Steps<'_, G>,
@@ -103,13 +103,13 @@ pub(in crate::motion) fn find<G: Dimension>(
 }
 
 /// What is looked at.
-struct Step<'a, G: Dimension> {
+struct Step<'a, G: Moving> {
     mesh: &'a Mesh<G>,
     edits: &'a Edits<G>,
     steps: &'a Steps<'a, G>,
 }
 
-impl<G: Dimension> Step<'_, G> {
+impl<G: Moving> Step<'_, G> {
     /// A vertex on its way, if it is there before and after.
     fn walker(&self, vertex: VertexId) -> Option<Walker> {
         self.walker_from(vertex, &self.mesh.kernel.site(self.mesh.site(vertex)?).point)

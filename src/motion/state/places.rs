@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::complex::INFINITE;
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Moving};
 use crate::error::Result;
 use crate::ids::{SiteId, VertexId};
 use crate::machine::prefetch::{AHEAD, prefetch};
@@ -49,7 +49,7 @@ impl Places {
     }
 
     /// Of these sites, the one that has moved farthest and is at its new place.
-    pub(in crate::motion) fn farthest<G: Dimension>(
+    pub(in crate::motion) fn farthest<G: Moving>(
         &self,
         kernel: &Delaunay<G>,
         origins: &VertexOrigins<G>,
@@ -69,7 +69,7 @@ impl Places {
     }
 
     /// Takes a vertex back to its old place.
-    pub(in crate::motion) fn take_back<G: Dimension>(
+    pub(in crate::motion) fn take_back<G: Moving>(
         &mut self,
         kernel: &mut Delaunay<G>,
         origins: &VertexOrigins<G>,
@@ -86,7 +86,7 @@ impl Places {
 
     /// Queues the vertices at new places that are not the old ones, for which there must be room; none of them is taken
     /// back yet. After an error the queue is as before.
-    pub(in crate::motion) fn list_new<G: Dimension>(
+    pub(in crate::motion) fn list_new<G: Moving>(
         &mut self,
         kernel: &Delaunay<G>,
         origins: &VertexOrigins<G>,

@@ -3,7 +3,7 @@
 //! Each round is a change like that of a commit. What undoes it is kept until the timestamp is published or withdrawn: of
 //! the last round where the change has left it, of those before in a list.
 
-use crate::delaunay::{Delaunay, Dimension, KeptChange};
+use crate::delaunay::{Delaunay, KeptChange, Moving};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::motion::report::CommitReport;
@@ -13,7 +13,7 @@ use crate::motion::state::transaction::KeptTransaction;
 
 /// A kernel that another one has taken the place of in a round, and what belongs to it.
 #[derive(Debug)]
-pub(in crate::motion) struct Former<G: Dimension> {
+pub(in crate::motion) struct Former<G: Moving> {
     pub(in crate::motion) kernel: Delaunay<G>,
     pub(in crate::motion) hidden: Hidden,
     pub(in crate::motion) site_of: Vec<SiteId>,
@@ -22,20 +22,20 @@ pub(in crate::motion) struct Former<G: Dimension> {
 
 /// What undoes a round beside what is kept where the change has left it.
 #[derive(Debug)]
-pub(in crate::motion) struct Settled<G: Dimension> {
+pub(in crate::motion) struct Settled<G: Moving> {
     /// The kernel before, if the round has built another one.
     pub(in crate::motion) former: Option<Box<Former<G>>>,
     /// If there were segments.
     pub(in crate::motion) segments: Option<SegmentsBefore>,
 }
 
-impl<G: Dimension> Default for Settled<G> {
+impl<G: Moving> Default for Settled<G> {
     fn default() -> Self {
         Settled { former: None, segments: None }
     }
 }
 
-impl<G: Dimension> Settled<G> {
+impl<G: Moving> Settled<G> {
     fn memory_bytes(&self) -> usize {
         let of_former = |former: &Former<G>| {
             former.kernel.memory_bytes() + former.hidden.memory_bytes() + memory::bytes_of(&former.site_of)
@@ -47,7 +47,7 @@ impl<G: Dimension> Settled<G> {
 
 /// A round that others have followed.
 #[derive(Debug)]
-pub(in crate::motion) struct Round<G: Dimension> {
+pub(in crate::motion) struct Round<G: Moving> {
     pub(in crate::motion) settled: Settled<G>,
     /// `None` if the round has built another kernel: then the former one has it.
     pub(in crate::motion) kernel: Option<KeptChange<G>>,
@@ -55,7 +55,7 @@ pub(in crate::motion) struct Round<G: Dimension> {
     pub(in crate::motion) segments: Option<KeptSegments<G>>,
 }
 
-impl<G: Dimension> Round<G> {
+impl<G: Moving> Round<G> {
     fn memory_bytes(&self) -> usize {
         let of_segments = |(replaced, before): &KeptSegments<G>| {
             replaced.memory_bytes() + before.as_ref().map_or(0, memory::bytes_of)
@@ -82,7 +82,7 @@ pub(in crate::motion) struct Published {
 
 /// The rounds of a timestamp that is being prepared.
 #[derive(Debug)]
-pub(in crate::motion) struct Rounds<G: Dimension> {
+pub(in crate::motion) struct Rounds<G: Moving> {
     pub(in crate::motion) before: Published,
     pub(in crate::motion) earlier: Vec<Round<G>>,
     /// The last round, or the one being made.
@@ -95,7 +95,7 @@ pub(in crate::motion) struct Rounds<G: Dimension> {
     pub(in crate::motion) wants_order: bool,
 }
 
-impl<G: Dimension> Rounds<G> {
+impl<G: Moving> Rounds<G> {
     pub(in crate::motion) fn new(before: Published) -> Self {
         Rounds {
             before,

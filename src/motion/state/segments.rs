@@ -14,7 +14,7 @@
 mod listed;
 mod rounds;
 
-use crate::delaunay::{Crossing, Delaunay, Dimension, InTheWay, Replaced};
+use crate::delaunay::{Crossing, Delaunay, InTheWay, Moving, Replaced};
 use crate::error::{Conflict, Error, Result};
 use crate::ids::{SegmentId, SiteId, Slot, VertexId};
 use crate::machine::memory;
@@ -78,7 +78,7 @@ impl Aim {
 
 /// The segments of a mesh.
 #[derive(Debug)]
-pub(in crate::motion) struct Segments<G: Dimension> {
+pub(in crate::motion) struct Segments<G: Moving> {
     /// The segments in force, ascending: refinement gives ids for ever, so there is no array by id. There is room for all
     /// staged ones.
     enforced: Vec<(SegmentId, Segment)>,
@@ -107,7 +107,7 @@ pub(in crate::motion) struct Segments<G: Dimension> {
     is_checked: bool,
 }
 
-impl<G: Dimension> Default for Segments<G> {
+impl<G: Moving> Default for Segments<G> {
     fn default() -> Self {
         Segments {
             enforced: Vec::new(),
@@ -146,7 +146,7 @@ fn at_edge(edges: &[([SiteId; 2], SegmentId)], edge: [SiteId; 2]) -> &[([SiteId;
     &edges[first..first + n]
 }
 
-impl<G: Dimension> Segments<G> {
+impl<G: Moving> Segments<G> {
     /// A kernel has cells that were saved with these segments: it has to have them, and to be told what cells they have
     /// taken the place of. `site_of` is by vertex id.
     pub(in crate::motion) fn join(&mut self, kernel: &mut Delaunay<G>, site_of: &[SiteId]) -> Result<()> {

@@ -1,6 +1,6 @@
 //! Moves that wait for the next commit.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -12,7 +12,7 @@ use crate::motion::state::goals::{Movers, Moves};
 /// Most callers stage all vertices at once. Such a staging is *whole*: it has neither list nor flags until something
 /// asks for them.
 #[derive(Debug, Default)]
-pub(in crate::motion) struct Staging<G: Dimension> {
+pub(in crate::motion) struct Staging<G: Moving> {
     /// Where the vertices are to go that are staged.
     goals: Vec<G::Point>,
     /// By vertex id; all false while whole.
@@ -24,7 +24,7 @@ pub(in crate::motion) struct Staging<G: Dimension> {
     is_whole: bool,
 }
 
-impl<G: Dimension> Staging<G> {
+impl<G: Moving> Staging<G> {
     /// What a commit is to do: all moves, of `n_present` vertices that there are. The list is
     /// [tidied](Self::tidy) before.
     pub(in crate::motion) fn moves(&mut self, n_present: usize) -> Moves<'_, G> {

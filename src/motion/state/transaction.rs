@@ -1,6 +1,6 @@
 //! What undoing a change needs beside the kernel's log.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
@@ -34,7 +34,7 @@ pub(in crate::motion) struct Counts {
 
 /// What undoing needs beside the kernel's log.
 #[derive(Debug, Default)]
-pub(in crate::motion) struct Transaction<G: Dimension> {
+pub(in crate::motion) struct Transaction<G: Moving> {
     vertices: Vec<VertexBefore>,
     /// Where the vertices were that have moved.
     origins: VertexOrigins<G>,
@@ -47,19 +47,19 @@ pub(in crate::motion) struct Transaction<G: Dimension> {
 
 /// What undoes a change that has been set aside, beside the kernel's part.
 #[derive(Debug)]
-pub(in crate::motion) struct KeptTransaction<G: Dimension> {
+pub(in crate::motion) struct KeptTransaction<G: Moving> {
     vertices: Vec<VertexBefore>,
     origins: KeptOrigins<G>,
     before: Counts,
 }
 
-impl<G: Dimension> KeptTransaction<G> {
+impl<G: Moving> KeptTransaction<G> {
     pub(in crate::motion) fn memory_bytes(&self) -> usize {
         self.vertices.capacity() * size_of::<VertexBefore>() + self.origins.memory_bytes()
     }
 }
 
-impl<G: Dimension> Transaction<G> {
+impl<G: Moving> Transaction<G> {
     /// A change begins.
     pub(in crate::motion) fn begin(&mut self, now: Counts) {
         debug_assert!(self.vertices.is_empty());

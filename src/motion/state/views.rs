@@ -8,7 +8,7 @@
 
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Moving};
 use crate::error::Result;
 use crate::ids::{Slot, VertexId};
 use crate::machine::memory;
@@ -18,7 +18,7 @@ use crate::motion::state::visibility::Visibilities;
 
 /// The finite cells, by vertex id. Valid until the triangulation changes.
 #[derive(Clone, Copy, Debug)]
-pub struct CellsView<'t, G: Dimension> {
+pub struct CellsView<'t, G: Moving> {
     /// Vertex ids of each cell, positively oriented.
     pub corners: &'t [G::Vertices],
     /// Index of the neighbour opposite each corner, [`NO_CELL`](crate::motion::NO_CELL) on the hull.
@@ -27,7 +27,7 @@ pub struct CellsView<'t, G: Dimension> {
 
 /// Arrays that are not up to date, and the slots that have changed since they were.
 #[derive(Debug)]
-struct Behind<G: Dimension> {
+struct Behind<G: Moving> {
     cells: Option<Box<Cells<G>>>,
     dirty: Marks<Slot>,
     /// Whether any slot may have changed.
@@ -50,13 +50,13 @@ struct ArraysBefore {
     dirty: Option<Marks<Slot>>,
 }
 
-impl<G: Dimension> Default for Behind<G> {
+impl<G: Moving> Default for Behind<G> {
     fn default() -> Self {
         Behind { cells: None, dirty: Marks::default(), are_all: true, before: None }
     }
 }
 
-impl<G: Dimension> Behind<G> {
+impl<G: Moving> Behind<G> {
     /// The arrays have been brought up to date: what was dirty before the rounds is kept, if there are rounds.
     fn keep_first_dirty(&mut self) {
         if let Some(before) = &mut self.before
@@ -82,13 +82,13 @@ impl<G: Dimension> Behind<G> {
 
 /// The arrays, up to date or behind, and what else is kept for programs that read the cells.
 #[derive(Debug, Default)]
-pub(in crate::motion) struct Views<G: Dimension> {
+pub(in crate::motion) struct Views<G: Moving> {
     current: OnceLock<Box<Cells<G>>>,
     behind: Mutex<Behind<G>>,
     visibilities: Visibilities,
 }
 
-impl<G: Dimension> Views<G> {
+impl<G: Moving> Views<G> {
     fn lock(&self) -> MutexGuard<'_, Behind<G>> {
         // After a panic while arrays were refreshed, they are made from nothing.
         self.behind.lock().unwrap_or_else(PoisonError::into_inner)

@@ -33,7 +33,7 @@
 //! changed no cell tolerances are computed, and kept while most relocations are within: a test costs a hundredth of a
 //! look at the star, a vertex beyond some eight looks.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::machine::memory;
 use crate::motion::algorithms::Algorithm;
@@ -59,7 +59,7 @@ const MIN_SHARE_WITHIN: f64 = 0.8;
 /// expensive for them.
 const SHORTER_ROUNDS: f64 = 8.0;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     pub(in crate::motion) fn commit_by_auto(
         &mut self,
         moves: &mut Moves<'_, G>,

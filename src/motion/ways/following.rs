@@ -1,6 +1,6 @@
 //! Steps that commits with regions have in common.
 
-use crate::delaunay::{Dimension, Shortcut};
+use crate::delaunay::{Moving, Shortcut};
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::motion::filters::safe_regions::Admission;
@@ -11,7 +11,7 @@ use crate::motion::state::goals::{Goals, Moves};
 use crate::motion::triangulation::MovingTriangulation;
 use crate::motion::ways::placement::Placed;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// The pre-computations for a kind of regions, unless what the last commit has kept is valid. `other_positions` are
     /// those of [`TimestampSteps`].
     pub(in crate::motion) fn prepare_regions(

@@ -19,7 +19,7 @@ mod on_record;
 
 use std::ops::ControlFlow;
 
-use crate::delaunay::{Dimension, Site};
+use crate::delaunay::{Moving, Site};
 use crate::error::Result;
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
@@ -34,7 +34,7 @@ pub(in crate::motion) use on_record::Motion;
 
 /// Exchanges a position with that of a site; whether they differ.
 #[inline(always)]
-fn exchange<G: Dimension>(point: &mut G::Point, p: &mut G::Point) -> bool {
+fn exchange<G: Moving>(point: &mut G::Point, p: &mut G::Point) -> bool {
     let differ = differ::<G>(point, p);
     std::mem::swap(point, p);
     differ
@@ -54,14 +54,14 @@ pub(in crate::motion) enum Advance {
 }
 
 /// Tolerances by vertex id, and those vertices that leave theirs, of which there may be `most`.
-pub(in crate::motion) struct Beyond<'b, G: Dimension> {
+pub(in crate::motion) struct Beyond<'b, G: Moving> {
     pub(in crate::motion) fixed: &'b [Fixed<G>],
     pub(in crate::motion) most: usize,
     pub(in crate::motion) queue: &'b mut Vec<VertexId>,
 }
 
 /// Vertices that go to their new places unless they have to wait.
-struct MovingSites<'m, G: Dimension> {
+struct MovingSites<'m, G: Moving> {
     sites: &'m mut [Site<G>],
     /// Vertices beyond their tolerance, of which there may be `most`.
     queue: &'m mut Vec<VertexId>,
@@ -69,7 +69,7 @@ struct MovingSites<'m, G: Dimension> {
     n_moved: u64,
 }
 
-impl<G: Dimension> MovingSites<'_, G> {
+impl<G: Moving> MovingSites<'_, G> {
     /// Queues those of a few vertices of which a bit is set, and moves the others, or all if `MOVES_ALL`; ends, and
     /// does nothing, where there is no room in the queue.
     #[cold]
@@ -110,7 +110,7 @@ impl<G: Dimension> MovingSites<'_, G> {
     }
 }
 
-impl<G: Dimension> Mesh<G> {
+impl<G: Moving> Mesh<G> {
     /// Moves the vertices that are within their tolerance, or all if `MOVES_ALL`, and queues those that are not. None
     /// moves if those to be queued are more than `most`.
     ///
@@ -230,12 +230,12 @@ impl<G: Dimension> Mesh<G> {
 }
 
 /// Copies goals block by block, and checks them.
-struct Blocks<'p, G: Dimension> {
+struct Blocks<'p, G: Moving> {
     goals: &'p [G::Point],
     are_good: bool,
 }
 
-impl<'p, G: Dimension> Blocks<'p, G> {
+impl<'p, G: Moving> Blocks<'p, G> {
     fn of(moves: &Moves<'p, G>) -> Self {
         Blocks { goals: moves.unchecked(), are_good: true }
     }
@@ -250,11 +250,7 @@ impl<'p, G: Dimension> Blocks<'p, G> {
 
 /// Copies goals, and other places for those that are bad; whether none is.
 #[inline(always)]
-fn copy_good<G: Dimension>(
-    to: &mut [G::Point],
-    goals: &[G::Point],
-    other: impl Fn(usize) -> G::Point,
-) -> bool {
+fn copy_good<G: Moving>(to: &mut [G::Point], goals: &[G::Point], other: impl Fn(usize) -> G::Point) -> bool {
     let are_good = copy_checked::<G>(to, goals);
     if !are_good {
         for (k, p) in to.iter_mut().enumerate() {
@@ -268,7 +264,7 @@ fn copy_good<G: Dimension>(
 
 /// A bit for each of a few vertices that is certainly within its tolerance.
 #[inline(always)]
-fn bits_of<G: Dimension>(fixed: &[Fixed<G>], places: &[G::Point]) -> u32 {
+fn bits_of<G: Moving>(fixed: &[Fixed<G>], places: &[G::Point]) -> u32 {
     let hold = fixed.iter().zip(places).map(|(fixed, p)| fixed.holds(p));
     hold.enumerate().fold(0, |bits, (k, holds)| bits | u32::from(holds) << k)
 }
@@ -278,7 +274,7 @@ fn bits_of<G: Dimension>(fixed: &[Fixed<G>], places: &[G::Point]) -> u32 {
 /// # Safety
 /// `sites_of` are indices of the `n` sites that begin at `start`, all different, and nothing else uses these meanwhile.
 #[inline(always)]
-unsafe fn sites_at<'s, G: Dimension>(
+unsafe fn sites_at<'s, G: Moving>(
     start: *mut Site<G>,
     n: usize,
     sites_of: &[SiteId; LANES],

@@ -2,7 +2,7 @@
 //!
 //! Cost: a look at the first few vertices where these show that the moves differ; 2 ns a vertex where nothing moves.
 
-use crate::delaunay::{Dimension, Site};
+use crate::delaunay::{Moving, Site};
 use crate::ids::VertexId;
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::motion::state::goals::{Movers, Moves};
@@ -23,13 +23,13 @@ pub(in crate::motion) enum Outlook {
 }
 
 /// What the vertices looked at so far do.
-struct Seen<G: Dimension> {
+struct Seen<G: Moving> {
     /// By which vector all of them go, if by one.
     common: Option<G::Point>,
     n_moving: usize,
 }
 
-impl<G: Dimension> Mesh<G> {
+impl<G: Moving> Mesh<G> {
     /// What the vertices are going to do, none of which has moved yet. Whether few move is found out only if that is
     /// asked for: it may take a look at all.
     pub(in crate::motion) fn outlook(&self, moves: &Moves<'_, G>, asks_for_few: bool) -> Outlook {
@@ -73,7 +73,7 @@ impl<G: Dimension> Mesh<G> {
     }
 }
 
-impl<G: Dimension> Mesh<G> {
+impl<G: Moving> Mesh<G> {
     /// How many of these vertices, from the first on, are where they are to go.
     #[inline(always)]
     fn leading_at_rest(&self, vertices: impl Iterator<Item = VertexId> + Clone, goals: &[G::Point]) -> usize {
@@ -92,7 +92,7 @@ impl<G: Dimension> Mesh<G> {
     }
 }
 
-impl<G: Dimension> Seen<G> {
+impl<G: Moving> Seen<G> {
     /// Enters a vertex; whether anything else is known now than before.
     #[inline(always)]
     fn enter(&mut self, is_first: bool, site: &Site<G>, place: &G::Point) -> bool {

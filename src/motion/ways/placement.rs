@@ -8,7 +8,7 @@
 //! for that while. All is done by one thread.
 
 use crate::delaunay::order::{Keyed, hilbert_order};
-use crate::delaunay::{Dimension, Insertion, Relocation, Shortcut};
+use crate::delaunay::{Insertion, Moving, Relocation, Shortcut};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
@@ -38,7 +38,7 @@ pub(in crate::motion) enum Placed {
     NeedBuild,
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Relocates the vertices one after the other.
     pub(in crate::motion) fn commit_by_placement(
         &mut self,
@@ -160,7 +160,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 }
 
-impl<G: Dimension> Mesh<G> {
+impl<G: Moving> Mesh<G> {
     /// Asks for what the next relocations will read: vertices that move are far from each other where they are few.
     #[inline(always)]
     fn prefetch_queued(&self, next: &[VertexId], goals: Goals<'_, G>) {
@@ -256,7 +256,7 @@ impl<G: Dimension> Mesh<G> {
 }
 
 /// Puts vertices in the order of their goals along a Hilbert curve.
-fn order_by_goal<G: Dimension>(queue: &mut [VertexId], goals: Goals<'_, G>) -> Result<()> {
+fn order_by_goal<G: Moving>(queue: &mut [VertexId], goals: Goals<'_, G>) -> Result<()> {
     let mut keyed = Vec::new();
     memory::reserve_exact(&mut keyed, queue.len())?;
     keyed.extend(queue.iter().map(|v| Keyed::new(v.get())));
@@ -267,7 +267,7 @@ fn order_by_goal<G: Dimension>(queue: &mut [VertexId], goals: Goals<'_, G>) -> R
 
 #[cfg(test)]
 mod tests {
-    use crate::delaunay::{Dimension, Level, Plane, Space};
+    use crate::delaunay::{Level, Moving, Plane, Space};
     use crate::ids::{SiteId, VertexId};
     use crate::motion::algorithms::Algorithm;
     use crate::motion::options::Options;
@@ -277,7 +277,7 @@ mod tests {
 
     /// Of more vertices than a cache near the processor holds some go anywhere, or only to near places. Returns the
     /// queue's sites, and how far one goal is from the next in the mean, in units of the box.
-    fn queue_of_some<G: Dimension>(reach: f64) -> (Vec<SiteId>, f64) {
+    fn queue_of_some<G: Moving>(reach: f64) -> (Vec<SiteId>, f64) {
         let rng = &mut Rng::new(1);
         let n = 50_000;
         let mut points = vec![G::Point::default(); n];
@@ -306,7 +306,7 @@ mod tests {
         (queue, mean)
     }
 
-    fn leapers_are_placed_in_the_order_of_their_goals<G: Dimension>() {
+    fn leapers_are_placed_in_the_order_of_their_goals<G: Moving>() {
         let (queue, mean) = queue_of_some::<G>(1.0);
         assert!(!queue.is_sorted() && mean < 0.12, "{mean}");
         let (queue, _) = queue_of_some::<G>(1e-3);

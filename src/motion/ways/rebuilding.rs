@@ -8,7 +8,7 @@
 
 use std::cell::Cell;
 
-use crate::delaunay::{Delaunay, Dimension, Site};
+use crate::delaunay::{Delaunay, Moving, Site};
 use crate::error::Result;
 use crate::ids::{SiteId, VertexId};
 use crate::motion::report::CommitReport;
@@ -21,7 +21,7 @@ use crate::motion::triangulation::MovingTriangulation;
 /// sorted without need; with more the walks take longer than to sort.
 const MAX_STRIDE_RATIO: f64 = 1.7;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Triangulates all vertices at their goals, where none has moved yet.
     pub(in crate::motion) fn rebuild(
         &mut self,
@@ -145,7 +145,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 }
 
 /// Puts a site of a new kernel somewhere; whether it was elsewhere.
-pub(in crate::motion) fn move_to<G: Dimension>(next: &mut Delaunay<G>, s: SiteId, goal: G::Point) -> bool {
+pub(in crate::motion) fn move_to<G: Moving>(next: &mut Delaunay<G>, s: SiteId, goal: G::Point) -> bool {
     let differ = differ::<G>(&next.site(s).point, &goal);
     next.set_point(s, goal);
     differ
@@ -153,14 +153,14 @@ pub(in crate::motion) fn move_to<G: Dimension>(next: &mut Delaunay<G>, s: SiteId
 
 #[cfg(test)]
 mod tests {
-    use crate::delaunay::{Dimension, Plane, Space};
+    use crate::delaunay::{Moving, Plane, Space};
     use crate::motion::algorithms::Algorithm;
     use crate::motion::options::Options;
     use crate::motion::triangulation::MovingTriangulation;
     use crate::random::Rng;
 
     /// The mean distance in storage after each of a few commits of vertices that go anywhere, next to that at first.
-    fn strides<G: Dimension>() -> Vec<f64> {
+    fn strides<G: Moving>() -> Vec<f64> {
         let rng = &mut Rng::new(1);
         let mut points = || {
             let mut points = vec![G::Point::default(); 2_000];

@@ -18,14 +18,14 @@
 //! Cost: a test is a squared distance for each bi-cell of the star; a queued vertex costs as in the tolerance
 //! algorithm.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Moves;
 use crate::motion::triangulation::MovingTriangulation;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Algorithm 2, with regions of a kind that has safe regions.
     pub(in crate::motion) fn commit_by_safe_region(
         &mut self,

@@ -18,7 +18,7 @@
 //! Cost: 2 ns a cell, and about 80 ns for a bi-cell whose slack is used up; these are in proportion to the
 //! displacement, but for a logarithm.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::machine::memory;
 use crate::motion::filters::slack::Expired;
@@ -34,7 +34,7 @@ use crate::motion::ways::moving::Motion;
 /// With more than this share of the cells past their deadlines, a sweep of everything is cheaper.
 const MAX_SHARE_EXPIRED: f64 = 1.0 / 3.0;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Commits by slack where that is possible, else by repair.
     pub(in crate::motion) fn slack_or_repair(
         &mut self,

@@ -7,7 +7,7 @@
 //!
 //! The sample is drawn by a seeded generator, so a run can be repeated.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::motion::filters::bicell::tolerance_of_site;
@@ -17,7 +17,7 @@ use crate::motion::state::goals::{Movers, Moves};
 use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::{displacement_limit, squared_distance};
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     pub(in crate::motion) fn commit_by_switching(
         &mut self,
         moves: &mut Moves<'_, G>,

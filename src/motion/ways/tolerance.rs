@@ -30,7 +30,7 @@
 //! Cost: a test is a squared distance; a queued vertex costs a placement, and up to about 12 (plane) or 66 (space)
 //! delimiters, which it shares with its neighbours in the queue. `examples/tolerance_share` measures both.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::motion::region_kind::RegionKind;
@@ -40,7 +40,7 @@ use crate::motion::triangulation::MovingTriangulation;
 use crate::motion::ways::moving::Advance;
 use crate::motion::ways::moving::Beyond;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Algorithm 1.
     pub(in crate::motion) fn commit_by_tolerance(
         &mut self,

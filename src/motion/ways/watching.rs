@@ -38,7 +38,7 @@
 //! Cost: 2 ns a vertex; about 5 or 20 ns for a watched bi-cell; and for a vertex beyond its star and the bi-cells
 //! there. Both counts shrink with the root of the displacement.
 
-use crate::delaunay::{Dimension, Waiting};
+use crate::delaunay::{Moving, Waiting};
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -57,7 +57,7 @@ use crate::motion::ways::repair::Mending;
 /// Watching pays only while less than this share of the vertices is beyond its tolerance.
 const MAX_SHARE_BEYOND: f64 = 0.125;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Commits by watching where that is possible, else by repair.
     pub(in crate::motion) fn watch_or_repair(
         &mut self,

@@ -1,12 +1,12 @@
 //! One pass over bi-cells: they are checked, if that is to be, and their tolerances computed, several at a time.
 
 use crate::complex::Facet;
-use crate::delaunay::{Delaunay, Dimension, Failures};
+use crate::delaunay::{Delaunay, Failures, Moving};
 use crate::error::Result;
 use crate::predicates::{BiCellTolerances, LANES};
 
 /// Whether bi-cells that are computed are checked before.
-pub(super) enum CheckFirst<'c, G: Dimension> {
+pub(super) enum CheckFirst<'c, G: Moving> {
     /// All are known to hold.
     Not,
     /// All are checked after a motion. In turn: where the vertices were before, by id; a distance that none has
@@ -15,14 +15,14 @@ pub(super) enum CheckFirst<'c, G: Dimension> {
 }
 
 /// One pass over bi-cells, some of which wait to be computed together.
-pub(super) struct Pass<'c, G: Dimension> {
+pub(super) struct Pass<'c, G: Moving> {
     check: CheckFirst<'c, G>,
     bicells: <G::Point as BiCellTolerances>::BiCells,
     facets: [[Facet; 2]; LANES],
     n: usize,
 }
 
-impl<'c, G: Dimension> Pass<'c, G> {
+impl<'c, G: Moving> Pass<'c, G> {
     pub(super) fn new(check: CheckFirst<'c, G>) -> Self {
         Pass { check, bicells: Default::default(), facets: [[Facet::NONE; 2]; LANES], n: 0 }
     }

@@ -19,7 +19,7 @@
 //! Memory: as many bytes for a cell, and 2 for a site.
 
 use crate::complex::{Complex, Corners, Facet};
-use crate::delaunay::{Delaunay, Dimension, Failures, Shape};
+use crate::delaunay::{Delaunay, Failures, Moving, Shape};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
@@ -59,7 +59,7 @@ pub(in crate::motion) enum Expired {
 }
 
 #[derive(Debug, Default)]
-pub(in crate::motion) struct Slacks<G: Dimension> {
+pub(in crate::motion) struct Slacks<G: Moving> {
     margin: Margin,
     /// How far every vertex may still go until the kernel's static filter must cover more.
     room: f64,
@@ -82,7 +82,7 @@ pub(in crate::motion) struct Slacks<G: Dimension> {
     is_open: Vec<u64>,
 }
 
-impl<G: Dimension> Slacks<G> {
+impl<G: Moving> Slacks<G> {
     /// A copy.
     pub(in crate::motion) fn copied(&self) -> Result<Self> {
         Ok(Slacks {
@@ -390,7 +390,7 @@ impl<G: Dimension> Slacks<G> {
     }
 }
 
-impl<G: Dimension> Store<G> for Slacks<G> {
+impl<G: Moving> Store<G> for Slacks<G> {
     fn prepare(&mut self, kernel: &mut Delaunay<G>, _: usize, steps: TimestampSteps<'_, G>) -> Result<u64> {
         self.travelled.clear();
         self.entries.clear();

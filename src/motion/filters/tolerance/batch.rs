@@ -1,20 +1,20 @@
 //! Bi-cells whose tolerances are computed together.
 
 use crate::complex::Facet;
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::ids::VertexId;
 use crate::predicates::{BiCellTolerances, LANES};
 
 /// A few bi-cells.
 #[derive(Debug)]
-pub(super) struct Batch<G: Dimension> {
+pub(super) struct Batch<G: Moving> {
     bicells: <G::Point as BiCellTolerances>::BiCells,
     facets: [[Facet; 2]; LANES],
     vertices: [[VertexId; 5]; LANES],
     n: usize,
 }
 
-impl<G: Dimension> Default for Batch<G> {
+impl<G: Moving> Default for Batch<G> {
     fn default() -> Self {
         Batch {
             bicells: Default::default(),
@@ -25,7 +25,7 @@ impl<G: Dimension> Default for Batch<G> {
     }
 }
 
-impl<G: Dimension> Batch<G> {
+impl<G: Moving> Batch<G> {
     /// Adds a bi-cell: its facet from both sides, its vertices, and their places.
     #[inline(always)]
     pub(super) fn push(

@@ -1,7 +1,7 @@
 //! Fixed positions and tolerances of vertices (report, section 2.4).
 
 use crate::complex::Facet;
-use crate::delaunay::{Delaunay, Dimension, Site};
+use crate::delaunay::{Delaunay, Moving, Site};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
@@ -13,12 +13,12 @@ use crate::predicates::{LANES, displacement_limit, distance_above, squared_dista
 
 /// Fixed position and tolerance of a vertex.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::motion) struct Fixed<G: Dimension> {
+pub(in crate::motion) struct Fixed<G: Moving> {
     point: G::Point,
     tolerance: f64,
 }
 
-impl<G: Dimension> Fixed<G> {
+impl<G: Moving> Fixed<G> {
     /// Whether `p` is certainly within tolerance.
     #[inline(always)]
     pub(in crate::motion) fn holds(&self, p: &G::Point) -> bool {
@@ -38,7 +38,7 @@ impl<G: Dimension> Fixed<G> {
 
 /// Fixed position and tolerance of each vertex: as far as bi-cells have been allowed to lower it.
 #[derive(Debug, Default)]
-pub(in crate::motion) struct Tolerances<G: Dimension> {
+pub(in crate::motion) struct Tolerances<G: Moving> {
     /// No tolerance is greater.
     margin: Margin,
     /// By vertex id, so that what a timestamp reads that changes nothing is one stream. For a site with several
@@ -46,7 +46,7 @@ pub(in crate::motion) struct Tolerances<G: Dimension> {
     fixed: Vec<Fixed<G>>,
 }
 
-impl<G: Dimension> Tolerances<G> {
+impl<G: Moving> Tolerances<G> {
     /// A copy.
     pub(in crate::motion) fn copied(&self) -> Result<Self> {
         Ok(Tolerances { margin: self.margin, fixed: memory::copy_of(&self.fixed)? })
@@ -195,7 +195,7 @@ impl<G: Dimension> Tolerances<G> {
     }
 }
 
-impl<G: Dimension> Store<G> for Tolerances<G> {
+impl<G: Moving> Store<G> for Tolerances<G> {
     fn prepare(&mut self, kernel: &mut Delaunay<G>, n_ids: usize, _: TimestampSteps<'_, G>) -> Result<u64> {
         self.fix_all(kernel, n_ids)?;
         Ok(self.measure_all(kernel, |_, _, _, _| false))

@@ -1,7 +1,7 @@
 //! A tolerance for each vertex, and the bi-cells that are watched instead of lowering it.
 
 use crate::complex::Facet;
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Moving};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::motion::filters::store::{Store, TimestampSteps};
@@ -11,12 +11,12 @@ use crate::predicates::squared_distance;
 
 /// A bi-cell is either watched, and lowers no tolerance, or has lowered those of its vertices.
 #[derive(Debug, Default)]
-pub(in crate::motion) struct Watching<G: Dimension> {
+pub(in crate::motion) struct Watching<G: Moving> {
     tolerances: Tolerances<G>,
     watched: WatchedFacets,
 }
 
-impl<G: Dimension> Watching<G> {
+impl<G: Moving> Watching<G> {
     /// A copy.
     pub(in crate::motion) fn copied(&self) -> Result<Self> {
         Ok(Watching { tolerances: self.tolerances.copied()?, watched: self.watched.copied()? })
@@ -60,7 +60,7 @@ impl<G: Dimension> Watching<G> {
 /// below θ costs in proportion to θ / h, what is recomputed in proportion to u / θ; so the best θ² is in
 /// proportion to u h. `longest` is the square of a length that no step exceeds.
 #[inline(always)]
-fn is_soon_beyond<G: Dimension>(
+fn is_soon_beyond<G: Moving>(
     fixed: &[Fixed<G>],
     vertices: &[VertexId],
     tolerance: f64,
@@ -77,11 +77,7 @@ fn is_soon_beyond<G: Dimension>(
 
 /// The longest way of a vertex of a bi-cell in the last timestamp, squared. Out of the loop, which hardly ever asks.
 #[inline(never)]
-fn longest_step<G: Dimension>(
-    fixed: &[Fixed<G>],
-    vertices: &[VertexId],
-    steps: TimestampSteps<'_, G>,
-) -> f64 {
+fn longest_step<G: Moving>(fixed: &[Fixed<G>], vertices: &[VertexId], steps: TimestampSteps<'_, G>) -> f64 {
     let here = |v: VertexId| fixed[v].point();
     let from_one = |&v: &VertexId| squared_distance(here(vertices[1]), here(v));
     let greatest = vertices.iter().map(from_one).fold(0.0, f64::max);
@@ -93,7 +89,7 @@ fn longest_step<G: Dimension>(
     vertices.iter().map(step).fold(0.0, f64::max)
 }
 
-impl<G: Dimension> Store<G> for Watching<G> {
+impl<G: Moving> Store<G> for Watching<G> {
     fn prepare(
         &mut self,
         kernel: &mut Delaunay<G>,

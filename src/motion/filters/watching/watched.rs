@@ -4,7 +4,7 @@
 //! set stays listed until the list is gone through. A facet may be named from either side.
 
 use crate::complex::Facet;
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Moving};
 use crate::error::Result;
 use crate::ids::Slot;
 use crate::machine::memory;
@@ -75,7 +75,7 @@ impl WatchedFacets {
     }
 
     /// Visits all members named from live cells, and drops the others.
-    pub(super) fn for_each<G: Dimension>(&mut self, kernel: &Delaunay<G>, mut visit: impl FnMut(Facet)) {
+    pub(super) fn for_each<G: Moving>(&mut self, kernel: &Delaunay<G>, mut visit: impl FnMut(Facet)) {
         let is_far = size_of_val(kernel.sites()) > CACHE_BYTES;
         let mut n = 0;
         for k in 0..self.list.len() {

@@ -1,13 +1,13 @@
 //! MEDIT's text format, as read by Mmg, FreeFem, Gmsh and others (P. Frey: *MEDIT, an interactive mesh visualization
 //! software*, INRIA technical report RT-0253, 2001).
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::motion::reading::chunks::Chunks;
 use crate::motion::reading::exporting::{Drawn, check_references};
 
 /// Writes all, with a reference for each cell, or 1.
-pub(super) fn write<G: Dimension, E: From<Error>>(
+pub(super) fn write<G: Moving, E: From<Error>>(
     drawn: &impl Drawn<G>,
     references: Option<&[i32]>,
     put: impl FnMut(&[u8]) -> Result<(), E>,

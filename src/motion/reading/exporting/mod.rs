@@ -9,7 +9,7 @@
 mod medit;
 mod vtu;
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -28,7 +28,7 @@ pub(crate) fn check_references(given: usize, wanted: usize) -> Result<()> {
 }
 
 /// What is written: points, cells between them, and lines.
-pub(crate) trait Drawn<G: Dimension>: Sized {
+pub(crate) trait Drawn<G: Moving>: Sized {
     /// How many numbers of each component a field of vertices has, and how many of them are for staged insertions.
     fn id_counts(&self) -> [usize; 2];
 
@@ -68,14 +68,14 @@ pub(crate) trait Drawn<G: Dimension>: Sized {
 }
 
 /// A triangulation of the plane or of space, with segments.
-struct OpenExport<'t, G: Dimension> {
+struct OpenExport<'t, G: Moving> {
     t: &'t MovingTriangulation<G>,
     view: CellsView<'t, G>,
     /// For each id the number of present vertices with lower ones; nothing if that is the id itself.
     ranks: Vec<u32>,
 }
 
-impl<'t, G: Dimension> OpenExport<'t, G> {
+impl<'t, G: Moving> OpenExport<'t, G> {
     fn of(t: &'t MovingTriangulation<G>) -> Result<Self> {
         Ok(OpenExport { t, view: t.cells()?, ranks: t.ranks()? })
     }
@@ -86,7 +86,7 @@ impl<'t, G: Dimension> OpenExport<'t, G> {
     }
 }
 
-impl<G: Dimension> Drawn<G> for OpenExport<'_, G> {
+impl<G: Moving> Drawn<G> for OpenExport<'_, G> {
     fn id_counts(&self) -> [usize; 2] {
         [self.t.id_count(), self.t.staged_edits().0]
     }
@@ -117,7 +117,7 @@ impl<G: Dimension> Drawn<G> for OpenExport<'_, G> {
     }
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Hands on the bytes of a `.vtu` file, some thousand at a time. The points have three coordinates, the third being
     /// 0 in the plane, and their ids as an array `vertex`. If there are segments in force, they are lines behind the
     /// cells: their markers are an array `marker` of cell data, which is 0 for cells, and fields of cells are NaN there.

@@ -4,7 +4,7 @@
 use std::fmt::{self, Write};
 
 use crate::complex::Corners;
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::machine::memory;
 use crate::motion::reading::chunks::Chunks;
@@ -99,7 +99,7 @@ impl<E, P: FnMut(&[u8]) -> Result<(), E>> Directory<'_, P> {
 }
 
 /// Writes all.
-pub(super) fn write<G: Dimension, E: From<Error>>(
+pub(super) fn write<G: Moving, E: From<Error>>(
     drawn: &impl Drawn<G>,
     vertex_fields: &[Field<'_>],
     cell_fields: &[Field<'_>],

@@ -4,7 +4,7 @@
 //! have a vertex of the list as a corner.
 
 use crate::complex::Corners;
-use crate::delaunay::{Dimension, IndexSet};
+use crate::delaunay::{IndexSet, Moving};
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
@@ -23,7 +23,7 @@ const LEAST_SHARE: f64 = 0.025;
 const STEPS: usize = 4;
 const VERTICES_PER_STEP: usize = 2;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// The cells of which at least one of these vertices is a corner: ascending, each once. Vertices may be listed more
     /// than once; hidden ones have no cells.
     ///

@@ -1,7 +1,7 @@
 //! The facets around some of the cells, seen from outside.
 
 use crate::complex::Corners;
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
 use crate::motion::state::cells::NO_CELL;
@@ -40,7 +40,7 @@ impl<C: Corners<VertexId>> BoundaryFacet<C> {
     }
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// The facets between cells of which the entry in `mask`, by index in [`cells`](Self::cells), is not 0 and cells of
     /// which it is 0 or the outside: told to `found`, ascending by cell and then by corner.
     ///

@@ -9,7 +9,7 @@
 //! A circumcentre is compared with the half-spaces that are near it, a cell that is cut with all: a bound for its
 //! corners with each.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::{memory, threads};
@@ -42,7 +42,7 @@ impl Region {
     }
 
     /// Marks circumcentres in the box that are beyond a half-space.
-    pub(super) fn mark<G: Dimension>(&self, t: &MovingTriangulation<G>, centres: &mut Centres<G::Point>) {
+    pub(super) fn mark<G: Moving>(&self, t: &MovingTriangulation<G>, centres: &mut Centres<G::Point>) {
         if self.half_spaces.is_empty() {
             return;
         }
@@ -58,7 +58,7 @@ impl Region {
 
     /// What a cell has in the half-spaces, with offsets from the place in the box that is nearest to its vertex; the
     /// facets of the cell and the corners of the box in it have been added.
-    pub(super) fn sums_of<G: Dimension>(
+    pub(super) fn sums_of<G: Moving>(
         &self,
         cell: &mut Polytope,
         corners: &[(BoxCorner, VertexId)],
@@ -74,7 +74,7 @@ impl Region {
     }
 }
 
-impl<G: Dimension> Voronoi<'_, G> {
+impl<G: Moving> Voronoi<'_, G> {
     /// Tells what there is of the cells of some vertices.
     pub(super) fn cells_within(
         &mut self,

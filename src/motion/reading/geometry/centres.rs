@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::CellId;
 use crate::machine::prefetch::{AHEAD, prefetch};
@@ -134,7 +134,7 @@ impl<P> Centres<'_, P> {
 
 impl<'c, P: Copy + Default + Send + Sync> Centres<'c, P> {
     /// Of all cells, or of `chosen` ones, which are ascending.
-    pub(super) fn new<G: Dimension<Point = P>>(
+    pub(super) fn new<G: Moving<Point = P>>(
         t: &MovingTriangulation<G>,
         cells: &Cells<G>,
         clip: Option<&Clip>,
@@ -161,7 +161,7 @@ impl<'c, P: Copy + Default + Send + Sync> Centres<'c, P> {
 
 /// Asks for what a cell is read from that comes later, and for the corners of one that comes sooner.
 #[inline(always)]
-pub(super) fn ask_for<G: Dimension>(
+pub(super) fn ask_for<G: Moving>(
     t: &MovingTriangulation<G>,
     cells: &Cells<G>,
     later: Range<usize>,
@@ -179,7 +179,7 @@ pub(super) fn ask_for<G: Dimension>(
 }
 
 #[inline(always)]
-fn centre_of<G: Dimension>(
+fn centre_of<G: Moving>(
     t: &MovingTriangulation<G>,
     cells: &Cells<G>,
     clip: Option<&Clip>,

@@ -2,7 +2,7 @@
 //!
 //! In the plane, the third coordinate is 0.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::predicates::Meeting;
 
 /// A vector of space.
@@ -11,7 +11,7 @@ pub(super) type Vector = [f64; 3];
 /// A point, in the plane at height 0.
 // What follows is written out, as closures over arrays are function calls in hot loops.
 #[inline(always)]
-pub(super) fn in_space<G: Dimension>(p: &G::Point) -> Vector {
+pub(super) fn in_space<G: Moving>(p: &G::Point) -> Vector {
     [p[0], p[1], if G::D == 3 { p[2] } else { 0.0 }]
 }
 
@@ -76,7 +76,7 @@ pub(super) struct Face {
 
 impl Face {
     /// All of them, in the order in which they cut.
-    pub(super) fn all<G: Dimension>() -> impl Iterator<Item = Face> {
+    pub(super) fn all<G: Moving>() -> impl Iterator<Item = Face> {
         (0..2 * G::D).map(|k| Face { axis: k / 2, is_high: k % 2 == 1 })
     }
 
@@ -116,7 +116,7 @@ pub(super) struct Clip {
 }
 
 impl Clip {
-    pub(super) fn new<G: Dimension>(low: &G::Point, high: &G::Point) -> Self {
+    pub(super) fn new<G: Moving>(low: &G::Point, high: &G::Point) -> Self {
         let (low, high) = (in_space::<G>(low), in_space::<G>(high));
         let reach = greatest(&low).max(greatest(&high));
         let size = greatest(&minus(&high, &low));
@@ -174,7 +174,7 @@ impl Clip {
     /// The faces that the circumcentre of a cell is beyond, by their bits: exact. A centre and a squared radius are as
     /// [`circumspheres`](crate::motion::MovingTriangulation::circumspheres) says.
     #[inline(always)]
-    pub(super) fn sides<G: Dimension>(&self, centre: &G::Point, squared: f64, cell: &[&G::Point]) -> u8 {
+    pub(super) fn sides<G: Moving>(&self, centre: &G::Point, squared: f64, cell: &[&G::Point]) -> u8 {
         // The rounding of a centre that is twice as far away as the box does not matter.
         let margin = 1.01e-9 * squared.sqrt() + 4.0 * f64::EPSILON * self.reach;
         let is_inside = |axis: usize| {
@@ -187,7 +187,7 @@ impl Clip {
     }
 
     #[inline(never)]
-    fn sides_of_outer<G: Dimension>(&self, centre: &G::Point, margin: f64, cell: &[&G::Point]) -> u8 {
+    fn sides_of_outer<G: Moving>(&self, centre: &G::Point, margin: f64, cell: &[&G::Point]) -> u8 {
         let mut sides = 0;
         for face in Face::all::<G>() {
             let beyond = f64::from(face.outward()) * (centre[face.axis] - self.bound(face));
@@ -203,7 +203,7 @@ impl Clip {
 
     /// The side of a face on which the circumcentre of a cell is.
     #[cold]
-    fn sign_of_centre<G: Dimension>(&self, face: Face, cell: &[&G::Point]) -> i32 {
+    fn sign_of_centre<G: Moving>(&self, face: Face, cell: &[&G::Point]) -> i32 {
         let places: [Vector; 4] = std::array::from_fn(|k| in_space::<G>(cell[k.min(G::D)]));
         let mut from = [0.0; 3];
         from[face.axis] = self.bound(face);

@@ -16,7 +16,7 @@
 
 use std::cmp::Ordering;
 
-use crate::delaunay::{Dimension, IndexSet};
+use crate::delaunay::{IndexSet, Moving};
 use crate::error::Result;
 use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
@@ -36,7 +36,7 @@ pub(super) struct BoxCorner {
 }
 
 impl BoxCorner {
-    pub(super) fn all<G: Dimension>(clip: &Clip) -> impl Iterator<Item = BoxCorner> {
+    pub(super) fn all<G: Moving>(clip: &Clip) -> impl Iterator<Item = BoxCorner> {
         let low = *clip.low();
         let high = *clip.high();
         (0..1 << G::D).map(move |highs| {
@@ -51,7 +51,7 @@ impl BoxCorner {
     }
 
     /// In coordinates of the dimension.
-    pub(super) fn point<G: Dimension>(&self) -> G::Point {
+    pub(super) fn point<G: Moving>(&self) -> G::Point {
         let mut point = G::Point::default();
         (0..G::D).for_each(|axis| point[axis] = self.at[axis]);
         point
@@ -91,7 +91,7 @@ impl BoxCorner {
     }
 
     /// What is between it and a place in the box.
-    pub(super) fn sums<G: Dimension>(&self, clip: &Clip, apex: &Vector) -> Sums {
+    pub(super) fn sums<G: Moving>(&self, clip: &Clip, apex: &Vector) -> Sums {
         let mut way = [0.0; 3];
         for (axis, way) in way.iter_mut().enumerate().take(G::D) {
             let face = Face { axis, is_high: self.highs >> axis & 1 == 1 };
@@ -106,7 +106,7 @@ impl BoxCorner {
     }
 }
 
-impl<G: Dimension> Voronoi<'_, G> {
+impl<G: Moving> Voronoi<'_, G> {
     /// Tells what there is of the cells of some vertices, which do not fit in the box, with offsets from the vertex, or
     /// from the place in the box that is nearest to it.
     pub(super) fn cut_cells(

@@ -50,7 +50,7 @@
 //! an entry for each id.
 
 use crate::complex::Corners;
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{CellId, SiteId, VertexId};
 use crate::machine::prefetch::AHEAD;
@@ -81,7 +81,7 @@ impl Target {
     };
 
     /// By what to multiply sums of volumes, facets and moments.
-    pub(super) fn factors<G: Dimension>(&self) -> [f64; 3] {
+    pub(super) fn factors<G: Moving>(&self) -> [f64; 3] {
         match (self.is_cut, G::D) {
             (true, _) => [1.0; 3],
             (false, 2) => [0.25, 1.0, 1.0 / 12.0],
@@ -157,7 +157,7 @@ impl DualFacet<'_> {
     }
 }
 
-impl<G: Dimension> Voronoi<'_, G> {
+impl<G: Moving> Voronoi<'_, G> {
     /// Adds the pieces between cells that both fit, of cells of some numbers, to some of the targets, of which `first`
     /// is the first one's number; and marks those that have a cell that does not fit, a facet on the hull, or an edge
     /// that is too short for products.

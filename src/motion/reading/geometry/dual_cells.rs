@@ -1,6 +1,6 @@
 //! Volumes, boundaries and centroids of the Voronoi cells of ids, in a box and half-spaces.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::motion::reading::geometry::clipping::{Clip, in_space};
 use crate::motion::reading::geometry::dual::Target;
@@ -30,7 +30,7 @@ pub struct VoronoiCell<P> {
     pub centroid: P,
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Whether numbers are rows of normals and offsets.
     pub(crate) fn check_half_spaces(&self, rows: &[f64]) -> Result<()> {
         if !rows.len().is_multiple_of(G::D + 1) {
@@ -42,14 +42,14 @@ impl<G: Dimension> MovingTriangulation<G> {
 }
 
 /// No place.
-pub(crate) fn nowhere<G: Dimension>() -> G::Point {
+pub(crate) fn nowhere<G: Moving>() -> G::Point {
     let mut nowhere = G::Point::default();
     (0..G::D).for_each(|axis| nowhere[axis] = f64::NAN);
     nowhere
 }
 
 /// What the sums of a vertex at this place say.
-pub(super) fn cell_of<G: Dimension>(clip: &Clip, place: &G::Point, target: &Target) -> VoronoiCell<G::Point> {
+pub(super) fn cell_of<G: Moving>(clip: &Clip, place: &G::Point, target: &Target) -> VoronoiCell<G::Point> {
     let sums = &target.sums;
     let [of_volume, of_facets, of_moment] = target.factors::<G>();
     let volume = of_volume * sums.volume;

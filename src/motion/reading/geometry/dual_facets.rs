@@ -21,7 +21,7 @@
 //! the box as those are that it does cut, and the centroid is a mean of corners with weights that are not negative: off
 //! by d + h at most.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::{memory, threads};
@@ -69,7 +69,7 @@ const NARROW: f64 = 4e-8;
 /// How many facets are computed between two looks at whether to go on.
 const FACETS_AT_A_TIME: usize = 1 << 15;
 
-impl<G: Dimension> Voronoi<'_, G> {
+impl<G: Moving> Voronoi<'_, G> {
     /// The facet of the ring, if it is in the box as a whole and not so narrow that it has to be put together from its
     /// corners.
     fn whole(&self, clip: &Clip, [x, y]: &[Vector; 2]) -> Option<FacetMeasures> {
@@ -137,7 +137,7 @@ impl<G: Dimension> Voronoi<'_, G> {
     }
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// The facets of edges in a region, or without one, each by itself; on several threads where that pays.
     pub(super) fn facets_of(
         &self,
@@ -173,7 +173,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 }
 
 /// The coordinates that a dimension has.
-pub(super) fn of_space<G: Dimension>(p: &Vector) -> G::Point {
+pub(super) fn of_space<G: Moving>(p: &Vector) -> G::Point {
     let mut point = G::Point::default();
     (0..G::D).for_each(|axis| point[axis] = p[axis]);
     point

@@ -8,7 +8,7 @@
 
 use std::array::from_fn;
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -27,7 +27,7 @@ use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::sign_of_cross;
 
 /// Whether places are moved along each axis from the first one of a set to make it span the dimension.
-fn missing_axes<G: Dimension>(places: &[Vector]) -> [bool; 3] {
+fn missing_axes<G: Moving>(places: &[Vector]) -> [bool; 3] {
     let first = &places[0];
     let Some(second) = places.iter().find(|p| *p != first) else { return [false; 3] };
     let normal = |p: &Vector| (0..3).find(|&axis| sign_of_cross([first, second, p], axis) != 0);
@@ -42,7 +42,7 @@ fn missing_axes<G: Dimension>(places: &[Vector]) -> [bool; 3] {
 
 /// Places in one hyperplane, and others with which they span the dimension: those that are moved by the size of the
 /// set.
-fn spanning<G: Dimension>(mut places: Vec<G::Point>) -> Result<Vec<G::Point>> {
+fn spanning<G: Moving>(mut places: Vec<G::Point>) -> Result<Vec<G::Point>> {
     let mut in_space_all = Vec::new();
     memory::collect(&mut in_space_all, places.iter().map(in_space::<G>))?;
     let size = in_space_all.iter().fold(0.0f64, |most, p| most.max(greatest(p)));
@@ -56,7 +56,7 @@ fn spanning<G: Dimension>(mut places: Vec<G::Point>) -> Result<Vec<G::Point>> {
     Ok(places)
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Tells what there is in a box of the Voronoi cells of vertices in one hyperplane: parts whose sums are to be
     /// added, with offsets as in [`cut_cells`](super::voronoi::Voronoi::cut_cells).
     pub(super) fn flat_cells(

@@ -17,7 +17,7 @@
 //! the tolerance times L², by a part of less than 2·10⁻¹⁵ over the tolerance. Of cells so small that a volume could
 //! underflow the corners are scaled by a power of two first.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::CellId;
 use crate::machine::memory;
@@ -32,7 +32,7 @@ use crate::predicates::Measures;
 const LEAST_EXTENT: i32 = -200;
 const SCALED_EXTENT: i32 = -150;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// For each cell, in the order of [`cells`](Self::cells), 0 if it is flat and on the hull, or beside such a cell;
     /// else 1. A cell is flat if its least height is at most `tolerance` times its longest edge; with 0 none is.
     ///
@@ -63,7 +63,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
 /// For each cell 0 if it is flat and on the hull, or beside such a cell; else 1. With a tolerance of 0 none is flat. The corners of
 /// a cell are where `places` says.
-pub(crate) fn without_flat_cells<G: Dimension>(
+pub(crate) fn without_flat_cells<G: Moving>(
     neighbours: &[G::Neighbours],
     tolerance: f64,
     places: impl Fn(CellId) -> [G::Point; 4],
@@ -88,7 +88,7 @@ pub(crate) fn without_flat_cells<G: Dimension>(
 }
 
 /// Whether the least height of a cell is at most `tolerance` times its longest edge.
-fn is_flat<G: Dimension>(places: &[&G::Point], tolerance: f64) -> bool {
+fn is_flat<G: Moving>(places: &[&G::Point], tolerance: f64) -> bool {
     let extent = (0..G::D).fold(0.0f64, |most, axis| {
         places[1..].iter().fold(most, |most, p| most.max((p[axis] - places[0][axis]).abs()))
     });
@@ -102,7 +102,7 @@ fn is_flat<G: Dimension>(places: &[&G::Point], tolerance: f64) -> bool {
 }
 
 /// Whether a cell is flat, of which no volume or product of lengths underflows unless it is.
-fn is_flat_and_sized<G: Dimension>(places: &[&G::Point], tolerance: f64) -> bool {
+fn is_flat_and_sized<G: Moving>(places: &[&G::Point], tolerance: f64) -> bool {
     let mut points: [Vector; 4] = Default::default();
     places.iter().zip(&mut points).for_each(|(p, point)| *point = in_space::<G>(p));
     let (mut longest, mut largest) = (0.0f64, 0.0f64);
@@ -127,7 +127,7 @@ fn is_flat_and_sized<G: Dimension>(places: &[&G::Point], tolerance: f64) -> bool
 /// Corners scaled by a power of two that makes a cell larger. An axis along which all are at one place has zeros: their
 /// coordinate there may be too large to be scaled. Along others no coordinate is more than 2⁵³ times the extent.
 #[cold]
-fn scaled<G: Dimension>(places: &[&G::Point], extent: f64) -> [G::Point; 4] {
+fn scaled<G: Moving>(places: &[&G::Point], extent: f64) -> [G::Point; 4] {
     let exponent = (extent.max(f64::MIN_POSITIVE).to_bits() >> 52) as i32 - 1023;
     let half = (SCALED_EXTENT - exponent) / 2;
     let (first, second) = (2f64.powi(half), 2f64.powi(SCALED_EXTENT - exponent - half));

@@ -12,7 +12,7 @@
 
 use std::ops::Range;
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::machine::memory;
 use crate::motion::reading::geometry::clipping::{Clip, Vector, dot, greatest};
@@ -98,7 +98,7 @@ pub(super) struct HalfSpaces {
 impl HalfSpaces {
     /// From rows of a normal and an offset, which are [checked](checked_row), in the coordinates of a box, which gets about as many blocks as fit a
     /// triangulation of `n_cells` cells.
-    pub(super) fn new<G: Dimension>(rows: &[f64], clip: &Clip, n_cells: usize) -> Result<Self> {
+    pub(super) fn new<G: Moving>(rows: &[f64], clip: &Clip, n_cells: usize) -> Result<Self> {
         let mut spaces = HalfSpaces::default();
         memory::reserve_exact(&mut spaces.list, rows.len() / (G::D + 1))?;
         for row in rows.chunks(G::D + 1) {
@@ -116,7 +116,7 @@ impl HalfSpaces {
     }
 
     /// Divides the box in blocks, and lists the half-spaces of each.
-    fn divide<G: Dimension>(&mut self, clip: &Clip, n_cells: usize) -> Result<()> {
+    fn divide<G: Moving>(&mut self, clip: &Clip, n_cells: usize) -> Result<()> {
         let extents = [0, 1, 2].map(|axis| clip.extent(axis) * clip.unit);
         let mut length = extents;
         self.n_blocks = [1; 3];
@@ -199,7 +199,7 @@ impl HalfSpaces {
 }
 
 /// Whether a row is a normal that is not zero and an offset, all finite.
-pub(super) fn checked_row<G: Dimension>(index: usize, row: &[f64]) -> Result<()> {
+pub(super) fn checked_row<G: Moving>(index: usize, row: &[f64]) -> Result<()> {
     let argument = "half_spaces";
     if let Some(axis) = row.iter().position(|x| !x.is_finite()) {
         return Err(Error::NotFinite { argument, index, axis, value: row[axis] });

@@ -9,7 +9,7 @@
 use std::ops::Range;
 
 use crate::complex::Corners;
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
@@ -44,7 +44,7 @@ impl<T> Rows<T> {
 }
 
 /// For each of `n_ids` vertices the first of these cells that has it as a corner; [`CellId::NONE`] where there is none.
-pub(crate) fn first_cells<G: Dimension>(corners: &[G::Vertices], n_ids: usize) -> Result<Vec<CellId>> {
+pub(crate) fn first_cells<G: Moving>(corners: &[G::Vertices], n_ids: usize) -> Result<Vec<CellId>> {
     let mut first = Vec::new();
     memory::lengthen(&mut first, n_ids, CellId::NONE)?;
     for (cell, row) in CellId::range(0..corners.len()).zip(corners).rev() {
@@ -54,7 +54,7 @@ pub(crate) fn first_cells<G: Dimension>(corners: &[G::Vertices], n_ids: usize) -
 }
 
 /// The vertices that share a cell with a vertex.
-pub(super) struct Neighbours<'t, G: Dimension> {
+pub(super) struct Neighbours<'t, G: Moving> {
     corners: &'t [G::Vertices],
     stars: Rows<CellId>,
     /// In which round each vertex has been seen last.
@@ -63,7 +63,7 @@ pub(super) struct Neighbours<'t, G: Dimension> {
     round: u32,
 }
 
-impl<'t, G: Dimension> Neighbours<'t, G> {
+impl<'t, G: Moving> Neighbours<'t, G> {
     pub(super) fn new(cells: &'t Cells<G>, n_ids: usize) -> Result<Self> {
         Self::of(cells, n_ids, CellId::range(0..cells.corners().len()))
     }
@@ -140,12 +140,12 @@ impl<'t, G: Dimension> Neighbours<'t, G> {
 }
 
 /// The cells of each vertex, ascending.
-pub(super) fn stars<G: Dimension>(cells: &Cells<G>, n_ids: usize) -> Result<Rows<CellId>> {
+pub(super) fn stars<G: Moving>(cells: &Cells<G>, n_ids: usize) -> Result<Rows<CellId>> {
     stars_of(cells, n_ids, CellId::range(0..cells.corners().len()))
 }
 
 /// Of each vertex those of these cells, which are ascending.
-fn stars_of<G: Dimension>(
+fn stars_of<G: Moving>(
     cells: &Cells<G>,
     n_ids: usize,
     chosen: impl ExactSizeIterator<Item = CellId> + Clone,
@@ -178,7 +178,7 @@ fn stars_of<G: Dimension>(
     Ok(Rows { offsets, entries })
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Number of edges.
     pub fn edge_count(&self) -> usize {
         let (cells, hull) = (self.cell_count(), self.mesh.kernel.complex().n_ghosts());

@@ -3,7 +3,7 @@
 //! Each is a sum of the values of some vertices, with weights: by the barycentric coordinates of the cell that holds
 //! the place ([`linear`](super::linear)), or by natural neighbours ([`natural`](super::natural)).
 
-use crate::delaunay::{Dimension, Place};
+use crate::delaunay::{Moving, Place};
 use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
@@ -47,7 +47,7 @@ impl VertexValues<'_> {
     }
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// The weights of linear interpolation at a place in a cell, which is there, of its corners.
     pub(crate) fn linear_weights(
         &self,

@@ -4,7 +4,7 @@
 //! functions are reproduced; where that makes one clearly negative they are quotients of volumes, which are exact but
 //! for their last bits.
 
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Moving};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
@@ -17,7 +17,7 @@ pub(super) type Weights = Vec<(SiteId, f64)>;
 const LEAST_COORDINATE: f64 = -1e-6;
 
 /// The weights of linear interpolation at a place in a cell.
-pub(super) fn list_linear<G: Dimension>(
+pub(super) fn list_linear<G: Moving>(
     kernel: &Delaunay<G>,
     cell: Slot,
     q: &G::Point,
@@ -29,7 +29,7 @@ pub(super) fn list_linear<G: Dimension>(
 }
 
 /// Barycentric coordinates of a place in a cell with these corners.
-pub(super) fn linear<G: Dimension>(points: &[&G::Point], q: &G::Point) -> [f64; 4] {
+pub(super) fn linear<G: Moving>(points: &[&G::Point], q: &G::Point) -> [f64; 4] {
     match barycentric::<G>(points, q) {
         Some(coordinates) if coordinates.iter().all(|&x| x >= LEAST_COORDINATE) => coordinates,
         _ => by_volumes::<G>(points, q),
@@ -37,7 +37,7 @@ pub(super) fn linear<G: Dimension>(points: &[&G::Point], q: &G::Point) -> [f64; 
 }
 
 /// Barycentric coordinates, by elimination with pivots; none if a pivot is 0.
-pub(super) fn barycentric<G: Dimension>(points: &[&G::Point], q: &G::Point) -> Option<[f64; 4]> {
+pub(super) fn barycentric<G: Moving>(points: &[&G::Point], q: &G::Point) -> Option<[f64; 4]> {
     let d = G::D;
     // A row for each axis: the differences of the corners from the first one, and that of the place.
     let mut rows = [[0.0; 4]; 3];
@@ -69,7 +69,7 @@ pub(super) fn barycentric<G: Dimension>(points: &[&G::Point], q: &G::Point) -> O
 
 /// Barycentric coordinates of a place in a cell: quotients of the volumes with the place for a corner.
 #[cold]
-fn by_volumes<G: Dimension>(points: &[&G::Point], q: &G::Point) -> [f64; 4] {
+fn by_volumes<G: Moving>(points: &[&G::Point], q: &G::Point) -> [f64; 4] {
     let mut volumes = [0.0; 4];
     for (i, volume) in volumes.iter_mut().enumerate().take(G::D + 1) {
         let mut replaced = [q; 4];

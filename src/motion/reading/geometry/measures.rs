@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, Slot};
 use crate::machine::prefetch::{AHEAD, prefetch};
@@ -10,7 +10,7 @@ use crate::motion::state::checking::check_not_negative;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::{Measures, Reach};
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// What `measure` gives for the corners of the cells in some slots; `later` tells which of them is at an index.
     #[inline(always)]
     fn measures<'t, T: 't>(

@@ -16,7 +16,7 @@
 //! reach, as for places on the hull, that is all.
 
 use crate::complex::Corners;
-use crate::delaunay::{Delaunay, Dimension, IndexSet};
+use crate::delaunay::{Delaunay, IndexSet, Moving};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
@@ -52,7 +52,7 @@ impl<K: Copy + Ord> Ridges<K> {
     }
 
     /// Adds those of a facet around a place: as many vertices as there are dimensions, all facets seen from one side.
-    pub(crate) fn add_facet<G: Dimension>(&mut self, facet: [(K, &G::Point); 3], q: &G::Point) -> Result<()> {
+    pub(crate) fn add_facet<G: Moving>(&mut self, facet: [(K, &G::Point); 3], q: &G::Point) -> Result<()> {
         let mut points = [q; 4];
         (0..G::D).for_each(|i| points[i] = facet[i].1);
         let (centre, _) = G::Point::circumsphere(&points[..=G::D]);
@@ -69,7 +69,7 @@ impl<K: Copy + Ord> Ridges<K> {
     }
 
     /// The weights of the natural neighbours of a place, around which all facets have been added, in a cell with these corners.
-    pub(crate) fn weights<G: Dimension>(
+    pub(crate) fn weights<G: Moving>(
         &mut self,
         cell: &[(K, &G::Point)],
         q: &G::Point,
@@ -103,7 +103,7 @@ impl<K: Copy + Ord> Ridges<K> {
     }
 
     /// Lists the natural neighbours with the measures of Voronoi facets over distances.
-    fn weigh<G: Dimension>(
+    fn weigh<G: Moving>(
         &mut self,
         q: &G::Point,
         place: impl Fn(K) -> G::Point,
@@ -150,7 +150,7 @@ pub(super) struct Natural {
 
 impl Natural {
     /// The weights at a place in a cell, at no site.
-    pub(super) fn list<G: Dimension>(
+    pub(super) fn list<G: Moving>(
         &mut self,
         kernel: &Delaunay<G>,
         cell: Slot,
@@ -167,7 +167,7 @@ impl Natural {
     }
 
     /// Lists the ridges of the facets around the cells whose sphere holds a place.
-    fn list_ridges<G: Dimension>(&mut self, kernel: &Delaunay<G>, cell: Slot, q: &G::Point) -> Result<()> {
+    fn list_ridges<G: Moving>(&mut self, kernel: &Delaunay<G>, cell: Slot, q: &G::Point) -> Result<()> {
         self.zone.clear();
         self.ridges.clear();
         self.zone.insert(cell)?;

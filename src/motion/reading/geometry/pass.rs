@@ -5,7 +5,7 @@
 //! too short or too large for products, is put together by itself. Cells are not made of facets, though these have all that
 //! cells add up: so the numbers of a cell are the same to the last bit, whatever else is asked for.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
@@ -52,14 +52,14 @@ impl VoronoiFound {
 
     /// The facet of an edge, by its number among those that were asked for. Without a box its centroid is as seen from the
     /// edge's first vertex.
-    pub(crate) fn facet<G: Dimension>(&self, number: usize) -> VoronoiFacet<G::Point> {
+    pub(crate) fn facet<G: Moving>(&self, number: usize) -> VoronoiFacet<G::Point> {
         let (area, centroid, derivatives) = &self.facets[number];
         let derivatives = derivatives.each_ref().map(of_space::<G>);
         VoronoiFacet { area: *area, centroid: of_space::<G>(centroid), derivatives }
     }
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Computes Voronoi cells and facets in a region, or without one. Then `size` is about the size of cells, or some thousand
     /// times as much. The triangulation has no segments.
     ///
@@ -143,7 +143,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 }
 
-impl<G: Dimension> Voronoi<'_, G> {
+impl<G: Moving> Voronoi<'_, G> {
     /// Sums for some vertices, which have targets, by the centres of all cells around these, which are numbered.
     fn fill<S: Numbering>(
         &mut self,

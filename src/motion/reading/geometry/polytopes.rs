@@ -22,7 +22,7 @@
 //! means are the same from both sides of a facet, so that what a cell has more if corners are off, the other one has
 //! less.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::machine::memory;
 use crate::motion::reading::geometry::clipping::{Clip, Face, Vector, cross, dot, minus, times};
@@ -126,7 +126,7 @@ impl Polytope {
     }
 
     /// Adds a facet in the box, and what it borders of faces of the box.
-    pub(super) fn add_facet<G: Dimension>(&mut self, clip: &Clip, facet: &CutFacet) -> Result<()> {
+    pub(super) fn add_facet<G: Moving>(&mut self, clip: &Clip, facet: &CutFacet) -> Result<()> {
         facet.for_pieces(clip.unit, |piece| match piece {
             BoundaryPiece::Edge(edge) => push(&mut self.edges, edge),
             BoundaryPiece::On(face, [p, q]) => memory::push(&mut self.walls, (face.bit(), [q, p])),
@@ -150,7 +150,7 @@ impl Polytope {
     }
 
     /// Adds a corner of the box that is in the cell.
-    pub(super) fn add_corner<G: Dimension>(&mut self, clip: &Clip, corner: &BoxCorner) -> Result<()> {
+    pub(super) fn add_corner<G: Moving>(&mut self, clip: &Clip, corner: &BoxCorner) -> Result<()> {
         let place = corner.offset(clip);
         for along in 0..G::D {
             let (highs, is_upper) = (corner.highs & !(1 << along), corner.highs >> along & 1 == 1);
@@ -160,7 +160,7 @@ impl Polytope {
     }
 
     /// Adds the faces on the box, when all facets and corners have been added.
-    pub(super) fn close<G: Dimension>(&mut self) -> Result<()> {
+    pub(super) fn close<G: Moving>(&mut self) -> Result<()> {
         for k in 0..self.ends.len() {
             let (edge, is_upper, upper) = self.ends[k];
             // The lower end that comes as late among those of the edge.
@@ -192,7 +192,7 @@ impl Polytope {
     }
 
     /// Adds what the cell has of an edge of the box to the faces at it.
-    fn add_box_edge<G: Dimension>(
+    fn add_box_edge<G: Moving>(
         &mut self,
         (along, highs): BoxEdge,
         [lower, upper]: DirectedEdge,
@@ -211,7 +211,7 @@ impl Polytope {
     }
 
     /// Cuts off what is beyond half-spaces.
-    pub(super) fn cut<G: Dimension>(&mut self, spaces: &HalfSpaces) -> Result<()> {
+    pub(super) fn cut<G: Moving>(&mut self, spaces: &HalfSpaces) -> Result<()> {
         let mut bounds = self.bounds();
         for space in &spaces.list {
             // Its edges are between its corners.
@@ -225,7 +225,7 @@ impl Polytope {
 
     /// What half-spaces leave of a facet in the box: its length or area, and its centroid as an offset from the box's
     /// corner of least coordinates.
-    pub(super) fn facet_within<G: Dimension>(
+    pub(super) fn facet_within<G: Moving>(
         &mut self,
         clip: &Clip,
         spaces: &HalfSpaces,
@@ -262,7 +262,7 @@ impl Polytope {
         bounds
     }
 
-    fn cut_by<G: Dimension>(&mut self, space: &HalfSpace) -> Result<()> {
+    fn cut_by<G: Moving>(&mut self, space: &HalfSpace) -> Result<()> {
         let (edges, sides) = (&mut self.left.0, &mut self.left.1);
         edges.clear();
         sides.clear();
@@ -286,7 +286,7 @@ impl Polytope {
     }
 
     /// Volume, boundary, and the moment of its points as seen from an offset.
-    pub(super) fn sums<G: Dimension>(&self, apex: &Vector) -> Sums {
+    pub(super) fn sums<G: Moving>(&self, apex: &Vector) -> Sums {
         let mut sums = Sums::default();
         let Some([first, _]) = self.edges.first() else { return sums };
         let mut start = 0;
@@ -324,7 +324,7 @@ fn cut_segments(space: &HalfSpace, segments: &[DirectedEdge], left: &mut Vec<Dir
 }
 
 /// Length or area of a facet with a normal, and its centroid; NaN if there is none.
-fn measure_and_centroid<G: Dimension>(edges: &[DirectedEdge], normal: &Vector) -> (f64, Vector) {
+fn measure_and_centroid<G: Moving>(edges: &[DirectedEdge], normal: &Vector) -> (f64, Vector) {
     let Some([first, end]) = edges.first() else { return (0.0, [f64::NAN; 3]) };
     if G::D == 2 {
         let way = minus(end, first);

@@ -1,6 +1,6 @@
 //! Rings: what is around an edge, in order.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
@@ -21,7 +21,7 @@ pub(super) struct EdgeRing {
 
 /// The cell across the facet opposite a corner.
 #[inline(always)]
-fn beyond<G: Dimension>(cells: &Cells<G>, cell: CellId, corner: VertexId) -> CellId {
+fn beyond<G: Moving>(cells: &Cells<G>, cell: CellId, corner: VertexId) -> CellId {
     let row = cells.corners()[cell].as_ref();
     let at = row.iter().position(|&v| v == corner).expect("a corner of the cell");
     cells.neighbours()[cell][at]
@@ -29,7 +29,7 @@ fn beyond<G: Dimension>(cells: &Cells<G>, cell: CellId, corner: VertexId) -> Cel
 
 /// The corner of a cell besides those of an edge and, in space, another one.
 #[inline(always)]
-fn other<G: Dimension>(cells: &Cells<G>, cell: CellId, [v, w]: [VertexId; 2], but: VertexId) -> VertexId {
+fn other<G: Moving>(cells: &Cells<G>, cell: CellId, [v, w]: [VertexId; 2], but: VertexId) -> VertexId {
     let row = cells.corners()[cell].as_ref();
     *row.iter().find(|&&x| x != v && x != w && x != but).expect("one more corner")
 }
@@ -44,7 +44,7 @@ fn is_even<const N: usize>(row: &[VertexId], corners: [VertexId; N]) -> bool {
 impl EdgeRing {
     /// Goes around an edge, of which `first` is a cell.
     #[inline(always)]
-    pub(super) fn go_around<G: Dimension>(
+    pub(super) fn go_around<G: Moving>(
         &mut self,
         cells: &Cells<G>,
         edge: [VertexId; 2],
@@ -74,7 +74,7 @@ impl EdgeRing {
 
     /// From the last cell around the other way, to the other end.
     #[cold]
-    fn turn_back<G: Dimension>(&mut self, cells: &Cells<G>, edge: [VertexId; 2]) -> Result<()> {
+    fn turn_back<G: Moving>(&mut self, cells: &Cells<G>, edge: [VertexId; 2]) -> Result<()> {
         let cell = *self.cells.last().expect("a cell at the edge");
         let [.., before, met] = self.link[..] else { unreachable!("two vertices for each cell") };
         self.cells.clear();
@@ -86,7 +86,7 @@ impl EdgeRing {
 
     /// Out of each cell by the facet of the edge and the vertex that has been met last; whether that comes back.
     #[inline(always)]
-    fn follow<G: Dimension>(
+    fn follow<G: Moving>(
         &mut self,
         cells: &Cells<G>,
         edge: [VertexId; 2],
@@ -115,7 +115,7 @@ impl EdgeRing {
 
     /// Makes the order counter-clockwise, seen from the end of the edge towards its start; in the
     /// plane, lists the cell on the left of the edge first, if there is one. Whether there is one.
-    pub(super) fn orient<G: Dimension>(&mut self, cells: &Cells<G>, [v, w]: [VertexId; 2]) -> bool {
+    pub(super) fn orient<G: Moving>(&mut self, cells: &Cells<G>, [v, w]: [VertexId; 2]) -> bool {
         let row = cells.corners()[self.cells[0]].as_ref();
         if G::D == 2 {
             let is_left = is_even(row, [v, w, self.link[0]]);

@@ -5,7 +5,7 @@
 //! each vertex, and of each simplex the shortest list is looked through.
 
 use crate::complex::Corners;
-use crate::delaunay::{Delaunay, Dimension, IndexSet};
+use crate::delaunay::{Delaunay, IndexSet, Moving};
 use crate::error::{Error, Result};
 use crate::ids::{CellId, SiteId, Slot, VertexId};
 use crate::motion::reading::geometry::incidence::{first_cells, stars};
@@ -22,7 +22,7 @@ pub(crate) fn are_many(n_simplices: usize, n_vertices: usize) -> bool {
 /// How many cells of a star are looked at first.
 const FIRST_CELLS: usize = 64;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// For each simplex a cell that has all its vertices as corners, `None` if there is none; told to `found` one after
     /// the other. `vertices`: rows of `n_corners` ids, from 1 (a cell of each vertex) to `D + 1`. A hidden vertex
     /// stands for the one that represents it. A simplex with two corners at one place is in no cell.
@@ -115,7 +115,7 @@ pub(crate) fn check_corners(dimension: usize, n_corners: usize) -> Result<()> {
 }
 
 /// Simplices have a legal number of corners, and there are rows of as many.
-pub(crate) fn check_simplices<G: Dimension>(n_vertices: usize, n_corners: usize) -> Result<()> {
+pub(crate) fn check_simplices<G: Moving>(n_vertices: usize, n_corners: usize) -> Result<()> {
     check_corners(G::D, n_corners)?;
     let (given, wanted) = (n_vertices, n_vertices.next_multiple_of(n_corners));
     if given == wanted {
@@ -141,7 +141,7 @@ pub(crate) fn find_in_stars<'s, V: AsRef<[VertexId]>>(
 }
 
 /// The slot of a finite cell that has all these sites as corners; none if there are no sites.
-fn find_around<G: Dimension>(
+fn find_around<G: Moving>(
     kernel: &Delaunay<G>,
     sites: &[SiteId],
     star: &mut IndexSet<Slot>,
@@ -165,7 +165,7 @@ fn find_around<G: Dimension>(
 }
 
 /// Lists cells around a site, until so many have been looked around; whether these are all.
-fn spread_around<G: Dimension>(
+fn spread_around<G: Moving>(
     kernel: &Delaunay<G>,
     s: SiteId,
     most: usize,

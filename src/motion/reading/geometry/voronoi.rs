@@ -4,7 +4,7 @@
 //! polygon (in the plane a segment); otherwise it is cut (`cut_facets.rs`), and so are the cells of both vertices
 //! (`cut_cells.rs`). Which circumcentres are in the box is exact.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::motion::reading::geometry::centres::Centres;
@@ -15,7 +15,7 @@ use crate::motion::state::cells::Cells;
 use crate::motion::triangulation::MovingTriangulation;
 
 /// Computes Voronoi facets.
-pub(super) struct Voronoi<'t, G: Dimension> {
+pub(super) struct Voronoi<'t, G: Moving> {
     pub(super) t: &'t MovingTriangulation<G>,
     pub(super) cells: &'t Cells<G>,
     pub(super) centres: &'t Centres<'t, G::Point>,
@@ -23,7 +23,7 @@ pub(super) struct Voronoi<'t, G: Dimension> {
     pub(super) facet: CutFacet,
 }
 
-impl<'t, G: Dimension> Voronoi<'t, G> {
+impl<'t, G: Moving> Voronoi<'t, G> {
     /// With the centres of all cells that are around edges that are looked at.
     pub(super) fn new(
         t: &'t MovingTriangulation<G>,
@@ -62,7 +62,7 @@ impl<'t, G: Dimension> Voronoi<'t, G> {
     }
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// The place of a vertex, in the plane at height 0.
     pub(super) fn place_in_space(&self, v: VertexId) -> Vector {
         in_space::<G>(&self.mesh.kernel.site(self.mesh.site_of[v]).point)

@@ -3,7 +3,7 @@
 //! While all vertices are in one hyperplane there are no cells, but in a box there still are Voronoi cells
 //! ([`flat_cells`](super::flat_cells)).
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
@@ -25,7 +25,7 @@ pub type TellCell<'a, P> = Option<&'a mut dyn FnMut(VertexId, VoronoiCell<P>)>;
 /// Who is told Voronoi facets, by the numbers of their edges; if nobody is, none are computed.
 pub type TellFacet<'a, P> = Option<&'a mut dyn FnMut(usize, VoronoiFacet<P>)>;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Areas or volumes of the Voronoi cells of all ids, within the box from `low` to `high` if these are given: those of
     /// [`for_voronoi`](Self::for_voronoi).
     ///
@@ -271,7 +271,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 }
 
 /// A box that is one.
-fn checked<G: Dimension>([low, high]: [&G::Point; 2]) -> Result<Clip> {
+fn checked<G: Moving>([low, high]: [&G::Point; 2]) -> Result<Clip> {
     let (low, high) = (check_position::<G>("low", 0, low)?, check_position::<G>("high", 0, high)?);
     for axis in 0..G::D {
         if low[axis] >= high[axis] {

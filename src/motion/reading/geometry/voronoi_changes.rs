@@ -5,13 +5,13 @@
 //! the order of the indices of these cells, so that vertices of renumbered cells are listed too, and all others have the
 //! same numbers to the last bit.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::triangulation::MovingTriangulation;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// For each id 1 if the Voronoi cell of the vertex has changed, or may have, by the changes that were
     /// [taken](Self::take_changes) last and as these vertices have moved meanwhile, and for removed ones; 0 for others.
     /// Vertices may be listed more than once. With such a mask [`voronoi_cells`](Self::voronoi_cells) gives what a full pass does, to the last bit.

@@ -1,6 +1,6 @@
 //! All numbers of Voronoi cells, or of facets, as lists.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -8,7 +8,7 @@ use crate::motion::reading::geometry::dual_cells::{VoronoiCell, VoronoiCells, no
 use crate::motion::reading::geometry::dual_facets::{VoronoiFacet, VoronoiFacets, of_space};
 use crate::motion::triangulation::MovingTriangulation;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Areas or volumes, boundaries and centroids of the Voronoi cells of all ids within the box from `low` to `high`,
     /// or of those of which `mask` has an entry that is not 0.
     ///

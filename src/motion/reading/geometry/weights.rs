@@ -4,14 +4,14 @@
 //! tell the sign exactly. Volumes have a relative error of 1.2·10⁻¹³ at most (`predicates/measures.rs`), and so a
 //! weight has one of 2.5·10⁻¹³ at most, however flat the cell, as far as it is in the range of numbers.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::CellId;
 use crate::motion::filters::barycentric::barycentric;
 use crate::motion::state::checking::check_position;
 use crate::motion::triangulation::MovingTriangulation;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// The barycentric coordinates of each place in the cell of the same index of the list: told to `found`, one for
     /// each corner in the order of [`cells`](Self::cells), or `None` where the cell is [`CellId::NONE`]. The place may
     /// be outside of the cell: then some are negative.

@@ -4,7 +4,7 @@
 //! hull, where an edge is too short for products in the unit, or numbers too large, a cell is put together from its
 //! facets, each in a unit of its own (`whole_facets`).
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -18,7 +18,7 @@ use crate::motion::reading::geometry::sums::Sums;
 use crate::motion::reading::geometry::voronoi::Voronoi;
 use crate::motion::reading::progress::Progress;
 
-impl<G: Dimension> Voronoi<'_, G> {
+impl<G: Moving> Voronoi<'_, G> {
     /// Puts the cells of those of some vertices together from facets of which pieces do not tell all. Their sums are the
     /// numbers themselves, with the centroid for the moment.
     pub(super) fn by_facets(
@@ -71,7 +71,7 @@ impl<G: Dimension> Voronoi<'_, G> {
 }
 
 /// The centroid of pyramids of some volume in all, by the centroids of their bases as seen from the apex.
-fn mean_of<G: Dimension>(pyramids: &[(f64, Vector)], total: f64) -> Vector {
+fn mean_of<G: Moving>(pyramids: &[(f64, Vector)], total: f64) -> Vector {
     let mut mean = [0.0; 3];
     for (volume, centroid) in pyramids.iter().filter(|(volume, _)| *volume > 0.0) {
         let share = volume / total * (G::D as f64 / (G::D + 1) as f64);
@@ -81,7 +81,7 @@ fn mean_of<G: Dimension>(pyramids: &[(f64, Vector)], total: f64) -> Vector {
 }
 
 /// What the sums of a vertex say.
-pub(super) fn whole_cell<G: Dimension>(unit: f64, target: &Target) -> VoronoiCell<G::Point> {
+pub(super) fn whole_cell<G: Moving>(unit: f64, target: &Target) -> VoronoiCell<G::Point> {
     let (sums, [of_volume, of_facets, of_moment]) = (&target.sums, target.factors::<G>());
     if target.is_cut {
         let centroid = if sums.volume > 0.0 && sums.volume < f64::INFINITY {

@@ -10,7 +10,7 @@
 //! the facet, its measure A is off by h P, its centroid by h P d / A, a derivative, which is linear in measure and moment,
 //! by h P (|x − c| + d) / L. Where A ≤ 2 h P the mean of the corners stands for the centroid: off by d + h at most.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::motion::reading::geometry::clipping::{
@@ -38,7 +38,7 @@ pub(super) struct Polygon {
     pub(super) moment: Vector,
 }
 
-impl<G: Dimension> Voronoi<'_, G> {
+impl<G: Moving> Voronoi<'_, G> {
     /// The facet of the ring of an edge, of which `half` is a half and `along` any vector along it.
     pub(super) fn whole_polygon(&self, x: &Vector, half: &Vector, along: &Vector, unit: f64) -> Polygon {
         let from_middle =

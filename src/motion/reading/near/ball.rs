@@ -3,7 +3,7 @@
 //! A vertex that is not the nearest to a place has a neighbour that is nearer, and so there is a path to the nearest
 //! one that does not leave the ball: the vertices in a ball are connected by edges.
 
-use crate::delaunay::{Dimension, IndexSet};
+use crate::delaunay::{IndexSet, Moving};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::motion::reading::near::{AroundSite, most_cells};
@@ -11,7 +11,7 @@ use crate::motion::state::checking::{check_not_negative, check_position};
 use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::{is_within_distance, squared_distance};
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// The vertices whose squared distance from `centre` is at most `squared_radius`, exactly: ascending, hidden ones
     /// included.
     ///

@@ -12,7 +12,7 @@
 //! vertex, the flood may begin at a ghost cell there that does not meet the box; the cell behind it has the vertex as a
 //! corner, and is looked at next.)
 
-use crate::delaunay::{Dimension, IndexSet};
+use crate::delaunay::{IndexSet, Moving};
 use crate::error::{Error, Result};
 use crate::ids::{Slot, VertexId};
 use crate::machine::memory;
@@ -21,12 +21,12 @@ use crate::motion::triangulation::MovingTriangulation;
 
 /// A closed box.
 #[derive(Clone, Copy)]
-struct ClosedBox<G: Dimension> {
+struct ClosedBox<G: Moving> {
     low: G::Point,
     high: G::Point,
 }
 
-impl<G: Dimension> ClosedBox<G> {
+impl<G: Moving> ClosedBox<G> {
     /// What it shares with another; `None` if that is nothing.
     fn intersection(mut self, low: &G::Point, high: &G::Point) -> Option<Self> {
         for axis in 0..G::D {
@@ -55,7 +55,7 @@ impl<G: Dimension> ClosedBox<G> {
     }
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// The vertices of which each coordinate is at least that of `low` and at most that of `high`: ascending, hidden
     /// ones included. Coordinates of the box may be infinite; it is empty if one of `low` is above that of `high`.
     ///

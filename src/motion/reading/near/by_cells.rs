@@ -7,7 +7,7 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use crate::delaunay::{Dimension, IndexSet};
+use crate::delaunay::{IndexSet, Moving};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
@@ -42,7 +42,7 @@ impl PartialEq for WaitingCell {
 
 impl Eq for WaitingCell {}
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Tells sites until all have been told that are as near to a place as `told` says: it returns a square of a distance
     /// beyond which nothing is wanted any more. `near` is where to begin to look for the place; returns a slot near it.
     pub(super) fn for_sites_by_cells(

@@ -4,7 +4,7 @@
 //! is.
 
 use crate::complex::Corners;
-use crate::delaunay::{Delaunay, Dimension, IndexSet, Place};
+use crate::delaunay::{Delaunay, IndexSet, Moving, Place};
 use crate::error::Result;
 use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
@@ -14,7 +14,7 @@ use crate::motion::triangulation::MovingTriangulation;
 
 /// Enters the cells in conflict with a place that is at no site into an empty set, ghost cells included. `first` is the
 /// cell that holds the place, or the ghost cell beyond whose facet it is.
-fn list_conflicts<G: Dimension>(
+fn list_conflicts<G: Moving>(
     kernel: &Delaunay<G>,
     first: Slot,
     q: &G::Point,
@@ -39,7 +39,7 @@ fn list_conflicts<G: Dimension>(
     Ok(())
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Whether the insertion of a vertex at a place, at which there is none, would remove a cell. Ties are broken as for a vertex of
     /// the highest id.
     pub(crate) fn is_in_conflict(&self, cell: CellId, q: &G::Point) -> Result<bool> {

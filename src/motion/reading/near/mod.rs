@@ -27,7 +27,7 @@ pub use lists::{ListsOf, NeighbourLists};
 pub use reach::{InReach, VerticesInReach};
 
 use crate::complex::INFINITE;
-use crate::delaunay::{Delaunay, Dimension, IndexSet};
+use crate::delaunay::{Delaunay, IndexSet, Moving};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
@@ -39,7 +39,7 @@ use crate::motion::triangulation::MovingTriangulation;
 const MOST_CELLS_PER_SITE: f64 = 0.05;
 
 /// The most cells that a flood looks at before all vertices are.
-fn most_cells<G: Dimension>(kernel: &Delaunay<G>) -> usize {
+fn most_cells<G: Moving>(kernel: &Delaunay<G>) -> usize {
     (MOST_CELLS_PER_SITE * kernel.sites().len() as f64) as usize
 }
 
@@ -52,7 +52,7 @@ struct AroundSite {
 
 impl AroundSite {
     /// Lists those of a site.
-    fn list<G: Dimension>(&mut self, kernel: &Delaunay<G>, s: SiteId) -> Result<&[SiteId]> {
+    fn list<G: Moving>(&mut self, kernel: &Delaunay<G>, s: SiteId) -> Result<&[SiteId]> {
         self.sites.clear();
         self.star.clear();
         kernel.list_star(s, &mut self.star, |_| {})?;
@@ -67,7 +67,7 @@ impl AroundSite {
     }
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// All vertices at some sites, ascending.
     fn vertices_at(&self, sites: impl Iterator<Item = SiteId>) -> Result<Vec<VertexId>> {
         let mut vertices = Vec::new();

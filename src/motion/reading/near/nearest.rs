@@ -8,7 +8,7 @@ use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
 use crate::complex::INFINITE;
-use crate::delaunay::{Dimension, IndexSet, Keys, Place};
+use crate::delaunay::{IndexSet, Keys, Moving, Place};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
@@ -53,7 +53,7 @@ impl<P: AsRef<[f64]>> PartialEq for WaitingVertex<'_, P> {
 
 impl<P: AsRef<[f64]>> Eq for WaitingVertex<'_, P> {}
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// The vertex nearest to a point, of the nearest that of the lowest key, then place, then id; `None` if there are no vertices. Distances
     /// are compared exactly.
     ///

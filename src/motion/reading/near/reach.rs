@@ -22,7 +22,7 @@
 use std::collections::HashMap;
 
 use crate::complex::INFINITE;
-use crate::delaunay::{Delaunay, Dimension, IndexSet, Place};
+use crate::delaunay::{Delaunay, IndexSet, Moving, Place};
 use crate::error::{Error, Result};
 use crate::ids::{CellId, SiteId, Slot, VertexId};
 use crate::machine::memory;
@@ -49,7 +49,7 @@ pub struct VerticesInReach {
 }
 
 /// The sides of a box that vertices can be at, `None` if there is none.
-fn in_range<G: Dimension>(low: &G::Point, high: &G::Point) -> Option<[G::Point; 2]> {
+fn in_range<G: Moving>(low: &G::Point, high: &G::Point) -> Option<[G::Point; 2]> {
     let (mut lower, mut upper) = (*low, *high);
     for axis in 0..G::D {
         lower[axis] = low[axis].max(-MAX_MAGNITUDE);
@@ -59,7 +59,7 @@ fn in_range<G: Dimension>(low: &G::Point, high: &G::Point) -> Option<[G::Point; 
 }
 
 /// A place of a box, near the middle of what it shares with another one, or near that.
-fn place_near<G: Dimension>([low, high]: &[G::Point; 2], lower: &G::Point, upper: &G::Point) -> G::Point {
+fn place_near<G: Moving>([low, high]: &[G::Point; 2], lower: &G::Point, upper: &G::Point) -> G::Point {
     let mut place = *low;
     for axis in 0..G::D {
         let [least, most] = [low[axis], high[axis]].map(|x| x.clamp(lower[axis], upper[axis]));
@@ -83,7 +83,7 @@ impl<P: Reach + Copy> Flood<P> {
     /// Lists all cells in reach of a box, ghost cells included; `near` is where to begin to look for it.
     fn list<G>(&mut self, kernel: &Delaunay<G>, within: &[P; 2], near: Slot) -> Result<()>
     where
-        G: Dimension<Point = P>,
+        G: Moving<Point = P>,
     {
         self.seen.clear();
         self.reached.clear();
@@ -117,7 +117,7 @@ impl<P: Reach + Copy> Flood<P> {
     #[inline(always)]
     fn is_in_reach<G>(&mut self, kernel: &Delaunay<G>, slot: Slot, [low, high]: &[P; 2]) -> Result<bool>
     where
-        G: Dimension<Point = P>,
+        G: Moving<Point = P>,
     {
         let places = kernel.places(slot);
         if kernel.complex().cell(slot).is_ghost() {
@@ -139,12 +139,12 @@ impl<P: Reach + Copy> Flood<P> {
 }
 
 /// A cell, or the finite cell behind a ghost cell.
-fn behind<G: Dimension>(kernel: &Delaunay<G>, slot: Slot) -> Slot {
+fn behind<G: Moving>(kernel: &Delaunay<G>, slot: Slot) -> Slot {
     let cell = kernel.complex().cell(slot);
     if cell.is_ghost() { cell.neighbour(G::D).cell() } else { slot }
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// The cells and the facets of the convex hull that a vertex at a place in one of some boxes could change: the cells
     /// of which the closed ball meets one of the closed boxes, and the facets that a place in a box is strictly beyond.
     /// Exactly these. Each box is between an entry of `low` and that of `high`, whose coordinates may be infinite; only

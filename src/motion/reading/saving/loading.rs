@@ -2,7 +2,7 @@
 
 use crate::complex::Corners;
 use crate::damage::{Damage, LoadError};
-use crate::delaunay::{Delaunay, Dimension, Keys, Rows};
+use crate::delaunay::{Delaunay, Keys, Moving, Rows};
 use crate::error::{Error, Result};
 use crate::ids::{CellId, Id, SegmentId, Slot, VertexId};
 use crate::machine::memory;
@@ -57,7 +57,7 @@ type SavedSegments<G> = (Box<Segments<G>>, Option<Box<Made>>);
 
 impl Reader<'_> {
     /// The segments, if there are any, and what refinement has made of them; ends of those that are staged may be staged, too.
-    fn segments<G: Dimension>(&mut self, header: &Header) -> Result<Option<SavedSegments<G>>, LoadError> {
+    fn segments<G: Moving>(&mut self, header: &Header) -> Result<Option<SavedSegments<G>>, LoadError> {
         if header.segment_bytes == 0 {
             return Ok(None);
         }
@@ -115,7 +115,7 @@ impl Reader<'_> {
     }
 
     /// What refinement has made.
-    fn made<G: Dimension>(
+    fn made<G: Moving>(
         &mut self,
         counts: SegmentCounts,
         n_vertices: usize,
@@ -157,7 +157,7 @@ impl Reader<'_> {
 }
 
 /// The vertices that stand for the ends of the segments in force.
-fn ends_of<G: Dimension>(
+fn ends_of<G: Moving>(
     segments: Option<&Segments<G>>,
     representatives: &[VertexId],
 ) -> Result<Vec<[VertexId; 2]>, LoadError> {
@@ -182,7 +182,7 @@ fn of_segment(error: Error) -> LoadError {
 
 /// Checks where the present vertices are, and what stands for their places, and that all others are nowhere; returns
 /// how many are present.
-fn check_vertices<G: Dimension>(
+fn check_vertices<G: Moving>(
     positions: &[G::Point],
     representatives: &[VertexId],
     keys: &Keys,
@@ -214,7 +214,7 @@ fn check_vertices<G: Dimension>(
     Ok(n_present)
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// The triangulation that has been saved, under other options. The cells have the indices that they
     /// had, and are as [`cells`](Self::cells) shows them; no changes have been taken.
     ///

@@ -1,6 +1,6 @@
 //! Reading bytes from the first to the last.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::Id;
 use crate::machine::memory;
@@ -17,7 +17,7 @@ impl<'d> Reader<'d> {
     }
 
     /// The next points.
-    pub(crate) fn points<G: Dimension>(&mut self, n: usize) -> Result<Vec<G::Point>> {
+    pub(crate) fn points<G: Moving>(&mut self, n: usize) -> Result<Vec<G::Point>> {
         let mut points = Vec::new();
         memory::reserve_exact(&mut points, n)?;
         points.extend(self.entries::<8>(n * G::D).chunks_exact(G::D).map(|bytes| {

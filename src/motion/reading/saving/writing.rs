@@ -1,6 +1,6 @@
 //! Writing all bytes, from the first to the last.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, SegmentId, VertexId};
 use crate::machine::memory;
@@ -14,7 +14,7 @@ use crate::motion::triangulation::MovingTriangulation;
 
 /// Writes segments: how many there are, the ends and the marker of each, in a list with its id and the labels of its sides,
 /// and which are to go.
-fn save_segments<G: Dimension, E>(
+fn save_segments<G: Moving, E>(
     segments: &Segments<G>,
     counts: SegmentCounts,
     chunks: &mut Chunks<impl FnMut(&[u8]) -> Result<(), E>>,
@@ -38,7 +38,7 @@ fn save_segments<G: Dimension, E>(
     chunks.numbers(SegmentId::numbers_of(segments.leaving()))
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     fn header(&self) -> Header {
         let (insertions, removals) = self.staged_edits();
         Header {

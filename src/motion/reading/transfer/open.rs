@@ -4,7 +4,7 @@ use super::boxes::Extent;
 use super::change::transfer;
 use super::now::{CellAt, Multiples, Now};
 use super::{Gone, NamedFacet, TransferOrder, TransferReport, Transferred, in_place};
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
@@ -16,7 +16,7 @@ use crate::motion::state::taken::{Changes, Taken};
 use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::PlaceInSpace;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Brings means in cells over to the cells of now: conservative transfer of what a program knows of each cell, by
     /// the changes that were [taken](Self::take_changes) last.
     ///
@@ -130,14 +130,14 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 }
 
-fn place_of<G: Dimension>(point: &G::Point) -> PlaceInSpace {
+fn place_of<G: Moving>(point: &G::Point) -> PlaceInSpace {
     let mut place = [0.0; 3];
     place[..G::D].copy_from_slice(point.as_ref());
     place
 }
 
 /// The cells of now.
-pub(super) struct OpenCells<'t, G: Dimension> {
+pub(super) struct OpenCells<'t, G: Moving> {
     t: &'t MovingTriangulation<G>,
     cells: &'t Cells<G>,
     changes: Changes<'t, G::Vertices>,
@@ -145,7 +145,7 @@ pub(super) struct OpenCells<'t, G: Dimension> {
     turned: &'t [(CellId, G::Vertices)],
 }
 
-impl<G: Dimension> OpenCells<'_, G> {
+impl<G: Moving> OpenCells<'_, G> {
     /// The cells that are gone and those that have come, those that were turned over are both.
     pub(super) fn gone_and_arrived(
         &self,
@@ -169,7 +169,7 @@ impl<G: Dimension> OpenCells<'_, G> {
     }
 }
 
-impl<G: Dimension> Now for OpenCells<'_, G> {
+impl<G: Moving> Now for OpenCells<'_, G> {
     const D: usize = G::D;
 
     fn len(&self) -> usize {

@@ -1,6 +1,6 @@
 //! Which cells are in their slots as before, which have gone, and which are in another slot.
 
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Moving};
 use crate::error::Result;
 use crate::ids::{CellId, Slot};
 use crate::machine::memory;
@@ -16,7 +16,7 @@ const SAMPLE: usize = 512;
 /// Slots that are compared at a time when any may have changed.
 const BLOCK: usize = 256;
 
-impl<G: Dimension> Cells<G> {
+impl<G: Moving> Cells<G> {
     /// Lists what is lost and found in these slots.
     pub(super) fn compare_slots(
         &mut self,

@@ -1,7 +1,7 @@
 //! The neighbours of the cells.
 
 use crate::complex::Corners;
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Moving};
 use crate::error::Result;
 use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::prefetch::{AHEAD, prefetch};
@@ -13,7 +13,7 @@ use crate::motion::state::ordering::Ordering;
 /// Rows that take a few times as long to write as a thread takes to wake up.
 const GLUED_AT_LEAST: usize = 1 << 13;
 
-impl<G: Dimension> Cells<G> {
+impl<G: Moving> Cells<G> {
     /// Writes the neighbours of the cells in the dirty slots and in those that have `moved`, and their neighbours'
     /// sides.
     pub(super) fn glue_slots(&mut self, kernel: &Delaunay<G>, dirty: &Marks<Slot>, moved: &[Slot]) {

@@ -5,7 +5,7 @@
 //! while there is a journal.
 
 use crate::complex::Corners;
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Moving};
 use crate::error::Result;
 use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
@@ -16,7 +16,7 @@ use crate::motion::state::ordering::Ordering;
 
 /// What was known of an index.
 #[derive(Debug)]
-struct RowBefore<G: Dimension> {
+struct RowBefore<G: Moving> {
     index: CellId,
     corners: G::Vertices,
     neighbours: G::Neighbours,
@@ -40,7 +40,7 @@ struct Refreshed {
 
 /// What has been noted since the journal was begun.
 #[derive(Debug)]
-pub(in crate::motion) struct CellJournal<G: Dimension> {
+pub(in crate::motion) struct CellJournal<G: Moving> {
     refreshed: Vec<Refreshed>,
     rows: Vec<RowBefore<G>>,
     /// Neighbours of cells next to those that have changed.
@@ -51,7 +51,7 @@ pub(in crate::motion) struct CellJournal<G: Dimension> {
     whole: Option<Box<Cells<G>>>,
 }
 
-impl<G: Dimension> Default for CellJournal<G> {
+impl<G: Moving> Default for CellJournal<G> {
     fn default() -> Self {
         CellJournal {
             refreshed: Vec::new(),
@@ -63,7 +63,7 @@ impl<G: Dimension> Default for CellJournal<G> {
     }
 }
 
-impl<G: Dimension> CellJournal<G> {
+impl<G: Moving> CellJournal<G> {
     pub(super) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.refreshed)
             + memory::bytes_of(&self.rows)
@@ -73,7 +73,7 @@ impl<G: Dimension> CellJournal<G> {
     }
 }
 
-impl<G: Dimension> Cells<G> {
+impl<G: Moving> Cells<G> {
     /// From now on what brings the arrays up to date can be undone.
     pub(in crate::motion) fn keep_journal(&mut self) -> Result<()> {
         memory::made(&mut self.journal).map(drop)

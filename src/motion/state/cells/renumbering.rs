@@ -4,14 +4,14 @@
 //! Nothing here can fail: [`reserve`](Cells::reserve) has made room.
 
 use crate::complex::Corners;
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Moving};
 use crate::ids::{CellId, Slot};
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::motion::state::cells::{Cells, FoundCell, NO_CELL, RefreshLists, ids_of};
 use crate::motion::state::changes::Tracker;
 use crate::motion::state::ordering::Ordering;
 
-impl<G: Dimension> Cells<G> {
+impl<G: Moving> Cells<G> {
     /// Gives every cell its index. What is listed as lost has been used up afterwards, and cells that have other
     /// indices than before are listed as moved.
     pub(super) fn renumber(&mut self, kernel: &Delaunay<G>, scratch: &mut RefreshLists<G::Vertices>) {

@@ -14,7 +14,7 @@
 //!
 //! Memory is reserved before a change, so [`undo`](Mesh::undo) needs none, and cannot fail.
 
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Moving};
 use crate::error::Result;
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
@@ -27,7 +27,7 @@ use crate::motion::state::transaction::{Counts, Event, VertexBefore};
 /// After a repair, cells are sorted again if this many times as many as there are have been replaced.
 const REPLACED_TO_SORT: f64 = 2.0;
 
-impl<G: Dimension> Mesh<G> {
+impl<G: Moving> Mesh<G> {
     /// Begins a change.
     pub(in crate::motion) fn begin(&mut self, aim: Aim) -> Result<()> {
         if self.rounds.is_some() {

@@ -1,7 +1,7 @@
 //! Vertices at the same place: that of the lowest key and then of the lowest id represents it, the others are [hidden](crate::motion::state::hidden) until
 //! they move apart.
 
-use crate::delaunay::{Delaunay, Dimension, Place};
+use crate::delaunay::{Delaunay, Moving, Place};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
@@ -10,7 +10,7 @@ use crate::motion::state::hidden::Hidden;
 use crate::motion::state::mesh::{Mesh, Standing};
 use crate::motion::state::transaction::{Event, VertexBefore};
 
-impl<G: Dimension> Mesh<G> {
+impl<G: Moving> Mesh<G> {
     /// Whether several vertices are at a site.
     #[inline(always)]
     pub(in crate::motion) fn is_shared(&self, s: SiteId) -> bool {

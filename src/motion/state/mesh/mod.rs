@@ -8,7 +8,7 @@ mod coincidence;
 mod rounds;
 mod standing;
 
-use crate::delaunay::{Delaunay, Dimension, Merge};
+use crate::delaunay::{Delaunay, Merge, Moving};
 use crate::error::{Error, Result};
 use crate::ids::SiteId;
 use crate::machine::memory;
@@ -32,7 +32,7 @@ pub(in crate::motion) const REPLACED_TO_SORT_FIRST: f64 = 0.5;
 
 /// The vertices at their last timestamp, and their cells; or midway in a change.
 #[derive(Debug)]
-pub(in crate::motion) struct Mesh<G: Dimension> {
+pub(in crate::motion) struct Mesh<G: Moving> {
     pub(in crate::motion) kernel: Delaunay<G>,
     /// Site of each id; [`SiteId::NONE`] once removed.
     pub(in crate::motion) site_of: Vec<SiteId>,
@@ -56,7 +56,7 @@ pub(in crate::motion) struct Mesh<G: Dimension> {
     pub(in crate::motion) n_changes: u64,
 }
 
-impl<G: Dimension> Mesh<G> {
+impl<G: Moving> Mesh<G> {
     /// A mesh of which nothing is known but the kernel, the site of each id, and which of the `n_present` vertices are
     /// hidden.
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! Changes that stay until all of them are published or withdrawn: the rounds of a timestamp that is being prepared.
 
-use crate::delaunay::{Delaunay, Dimension, Keys};
+use crate::delaunay::{Delaunay, Keys, Moving};
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -8,7 +8,7 @@ use crate::motion::state::hidden::Hidden;
 use crate::motion::state::mesh::{Mesh, REPLACED_TO_SORT_FIRST};
 use crate::motion::state::rounds::{Former, Published, Rounds, Settled};
 
-impl<G: Dimension> Mesh<G> {
+impl<G: Moving> Mesh<G> {
     /// How many rounds have been made.
     pub(in crate::motion) fn n_rounds(&self) -> usize {
         self.rounds.as_ref().map_or(0, |rounds| rounds.count())

@@ -3,7 +3,7 @@
 //! Two arrays say so, the site of each id and the id of each site, and only here are they read for it. Where vertices
 //! are hidden for another reason than their place, as weights may be, it is this that has to know.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::ids::{SiteId, VertexId};
 use crate::motion::state::mesh::Mesh;
 
@@ -18,7 +18,7 @@ pub(in crate::motion) enum Standing {
     Gone,
 }
 
-impl<G: Dimension> Mesh<G> {
+impl<G: Moving> Mesh<G> {
     /// What a vertex is to the cells.
     pub(in crate::motion) fn standing(&self, vertex: VertexId) -> Standing {
         match self.site(vertex) {

@@ -1,12 +1,12 @@
 //! The list of segments: those in force, those that are staged, and those that are to go.
 
 use super::{MAX_SEGMENTS, Segment, Segments};
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::SegmentId;
 use crate::machine::memory;
 
-impl<G: Dimension> Segments<G> {
+impl<G: Moving> Segments<G> {
     /// Stages segments for the next commit; returns the id of the first, which those of the others follow.
     pub(in crate::motion) fn stage(
         &mut self,

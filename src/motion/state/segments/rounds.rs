@@ -1,7 +1,7 @@
 //! Changes of segments that are settled, and can still be taken back: rounds of a timestamp that is being prepared.
 
 use super::{Aim, Segment, Segments};
-use crate::delaunay::{Dimension, Replaced};
+use crate::delaunay::{Moving, Replaced};
 use crate::error::Result;
 use crate::ids::{SegmentId, SiteId};
 use crate::machine::memory;
@@ -26,7 +26,7 @@ impl SegmentsBefore {
 /// others.
 pub(in crate::motion) type KeptSegments<G> = (Replaced<G>, Option<Vec<[SiteId; 2]>>);
 
-impl<G: Dimension> Segments<G> {
+impl<G: Moving> Segments<G> {
     /// What is to be known, before a change, to take it back once it has been [settled](Self::settle).
     pub(in crate::motion) fn before_settling(&self) -> Result<SegmentsBefore> {
         let mut removed = Vec::new();

@@ -1,6 +1,6 @@
 //! All vertices moved, whatever their tolerances, on several threads where that pays.
 
-use crate::delaunay::{Dimension, Site};
+use crate::delaunay::{Moving, Site};
 use crate::error::Result;
 use crate::ids::SiteId;
 use crate::machine::prefetch::{AHEAD, CACHE_BYTES, prefetch_at};
@@ -13,7 +13,7 @@ use crate::simd::{LANES, Lanes, Simd, in_lanes};
 /// Moves of this number of vertices take a few times as long as a thread takes to wake up.
 const MOVED_AT_LEAST: usize = 1 << 14;
 
-impl<G: Dimension> Mesh<G> {
+impl<G: Moving> Mesh<G> {
     /// Moves all vertices, on several threads where that pays; returns how many goals differ from the places before.
     /// The origins of all are known afterwards, also after the error that one of the goals is bad.
     pub(in crate::motion) fn move_everything(&mut self, moves: &mut Moves<'_, G>) -> Result<u64> {
@@ -31,14 +31,14 @@ impl<G: Dimension> Mesh<G> {
 }
 
 /// How many positions differ, a box that holds the new ones, and whether all of these were good.
-struct Moved<G: Dimension> {
+struct Moved<G: Moving> {
     n: u64,
     are_good: bool,
     lower: G::Point,
     upper: G::Point,
 }
 
-impl<G: Dimension> Moved<G> {
+impl<G: Moving> Moved<G> {
     fn none() -> Self {
         let (mut lower, mut upper) = (G::Point::default(), G::Point::default());
         for axis in 0..G::D {
@@ -74,15 +74,15 @@ impl<G: Dimension> Moved<G> {
 
 /// Sites that several threads move, each some of them.
 #[derive(Clone, Copy)]
-struct SharedSites<G: Dimension> {
+struct SharedSites<G: Moving> {
     start: *mut Site<G>,
     n: usize,
 }
 
 // SAFETY: callers of the functions below promise that no two threads use the same site.
-unsafe impl<G: Dimension> Send for SharedSites<G> {}
+unsafe impl<G: Moving> Send for SharedSites<G> {}
 
-impl<G: Dimension> SharedSites<G> {
+impl<G: Moving> SharedSites<G> {
     /// Moves sites to their goals, and enters their origins.
     ///
     /// # Safety

@@ -1,6 +1,6 @@
 //! All vertices moved, and how far each has gone entered in the odometers of slacks.
 
-use crate::delaunay::{Dimension, Site};
+use crate::delaunay::{Moving, Site};
 use crate::error::Result;
 use crate::ids::SiteId;
 use crate::machine::prefetch::{AHEAD, CACHE_BYTES, prefetch};
@@ -21,7 +21,7 @@ pub(in crate::motion) struct Motion {
     pub(in crate::motion) fits: bool,
 }
 
-impl<G: Dimension> Mesh<G> {
+impl<G: Moving> Mesh<G> {
     /// Moves all vertices, and adds to the ways of their sites. The origins of all are known
     /// afterwards, also after the error that one of the goals is bad.
     pub(in crate::motion) fn move_all_on_record(
@@ -99,7 +99,7 @@ struct WaysOnRecord {
 impl WaysOnRecord {
     /// Adds to the way of a site, unless it stays where it is.
     #[inline(always)]
-    fn enter<G: Dimension>(&mut self, slacks: &mut Slacks<G>, s: SiteId, distance: f64) {
+    fn enter<G: Moving>(&mut self, slacks: &mut Slacks<G>, s: SiteId, distance: f64) {
         if distance == 0.0 {
             return;
         }

@@ -14,23 +14,23 @@ use crate::motion::triangulation::MovingTriangulation;
 use crate::random::Rng;
 
 /// Small whole numbers, and the same ones again.
-fn points<G: Dimension>(n: usize, rng: &mut Rng) -> Vec<G::Point> {
+fn points<G: Moving>(n: usize, rng: &mut Rng) -> Vec<G::Point> {
     let mut points = vec![G::Point::default(); n];
     points.iter_mut().for_each(|p| (0..G::D).for_each(|axis| p[axis] = (rng.next() >> 40) as f64));
     points
 }
 
-fn positions<G: Dimension>(t: &MovingTriangulation<G>) -> Vec<G::Point> {
+fn positions<G: Moving>(t: &MovingTriangulation<G>) -> Vec<G::Point> {
     t.mesh.site_of.iter().map(|&s| t.mesh.kernel.site(s).point).collect()
 }
 
-fn steps<G: Dimension>(other_positions: &[G::Point]) -> TimestampSteps<'_, G> {
+fn steps<G: Moving>(other_positions: &[G::Point]) -> TimestampSteps<'_, G> {
     TimestampSteps { other_positions, watched_share: 1.0 }
 }
 
 /// A triangulation with tolerances, and goals of all its vertices: some of them where they are, some with one
 /// coordinate that stays, some far away. Returns these places and which are beyond tolerance.
-fn aimed<G: Dimension>(n: usize, rng: &mut Rng) -> (MovingTriangulation<G>, Vec<G::Point>, Vec<VertexId>) {
+fn aimed<G: Moving>(n: usize, rng: &mut Rng) -> (MovingTriangulation<G>, Vec<G::Point>, Vec<VertexId>) {
     let mut t = MovingTriangulation::<G>::new(&points::<G>(n, rng), Options::default()).expect("room");
     t.regions.prepare(RegionKind::Tolerance, &mut t.mesh.kernel, n, steps(&[])).expect("room");
     let mut places = positions(&t);
@@ -50,16 +50,16 @@ fn aimed<G: Dimension>(n: usize, rng: &mut Rng) -> (MovingTriangulation<G>, Vec<
 }
 
 /// Moves of all vertices, lent or as if they were staged.
-fn moves_of<G: Dimension>(are_lent: bool, places: &[G::Point]) -> Moves<'_, G> {
+fn moves_of<G: Moving>(are_lent: bool, places: &[G::Point]) -> Moves<'_, G> {
     if are_lent { Moves::lent(places) } else { Moves::staged(places, Movers::All) }
 }
 
-fn origins<G: Dimension>(t: &MovingTriangulation<G>) -> &[G::Point] {
+fn origins<G: Moving>(t: &MovingTriangulation<G>) -> &[G::Point] {
     assert!(t.mesh.transaction.origins().are_of_all());
     t.mesh.transaction.origins().positions()
 }
 
-fn move_and_queue<G: Dimension, const MOVES_ALL: bool>(
+fn move_and_queue<G: Moving, const MOVES_ALL: bool>(
     t: &mut MovingTriangulation<G>,
     most: usize,
     moves: &mut Moves<'_, G>,
@@ -69,7 +69,7 @@ fn move_and_queue<G: Dimension, const MOVES_ALL: bool>(
     t.mesh.move_and_queue::<MOVES_ALL>(moves, &mut beyond)
 }
 
-fn agree<G: Dimension>() {
+fn agree<G: Moving>() {
     let rng = &mut Rng::new(5);
     let (mut n_beyond, mut n_moved) = (0, 0);
     // More than a block of them as well.
@@ -157,7 +157,7 @@ fn threads_share_the_moves() {
 }
 
 /// Wherever a bad position is, all commits say so, and nothing changes.
-fn bad_positions_are_refused<G: Dimension>() {
+fn bad_positions_are_refused<G: Moving>() {
     let n = 5_000;
     let points = points::<G>(n, &mut Rng::new(3));
     let algorithms = [

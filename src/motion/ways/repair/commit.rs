@@ -28,7 +28,7 @@
 //! does another when twice as many have been replaced. Moving all vertices, finding those that have moved, the sweep
 //! and the flips are done by several threads, all else by one.
 
-use crate::delaunay::{CERTIFICATES_PER_EXACT, Delaunay, Dimension};
+use crate::delaunay::{CERTIFICATES_PER_EXACT, Delaunay, Moving};
 use crate::error::{Error, Result};
 use crate::ids::SiteId;
 use crate::machine::memory;
@@ -50,7 +50,7 @@ const MAX_ROUNDS: usize = 8;
 /// Times that cells are untangled, each time with more vertices taken back before.
 const MAX_UNTANGLINGS: usize = 4;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Brings the vertices to their goals by a sweep and repair of what failed. Those that are there already may be
     /// taken back like the others.
     pub(in crate::motion) fn commit_by_repair(

@@ -21,7 +21,7 @@
 //! A vertex on a flat part of the hull may have a star of slivers with all others there. How long it takes to place
 //! some of these is known only from the first ones.
 
-use crate::delaunay::{Dimension, Failures, Joint};
+use crate::delaunay::{Failures, Joint, Moving};
 use crate::error::Result;
 use crate::motion::plan::budget::REPAIRED_ALONE;
 use crate::motion::state::repair::Repair;
@@ -67,7 +67,7 @@ impl Findings {
     }
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Sweeps all cells, of which `most` may fail, unless a sample shows what to do.
     pub(super) fn sweep(&mut self, repair: &mut Repair, most: usize) -> Result<Prospect> {
         let has_rest = 4 * repair.places.n_new <= 3 * self.mesh.n_present;
@@ -166,17 +166,13 @@ impl Repair {
 
 #[cfg(test)]
 mod tests {
-    use crate::delaunay::{Dimension, Level, Plane, Space};
+    use crate::delaunay::{Level, Moving, Plane, Space};
     use crate::motion::algorithms::Algorithm;
     use crate::motion::options::Options;
     use crate::motion::triangulation::MovingTriangulation;
     use crate::random::Rng;
 
-    fn random<G: Dimension>(
-        n: usize,
-        threads: u32,
-        rng: &mut Rng,
-    ) -> (MovingTriangulation<G>, Vec<G::Point>) {
+    fn random<G: Moving>(n: usize, threads: u32, rng: &mut Rng) -> (MovingTriangulation<G>, Vec<G::Point>) {
         let side = (n as f64).powf(1.0 / G::D as f64);
         let mut points = vec![G::Point::default(); n];
         points.iter_mut().for_each(|p| (0..G::D).for_each(|axis| p[axis] = side * rng.unit()));
@@ -185,7 +181,7 @@ mod tests {
     }
 
     /// How many of five commits, in which all vertices go up to this far along each axis, are rebuilt.
-    fn n_rebuilt<G: Dimension>(reach: f64) -> u64 {
+    fn n_rebuilt<G: Moving>(reach: f64) -> u64 {
         let rng = &mut Rng::new(1);
         let (mut t, mut points) = random::<G>(3_000, 1, rng);
         let mut n_rebuilt = 0;

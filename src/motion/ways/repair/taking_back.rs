@@ -1,7 +1,7 @@
 //! Which vertices a repair takes back to their old places, to be placed.
 
 use crate::complex::{Corners, INFINITE};
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
@@ -15,7 +15,7 @@ use crate::predicates::squared_distance;
 /// Cells between those of which one thing and the next are asked for.
 const STEP: usize = 8;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// Takes the vertices of inverted cells back that have gone farther than the cell reaches: they have left their
     /// stars, and would have to be placed after much untangling. Too much if more than `most` are back.
     pub(super) fn take_leapers_back(&mut self, repair: &mut Repair, most: usize) -> Result<Prospect> {
@@ -190,7 +190,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
 #[cfg(test)]
 mod tests {
-    use crate::delaunay::{Dimension, Level, Plane, Space};
+    use crate::delaunay::{Level, Moving, Plane, Space};
     use crate::motion::algorithms::Algorithm;
     use crate::motion::options::Options;
     use crate::motion::triangulation::MovingTriangulation;
@@ -199,7 +199,7 @@ mod tests {
     const N: usize = 3_000;
 
     /// A triangulation of random points a spacing apart, repaired; these points, and the side of their box.
-    fn repaired<G: Dimension>(rng: &mut Rng) -> (MovingTriangulation<G>, Vec<G::Point>, f64) {
+    fn repaired<G: Moving>(rng: &mut Rng) -> (MovingTriangulation<G>, Vec<G::Point>, f64) {
         let side = (N as f64).powf(1.0 / G::D as f64);
         let mut points = vec![G::Point::default(); N];
         points.iter_mut().for_each(|p| leap::<G>(p, side, rng));
@@ -207,12 +207,12 @@ mod tests {
         (MovingTriangulation::new(&points, options).expect("room"), points, side)
     }
 
-    fn leap<G: Dimension>(p: &mut G::Point, side: f64, rng: &mut Rng) {
+    fn leap<G: Moving>(p: &mut G::Point, side: f64, rng: &mut Rng) {
         (0..G::D).for_each(|axis| p[axis] = side * rng.unit());
     }
 
     /// Vertices that leap anywhere while all others move are placed, and not much else: nothing is rebuilt.
-    fn leapers_are_placed<G: Dimension>() {
+    fn leapers_are_placed<G: Moving>() {
         let rng = &mut Rng::new(2);
         let (mut t, mut now, side) = repaired::<G>(rng);
         for _ in 0..10 {
@@ -242,7 +242,7 @@ mod tests {
     }
 
     /// Where few of all positions given are others than before, only the cells around these vertices are looked at.
-    fn few_that_move_need_no_sweep<G: Dimension>() {
+    fn few_that_move_need_no_sweep<G: Moving>() {
         let rng = &mut Rng::new(2);
         let (mut t, mut now, side) = repaired::<G>(rng);
         for _ in 0..5 {

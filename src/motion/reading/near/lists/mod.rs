@@ -17,7 +17,7 @@
 mod search;
 mod tree;
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -114,7 +114,7 @@ pub(crate) struct Lists<E> {
 
 impl<E: Entry> Lists<E> {
     /// Searches; a monitor is told the fraction done.
-    pub(crate) fn find<G: Dimension>(
+    pub(crate) fn find<G: Moving>(
         search: &Search<'_, G>,
         id_count: usize,
         threads: Threads,
@@ -183,7 +183,7 @@ pub struct NeighbourLists {
     pub shifts: Vec<[i64; 3]>,
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// For each vertex the others whose squared distance from it is at most that of its list, exactly: ascending, hidden ones
     /// included, which have lists as well.
     ///

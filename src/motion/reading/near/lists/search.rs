@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -53,7 +53,7 @@ impl Entry for u64 {
 }
 
 /// What is looked for, and among what.
-pub(crate) struct Search<'s, G: Dimension> {
+pub(crate) struct Search<'s, G: Moving> {
     pub(crate) tree: BoxTree<G>,
     /// Ways by which places are translated without rounding, in an order of their own, and which of them is none.
     pub(crate) translations: &'s [G::Point],
@@ -89,13 +89,13 @@ struct RowsOfBox<P> {
 }
 
 /// The rows in reach of one box, kept as scratch from one to the next.
-struct RowsInReach<G: Dimension, E> {
+struct RowsInReach<G: Moving, E> {
     rows: Vec<PlacesInLanes<E>>,
     segments: Vec<RowsOfBox<G::Point>>,
     found: Vec<E>,
 }
 
-impl<G: Dimension> Search<'_, G> {
+impl<G: Moving> Search<'_, G> {
     /// The lists of a range of places, in the order of the tree.
     pub(crate) fn lists<E: Entry>(&self, range: Range<usize>) -> Result<Part<E>> {
         let mut part = Part { entries: Vec::new(), lengths: Vec::new() };
@@ -231,7 +231,7 @@ impl<G: Dimension> Search<'_, G> {
 /// Finds which places of a row are near a vertex, exactly; how many there are.
 #[cold]
 #[inline(never)]
-fn decide<G: Dimension, E: Entry>(
+fn decide<G: Moving, E: Entry>(
     q: &G::Point,
     row: &PlacesInLanes<E>,
     limits: &[f64; LANES],
@@ -252,7 +252,7 @@ fn decide<G: Dimension, E: Entry>(
 
 /// A row of up to [`LANES`] places; those that are missing are nowhere.
 #[inline(always)]
-fn row_of<G: Dimension, E: Entry>(
+fn row_of<G: Moving, E: Entry>(
     some: &[PlacedVertex<G::Point>],
     way: &G::Point,
     translation: usize,
@@ -274,7 +274,7 @@ fn row_of<G: Dimension, E: Entry>(
 
 /// The square of the distance between two boxes, rounded downwards.
 #[inline(always)]
-fn square_between<G: Dimension>(one: [&G::Point; 2], other: [&G::Point; 2]) -> f64 {
+fn square_between<G: Moving>(one: [&G::Point; 2], other: [&G::Point; 2]) -> f64 {
     let mut square = 0.0;
     for axis in 0..G::D {
         let way = (one[0][axis] - other[1][axis]).max(other[0][axis] - one[1][axis]).max(0.0);

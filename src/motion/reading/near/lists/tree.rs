@@ -5,7 +5,7 @@
 //! there, and few boxes that are longer than a ball meet it. Halving ends, however unevenly places are spread: a coordinate can
 //! be told from another after as many halvings as numbers have bits.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -40,14 +40,14 @@ pub(super) struct Node<P> {
 
 /// Places in boxes.
 #[derive(Debug)]
-pub(crate) struct BoxTree<G: Dimension> {
+pub(crate) struct BoxTree<G: Moving> {
     pub(super) placed: Vec<PlacedVertex<G::Point>>,
     pub(super) nodes: Vec<Node<G::Point>>,
     /// The boxes that have no halves, in the order of their places.
     pub(super) leaves: Vec<u32>,
 }
 
-impl<G: Dimension> BoxTree<G> {
+impl<G: Moving> BoxTree<G> {
     pub(crate) fn new(mut placed: Vec<PlacedVertex<G::Point>>) -> Result<Self> {
         let (mut nodes, mut leaves, mut waiting) = (Vec::new(), Vec::new(), Vec::new());
         memory::push(&mut waiting, (0, placed.len()))?;
@@ -93,7 +93,7 @@ impl<G: Dimension> BoxTree<G> {
 }
 
 /// The box of some places.
-fn bounds<G: Dimension>(placed: &[PlacedVertex<G::Point>], first: usize) -> Node<G::Point> {
+fn bounds<G: Moving>(placed: &[PlacedVertex<G::Point>], first: usize) -> Node<G::Point> {
     let (mut low, mut high, mut greatest) = (placed[0].place, placed[0].place, NO_LIST);
     for p in placed {
         for axis in 0..G::D {
@@ -106,7 +106,7 @@ fn bounds<G: Dimension>(placed: &[PlacedVertex<G::Point>], first: usize) -> Node
 }
 
 /// Brings the places in the lower half of their box to the front, and counts these; `None` if all are at one place.
-fn halve<G: Dimension>(placed: &mut [PlacedVertex<G::Point>], node: &Node<G::Point>) -> Option<usize> {
+fn halve<G: Moving>(placed: &mut [PlacedVertex<G::Point>], node: &Node<G::Point>) -> Option<usize> {
     let length = |axis: usize| node.high[axis] - node.low[axis];
     let axis = (1..G::D).fold(0, |longest, axis| if length(axis) > length(longest) { axis } else { longest });
     let (low, high) = (node.low[axis], node.high[axis]);
@@ -129,7 +129,7 @@ mod tests {
     use super::*;
     use crate::delaunay::{Plane, Space};
 
-    fn check<G: Dimension>(places: &[G::Point]) {
+    fn check<G: Moving>(places: &[G::Point]) {
         let placed = places.iter().enumerate().map(|(k, &place)| PlacedVertex {
             place,
             squared_radius: k as f64,

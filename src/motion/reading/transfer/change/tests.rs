@@ -1,7 +1,7 @@
 //! What is found near by, beside what a look at all cells finds.
 
 use super::*;
-use crate::delaunay::{Dimension, Plane, Space};
+use crate::delaunay::{Moving, Plane, Space};
 use crate::ids::VertexId;
 use crate::motion::{MovingTriangulation, Options, Segment, TransferOrder};
 use crate::random::Rng;
@@ -51,7 +51,7 @@ impl Counts {
 type Constrain<G> = fn(&mut MovingTriangulation<G>, &mut Rng);
 
 /// Vertices move, come and go, those of the hull as well, some far away and some to the places of others.
-fn history<G: Dimension>(seed: u64, constrain: Constrain<G>, counts: &mut Counts) {
+fn history<G: Moving>(seed: u64, constrain: Constrain<G>, counts: &mut Counts) {
     let rng = &mut Rng::new(seed);
     // Far from the origin for their size, and of little and great magnitude.
     let (scale, away) =
@@ -111,7 +111,7 @@ fn history<G: Dimension>(seed: u64, constrain: Constrain<G>, counts: &mut Counts
     }
 }
 
-fn cells_near_by_are_those_of_a_look_at_all<G: Dimension>(n_seeds: u64, constrain: Constrain<G>) {
+fn cells_near_by_are_those_of_a_look_at_all<G: Moving>(n_seeds: u64, constrain: Constrain<G>) {
     let mut counts = Counts::default();
     (0..n_seeds).for_each(|seed| history::<G>(seed, constrain, &mut counts));
     println!("{}D: {counts:?}", G::D);
@@ -138,7 +138,7 @@ fn cells_near_by_are_those_of_a_look_at_all_in_space() {
 }
 
 /// What a transfer costs beside the commit before it, and what it costs to look for cells near by and at all.
-fn times<G: Dimension, const D: usize>(n: usize) {
+fn times<G: Moving, const D: usize>(n: usize) {
     let rng = &mut Rng::new(1);
     let mut places = vec![G::Point::default(); n];
     places.iter_mut().for_each(|place| (0..G::D).for_each(|axis| place[axis] = rng.unit()));
