@@ -7,6 +7,7 @@ mod ids;
 mod lives;
 mod loops;
 mod remembered;
+mod resting;
 
 use crate::common::{Rng, assert_same_cells, cell_set, check_adjacency, seeds};
 use deldrift::motion::{

@@ -12,6 +12,7 @@ use super::mesh::Mesh;
 use super::parts::{NONE, next, previous};
 use super::refinement::Origins;
 use super::removal::Hole;
+use super::waking::{LeftBad, wakers};
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -61,6 +62,8 @@ pub(crate) struct Coarsened {
     pub joined: Vec<(u32, [VertexId; 2])>,
     /// The candidates that could have gone first.
     pub able: Vec<VertexId>,
+    /// Of the vertices that go, those without which refinement would do something for cells that it has left.
+    pub wakers: Vec<VertexId>,
 }
 
 struct Coarsening<'a> {
@@ -90,6 +93,7 @@ pub(crate) fn coarsen(
     points: Vec<[f64; 2]>,
     (tests, room): (Tests, Room),
     (bad, origins): (&[u32], Option<Origins>),
+    left: Option<LeftBad>,
     candidates: &[Candidate],
 ) -> Result<Coarsened> {
     let mut coarsening = Coarsening::new(given, points, tests, room)?;
@@ -99,7 +103,16 @@ pub(crate) fn coarsen(
     }
     let able = coarsening.take_away(candidates)?;
     coarsening.told.able = able;
-    coarsening.tell(given)
+    coarsening.tell(given)?;
+    let Coarsening { mesh, tests, mut told, into, .. } = coarsening;
+    if let Some(left) = left.filter(|_| !told.vertices.is_empty()) {
+        let mut gone = Vec::new();
+        let of = |candidate: &Candidate| candidate.between.map_or(NONE, |[before, _]| into[before as usize]);
+        let has_gone = |candidate: &&Candidate| mesh.at[candidate.vertex] == NONE;
+        memory::collect(&mut gone, candidates.iter().filter(has_gone).map(|c| (c.vertex, of(c))))?;
+        told.wakers = wakers(mesh, tests, left, &gone)?;
+    }
+    Ok(told)
 }
 
 /// Takes all candidates away that can go, whatever comes in their place; returns what is left, the vertices taken, and by
@@ -115,9 +128,7 @@ pub(super) fn strip<'a>(
     let room = Room { angle: 0.0, share: 1.0, offset };
     let mut coarsening = Coarsening::new(given, points, no_tests, room)?;
     coarsening.take_away(candidates)?;
-    for segment in 0..coarsening.into.len() as u32 {
-        coarsening.into[segment as usize] = coarsening.current(segment);
-    }
+    coarsening.find_current();
     Ok((coarsening.mesh, coarsening.told.vertices, coarsening.into))
 }
 
@@ -275,16 +286,19 @@ impl<'a> Coarsening<'a> {
     }
 
     /// Whether what has been found would encroach a piece: one at the triangles around the vertex, or the joined one. What
-    /// is in a lens is of a small angle, so that only circles need be looked at.
+    /// is in a lens is of a small angle, so that only circles need be looked at, and lenses where any angle may be: what is
+    /// on a piece, but for rounding, is in these.
     fn would_encroach(&self, vertex: VertexId, around: &[u32], joined: Option<[VertexId; 2]>) -> bool {
         let is_piece = |ends: [VertexId; 2]| {
             let is_joined = |[a, b]: [VertexId; 2]| ends == [a, b] || ends == [b, a];
             joined.is_some_and(is_joined)
                 || around.iter().any(|&t| self.mesh.is_segment_opposite(t, vertex, ends))
         };
-        self.tests.are_conforming()
+        let are_conforming = self.tests.are_conforming();
+        (are_conforming || !self.tests.has_least_angle())
             && self.hole.triangles.iter().any(|&(corners, label)| {
                 Tests::is_selected(label)
+                    && (are_conforming || !self.tests.is_flat(corners.map(|v| self.mesh.point(v))))
                     && (0..3).any(|i| {
                         let ends = [corners[next(i)], corners[previous(i)]];
                         let places = ends.map(|v| self.mesh.point(v));
@@ -299,6 +313,13 @@ impl<'a> Coarsening<'a> {
             segment = self.into[segment as usize];
         }
         segment
+    }
+
+    /// Finds that of all.
+    fn find_current(&mut self) {
+        for segment in 0..self.into.len() as u32 {
+            self.into[segment as usize] = self.current(segment);
+        }
     }
 
     fn is_on_line(&self, vertex: VertexId, [a, b]: [VertexId; 2]) -> bool {
@@ -337,7 +358,9 @@ impl<'a> Coarsening<'a> {
         })
     }
 
-    fn tell(mut self, given: Given) -> Result<Coarsened> {
+    /// Tells what has become of the segments.
+    fn tell(&mut self, given: Given) -> Result<()> {
+        self.find_current();
         for segment in 0..given.segments.len() as u32 {
             let piece = &self.mesh.pieces[segment as usize];
             if piece.ends == given.segments[segment as usize] {
@@ -348,7 +371,7 @@ impl<'a> Coarsening<'a> {
                 memory::push(&mut self.told.joined, (segment, piece.ends))?;
             }
         }
-        Ok(self.told)
+        Ok(())
     }
 }
 

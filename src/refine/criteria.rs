@@ -127,6 +127,10 @@ impl<'a> Tests<'a> {
         !self.criteria.sizes.is_empty()
     }
 
+    pub(super) fn has_least_angle(&self) -> bool {
+        self.criteria.least_angle > 0.0
+    }
+
     /// Whether areas are bounded.
     pub(super) fn has_areas(&self) -> bool {
         let Criteria { greatest_area, areas, .. } = &self.criteria;

@@ -31,6 +31,15 @@ impl Refinement<'_> {
         by_corners.into_iter().try_for_each(|(_, t)| self.examine(t))
     }
 
+    /// Copies bad cells, and notes whether any is flat: what is wanted of the others does not depend on their order then.
+    pub(super) fn see_flat(&mut self, cells: impl Iterator<Item = u32>) -> Result<()> {
+        for cell in cells {
+            let t = self.mesh.copy(cell)?;
+            self.has_flat |= self.is_flat(t) && self.measure(t).flaw.is_some();
+        }
+        Ok(())
+    }
+
     pub(super) fn measure(&self, t: u32) -> Measured {
         let triangle = self.mesh.triangle(t);
         let corners = triangle.corners;

@@ -34,6 +34,7 @@
 //! | `examining`, `splitting`, `refining` | what is wanted; where pieces are split; what is done for bad triangles |
 //! | `telling` | the calls, and what they tell |
 //! | `coarsening`, `staying` | vertices that are not needed any more leave; those that surely stay |
+//! | `waking` | vertices that stay, as refinement would put them back |
 //!
 //! # What is exact
 //!
@@ -103,7 +104,10 @@
 //! refinement there are none, so what coarsening then leaves is good, or was left by refinement too, and neither of the
 //! two finds anything to do. In a gap of half the width that is narrow a vertex goes if all triangles around it, or on one
 //! side of its pieces, are there, one of them is bad, and those that come are there as well, and not too large:
-//! refinement leaves these.
+//! refinement leaves these. Where refinement has left bad triangles, it is found on what coarsening leaves whether it would
+//! still do nothing for them: if pieces that have been joined are in their way, too, the vertices stay that were between
+//! these (`waking`), and all else is coarsened again. Without a least angle what is good may encroach a piece, being on it
+//! but for rounding: such a vertex stays, too. Both calls know of flat triangles before they look at any other.
 //!
 //! # Made anew
 //!
@@ -129,6 +133,7 @@ mod removal;
 mod splitting;
 mod staying;
 mod telling;
+mod waking;
 mod walking;
 
 pub(crate) use coarsening::{Candidate, Room, coarsen};
@@ -139,3 +144,4 @@ pub use refinement::Kept;
 pub(crate) use refinement::Origins;
 pub(crate) use staying::keep;
 pub(crate) use telling::{Refined, mendable, refine, remesh};
+pub(crate) use waking::LeftBad;

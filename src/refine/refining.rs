@@ -16,7 +16,7 @@ const NEARLY_ALL: f64 = 0.999;
 const ADDED_BETWEEN: usize = 1000;
 
 /// What there is to do for a bad triangle.
-enum Remedy {
+pub(super) enum Remedy {
     /// Nothing.
     None,
     /// To split what is in the way.
@@ -142,7 +142,7 @@ impl Refinement<'_> {
 
     /// What there is to do for a bad triangle; the pieces in the way are listed. One of too large an area gets its centroid
     /// where all pieces in the way of its centre are kept whole.
-    fn remedy(&mut self, t: u32, measured: Measured) -> Result<Remedy> {
+    pub(super) fn remedy(&mut self, t: u32, measured: Measured) -> Result<Remedy> {
         let remedy = self.remedy_at_centre(t, measured)?;
         let triangle = *self.mesh.triangle(t);
         let corners = triangle.corners.map(|v| *self.mesh.point(v));

@@ -51,6 +51,7 @@ pub(crate) fn refine(
     let mut by_corners = Vec::new();
     memory::collect(&mut by_corners, bad.iter().map(|&cell| (given.row(cell), cell)))?;
     by_corners.sort_unstable();
+    refinement.see_flat(by_corners.iter().map(|&(_, cell)| cell))?;
     for &(_, cell) in &by_corners {
         let t = refinement.mesh.copy(cell)?;
         refinement.examine(t)?;
@@ -90,6 +91,7 @@ pub(crate) fn mendable(
 ) -> Result<Vec<u32>> {
     let mut refinement = Refinement::new(Mesh::new(given, points)?, tests, origins, kept)?;
     let mut mendable = Vec::new();
+    refinement.see_flat(bad.iter().copied())?;
     for &cell in bad {
         let t = refinement.mesh.copy(cell)?;
         if refinement.would_change(t)? {

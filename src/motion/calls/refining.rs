@@ -24,7 +24,7 @@ use crate::motion::state::looked::{Looked, Question, ScaledPlaces};
 use crate::motion::state::made::{Inserted, Origin};
 use crate::motion::state::segments::Segment;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::refine::{self, Candidate, Criteria, NONE, Refined, Room, Tests};
+use crate::refine::{self, Candidate, Criteria, LeftBad, NONE, Refined, Room, Tests};
 use reading::Read;
 use staging::SegmentChanges;
 
@@ -235,7 +235,7 @@ impl MovingTriangulation<Plane> {
         tests.check_stop()?;
         let cells = self.cells()?;
         read.read_cells_of_vertices(cells.corners)?;
-        let points = memory::copy_of(&read.places.points)?;
+        let mut points = memory::copy_of(&read.places.points)?;
         let given = read.given(cells, mask, quality.labels, self.mesh.kernel.keys());
         let mendable = match read.bad[..] {
             [] => Vec::new(),
@@ -259,8 +259,25 @@ impl MovingTriangulation<Plane> {
         for &cell in read.bad.iter().filter(thin) {
             memory::append(&mut corners_of_thin, &cells.corners[cell as usize])?;
         }
-        let origins = if corners_of_thin.is_empty() { None } else { Some(self.origins(&read)?) };
-        let coarsened = refine::coarsen(given, points, (tests, room), (&mendable, origins), &candidates)?;
+        let mut left = Vec::new();
+        let is_left = |cell: &&u32| mendable.binary_search(cell).is_err();
+        memory::collect(&mut left, read.bad.iter().filter(is_left).copied())?;
+        // Those without which refinement would do more than before stay, and the others are looked at again.
+        let coarsened = loop {
+            let points =
+                if left.is_empty() { std::mem::take(&mut points) } else { memory::copy_of(&points)? };
+            let origins = if corners_of_thin.is_empty() { None } else { Some(self.origins(&read)?) };
+            let left = match left[..] {
+                [] => None,
+                _ => Some(LeftBad { cells: &left, origins: self.origins(&read)?, kept: options.keeps }),
+            };
+            let (tests, bad) = (bounds.tests(quality, &read), (&mendable[..], origins));
+            let coarsened = refine::coarsen(given, points, (tests, room), bad, left, &candidates)?;
+            if coarsened.wakers.is_empty() {
+                break coarsened;
+            }
+            candidates.retain(|candidate| coarsened.wakers.binary_search(&candidate.vertex).is_err());
+        };
         remember(stays, &read, cells.corners, &candidates, &coarsened.able);
         // Whether they are in narrow gaps depends on more than the cells around them.
         corners_of_thin.iter().for_each(|&v| stays[v] = false);
