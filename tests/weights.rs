@@ -43,14 +43,16 @@ fn vertices_on_a_line_are_hidden_by_the_hull_there() {
                 break direction;
             }
         };
+        // As far from zero as coordinates may be, or near it.
+        let (unit, origin) = [(1.0, 0.0), (2.0_f64.powi(184), 16.0)][rng.below(2)];
         let square: i64 = direction.iter().map(|x| x * x).sum();
         let points: Vec<G::Point> = all
             .iter()
             .map(|&(x, w)| {
                 let mut p = G::Point::default();
-                (0..G::D).for_each(|k| p[k] = (direction[k] * x) as f64);
+                (0..G::D).for_each(|k| p[k] = unit * (origin + (direction[k] * x) as f64));
                 // Along a direction distances are as many times as long.
-                p[G::D] = (w * square) as f64;
+                p[G::D] = unit * unit * (w * square) as f64;
                 p
             })
             .collect();

@@ -100,7 +100,7 @@ impl Above {
         Ok(())
     }
 
-    /// Enters a site into the list of a cell; none of those that are loose.
+    /// Enters a site into the list of a cell; if there is none, into the list of the loose sites.
     pub(super) fn enter(&mut self, s: SiteId, cell: Option<Slot>) {
         let Above { links, first, loose, n, .. } = self;
         let head = cell.map_or(loose, |cell| &mut first[cell.index()]);
@@ -132,6 +132,16 @@ impl Above {
         self.n -= 1;
     }
 
+    /// Moves a site from the list of a cell to that of the loose sites. The cell stays as where to look for another one.
+    fn loosen_one(&mut self, s: SiteId) {
+        let Link { cell, is_loose, .. } = self.links[s.index()];
+        if !is_loose {
+            self.take_out(s);
+            self.links[s.index()].cell = cell;
+            self.enter(s, None);
+        }
+    }
+
     /// Whether a site is in a list.
     fn has(&self, s: SiteId) -> bool {
         self.links.get(s.index()).is_some_and(|link| link.is_loose || link.cell != Slot::NONE)
@@ -140,9 +150,7 @@ impl Above {
     /// Loosens what is above a cell.
     fn loosen(&mut self, cell: Slot) {
         while let Some(&s) = self.first.get(cell.index()).filter(|&&s| s != SiteId::NONE) {
-            self.take_out(s);
-            self.links[s.index()].cell = cell;
-            self.enter(s, None);
+            self.loosen_one(s);
         }
     }
 
@@ -243,7 +251,7 @@ impl<G: Geometry> Delaunay<G> {
         self.above.enter(s, Some(cell));
     }
 
-    /// Takes a hidden site out of its list.
+    /// Takes a hidden site out of its list, if it is in one.
     pub(super) fn forget_hidden(&mut self, s: SiteId) {
         if self.above.has(s) {
             self.above.take_out(s);
@@ -252,12 +260,7 @@ impl<G: Geometry> Delaunay<G> {
 
     /// Loosens a hidden site, whose place or weight is another one.
     pub(super) fn loosen_site(&mut self, s: SiteId) {
-        let Link { cell, is_loose, .. } = self.above.links[s.index()];
-        if !is_loose {
-            self.above.take_out(s);
-            self.above.links[s.index()].cell = cell;
-            self.above.enter(s, None);
-        }
+        self.above.loosen_one(s);
     }
 
     /// Loosens the sites above the cells of the gathered star.
@@ -306,7 +309,7 @@ impl<G: Geometry> Delaunay<G> {
         G::HAS_WEIGHTS && self.above.loose != SiteId::NONE
     }
 
-    /// Forgets the hidden sites: there are no cells, or all are going to be listed [anew](Self::loosen_all).
+    /// Forgets the hidden sites: there are no cells, or all are going to be [listed](Self::list_hidden) anew.
     pub(super) fn forget_all_hidden(&mut self) {
         if G::HAS_WEIGHTS {
             self.above.links.fill(SHOWN);

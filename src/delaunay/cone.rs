@@ -13,8 +13,10 @@ use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::machine::threads::Threads;
 
-/// Of a coordinate, how far along its axis an apex may be off: further than any rounding.
-const STEP: f64 = 1.0;
+/// A coordinate that is not this one, and no further from zero than it or than one: no rounding takes it back, and it is in range.
+fn another(x: f64) -> f64 {
+    if x.abs() > 1.0 { 0.5 * x } else { x + 1.0 }
+}
 
 impl<G: Geometry> Delaunay<G> {
     /// The sites that weights hide while there are no cells.
@@ -44,27 +46,26 @@ impl<G: Geometry> Delaunay<G> {
     fn add_apexes(&mut self, ids: impl Iterator<Item = VertexId>) -> Result<()> {
         self.tighten_filter();
         let mut next = ids.map(VertexId::index).max().map_or(0, |most| most + 1);
-        let mut n = 0;
         for s in SiteId::range(1..self.sites.len()) {
             self.extend_basis(s);
         }
         for axis in 0..G::D {
             let mut apex = self.site(SiteId::new(1)).point;
-            // Half as far again as it is from zero, which no rounding takes back.
-            apex[axis] += (0.5 * apex[axis].abs()).max(STEP);
-            let before = self.flat.basis.sites().len();
-            if before == G::D + 1 {
+            apex[axis] = another(apex[axis]);
+            let n_before = self.flat.basis.sites().len();
+            if n_before == G::D + 1 {
                 break;
             }
             self.cover(&apex, &apex);
             let s = self.add_site(apex, VertexId::at(next))?;
-            if !self.extend_basis(s) && self.flat.basis.sites().len() == before {
+            self.extend_basis(s);
+            if self.flat.basis.sites().len() == n_before {
                 self.drop_site(s);
                 continue;
             }
-            (next, n) = (next + 1, n + 1);
+            next += 1;
         }
-        debug_assert!(n > 0 && self.flat.basis.sites().len() == G::D + 1);
+        debug_assert!(self.flat.basis.sites().len() == G::D + 1);
         self.flat.clear();
         Ok(())
     }

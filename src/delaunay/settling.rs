@@ -39,8 +39,7 @@ impl<G: Geometry> Delaunay<G> {
             let s = self.above.first_loose();
             let cell = self.cell_over(s);
             if self.is_above(s, cell) {
-                self.above.take_out(s);
-                self.above.enter(s, Some(cell));
+                self.settle_above(s, cell);
                 continue;
             }
             let mut cavity = std::mem::take(&mut self.cavity);
@@ -59,9 +58,14 @@ impl<G: Geometry> Delaunay<G> {
             let s = self.above.first_loose();
             let cell = self.cell_over(s);
             debug_assert!(self.is_above(s, cell));
-            self.above.take_out(s);
-            self.above.enter(s, Some(cell));
+            self.settle_above(s, cell);
         }
+    }
+
+    /// Lists a loose site above the cell that has its place.
+    fn settle_above(&mut self, s: SiteId, cell: Slot) {
+        self.above.take_out(s);
+        self.above.enter(s, Some(cell));
     }
 
     /// The cell that has the place of a loose site.
