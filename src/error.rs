@@ -324,14 +324,14 @@ impl fmt::Display for Passing {
 /// In place of the number of a coordinate: it is the weight of a point that is no good.
 pub const AXIS_OF_WEIGHT: usize = usize::MAX;
 
-/// What a number of a point is called.
+/// Which coordinate of a point is no good; nothing of a weight, as the argument is an array of them.
 struct Axis(usize);
 
 impl fmt::Display for Axis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
-            AXIS_OF_WEIGHT => write!(f, "a weight"),
-            axis => write!(f, "coordinate {axis}"),
+            AXIS_OF_WEIGHT => Ok(()),
+            axis => write!(f, ", coordinate {axis},"),
         }
     }
 }
@@ -341,11 +341,11 @@ impl fmt::Display for Error {
         match self {
             Error::InvalidDimension { given } => write!(f, "dimension is {given}, but must be 2 or 3"),
             Error::NotFinite { argument, index, axis, value } => {
-                write!(f, "{argument}[{index}], {}, is {value}, which is not finite", Axis(*axis))
+                write!(f, "{argument}[{index}]{} is {value}, which is not finite", Axis(*axis))
             }
             Error::OutOfRange { argument, index, axis, value, limit } => write!(
                 f,
-                "{argument}[{index}], {}, is {value:e}, and its magnitude may not exceed {limit:e}",
+                "{argument}[{index}]{} is {value:e}, and its magnitude may not exceed {limit:e}",
                 Axis(*axis)
             ),
             Error::NoSuchVertex { argument, index, vertex, ids } => {

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use super::declarations::{Declaration, Parameter, refused_by_boxes, statuses};
+use super::declarations::{Declaration, Parameter, refused_by_boxes, refused_by_weights, statuses};
 use super::roles::{Role, is_of_bytes, role};
 use super::rows::{ROWS, Row};
 
@@ -50,6 +50,7 @@ pub fn program(functions: &[Declaration]) -> String {
     let is_of_research = |function: &&Declaration| function.name.starts_with("deldrift_research_");
     let of_research = functions.iter().filter(is_of_research).map(|function| function.name.clone());
     let refused: BTreeSet<String> = refused_by_boxes(functions).into_iter().chain(of_research).collect();
+    let refused_by_weights = refused_by_weights(functions);
     for (k, function) in functions.iter().enumerate() {
         let Some(row) = ROWS.iter().find(|row| row.function == function.name) else {
             panic!("{} has no row in ffi-tests/abuse/rows.rs", function.name);
@@ -82,10 +83,12 @@ pub fn program(functions: &[Declaration]) -> String {
         let takes_t = function.takes_t();
         let _ = writeln!(
             list,
-            "    {{\"{0}\", {takes_t}, {is_of_plane}, {1}, {has_count}, {2}, of_{0}}},",
+            "    {{\"{0}\", {takes_t}, {is_of_plane}, {1}, {has_count}, {2}, {3}, {4}, of_{0}}},",
             function.name,
             row.base,
-            refused.contains(&function.name)
+            refused.contains(&function.name),
+            refused_by_weights.contains(&function.name),
+            function.errors().contains("DELDRIFT_NOT_WEIGHTED")
         );
         let _ = writeln!(calls, "        case {k}: return {};", call(function, row.arguments));
     }
@@ -193,8 +196,12 @@ impl Cases<'_> {
             | Role::NumbersIfAny
             | Role::WholesIfAny
             | Role::MaskIfAny
+            | Role::PointsIfAny
+            | Role::VertexWeightsIfAny
             | Role::KeysIfAny => true,
-            Role::Ids => self.function.name == "deldrift_move_vertices",
+            Role::Ids => {
+                ["deldrift_move_vertices", "deldrift_stage_weights"].contains(&self.function.name.as_str())
+            }
             Role::Buffer => {
                 self.function.name != "deldrift_compact"
                     && n_buffers > 1
@@ -231,7 +238,7 @@ impl Cases<'_> {
     fn contents(&mut self, at: usize, role: Role, parameter: &Parameter) {
         let (name, valid) = (parameter.name.as_str(), self.row.arguments[at]);
         match role {
-            Role::Points => {
+            Role::Points | Role::PointsIfAny => {
                 let roles = self.roles();
                 if name == "seeds" {
                     let message = "\"seeds[0] is on the boundary of several regions\"";
@@ -317,6 +324,18 @@ impl Cases<'_> {
                     self.refused(column, at, said, &given, "INVALID_VALUE", &message);
                 }
                 self.legal("value", at, "1e114", &format!("bad({valid}, 1, 1e114)"));
+            }
+            Role::VertexWeights | Role::VertexWeightsIfAny => {
+                for (column, value, said, status) in [
+                    ("nan", "NAN", "NaN", "NOT_FINITE"),
+                    ("infinite", "-INFINITY", "-inf", "NOT_FINITE"),
+                    ("range", "-1.01e114", "-1.01e114", "OUT_OF_RANGE"),
+                ] {
+                    let message = format!("\"{name}[1] is {said}\"");
+                    let given = format!("bad({valid}, 1, {value})");
+                    self.refused(column, at, said, &given, status, &message);
+                }
+                self.legal("range", at, "1e114", &format!("bad({valid}, 1, 1e114)"));
             }
             Role::Ids => self.ids(at),
             Role::Ends => self.ends(at),
@@ -586,7 +605,8 @@ impl Cases<'_> {
             ("value", "one twice", "0", twice, "0\""),
         ] {
             let wrong = format!("bad_ids(1, {value})");
-            if reads && matches!(value, "LEAVING" | "0") {
+            let may_come = self.function.name == "deldrift_stage_weights" && value == "COMING";
+            if reads && matches!(value, "LEAVING" | "0") || may_come {
                 self.legal(column, at, given, &wrong);
                 continue;
             }
@@ -713,6 +733,17 @@ impl Cases<'_> {
                     self.refused(column, at, said, given, "INVALID_VALUE", &message);
                 }
                 self.legal("infinite", at, "infinity", "INFINITY");
+                self.legal("zero", at, "0", "0");
+            }
+            Role::VertexWeight => {
+                for (column, given, said, status) in [
+                    ("nan", "NAN", "NaN", "NOT_FINITE"),
+                    ("infinite", "INFINITY", "inf", "NOT_FINITE"),
+                    ("range", "1.01e114", "1.01e114", "OUT_OF_RANGE"),
+                ] {
+                    self.refused(column, at, said, given, status, &format!("\"{name}[0] is {said}\""));
+                }
+                self.legal("range", at, "-1e114", "-1e114");
                 self.legal("zero", at, "0", "0");
             }
             Role::Whole => self.legal("value", at, "the least number", "INT32_MIN"),

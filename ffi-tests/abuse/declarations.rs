@@ -60,7 +60,7 @@ impl Declaration {
         let rules: [(bool, &[&str]); 3] = [
             (self.parameters.iter().any(is_pointer), &["NULL_ARGUMENT", "MISALIGNED_ARGUMENT"]),
             (self.has("capacity"), &["BUFFER_TOO_SMALL"]),
-            (self.takes_t(), &["BUSY", "POISONED", "INTERNAL_ERROR", "PERIODIC"]),
+            (self.takes_t(), &["BUSY", "POISONED", "INTERNAL_ERROR", "PERIODIC", "WEIGHTED"]),
         ];
         let common = rules.iter().filter(|(holds, _)| *holds).flat_map(|(_, names)| *names);
         let common = common.map(|name| format!("DELDRIFT_{name}"));
@@ -70,14 +70,25 @@ impl Declaration {
     }
 }
 
-/// The functions that do not serve a periodic triangulation, as deldrift_create_periodic names them: one header as a
-/// whole, and others one by one.
+/// The functions that do not serve a periodic triangulation.
 pub fn refused_by_boxes(functions: &[Declaration]) -> BTreeSet<String> {
-    let create = functions.iter().find(|function| function.name == "deldrift_create_periodic");
+    refused_as(functions, "deldrift_create_periodic", "DELDRIFT_PERIODIC")
+}
+
+/// The functions that do not serve weights.
+pub fn refused_by_weights(functions: &[Declaration]) -> BTreeSet<String> {
+    refused_as(functions, "deldrift_create_weighted", "DELDRIFT_WEIGHTED")
+}
+
+/// The functions that give a status where a triangulation comes of this function, which names them: one header as a whole, and
+/// others one by one.
+fn refused_as(functions: &[Declaration], creation: &str, status: &str) -> BTreeSet<String> {
+    let create = functions.iter().find(|function| function.name == creation);
     let documentation = &create.expect("it is declared").documentation;
     let (_, refused) = documentation.split_once("but those of deldrift/").expect("a header is named");
-    let (header, list) =
-        refused.split_once(" and the following, which return DELDRIFT_PERIODIC: ").expect("they are listed");
+    let (header, list) = refused
+        .split_once(&format!(" and the following, which return {status}: "))
+        .expect("they are listed");
     let header = format!("include/deldrift/{header}");
     let (list, _) = list.split_once(". ").expect("a sentence ends");
     let listed: BTreeSet<String> =

@@ -23,8 +23,8 @@ enum { ROOM = 1024, BYTES = 16384, PLACES = 15 };
 #include "words.h"
 
 // The triangulations that calls are made on: with moves, insertions and removals staged; without; that, with the cell
-// within the fence refined; prepared; and with changes taken.
-typedef enum { WITH_EDITS, WITHOUT_EDITS, REFINED, PREPARED, TAKEN, N_BASES } base;
+// within the fence refined; prepared; with changes taken; and two with weights, with edits and without.
+typedef enum { WITH_EDITS, WITHOUT_EDITS, REFINED, PREPARED, TAKEN, WEIGHTED, WEIGHTED_WITHOUT_EDITS, N_BASES } base;
 
 // The bases.
 static deldrift_triangulation *bases[N_BASES];
@@ -238,7 +238,7 @@ static void use_base(base which) {
     }
     OK(deldrift_id_count(t, &n_ids));
     OK(deldrift_cell_count(t, &n_cells));
-    if (dimension == 2) mask_fence(t);
+    if (dimension == 2 && which < WEIGHTED) mask_fence(t);
 }
 
 // After a call: `message` is what has to be said, NULL if the call is legal.
@@ -276,7 +276,7 @@ typedef struct {
     const char *name;
     bool takes_t, of_plane;
     base base;
-    bool has_count, refuses_periodic;
+    bool has_count, refuses_periodic, refuses_weights, needs_weights;
     void (*cases)(void);
 } function;
 
@@ -423,6 +423,36 @@ static void periodic_ones_are_refused_or_served(void) {
     deldrift_destroy(made);
 }
 
+static void weighted_ones_are_refused_or_served(void) {
+    size_t n_refused = 0, n_served = 0, n_needing = 0;
+    for (size_t k = 0; k < n_functions; k++) {
+        const function *f = &functions[k];
+        if (!f->takes_t || (f->of_plane && dimension == 3)) continue;
+        if (f->needs_weights) {
+            use_base(WITH_EDITS);
+            before();
+            const deldrift_status status = call(k);
+            check_refusal(f->name, "t", "without weights", status, DELDRIFT_NOT_WEIGHTED, "t has no weights", f->has_count);
+            n_needing++;
+            continue;
+        }
+        use_base(f->base == WITH_EDITS ? WEIGHTED : WEIGHTED_WITHOUT_EDITS);
+        before();
+        const deldrift_status status = call(k);
+        if (f->refuses_weights) {
+            check_refusal(f->name, "t", "weighted", status, DELDRIFT_WEIGHTED, "t has weights", f->has_count);
+            n_refused++;
+        } else {
+            if (status == DELDRIFT_WEIGHTED) wrong(f->name, "t", "weighted", "the header does not say that it is refused");
+            n_served++;
+        }
+        end_outputs();
+        if (strcmp(f->name, "deldrift_destroy") == 0) t = NULL;
+    }
+    CHECK(n_refused > 3 && n_served > 50 && n_needing == 5);
+    use_base(WITH_EDITS);
+}
+
 static void poisoned_ones_can_be_destroyed(void) {
     use_base(WITH_EDITS);
     uint8_t *flag = poison();
@@ -501,6 +531,13 @@ static void make_bases(void) {
     }
     OK(deldrift_clone(bases[0], &bases[PREPARED]));
     OK(deldrift_clone(bases[WITHOUT_EDITS], &bases[TAKEN]));
+    OK(deldrift_create_weighted(dimension, points, weights, NULL, COUNT, &options, &bases[WEIGHTED]));
+    OK(deldrift_remove_vertex(bases[WEIGHTED], REMOVED));
+    OK(deldrift_commit_timestamp(bases[WEIGHTED], NULL));
+    OK(deldrift_clone(bases[WEIGHTED], &bases[WEIGHTED_WITHOUT_EDITS]));
+    OK(deldrift_move_vertex(bases[WEIGHTED], STAGED, moved));
+    OK(deldrift_stage_insertions(bases[WEIGHTED], moved, 1, &first));
+    OK(deldrift_stage_removals(bases[WEIGHTED], (uint32_t[]){LEAVING}, 1));
     for (base k = 0; k < N_BASES; k++) {
         use_base(k);
         look(t, &kept[k]);
@@ -554,6 +591,7 @@ static void try_all(void) {
         }
         calls_during_a_commit();
         periodic_ones_are_refused_or_served();
+        weighted_ones_are_refused_or_served();
         poisoned_ones_can_be_destroyed();
         in_a_thread(from_a_thread);
         nothing_is_lost();

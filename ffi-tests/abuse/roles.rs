@@ -63,8 +63,14 @@ pub enum Role {
     /// A number that is not negative, and may be infinite; an array of them.
     Magnitude,
     Magnitudes,
-    /// Numbers of a magnitude up to 1e114.
+    /// Numbers of a magnitude up to 1e114, of any points.
     Weights,
+    /// Weights of vertices; such as may be left out; one.
+    VertexWeights,
+    VertexWeightsIfAny,
+    VertexWeight,
+    /// Coordinates of points, which may be left out.
+    PointsIfAny,
     /// A number for each cell, one for each region.
     LabelsOfRegions,
     /// How much may be made at most: any number.
@@ -97,10 +103,14 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("deldrift_released_cells *", "owner") => Role::Owner,
         // Where no cell is gone none is read.
         ("const double *", "positions") if function.name == "deldrift_transfer_cells" => Role::NumbersIfAny,
+        ("const double *", "positions") if function.name == "deldrift_commit_weighted" => Role::PointsIfAny,
         ("const double *", "position" | "positions" | "centre") => Role::Points,
         ("const double *", "seeds") => Role::Points,
         ("const double *", "points") if function.name.ends_with("_sphere") => Role::PointsOfSphere,
-        ("const double *", "weights") => Role::Weights,
+        ("const double *", "weights") if function.name == "deldrift_in_power_sphere" => Role::Weights,
+        ("const double *", "weights") if function.name == "deldrift_stage_weights" => Role::VertexWeights,
+        ("const double *", "weights") => Role::VertexWeightsIfAny,
+        ("double", "weight") => Role::VertexWeight,
         ("const double *", "points") => Role::PointsOfSimplex,
         ("const double *", "vectors") => Role::Vectors,
         ("const double *", "half_spaces") => Role::HalfSpaces,
@@ -146,7 +156,11 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("deldrift_status", _) => Role::Status,
         ("uint32_t", "corners_per_simplex") => Role::Corners,
         ("double", "squared_radius" | "tolerance") => Role::Magnitude,
-        ("size_t", "count") if function.name == "deldrift_commit_positions" => Role::FixedCount,
+        ("size_t", "count")
+            if function.name == "deldrift_commit_positions" || function.name == "deldrift_commit_weighted" =>
+        {
+            Role::FixedCount
+        }
         (
             "size_t",
             "count" | "vertex_count" | "cell_count" | "seed_count" | "box_count" | "half_space_count"

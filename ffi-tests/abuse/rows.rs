@@ -18,6 +18,11 @@ const fn refined(function: &'static str, arguments: &'static [&'static str]) -> 
     Row { function, arguments, base: "REFINED" }
 }
 
+/// On one with weights, with moves, insertions and removals staged.
+const fn weighted(function: &'static str, arguments: &'static [&'static str]) -> Row {
+    Row { function, arguments, base: "WEIGHTED" }
+}
+
 pub const ROWS: &[Row] = &[
     row("deldrift_status_string", &["DELDRIFT_OK"]),
     row("deldrift_last_error", &[]),
@@ -59,6 +64,20 @@ pub const ROWS: &[Row] = &[
     row("deldrift_wrap_positions", &["t", "moved", "points", "3", "out.numbers", "out.shifts"]),
     row("deldrift_cell_shifts", &["t", "out.shifts", "out.more_shifts", "n_cells", "&out.count"]),
     row("deldrift_edge_shifts", &["t", "out.shifts", "n_edges", "&out.count"]),
+    row(
+        "deldrift_create_weighted",
+        &["dimension", "points", "weights", "keys", "COUNT", "&options", "&out.handle"],
+    ),
+    weighted("deldrift_is_weighted", &["t", "&out.flag"]),
+    weighted("deldrift_weights", &["t", "out.numbers", "n_ids", "&out.count"]),
+    weighted("deldrift_stage_weights", &["t", "ids", "weights", "3"]),
+    Row {
+        function: "deldrift_commit_weighted",
+        arguments: &["t", "moved", "weights", "n_ids", "&out.report"],
+        base: "WEIGHTED_WITHOUT_EDITS",
+    },
+    weighted("deldrift_set_weight", &["t", "1", "0.5"]),
+    weighted("deldrift_hidden_by_weight", &["t", "out.ids", "out.more_ids", "n_ids", "&out.count"]),
     row("deldrift_compact", &["t", "out.ids", "n_ids", "&out.count"]),
     row("deldrift_stage_segments", &["t", "ends", "wholes", "3", "&out.number"]),
     row("deldrift_stage_segment_removals", &["t", "segments", "2"]),

@@ -33,7 +33,7 @@ static inline uint64_t digest_of_row(const uint32_t *row, uint32_t corners) {
 typedef struct {
     size_t ids, vertices, cells, staged;
     uint64_t timestamp;
-    // Bits of all positions; of each vertex the one that stands for its place; segments in force; what refinement has made,
+    // Bits of all positions and weights; of each vertex the one that stands for its place; segments in force; what refinement has made,
     // and keys.
     uint64_t positions, representatives, segments, made;
 } numbers;
@@ -109,6 +109,12 @@ static inline numbers numbers_of(const deldrift_triangulation *t) {
     OK(deldrift_copy_positions(t, positions, n.ids, &count));
     CHECK(count == n.ids);
     n.positions = digest_of(positions, n.ids * dimension * sizeof *positions);
+    bool is_weighted = false;
+    OK(deldrift_is_weighted(t, &is_weighted));
+    if (is_weighted) {
+        OK(deldrift_weights(t, positions, n.ids, &count));
+        n.positions = mixed(n.positions, digest_of(positions, n.ids * sizeof *positions));
+    }
     free(positions);
     for (uint32_t v = 0; v < n.ids; v++) {
         bool present = false;
@@ -117,8 +123,9 @@ static inline numbers numbers_of(const deldrift_triangulation *t) {
         if (present) OK(deldrift_coincident_representative(t, v, &representative));
         n.representatives = mixed(n.representatives, representative);
     }
-    n.segments = digest_of_segments(t, dimension);
-    n.made = mixed(digest_of_made(t, dimension), digest_of_keys(t, n.ids));
+    // Segments do not serve weights.
+    n.segments = is_weighted ? 0 : digest_of_segments(t, dimension);
+    n.made = mixed(is_weighted ? 0 : digest_of_made(t, dimension), digest_of_keys(t, n.ids));
     return n;
 }
 

@@ -645,6 +645,31 @@ static void make_tour(const places *p, record *made) {
     note(tour_out.ids, 60 * sizeof *tour_out.ids);
     DO(deldrift_destroy(t));
 
+    // One with weights, of vertices that these hide and show again.
+    double weights[12], weights_out[13];
+    for (uint32_t i = 0; i < 12; i++) weights[i] = i % 3 == 0 ? -1.5 : i / 8.0;
+    bool is_weighted = false;
+    t = NULL;
+    GO(deldrift_create_weighted(d, in_box, weights, keys, 12, &options, &t));
+    GO(deldrift_is_weighted(t, &is_weighted));
+    note(&is_weighted, sizeof is_weighted);
+    for (uint32_t i = 0; i < 12; i++) weights[i] = i % 5 == 0 ? -2.5 : i / 16.0;
+    GO(deldrift_commit_weighted(t, in_other_box, weights, 12, &report));
+    note(&report, sizeof report);
+    GO(deldrift_stage_insertions(t, in_box + 5, 1, &first));
+    GO(deldrift_stage_weights(t, &first, weights + 3, 1));
+    GO(deldrift_commit_timestamp(t, &report));
+    note(&report, sizeof report);
+    GO(deldrift_set_weight(t, 7, -4));
+    GO(deldrift_weights(t, weights_out, 13, &count));
+    note(weights_out, count * sizeof *weights_out);
+    GO(deldrift_hidden_by_weight(t, tour_out.ids, tour_out.ids + 13, 13, &count));
+    note(tour_out.ids, count * sizeof *tour_out.ids);
+    note(tour_out.ids + 13, count * sizeof *tour_out.ids);
+    GO(deldrift_copy_cells(t, tour_out.ids, NULL, 4 * TOUR_POINTS, &count));
+    note(tour_out.ids, count * (d + 1) * sizeof *tour_out.ids);
+    DO(deldrift_destroy(t));
+
     // Calls that are refused: what a number is like is told.
     uint32_t vertex = 0;
     t = NULL;

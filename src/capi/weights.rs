@@ -34,12 +34,14 @@ use crate::predicates::PointArray;
 /// they do span which says who is hidden by weight.
 ///
 /// Calls that take positions take coordinates alone, as in any triangulation: a vertex that is moved keeps its weight, and one
-/// that is inserted has weight 0 until it is given another one. Functions that do not serve weights return
-/// DELDRIFT_WEIGHTED: those of deldrift/segments.h, deldrift_cells_in_reach, deldrift_hull_facets_in_reach,
-/// deldrift_vertices_in_reach, deldrift_nearest_vertex, deldrift_nearest_vertices, deldrift_vertices_in_ball,
-/// deldrift_vertices_in_box, deldrift_neighbour_lists, deldrift_conflicts, deldrift_interpolate unless it is linear, and the
-/// functions of Voronoi cells. Circumcentres, and masks by circumradius, are those of power spheres: a squared radius may be
-/// negative.
+/// that is inserted has weight 0 until it is given another one. Circumcentres, and masks by circumradius, are those of
+/// power spheres, of which the squared radius may be negative.
+///
+/// All functions serve a triangulation with weights but those of deldrift/segments.h and the following, which return
+/// DELDRIFT_WEIGHTED: deldrift_cells_in_reach, deldrift_hull_facets_in_reach, deldrift_vertices_in_reach,
+/// deldrift_nearest_vertex, deldrift_nearest_vertices, deldrift_vertices_in_ball, deldrift_vertices_in_box,
+/// deldrift_neighbour_lists, deldrift_conflicts, deldrift_research_annulus_widths, deldrift_research_standard_delimiter. So
+/// does deldrift_interpolate unless it is linear.
 ///
 /// Cost: that of deldrift_create.
 ///

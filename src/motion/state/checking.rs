@@ -57,7 +57,7 @@ pub(crate) fn check_position<G: Moving>(
             continue;
         }
         let limit = limit::<G>(axis);
-        let axis = if axis < G::D { axis } else { AXIS_OF_WEIGHT };
+        let (argument, axis) = if axis < G::D { (argument, axis) } else { (weights_of(argument), AXIS_OF_WEIGHT) };
         return Err(if value.is_finite() {
             Error::OutOfRange { argument, index, axis, value, limit }
         } else {
@@ -65,6 +65,11 @@ pub(crate) fn check_position<G: Moving>(
         });
     }
     Ok(checked)
+}
+
+/// What the weights are called of points that have this name.
+fn weights_of(argument: &'static str) -> &'static str {
+    if argument == "position" { "weight" } else { "weights" }
 }
 
 /// The numbers of a part of a point must be good.
