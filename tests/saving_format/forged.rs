@@ -25,6 +25,7 @@ fn apart(dimension: usize, positions: Vec<f64>) -> Parts {
         moves: Vec::new(),
         insertions: Vec::new(),
         removals: Vec::new(),
+        weighted: None,
         positions,
     }
 }
