@@ -3,7 +3,7 @@
 use super::{History, Shown, fresh, shown};
 use crate::common::inputs::KINDS;
 use crate::common::{Rng, assert_same_cells, check_adjacency, seeds, vertex};
-use crate::saving_format::{Parts, Weighted, seal};
+use crate::saving_format::{Parts, Weighted, forged, seal};
 use deldrift::internals::{PowerPlane, PowerSpace};
 use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options, Saved};
 use deldrift::{AnyTriangulation, Damage, LoadError, Moving, Plane, Space, VertexId};
@@ -282,6 +282,15 @@ fn forged_bytes_are_regular_or_refused_in_the_plane() {
 #[test]
 fn forged_bytes_are_regular_or_refused_in_space() {
     forged_bytes_are_regular_or_refused::<PowerSpace>();
+}
+
+/// All but the corners of one cell are hidden, on its edge.
+#[test]
+fn many_vertices_above_one_cell_are_loaded() {
+    for n in [5, 100] {
+        assert!(check_forged::<PowerPlane>(&forged::covered(2, n).bytes()));
+        assert!(check_forged::<PowerSpace>(&forged::covered(3, n).bytes()));
+    }
 }
 
 /// Two vertices with each other's weights: loaded if the cells and who is above which are the same, found otherwise.
