@@ -120,7 +120,8 @@ pub fn covered(dimension: usize, n: usize) -> Parts {
     let others = (dimension + 1..n).map(|k| (k * 7919 % n) as f64);
     positions.extend(others.flat_map(|x| (0..dimension).map(move |axis| if axis == 0 { x } else { 0.0 })));
     let mut parts = apart(dimension, positions);
-    (parts.cells.truncate(dimension + 1), parts.neighbours.truncate(dimension + 1));
+    parts.cells.truncate(dimension + 1);
+    parts.neighbours.truncate(dimension + 1);
     let mut weighted = Weighted { weights: vec![-1e12; n], below: vec![0; n], ..Weighted::default() };
     weighted.weights[..=dimension].fill(0.0);
     weighted.below[..=dimension].fill(NONE);

@@ -181,7 +181,7 @@ pub(super) struct Header {
     pub(super) has_keys: bool,
     /// Whether points have weights.
     pub(super) has_weights: bool,
-    /// Whether there is a history: where it does not follow from the rest, the segments in force are listed, or points have
+    /// Whether there is a history: where it does not follow from the rest, and always with a list of segments, or with
     /// weights.
     pub(super) has_history: bool,
     /// Whether the segments in force are listed.

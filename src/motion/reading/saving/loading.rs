@@ -184,7 +184,7 @@ fn of_number<G: Moving>(vertex: VertexId, k: usize, value: f64) -> Damage {
     if k == G::D { Damage::Weight { vertex, value } } else { Damage::Position { vertex, axis: k, value } }
 }
 
-/// Checks where the present vertices are, and what stands for their places, and that all others are nowhere, and above no
+/// Checks where the present vertices are, and what stands for their places, and that all others are nowhere and above no
 /// cell; returns how many are present.
 fn check_vertices<G: Moving>(
     positions: &[G::Point],
@@ -208,9 +208,10 @@ fn check_vertices<G: Moving>(
             continue;
         }
         n_present += 1;
-        // What is not a number is no less than the limit either.
-        if let Some(k) = (0..G::NUMBERS).find(|&k| !(p[k].abs() <= limit::<G>(k))) {
-            return Err(of_number::<G>(vertex, k, p[k]));
+        // What is not a number is within no limit.
+        let n_good = (0..G::NUMBERS).take_while(|&k| p[k].abs() <= limit::<G>(k)).count();
+        if n_good < G::NUMBERS {
+            return Err(of_number::<G>(vertex, n_good, p[n_good]));
         }
         if first != vertex {
             // One beyond the last represents none; with weights, each stands for itself.
