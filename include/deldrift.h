@@ -70,6 +70,8 @@
  *         Refinement and coarsening of the cells of a domain.
  *     deldrift/periodic.h: Periodic boxes.
  *         Periodic triangulations: their creation, and what only they have.
+ *     deldrift/weights.h: Vertices with weights: regular triangulations.
+ *         Triangulations of vertices with weights: their creation, and what only they have.
  *     deldrift/files.h: Copies, saved data, and files for other programs.
  *         A triangulation as bytes, in memory or in a file, and a second one like it.
  *
@@ -155,6 +157,7 @@
 #include "deldrift/voronoi.h"
 #include "deldrift/segments.h"
 #include "deldrift/periodic.h"
+#include "deldrift/weights.h"
 #include "deldrift/files.h"
 
 #endif // DELDRIFT_H

@@ -2,7 +2,7 @@
 //! dimension it has is known when the program runs.
 
 use crate::damage::LoadError;
-use crate::delaunay::{Dimension, Plane, Space};
+use crate::delaunay::{Dimension, Plane, PowerPlane, PowerSpace, Space};
 use crate::error::{Error, Result};
 use crate::motion::{Monitor, MovingTriangulation, Options, Saved};
 use crate::predicates::PointArray;
@@ -83,6 +83,36 @@ impl From<MovingTriangulation<Plane>> for AnyTriangulation {
 impl From<MovingTriangulation<Space>> for AnyTriangulation {
     fn from(t: MovingTriangulation<Space>) -> Self {
         Self::Space(t)
+    }
+}
+
+/// A triangulation of points with weights, of the plane or of space, for bindings.
+#[derive(Debug)]
+pub enum AnyWeighted {
+    /// Two dimensions.
+    Plane(MovingTriangulation<PowerPlane>),
+    /// Three dimensions.
+    Space(MovingTriangulation<PowerSpace>),
+}
+
+impl AnyWeighted {
+    /// A copy with a monitor of its own, as [`MovingTriangulation::try_clone`] makes it.
+    ///
+    /// # Errors
+    /// The errors of [`MovingTriangulation::try_clone`].
+    pub fn try_clone(&self, monitor: Option<Monitor>) -> Result<Self> {
+        Ok(match self {
+            Self::Plane(t) => Self::Plane(t.try_clone(monitor)?),
+            Self::Space(t) => Self::Space(t.try_clone(monitor)?),
+        })
+    }
+
+    /// The number of coordinates of a point, 2 or 3.
+    pub fn dimension(&self) -> u32 {
+        match self {
+            Self::Plane(_) => 2,
+            Self::Space(_) => 3,
+        }
     }
 }
 

@@ -32,7 +32,7 @@ pub enum Error {
         argument: &'static str,
         /// Which point of it.
         index: usize,
-        /// Which coordinate of the point: 0 for x, 1 for y, 2 for z.
+        /// Which coordinate of the point: 0 for x, 1 for y, 2 for z, or [`AXIS_OF_WEIGHT`].
         axis: usize,
         /// What was given.
         value: f64,
@@ -43,7 +43,7 @@ pub enum Error {
         argument: &'static str,
         /// Which point of it.
         index: usize,
-        /// Which coordinate of the point.
+        /// Which coordinate of the point, or [`AXIS_OF_WEIGHT`].
         axis: usize,
         /// What was given.
         value: f64,
@@ -321,16 +321,32 @@ impl fmt::Display for Passing {
     }
 }
 
+/// In place of the number of a coordinate: it is the weight of a point that is no good.
+pub const AXIS_OF_WEIGHT: usize = usize::MAX;
+
+/// What a number of a point is called.
+struct Axis(usize);
+
+impl fmt::Display for Axis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            AXIS_OF_WEIGHT => write!(f, "a weight"),
+            axis => write!(f, "coordinate {axis}"),
+        }
+    }
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Error::InvalidDimension { given } => write!(f, "dimension is {given}, but must be 2 or 3"),
             Error::NotFinite { argument, index, axis, value } => {
-                write!(f, "{argument}[{index}], coordinate {axis}, is {value}, which is not finite")
+                write!(f, "{argument}[{index}], {}, is {value}, which is not finite", Axis(*axis))
             }
             Error::OutOfRange { argument, index, axis, value, limit } => write!(
                 f,
-                "{argument}[{index}], coordinate {axis}, is {value:e}, and its magnitude may not exceed {limit:e}"
+                "{argument}[{index}], {}, is {value:e}, and its magnitude may not exceed {limit:e}",
+                Axis(*axis)
             ),
             Error::NoSuchVertex { argument, index, vertex, ids } => {
                 write!(f, "{argument}[{index}] is {vertex}, but only ids below {ids} have been given")

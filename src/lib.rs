@@ -57,11 +57,11 @@ mod refine;
 mod simd;
 
 pub use damage::{Damage, LoadError};
-pub use delaunay::{Dimension, Moving, Plane, Shape, Space};
-pub use either::{AnyTriangulation, points_of};
-pub use error::{Conflict, Error, Passing, Result, StagedEdit};
+pub use delaunay::{Dimension, Moving, Plane, PowerPlane, PowerSpace, Shape, Space};
+pub use either::{AnyTriangulation, AnyWeighted, points_of};
+pub use error::{AXIS_OF_WEIGHT, Conflict, Error, Passing, Result, StagedEdit};
 pub use ids::{CellId, SegmentId, VertexId};
-pub use predicates::Coordinates;
+pub use predicates::{Coordinates, WeightedPoint};
 
 /// The parts below [`motion`], for the crate's own tests and benchmarks. They trust their arguments, wrong indices are
 /// undefined behaviour, and any version may change them.

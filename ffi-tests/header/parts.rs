@@ -30,7 +30,7 @@ pub const MAIN: &str = "include/deldrift.h";
 pub const CORE: &str = "core.h";
 
 /// The headers with functions, in the order of deldrift.h; the one for comparisons is the last.
-pub const HEADERS: [Header; 9] = [
+pub const HEADERS: [Header; 10] = [
     Header {
         algorithms: Some(Algorithms {
             name: "deldrift_algorithm",
@@ -65,6 +65,7 @@ pub const HEADERS: [Header; 9] = [
         &["segments", "splitting", "domain", "regions", "refining"],
     ),
     part("include/deldrift/periodic.h", "Periodic boxes.", &["periodic"]),
+    part("include/deldrift/weights.h", "Vertices with weights: regular triangulations.", &["weights"]),
     part("include/deldrift/files.h", "Copies, saved data, and files for other programs.", &["saving"]),
     Header {
         path: "include/deldrift/research.h",

@@ -92,9 +92,9 @@ enum
     /// A buffer has room for fewer entries than there are. Their number is in the message, and in the count if the
     /// function has one.
     DELDRIFT_BUFFER_TOO_SMALL = 7,
-    /// A coordinate is NaN or infinite.
+    /// A coordinate or a weight is NaN or infinite.
     DELDRIFT_NOT_FINITE = 8,
-    /// A coordinate is of a magnitude above 1e57: signs could not be exact.
+    /// A coordinate is of a magnitude above 1e57, or a weight above 1e114: signs could not be exact.
     DELDRIFT_OUT_OF_RANGE = 9,
     /// No vertex ever had this id.
     DELDRIFT_NO_SUCH_VERTEX = 10,
@@ -166,6 +166,10 @@ enum
     /// The call works on regions by their labels, and the sides of a region have no label, or several. deldrift_regions
     /// counts its cells.
     DELDRIFT_UNDECIDED_REGIONS = 41,
+    /// The triangulation has weights, and the function does not serve such.
+    DELDRIFT_WEIGHTED = 42,
+    /// The triangulation has no weights, and the function is for those that have.
+    DELDRIFT_NOT_WEIGHTED = 43,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

@@ -90,7 +90,7 @@ typedef struct deldrift_commit_report {
     uint64_t flips;
     /// 1 if the triangulation was rebuilt (in the statistics, how often).
     uint64_t rebuilds;
-    /// Hidden vertices at the end: those at the place of a vertex with a lower id, or key.
+    /// Vertices hidden by place at the end: those at the place of a vertex with a lower id, or key, or greater weight.
     uint64_t coincident;
     /// Vertices that were certainly within their tolerance, with an algorithm that tests it.
     uint64_t within_tolerance;
@@ -105,6 +105,15 @@ typedef struct deldrift_commit_report {
     uint64_t inserted;
     /// Vertices removed.
     uint64_t removed;
+    /// Vertices whose weight differs from that of the timestamp before, in a triangulation with weights.
+    uint64_t reweighted;
+    /// Vertices hidden by weight at the end; deldrift_hidden_by_weight lists them. Of vertices at one place those that
+    /// do not represent it count in coincident alone.
+    uint64_t hidden_by_weight;
+    /// Vertices with weights that are hidden at the end, by weight or by place, and were not.
+    uint64_t newly_hidden;
+    /// Vertices with weights that were hidden, and are there at the end and not hidden.
+    uint64_t newly_shown;
     /// Zero; later versions may count more.
     uint64_t reserved[3];
 } deldrift_commit_report;

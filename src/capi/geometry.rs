@@ -3,14 +3,14 @@
 use std::mem::MaybeUninit;
 use std::slice;
 
-use super::handle::{Content, Reading, deldrift_triangulation, in_any, in_its_period};
+use super::handle::{Content, Reading, by_kind, deldrift_triangulation, in_any};
 use super::pointers::{Array, Buffer, Output, fill_all, given};
 use super::status::{Failure, deldrift_status};
 use crate::complex::Corners;
 use crate::error::Result;
 use crate::ids::VertexId;
-use crate::in_its_dimension;
 use crate::motion::{BoundaryFacet, check_not_negative};
+use crate::predicates::PointArray;
 
 /// The circumcentres and squared circumradii of all cells, in the order of deldrift_cells.
 ///
@@ -45,7 +45,7 @@ pub unsafe extern "C" fn deldrift_circumcentres(
                 let mut centres = centres.places_if_any(needed)?.iter_mut();
                 let mut squared = squared_radii.places_if_any(needed)?.iter_mut();
                 t.for_circumspheres(None, |_, (centre, squared_radius)| {
-                    write_next(&mut centres, centre);
+                    write_next(&mut centres, centre.coordinates());
                     write_next(&mut squared, squared_radius);
                 })?;
                 Ok(())
@@ -213,25 +213,19 @@ pub unsafe extern "C" fn deldrift_hull_facets(
     t.read_any(|t| {
         given!(facets[capacity.saturating_mul(t.dimension() as usize)]: Buffer);
         let columns = Columns { facets, cells, corners, capacity };
-        match t {
-            Content::Open(t) => in_its_dimension!(t => {
-                columns.fill(count, t.hull_facet_count(), |found| t.hull_facets(found))
-            }),
-            Content::Periodic(t) => in_its_period!(t, t => {
-                let mut needed = 0;
-                t.hull_facets(|_| needed += 1)?;
-                columns.fill(count, needed, |found| t.hull_facets(found))
-            }),
-        }
+        by_kind!(t => {
+            columns.fill(count, t.hull_facet_count(), |found| t.hull_facets(found))
+        }, periodic t => {
+            let mut needed = 0;
+            t.hull_facets(|_| needed += 1)?;
+            columns.fill(count, needed, |found| t.hull_facets(found))
+        })
     })
 }
 
 /// How many cells there are, of those of a periodic triangulation one of each class.
 pub(super) fn cell_count_of(t: &Content) -> Result<usize> {
-    match t {
-        Content::Open(t) => Ok(in_its_dimension!(t => t.cell_count())),
-        Content::Periodic(t) => t.cell_count(),
-    }
+    by_kind!(t => Ok(t.cell_count()), periodic t => t.cell_count())
 }
 
 /// Writes an entry of a buffer, if there is one.

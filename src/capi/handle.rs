@@ -9,7 +9,7 @@ use super::guard;
 use super::options::Callbacks;
 use super::pointers::{Input, Output};
 use super::status::{Failure, deldrift_status};
-use crate::either::AnyTriangulation;
+use crate::either::{AnyTriangulation, AnyWeighted};
 use crate::error::Error;
 use crate::machine::{environment, memory};
 use crate::periodic::AnyPeriodic;
@@ -21,12 +21,19 @@ use crate::periodic::AnyPeriodic;
 )]
 pub(super) enum Content {
     Open(AnyTriangulation),
+    Weighted(Box<AnyWeighted>),
     Periodic(Box<AnyPeriodic>),
 }
 
 impl From<AnyTriangulation> for Content {
     fn from(t: AnyTriangulation) -> Self {
         Content::Open(t)
+    }
+}
+
+impl From<Box<AnyWeighted>> for Content {
+    fn from(t: Box<AnyWeighted>) -> Self {
+        Content::Weighted(t)
     }
 }
 
@@ -41,6 +48,7 @@ impl Content {
     pub(super) fn dimension(&self) -> u32 {
         match self {
             Content::Open(t) => t.dimension(),
+            Content::Weighted(t) => t.dimension(),
             Content::Periodic(t) => t.dimension(),
         }
     }
@@ -51,11 +59,17 @@ impl Content {
         in_any!(content => content.reject_prepared())
     }
 
-    /// For a function that does not serve periodic triangulations.
+    /// Refuses a triangulation with weights, for a function that does not serve such.
+    pub(super) fn reject_weights(&self) -> Result<(), Failure> {
+        if let Content::Weighted(_) = self { Err(Failure::Weighted) } else { Ok(()) }
+    }
+
+    /// For a function that serves neither periodic triangulations nor weights.
     #[inline(always)]
     fn open(&self) -> Result<&AnyTriangulation, Failure> {
         match self {
             Content::Open(t) => Ok(t),
+            Content::Weighted(_) => Err(Failure::Weighted),
             Content::Periodic(_) => Err(Failure::Periodic),
         }
     }
@@ -64,6 +78,7 @@ impl Content {
     fn open_mut(&mut self) -> Result<&mut AnyTriangulation, Failure> {
         match self {
             Content::Open(t) => Ok(t),
+            Content::Weighted(_) => Err(Failure::Weighted),
             Content::Periodic(_) => Err(Failure::Periodic),
         }
     }
@@ -240,17 +255,7 @@ impl<'a> Reading<'a> {
         })
     }
 
-    /// Runs the body of an entry that tells one thing about a triangulation, and writes what it tells.
-    #[inline(always)]
-    pub(super) fn tell<T>(
-        self,
-        out: Output<'_, T>,
-        body: impl FnOnce(&AnyTriangulation) -> Result<T, Failure>,
-    ) -> deldrift_status {
-        self.tell_any(out, |t| body(t.open()?))
-    }
-
-    /// That, of a triangulation that may be periodic.
+    /// Runs the body of an entry that tells one thing about a triangulation of any kind, and writes what it tells.
     #[inline(always)]
     pub(super) fn tell_any<T>(
         self,
@@ -357,18 +362,18 @@ pub(super) trait Within {
     fn within(self) -> Self::To;
 }
 
-impl<'t> Within for &'t Box<AnyPeriodic> {
-    type To = &'t AnyPeriodic;
+impl<'t, T> Within for &'t Box<T> {
+    type To = &'t T;
 
-    fn within(self) -> &'t AnyPeriodic {
+    fn within(self) -> &'t T {
         self
     }
 }
 
-impl<'t> Within for &'t mut Box<AnyPeriodic> {
-    type To = &'t mut AnyPeriodic;
+impl<'t, T> Within for &'t mut Box<T> {
+    type To = &'t mut T;
 
-    fn within(self) -> &'t mut AnyPeriodic {
+    fn within(self) -> &'t mut T {
         self
     }
 }
@@ -384,15 +389,55 @@ macro_rules! in_its_period {
 }
 pub(super) use in_its_period;
 
-/// Evaluates an expression on what is in a triangulation that may be periodic, in its dimension: `in_any!(t =>
-/// t.count())`.
-macro_rules! in_any {
+/// Evaluates an expression on a triangulation with weights, in its dimension.
+macro_rules! with_weights {
+    ($weighted:expr, $t:ident => $body:expr) => {
+        match $weighted {
+            $crate::either::AnyWeighted::Plane($t) => $body,
+            $crate::either::AnyWeighted::Space($t) => $body,
+        }
+    };
+}
+pub(super) use with_weights;
+
+/// Evaluates one expression on what is in a triangulation that does not repeat, with weights or without, in its dimension, and
+/// another one on what is in a periodic one: `by_kind!(t => t.count(), periodic t => t.count_anew()?)`.
+macro_rules! by_kind {
+    ($t:ident => $body:expr, periodic $p:ident => $other:expr) => {
+        match $t {
+            $crate::capi::handle::Content::Open($crate::AnyTriangulation::Plane($t)) => $body,
+            $crate::capi::handle::Content::Open($crate::AnyTriangulation::Space($t)) => $body,
+            $crate::capi::handle::Content::Weighted(t) => {
+                $crate::capi::handle::with_weights!($crate::capi::handle::Within::within(t), $t => $body)
+            },
+            $crate::capi::handle::Content::Periodic(t) => $crate::capi::handle::in_its_period!(t, $p => $other),
+        }
+    };
+}
+pub(super) use by_kind;
+
+/// Evaluates an expression on what is in a triangulation that does not repeat, with weights or without, in its dimension; a periodic
+/// one is refused.
+macro_rules! in_open {
     ($t:ident => $body:expr) => {
         match $t {
             $crate::capi::handle::Content::Open($crate::AnyTriangulation::Plane($t)) => $body,
             $crate::capi::handle::Content::Open($crate::AnyTriangulation::Space($t)) => $body,
-            $crate::capi::handle::Content::Periodic(t) => $crate::capi::handle::in_its_period!(t, $t => $body),
+            $crate::capi::handle::Content::Weighted(t) => {
+                $crate::capi::handle::with_weights!($crate::capi::handle::Within::within(t), $t => $body)
+            },
+            $crate::capi::handle::Content::Periodic(_) => {
+                return Err($crate::capi::status::Failure::Periodic);
+            }
         }
+    };
+}
+pub(super) use in_open;
+
+/// Evaluates an expression on what is in a triangulation of any kind, in its dimension: `in_any!(t => t.count())`.
+macro_rules! in_any {
+    ($t:ident => $body:expr) => {
+        $crate::capi::handle::by_kind!($t => $body, periodic $t => $body)
     };
 }
 pub(super) use in_any;
@@ -404,12 +449,3 @@ macro_rules! tell_any {
     };
 }
 pub(super) use tell_any;
-
-/// Evaluates an expression on a triangulation, in its dimension, and writes the result to an output: `tell!(t, out =>
-/// t.count())`.
-macro_rules! tell {
-    ($t:ident, $out:ident => $body:expr) => {
-        $t.tell($out, |$t| $crate::in_its_dimension!($t => Ok($body)))
-    };
-}
-pub(super) use tell;

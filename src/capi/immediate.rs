@@ -1,10 +1,11 @@
 //! Changes that take effect at once, one vertex at a time; and new ids.
 
-use super::handle::{Changing, deldrift_triangulation, in_any};
+use super::handle::{Changing, Content, deldrift_triangulation, in_any, with_weights};
 use super::pointers::{Buffer, Output, Point, fit, given, write_all};
 use super::status::deldrift_status;
 use crate::ids::VertexId;
 use crate::in_its_dimension;
+use crate::motion::Part;
 
 /// Moves one vertex at once. When the call returns the triangulation is that of the new position. The timestamp stays,
 /// and so do the moves staged for other vertices.
@@ -27,7 +28,7 @@ pub unsafe extern "C" fn deldrift_relocate_vertex(
     let vertex = VertexId::new(vertex);
     let is_done = t.change_shortly(|t| {
         in_its_dimension!(t => {
-            position.of("position", t).is_ok_and(|position| t.relocate_within_tolerance(vertex, position))
+            position.of("position", t).is_ok_and(|position| t.relocate_within_tolerance(vertex, &position))
         })
     });
     if is_done { deldrift_status::DELDRIFT_OK } else { relocate_in_guard(t, vertex, position) }
@@ -36,7 +37,14 @@ pub unsafe extern "C" fn deldrift_relocate_vertex(
 /// The long way of [`deldrift_relocate_vertex`], kept out of the short one's registers.
 #[inline(never)]
 fn relocate_in_guard(t: Changing<'_>, vertex: VertexId, position: Point<'_>) -> deldrift_status {
-    t.change_any(|t| in_any!(t => Ok(t.relocate_vertex(vertex, position.of("position", t)?)?)))
+    t.change_any(|t| {
+        if let Content::Weighted(t) = t {
+            return with_weights!(&mut **t, t => {
+                Ok(t.relocate_part(Part::Place, vertex, position.place("position", t)?)?)
+            });
+        }
+        in_any!(t => Ok(t.relocate_vertex(vertex, &position.of("position", t)?)?))
+    })
 }
 
 /// Inserts a vertex at once.
@@ -58,7 +66,7 @@ pub unsafe extern "C" fn deldrift_insert_vertex(
     given!(t: Changing, position: Point, out_vertex: Output);
     t.change_any(|t| {
         let out_vertex = out_vertex.place()?;
-        out_vertex.write(in_any!(t => t.insert_vertex(position.of("position", t)?))?.get());
+        out_vertex.write(in_any!(t => t.insert_vertex(&position.of("position", t)?))?.get());
         Ok(())
     })
 }

@@ -1,14 +1,13 @@
 //! What meets what: edges, neighbours and cells of vertices, mirror indices, ordered stars.
 
-use super::handle::{Content, Reading, deldrift_triangulation, in_any, in_its_period, tell_any};
+use super::handle::{Content, Reading, by_kind, deldrift_triangulation, in_any, tell_any};
 use super::interpolation::check_product;
 use super::pointers::{Array, Buffer, Output, fill_all, fit, given, write_all};
 use super::query::{DELDRIFT_NONE, check_facet, corners_of, dimension_of};
 use super::status::{Failure, deldrift_status};
-use crate::either::AnyTriangulation;
+use crate::either::{AnyTriangulation, AnyWeighted};
 use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
-use crate::in_its_dimension;
 use crate::machine::memory;
 use crate::motion::{Rows, check_corners};
 use crate::periodic::AnyPeriodic;
@@ -33,12 +32,11 @@ pub unsafe extern "C" fn deldrift_edges(
 ) -> deldrift_status {
     let edges = edges.cast::<[VertexId; 2]>();
     given!(t: Reading, edges[capacity]: Buffer, count: Output);
-    t.read_any(|t| match t {
-        Content::Open(t) => in_its_dimension!(t => edges.fill(count, t.edge_count(), || Ok(t.edges()?))),
-        Content::Periodic(t) => in_its_period!(t, t => {
+    t.read_any(|t| {
+        by_kind!(t => edges.fill(count, t.edge_count(), || Ok(t.edges()?)), periodic t => {
             let listed = t.edges()?;
             edges.fill(count, listed.len(), || Ok(listed.map(|(edge, _)| edge)))
-        }),
+        })
     })
 }
 
@@ -69,15 +67,14 @@ pub unsafe extern "C" fn deldrift_vertex_neighbours(
 ) -> deldrift_status {
     given!(t: Reading, offsets[offset_count]: Buffer, neighbours[capacity]: Buffer, count: Output);
     let lists = Lists { offsets, offset_count, entries: neighbours, capacity };
-    t.read_any(|t| match t {
-        Content::Open(t) => in_its_dimension!(t => {
+    t.read_any(|t| {
+        by_kind!(t => {
             let needed = 2 * t.edge_count();
             lists.fill(id_counts!(t), count, needed, || t.vertex_neighbours(), VertexId::numbers_of)
-        }),
-        Content::Periodic(t) => in_its_period!(t, t => {
+        }, periodic t => {
             let made = t.vertex_neighbours()?;
             lists.fill(id_counts!(t), count, made.entries.len(), || Ok(made), VertexId::numbers_of)
-        }),
+        })
     })
 }
 
@@ -107,15 +104,14 @@ pub unsafe extern "C" fn deldrift_vertex_cells(
 ) -> deldrift_status {
     given!(t: Reading, offsets[offset_count]: Buffer, cells[capacity]: Buffer, count: Output);
     let lists = Lists { offsets, offset_count, entries: cells, capacity };
-    t.read_any(|t| match t {
-        Content::Open(t) => in_its_dimension!(t => {
+    t.read_any(|t| {
+        by_kind!(t => {
             let needed = t.cell_count() * (dimension_of(t) + 1);
             lists.fill(id_counts!(t), count, needed, || t.vertex_cells(), CellId::numbers_of)
-        }),
-        Content::Periodic(t) => in_its_period!(t, t => {
+        }, periodic t => {
             let made = t.vertex_cells()?;
             lists.fill(id_counts!(t), count, made.entries.len(), || Ok(made), CellId::numbers_of)
-        }),
+        })
     })
 }
 
@@ -261,6 +257,11 @@ pub unsafe extern "C" fn deldrift_ordered_star(
     let vertex = VertexId::new(vertex);
     t.read_any(|t| match t {
         Content::Open(AnyTriangulation::Plane(t)) => {
+            let star = t.ordered_star(vertex)?;
+            cells.fill(count, star.clone().count(), || Ok(star.map(CellId::get)))
+        }
+        Content::Weighted(t) => {
+            let AnyWeighted::Plane(t) = &**t else { return Err(Failure::NotOfThePlane) };
             let star = t.ordered_star(vertex)?;
             cells.fill(count, star.clone().count(), || Ok(star.map(CellId::get)))
         }

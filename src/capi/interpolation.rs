@@ -1,12 +1,11 @@
 //! Values between vertices.
 
-use super::handle::{Content, Reading, deldrift_triangulation, in_any, in_its_period};
+use super::handle::{Content, Reading, by_kind, deldrift_triangulation, in_any};
 use super::location::{deldrift_location, hint_at};
 use super::pointers::{Array, Buffer, Input, Points, given, write_all};
 use super::status::{Failure, Wrong, deldrift_status};
 use crate::error::Error;
 use crate::ids::CellId;
-use crate::in_its_dimension;
 use crate::machine::memory;
 use crate::motion::{Interpolation, VertexValues};
 
@@ -64,6 +63,9 @@ pub unsafe extern "C" fn deldrift_interpolate(
     given!(outside[n_values]: Array, results[n_results]: Buffer);
     t.read_any(|t| {
         let method = method_of(method)?;
+        if method != Interpolation::Linear {
+            t.reject_weights()?;
+        }
         let (wanted, coming) = ids_of(t);
         if value_count != wanted {
             let (argument, given) = ("value_count", value_count);
@@ -82,14 +84,7 @@ pub unsafe extern "C" fn deldrift_interpolate(
             Some(row) => made.extend_from_slice(row),
             None => made.extend(std::iter::repeat_n(f64::NAN, n_values)),
         };
-        match t {
-            Content::Open(t) => {
-                in_its_dimension!(t => t.interpolate(method, values, positions.of(t)?, hint, enter))?;
-            }
-            Content::Periodic(t) => {
-                in_its_period!(t, t => t.interpolate(method, values, positions.of(t)?, hint, enter))?;
-            }
-        }
+        in_any!(t => t.interpolate(method, values, &positions.of(t)?, hint, enter))?;
         write_all(places, made);
         Ok(())
     })
@@ -97,10 +92,7 @@ pub unsafe extern "C" fn deldrift_interpolate(
 
 /// The number of ids, and of those that are staged.
 fn ids_of(t: &Content) -> (usize, usize) {
-    match t {
-        Content::Open(t) => in_its_dimension!(t => (t.id_count(), t.staged_edits().0)),
-        Content::Periodic(t) => (t.id_count(), 0),
-    }
+    by_kind!(t => (t.id_count(), t.staged_edits().0), periodic t => (t.id_count(), 0))
 }
 
 /// The barycentric coordinates of count positions, each in a cell that is given: rows of 3 (2D) or 4 (3D) numbers, one
@@ -138,7 +130,7 @@ pub unsafe extern "C" fn deldrift_barycentric(
             check_product::<f64>("weights", count, n_corners)?;
             given!(weights[count * n_corners]: Buffer);
             let mut rows = weights.places(count * n_corners)?.chunks_exact_mut(n_corners);
-            t.barycentric(positions, cells, |found| {
+            t.barycentric(&positions, cells, |found| {
                 let row = rows.next().expect("as many as positions");
                 match found {
                     Some(found) => write_all(row, found.iter().copied()),

@@ -1,13 +1,12 @@
 //! Keys of vertices, which break ties in place of ids, and ids that are given again.
 
 use super::guard;
-use super::handle::{Changing, Reading, deldrift_triangulation};
+use super::handle::{Changing, Reading, deldrift_triangulation, in_open};
 use super::options::{GivenOptions, deldrift_options};
 use super::pointers::{Array, Buffer, Output, Point, Points, given, write_all};
 use super::status::deldrift_status;
 use super::triangulation::create;
 use crate::ids::VertexId;
-use crate::in_its_dimension;
 
 /// Creates a triangulation, as deldrift_create does, of vertices that have keys.
 ///
@@ -59,14 +58,14 @@ pub unsafe extern "C" fn deldrift_stage_insertions_with_keys(
     first_vertex: *mut u32,
 ) -> deldrift_status {
     given!(t: Changing, positions[count]: Points, keys[count]: Array, first_vertex: Output);
-    t.change(|t| {
+    t.change_any(|t| {
         let first_vertex = first_vertex.place()?;
-        let first = in_its_dimension!(t => {
+        let first = in_open!(t => {
             let positions = positions.of(t)?;
             if keys.is_null() {
-                t.stage_insertions(positions)
+                t.stage_insertions(&positions)
             } else {
-                t.stage_insertions_with_keys(positions, keys.get()?)
+                t.stage_insertions_with_keys(&positions, keys.get()?)
             }
         })?;
         first_vertex.write(first.get());
@@ -101,13 +100,13 @@ pub unsafe extern "C" fn deldrift_stage_insertions_at_free_ids(
     vertices: *mut u32,
 ) -> deldrift_status {
     given!(t: Changing, positions[count]: Points, keys[count]: Array, vertices[count]: Buffer);
-    t.change(|t| {
-        in_its_dimension!(t => {
+    t.change_any(|t| {
+        in_open!(t => {
             let positions = positions.of(t)?;
             let keys = if keys.is_null() { None } else { Some(keys.get()?) };
             let places = vertices.places(count)?;
             let mut free = places.iter_mut();
-            t.stage_insertions_at_free_ids(positions, keys, |v| {
+            t.stage_insertions_at_free_ids(&positions, keys, |v| {
                 if let Some(place) = free.next() {
                     place.write(v.get());
                 }
@@ -134,9 +133,9 @@ pub unsafe extern "C" fn deldrift_insert_vertex_with_key(
     out_vertex: *mut u32,
 ) -> deldrift_status {
     given!(t: Changing, position: Point, out_vertex: Output);
-    t.change(|t| {
+    t.change_any(|t| {
         let out_vertex = out_vertex.place()?;
-        let inserted = in_its_dimension!(t => t.insert_vertex_with_key(position.of("position", t)?, key))?;
+        let inserted = in_open!(t => t.insert_vertex_with_key(&position.of("position", t)?, key))?;
         out_vertex.write(inserted.get());
         Ok(())
     })
@@ -157,8 +156,8 @@ pub unsafe extern "C" fn deldrift_keys(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, keys[capacity]: Buffer, count: Output);
-    t.read(|t| {
-        in_its_dimension!(t => {
+    t.read_any(|t| {
+        in_open!(t => {
             let needed = t.id_count();
             keys.fill_by(count, needed, |places| {
                 write_all(places, VertexId::range(0..needed).map(|v| t.key_of_id(v)));

@@ -2,7 +2,9 @@
 
 use std::iter::repeat_n;
 
-use super::handle::{Content, Reading, deldrift_triangulation, in_its_period, tell_any};
+use super::handle::{
+    Content, Reading, by_kind, deldrift_triangulation, in_any, in_its_period, tell_any, with_weights,
+};
 use super::pointers::{Buffer, Input, Output, Point, Points, fill_all, given, write_all};
 use super::query::DELDRIFT_NONE;
 use super::status::{Failure, deldrift_status};
@@ -65,7 +67,7 @@ pub unsafe extern "C" fn deldrift_locate(
     location: *mut deldrift_location,
 ) -> deldrift_status {
     given!(t: Reading, position: Point, location: Output);
-    tell_any!(t, location => t.locate(position.of("position", t)?)?.into())
+    tell_any!(t, location => t.locate(&position.of("position", t)?)?.into())
 }
 
 /// Where count points lie, exactly, to locations, which has room for count. It gives what count calls of
@@ -140,18 +142,15 @@ fn locate(
     let mut tell = |location: Location| {
         places.next().expect("as many as positions").write(location.into());
     };
-    match t {
-        Content::Open(t) => in_its_dimension!(t => t.locate_points(positions.of(t)?, hint, tell))?,
-        Content::Periodic(periodic) => {
-            let d = t.dimension() as usize;
-            let mut rows = shifts.chunks_exact_mut(d);
-            in_its_period!(periodic, t => t.locate_in_period(positions.of(t)?, hint, |location, shift| {
-                tell(location);
-                rows.next().into_iter().for_each(|row| write_all(row, shift));
-            }))?;
-            shifts = &mut [];
-        }
-    }
+    let d = t.dimension() as usize;
+    by_kind!(t => t.locate_points(&positions.of(t)?, hint, tell)?, periodic t => {
+        let mut rows = shifts.chunks_exact_mut(d);
+        t.locate_in_period(&positions.of(t)?, hint, |location, shift| {
+            tell(location);
+            rows.next().into_iter().for_each(|row| write_all(row, shift));
+        })?;
+        shifts = &mut [];
+    });
     let n_open = shifts.len();
     write_all(shifts, repeat_n(0, n_open));
     Ok(())
@@ -173,7 +172,11 @@ pub unsafe extern "C" fn deldrift_nearest_vertex(
     vertex: *mut u32,
 ) -> deldrift_status {
     given!(t: Reading, position: Point, vertex: Output);
-    tell_any!(t, vertex => t.nearest_vertex(position.of("position", t)?)?.map_or(DELDRIFT_NONE, VertexId::get))
+    t.tell_any(vertex, |t| {
+        t.reject_weights()?;
+        let nearest = in_any!(t => t.nearest_vertex(&position.of("position", t)?)?);
+        Ok(nearest.map_or(DELDRIFT_NONE, VertexId::get))
+    })
 }
 
 /// The vertex that represents this one in cells, to *representative. It is the one of the lowest id at the same place,
@@ -210,28 +213,32 @@ pub unsafe extern "C" fn deldrift_hidden_vertices(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, vertices[capacity]: Buffer, representatives[capacity]: Buffer, count: Output);
-    t.read_any(|t| match t {
-        Content::Periodic(t) => in_its_period!(t, t => {
-            let hidden = t.hidden_vertices()?;
-            let needed = hidden.len();
-            fill_all(count, needed, capacity, [vertices.offer(), representatives.offer()], || {
-                let (vertices, representatives) =
-                    (vertices.places_if_any(needed)?, representatives.places_if_any(needed)?);
-                write_all(vertices, hidden.iter().map(|(vertex, _)| vertex.get()));
-                write_all(representatives, hidden.iter().map(|(_, other)| other.get()));
-                Ok(())
-            })
-        }),
-        Content::Open(t) => in_its_dimension!(t => {
-            let needed = t.hidden_count();
-            fill_all(count, needed, capacity, [vertices.offer(), representatives.offer()], || {
-                let (vertices, representatives) =
-                    (vertices.places_if_any(needed)?, representatives.places_if_any(needed)?);
-                write_all(vertices, t.hidden_vertices().map(|(vertex, _)| vertex.get()));
-                write_all(representatives, t.hidden_vertices().map(|(_, other)| other.get()));
-                Ok(())
-            })
-        }),
+    t.read_any(|t| {
+        // Without weights those of an open triangulation are counted at once, and listed without a copy.
+        let hidden = match t {
+            Content::Open(t) => in_its_dimension!(t => {
+                let needed = t.hidden_count();
+                return fill_pairs([vertices, representatives], count, (needed, capacity), || t.hidden_vertices());
+            }),
+            Content::Weighted(t) => with_weights!(&**t, t => t.hidden_by_place()?),
+            Content::Periodic(t) => in_its_period!(t, t => t.hidden_vertices()?),
+        };
+        fill_pairs([vertices, representatives], count, (hidden.len(), capacity), || hidden.iter().copied())
+    })
+}
+
+/// Fills two buffers with as many pairs of vertices as are needed.
+fn fill_pairs<I: Iterator<Item = (VertexId, VertexId)>>(
+    [firsts, seconds]: [Buffer<'_, u32>; 2],
+    count: Output<'_, usize>,
+    (needed, capacity): (usize, usize),
+    pairs: impl Fn() -> I,
+) -> Result<(), Failure> {
+    fill_all(count, needed, capacity, [firsts.offer(), seconds.offer()], || {
+        let (firsts, seconds) = (firsts.places_if_any(needed)?, seconds.places_if_any(needed)?);
+        write_all(firsts, pairs().map(|(vertex, _)| vertex.get()));
+        write_all(seconds, pairs().map(|(_, other)| other.get()));
+        Ok(())
     })
 }
 

@@ -86,6 +86,7 @@ mod status;
 mod transferring;
 mod triangulation;
 mod voronoi;
+mod weights;
 
 pub use changes::*;
 pub use domain::*;

@@ -2,12 +2,12 @@
 
 use std::slice;
 
-use super::handle::{Changing, Reading, deldrift_triangulation, in_any, tell_any};
+use super::handle::{Changing, Content, Reading, deldrift_triangulation, in_any, tell_any, with_weights};
 use super::pointers::{Array, Output, Point, Points, given};
 use super::status::deldrift_status;
 use crate::error::Error;
 use crate::ids::VertexId;
-use crate::motion::CommitReport;
+use crate::motion::{CommitReport, Part};
 
 /// What a commit did, or, from deldrift_statistics, what all of them did.
 ///
@@ -27,7 +27,7 @@ pub struct deldrift_commit_report {
     pub flips: u64,
     /// 1 if the triangulation was rebuilt (in the statistics, how often).
     pub rebuilds: u64,
-    /// Hidden vertices at the end: those at the place of a vertex with a lower id, or key.
+    /// Vertices hidden by place at the end: those at the place of a vertex with a lower id, or key, or greater weight.
     pub coincident: u64,
     /// Vertices that were certainly within their tolerance, with an algorithm that tests it.
     pub within_tolerance: u64,
@@ -42,6 +42,15 @@ pub struct deldrift_commit_report {
     pub inserted: u64,
     /// Vertices removed.
     pub removed: u64,
+    /// Vertices whose weight differs from that of the timestamp before, in a triangulation with weights.
+    pub reweighted: u64,
+    /// Vertices hidden by weight at the end; deldrift_hidden_by_weight lists them. Of vertices at one place those that
+    /// do not represent it count in coincident alone.
+    pub hidden_by_weight: u64,
+    /// Vertices with weights that are hidden at the end, by weight or by place, and were not.
+    pub newly_hidden: u64,
+    /// Vertices with weights that were hidden, and are there at the end and not hidden.
+    pub newly_shown: u64,
     /// Zero; later versions may count more.
     pub reserved: [u64; 3],
 }
@@ -62,6 +71,10 @@ impl From<CommitReport> for deldrift_commit_report {
             exact_calls: report.exact_calls,
             inserted: report.inserted,
             removed: report.removed,
+            reweighted: report.reweighted,
+            hidden_by_weight: report.hidden_by_weight,
+            newly_hidden: report.newly_hidden,
+            newly_shown: report.newly_shown,
             reserved: [0; 3],
         }
     }
@@ -82,9 +95,16 @@ pub unsafe extern "C" fn deldrift_move_vertex(
 ) -> deldrift_status {
     given!(t: Changing, position: Point);
     t.change_any(|t| {
+        let vertex = VertexId::new(vertex);
+        if let Content::Weighted(t) = t {
+            return with_weights!(&mut **t, t => {
+                let place = position.place("position", t)?;
+                Ok(t.move_parts(Part::Place, Some(&[vertex]), place).map_err(of_one)?)
+            });
+        }
         in_any!(t => {
             let position = position.of("position", t)?;
-            t.move_vertices(&[VertexId::new(vertex)], slice::from_ref(position)).map_err(of_one)?;
+            t.move_vertices(&[vertex], slice::from_ref(&position)).map_err(of_one)?;
         });
         Ok(())
     })
@@ -114,12 +134,15 @@ pub unsafe extern "C" fn deldrift_move_vertices(
         if count == 0 {
             return Ok(());
         }
+        let vertices = if vertices.is_null() { None } else { Some(VertexId::of_numbers(vertices.get()?)) };
+        if let Content::Weighted(t) = t {
+            return with_weights!(&mut **t, t => Ok(t.move_parts(Part::Place, vertices, positions.numbers(t)?)?));
+        }
         in_any!(t => {
             let positions = positions.of(t)?;
-            if vertices.is_null() {
-                t.move_first(positions)?;
-            } else {
-                t.move_vertices(VertexId::of_numbers(vertices.get()?), positions)?;
+            match vertices {
+                None => t.move_first(&positions)?,
+                Some(vertices) => t.move_vertices(vertices, &positions)?,
             }
         });
         Ok(())
@@ -152,7 +175,7 @@ pub unsafe extern "C" fn deldrift_stage_insertions(
     given!(t: Changing, positions[count]: Points, first_vertex: Output);
     t.change_any(|t| {
         let first_vertex = first_vertex.place()?;
-        first_vertex.write(in_any!(t => t.stage_insertions(positions.of(t)?))?.get());
+        first_vertex.write(in_any!(t => t.stage_insertions(&positions.of(t)?))?.get());
         Ok(())
     })
 }
@@ -253,7 +276,11 @@ pub unsafe extern "C" fn deldrift_commit_positions(
     given!(t: Changing, positions[count]: Points, report: Output);
     t.change_any(|t| {
         let report = report.if_any()?;
-        let done = in_any!(t => t.commit_positions(positions.of(t)?))?;
+        let done = if let Content::Weighted(t) = t {
+            with_weights!(&mut **t, t => t.commit_parts(Some(positions.numbers(t)?), None))?
+        } else {
+            in_any!(t => t.commit_positions(&positions.of(t)?))?
+        };
         if let Some(report) = report {
             report.write(done.into());
         }

@@ -1,13 +1,12 @@
 //! What is near a place: the nearest vertices, those in a ball or a box, the cells that a new vertex would remove.
 
-use super::handle::{Content, Reading, deldrift_triangulation, in_any, in_its_period};
+use super::handle::{Reading, by_kind, deldrift_triangulation, in_any};
 use super::interpolation::check_product;
 use super::location::{deldrift_location, hint_at};
 use super::pointers::{Array, Buffer, Input, Output, Point, Points, fit, given, write_all};
 use super::status::{Failure, deldrift_status};
 use crate::error::Error;
 use crate::ids::{CellId, VertexId};
-use crate::in_its_dimension;
 use crate::machine::memory;
 use crate::motion::{Entry, Lists, ListsOf};
 
@@ -37,13 +36,14 @@ pub unsafe extern "C" fn deldrift_nearest_vertices(
     let n_found = count.saturating_mul(k);
     given!(t: Reading, positions[count]: Points, vertices[n_found]: Buffer);
     t.read_any(|t| {
+        t.reject_weights()?;
         in_any!(t => {
             let positions = positions.of(t)?;
             check_product::<u32>("vertices", count, k)?;
             let places = vertices.places(n_found)?;
             let mut made = Vec::new();
             memory::reserve_exact(&mut made, n_found)?;
-            t.nearest_vertices(positions, k, |vertex| made.push(vertex.get()))?;
+            t.nearest_vertices(&positions, k, |vertex| made.push(vertex.get()))?;
             write_all(places, made);
             Ok(())
         })
@@ -75,8 +75,9 @@ pub unsafe extern "C" fn deldrift_vertices_in_ball(
 ) -> deldrift_status {
     given!(t: Reading, centre: Point, vertices[capacity]: Buffer, count: Output);
     t.read_any(|t| {
+        t.reject_weights()?;
         in_any!(t => {
-            let found = t.vertices_in_ball(centre.of("centre", t)?, squared_radius)?;
+            let found = t.vertices_in_ball(&centre.of("centre", t)?, squared_radius)?;
             vertices.fill(count, found.len(), || Ok(found.into_iter().map(VertexId::get)))
         })
     })
@@ -152,6 +153,7 @@ pub unsafe extern "C" fn deldrift_neighbour_lists(
     given!(t: Reading, squared_radii[radius_count]: Array, mask[mask_count]: Array, offsets[offset_count]: Buffer);
     given!(neighbours[capacity]: Buffer, count: Output);
     t.read_any_watched(|t, monitor| {
+        t.reject_weights()?;
         let (n_ids, d) = (in_any!(t => t.id_count()), t.dimension() as usize);
         let room = capacity.saturating_mul(d);
         given!(shifts[room]: Buffer);
@@ -168,16 +170,13 @@ pub unsafe extern "C" fn deldrift_neighbour_lists(
         let wanted = ListsOf { squared_radii: squared_radii.get()?, mask, is_half: is_half(pairs)? };
         let is_kept = !(neighbours.is_null() && shifts.is_null());
         let into = Into { offsets, neighbours, shifts, capacity, d };
-        match t {
-            Content::Open(t) => in_its_dimension!(t => {
-                let found = t.lists_of(&wanted, is_kept, monitor)?;
-                into.fill(count, &found, |_, entry| (entry.parts().0, [0; 3]))
-            }),
-            Content::Periodic(t) => in_its_period!(t, t => {
-                let found = t.lists_of(&wanted, is_kept, monitor)?;
-                into.fill(count, &found.lists, |vertex, entry| t.told(&found, vertex, entry))
-            }),
-        }
+        by_kind!(t => {
+            let found = t.lists_of(&wanted, is_kept, monitor)?;
+            into.fill(count, &found, |_, entry| (entry.parts().0, [0; 3]))
+        }, periodic t => {
+            let found = t.lists_of(&wanted, is_kept, monitor)?;
+            into.fill(count, &found.lists, |vertex, entry| t.told(&found, vertex, entry))
+        })
     })
 }
 
@@ -267,8 +266,9 @@ pub unsafe extern "C" fn deldrift_vertices_in_box(
 ) -> deldrift_status {
     given!(t: Reading, low: Point, high: Point, vertices[capacity]: Buffer, count: Output);
     t.read_any(|t| {
+        t.reject_weights()?;
         in_any!(t => {
-            let found = t.vertices_in_box(low.of("low", t)?, high.of("high", t)?)?;
+            let found = t.vertices_in_box(&low.of("low", t)?, &high.of("high", t)?)?;
             vertices.fill(count, found.len(), || Ok(found.into_iter().map(VertexId::get)))
         })
     })
@@ -304,8 +304,9 @@ pub unsafe extern "C" fn deldrift_conflicts(
     let hint = hint.cast();
     given!(t: Reading, position: Point, hint: Input, cells[capacity]: Buffer, count: Output);
     t.read_any(|t| {
+        t.reject_weights()?;
         in_any!(t => {
-            let found = t.conflicts(position.of("position", t)?, hint_at(hint)?)?;
+            let found = t.conflicts(&position.of("position", t)?, hint_at(hint)?)?;
             cells.fill(count, found.len(), || Ok(found.into_iter().map(CellId::get)))
         })
     })

@@ -3,14 +3,14 @@
 use std::iter::repeat;
 use std::mem::MaybeUninit;
 
+use super::geometry::cell_count_of;
 use super::guard;
-use super::handle::{Changing, Content, Reading, deldrift_triangulation, hand_out, in_its_period};
+use super::handle::{Changing, Content, Reading, by_kind, deldrift_triangulation, hand_out, in_its_period};
 use super::options::{GivenOptions, deldrift_options, invalid};
 use super::pointers::{Buffer, Output, Points, fill_all, given, write_all};
 use super::status::{Failure, deldrift_status};
-use crate::delaunay::{Dimension, Plane, Space};
+use crate::delaunay::{Moving, Plane, Space};
 use crate::error::Error;
-use crate::in_its_dimension;
 use crate::machine::memory;
 use crate::motion::{CoincidencePolicy, MAX_VERTICES, MovingTriangulation, Options, check_position};
 use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
@@ -87,11 +87,11 @@ pub unsafe extern "C" fn deldrift_create_periodic(
         }
         let made = if dimension == 2 {
             type Made = PeriodicTriangulation<Plane>;
-            let (positions, vectors) = (positions.of_kind::<Made>()?, vectors.of_kind::<Made>()?);
+            let (positions, vectors) = (&positions.of_kind::<Made>()?, &vectors.of_kind::<Made>()?);
             AnyPeriodic::Plane(Made::new(positions, vectors, options)?)
         } else {
             type Made = PeriodicTriangulation<Space>;
-            let (positions, vectors) = (positions.of_kind::<Made>()?, vectors.of_kind::<Made>()?);
+            let (positions, vectors) = (&positions.of_kind::<Made>()?, &vectors.of_kind::<Made>()?);
             AnyPeriodic::Space(Made::new(positions, vectors, options)?)
         };
         hand_out(out, memory::boxed(made)?, callbacks)
@@ -126,8 +126,8 @@ pub unsafe extern "C" fn deldrift_stage_vectors(
             return Err(Error::WrongCount { argument, given: vector_count, wanted, coming: 0 }.into());
         }
         match t {
-            Content::Open(_) => Ok(()),
-            Content::Periodic(t) => in_its_period!(t, t => Ok(t.stage_vectors(vectors.of(t)?)?)),
+            Content::Open(_) | Content::Weighted(_) => Ok(()),
+            Content::Periodic(t) => in_its_period!(t, t => Ok(t.stage_vectors(&vectors.of(t)?)?)),
         }
     })
 }
@@ -149,7 +149,7 @@ pub unsafe extern "C" fn deldrift_vectors(
     t.read_any(|t| {
         let needed = vector_count_of(t);
         match t {
-            Content::Open(_) => {
+            Content::Open(_) | Content::Weighted(_) => {
                 given!(vectors[capacity]: Buffer);
                 vectors.fill(count, needed, || Ok([]))
             }
@@ -315,7 +315,7 @@ pub(super) fn reject_coincidence(options: &Options) -> Result<(), Failure> {
 /// By how many vectors a triangulation repeats.
 fn vector_count_of(t: &Content) -> usize {
     match t {
-        Content::Open(_) => 0,
+        Content::Open(_) | Content::Weighted(_) => 0,
         Content::Periodic(t) => in_its_period!(t, t => t.vector_count()),
     }
 }
@@ -353,22 +353,19 @@ fn fill_wrapped<const D: usize>(
     shifts: Buffer<'_, [i64; D]>,
 ) -> Result<(), Failure> {
     let (places, shifts) = (places.places(count)?, shifts.places(count)?);
-    match t {
-        Content::Open(t) => in_its_dimension!(t => {
-            let positions = positions.of(t)?;
-            previous.if_any(t)?;
-            check_points_of(t, positions)?;
-            write_all(places, positions.iter().map(|position| row_of(position.as_ref())));
-            write_all(shifts, repeat([0; D]));
-            Ok(())
-        }),
-        Content::Periodic(t) => in_its_period!(t, t => {
-            let wrapped = t.wrap_positions(positions.of(t)?, previous.if_any(t)?)?;
-            write_all(places, wrapped.iter().map(|(place, _)| row_of(place.as_ref())));
-            write_all(shifts, wrapped.iter().map(|&(_, shift)| first_of(shift)));
-            Ok(())
-        }),
-    }
+    by_kind!(t => {
+        let positions = positions.of(t)?;
+        previous.if_any(t)?;
+        check_points_of(t, &positions)?;
+        write_all(places, positions.iter().map(|position| row_of(position.as_ref())));
+        write_all(shifts, repeat([0; D]));
+        Ok(())
+    }, periodic t => {
+        let wrapped = t.wrap_positions(&positions.of(t)?, previous.if_any(t)?.as_deref())?;
+        write_all(places, wrapped.iter().map(|(place, _)| row_of(place.as_ref())));
+        write_all(shifts, wrapped.iter().map(|&(_, shift)| first_of(shift)));
+        Ok(())
+    })
 }
 
 fn fill_cell_shifts<const D: usize, const N: usize>(
@@ -378,14 +375,11 @@ fn fill_cell_shifts<const D: usize, const N: usize>(
     capacity: usize,
     count: Output<'_, usize>,
 ) -> Result<(), Failure> {
-    let needed = match t {
-        Content::Open(t) => in_its_dimension!(t => t.cell_count()),
-        Content::Periodic(t) => t.cell_count()?,
-    };
+    let needed = cell_count_of(t)?;
     fill_all(count, needed, capacity, [shifts.offer(), neighbour_shifts.offer()], || {
         let (corners, beside) = (shifts.places_if_any(needed)?, neighbour_shifts.places_if_any(needed)?);
         match t {
-            Content::Open(_) => {
+            Content::Open(_) | Content::Weighted(_) => {
                 write_rows(corners, repeat([0; 3]));
                 write_rows(beside, repeat([0; 3]));
             }
@@ -403,16 +397,10 @@ fn fill_edge_shifts<const D: usize>(
     shifts: Buffer<'_, [i64; D]>,
     count: Output<'_, usize>,
 ) -> Result<(), Failure> {
-    match t {
-        Content::Open(t) => {
-            let needed = in_its_dimension!(t => t.edge_count());
-            shifts.fill(count, needed, || Ok(repeat([0; D])))
-        }
-        Content::Periodic(t) => in_its_period!(t, t => {
-            let edges = t.edges()?;
-            shifts.fill(count, edges.len(), || Ok(edges.map(|(_, shift)| first_of(shift))))
-        }),
-    }
+    by_kind!(t => shifts.fill(count, t.edge_count(), || Ok(repeat([0; D]))), periodic t => {
+        let edges = t.edges()?;
+        shifts.fill(count, edges.len(), || Ok(edges.map(|(_, shift)| first_of(shift))))
+    })
 }
 
 /// The numbers of a shift along as many vectors as there can be.
@@ -421,7 +409,7 @@ fn first_of<const D: usize>(shift: [i64; 3]) -> [i64; D] {
 }
 
 /// Checks that points are in the range of coordinates.
-fn check_points_of<G: Dimension>(_t: &MovingTriangulation<G>, points: &[G::Point]) -> Result<(), Failure> {
+fn check_points_of<G: Moving>(_t: &MovingTriangulation<G>, points: &[G::Point]) -> Result<(), Failure> {
     let mut points = points.iter().enumerate();
     Ok(points.try_for_each(|(index, point)| check_position::<G>("positions", index, point).map(drop))?)
 }

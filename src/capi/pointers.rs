@@ -7,12 +7,15 @@
 use std::ffi::{CStr, c_char};
 use std::marker::PhantomData;
 use std::mem::MaybeUninit;
+use std::ops::Deref;
 use std::{ptr, slice};
 
 use super::status::{Failure, Wrong};
-use crate::delaunay::Dimension;
+use crate::delaunay::{Dimension, Moving};
+use crate::machine::memory;
 use crate::motion::MovingTriangulation;
 use crate::periodic::PeriodicTriangulation;
+use crate::predicates::PointArray;
 
 /// Takes pointers that a C function has been given at their word, each under its own name: `given!(x: Input)` makes an
 /// [`Input`] of the pointer `x`, `given!(x[n]: Array)` an [`Array`] of `x` and the count `n`.
@@ -164,12 +167,12 @@ impl<'a> Text<'a> {
     }
 }
 
-/// What has points of some dimension.
+/// What has points of some dimension, which C gives as rows of coordinates alone.
 pub(super) trait OfPoints {
-    type Point;
+    type Point: PointArray + Copy;
 }
 
-impl<G: Dimension> OfPoints for MovingTriangulation<G> {
+impl<G: Moving> OfPoints for MovingTriangulation<G> {
     type Point = G::Point;
 }
 
@@ -197,10 +200,20 @@ impl<'a> Point<'a> {
         self.pointer.is_null()
     }
 
-    /// The point, which must be there; `t` is the triangulation of the call.
+    /// The point, which must be there, of weight 0 where there are weights; `t` is the triangulation of the call.
     #[inline(always)]
-    pub(super) fn of<T: OfPoints>(self, argument: &'static str, _t: &T) -> Result<&'a T::Point, Failure> {
-        // SAFETY: promised to `new`: so many numbers are a point.
+    pub(super) fn of<T: OfPoints>(self, argument: &'static str, t: &T) -> Result<T::Point, Failure> {
+        Ok(T::Point::at(*self.place(argument, t)?, 0.0))
+    }
+
+    /// Its coordinates, which must be there.
+    #[inline(always)]
+    pub(super) fn place<T: OfPoints>(
+        self,
+        argument: &'static str,
+        _t: &T,
+    ) -> Result<&'a PlaceOf<T>, Failure> {
+        // SAFETY: promised to `new`: so many numbers are a place.
         unsafe { Input::new(argument, self.pointer.cast()) }.get()
     }
 }
@@ -218,23 +231,69 @@ impl<'a> Points<'a> {
         Points(unsafe { Array::new(argument, pointer, count) })
     }
 
-    /// The points, which must be there unless their count is 0; `t` is the triangulation of the call.
+    /// The points, which must be there unless their count is 0, of weight 0 where there are weights; `t` is the triangulation of the
+    /// call.
     #[inline(always)]
-    pub(super) fn of<T: OfPoints>(self, _t: &T) -> Result<&'a [T::Point], Failure> {
+    pub(super) fn of<T: OfPoints>(self, _t: &T) -> Result<Taken<'a, T::Point>, Failure> {
         self.of_kind::<T>()
     }
 
     /// The points; none if they are not given.
-    pub(super) fn if_any<T: OfPoints>(self, t: &T) -> Result<Option<&'a [T::Point]>, Failure> {
+    pub(super) fn if_any<T: OfPoints>(self, t: &T) -> Result<Option<Taken<'a, T::Point>>, Failure> {
         if self.0.is_null() { Ok(None) } else { self.of(t).map(Some) }
     }
 
     /// Those of what is still to be made.
     #[inline(always)]
-    pub(super) fn of_kind<T: OfPoints>(self) -> Result<&'a [T::Point], Failure> {
+    pub(super) fn of_kind<T: OfPoints>(self) -> Result<Taken<'a, T::Point>, Failure> {
+        let places = self.places::<T>()?;
+        Ok(match T::Point::of_places(places) {
+            Some(points) => Taken::Lent(points),
+            None => {
+                let mut points = Vec::new();
+                memory::collect(&mut points, places.iter().map(|&place| T::Point::at(place, 0.0)))?;
+                Taken::Made(points)
+            }
+        })
+    }
+
+    /// The coordinates, one after the other.
+    pub(super) fn numbers<T: OfPoints>(self, _t: &T) -> Result<&'a [f64], Failure> {
+        self.places::<T>().map(PointArray::flattened)
+    }
+
+    /// The coordinates; none if they are not given.
+    pub(super) fn numbers_if_any<T: OfPoints>(self, t: &T) -> Result<Option<&'a [f64]>, Failure> {
+        if self.0.is_null() { Ok(None) } else { self.numbers(t).map(Some) }
+    }
+
+    /// The coordinates, in rows.
+    #[inline(always)]
+    pub(super) fn places<T: OfPoints>(self) -> Result<&'a [PlaceOf<T>], Failure> {
         let Points(Array { argument, pointer, count, .. }) = self;
-        // SAFETY: promised to `new`: so many numbers are as many points.
+        // SAFETY: promised to `new`: so many numbers are as many places.
         unsafe { Array::new(argument, pointer.cast(), count) }.get()
+    }
+}
+
+/// The coordinates of a point.
+pub(super) type PlaceOf<T> = <<T as OfPoints>::Point as PointArray>::Place;
+
+/// Points of the caller's, or made of places.
+pub(super) enum Taken<'a, P> {
+    Lent(&'a [P]),
+    Made(Vec<P>),
+}
+
+impl<P> Deref for Taken<'_, P> {
+    type Target = [P];
+
+    #[inline(always)]
+    fn deref(&self) -> &[P] {
+        match self {
+            Taken::Lent(points) => points,
+            Taken::Made(points) => points,
+        }
     }
 }
 

@@ -1,13 +1,12 @@
 //! Queries: cells, and what is where. None changes the triangulation.
 
-use super::handle::{Changing, Content, Reading, deldrift_triangulation, in_any, in_its_period, tell_any};
+use super::handle::{Changing, Content, Reading, by_kind, deldrift_triangulation, in_any, tell_any};
 use super::pointers::{Buffer, Output, Owned, fill_all, given, start_of, write_all};
 use super::status::{Failure, deldrift_status};
 use crate::complex::Corners;
-use crate::delaunay::{Dimension, IndexSet, Plane, Space};
-use crate::either::AnyTriangulation;
+use crate::delaunay::{IndexSet, Moving, Plane, PowerPlane, PowerSpace, Space};
+use crate::either::{AnyTriangulation, AnyWeighted};
 use crate::ids::{CellId, VertexId};
-use crate::in_its_dimension;
 use crate::machine::memory;
 use crate::motion::{Level, MovingTriangulation, NO_CELL, OwnedCells, cells_at};
 use crate::periodic::AnyPeriodic;
@@ -71,6 +70,8 @@ pub struct deldrift_released_cells {
 enum Arrays {
     Plane(OwnedCells<Plane>),
     Space(OwnedCells<Space>),
+    PowerPlane(OwnedCells<PowerPlane>),
+    PowerSpace(OwnedCells<PowerSpace>),
 }
 
 /// Hands the arrays of deldrift_cells over to the program, to *view, with an owner for them, to *owner. They stay
@@ -98,6 +99,10 @@ pub unsafe extern "C" fn deldrift_release_cells(
         let arrays = room.arrays.insert(match t {
             Content::Open(AnyTriangulation::Plane(t)) => Arrays::Plane(t.release_cells()?),
             Content::Open(AnyTriangulation::Space(t)) => Arrays::Space(t.release_cells()?),
+            Content::Weighted(t) => match &mut **t {
+                AnyWeighted::Plane(t) => Arrays::PowerPlane(t.release_cells()?),
+                AnyWeighted::Space(t) => Arrays::PowerSpace(t.release_cells()?),
+            },
             Content::Periodic(t) => match &mut **t {
                 AnyPeriodic::Plane(t) => Arrays::Plane(t.release_cells()?),
                 AnyPeriodic::Space(t) => Arrays::Space(t.release_cells()?),
@@ -106,6 +111,8 @@ pub unsafe extern "C" fn deldrift_release_cells(
         view.write(match arrays {
             Arrays::Plane(cells) => view_of(&cells.corners, &cells.neighbours),
             Arrays::Space(cells) => view_of(&cells.corners, &cells.neighbours),
+            Arrays::PowerPlane(cells) => view_of(&cells.corners, &cells.neighbours),
+            Arrays::PowerSpace(cells) => view_of(&cells.corners, &cells.neighbours),
         });
         owner.write(Box::into_raw(room));
         Ok(())
@@ -176,16 +183,15 @@ pub unsafe extern "C" fn deldrift_star(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, cells[capacity]: Buffer, count: Output);
-    t.read_any(|t| match t {
-        Content::Open(t) => {
+    t.read_any(|t| {
+        by_kind!(t => {
             let mut slots = IndexSet::new();
-            let (index_of, needed) = in_its_dimension!(t => t.list_star(VertexId::new(vertex), &mut slots))?;
+            let (index_of, needed) = t.list_star(VertexId::new(vertex), &mut slots)?;
             cells.fill(count, needed, || Ok(cells_at(&slots, index_of).map(CellId::get)))
-        }
-        Content::Periodic(t) => in_its_period!(t, t => {
+        }, periodic t => {
             let star = t.star(VertexId::new(vertex))?;
             cells.fill(count, star.len(), || Ok(star.into_iter().map(CellId::get)))
-        }),
+        })
     })
 }
 
@@ -233,13 +239,10 @@ pub unsafe extern "C" fn deldrift_validate(t: *const deldrift_triangulation, lev
             3 => Level::Delaunay,
             given => return Err(Failure::Level { given }),
         };
-        match t {
-            Content::Open(t) => in_its_dimension!(t => t.validate(level)).map_err(Failure::Invalid),
-            Content::Periodic(t) => {
-                let violation = in_its_period!(t, t => t.violation(level))?;
-                violation.map_or(Ok(()), |violation| Err(Failure::Invalid(violation)))
-            }
-        }
+        by_kind!(t => t.validate(level).map_err(Failure::Invalid), periodic t => {
+            let violation = t.violation(level)?;
+            violation.map_or(Ok(()), |violation| Err(Failure::Invalid(violation)))
+        })
     })
 }
 
@@ -268,6 +271,6 @@ pub(super) fn corners_of<V: Corners<VertexId>>(_rows: &[V]) -> usize {
 }
 
 /// The number of coordinates of a point of `t`.
-pub(super) fn dimension_of<G: Dimension>(_t: &MovingTriangulation<G>) -> usize {
+pub(super) fn dimension_of<G: Moving>(_t: &MovingTriangulation<G>) -> usize {
     G::D
 }

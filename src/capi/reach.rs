@@ -60,7 +60,7 @@ pub unsafe extern "C" fn deldrift_cells_in_reach(
         in_its_dimension!(t => {
             let centres = centres.cast();
             given!(centres[capacity]: Buffer);
-            let found = t.cells_in_reach(low.of(t)?, high.of(t)?, mask_of(t, mask, mask_count)?)?.cells;
+            let found = t.cells_in_reach(&low.of(t)?, &high.of(t)?, mask_of(t, mask, mask_count)?)?.cells;
             let needed = found.len();
             fill_all(count, needed, capacity, [cells.offer(), centres.offer(), radii.offer()], || {
                 let cells = cells.places_if_any(needed)?;
@@ -110,7 +110,7 @@ pub unsafe extern "C" fn deldrift_hull_facets_in_reach(
     given!(cells[capacity]: Buffer, corners[capacity]: Buffer, count: Output);
     t.read(|t| {
         in_its_dimension!(t => {
-            let found = t.cells_in_reach(low.of(t)?, high.of(t)?, mask_of(t, mask, mask_count)?)?.hull;
+            let found = t.cells_in_reach(&low.of(t)?, &high.of(t)?, mask_of(t, mask, mask_count)?)?.hull;
             let needed = found.len();
             fill_all(count, needed, capacity, [cells.offer(), corners.offer()], || {
                 let (cells, corners) = (cells.places_if_any(needed)?, corners.places_if_any(needed)?);
@@ -159,7 +159,7 @@ pub unsafe extern "C" fn deldrift_vertices_in_reach(
     given!(vertices[capacity]: Buffer, offsets[n_offsets]: Buffer, count: Output);
     t.read(|t| {
         in_its_dimension!(t => {
-            let (low, high) = (low.of(t)?, high.of(t)?);
+            let (low, high) = (&low.of(t)?, &high.of(t)?);
             let offsets = offsets.places_if_any(n_offsets)?;
             let found = t.vertices_in_reach(low, high, mask_of(t, mask, mask_count)?)?;
             let needed = found.vertices.len();

@@ -1,7 +1,7 @@
 //! What `include/deldrift/research.h` declares: the algorithms of the research report RR-6750 that are there to compare
 //! with, and the certificates that they and the report are about.
 
-use super::handle::{Changing, Reading, deldrift_triangulation, tell};
+use super::handle::{Changing, Reading, deldrift_triangulation, in_open};
 use super::options::invalid;
 use super::pointers::{Buffer, Input, Output, given};
 use super::query::{check_facet, dimension_of};
@@ -113,10 +113,10 @@ pub unsafe extern "C" fn deldrift_research_set_algorithm(
     options: *const deldrift_research_options,
 ) -> deldrift_status {
     given!(t: Changing, options: GivenRule);
-    t.change(|t| {
+    t.change_any(|t| {
         let algorithm = research_algorithm(algorithm)?;
         let rule = options.read()?;
-        in_its_dimension!(t => {
+        in_open!(t => {
             t.set_algorithm(algorithm);
             t.set_switching_rule(rule);
         });
@@ -135,7 +135,7 @@ pub unsafe extern "C" fn deldrift_research_within_safe_region(
     count: *mut u64,
 ) -> deldrift_status {
     given!(t: Reading, count: Output);
-    tell!(t, count => t.statistics().within_safe_region)
+    t.tell_any(count, |t| Ok(in_open!(t => t.statistics().within_safe_region)))
 }
 
 /// The annulus widths of all bi-cells: entry i of the row of a cell, in the order of deldrift_cells, is

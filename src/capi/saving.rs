@@ -4,6 +4,7 @@ use std::ffi::{c_char, c_void};
 use std::mem::MaybeUninit;
 
 use super::files::{NewFile, OldFile};
+use super::geometry::cell_count_of;
 use super::guard;
 use super::handle::{Content, Reading, deldrift_triangulation, hand_out, in_any};
 use super::options::{GivenOptions, deldrift_options};
@@ -12,7 +13,6 @@ use super::pointers::{Array, Buffer, Output, Text, given, write_all};
 use super::status::{Failure, deldrift_status};
 use crate::damage::LoadError;
 use crate::either::AnyTriangulation;
-use crate::in_its_dimension;
 use crate::machine::memory;
 use crate::motion::{Field, Saved};
 use crate::periodic::{AnyPeriodic, SavedPeriodic};
@@ -41,6 +41,7 @@ pub unsafe extern "C" fn deldrift_clone(
         let monitor = callbacks.monitor()?;
         match t {
             Content::Open(t) => hand_out(out, t.try_clone(monitor)?, callbacks),
+            Content::Weighted(t) => hand_out(out, memory::boxed(t.try_clone(monitor)?)?, callbacks),
             Content::Periodic(t) => hand_out(out, memory::boxed(t.try_clone(monitor)?)?, callbacks),
         }
     })
@@ -74,6 +75,7 @@ pub unsafe extern "C" fn deldrift_save(
     given!(t: Reading, buffer[capacity]: Buffer, count: Output);
     t.read_any(|t| {
         t.reject_prepared()?;
+        t.reject_weights()?;
         in_any!(t => {
             buffer.fill_by(count, t.saved_size(), |places| {
                 let mut rest = places;
@@ -339,10 +341,7 @@ pub unsafe extern "C" fn deldrift_write_vtu(
     given!(t: Reading, path: Text);
     given!(vertex_fields[vertex_field_count]: Array, cell_fields[cell_field_count]: Array);
     t.read_any(|t| {
-        let n_cells = match t {
-            Content::Open(t) => in_its_dimension!(t => t.cell_count()),
-            Content::Periodic(t) => t.cell_count()?,
-        };
+        let n_cells = cell_count_of(t)?;
         in_any!(t => {
             let path = path.get()?;
             let has_lines = t.has_lines();

@@ -1,10 +1,11 @@
 //! What a triangulation holds: counts, and the positions of vertices.
 
-use super::handle::{Content, Reading, deldrift_triangulation, in_any, tell_any};
+use super::geometry::cell_count_of;
+use super::handle::{Reading, deldrift_triangulation, in_any, tell_any};
 use super::pointers::{Buffer, Output, given};
 use super::status::deldrift_status;
 use crate::ids::VertexId;
-use crate::in_its_dimension;
+use crate::predicates::PointArray;
 
 /// How many vertices are present, hidden ones included and removed ones not, to *count.
 ///
@@ -40,10 +41,7 @@ pub unsafe extern "C" fn deldrift_cell_count(
     count: *mut usize,
 ) -> deldrift_status {
     given!(t: Reading, count: Output);
-    t.tell_any(count, |t| match t {
-        Content::Open(t) => Ok(in_its_dimension!(t => t.cell_count())),
-        Content::Periodic(t) => Ok(t.cell_count()?),
-    })
+    t.tell_any(count, |t| Ok(cell_count_of(t)?))
 }
 
 /// How many moves are staged for the next timestamp, to *count.
@@ -117,7 +115,7 @@ pub unsafe extern "C" fn deldrift_position(
             let position = position.cast();
             given!(position: Output);
             let place = position.place()?;
-            place.write(t.position(VertexId::new(vertex))?);
+            place.write(t.position(VertexId::new(vertex))?.coordinates());
         });
         Ok(())
     })
@@ -143,7 +141,7 @@ pub unsafe extern "C" fn deldrift_copy_positions(
             let positions = positions.cast();
             given!(positions[capacity]: Buffer);
             let n = t.id_count();
-            positions.fill(count, n, || Ok(VertexId::range(0..n).map(|vertex| or_nan(t.position_or_goal(vertex)))))
+            positions.fill(count, n, || Ok(VertexId::range(0..n).map(|vertex| or_nan(t.position_or_goal(vertex).map(|p| p.coordinates())))))
         })
     })
 }

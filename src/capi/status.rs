@@ -33,9 +33,9 @@ pub enum deldrift_status {
     /// A buffer has room for fewer entries than there are. Their number is in the message, and in the count if the
     /// function has one.
     DELDRIFT_BUFFER_TOO_SMALL = 7,
-    /// A coordinate is NaN or infinite.
+    /// A coordinate or a weight is NaN or infinite.
     DELDRIFT_NOT_FINITE = 8,
-    /// A coordinate is of a magnitude above 1e57: signs could not be exact.
+    /// A coordinate is of a magnitude above 1e57, or a weight above 1e114: signs could not be exact.
     DELDRIFT_OUT_OF_RANGE = 9,
     /// No vertex ever had this id.
     DELDRIFT_NO_SUCH_VERTEX = 10,
@@ -107,6 +107,10 @@ pub enum deldrift_status {
     /// The call works on regions by their labels, and the sides of a region have no label, or several. deldrift_regions
     /// counts its cells.
     DELDRIFT_UNDECIDED_REGIONS = 41,
+    /// The triangulation has weights, and the function does not serve such.
+    DELDRIFT_WEIGHTED = 42,
+    /// The triangulation has no weights, and the function is for those that have.
+    DELDRIFT_NOT_WEIGHTED = 43,
 }
 
 use deldrift_status::*;
@@ -116,7 +120,7 @@ pub type StatusCode = u32;
 
 impl deldrift_status {
     /// Every status, in the order of their values.
-    const ALL: [deldrift_status; 42] = [
+    const ALL: [deldrift_status; 44] = [
         DELDRIFT_OK,
         DELDRIFT_NULL_ARGUMENT,
         DELDRIFT_MISALIGNED_ARGUMENT,
@@ -159,6 +163,8 @@ impl deldrift_status {
         DELDRIFT_DEPENDENT_VECTORS,
         DELDRIFT_CHANGES_NOT_TAKEN,
         DELDRIFT_UNDECIDED_REGIONS,
+        DELDRIFT_WEIGHTED,
+        DELDRIFT_NOT_WEIGHTED,
     ];
 
     fn text(self) -> &'static CStr {
@@ -171,8 +177,8 @@ impl deldrift_status {
             DELDRIFT_INVALID_OPTIONS => c"an option is invalid",
             DELDRIFT_INVALID_LEVEL => c"the level of validation is not 1, 2 or 3",
             DELDRIFT_BUFFER_TOO_SMALL => c"a buffer is too small",
-            DELDRIFT_NOT_FINITE => c"a coordinate is not finite",
-            DELDRIFT_OUT_OF_RANGE => c"a coordinate is out of range",
+            DELDRIFT_NOT_FINITE => c"a coordinate or weight is not finite",
+            DELDRIFT_OUT_OF_RANGE => c"a coordinate or weight is out of range",
             DELDRIFT_NO_SUCH_VERTEX => c"no vertex has this id",
             DELDRIFT_REMOVED_VERTEX => c"the vertex has been removed",
             DELDRIFT_DUPLICATE_MOVE => c"a move of the vertex is already staged",
@@ -204,6 +210,8 @@ impl deldrift_status {
             DELDRIFT_UNDECIDED_REGIONS => c"a region has no label, or several",
             DELDRIFT_NOT_PREPARED => c"no timestamp is prepared",
             DELDRIFT_PERIODIC => c"the function does not serve periodic triangulations",
+            DELDRIFT_WEIGHTED => c"the function does not serve triangulations with weights",
+            DELDRIFT_NOT_WEIGHTED => c"the triangulation has no weights",
             DELDRIFT_DEPENDENT_VECTORS => c"the vectors of a box depend on each other",
         }
     }
@@ -253,6 +261,8 @@ pub(super) enum Failure {
     ValuesOfField { argument: &'static str, index: usize, wrong: Wrong },
     NotOfThePlane,
     Periodic,
+    Weighted,
+    NotWeighted,
     Option { field: &'static str, value: u64, wanted: &'static str },
     Share { field: &'static str, value: f64 },
     Field { argument: &'static str, index: usize, part: &'static str, wanted: &'static str },
@@ -288,6 +298,8 @@ impl Failure {
             Failure::Pointer { wrong, .. } | Failure::ValuesOfField { wrong, .. } => wrong.status(),
             Failure::NotOfThePlane => DELDRIFT_INVALID_DIMENSION,
             Failure::Periodic => DELDRIFT_PERIODIC,
+            Failure::Weighted => DELDRIFT_WEIGHTED,
+            Failure::NotWeighted => DELDRIFT_NOT_WEIGHTED,
             Failure::Option { .. } | Failure::Share { .. } => DELDRIFT_INVALID_OPTIONS,
             Failure::Field { .. } => DELDRIFT_INVALID_FIELD,
             Failure::Level { .. } => DELDRIFT_INVALID_LEVEL,
@@ -344,6 +356,8 @@ impl fmt::Display for Failure {
             }
             Failure::NotOfThePlane => write!(f, "the dimension of t is 3, but must be 2"),
             Failure::Periodic => write!(f, "t is periodic, and this function does not serve such"),
+            Failure::Weighted => write!(f, "t has weights, and this function does not serve such"),
+            Failure::NotWeighted => write!(f, "t has no weights, and this function is for those that have"),
             Failure::Option { field, value, wanted } => write!(f, "{field} is {value}, but must be {wanted}"),
             Failure::Share { field, value } => {
                 write!(f, "{field} is {value:?}, but must be 0, or above 0 and at most 1")

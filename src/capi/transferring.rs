@@ -129,6 +129,7 @@ pub unsafe extern "C" fn deldrift_transfer_cells(
     given!(t: Reading, positions[position_count]: Points, values[n_places]: Buffer, report: Output);
     given!(lost[n_values]: Buffer, gained[n_values]: Buffer);
     t.read_any_watched(|t, monitor| {
+        t.reject_weights()?;
         let order = order_of(order)?;
         in_any!(t => {
             let positions = positions.if_any(t)?;
@@ -146,7 +147,7 @@ pub unsafe extern "C" fn deldrift_transfer_cells(
             // SAFETY: the header has the caller promise that the rows of cells that were are numbers, and no others
             // are asked for before they are written.
             let known = |before: u32, c: usize| unsafe { places[before as usize * n_values + c].assume_init() };
-            let made = t.transferred(positions, order, n_values, &known, monitor)?;
+            let made = t.transferred(positions.as_deref(), order, n_values, &known, monitor)?;
             made.tell(n_values, |entry, mean| _ = places[entry].write(mean));
             if let Some(report) = report {
                 report.write((&made.report).into());

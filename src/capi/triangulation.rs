@@ -75,9 +75,9 @@ pub(super) fn create(
     match keys {
         Some(keys) => {
             let keys = keys.get()?;
-            in_its_dimension!(made.content_mut()?, t => t.build_first_with_keys(positions.of(t)?, keys))?;
+            in_its_dimension!(made.content_mut()?, t => t.build_first_with_keys(&positions.of(t)?, keys))?;
         }
-        None => in_its_dimension!(made.content_mut()?, t => t.build_first(positions.of(t)?))?,
+        None => in_its_dimension!(made.content_mut()?, t => t.build_first(&positions.of(t)?))?,
     }
     out.write(Box::into_raw(made));
     Ok(())

@@ -2,11 +2,10 @@
 
 mod parts;
 
-use super::handle::{Content, Reading, deldrift_triangulation, in_any, in_its_period};
+use super::handle::{Reading, by_kind, deldrift_triangulation, in_any};
 use super::pointers::{Array, Buffer, Output, Point, given};
 use super::status::deldrift_status;
 use crate::ids::VertexId;
-use crate::in_its_dimension;
 use parts::{CellArrays, FacetArrays, box_for, clip_for, fill, half_space_rows, mask_for};
 
 /// Rows of half-spaces and a mask that are not given: pointers and counts.
@@ -27,6 +26,7 @@ unsafe fn pass(
 ) -> deldrift_status {
     given!(t: Reading, low: Point, high: Point, mask[mask_count]: Array);
     t.read_any_watched(|t, monitor| {
+        t.reject_weights()?;
         let d = t.dimension() as usize;
         let are_both = cells.is_some() && facets.is_some();
         // SAFETY: the caller promises that there are as many half-spaces.
@@ -35,29 +35,26 @@ unsafe fn pass(
         let cell_rows = |n: usize| cells.map(|cells| unsafe { cells.rows(d, n) });
         // SAFETY: the caller promises that the arrays of facets have the room that they say.
         let facet_rows = |n: usize| facets.map(|facets| unsafe { facets.rows(d, n, are_both) });
-        match t {
-            Content::Open(t) => in_its_dimension!(t => {
+        by_kind!(t => {
                 let clip = clip_for(t, low, high, half_space_count > 0)?;
                 let half_spaces = rows()?;
                 t.check_half_spaces(half_spaces)?;
                 let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
                 let (cells, facets) = (cell_rows(t.id_count()), facet_rows(t.edge_count()));
                 fill(cells, facets, |cells, facets| {
-                    t.for_voronoi(clip, half_spaces, mask, monitor, cells, facets)
+                    t.for_voronoi(clip.as_ref().map(|clip| clip.each_ref()), half_spaces, mask, monitor, cells, facets)
                 })
-            }),
-            Content::Periodic(t) => in_its_period!(t, t => {
+            }, periodic t => {
                 let clip = box_for(t, low, high)?;
                 let half_spaces = rows()?;
-                let container = t.container(clip, half_spaces)?;
+                let container = t.container(clip.as_ref().map(|clip| clip.each_ref()), half_spaces)?;
                 let mask = mask_for(mask, mask_count, |given| t.check_vertex_mask(given))?;
                 let n_edges = if facets.is_some() { t.edge_count()? } else { 0 };
                 let (cells, facets) = (cell_rows(t.id_count()), facet_rows(n_edges));
                 fill(cells, facets, |cells, facets| {
                     t.for_voronoi_in(container.as_ref(), mask, monitor, cells, facets)
                 })
-            }),
-        }
+            })
     })
 }
 
@@ -463,6 +460,7 @@ pub unsafe extern "C" fn deldrift_voronoi_changed(
 ) -> deldrift_status {
     given!(t: Reading, vertices[vertex_count]: Array, mask[capacity]: Buffer, count: Output);
     t.read_any(|t| {
+        t.reject_weights()?;
         in_any!(t => {
             let moved = VertexId::of_numbers(vertices.get()?);
             mask.fill(count, t.id_count(), || Ok(t.voronoi_changed(moved)?))

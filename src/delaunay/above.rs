@@ -222,6 +222,12 @@ impl<G: Geometry> Delaunay<G> {
         if G::HAS_WEIGHTS { self.above.n } else { 0 }
     }
 
+    /// The sites that are hidden, in no particular order; none while there are no cells.
+    pub(crate) fn hidden_sites(&self) -> impl Iterator<Item = SiteId> + '_ {
+        let n = if self.n_hidden() == 0 { 0 } else { self.above.links.len() };
+        SiteId::range(0..n).filter(|&s| self.above.has(s))
+    }
+
     /// Whether a site is in the list of the cell below it, or of those that an undone change has left loose.
     pub(super) fn is_listed(&self, s: SiteId) -> bool {
         let link = self.above.links[s.index()];

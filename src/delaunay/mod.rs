@@ -109,9 +109,7 @@ pub(crate) use restoring::Rows;
 pub(crate) use sample::Joint;
 pub(crate) use segments::{Crossing, InTheWay, Replaced};
 pub(crate) use set::IndexSet;
-pub use shape::{Plane, Shape, Space};
-#[cfg(feature = "internals")]
-pub use shape::{PowerPlane, PowerSpace};
+pub use shape::{Plane, PowerPlane, PowerSpace, Shape, Space};
 pub use site::Site;
 pub(crate) use undo::KeptChange;
 pub use validate::{Level, Violation};

@@ -49,6 +49,14 @@ pub struct CommitReport {
     pub inserted: u64,
     /// Vertices removed.
     pub removed: u64,
+    /// Vertices whose weight differs from that of the timestamp before.
+    pub reweighted: u64,
+    /// Vertices hidden by weight at the end: those that are above the cells and represent their place.
+    pub hidden_by_weight: u64,
+    /// Vertices with weights that are hidden at the end, by weight or by place, and were not.
+    pub newly_hidden: u64,
+    /// Vertices with weights that were hidden, and are shown at the end.
+    pub newly_shown: u64,
 }
 
 /// Sums of what has been evaluated.
@@ -71,6 +79,9 @@ impl CommitReport {
         self.rebuilds += other.rebuilds;
         self.inserted += other.inserted;
         self.removed += other.removed;
+        self.reweighted += other.reweighted;
+        self.newly_hidden += other.newly_hidden;
+        self.newly_shown += other.newly_shown;
         self.within_tolerance += other.within_tolerance;
         self.within_safe_region += other.within_safe_region;
         self.tolerances += other.tolerances;

@@ -7,7 +7,7 @@ use crate::machine::memory;
 use crate::machine::threads::Threads;
 use crate::motion::constants::Table;
 use crate::motion::filters::regions::Regions;
-use crate::motion::options::Options;
+use crate::motion::options::{CoincidencePolicy, Options};
 use crate::motion::plan::auto::Auto;
 use crate::motion::plan::switching::Switching;
 use crate::motion::report::{CommitReport, Evaluations};
@@ -212,7 +212,7 @@ impl<G: Moving> MovingTriangulation<G> {
         self.mesh.hidden = self.mesh.hide_merged(&self.mesh.kernel, &merges, self.options.coincidence)?;
         self.statistics.coincident = self.mesh.hidden.count() as u64;
         self.mesh.find_sites();
-        Ok(())
+        self.count_hidden()
     }
 
     /// Makes a change, all of it or nothing.
@@ -254,11 +254,34 @@ impl<G: Moving> MovingTriangulation<G> {
     /// Adds what was done to the sums.
     pub(in crate::motion) fn count(&mut self, report: CommitReport) {
         self.statistics.add(&report);
-        self.statistics.coincident = self.mesh.hidden.count() as u64;
+        if !G::HAS_WEIGHTS {
+            self.statistics.coincident = self.mesh.hidden.count() as u64;
+        }
         self.n_moved += report.moved + report.inserted;
         if self.n_moved > MOVES_PER_FIT * self.mesh.n_present as u64 {
             self.n_moved = 0;
             self.regions.tighten_filter(&mut self.mesh.kernel);
+        }
+    }
+
+    /// Counts the vertices with weights that are hidden, in the sums; or refuses two at one place, if the options do.
+    pub(in crate::motion) fn count_hidden(&mut self) -> Result<()> {
+        if G::HAS_WEIGHTS {
+            let found = self.mesh.vertices_in_no_cell()?;
+            self.reject_shared(found.by_place.first())?;
+            self.statistics.coincident = found.by_place.len() as u64;
+            self.statistics.hidden_by_weight = found.by_weight.len() as u64;
+        }
+        Ok(())
+    }
+
+    /// Refuses two vertices with weights at one place, if the options do.
+    pub(in crate::motion) fn reject_shared(&self, shared: Option<&(VertexId, VertexId)>) -> Result<()> {
+        match shared {
+            Some(&(v, w)) if self.options.coincidence == CoincidencePolicy::Reject => {
+                Err(Error::Coincident { vertex: v.min(w), other: v.max(w) })
+            }
+            _ => Ok(()),
         }
     }
 

@@ -6,6 +6,17 @@ use crate::simd::{LANES, Simd};
 
 /// Points as arrays, whatever their length: written once, but only where that is known.
 pub trait PointArray: Sized {
+    /// The coordinates of a point, without a weight.
+    type Place: Copy + Default + AsRef<[f64]> + AsMut<[f64]> + PointArray + 'static;
+
+    /// The point at a place; of this weight if points have weights.
+    fn at(place: Self::Place, weight: f64) -> Self;
+    /// Where it is.
+    fn coordinates(&self) -> Self::Place;
+    /// Its weight; 0 if points have none.
+    fn weight(&self) -> f64;
+    /// These points, if they are no more than their places.
+    fn of_places(places: &[Self::Place]) -> Option<&[Self]>;
     /// The coordinates of points, one after the other.
     fn flattened(points: &[Self]) -> &[f64];
     /// The coordinates of points, one after the other, to write.
@@ -22,7 +33,32 @@ pub trait PointArray: Sized {
     fn exact_difference(&self, other: &Self) -> Option<Self>;
 }
 
-impl<const D: usize> PointArray for [f64; D] {
+impl<const D: usize> PointArray for [f64; D]
+where
+    Self: Default,
+{
+    type Place = Self;
+
+    #[inline(always)]
+    fn at(place: Self, _: f64) -> Self {
+        place
+    }
+
+    #[inline(always)]
+    fn coordinates(&self) -> Self {
+        *self
+    }
+
+    #[inline(always)]
+    fn weight(&self) -> f64 {
+        0.0
+    }
+
+    #[inline(always)]
+    fn of_places(places: &[Self]) -> Option<&[Self]> {
+        Some(places)
+    }
+
     fn flattened(points: &[Self]) -> &[f64] {
         points.as_flattened()
     }

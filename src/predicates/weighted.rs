@@ -49,7 +49,32 @@ impl<const D: usize> IndexMut<usize> for WeightedPoint<D> {
 }
 
 /// The numbers of points, each its coordinates and then its weight. A vector to a point is one of weights as well.
-impl<const D: usize> PointArray for WeightedPoint<D> {
+impl<const D: usize> PointArray for WeightedPoint<D>
+where
+    [f64; D]: Default,
+{
+    type Place = [f64; D];
+
+    #[inline(always)]
+    fn at(place: [f64; D], weight: f64) -> Self {
+        WeightedPoint { place, weight }
+    }
+
+    #[inline(always)]
+    fn coordinates(&self) -> [f64; D] {
+        self.place
+    }
+
+    #[inline(always)]
+    fn weight(&self) -> f64 {
+        self.weight
+    }
+
+    #[inline(always)]
+    fn of_places(_: &[[f64; D]]) -> Option<&[Self]> {
+        None
+    }
+
     fn flattened(points: &[Self]) -> &[f64] {
         // SAFETY: a point is D + 1 numbers, one after the other.
         unsafe { std::slice::from_raw_parts(points.as_ptr().cast(), points.len() * (D + 1)) }

@@ -4,7 +4,7 @@ use std::mem::MaybeUninit;
 
 use crate::capi::pointers::{Array, Buffer, Fitting, Output, Point, fit, given};
 use crate::capi::status::Failure;
-use crate::delaunay::Dimension;
+use crate::delaunay::{Dimension, Moving};
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::motion::{MovingTriangulation, TellCell, TellFacet, VoronoiCell, VoronoiFacet};
@@ -194,11 +194,11 @@ pub(super) fn mask_for(
 }
 
 /// The corners of a box; none if both are NULL.
-pub(super) fn box_for<'a, G: Dimension>(
+pub(super) fn box_for<G: Dimension>(
     t: &PeriodicTriangulation<G>,
-    low: Point<'a>,
-    high: Point<'a>,
-) -> Result<Option<[&'a G::Point; 2]>, Failure> {
+    low: Point<'_>,
+    high: Point<'_>,
+) -> Result<Option<[G::Point; 2]>, Failure> {
     if low.is_null() && high.is_null() {
         return Ok(None);
     }
@@ -206,16 +206,16 @@ pub(super) fn box_for<'a, G: Dimension>(
 }
 
 /// The corners of a box that is a good one, in the dimension of `t`; none if both are NULL and none is needed.
-pub(super) fn clip_for<'a, G: Dimension>(
+pub(super) fn clip_for<G: Moving>(
     t: &MovingTriangulation<G>,
-    low: Point<'a>,
-    high: Point<'a>,
+    low: Point<'_>,
+    high: Point<'_>,
     is_needed: bool,
-) -> Result<Option<[&'a G::Point; 2]>, Failure> {
+) -> Result<Option<[G::Point; 2]>, Failure> {
     if low.is_null() && high.is_null() && !is_needed {
         return Ok(None);
     }
     let clip = [low.of("low", t)?, high.of("high", t)?];
-    t.check_clip(clip)?;
+    t.check_clip(clip.each_ref())?;
     Ok(Some(clip))
 }

@@ -51,6 +51,7 @@ impl<G: Moving> MovingTriangulation<G> {
     /// Makes these moves, and the staged edits, the next timestamp.
     fn commit(&mut self, moves: &mut Moves<'_, G>) -> Result<CommitReport> {
         let before = self.mesh.evaluations();
+        let changed = self.parts_to_change(moves);
         let mut report = self.reach(moves)?;
         self.mesh.publish();
         self.enter_evaluations(&mut report, before);
@@ -63,9 +64,11 @@ impl<G: Moving> MovingTriangulation<G> {
         }
         self.statistics.timestamp += 1;
         self.count(report);
+        self.note_hidden(&report);
         report.timestamp = self.statistics.timestamp;
         report.coincident = self.statistics.coincident;
         self.follow_commit(&report);
+        self.tell_parts(&mut report, changed);
         Ok(report)
     }
 
@@ -73,6 +76,7 @@ impl<G: Moving> MovingTriangulation<G> {
     /// error the change has been undone.
     pub(in crate::motion) fn reach(&mut self, moves: &mut Moves<'_, G>) -> Result<CommitReport> {
         let mut report = CommitReport::default();
+        let hidden = self.hidden_ids()?;
         let advanced = if self.rests_beside_segments(moves) {
             self.mesh.begin(Aim::Rest)?;
             self.mesh.reject_coincidence(self.options.coincidence)
@@ -80,6 +84,7 @@ impl<G: Moving> MovingTriangulation<G> {
             self.mesh.begin(Aim::Commit)?;
             self.edit_and_advance(moves, &mut report)
                 .and_then(|()| self.settle_hidden(true, &mut report))
+                .and_then(|()| self.tell_hidden(&hidden, &mut report))
                 .and_then(|()| self.mesh.enforce_segments())
         };
         if let Err(error) = advanced.and_then(|()| self.mesh.views.prepare(&self.mesh.kernel)) {

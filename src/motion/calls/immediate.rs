@@ -5,6 +5,7 @@ use crate::error::{Error, Result};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::motion::algorithms::{Algorithm, Immediate};
+use crate::motion::calls::hiding::ChangedParts;
 use crate::motion::calls::keys::Coming;
 use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
@@ -12,6 +13,7 @@ use crate::motion::state::checking::{check_position, differ};
 use crate::motion::state::passings::Steps;
 use crate::motion::triangulation::{MAX_VERTICES, MovingTriangulation};
 use crate::motion::ways::placement::Placed;
+use crate::predicates::PointArray;
 
 impl<G: Moving> MovingTriangulation<G> {
     /// Moves one vertex at once, whatever is staged for others.
@@ -59,7 +61,8 @@ impl<G: Moving> MovingTriangulation<G> {
         let relocated = self.transact(|t| {
             t.mesh.reject_occupied(vertex, &q, t.options.coincidence)?;
             t.relocate_filtered(vertex, &q, &mut report)?;
-            t.settle_hidden(false, &mut report)
+            t.settle_hidden(false, &mut report)?;
+            t.reject_shared_places()
         });
         if let Err(error) = relocated {
             // Undoing does not know the place of a vertex that was only moved.
@@ -71,6 +74,9 @@ impl<G: Moving> MovingTriangulation<G> {
         if self.options.algorithm == Algorithm::Auto && self.mesh.kernel.has_cells() {
             self.follow_relocations(&report);
         }
+        let mut changed = ChangedParts::default();
+        changed.count(&old, &q);
+        self.tell_parts(&mut report, changed);
         Ok(())
     }
 
@@ -120,7 +126,8 @@ impl<G: Moving> MovingTriangulation<G> {
         let inserted = self.transact(|t| {
             t.mesh.reject_occupied(id, &q, t.options.coincidence)?;
             t.insert_at(id, &q, &mut report)?;
-            t.settle_hidden(false, &mut report)
+            t.settle_hidden(false, &mut report)?;
+            t.reject_shared_places()
         });
         if let Err(error) = inserted {
             self.mesh.site_of.pop();
@@ -229,7 +236,12 @@ impl<G: Moving> MovingTriangulation<G> {
         };
         let old = std::mem::replace(&mut site.point, q);
         let moved = differ::<G>(&old, &q);
-        self.statistics.moved += u64::from(moved);
+        if G::HAS_WEIGHTS {
+            self.statistics.moved += u64::from(old.as_ref() != q.as_ref());
+            self.statistics.reweighted += u64::from(old.weight() != q.weight());
+        } else {
+            self.statistics.moved += u64::from(moved);
+        }
         self.statistics.within_tolerance += u64::from(moved);
         if is_auto {
             self.count_within(moved);

@@ -119,6 +119,7 @@ impl<G: Moving> MovingTriangulation<G> {
     fn make_round(&mut self, moves: &mut Moves<'_, G>) -> Result<CommitReport> {
         self.mesh.make_room_to_withhold(self.edits.removals().len())?;
         let before = self.mesh.evaluations();
+        let changed = self.parts_to_change(moves);
         let mut report = self.reach(moves)?;
         self.mesh.settle_round();
         self.mesh.withhold_ids(self.edits.removals());
@@ -128,9 +129,11 @@ impl<G: Moving> MovingTriangulation<G> {
             made.end_staging();
         }
         self.count(report);
+        self.note_hidden(&report);
         report.timestamp = self.statistics.timestamp + 1;
         report.coincident = self.statistics.coincident;
         self.follow_commit(&report);
+        self.tell_parts(&mut report, changed);
         Ok(report)
     }
 }

@@ -5,6 +5,7 @@ use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::state::cells::OwnedCells;
+use crate::motion::state::hidden_ids::HiddenIds;
 use crate::motion::state::taken::{Changes, Taken};
 use crate::motion::triangulation::MovingTriangulation;
 
@@ -55,7 +56,7 @@ impl<G: Moving> MovingTriangulation<G> {
         let mut taken = memory::take_made(&mut self.taken)?;
         let listed = self.list_visibilities(&mut taken);
         let taken = self.taken.insert(taken);
-        listed?;
+        self.mesh.views.visibilities_mut().hidden_when_taken = listed?;
         self.mesh.views.visibilities_mut().truncate(0);
         self.mesh.takes_changes = true;
         self.mesh.views.cells_mut(&self.mesh.kernel).expect("they are up to date").end_taking();
@@ -78,8 +79,18 @@ impl<G: Moving> MovingTriangulation<G> {
         Ok(self.cell_arrays()?.rows_since_taken())
     }
 
-    /// Lists the vertices that have been hidden or shown; at the first call all that are hidden.
-    fn list_visibilities(&mut self, taken: &mut Taken<G::Vertices>) -> Result<()> {
+    /// Lists the vertices that have been hidden or shown; at the first call all that are hidden. Returns who is, where there are
+    /// weights.
+    fn list_visibilities(&mut self, taken: &mut Taken<G::Vertices>) -> Result<HiddenIds> {
+        if G::HAS_WEIGHTS {
+            let hidden = HiddenIds::of(self.mesh.vertices_in_no_cell()?.all(), self.mesh.site_of.len())?;
+            let differences = || hidden.differences(&self.mesh.views.visibilities().hidden_when_taken);
+            taken.reserve_vertices(differences().count())?;
+            for (vertex, is_hidden) in differences().filter(|&(v, _)| self.mesh.is_present(v)) {
+                taken.list_vertex(vertex, !is_hidden, is_hidden);
+            }
+            return Ok(hidden);
+        }
         if !self.mesh.takes_changes {
             taken.reserve_vertices(self.mesh.hidden.count())?;
             for v in VertexId::range(0..self.mesh.site_of.len()) {
@@ -87,7 +98,7 @@ impl<G: Moving> MovingTriangulation<G> {
                     taken.list_vertex(v, false, self.mesh.is_hidden(v));
                 }
             }
-            return Ok(());
+            return Ok(HiddenIds::default());
         }
         taken.reserve_vertices(self.mesh.views.visibilities().len())?;
         self.mesh.views.visibilities_mut().keep_first();
@@ -96,6 +107,6 @@ impl<G: Moving> MovingTriangulation<G> {
                 taken.list_vertex(vertex, was_hidden, self.mesh.is_hidden(vertex));
             }
         }
-        Ok(())
+        Ok(HiddenIds::default())
     }
 }

@@ -212,7 +212,13 @@ impl<G: Moving> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
     pub fn coincident_representative(&self, vertex: VertexId) -> Result<VertexId> {
-        Ok(self.mesh.kernel.site(self.present_site("vertex", 0, vertex)?).id)
+        let s = self.present_site("vertex", 0, vertex)?;
+        if G::HAS_WEIGHTS && (!self.mesh.kernel.has_cells() || self.mesh.kernel.is_hidden(s)) {
+            let by_place = self.mesh.vertices_in_no_cell()?.by_place;
+            let at = by_place.binary_search_by_key(&vertex, |&(hidden, _)| hidden);
+            return Ok(at.map_or(vertex, |k| by_place[k].1));
+        }
+        Ok(self.mesh.kernel.site(s).id)
     }
 
     /// The vertices that are hidden, ascending, each with the one that represents it.
@@ -232,6 +238,38 @@ impl<G: Moving> MovingTriangulation<G> {
             Standing::Hidden(s) => Some((v, self.mesh.kernel.site(s).id)),
             Standing::Shown(_) | Standing::Above(_) | Standing::Gone => None,
         })
+    }
+
+    /// The vertices that are hidden by another one at their place, ascending, each with the one that represents it, with weights
+    /// or without.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn hidden_by_place(&self) -> Result<Vec<(VertexId, VertexId)>> {
+        if G::HAS_WEIGHTS {
+            return Ok(self.mesh.vertices_in_no_cell()?.by_place);
+        }
+        let mut hidden = Vec::new();
+        memory::collect(&mut hidden, self.hidden_vertices())?;
+        Ok(hidden)
+    }
+
+    /// The vertices that are hidden by weight, ascending, each with the index of the cell that it is above, [`CellId::NONE`] where
+    /// there are no cells: those that are in no cell and represent their place. On a facet the cell is any of those around it. Where
+    /// there are no cells it is the lower hull in the dimension that all vertices span which says who is hidden, at the cost of
+    /// a build.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn hidden_by_weight(&self) -> Result<Vec<(VertexId, CellId)>> {
+        let mut hidden = Vec::new();
+        if G::HAS_WEIGHTS {
+            let index_of = self.cell_arrays()?.index_of();
+            let found = self.mesh.vertices_in_no_cell()?.by_weight;
+            let index = |slot: Slot| if slot == Slot::NONE { CellId::NONE } else { index_of[slot] };
+            memory::collect(&mut hidden, found.iter().map(|covered| (covered.vertex, index(covered.cell))))?;
+        }
+        Ok(hidden)
     }
 
     /// How many vertices are hidden.

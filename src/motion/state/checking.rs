@@ -1,7 +1,8 @@
 //! Positions that programs give: whether they are good, and equal.
 
 use crate::delaunay::Moving;
-use crate::error::{Error, Result};
+use crate::error::{AXIS_OF_WEIGHT, Error, Result};
+use crate::motion::state::part::{Part, set_part};
 use crate::predicates::{MAX_MAGNITUDE, MAX_WEIGHT, PointArray, is_in_range};
 
 /// Whether two places, without negative zeros, differ.
@@ -55,13 +56,27 @@ pub(crate) fn check_position<G: Moving>(
         if value.abs() <= limit::<G>(axis) {
             continue;
         }
+        let limit = limit::<G>(axis);
+        let axis = if axis < G::D { axis } else { AXIS_OF_WEIGHT };
         return Err(if value.is_finite() {
-            Error::OutOfRange { argument, index, axis, value, limit: limit::<G>(axis) }
+            Error::OutOfRange { argument, index, axis, value, limit }
         } else {
             Error::NotFinite { argument, index, axis, value }
         });
     }
     Ok(checked)
+}
+
+/// The numbers of a part of a point must be good.
+pub(in crate::motion) fn check_numbers<G: Moving>(
+    argument: &'static str,
+    index: usize,
+    part: Part,
+    numbers: &[f64],
+) -> Result<()> {
+    let mut point = G::Point::default();
+    set_part::<G>(&mut point, part, numbers);
+    check_position::<G>(argument, index, &point).map(drop)
 }
 
 /// A bound must be a number that is not negative.

@@ -6,6 +6,10 @@ use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::state::checking::copy_checked;
 use crate::motion::state::goals::{Movers, Moves};
+use crate::motion::state::part::{Part, copy_part, set_part};
+
+/// Both parts.
+const WHOLE: u8 = 3;
 
 /// Goals by vertex id, and of which vertices.
 ///
@@ -15,8 +19,8 @@ use crate::motion::state::goals::{Movers, Moves};
 pub(in crate::motion) struct Staging<G: Moving> {
     /// Where the vertices are to go that are staged.
     goals: Vec<G::Point>,
-    /// By vertex id; all false while whole.
-    is_staged: Vec<bool>,
+    /// By vertex id, which [parts](Part) of its goal are staged; nothing while whole, when all are.
+    parts: Vec<u8>,
     /// Staged vertices in the order of the calls; none while whole. Moves that were forgotten one by one stay listed
     /// until the list is [tidied](Self::tidy): to find each would take a pass.
     vertices: Vec<VertexId>,
@@ -46,7 +50,57 @@ impl<G: Moving> Staging<G> {
     }
 
     pub(in crate::motion) fn is_staged(&self, vertex: VertexId) -> bool {
-        self.is_whole || self.is_staged.get(vertex.index()).copied().unwrap_or(false)
+        self.is_whole || self.parts.get(vertex.index()).is_some_and(|&parts| parts != 0)
+    }
+
+    /// Whether this part of the goal of a vertex is staged.
+    pub(in crate::motion) fn is_part_staged(&self, vertex: VertexId, part: Part) -> bool {
+        self.is_whole || self.parts.get(vertex.index()).is_some_and(|&parts| parts & part.bit() != 0)
+    }
+
+    /// Stages a part of the goal of a vertex, for which there is [room](Self::reserve) and a list; the other part stays what it is
+    /// to be, or what it `is`.
+    pub(in crate::motion) fn stage_part(
+        &mut self,
+        vertex: VertexId,
+        part: Part,
+        is: impl FnOnce() -> G::Point,
+        numbers: &[f64],
+    ) {
+        debug_assert!(!self.is_whole && !self.is_part_staged(vertex, part));
+        if self.parts[vertex.index()] == 0 {
+            self.goals[vertex] = is();
+            self.vertices.push(vertex);
+        }
+        self.parts[vertex.index()] |= part.bit();
+        set_part::<G>(&mut self.goals[vertex], part, numbers);
+    }
+
+    /// Forgets a part of the goal of a vertex that was staged last, or beside another part that stays.
+    pub(in crate::motion) fn unstage_part(&mut self, vertex: VertexId, part: Part, was: &G::Point) {
+        let parts = &mut self.parts[vertex.index()];
+        *parts &= !part.bit();
+        if *parts == 0 {
+            let last = self.vertices.pop();
+            debug_assert_eq!(last, Some(vertex));
+        } else {
+            copy_part::<G>(&mut self.goals[vertex], part, was);
+        }
+    }
+
+    /// Where all vertices go, of which none is staged: an array of so many points, which `write` fills. They are staged if it has.
+    pub(in crate::motion) fn stage_all_by(
+        &mut self,
+        n_ids: usize,
+        write: impl FnOnce(&mut [G::Point]) -> Result<()>,
+    ) -> Result<()> {
+        debug_assert!(self.count() == 0);
+        self.reserve(n_ids, 0)?;
+        self.vertices.clear();
+        self.n_forgotten = 0;
+        write(&mut self.goals)?;
+        self.is_whole = true;
+        Ok(())
     }
 
     /// A vertex of which a move is staged.
@@ -66,14 +120,14 @@ impl<G: Moving> Staging<G> {
 
     /// The staged vertices of a staging that is not whole, in the order of the calls.
     pub(in crate::motion) fn listed(&self) -> impl Iterator<Item = VertexId> {
-        self.vertices.iter().copied().filter(|&v| self.is_staged[v])
+        self.vertices.iter().copied().filter(|&v| self.parts[v.index()] != 0)
     }
 
     /// Takes forgotten moves out of the list.
     fn tidy(&mut self) {
         if self.n_forgotten > 0 {
-            let is_staged = &self.is_staged;
-            self.vertices.retain(|&v| is_staged[v]);
+            let parts = &self.parts;
+            self.vertices.retain(|&v| parts[v.index()] != 0);
             self.n_forgotten = 0;
         }
     }
@@ -86,7 +140,7 @@ impl<G: Moving> Staging<G> {
         let n = self.goals.len();
         memory::reserve_exact(&mut self.vertices, n)?;
         self.vertices.extend(VertexId::range(0..n));
-        self.is_staged.fill(true);
+        self.parts.fill(WHOLE);
         self.is_whole = false;
         Ok(())
     }
@@ -95,7 +149,7 @@ impl<G: Moving> Staging<G> {
     pub(in crate::motion) fn make_room(&mut self, more: usize) -> Result<()> {
         if !self.goals.is_empty() {
             memory::reserve(&mut self.goals, more)?;
-            memory::reserve(&mut self.is_staged, more)?;
+            memory::reserve(&mut self.parts, more)?;
         }
         Ok(())
     }
@@ -106,7 +160,7 @@ impl<G: Moving> Staging<G> {
         debug_assert!(!self.is_whole);
         if !self.goals.is_empty() {
             self.goals.resize(n_ids, G::Point::default());
-            self.is_staged.resize(n_ids, false);
+            self.parts.resize(n_ids, 0);
         }
     }
 
@@ -115,19 +169,19 @@ impl<G: Moving> Staging<G> {
         let bytes = n_ids * (size_of::<G::Point>() + 1) + more * size_of::<VertexId>();
         let missing = n_ids - self.goals.len();
         let reserved = self.goals.try_reserve_exact(missing).is_ok()
-            && self.is_staged.try_reserve_exact(missing).is_ok()
+            && self.parts.try_reserve_exact(missing).is_ok()
             && self.vertices.try_reserve_exact(more).is_ok();
         if !reserved {
             return Err(Error::OutOfMemory { bytes });
         }
         self.goals.resize(n_ids, G::Point::default());
-        self.is_staged.resize(n_ids, false);
+        self.parts.resize(n_ids, 0);
         Ok(())
     }
 
     pub(in crate::motion) fn stage(&mut self, vertex: VertexId, goal: G::Point) {
         self.goals[vertex] = goal;
-        self.is_staged[vertex] = true;
+        self.parts[vertex.index()] = WHOLE;
         self.vertices.push(vertex);
     }
 
@@ -141,10 +195,10 @@ impl<G: Moving> Staging<G> {
 
     /// Takes back all but the first `kept` moves.
     pub(in crate::motion) fn truncate(&mut self, kept: usize) {
-        if kept == 0 && self.vertices.len() > self.is_staged.len() / 8 {
-            self.is_staged.fill(false);
+        if kept == 0 && self.vertices.len() > self.parts.len() / 8 {
+            self.parts.fill(0);
         } else {
-            self.vertices[kept..].iter().for_each(|&v| self.is_staged[v] = false);
+            self.vertices[kept..].iter().for_each(|&v| self.parts[v.index()] = 0);
         }
         self.vertices.truncate(kept);
         if kept == 0 {
@@ -166,14 +220,14 @@ impl<G: Moving> Staging<G> {
     /// Follows the number of ids when the highest have been given back.
     pub(in crate::motion) fn shrink(&mut self, n_ids: usize) {
         self.goals.truncate(n_ids);
-        self.is_staged.truncate(n_ids);
+        self.parts.truncate(n_ids);
     }
 
     /// Forgets the move of a vertex, which is not staged again before the next commit. The staging must not be whole.
     pub(in crate::motion) fn unstage(&mut self, vertex: VertexId) {
         debug_assert!(!self.is_whole);
         if self.is_staged(vertex) {
-            self.is_staged[vertex] = false;
+            self.parts[vertex.index()] = 0;
             self.n_forgotten += 1;
         }
     }
@@ -189,7 +243,7 @@ impl<G: Moving> Staging<G> {
         staging.is_whole = self.is_whole;
         for (v, &id) in ids.iter().enumerate().filter(|(_, id)| **id != VertexId::NONE) {
             staging.goals[id] = self.goals[v];
-            staging.is_staged[id] = self.is_staged[v];
+            staging.parts[id.index()] = self.parts[v];
         }
         if !self.is_whole {
             staging.vertices.extend(self.listed().map(|v| ids[v]));
@@ -201,7 +255,7 @@ impl<G: Moving> Staging<G> {
     pub(in crate::motion) fn copied(&self) -> Result<Self> {
         Ok(Staging {
             goals: memory::copy_of(&self.goals)?,
-            is_staged: memory::copy_of(&self.is_staged)?,
+            parts: memory::copy_of(&self.parts)?,
             vertices: memory::copy_of(&self.vertices)?,
             n_forgotten: self.n_forgotten,
             is_whole: self.is_whole,
@@ -209,6 +263,6 @@ impl<G: Moving> Staging<G> {
     }
 
     pub(in crate::motion) fn memory_bytes(&self) -> usize {
-        memory::bytes_of(&self.goals) + memory::bytes_of(&self.is_staged) + memory::bytes_of(&self.vertices)
+        memory::bytes_of(&self.goals) + memory::bytes_of(&self.parts) + memory::bytes_of(&self.vertices)
     }
 }

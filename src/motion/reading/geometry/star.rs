@@ -1,6 +1,6 @@
 //! Stars in the order in which one goes around a vertex of the plane.
 
-use crate::delaunay::{Plane, Shape};
+use crate::delaunay::{Moving, Plane, Shape};
 use crate::error::Result;
 use crate::ids::{CellId, SiteId, VertexId};
 use crate::motion::state::cells::NO_CORNER;
@@ -60,7 +60,10 @@ pub(crate) fn ordered_star(
     star
 }
 
-impl MovingTriangulation<Plane> {
+impl<P> MovingTriangulation<Plane<P>>
+where
+    Plane<P>: Moving<Vertices = <Plane as Shape>::Vertices>,
+{
     /// The cells around the place of a vertex, counter-clockwise: from the one of lowest index, or, for a vertex of the
     /// convex hull, from the one at the hull's edge that leaves the vertex when the hull is passed counter-clockwise.
     ///

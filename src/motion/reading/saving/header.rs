@@ -405,5 +405,6 @@ fn of_sums(timestamp: u64, sums: [u64; N_SUMS]) -> CommitReport {
         coincident: 0,
         inserted,
         removed,
+        ..CommitReport::default()
     }
 }

@@ -68,14 +68,15 @@ impl<G: Moving> Mesh<G> {
         }
     }
 
-    /// Enforces [`CoincidencePolicy::Reject`] on a place that `vertex` would take.
+    /// Enforces [`CoincidencePolicy::Reject`] on a place that `vertex` would take. Where there are weights others may be there that
+    /// cells do not show: those are looked for after the change.
     pub(in crate::motion) fn reject_occupied(
         &self,
         vertex: VertexId,
         q: &G::Point,
         policy: CoincidencePolicy,
     ) -> Result<()> {
-        if policy == CoincidencePolicy::Merge {
+        if policy == CoincidencePolicy::Merge || G::HAS_WEIGHTS {
             return Ok(());
         }
         match self.kernel.locate(q, Slot::NONE) {

@@ -1,10 +1,12 @@
 //! The vertices, the kernel that triangulates them, and what undoes a change of both.
 //!
 //! Vertices that share a place share a site; which of them is seen is in [`coincidence`]. A change is begun, and then
-//! published or undone ([`changing`]). Whether a vertex is there, and seen, is asked in [`standing`].
+//! published or undone ([`changing`]). Whether a vertex is there, and seen, is asked in [`standing`]; with weights, who is hidden
+//! in [`hidden_by_weight`].
 
 mod changing;
 mod coincidence;
+mod hidden_by_weight;
 mod rounds;
 mod standing;
 

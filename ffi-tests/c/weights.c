@@ -1,0 +1,425 @@
+// Weights: every state is the regular triangulation of its vertices, by the definition in exact signs and by a fresh build, with who is
+// hidden by what, counts and lists of changes; by every algorithm, with all calls that change a triangulation.
+#include "state.h"
+
+enum { MOST = 120 };
+
+typedef struct {
+    uint32_t dimension;
+    size_t n_ids;
+    bool present[MOST];
+    double positions[MOST * 3], weights[MOST];
+} model;
+
+// Who is hidden: by place, with who represents it, or by weight.
+typedef struct {
+    size_t by_place, by_weight;
+    bool is_hidden[MOST];
+} hidden;
+
+static bool is_at(const model *m, uint32_t v, uint32_t w) {
+    const size_t d = m->dimension;
+    return memcmp(m->positions + v * d, m->positions + w * d, d * sizeof(double)) == 0;
+}
+
+// Of those at the place of a vertex that of the greatest weight, then of the lowest id.
+static uint32_t representative_of(const model *m, uint32_t v) {
+    uint32_t best = v;
+    for (uint32_t w = 0; w < m->n_ids; w++) {
+        if (!m->present[w] || !is_at(m, v, w)) continue;
+        if (m->weights[w] > m->weights[best] || (m->weights[w] == m->weights[best] && w < best)) best = w;
+    }
+    return best;
+}
+
+// On which side of the power sphere of a cell a vertex is: 1 if the cell would go if it came.
+static int side_of(const model *m, const uint32_t *row, uint32_t v) {
+    double points[5 * 3], weights[5];
+    const uint32_t d = m->dimension;
+    for (uint32_t i = 0; i <= d + 1; i++) {
+        const uint32_t w = i <= d ? row[i] : v;
+        memcpy(points + i * d, m->positions + w * d, d * sizeof(double));
+        weights[i] = m->weights[w];
+    }
+    int32_t sign = 0;
+    OK(deldrift_in_power_sphere(d, points, weights, &sign));
+    return sign;
+}
+
+// What a triangulation says of who is hidden, which has to agree with itself and with the definition.
+static hidden check_hidden(const deldrift_triangulation *t, const model *m, const deldrift_cells_view *view) {
+    uint32_t vertices[MOST], representatives[MOST], cells[MOST];
+    hidden h = {0};
+    OK(deldrift_hidden_vertices(t, vertices, representatives, MOST, &h.by_place));
+    for (size_t k = 0; k < h.by_place; k++) {
+        CHECK(k == 0 || vertices[k - 1] < vertices[k]);
+        h.is_hidden[vertices[k]] = true;
+        CHECK(representatives[k] != vertices[k] && representatives[k] == representative_of(m, vertices[k]));
+    }
+    size_t n_shared = 0;
+    for (uint32_t v = 0; v < m->n_ids; v++) {
+        if (!m->present[v]) continue;
+        uint32_t representative;
+        OK(deldrift_coincident_representative(t, v, &representative));
+        CHECK(representative == representative_of(m, v));
+        n_shared += representative != v;
+    }
+    CHECK(n_shared == h.by_place);
+    OK(deldrift_hidden_by_weight(t, vertices, cells, MOST, &h.by_weight));
+    const uint32_t n_corners = m->dimension + 1;
+    for (size_t k = 0; k < h.by_weight; k++) {
+        CHECK(k == 0 || vertices[k - 1] < vertices[k]);
+        CHECK(!h.is_hidden[vertices[k]] && representative_of(m, vertices[k]) == vertices[k]);
+        h.is_hidden[vertices[k]] = true;
+        if (view->count == 0) {
+            CHECK(cells[k] == DELDRIFT_NONE);
+            continue;
+        }
+        // It is in the cell that it is said to be above, and not within its power sphere.
+        CHECK(cells[k] < view->count);
+        double points[4 * 3];
+        const uint32_t d = m->dimension, *row = view->vertices + cells[k] * n_corners;
+        for (uint32_t i = 0; i <= d; i++) {
+            for (uint32_t j = 0; j <= d; j++) {
+                memcpy(points + j * d, m->positions + (j == i ? vertices[k] : row[j]) * d, d * sizeof(double));
+            }
+            int32_t sign;
+            OK(deldrift_orientation(d, points, &sign));
+            CHECK(sign >= 0);
+        }
+        CHECK(side_of(m, row, vertices[k]) <= 0);
+    }
+    return h;
+}
+
+static void has_same_cells(const deldrift_triangulation *t, const deldrift_triangulation *fresh, const uint32_t *ids, uint32_t n_corners) {
+    deldrift_cells_view view, expected;
+    OK(deldrift_cells(t, &view));
+    OK(deldrift_cells(fresh, &expected));
+    uint64_t found = 0, wanted = 0;
+    for (size_t c = 0; c < expected.count; c++) {
+        uint32_t row[4];
+        for (uint32_t i = 0; i < n_corners; i++) row[i] = ids[expected.vertices[c * n_corners + i]];
+        wanted += digest_of_row(row, n_corners);
+    }
+    for (size_t c = 0; c < view.count; c++) found += digest_of_row(view.vertices + c * n_corners, n_corners);
+    CHECK(view.count == expected.count && found == wanted);
+}
+
+// Everything there is to say of a state.
+static hidden check(const deldrift_triangulation *t, const model *m) {
+    const uint32_t d = m->dimension;
+    OK(deldrift_validate(t, 3));
+    double positions[MOST * 3], weights[MOST];
+    size_t n;
+    OK(deldrift_copy_positions(t, positions, MOST, &n));
+    CHECK(n == m->n_ids);
+    OK(deldrift_weights(t, weights, MOST, &n));
+    CHECK(n == m->n_ids);
+    double present_at[MOST * 3], present_weights[MOST];
+    uint32_t ids[MOST];
+    size_t n_present = 0;
+    for (uint32_t v = 0; v < m->n_ids; v++) {
+        bool present;
+        OK(deldrift_is_present(t, v, &present));
+        CHECK(present == m->present[v]);
+        if (!present) {
+            CHECK(isnan(weights[v]) && isnan(positions[v * d]));
+            continue;
+        }
+        double position[3];
+        OK(deldrift_position(t, v, position));
+        CHECK(memcmp(position, m->positions + v * d, d * sizeof(double)) == 0);
+        CHECK(memcmp(positions + v * d, m->positions + v * d, d * sizeof(double)) == 0 && weights[v] == m->weights[v]);
+        memcpy(present_at + n_present * d, m->positions + v * d, d * sizeof(double));
+        present_weights[n_present] = m->weights[v];
+        ids[n_present++] = v;
+    }
+    deldrift_cells_view view;
+    OK(deldrift_cells(t, &view));
+    // The definition: no vertex within the power sphere of a cell.
+    for (size_t c = 0; c < view.count; c++) {
+        const uint32_t *row = view.vertices + c * (d + 1);
+        for (uint32_t v = 0; v < m->n_ids; v++) {
+            bool is_corner = false;
+            for (uint32_t i = 0; i <= d; i++) is_corner = is_corner || row[i] == v;
+            if (m->present[v] && !is_corner) CHECK(side_of(m, row, v) <= 0);
+        }
+    }
+    const hidden h = check_hidden(t, m, &view);
+    // Who is in no cell is hidden.
+    if (view.count > 0) {
+        bool is_corner[MOST] = {false};
+        for (size_t i = 0; i < view.count * (d + 1); i++) is_corner[view.vertices[i]] = true;
+        for (uint32_t v = 0; v < m->n_ids; v++) CHECK(!m->present[v] || is_corner[v] != h.is_hidden[v]);
+    }
+    deldrift_triangulation *fresh;
+    OK(deldrift_create_weighted(d, present_at, present_weights, NULL, n_present, NULL, &fresh));
+    has_same_cells(t, fresh, ids, d + 1);
+    deldrift_commit_report sums;
+    OK(deldrift_statistics(fresh, &sums));
+    CHECK(sums.coincident == h.by_place && sums.hidden_by_weight == h.by_weight);
+    deldrift_destroy(fresh);
+    return h;
+}
+
+static double coordinate(uint64_t *state, int kind) {
+    const double x = next_random(state);
+    return kind == 0 ? x : floor(x * (kind == 1 ? 4 : 8));
+}
+
+static double weight(uint64_t *state, int kind) {
+    const double w = next_random(state);
+    if (kind == 0) return 0.2 * w - 0.05;
+    return floor(w * (kind == 1 ? 5 : 20)) - 2;
+}
+
+static void draw(model *m, uint32_t v, uint64_t *state, int kind) {
+    for (uint32_t i = 0; i < m->dimension; i++) m->positions[v * m->dimension + i] = coordinate(state, kind);
+    m->weights[v] = weight(state, kind);
+}
+
+// What a report and the list of changes say of two states, one after the other.
+static void check_report(const deldrift_commit_report *report, const model *before, const model *m, const hidden *was, const hidden *is) {
+    uint64_t moved = 0, reweighted = 0, came = 0, went = 0;
+    for (uint32_t v = 0; v < m->n_ids; v++) {
+        const size_t d = m->dimension;
+        if (before->present[v] && m->present[v]) {
+            moved += memcmp(before->positions + v * d, m->positions + v * d, d * sizeof(double)) != 0;
+            reweighted += before->weights[v] != m->weights[v];
+        }
+        if (m->present[v]) {
+            came += is->is_hidden[v] && !was->is_hidden[v];
+            went += !is->is_hidden[v] && was->is_hidden[v];
+        }
+    }
+    CHECK(report->moved == moved && report->reweighted == reweighted);
+    CHECK(report->coincident == is->by_place && report->hidden_by_weight == is->by_weight);
+    CHECK(report->newly_hidden == came && report->newly_shown == went);
+}
+
+static void check_changes(deldrift_triangulation *t, const model *m, const hidden *was, const hidden *is) {
+    deldrift_changes changes;
+    OK(deldrift_take_changes(t, &changes));
+    size_t n_hidden = 0, n_shown = 0;
+    for (uint32_t v = 0; v < m->n_ids; v++) {
+        if (!m->present[v] || is->is_hidden[v] == was->is_hidden[v]) continue;
+        if (is->is_hidden[v]) CHECK(n_hidden < changes.hidden_count && changes.hidden[n_hidden++] == v);
+        else CHECK(n_shown < changes.shown_count && changes.shown[n_shown++] == v);
+    }
+    CHECK(n_hidden == changes.hidden_count && n_shown == changes.shown_count);
+}
+
+// A history with all that can be called.
+static size_t live(uint32_t d, deldrift_algorithm algorithm, int kind, uint64_t seed) {
+    static model m, before;
+    memset(&m, 0, sizeof m);
+    uint64_t state = seed;
+    m.dimension = d;
+    m.n_ids = 4 + (size_t)(next_random(&state) * 40);
+    for (uint32_t v = 0; v < m.n_ids; v++) {
+        m.present[v] = true;
+        draw(&m, v, &state, kind);
+    }
+    deldrift_triangulation *t;
+    OK(deldrift_create_weighted(d, m.positions, m.weights, NULL, m.n_ids, NULL, &t));
+    OK(choose(t, algorithm));
+    hidden was = check(t, &m), taken = {0};
+    size_t n_hidden = was.by_weight;
+    for (int step = 0; step < 14; step++) {
+        before = m;
+        deldrift_commit_report report;
+        const uint32_t n = (uint32_t)m.n_ids;
+        const uint32_t one = (uint32_t)(next_random(&state) * n);
+        switch ((int)(next_random(&state) * 8)) {
+            case 0: // Weights alone.
+                for (uint32_t v = 0; v < n; v++) {
+                    if (m.present[v]) m.weights[v] = weight(&state, kind);
+                }
+                OK(deldrift_commit_weighted(t, NULL, m.weights, n, &report));
+                break;
+            case 1: // Both.
+                for (uint32_t v = 0; v < n; v++) {
+                    if (m.present[v]) draw(&m, v, &state, kind);
+                }
+                OK(deldrift_commit_weighted(t, m.positions, m.weights, n, &report));
+                break;
+            case 2: { // Positions alone, of some.
+                for (uint32_t v = 0; v < n; v++) {
+                    if (!m.present[v] || next_random(&state) < 0.7) continue;
+                    for (uint32_t i = 0; i < d; i++) m.positions[v * d + i] = coordinate(&state, kind);
+                }
+                OK(deldrift_commit_positions(t, m.positions, n, &report));
+                break;
+            }
+            case 3: { // Staged apart, in either order; a weight twice is refused.
+                if (!m.present[one]) continue;
+                const uint32_t v = one;
+                draw(&m, v, &state, kind);
+                const bool is_weight_first = next_random(&state) < 0.5;
+                if (is_weight_first) OK(deldrift_stage_weights(t, &v, m.weights + v, 1));
+                OK(deldrift_move_vertex(t, v, m.positions + v * d));
+                if (!is_weight_first) OK(deldrift_stage_weights(t, &v, m.weights + v, 1));
+                const double other = 7;
+                CHECK_STATUS(deldrift_stage_weights(t, &v, &other, 1), DELDRIFT_DUPLICATE_MOVE);
+                CHECK_STATUS(deldrift_move_vertex(t, v, m.positions), DELDRIFT_DUPLICATE_MOVE);
+                CHECK_STATUS(deldrift_set_weight(t, v, other), DELDRIFT_DUPLICATE_MOVE);
+                CHECK_STATUS(deldrift_commit_weighted(t, NULL, m.weights, n, NULL), DELDRIFT_DUPLICATE_MOVE);
+                OK(deldrift_commit_timestamp(t, &report));
+                break;
+            }
+            case 4: { // Inserted and removed, with weights given late, and withdrawn once.
+                if (m.n_ids + 2 > MOST) continue;
+                uint32_t first;
+                draw(&m, n, &state, kind);
+                draw(&m, n + 1, &state, kind);
+                const uint32_t late = n + 1;
+                const double wrong = 3;
+                for (int round = 0; round < 2; round++) {
+                    OK(deldrift_stage_insertions(t, m.positions + n * d, 2, &first));
+                    CHECK(first == n);
+                    OK(deldrift_stage_weights(t, &late, &wrong, 1));
+                    OK(deldrift_stage_weights(t, (uint32_t[]){n, n + 1}, m.weights + n, 2));
+                    if (m.present[one]) OK(deldrift_stage_removals(t, &one, 1));
+                    OK(deldrift_prepare_timestamp(t, &report));
+                    if (round == 0) OK(deldrift_withdraw_timestamp(t));
+                }
+                OK(deldrift_publish_timestamp(t));
+                m.n_ids += 2;
+                m.present[n] = m.present[n + 1] = true;
+                m.present[one] = false;
+                break;
+            }
+            case 5: // At once.
+                if (!m.present[one]) continue;
+                m.weights[one] = weight(&state, kind);
+                OK(deldrift_set_weight(t, one, m.weights[one]));
+                for (uint32_t i = 0; i < d; i++) m.positions[one * d + i] = coordinate(&state, kind);
+                OK(deldrift_relocate_vertex(t, one, m.positions + one * d));
+                was = check(t, &m);
+                before = m;
+                OK(deldrift_commit_timestamp(t, &report));
+                break;
+            case 6: { // Gone at once, and another one in its place, of weight 0.
+                uint32_t inserted;
+                if (m.n_ids + 1 > MOST || !m.present[one]) continue;
+                OK(deldrift_remove_vertex(t, one));
+                m.present[one] = false;
+                draw(&m, n, &state, kind);
+                m.weights[n] = 0;
+                OK(deldrift_insert_vertex(t, m.positions + n * d, &inserted));
+                CHECK(inserted == n);
+                m.n_ids++;
+                m.present[n] = true;
+                was = check(t, &m);
+                before = m;
+                OK(deldrift_commit_timestamp(t, &report));
+                break;
+            }
+            default: { // A copy goes on in its place.
+                deldrift_triangulation *copy;
+                OK(deldrift_clone(t, &copy));
+                deldrift_destroy(t);
+                t = copy;
+                OK(deldrift_commit_timestamp(t, &report));
+            }
+        }
+        const hidden is = check(t, &m);
+        check_report(&report, &before, &m, &was, &is);
+        if (next_random(&state) < 0.5) {
+            check_changes(t, &m, &taken, &is);
+            taken = is;
+        }
+        was = is;
+        n_hidden += is.by_weight;
+        // At rest nothing changes.
+        deldrift_commit_report rest;
+        deldrift_cells_view view, again;
+        OK(deldrift_cells(t, &view));
+        OK(deldrift_commit_weighted(t, m.positions, m.weights, m.n_ids, &rest));
+        OK(deldrift_cells(t, &again));
+        CHECK(rest.moved == 0 && rest.reweighted == 0 && rest.newly_hidden == 0 && rest.newly_shown == 0);
+        CHECK(view.count == again.count);
+    }
+    deldrift_destroy(t);
+    return n_hidden;
+}
+
+// Equal weights give the rows of a triangulation without weights.
+static void equal_weights_are_none(uint32_t d) {
+    double *positions = random_positions(d, MOST, 3), weights[MOST];
+    for (int k = 0; k < MOST; k++) weights[k] = 0.25;
+    deldrift_triangulation *plain = create(d, positions, MOST, NULL), *t;
+    OK(deldrift_create_weighted(d, positions, weights, NULL, MOST, NULL, &t));
+    deldrift_cells_view view, expected;
+    bool is_weighted;
+    OK(deldrift_cells(t, &view));
+    OK(deldrift_cells(plain, &expected));
+    CHECK(view.count == expected.count);
+    uint32_t ids[MOST];
+    for (uint32_t v = 0; v < MOST; v++) ids[v] = v;
+    has_same_cells(t, plain, ids, d + 1);
+    OK(deldrift_is_weighted(t, &is_weighted));
+    CHECK(is_weighted);
+    OK(deldrift_is_weighted(plain, &is_weighted));
+    CHECK(!is_weighted);
+    CHECK_STATUS(deldrift_weights(plain, weights, MOST, &(size_t){0}), DELDRIFT_NOT_WEIGHTED);
+    CHECK_STATUS(deldrift_set_weight(plain, 0, 1), DELDRIFT_NOT_WEIGHTED);
+    CHECK_STATUS(deldrift_set_weight(t, 0, 1.5e114), DELDRIFT_OUT_OF_RANGE);
+    CHECK_MESSAGE("a weight");
+    CHECK_STATUS(deldrift_set_weight(t, 0, NAN), DELDRIFT_NOT_FINITE);
+    weights[5] = INFINITY;
+    CHECK_STATUS(deldrift_stage_weights(t, NULL, weights, MOST), DELDRIFT_NOT_FINITE);
+    CHECK_MESSAGE("weights[5]");
+    size_t staged;
+    OK(deldrift_staged_count(t, &staged));
+    CHECK(staged == 0);
+    deldrift_destroy(t);
+    deldrift_destroy(plain);
+    free(positions);
+}
+
+// Two vertices at one place are refused where the options say so, of whatever weights.
+static void coincidence_is_refused(uint32_t d) {
+    deldrift_options options;
+    deldrift_options_init(&options);
+    options.coincidence = DELDRIFT_COINCIDENCE_REJECT;
+    double *positions = random_positions(d, MOST, 3);
+    deldrift_triangulation *t;
+    double weights[MOST] = {0};
+    OK(deldrift_create_weighted(d, positions, weights, NULL, MOST, &options, &t));
+    // So light that it is hidden, and there.
+    OK(deldrift_set_weight(t, 7, -100));
+    CHECK_STATUS(deldrift_relocate_vertex(t, 7, positions), DELDRIFT_COINCIDENT);
+    uint32_t first;
+    CHECK_STATUS(deldrift_insert_vertex(t, positions + 7 * d, &first), DELDRIFT_COINCIDENT);
+    OK(deldrift_move_vertex(t, 7, positions));
+    CHECK_STATUS(deldrift_commit_timestamp(t, NULL), DELDRIFT_COINCIDENT);
+    OK(deldrift_discard_moves(t));
+    OK(deldrift_validate(t, 3));
+    memcpy(positions, positions + d, d * sizeof *positions);
+    deldrift_triangulation *other;
+    weights[0] = -50;
+    CHECK_STATUS(deldrift_create_weighted(d, positions, weights, NULL, MOST, &options, &other), DELDRIFT_COINCIDENT);
+    deldrift_destroy(t);
+    free(positions);
+}
+
+int main(void) {
+    static const deldrift_algorithm algorithms[] = {
+        DELDRIFT_AUTO, DELDRIFT_REBUILDING, DELDRIFT_REPAIR, DELDRIFT_TOLERANCE, DELDRIFT_PLACEMENT_FLIPS,
+        DELDRIFT_RESEARCH_PLACEMENT, DELDRIFT_RESEARCH_SAFE_REGION, DELDRIFT_RESEARCH_REBUILDING_TOLERANCE,
+    };
+    size_t n_hidden = 0;
+    for (uint32_t d = 2; d <= 3; d++) {
+        equal_weights_are_none(d);
+        coincidence_is_refused(d);
+        for (size_t a = 0; a < sizeof algorithms / sizeof *algorithms; a++) {
+            for (int kind = 0; kind < 3; kind++) {
+                for (uint64_t seed = 1; seed <= 4; seed++) n_hidden += live(d, algorithms[a], kind, seed * 1000 + a);
+            }
+        }
+    }
+    CHECK(n_hidden > 1000);
+    return 0;
+}

@@ -1,0 +1,159 @@
+/*
+ * deldrift/weights.h: Vertices with weights: regular triangulations.
+ *
+ * A part of deldrift.h, the first page of which has the rules that hold for all functions.
+ *
+ * Made by `make header` from these files of src/capi: weights.rs. Change it there.
+ *
+ * Triangulations of vertices with weights: their creation, and what only they have.
+ *
+ *     deldrift_create_weighted: Creates the regular triangulation of count points with weights in the plane or in
+ *         space, at timestamp 0: the weighted Delaunay triangulation, which is the dual of the power diagram.
+ *     deldrift_is_weighted: Whether the triangulation has weights, to *weighted.
+ *     deldrift_weights: The weights of all ids, in their order: those of the current timestamp, or those that vertices
+ *         whose insertion is staged will have.
+ *     deldrift_stage_weights: Stages other weights of count vertices for the next timestamp: all of them, or none if it
+ *         fails.
+ *     deldrift_commit_weighted: Moves all vertices, gives all other weights, or both, and makes that the next
+ *         timestamp: deldrift_commit_positions for vertices with weights.
+ *     deldrift_set_weight: Gives one vertex another weight at once, whatever is staged for others; it stays where it
+ *         is.
+ *     deldrift_hidden_by_weight: The vertices that are hidden by weight, ascending, each with the cell that it is
+ *         above: at its place the power sphere of this cell says that it is hidden.
+ */
+
+#ifndef DELDRIFT_WEIGHTS_H
+#define DELDRIFT_WEIGHTS_H
+
+#include "core.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Triangulations of vertices with weights: their creation, and what only they have.
+// ---------------------------------------------------------------------------------------------------------------------
+
+/// Creates the regular triangulation of count points with weights in the plane or in space, at timestamp 0: the weighted
+/// Delaunay triangulation, which is the dual of the power diagram.
+///
+/// The power distance of a place x from a vertex at p of weight w is |x - p|^2 - w. No vertex is at less power distance
+/// from the power centre of a cell than its corners are. Where all weights are equal the cells are those of
+/// deldrift_create. A vertex of little weight beside heavy ones may be a corner of no cell: it is hidden by weight, until
+/// it or others change, see deldrift_hidden_by_weight. Ties are broken as without weights, by ids or keys. So the cells,
+/// and who is hidden, depend on positions, weights and ids alone, and on nothing that happened before.
+///
+/// dimension: 2 or 3. positions: count points, as in deldrift_create. weights: count numbers, or NULL: then all are 0. Each
+/// is finite and at most 1e114 in magnitude, and may be negative. For balls of radius r the weight is r^2. keys: count
+/// keys, as in deldrift_create_with_keys, or NULL: then ids break ties. options: NULL for the defaults. out: receives the
+/// triangulation.
+///
+/// Of vertices at one place that of the greatest weight represents the place; of these the one of the lowest key, or id. The
+/// others are hidden by place, see deldrift_hidden_vertices, whether the one that represents it is hidden by weight or
+/// not. Where vertices do not span the dimension there are no cells. Then it is the lower hull in the dimension that
+/// they do span which says who is hidden by weight.
+///
+/// Calls that take positions take coordinates alone, as in any triangulation: a vertex that is moved keeps its weight, and one
+/// that is inserted has weight 0 until it is given another one. Functions that do not serve weights return
+/// DELDRIFT_WEIGHTED: those of deldrift/segments.h, deldrift_cells_in_reach, deldrift_hull_facets_in_reach,
+/// deldrift_vertices_in_reach, deldrift_nearest_vertex, deldrift_nearest_vertices, deldrift_vertices_in_ball,
+/// deldrift_vertices_in_box, deldrift_neighbour_lists, deldrift_conflicts, deldrift_interpolate unless it is linear, and the
+/// functions of Voronoi cells. Circumcentres, and masks by circumradius, are those of power spheres: a squared radius may be
+/// negative.
+///
+/// Cost: that of deldrift_create.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_INVALID_OPTIONS, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_VERTICES,
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+deldrift_status deldrift_create_weighted(uint32_t dimension,
+                                         const double *positions,
+                                         const double *weights,
+                                         const uint64_t *keys,
+                                         size_t count,
+                                         const deldrift_options *options,
+                                         deldrift_triangulation **out);
+
+/// Whether the triangulation has weights, to *weighted.
+///
+/// Cost: constant.
+deldrift_status deldrift_is_weighted(const deldrift_triangulation *t, bool *weighted);
+
+/// The weights of all ids, in their order: those of the current timestamp, or those that vertices whose insertion is staged
+/// will have. The weight of a removed vertex is NaN.
+///
+/// weights: a buffer with room for capacity numbers. count: receives the number of ids.
+///
+/// Cost: n.
+///
+/// Errors: DELDRIFT_NOT_WEIGHTED.
+deldrift_status deldrift_weights(const deldrift_triangulation *t,
+                                 double *weights,
+                                 size_t capacity,
+                                 size_t *count);
+
+/// Stages other weights of count vertices for the next timestamp: all of them, or none if it fails. Positions stay, or are
+/// those that are staged before or after this.
+///
+/// vertices: count ids, each at most once. NULL stands for 0, 1, ..., count - 1, as in deldrift_move_vertices. Vertices whose
+/// insertion is staged may be among them, again and again: the last weight is the one that they are inserted with. weights:
+/// count numbers, finite and at most 1e114 in magnitude. Both may be NULL if count is 0.
+///
+/// Cost: count.
+///
+/// Errors: DELDRIFT_NOT_WEIGHTED, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT, DELDRIFT_NO_SUCH_VERTEX,
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its removal is staged, DELDRIFT_DUPLICATE_MOVE if a weight of the
+/// vertex is staged already, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_stage_weights(deldrift_triangulation *t,
+                                       const uint32_t *vertices,
+                                       const double *weights,
+                                       size_t count);
+
+/// Moves all vertices, gives all other weights, or both, and makes that the next timestamp: deldrift_commit_positions for
+/// vertices with weights.
+///
+/// positions: count points, one for each id; NULL: they stay. weights: count numbers, one for each id; NULL: they stay. count
+/// must be deldrift_id_count, those of staged insertions included. report: receives what was done; may be NULL. Its
+/// hidden_by_weight, newly_hidden and newly_shown tell who is hidden now before any cell is read.
+///
+/// Cost: as for deldrift_commit_positions.
+///
+/// Errors: DELDRIFT_NOT_WEIGHTED, and those of deldrift_commit_positions. The triangulation then stays at its timestamp, no
+/// move is staged, and insertions and removals are staged as before.
+deldrift_status deldrift_commit_weighted(deldrift_triangulation *t,
+                                         const double *positions,
+                                         const double *weights,
+                                         size_t count,
+                                         deldrift_commit_report *report);
+
+/// Gives one vertex another weight at once, whatever is staged for others; it stays where it is.
+///
+/// Cost: as for deldrift_relocate_vertex, and a pass over all vertices where some are hidden by weight.
+///
+/// Errors: DELDRIFT_NOT_WEIGHTED, and those of deldrift_relocate_vertex.
+deldrift_status deldrift_set_weight(deldrift_triangulation *t,
+                                    uint32_t vertex,
+                                    double weight);
+
+/// The vertices that are hidden by weight, ascending, each with the cell that it is above: at its place the power sphere of
+/// this cell says that it is hidden. On the boundary of several cells it is one of them. Vertices that do not represent their
+/// place are not among them.
+///
+/// vertices: a buffer with room for capacity ids. cells: one with room for as many indices into deldrift_cells,
+/// DELDRIFT_NONE where there are no cells. Either may be NULL. count: receives the number of vertices.
+///
+/// Cost: n, and the corners of the cells below hidden vertices. While there are no cells, that of deldrift_create.
+///
+/// Errors: DELDRIFT_NOT_WEIGHTED, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_hidden_by_weight(const deldrift_triangulation *t,
+                                          uint32_t *vertices,
+                                          uint32_t *cells,
+                                          size_t capacity,
+                                          size_t *count);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif // DELDRIFT_WEIGHTS_H

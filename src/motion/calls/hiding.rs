@@ -1,0 +1,103 @@
+//! What a change tells of vertices with weights: who is hidden, whose place and whose weight is another one.
+
+use crate::delaunay::Moving;
+use crate::error::Result;
+use crate::ids::VertexId;
+use crate::motion::options::CoincidencePolicy;
+use crate::motion::report::CommitReport;
+use crate::motion::state::goals::{Movers, Moves};
+use crate::motion::state::hidden_ids::HiddenIds;
+use crate::motion::triangulation::MovingTriangulation;
+use crate::predicates::PointArray;
+
+/// How many vertices have another place, and how many another weight.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::motion) struct ChangedParts {
+    moved: u64,
+    reweighted: u64,
+}
+
+impl ChangedParts {
+    /// Counts a vertex.
+    #[inline(always)]
+    pub(in crate::motion) fn count<P: AsRef<[f64]> + PointArray>(&mut self, was: &P, is: &P) {
+        self.moved += u64::from(was.as_ref() != is.as_ref());
+        self.reweighted += u64::from(was.weight() != is.weight());
+    }
+}
+
+impl<G: Moving> MovingTriangulation<G> {
+    /// What these moves are going to change, where there are weights.
+    pub(in crate::motion) fn parts_to_change(&self, moves: &Moves<'_, G>) -> ChangedParts {
+        let mut changed = ChangedParts::default();
+        if !G::HAS_WEIGHTS {
+            return changed;
+        }
+        let mesh = &self.mesh;
+        let mut count = |v: VertexId| {
+            let was = &mesh.kernel.site(mesh.site_of[v]).point;
+            changed.count(was, &moves.unchecked()[v.index()]);
+        };
+        match moves.movers() {
+            Movers::All => VertexId::range(0..moves.count()).for_each(count),
+            Movers::Listed(vertices) => vertices.iter().for_each(|&v| count(v)),
+        }
+        changed
+    }
+
+    /// Tells places and weights apart, in a report and in the sums that it has been added to.
+    #[inline(always)]
+    pub(in crate::motion) fn tell_parts(&mut self, report: &mut CommitReport, changed: ChangedParts) {
+        if G::HAS_WEIGHTS {
+            let ChangedParts { moved, reweighted } = changed;
+            self.statistics.moved = self.statistics.moved + moved - report.moved;
+            self.statistics.reweighted += reweighted;
+            (report.moved, report.reweighted) = (moved, reweighted);
+        }
+    }
+
+    /// Who is hidden now, where there are weights.
+    pub(in crate::motion) fn hidden_ids(&self) -> Result<HiddenIds> {
+        if !G::HAS_WEIGHTS {
+            return Ok(HiddenIds::default());
+        }
+        HiddenIds::of(self.mesh.vertices_in_no_cell()?.all(), self.mesh.site_of.len())
+    }
+
+    /// Reports who is hidden, of vertices with weights, and who was not `before`; or refuses two of them at one place.
+    pub(in crate::motion) fn tell_hidden(
+        &mut self,
+        before: &HiddenIds,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        if !G::HAS_WEIGHTS {
+            return Ok(());
+        }
+        let found = self.mesh.vertices_in_no_cell()?;
+        self.reject_shared(found.by_place.first())?;
+        let now = HiddenIds::of(found.all(), self.mesh.site_of.len())?;
+        for (_, is_hidden) in now.differences(before).filter(|&(v, _)| self.mesh.is_present(v)) {
+            *if is_hidden { &mut report.newly_hidden } else { &mut report.newly_shown } += 1;
+        }
+        report.coincident = found.by_place.len() as u64;
+        report.hidden_by_weight = found.by_weight.len() as u64;
+        Ok(())
+    }
+
+    /// Enters who is hidden into the sums.
+    #[inline(always)]
+    pub(in crate::motion) fn note_hidden(&mut self, report: &CommitReport) {
+        if G::HAS_WEIGHTS {
+            self.statistics.coincident = report.coincident;
+            self.statistics.hidden_by_weight = report.hidden_by_weight;
+        }
+    }
+
+    /// Refuses two vertices with weights at one place after a change at once, if the options do.
+    pub(in crate::motion) fn reject_shared_places(&self) -> Result<()> {
+        if !G::HAS_WEIGHTS || self.options.coincidence == CoincidencePolicy::Merge {
+            return Ok(());
+        }
+        self.reject_shared(self.mesh.vertices_in_no_cell()?.by_place.first())
+    }
+}
