@@ -49,6 +49,11 @@ pub enum Damage {
         /// Whether the data are of one that is.
         is_periodic: bool,
     },
+    /// The data are those of a triangulation of vertices with weights, where one without is asked for, or the other way.
+    Weighted {
+        /// Whether the data are of one with weights.
+        is_weighted: bool,
+    },
     /// The vectors of a periodic triangulation are not finite, out of range, or depend on each other.
     Vectors,
     /// A vertex of a periodic triangulation is in a period that is too far away, or in which its position is not a double, or one
@@ -87,6 +92,13 @@ pub enum Damage {
         vertex: VertexId,
         /// Which coordinate.
         axis: usize,
+        /// What is there.
+        value: f64,
+    },
+    /// A weight is NaN, infinite, or of too great a magnitude, or that of an id that is not present.
+    Weight {
+        /// The vertex.
+        vertex: VertexId,
         /// What is there.
         value: f64,
     },
@@ -129,6 +141,13 @@ pub enum Damage {
     InNoCell {
         /// The vertex.
         vertex: VertexId,
+    },
+    /// A vertex that is said to be hidden above a cell is not at its place, or below it, or is no hidden vertex.
+    Above {
+        /// The vertex.
+        vertex: VertexId,
+        /// The cell.
+        cell: CellId,
     },
     /// A corner of a cell is no vertex, or a hidden one.
     Corner {
@@ -213,6 +232,13 @@ impl fmt::Display for Damage {
                 let not = if is_periodic { "" } else { "not " };
                 write!(f, "the triangulation is {not}periodic, and one of the other kind is asked for")
             }
+            Weighted { is_weighted } => {
+                let [given, wanted] = if is_weighted { ["", "out"] } else { ["out", ""] };
+                write!(
+                    f,
+                    "the vertices are with{given} weights, and a triangulation with{wanted} them is asked for"
+                )
+            }
             Vectors => write!(f, "the vectors are out of range, or depend on each other"),
             Period { vertex } => {
                 write!(f, "the period of vertex {vertex} is out of range, or its position there is no double")
@@ -237,6 +263,12 @@ impl fmt::Display for Damage {
             Position { vertex, axis, value } => {
                 write!(f, "vertex {vertex}, coordinate {axis}, is {value:e}, which is out of range")
             }
+            Weight { vertex, value } => {
+                write!(
+                    f,
+                    "the weight of vertex {vertex} is {value:e}, which is out of range, or it is not present"
+                )
+            }
             Absent { vertex, axis, value } => {
                 write!(f, "id {vertex} is not present, but coordinate {axis} is {value:e}, not NaN")
             }
@@ -259,6 +291,7 @@ impl fmt::Display for Damage {
                 write!(f, "there are no cells, but vertex {vertex} is out of the line or plane of others")
             }
             InNoCell { vertex } => write!(f, "vertex {vertex} is in no cell"),
+            Above { vertex, cell } => write!(f, "vertex {vertex} is not hidden above cell {cell}"),
             Corner { cell, corner, given } => {
                 write!(f, "cell {cell}, corner {corner}, is {given}, which is no vertex of cells")
             }

@@ -1,14 +1,16 @@
 //! What docs/FORMAT.md says of data is checked when they are loaded: for each sentence a file that is wrong in this alone.
 
-use crate::saving_format::{Parts, seal};
+use crate::saving_format::{Parts, Weighted, seal};
+use deldrift::internals::PowerPlane;
+use deldrift::internals::predicates::WeightedPoint;
 use deldrift::motion::{MovingTriangulation, Options, Saved};
-use deldrift::{Damage, LoadError, Plane};
+use deldrift::{Damage, LoadError, Moving, Plane};
 
 /// What is wrong with some bytes.
-fn damage_of(bytes: &[u8]) -> Option<Damage> {
+fn damage_of<G: Moving>(bytes: &[u8]) -> Option<Damage> {
     let loaded = Saved::of(bytes)
         .map_err(LoadError::Data)
-        .and_then(|saved| MovingTriangulation::<Plane>::load(&saved, Options::default()));
+        .and_then(|saved| MovingTriangulation::<G>::load(&saved, Options::default()));
     match loaded {
         Ok(_) => None,
         Err(LoadError::Data(damage)) => Some(damage),
@@ -98,18 +100,77 @@ fn no_cells(p: &mut Parts) {
     (p.cells, p.neighbours) = (Vec::new(), Vec::new());
 }
 
-#[test]
-fn each_sentence_of_the_format_is_checked() {
+fn check_cases<G: Moving>(cases: &[Case], whole: fn() -> Parts) {
     let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     let text = words(include_str!("../docs/FORMAT.md"));
-    assert_eq!(damage_of(&whole().bytes()), None);
-    for (k, (sentence, change, is_told)) in CASES.into_iter().enumerate() {
+    assert_eq!(damage_of::<G>(&whole().bytes()), None);
+    for (k, &(sentence, change, is_told)) in cases.iter().enumerate() {
         assert!(text.contains(sentence), "{sentence}");
         let mut parts = whole();
         change(&mut parts);
-        let damage = damage_of(&parts.bytes());
+        let damage = damage_of::<G>(&parts.bytes());
         assert!(damage.as_ref().is_some_and(is_told), "{k}, {sentence}: {damage:?}");
     }
+}
+
+#[test]
+fn each_sentence_of_the_format_is_checked() {
+    check_cases::<Plane>(&CASES, whole);
+}
+
+/// The same with weights: vertex 4 is hidden above one of two cells, id 5 has been removed, 6 is of an insertion.
+fn whole_with_weights() -> Parts {
+    let numbers = [
+        [0.0, 0.0, 0.0],
+        [2.0, 0.0, 1.0],
+        [2.0, 2.0, 0.0],
+        [0.0, 2.0, 0.0],
+        [1.5, 1.0, -9.0],
+        [0.5, 1.5, 0.0],
+    ];
+    let points = numbers.map(|[x, y, weight]| WeightedPoint { place: [x, y], weight });
+    let mut t = MovingTriangulation::<PowerPlane>::new(&points, Options::default()).expect("a build");
+    let vertex = deldrift::VertexId::new;
+    t.remove_vertex(vertex(5)).expect("a removal");
+    t.stage_insertions(&points[5..]).expect("room");
+    t.move_vertices(&[vertex(0)], &points[1..2]).expect("a move");
+    assert_eq!(t.vertices_hidden_by_weight(), Ok(vec![vertex(4)]));
+    Parts::read(&t.saved().expect("room"))
+}
+
+fn weighted(parts: &mut Parts) -> &mut Weighted {
+    parts.weighted.as_mut().expect("there are weights")
+}
+
+const CASES_WITH_WEIGHTS: [Case; 13] = [
+    ("each with its weight behind it", &|p| weighted(p).weights.swap(1, 4), told!(NotDelaunay)),
+    ("NaN for ids that are not present", &|p| weighted(p).weights[5] = 0.0, told!(Weight)),
+    ("In versions 9 and 10 the vertex itself", &|p| p.representatives[4] = 1, told!(Representative)),
+    ("Weights are finite", &|p| weighted(p).weights[2] = f64::NAN, told!(Weight)),
+    ("Weights are finite", &|p| weighted(p).moved[0] = f64::INFINITY, told!(Weight)),
+    ("of magnitude 1e114 at most", &|p| weighted(p).coming[0] = -1.001e114, told!(Weight)),
+    ("A vertex that is hidden by weight is in no cell", &|p| weighted(p).below[1] = 0, told!(Above)),
+    ("2³² − 1 for all others", &|p| weighted(p).below[5] = 0, told!(Above)),
+    ("its place is in the closure of the cell", &|p| weighted(p).below[4] ^= 1, told!(Above)),
+    ("is above what it is on the cell", &|p| weighted(p).weights[4] = 9.0, told!(Above)),
+    ("Where there are no cells none is said to be above one", &no_cells_but_below, told!(Above)),
+    ("If the positions do not span the dimension there are none", &no_cells_nor_below, told!(NoCells)),
+    ("5 and 6 are not used, while 9 and 10 are", &|p| weighted(p).history[1] = 1, told!(Counts)),
+];
+
+fn no_cells_but_below(p: &mut Parts) {
+    no_cells(p);
+    weighted(p).below[4] = 0;
+}
+
+fn no_cells_nor_below(p: &mut Parts) {
+    no_cells(p);
+    weighted(p).below.fill(u32::MAX);
+}
+
+#[test]
+fn each_sentence_of_the_format_about_weights_is_checked() {
+    check_cases::<PowerPlane>(&CASES_WITH_WEIGHTS, whole_with_weights);
 }
 
 #[test]
@@ -135,14 +196,14 @@ fn each_row_of_the_header_is_checked() {
         let mut bytes = bytes.clone();
         bytes[at] ^= 0x40;
         seal(&mut bytes);
-        let damage = damage_of(&bytes);
+        let damage = damage_of::<Plane>(&bytes);
         assert!(damage.as_ref().is_some_and(is_told), "{row}: {damage:?}");
     }
     assert!(text.contains("| end − 4 | `u32` | CRC-32 of all bytes before it"));
     for at in [170, bytes.len() - 1] {
         let mut bytes = bytes.clone();
         bytes[at] ^= 0x40;
-        assert!(damage_of(&bytes).as_ref().is_some_and(told!(Checksum)), "{at}");
+        assert!(damage_of::<Plane>(&bytes).as_ref().is_some_and(told!(Checksum)), "{at}");
     }
-    assert!(damage_of(&bytes[..167]).as_ref().is_some_and(told!(NoHeader)));
+    assert!(damage_of::<Plane>(&bytes[..167]).as_ref().is_some_and(told!(NoHeader)));
 }

@@ -9,7 +9,7 @@ mod random;
 mod saving_format;
 
 use deldrift::Error;
-use deldrift::internals::{Delaunay, Insertion, Shortcut, SiteId, Slot};
+use deldrift::internals::{Delaunay, Insertion, PowerPlane, PowerSpace, Shortcut, SiteId, Slot};
 use deldrift::motion::Level;
 use deldrift::motion::{Algorithm, MovingTriangulation, Options, Saved};
 use deldrift::{Dimension, Plane, Shape, Space, VertexId};
@@ -502,9 +502,15 @@ fn cost_of_loading(dimension: usize, bytes: &[u8]) -> (usize, f64) {
     let start = processor_time();
     let saved = Saved::of(bytes).expect("its header is right");
     // What is wrong is tested elsewhere.
-    match dimension {
-        2 => drop(MovingTriangulation::<Plane>::load(&saved, options)),
-        _ => drop(MovingTriangulation::<Space>::load(&saved, options)),
+    match (dimension, saved.is_weighted()) {
+        (2, false) => drop(MovingTriangulation::<Plane>::load(&saved, options)),
+        (_, false) => drop(MovingTriangulation::<Space>::load(&saved, options)),
+        (2, true) => drop(
+            MovingTriangulation::<PowerPlane>::load(&saved, options).expect("cells and who is above them"),
+        ),
+        (_, true) => drop(
+            MovingTriangulation::<PowerSpace>::load(&saved, options).expect("cells and who is above them"),
+        ),
     }
     let time = processor_time() - start;
     assert_eq!(HELD.get() as isize, before);
@@ -527,6 +533,7 @@ fn loading_costs_in_proportion_to_the_data() {
         let all = |n: usize| {
             let mut all = saving_format::forged::of_wrong_hulls(dimension, n);
             all.extend(saving_format::forged::legal(dimension, n));
+            all.push(("covered", saving_format::forged::covered(dimension, n)));
             all
         };
         for ((name, small), (_, large)) in all(4_000).into_iter().zip(all(32_000)) {

@@ -1,5 +1,7 @@
 //! Triangulations of points with weights: any history against a fresh build, by every algorithm.
 
+mod saving;
+
 use crate::common::inputs::{KINDS, Kind, draw_one};
 use crate::common::{CellSet, Rng, assert_same_cells, cell_set, check_adjacency, seeds};
 use deldrift::internals::{PowerPlane, PowerSpace};

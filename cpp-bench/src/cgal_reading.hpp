@@ -13,9 +13,8 @@ namespace bench {
 
 /// Once over all cells for rows and corners, infinite cells having DELDRIFT_NONE for a row, and once more for the
 /// rows of neighbours. The arrays are kept, so that only those of a larger triangulation need new memory.
-template <unsigned dimension>
+template <unsigned dimension, typename Space = CgalSpace<dimension>>
 class CgalReading {
-    using Space = CgalSpace<dimension>;
     using Triangulation = typename Space::Triangulation;
     static constexpr int n_corners = dimension + 1;
 

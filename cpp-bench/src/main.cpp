@@ -10,6 +10,7 @@
 #include "self_test.hpp"
 #include "structured.hpp"
 #include "targets.hpp"
+#include "weights.hpp"
 
 #include <fmt/format.h>
 
@@ -37,6 +38,7 @@ int perform(const bench::Options &options, const std::string &command) {
         case bench::Task::domains: bench::run_domains(options); environment += "_domains"; break;
         case bench::Task::meshes: bench::run_meshes(options); environment += "_meshes"; break;
         case bench::Task::boxes: bench::run_boxes(options); environment += "_boxes"; break;
+        case bench::Task::weights: bench::run_weights(options); environment += "_weights"; break;
         case bench::Task::targets: bench::run_targets(options); environment += "_targets"; break;
         case bench::Task::run:
             bench::run_scenarios(options);
@@ -44,6 +46,7 @@ int perform(const bench::Options &options, const std::string &command) {
                 bench::run_domains(options);
                 bench::run_meshes(options);
                 bench::run_boxes(options);
+                bench::run_weights(options);
             }
             break;
     }

@@ -30,7 +30,7 @@ struct SeriesFile {
     std::size_t n_steps = 0;
 };
 
-enum class Task { run, report, memory, large, structured, domains, meshes, boxes, targets, self_test, help };
+enum class Task { run, report, memory, large, structured, domains, meshes, boxes, weights, targets, self_test, help };
 
 struct Options {
     Task task = Task::run;

@@ -2,6 +2,7 @@
 
 #[path = "../../tests/saving_format/mod.rs"]
 mod saving_format;
+mod weighted;
 
 use super::allocator::Fault;
 use super::calls::asking::cells_of;
@@ -24,6 +25,9 @@ pub fn run(data: &[u8]) {
     let s = &mut Source::new(data);
     let flags = s.byte();
     let d = 2 + usize::from(flags >> 3 & 1);
+    if flags & 0xc0 == 0x40 {
+        return weighted::run(s, flags, d);
+    }
     let (mut bytes, is_whole) = match flags & 7 {
         0 => (raw(s), false),
         7 => forged(s, d),
@@ -181,8 +185,8 @@ fn lay_segments(s: &mut Source, t: *mut deldrift_triangulation, n: u32) {
 /// Some changes, of bytes, of numbers, or of cells; whether there were any.
 fn damage(s: &mut Source, bytes: &mut Vec<u8>) -> bool {
     let before = bytes.clone();
-    // What cells are forged in has no segments: that is the first version of the format.
-    let mut is_readable = bytes.get(8) == Some(&1);
+    // What cells are forged in has no segments: that is the first version of the format, or the first with weights.
+    let mut is_readable = matches!(bytes.get(8), Some(1 | 9));
     for _ in 0..s.below(4) {
         let words = bytes.len() / 4;
         let (word, other) = (s.below(words.max(2) - 1), s.below(words.max(2) - 1));
@@ -232,7 +236,11 @@ fn forge(s: &mut Source, bytes: &mut Vec<u8>) {
             let x = &mut parts.positions[vertex * parts.dimension];
             *x = f64::from_bits(x.to_bits().wrapping_add_signed(s.within(2)));
         }
-        5 => parts.representatives[vertex] = s.below(ids) as u32,
+        5 => match &mut parts.weighted {
+            None => parts.representatives[vertex] = s.below(ids) as u32,
+            Some(w) if s.below(2) == 0 => w.below[vertex] = s.below(cells + 1) as u32,
+            Some(w) => w.weights.swap(vertex, s.below(ids)),
+        },
         _ => {
             let p: Vec<f64> = (0..parts.dimension).map(|_| s.unit()).collect();
             parts.positions[vertex * parts.dimension..][..parts.dimension].copy_from_slice(&p);

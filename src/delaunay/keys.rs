@@ -105,7 +105,7 @@ impl Keys {
             return vertices.map(VertexId::get);
         }
         let key = |v| if v < first_made { self.of(v) } else { Self::OF_MADE };
-        ranks_of_keys::<G, N>(vertices.map(|v| (false, key(v))), &places())
+        ranks_of_keys::<G, N>(vertices.map(|v| (false, key(v))), &places(), vertices)
     }
 
     #[cold]
@@ -115,7 +115,7 @@ impl Keys {
         vertices: [VertexId; N],
         places: [G::Point; N],
     ) -> [u32; N] {
-        ranks_of_keys::<G, N>(vertices.map(|v| (v == VertexId::NONE, self.of(v))), &places)
+        ranks_of_keys::<G, N>(vertices.map(|v| (v == VertexId::NONE, self.of(v))), &places, vertices)
     }
 
     /// The keys for another kernel of the same vertices.
@@ -210,13 +210,20 @@ fn compare_places(p: &[f64], q: &[f64]) -> Ordering {
     p.iter().zip(q).map(|(x, y)| x.total_cmp(y)).find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
 }
 
-/// The number of vertices below each, by keys that may be above all, and by places.
-fn ranks_of_keys<G: Shape, const N: usize>(keys: [(bool, u64); N], places: &[G::Point; N]) -> [u32; N] {
+/// The number of vertices below each, by keys that may be above all, by places, and by ids: with weights, several sites may be
+/// at a place.
+fn ranks_of_keys<G: Shape, const N: usize>(
+    keys: [(bool, u64); N],
+    places: &[G::Point; N],
+    vertices: [VertexId; N],
+) -> [u32; N] {
     let mut n_below = [0; N];
     for i in 1..N {
         for k in 0..i {
-            let order =
-                keys[k].cmp(&keys[i]).then_with(|| compare_places(places[k].as_ref(), places[i].as_ref()));
+            let by_key = keys[k].cmp(&keys[i]);
+            let order = by_key
+                .then_with(|| compare_places(places[k].as_ref(), places[i].as_ref()))
+                .then_with(|| vertices[k].cmp(&vertices[i]));
             n_below[if order == Ordering::Less { i } else { k }] += 1;
         }
     }

@@ -77,6 +77,12 @@ impl<G: Geometry> Delaunay<G> {
         }
     }
 
+    /// Whether `q` is in the closure of a finite cell, which is positive.
+    pub(super) fn has_place(&self, cell: Slot, q: &G::Point) -> bool {
+        let corners = &self.complex.cell(cell).corners;
+        (0..G::Corners::N).all(|i| G::orientation_with(&self.filter, self.view(), corners, i, q) >= 0.0)
+    }
+
     /// The site of a finite cell that is at `q`.
     #[inline(always)]
     pub(super) fn corner_at(&self, cell: Slot, q: &G::Point) -> Option<SiteId> {

@@ -21,7 +21,11 @@ const GLUED: f64 = 0.7;
 /// The part of the checks that is done when all cells have been swept.
 const SWEPT: f64 = 0.9;
 
-/// Sites without cells that are entered, and ghosts that are looked at, between two calls of a monitor.
+/// The part that is done when, with weights, the hidden sites have been entered.
+const HIDDEN: f64 = 0.95;
+
+/// Sites without cells that are entered, sites that may be hidden, and ghosts that are looked at, between two calls of a
+/// monitor.
 const ENTERED: usize = 1 << 16;
 
 /// Ends in an error if a monitor does not want to go on.
@@ -39,6 +43,8 @@ fn part_of(monitor: &mut dyn FnMut(f64) -> bool, from: f64, to: f64) -> impl FnM
 pub(crate) struct Rows<'r, G: Geometry> {
     pub(crate) corners: &'r [G::Vertices],
     pub(crate) neighbours: &'r [G::Neighbours],
+    /// With weights, by vertex the cell that it is hidden above, [`CellId::NONE`] for a corner of cells.
+    pub(crate) below: &'r [CellId],
     /// Vertices that stand for their places, between which there have to be edges.
     pub(crate) segments: &'r [[VertexId; 2]],
 }
@@ -82,17 +88,26 @@ impl<G: Geometry> Delaunay<G> {
         t.parts = parts;
         t.tighten_filter();
         if rows.corners.is_empty() {
-            t.enter_flat(&mut part_of(monitor, SORTED, 1.0))?;
+            t.enter_flat(rows.below, &mut part_of(monitor, SORTED, 1.0))?;
             return Ok((t, site_of));
         }
         t.enter_rows(rows, &site_of, &mut part_of(monitor, SORTED, GLUED))?;
         t.enter_segments(rows.segments, &site_of)?;
-        t.check_restored(&mut part_of(monitor, GLUED, 1.0))?;
+        t.check_restored(rows.below, &mut part_of(monitor, GLUED, 1.0))?;
         Ok((t, site_of))
     }
 
     /// Enters all sites where there are no cells; they must be in one hyperplane.
-    fn enter_flat(&mut self, monitor: &mut dyn FnMut(f64) -> bool) -> Result<(), LoadError> {
+    fn enter_flat(
+        &mut self,
+        below: &[CellId],
+        monitor: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<(), LoadError> {
+        if let Some((vertex, &cell)) =
+            VertexId::range(0..below.len()).zip(below).find(|(_, cell)| **cell != CellId::NONE)
+        {
+            return Err(Damage::Above { vertex, cell }.into());
+        }
         let n_sites = self.sites.len();
         for s in SiteId::range(1..n_sites) {
             if s.index() % ENTERED == 0 {
@@ -145,7 +160,11 @@ impl<G: Geometry> Delaunay<G> {
         self.recent = Slot::new(0);
         // The ghosts follow the finite cells. Without any the cells are closed, and cannot all be positive.
         self.sites[0].cell = Slot::at(rows.corners.len().min(self.complex.n_slots() - 1));
-        match self.sites[1..].iter().find(|site| site.cell == Slot::NONE) {
+        let is_lost = |site: &&Site<G>| {
+            site.cell == Slot::NONE
+                && rows.below.get(site.id.index()).is_none_or(|&cell| cell == CellId::NONE)
+        };
+        match self.sites[1..].iter().find(is_lost) {
             Some(site) => Err(Damage::InNoCell { vertex: site.id }.into()),
             None => Ok(()),
         }
@@ -163,8 +182,44 @@ impl<G: Geometry> Delaunay<G> {
         Ok(())
     }
 
+    /// Enters the sites that weights hide, each above the positive cell that it is said to be above.
+    fn enter_hidden(
+        &mut self,
+        below: &[CellId],
+        monitor: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<(), LoadError> {
+        self.make_room_to_hide()?;
+        let n_cells = self.complex.n_finite();
+        for s in SiteId::range(1..self.sites.len()) {
+            if s.index() % ENTERED == 0 {
+                go_on(monitor, s.index() as f64 / self.sites.len() as f64)?;
+            }
+            let Site { point, id: vertex, cell: of } = *self.site(s);
+            let cell = below[vertex];
+            let slot = Slot::new(cell.get());
+            let is_right = if of == Slot::NONE {
+                cell.index() < n_cells
+                    && self.has_place(slot, &point)
+                    && !self.is_in_conflict(slot, &point, vertex)
+            } else {
+                cell == CellId::NONE
+            };
+            if !is_right {
+                return Err(Damage::Above { vertex, cell }.into());
+            }
+            if of == Slot::NONE {
+                self.hide(s, slot);
+            }
+        }
+        Ok(())
+    }
+
     /// Checks that the cells, which are closed and oriented alike, are the Delaunay triangulation of the sites.
-    fn check_restored(&mut self, monitor: &mut dyn FnMut(f64) -> bool) -> Result<(), LoadError> {
+    fn check_restored(
+        &mut self,
+        below: &[CellId],
+        monitor: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<(), LoadError> {
         let mut failures = Failures::default();
         self.sweep_monitored(&mut failures, &mut part_of(monitor, 0.0, SWEPT))?;
         if let Some(&c) = failures.cells.iter().min() {
@@ -175,8 +230,13 @@ impl<G: Geometry> Delaunay<G> {
             let cell = CellId::new(facet.cell().get());
             return Err(Damage::NotDelaunay { cell, corner: facet.index() }.into());
         }
+        let mut done = SWEPT;
+        if G::HAS_WEIGHTS {
+            self.enter_hidden(below, &mut part_of(monitor, SWEPT, HIDDEN))?;
+            done = HIDDEN;
+        }
         for first in (0..failures.ghosts.len()).step_by(ENTERED) {
-            go_on(monitor, SWEPT + (1.0 - SWEPT) * first as f64 / failures.ghosts.len() as f64)?;
+            go_on(monitor, done + (1.0 - done) * first as f64 / failures.ghosts.len() as f64)?;
             failures.open_ghosts.clear();
             let some = failures.ghosts[first..].iter().take(ENTERED);
             failures.open_ghosts.extend(some);

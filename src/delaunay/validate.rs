@@ -249,10 +249,7 @@ impl<G: Geometry> Delaunay<G> {
     fn check_hidden(&self) -> Check {
         for s in self.live_sites().filter(|&s| self.is_hidden(s)) {
             let (site, c) = (self.site(s), self.cell_below(s));
-            let corners = &self.complex.cell(c).corners;
-            let is_there = !self.complex.cell(c).is_ghost()
-                && (0..G::Corners::N)
-                    .all(|i| G::orientation_with(&self.filter, self.view(), corners, i, &site.point) >= 0.0);
+            let is_there = !self.complex.cell(c).is_ghost() && self.has_place(c, &site.point);
             ensure(is_there, Level::Delaunay, || {
                 text!("vertex {} is not in cell {}, which it is above", site.id, self.describe(c))
             })?;

@@ -1,7 +1,7 @@
 //! Cells that pass every check of a cell, a facet and a ridge, and are no triangulation: no cell is negative, no facet
 //! fails its test, and the hull is convex wherever two of its facets meet. And other data that might take long.
 
-use super::Parts;
+use super::{Parts, Weighted};
 
 const NONE: u32 = u32::MAX;
 
@@ -25,6 +25,7 @@ fn apart(dimension: usize, positions: Vec<f64>) -> Parts {
         moves: Vec::new(),
         insertions: Vec::new(),
         removals: Vec::new(),
+        weighted: None,
         positions,
     }
 }
@@ -109,6 +110,23 @@ pub fn staged(dimension: usize, n: usize) -> Parts {
     parts.coming = vec![0.25; n * dimension];
     parts.positions.extend(vec![f64::NAN; n * dimension]);
     parts.representatives.extend(vec![NONE; n]);
+    parts
+}
+
+/// With weights: one cell, and all other vertices above it, on a line between two of its corners; they are told in no order.
+pub fn covered(dimension: usize, n: usize) -> Parts {
+    let corner = |k: usize| (0..dimension).map(move |axis| if k == axis + 1 { n as f64 } else { 0.0 });
+    let mut positions: Vec<f64> = (0..=dimension).flat_map(corner).collect();
+    let others = (dimension + 1..n).map(|k| (k * 7919 % n) as f64);
+    positions.extend(others.flat_map(|x| (0..dimension).map(move |axis| if axis == 0 { x } else { 0.0 })));
+    let mut parts = apart(dimension, positions);
+    parts.cells.truncate(dimension + 1);
+    parts.neighbours.truncate(dimension + 1);
+    let mut weighted = Weighted { weights: vec![-1e12; n], below: vec![0; n], ..Weighted::default() };
+    weighted.weights[..=dimension].fill(0.0);
+    weighted.below[..=dimension].fill(NONE);
+    weighted.history[0] = n as u64;
+    parts.weighted = Some(weighted);
     parts
 }
 

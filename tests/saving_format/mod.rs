@@ -17,6 +17,35 @@ pub struct Parts {
     pub moves: Vec<u32>,
     pub insertions: Vec<u32>,
     pub removals: Vec<u32>,
+    /// In version 9.
+    pub weighted: Option<Weighted>,
+}
+
+/// What is there with weights alone.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Weighted {
+    /// By vertex, by staged move, and by staged insertion.
+    pub weights: Vec<f64>,
+    pub moved: Vec<f64>,
+    pub coming: Vec<f64>,
+    /// The cell below each vertex that weights hide.
+    pub below: Vec<u32>,
+    pub history: [u64; 12],
+}
+
+/// Numbers of `stride` for each of some points: the last of each, if that is a weight, apart from the others.
+fn split(numbers: &[f64], dimension: usize, stride: usize) -> (Vec<f64>, Vec<f64>) {
+    let rows = || numbers.chunks_exact(stride);
+    (
+        rows().flat_map(|row| &row[..dimension]).copied().collect(),
+        rows().flat_map(|row| &row[dimension..]).copied().collect(),
+    )
+}
+
+/// Places, each with its weight behind it, if there are weights.
+fn joined(places: &[f64], weights: Option<&[f64]>, dimension: usize) -> Vec<f64> {
+    let rows = places.chunks_exact(dimension).enumerate();
+    rows.flat_map(|(k, row)| row.iter().copied().chain(weights.map(|weights| weights[k]))).collect()
 }
 
 /// The checksum of zlib, PNG and others, by its definition.
@@ -43,32 +72,46 @@ impl Parts {
         assert_eq!(bytes[..8], [0x89, b'D', b'L', b'D', 13, 10, 26, 10]);
         let number = |at: usize| u64::from_le_bytes(bytes[at..at + 8].try_into().unwrap());
         let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
-        assert_eq!((word(8), number(16)), (1, bytes.len() as u64));
+        let is_weighted = word(8) == 9;
+        assert!(is_weighted || word(8) == 1);
+        assert_eq!(number(16), bytes.len() as u64);
         let dimension = word(12) as usize;
+        let stride = dimension + usize::from(is_weighted);
         let counts: Vec<usize> = (24..64).step_by(8).map(|at| number(at) as usize).collect();
         let mut at = 168;
         let mut doubles = |n: usize| {
-            at += 8 * n * dimension;
-            (at - 8 * n * dimension..at).step_by(8).map(|at| f64::from_bits(number(at))).collect::<Vec<_>>()
+            at += 8 * n * stride;
+            let numbers = (at - 8 * n * stride..at).step_by(8).map(|at| f64::from_bits(number(at)));
+            split(&numbers.collect::<Vec<_>>(), dimension, stride)
         };
-        let (positions, moved, coming) = (doubles(counts[0]), doubles(counts[2]), doubles(counts[3]));
+        let [(positions, weights), (moved, moved_weights), (coming, coming_weights)] =
+            [counts[0], counts[2], counts[3]].map(&mut doubles);
         let mut words = |n: usize| {
             at += 4 * n;
             (at - 4 * n..at).step_by(4).map(word).collect::<Vec<_>>()
         };
-        let parts = Parts {
+        let representatives = words(counts[0]);
+        let below = words(if is_weighted { counts[0] } else { 0 });
+        let mut parts = Parts {
             dimension,
             sums: std::array::from_fn(|k| number(64 + 8 * k)),
             positions,
             moved,
             coming,
-            representatives: words(counts[0]),
+            representatives,
             cells: words(counts[1] * (dimension + 1)),
             neighbours: words(counts[1] * (dimension + 1)),
             moves: words(counts[2]),
             insertions: words(counts[3]),
             removals: words(counts[4]),
+            weighted: None,
         };
+        if is_weighted {
+            let history = std::array::from_fn(|k| number(at + 8 * k));
+            at += 96;
+            let (moved, coming) = (moved_weights, coming_weights);
+            parts.weighted = Some(Weighted { weights, moved, coming, below, history });
+        }
         assert_eq!(word(at), crc32(&bytes[..at]));
         assert_eq!(at + 4, bytes.len());
         parts
@@ -76,7 +119,8 @@ impl Parts {
 
     pub fn bytes(&self) -> Vec<u8> {
         let mut bytes = vec![0x89, b'D', b'L', b'D', 13, 10, 26, 10];
-        bytes.extend(1_u32.to_le_bytes());
+        let weighted = self.weighted.as_ref();
+        bytes.extend(if weighted.is_some() { 9_u32 } else { 1 }.to_le_bytes());
         bytes.extend((self.dimension as u32).to_le_bytes());
         let n_cells = self.cells.len() / (self.dimension + 1);
         let counts = [
@@ -89,13 +133,20 @@ impl Parts {
         bytes.extend([0; 8]);
         bytes.extend(counts.iter().flat_map(|&n| (n as u64).to_le_bytes()));
         bytes.extend(self.sums.iter().flat_map(|sum| sum.to_le_bytes()));
-        for numbers in [&self.positions, &self.moved, &self.coming] {
+        let points = [
+            joined(&self.positions, weighted.map(|w| &w.weights[..]), self.dimension),
+            joined(&self.moved, weighted.map(|w| &w.moved[..]), self.dimension),
+            joined(&self.coming, weighted.map(|w| &w.coming[..]), self.dimension),
+        ];
+        for numbers in points {
             bytes.extend(numbers.iter().flat_map(|x| x.to_le_bytes()));
         }
-        let lists = [&self.representatives, &self.cells, &self.neighbours, &self.moves, &self.insertions];
-        for numbers in lists.into_iter().chain([&self.removals]) {
+        let (none, below) = (Vec::new(), weighted.map(|w| &w.below));
+        let lists = [&self.representatives, below.unwrap_or(&none), &self.cells, &self.neighbours];
+        for numbers in lists.into_iter().chain([&self.moves, &self.insertions, &self.removals]) {
             bytes.extend(numbers.iter().flat_map(|x| x.to_le_bytes()));
         }
+        bytes.extend(weighted.iter().flat_map(|w| w.history).flat_map(|number| number.to_le_bytes()));
         bytes.extend([0; 4]);
         let size = bytes.len() as u64;
         bytes[16..24].copy_from_slice(&size.to_le_bytes());

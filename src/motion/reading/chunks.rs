@@ -41,6 +41,11 @@ impl<E, P: FnMut(&[u8]) -> Result<(), E>> Chunks<P> {
         (0..G::D).try_for_each(|axis| self.write(point[axis].to_le_bytes()))
     }
 
+    /// Writes all numbers of a point: its coordinates, and its weight if it has one.
+    pub(crate) fn whole_point<G: Moving>(&mut self, point: &G::Point) -> Result<(), E> {
+        (0..G::NUMBERS).try_for_each(|k| self.write(point[k].to_le_bytes()))
+    }
+
     pub(crate) fn numbers(&mut self, numbers: &[u32]) -> Result<(), E> {
         numbers.iter().try_for_each(|number| self.write(number.to_le_bytes()))
     }

@@ -23,7 +23,7 @@ pub(in crate::motion) fn copy_checked<G: Moving>(to: &mut [G::Point], positions:
 }
 
 /// The greatest magnitude of a number of a point: of a coordinate, or of the weight after them.
-const fn limit<G: Moving>(k: usize) -> f64 {
+pub(in crate::motion) const fn limit<G: Moving>(k: usize) -> f64 {
     if k < G::D { MAX_MAGNITUDE } else { MAX_WEIGHT }
 }
 

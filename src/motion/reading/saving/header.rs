@@ -11,8 +11,8 @@ use crate::motion::state::segments::{MAX_SEGMENTS, Segment};
 const MAGIC: [u8; 8] = *b"\x89DLD\r\n\x1a\n";
 
 /// The version of the format, without segments and keys, with segments, with keys, and of what repeats; without keys and
-/// with some where there is a [history](History); and the two with it that list the segments in force, with the labels of
-/// their sides.
+/// with some where there is a [history](History); the two with it that list the segments in force, with the labels of
+/// their sides; and the two with it in which points have weights.
 const VERSION: u32 = 1;
 const WITH_SEGMENTS: u32 = 2;
 const WITH_KEYS: u32 = 3;
@@ -21,7 +21,9 @@ const WITH_HISTORY: u32 = 5;
 const WITH_KEYS_AND_HISTORY: u32 = 6;
 const WITH_LIST: u32 = 7;
 const WITH_KEYS_AND_LIST: u32 = 8;
-const LATEST: u32 = WITH_KEYS_AND_LIST;
+const WITH_WEIGHTS: u32 = 9;
+const WITH_KEYS_AND_WEIGHTS: u32 = 10;
+const LATEST: u32 = WITH_KEYS_AND_WEIGHTS;
 
 /// Bytes of a key.
 const KEY: usize = 8;
@@ -177,7 +179,10 @@ pub(super) struct Header {
     pub(super) removals: usize,
     /// Whether vertices have keys of the program's.
     pub(super) has_keys: bool,
-    /// Whether there is a history: where it does not follow from the rest, or the segments in force are listed.
+    /// Whether points have weights.
+    pub(super) has_weights: bool,
+    /// Whether there is a history: where it does not follow from the rest, and always with a list of segments, or with
+    /// weights.
     pub(super) has_history: bool,
     /// Whether the segments in force are listed.
     pub(super) has_list: bool,
@@ -191,10 +196,12 @@ impl Header {
     /// Bytes of all data, if they are not too many for a number.
     pub(super) fn size(&self) -> Option<u64> {
         let (d, places) = (u128::from(self.dimension), [self.ids, self.moves, self.insertions]);
+        let weight = u128::from(self.has_weights);
         let numbers = [self.ids, self.moves, self.insertions, self.removals];
         let sum = |counts: &[usize]| counts.iter().map(|&n| n as u128).sum::<u128>();
         let bytes = SIZE as u128
-            + 8 * d * sum(&places)
+            + 8 * (d + weight) * sum(&places)
+            + 4 * weight * self.ids as u128
             + 4 * (sum(&numbers) + 2 * (d + 1) * self.cells as u128)
             + if self.has_keys { KEY as u128 * self.ids as u128 } else { 0 }
             + if self.has_history { HISTORY as u128 } else { 0 }
@@ -206,6 +213,8 @@ impl Header {
     /// Its bytes.
     pub(super) fn bytes(&self) -> [u8; SIZE] {
         let version = match (self.has_history, self.has_keys, self.segment_bytes > 0) {
+            (_, true, _) if self.has_weights => WITH_KEYS_AND_WEIGHTS,
+            (_, false, _) if self.has_weights => WITH_WEIGHTS,
             (true, true, _) if self.has_list => WITH_KEYS_AND_LIST,
             (true, false, _) if self.has_list => WITH_LIST,
             (true, true, _) => WITH_KEYS_AND_HISTORY,
@@ -227,12 +236,14 @@ impl Header {
             return Err(Damage::Periodic { is_periodic: true });
         }
         let [ids, cells, moves, insertions, removals] = counts;
-        let has_keys = matches!(version, WITH_KEYS | WITH_KEYS_AND_HISTORY | WITH_KEYS_AND_LIST);
+        let has_keys =
+            matches!(version, WITH_KEYS | WITH_KEYS_AND_HISTORY | WITH_KEYS_AND_LIST | WITH_KEYS_AND_WEIGHTS);
         let has_history = version >= WITH_HISTORY;
-        let has_list = version >= WITH_LIST;
+        let has_list = matches!(version, WITH_LIST | WITH_KEYS_AND_LIST);
+        let has_weights = version >= WITH_WEIGHTS;
         let counts = Header { dimension, ids, cells, moves, insertions, removals, ..Header::default() };
-        let mut header = Header { has_keys, has_history, has_list, ..counts };
-        if version != VERSION {
+        let mut header = Header { has_keys, has_weights, has_history, has_list, ..counts };
+        if version != VERSION && !has_weights {
             // All that is left is about segments; how much that has to be is told there.
             let left = header.size().and_then(|known| size.checked_sub(known)).ok_or(Damage::Counts)?;
             header.segment_bytes = usize::try_from(left).map_err(|_| Damage::Counts)?;

@@ -12,12 +12,11 @@ use crate::motion::reading::saving::Saved;
 use crate::motion::reading::saving::header::{GIVEN_UP, Header, History, SIZE, SegmentCounts};
 use crate::motion::reading::saving::reader::Reader;
 use crate::motion::state::cells::Cells;
-use crate::motion::state::checking::check_position;
+use crate::motion::state::checking::{check_position, limit};
 use crate::motion::state::hidden::Hidden;
 use crate::motion::state::made::{Made, Origin};
 use crate::motion::state::segments::{Segment, Segments};
 use crate::motion::triangulation::{MAX_VERTICES, MovingTriangulation};
-use crate::predicates::is_in_range;
 
 impl Reader<'_> {
     /// The keys, if there are some.
@@ -180,11 +179,17 @@ fn of_segment(error: Error) -> LoadError {
     }
 }
 
-/// Checks where the present vertices are, and what stands for their places, and that all others are nowhere; returns
-/// how many are present.
+/// What is wrong with a number of a point.
+fn of_number<G: Moving>(vertex: VertexId, k: usize, value: f64) -> Damage {
+    if k == G::D { Damage::Weight { vertex, value } } else { Damage::Position { vertex, axis: k, value } }
+}
+
+/// Checks where the present vertices are, and what stands for their places, and that all others are nowhere and above no
+/// cell; returns how many are present.
 fn check_vertices<G: Moving>(
     positions: &[G::Point],
     representatives: &[VertexId],
+    below: &[CellId],
     keys: &Keys,
 ) -> Result<usize, Damage> {
     let mut n_present = 0;
@@ -194,15 +199,24 @@ fn check_vertices<G: Moving>(
             if let Some(axis) = (0..G::D).find(|&axis| !p[axis].is_nan()) {
                 return Err(Damage::Absent { vertex, axis, value: p[axis] });
             }
+            if G::HAS_WEIGHTS && !p[G::D].is_nan() {
+                return Err(Damage::Weight { vertex, value: p[G::D] });
+            }
+            if let Some(&cell) = below.get(vertex.index()).filter(|&&cell| cell != CellId::NONE) {
+                return Err(Damage::Above { vertex, cell });
+            }
             continue;
         }
         n_present += 1;
-        if let Some(axis) = (0..G::D).find(|&axis| !is_in_range(p[axis])) {
-            return Err(Damage::Position { vertex, axis, value: p[axis] });
+        // What is not a number is within no limit.
+        let n_good = (0..G::NUMBERS).take_while(|&k| p[k].abs() <= limit::<G>(k)).count();
+        if n_good < G::NUMBERS {
+            return Err(of_number::<G>(vertex, n_good, p[n_good]));
         }
         if first != vertex {
-            // One beyond the last represents none.
-            let is_lower = first.index() < representatives.len() && keys.is_lower(first, vertex);
+            // One beyond the last represents none; with weights, each stands for itself.
+            let is_lower =
+                !G::HAS_WEIGHTS && first.index() < representatives.len() && keys.is_lower(first, vertex);
             if !is_lower || representatives[first] != first {
                 return Err(Damage::Representative { vertex, given: first });
             }
@@ -237,13 +251,17 @@ impl<G: Moving> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// [`LoadError::Data`] if it is not one of this dimension, or the bytes are none at all;
+    /// [`LoadError::Data`] if it is not one of this dimension, with weights where these are asked for and without them
+    /// otherwise, or the bytes are none at all;
     /// [`Error::OutOfMemory`], [`Error::TooManyVertices`], [`Error::TooManyCells`], [`Error::Cancelled`], and
     /// [`Error::Coincident`] if there are hidden vertices, and the options reject that.
     pub fn load(saved: &Saved<'_>, mut options: Options) -> Result<Self, LoadError> {
         let Saved { header, data } = saved;
         if header.dimension != G::D as u32 {
             return Err(Damage::Dimension { given: header.dimension }.into());
+        }
+        if header.has_weights != G::HAS_WEIGHTS {
+            return Err(Damage::Weighted { is_weighted: header.has_weights }.into());
         }
         if header.ids > MAX_VERTICES {
             return Err(Error::TooManyVertices { given: header.ids, limit: MAX_VERTICES }.into());
@@ -253,11 +271,12 @@ impl<G: Moving> MovingTriangulation<G> {
         let moved = reader.points::<G>(header.moves)?;
         let coming = reader.points::<G>(header.insertions)?;
         let representatives = reader.numbers::<VertexId>(header.ids)?;
+        let below = reader.numbers::<CellId>(if G::HAS_WEIGHTS { header.ids } else { 0 })?;
         let corners = reader.rows::<VertexId, G::Vertices>(header.cells)?;
         let neighbours = reader.rows::<CellId, G::Neighbours>(header.cells)?;
         let mut later = Reader(&reader.0[4 * (header.moves + header.insertions + header.removals)..]);
         let keys = later.keys(header)?;
-        let n_present = check_vertices::<G>(&positions, &representatives, &keys)?;
+        let n_present = check_vertices::<G>(&positions, &representatives, &below, &keys)?;
         let history = later.history(header)?;
         let (segments, made) = later.segments::<G>(header)?.unzip();
         let made = made.flatten();
@@ -267,7 +286,7 @@ impl<G: Moving> MovingTriangulation<G> {
             return Err(Damage::Made { vertex }.into());
         }
         let ends = ends_of(segments.as_deref(), &representatives)?;
-        let rows = Rows { corners: &corners, neighbours: &neighbours, segments: &ends };
+        let rows = Rows { corners: &corners, neighbours: &neighbours, below: &below, segments: &ends };
         let is_site = |v: VertexId| representatives[v] == v;
         let threads = Threads::at_most(options.threads, options.parts);
         let mut unmonitored = |_| true;
@@ -325,7 +344,7 @@ impl<G: Moving> MovingTriangulation<G> {
                 return Err(Damage::Insertion { vertex }.into());
             }
             let checked = check_position::<G>("positions", index, position);
-            let position = checked.map_err(|error| of_staged(error, &insertions))?;
+            let position = checked.map_err(|error| of_staged::<G>(error, &insertions))?;
             self.edits.insert(vertex, position);
             last = Some(vertex);
         }
@@ -336,7 +355,7 @@ impl<G: Moving> MovingTriangulation<G> {
         let is_known =
             (usual.n_known..=self.mesh.site_of.len()).contains(&n_known) && had_keys <= self.has_keys();
         let is_compared = density == usual.density || self.made_vertices().next().is_some();
-        let is_told_in_vain = history == Some(usual) && !header.has_list;
+        let is_told_in_vain = history == Some(usual) && !header.has_list && !header.has_weights;
         if is_told_in_vain || !(is_staged && is_known && is_compared) {
             return Err(Damage::Counts.into());
         }
@@ -347,20 +366,20 @@ impl<G: Moving> MovingTriangulation<G> {
         if let Some(vertex) = self.first_key_of_none() {
             return Err(Damage::Key { vertex, given: self.mesh.kernel.keys().of(vertex) }.into());
         }
-        self.stage_removals(&removals).map_err(|error| of_staged(error, &removals))?;
-        self.move_vertices(&moves, moved).map_err(|error| of_staged(error, &moves))
+        self.stage_removals(&removals).map_err(|error| of_staged::<G>(error, &removals))?;
+        self.move_vertices(&moves, moved).map_err(|error| of_staged::<G>(error, &moves))
     }
 }
 
 /// Why something cannot be staged that has been: the data are wrong, or there is no memory.
-fn of_staged(error: Error, vertices: &[VertexId]) -> LoadError {
+fn of_staged<G: Moving>(error: Error, vertices: &[VertexId]) -> LoadError {
     match error {
         Error::NoSuchVertex { vertex, .. }
         | Error::RemovedVertex { vertex, .. }
         | Error::StagedVertex { vertex, .. }
         | Error::DuplicateMove { vertex, .. } => Damage::Staged { vertex }.into(),
         Error::NotFinite { index, axis, value, .. } | Error::OutOfRange { index, axis, value, .. } => {
-            Damage::Position { vertex: vertices[index], axis, value }.into()
+            of_number::<G>(vertices[index], axis, value).into()
         }
         error => error.into(),
     }

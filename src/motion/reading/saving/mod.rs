@@ -53,6 +53,11 @@ impl<'d> Saved<'d> {
         ([moves, insertions, removals, segment_bytes] == [0; 4]).then_some(ids)
     }
 
+    /// Whether the vertices of the triangulation have weights.
+    pub fn is_weighted(&self) -> bool {
+        self.header.has_weights
+    }
+
     /// The dimension of the triangulation, 2 or 3.
     pub fn dimension(&self) -> u32 {
         self.header.dimension

@@ -16,14 +16,14 @@ impl<'d> Reader<'d> {
         entries.as_chunks().0
     }
 
-    /// The next points.
+    /// The next points, with their weights if they have some.
     pub(crate) fn points<G: Moving>(&mut self, n: usize) -> Result<Vec<G::Point>> {
         let mut points = Vec::new();
         memory::reserve_exact(&mut points, n)?;
-        points.extend(self.entries::<8>(n * G::D).chunks_exact(G::D).map(|bytes| {
+        points.extend(self.entries::<8>(n * G::NUMBERS).chunks_exact(G::NUMBERS).map(|bytes| {
             let mut point = G::Point::default();
             // The sum makes -0 into 0, so that equal places are equal bits.
-            (0..G::D).for_each(|axis| point[axis] = f64::from_le_bytes(bytes[axis]) + 0.0);
+            (0..G::NUMBERS).for_each(|k| point[k] = f64::from_le_bytes(bytes[k]) + 0.0);
             point
         }));
         Ok(points)

@@ -6,10 +6,11 @@ use crate::ids::{CellId, SegmentId, VertexId};
 use crate::machine::memory;
 use crate::motion::reading::chunks::Chunks;
 use crate::motion::reading::saving::header::{GIVEN_UP, Header, History, SegmentCounts};
+use crate::motion::state::cells::Cells;
 use crate::motion::state::density::Density;
 use crate::motion::state::made::Origin;
+use crate::motion::state::mesh::Standing;
 use crate::motion::state::segments::{Segment, Segments};
-use crate::motion::state::views::CellsView;
 use crate::motion::triangulation::MovingTriangulation;
 
 /// Writes segments: how many there are, the ends and the marker of each, in a list with its id and the labels of its sides,
@@ -49,6 +50,7 @@ impl<G: Moving> MovingTriangulation<G> {
             insertions,
             removals,
             has_keys: !self.mesh.kernel.keys().are_ids(),
+            has_weights: G::HAS_WEIGHTS,
             has_history: self.history_to_save().is_some(),
             has_list: self.has_list(),
             segment_bytes: self
@@ -72,7 +74,7 @@ impl<G: Moving> MovingTriangulation<G> {
     /// [`Error::OutOfMemory`] and [`Error::Prepared`], before the first byte; and those of `put`, with which it ends.
     pub fn save<E: From<Error>>(&self, mut put: impl FnMut(&[u8]) -> Result<(), E>) -> Result<(), E> {
         self.reject_prepared()?;
-        let cells = self.cells()?;
+        let cells = self.cell_arrays()?;
         let insertions = self.edits.insertions();
         let mut checksum = crc32fast::Hasher::new();
         let mut chunks = Chunks::new(|bytes: &[u8]| {
@@ -93,18 +95,18 @@ impl<G: Moving> MovingTriangulation<G> {
     ) -> Result<(), E> {
         chunks.write(self.header().bytes())?;
         let mut nowhere = G::Point::default();
-        (0..G::D).for_each(|axis| nowhere[axis] = f64::NAN);
+        (0..G::NUMBERS).for_each(|k| nowhere[k] = f64::NAN);
         for (_, s) in self.mesh.sites_of_ids() {
-            chunks.point::<G>(s.map_or(&nowhere, |s| &self.mesh.kernel.site(s).point))?;
+            chunks.whole_point::<G>(s.map_or(&nowhere, |s| &self.mesh.kernel.site(s).point))?;
         }
-        self.staged_vertices().try_for_each(|v| chunks.point::<G>(self.staging.goal(v)))?;
-        insertions.iter().try_for_each(|(_, point)| chunks.point::<G>(point))
+        self.staged_vertices().try_for_each(|v| chunks.whole_point::<G>(self.staging.goal(v)))?;
+        insertions.iter().try_for_each(|(_, point)| chunks.whole_point::<G>(point))
     }
 
-    /// Writes which vertices are present and hidden, the cells, and what is staged.
+    /// Writes which vertices are present and hidden, and by what, the cells, and what is staged.
     fn save_numbers<E>(
         &self,
-        cells: CellsView<'_, G>,
+        cells: &Cells<G>,
         insertions: &[(VertexId, G::Point)],
         chunks: &mut Chunks<impl FnMut(&[u8]) -> Result<(), E>>,
     ) -> Result<(), E> {
@@ -112,8 +114,11 @@ impl<G: Moving> MovingTriangulation<G> {
             let first = s.map_or(VertexId::NONE, |s| self.mesh.kernel.site(s).id);
             chunks.numbers(&[first.get()])?;
         }
-        cells.corners.iter().try_for_each(|row| chunks.numbers(VertexId::numbers_of(row.as_ref())))?;
-        cells.neighbours.iter().try_for_each(|row| chunks.numbers(CellId::numbers_of(row.as_ref())))?;
+        if G::HAS_WEIGHTS {
+            self.save_hidden_by_weight(cells, chunks)?;
+        }
+        cells.corners().iter().try_for_each(|row| chunks.numbers(VertexId::numbers_of(row.as_ref())))?;
+        cells.neighbours().iter().try_for_each(|row| chunks.numbers(CellId::numbers_of(row.as_ref())))?;
         self.staged_vertices().try_for_each(|v| chunks.numbers(&[v.get()]))?;
         insertions.iter().try_for_each(|(id, _)| chunks.numbers(&[id.get()]))?;
         chunks.numbers(VertexId::numbers_of(self.edits.removals()))?;
@@ -130,6 +135,22 @@ impl<G: Moving> MovingTriangulation<G> {
             chunks.numbers(&[piece.get(), segment.get(), ends[0].get(), ends[1].get()])?;
         }
         Ok(())
+    }
+
+    /// Writes the cell below each vertex that weights hide.
+    fn save_hidden_by_weight<E>(
+        &self,
+        cells: &Cells<G>,
+        chunks: &mut Chunks<impl FnMut(&[u8]) -> Result<(), E>>,
+    ) -> Result<(), E> {
+        let kernel = &self.mesh.kernel;
+        self.mesh.standings().try_for_each(|(_, standing)| {
+            let below = match standing {
+                Standing::Above(s) => cells.index_of()[kernel.cell_below(s)],
+                _ => CellId::NONE,
+            };
+            chunks.numbers(&[below.get()])
+        })
     }
 
     /// Writes the keys, if the program has given some.
@@ -162,7 +183,7 @@ impl<G: Moving> MovingTriangulation<G> {
         if self.made_vertices().next().is_some() {
             history.density = self.made.as_ref().map_or(usual.density, |made| made.density);
         }
-        (history != usual || self.has_list()).then_some(history)
+        (history != usual || self.has_list() || G::HAS_WEIGHTS).then_some(history)
     }
 
     /// Whether the segments in force are listed.
