@@ -10,7 +10,6 @@ use crate::motion::report::CommitReport;
 use crate::motion::state::checking::{check_numbers, check_position};
 use crate::motion::state::part::{Part, set_part};
 use crate::motion::triangulation::MovingTriangulation;
-use crate::predicates::PointArray;
 
 /// The part of a row of numbers.
 const fn width<G: Moving>(part: Part) -> usize {
@@ -64,33 +63,6 @@ impl<G: Moving> MovingTriangulation<G> {
         for k in 0..n {
             if self.edits.is_insertion_staged(vertex_at(k)) {
                 self.edits.set_part(vertex_at(k), part, row::<G>(part, numbers, k));
-            }
-        }
-        Ok(())
-    }
-
-    /// Stages moves of which it is not known what parts they change: those that differ from what is, and the place if none does.
-    ///
-    /// # Errors
-    /// The errors of [`move_vertices`](Self::move_vertices).
-    pub(in crate::motion) fn stage_changed_parts(
-        &mut self,
-        vertices: &[VertexId],
-        goals: &[G::Point],
-    ) -> Result<()> {
-        for (index, (vertex, goal)) in vertices.iter().zip(goals).enumerate() {
-            let goal = check_position::<G>("positions", index, goal)?;
-            let s = self.site_of_vertex("vertices", index, *vertex)?;
-            if self.staging.is_staged(*vertex) {
-                return Err(Error::DuplicateMove { argument: "vertices", index, vertex: *vertex });
-            }
-            let is = self.mesh.kernel.site(s).point;
-            let (same_place, same_weight) = (is.as_ref() == goal.as_ref(), is.weight() == goal.weight());
-            if !same_place || same_weight {
-                self.move_parts(Part::Place, Some(&[*vertex]), goal.as_ref())?;
-            }
-            if !same_weight {
-                self.move_parts(Part::Weight, Some(&[*vertex]), &[goal.weight()])?;
             }
         }
         Ok(())

@@ -149,43 +149,20 @@ pub(super) struct History {
     /// Whether vertices had keys.
     pub(super) had_keys: bool,
     pub(super) density: Density,
-    /// Sums of what changes of weights have done, where there are weights: these are never refined.
-    pub(super) weight_sums: [u64; N_WEIGHT_SUMS],
 }
-
-/// How many sums there are of what changes of weights have done.
-pub(super) const N_WEIGHT_SUMS: usize = 3;
 
 impl History {
     /// In the order in which they are saved.
     pub(super) fn numbers(&self) -> impl Iterator<Item = u64> + use<> {
-        let mut numbers = [0; 12];
-        (numbers[0], numbers[1]) = (self.n_known as u64, u64::from(self.had_keys));
-        numbers[2..].iter_mut().zip(self.density.numbers()).for_each(|(number, of)| *number = of);
-        numbers[2..]
-            .iter_mut()
-            .zip(self.weight_sums)
-            .for_each(|(number, sum)| *number += sum.min(GREATEST_SUM));
-        numbers.into_iter()
+        [self.n_known as u64, u64::from(self.had_keys)].into_iter().chain(self.density.numbers())
     }
 
     /// The history that twelve numbers give.
-    pub(super) fn of(
-        [n_known, had_keys, mut density @ ..]: [u64; 12],
-        has_weights: bool,
-    ) -> Result<Self, Damage> {
-        let mut weight_sums = [0; N_WEIGHT_SUMS];
-        if has_weights {
-            weight_sums.copy_from_slice(&density[..N_WEIGHT_SUMS]);
-            density[..N_WEIGHT_SUMS].fill(0);
-            if weight_sums.iter().any(|&sum| sum > GREATEST_SUM) {
-                return Err(Damage::Counts);
-            }
-        }
+    pub(super) fn of([n_known, had_keys, density @ ..]: [u64; 12]) -> Result<Self, Damage> {
         let n_known = usize::try_from(n_known).map_err(|_| Damage::Counts)?;
         let density = Density::of_numbers(density).ok_or(Damage::Counts)?;
         match had_keys {
-            0 | 1 => Ok(History { n_known, had_keys: had_keys == 1, density, weight_sums }),
+            0 | 1 => Ok(History { n_known, had_keys: had_keys == 1, density }),
             _ => Err(Damage::Counts),
         }
     }

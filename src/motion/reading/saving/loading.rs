@@ -11,7 +11,6 @@ use crate::motion::options::Options;
 use crate::motion::reading::saving::Saved;
 use crate::motion::reading::saving::header::{GIVEN_UP, Header, History, SIZE, SegmentCounts};
 use crate::motion::reading::saving::reader::Reader;
-use crate::motion::report::CommitReport;
 use crate::motion::state::cells::Cells;
 use crate::motion::state::checking::{check_position, limit};
 use crate::motion::state::hidden::Hidden;
@@ -37,7 +36,7 @@ impl Reader<'_> {
             return Ok(None);
         }
         let numbers = self.entries::<8>(12);
-        History::of(std::array::from_fn(|k| u64::from_le_bytes(numbers[k])), header.has_weights).map(Some)
+        History::of(std::array::from_fn(|k| u64::from_le_bytes(numbers[k]))).map(Some)
     }
 
     fn rows<I: Id, C: Corners<I>>(&mut self, n: usize) -> Result<Vec<C>> {
@@ -182,7 +181,7 @@ fn of_segment(error: Error) -> LoadError {
 
 /// What is wrong with a number of a point.
 fn of_number<G: Moving>(vertex: VertexId, k: usize, value: f64) -> Damage {
-    if k >= G::D { Damage::Weight { vertex, value } } else { Damage::Position { vertex, axis: k, value } }
+    if k == G::D { Damage::Weight { vertex, value } } else { Damage::Position { vertex, axis: k, value } }
 }
 
 /// Checks where the present vertices are, and what stands for their places, and that all others are nowhere and above no
@@ -322,10 +321,6 @@ impl<G: Moving> MovingTriangulation<G> {
         }
         t.statistics = header.statistics;
         t.statistics.coincident = t.mesh.hidden.count() as u64;
-        if let Some(History { weight_sums: [reweighted, newly_hidden, newly_shown], .. }) = history {
-            t.statistics = CommitReport { reweighted, newly_hidden, newly_shown, ..t.statistics };
-        }
-        t.count_hidden()?;
         t.stage_saved(header, &mut reader, (&moved, &coming), history)?;
         Ok(t)
     }
@@ -355,7 +350,7 @@ impl<G: Moving> MovingTriangulation<G> {
         }
         let usual = self.usual_history();
         let told = history.unwrap_or(usual);
-        let History { n_known, had_keys, density, .. } = told;
+        let History { n_known, had_keys, density } = told;
         let is_staged = (n_known, had_keys) == (usual.n_known, usual.had_keys) || self.edits.has_insertions();
         let is_known =
             (usual.n_known..=self.mesh.site_of.len()).contains(&n_known) && had_keys <= self.has_keys();
@@ -372,12 +367,7 @@ impl<G: Moving> MovingTriangulation<G> {
             return Err(Damage::Key { vertex, given: self.mesh.kernel.keys().of(vertex) }.into());
         }
         self.stage_removals(&removals).map_err(|error| of_staged::<G>(error, &removals))?;
-        let staged = if G::HAS_WEIGHTS {
-            self.stage_changed_parts(&moves, moved)
-        } else {
-            self.move_vertices(&moves, moved)
-        };
-        staged.map_err(|error| of_staged::<G>(error, &moves))
+        self.move_vertices(&moves, moved).map_err(|error| of_staged::<G>(error, &moves))
     }
 }
 

@@ -6,7 +6,6 @@ use crate::ids::{CellId, SegmentId, VertexId};
 use crate::machine::memory;
 use crate::motion::reading::chunks::Chunks;
 use crate::motion::reading::saving::header::{GIVEN_UP, Header, History, SegmentCounts};
-use crate::motion::report::CommitReport;
 use crate::motion::state::cells::Cells;
 use crate::motion::state::density::Density;
 use crate::motion::state::made::Origin;
@@ -171,14 +170,7 @@ impl<G: Moving> MovingTriangulation<G> {
         let n_ids = self.id_count();
         let last = self.edits.insertions().iter().rev().zip(1..=n_ids);
         let n_last = last.take_while(|&(&(v, _), k)| v.index() == n_ids - k).count();
-        let CommitReport { reweighted, newly_hidden, newly_shown, .. } = self.statistics;
-        let weight_sums = [reweighted, newly_hidden, newly_shown];
-        History {
-            n_known: n_ids - n_last,
-            had_keys: self.has_keys(),
-            density: Density::default(),
-            weight_sums,
-        }
+        History { n_known: n_ids - n_last, had_keys: self.has_keys(), density: Density::default() }
     }
 
     /// The history, if it is to be saved.
