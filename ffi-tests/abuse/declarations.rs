@@ -86,9 +86,8 @@ fn refused_as(functions: &[Declaration], creation: &str, status: &str) -> BTreeS
     let create = functions.iter().find(|function| function.name == creation);
     let documentation = &create.expect("it is declared").documentation;
     let (_, refused) = documentation.split_once("but those of deldrift/").expect("a header is named");
-    let (header, list) = refused
-        .split_once(&format!(" and the following, which return {status}: "))
-        .expect("they are listed");
+    let (header, list) =
+        refused.split_once(&format!(" and the following, which return {status}: ")).expect("they are listed");
     let header = format!("include/deldrift/{header}");
     let (list, _) = list.split_once(". ").expect("a sentence ends");
     let listed: BTreeSet<String> =

@@ -157,7 +157,8 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("uint32_t", "corners_per_simplex") => Role::Corners,
         ("double", "squared_radius" | "tolerance") => Role::Magnitude,
         ("size_t", "count")
-            if function.name == "deldrift_commit_positions" || function.name == "deldrift_commit_weighted" =>
+            if function.name == "deldrift_commit_positions"
+                || function.name == "deldrift_commit_weighted" =>
         {
             Role::FixedCount
         }

@@ -57,7 +57,8 @@ pub(crate) fn check_position<G: Moving>(
             continue;
         }
         let limit = limit::<G>(axis);
-        let (argument, axis) = if axis < G::D { (argument, axis) } else { (weights_of(argument), AXIS_OF_WEIGHT) };
+        let (argument, axis) =
+            if axis < G::D { (argument, axis) } else { (weights_of(argument), AXIS_OF_WEIGHT) };
         return Err(if value.is_finite() {
             Error::OutOfRange { argument, index, axis, value, limit }
         } else {
