@@ -11,14 +11,6 @@ use crate::motion::state::checking::{check_numbers, check_position};
 use crate::motion::state::part::{Part, set_part};
 use crate::motion::triangulation::MovingTriangulation;
 
-/// The part of a row of numbers.
-const fn width<G: Moving>(part: Part) -> usize {
-    match part {
-        Part::Place => G::D,
-        Part::Weight => 1,
-    }
-}
-
 /// The names of the arguments.
 const fn argument(part: Part) -> &'static str {
     match part {
@@ -39,7 +31,7 @@ impl<G: Moving> MovingTriangulation<G> {
     /// [`Error::OutOfRange`], [`Error::OutOfMemory`].
     pub fn move_parts(&mut self, part: Part, vertices: Option<&[VertexId]>, numbers: &[f64]) -> Result<()> {
         let n_ids = self.mesh.site_of.len();
-        let n = numbers.len() / width::<G>(part);
+        let n = numbers.len() / part.width::<G>();
         let wanted = vertices.map_or(n.min(n_ids), <[VertexId]>::len);
         if n != wanted {
             return Err(Error::WrongCount {
@@ -117,7 +109,7 @@ impl<G: Moving> MovingTriangulation<G> {
         let n_ids = self.mesh.site_of.len();
         let parts = [(Part::Place, places), (Part::Weight, weights)];
         for (part, numbers) in parts.into_iter().filter_map(|(part, numbers)| Some((part, numbers?))) {
-            let given = numbers.len() / width::<G>(part);
+            let given = numbers.len() / part.width::<G>();
             if given != n_ids {
                 let coming = self.staged_edits().0;
                 return Err(Error::WrongCount { argument: "count", given, wanted: n_ids, coming });
@@ -177,6 +169,6 @@ impl<G: Moving> MovingTriangulation<G> {
 
 /// The row of numbers at an index.
 fn row<G: Moving>(part: Part, numbers: &[f64], index: usize) -> &[f64] {
-    let width = width::<G>(part);
+    let width = part.width::<G>();
     &numbers[width * index..width * (index + 1)]
 }

@@ -45,6 +45,9 @@ const PIECE: usize = 16;
 /// Bytes of a history.
 const HISTORY: usize = 96;
 
+/// Sums that there are with weights alone: vertices that had another weight, that were hidden, and that were shown.
+pub(super) const N_SUMS_OF_WEIGHTS: usize = 3;
+
 /// Bytes of the header.
 pub(super) const SIZE: usize = 72 + 8 * N_SUMS;
 
@@ -201,7 +204,7 @@ impl Header {
         let sum = |counts: &[usize]| counts.iter().map(|&n| n as u128).sum::<u128>();
         let bytes = SIZE as u128
             + 8 * (d + weight) * sum(&places)
-            + 4 * weight * self.ids as u128
+            + weight * (4 * self.ids as u128 + 8 * N_SUMS_OF_WEIGHTS as u128)
             + 4 * (sum(&numbers) + 2 * (d + 1) * self.cells as u128)
             + if self.has_keys { KEY as u128 * self.ids as u128 } else { 0 }
             + if self.has_history { HISTORY as u128 } else { 0 }
@@ -338,6 +341,28 @@ impl SegmentCounts {
             Err(Damage::Counts)
         }
     }
+}
+
+/// The sums that there are with weights alone, in the order in which they are saved.
+pub(super) fn sums_of_weights(statistics: &CommitReport) -> [u64; N_SUMS_OF_WEIGHTS] {
+    let sums = [statistics.reweighted, statistics.newly_hidden, statistics.newly_shown];
+    sums.map(|sum| sum.min(GREATEST_SUM))
+}
+
+/// Enters these sums, which are at this place in the data.
+pub(super) fn enter_sums_of_weights(
+    statistics: &mut CommitReport,
+    sums: &[[u8; 8]],
+    offset: usize,
+) -> Result<(), Damage> {
+    let places = [&mut statistics.reweighted, &mut statistics.newly_hidden, &mut statistics.newly_shown];
+    for (k, (place, &bytes)) in places.into_iter().zip(sums).enumerate() {
+        *place = u64::from_le_bytes(bytes);
+        if *place > GREATEST_SUM {
+            return Err(Damage::Sum { offset: offset + 8 * k, value: *place });
+        }
+    }
+    Ok(())
 }
 
 /// The number of four bytes at a place.
