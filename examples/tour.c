@@ -408,6 +408,33 @@ static void break_ties_by_keys(void) {
     deldrift_destroy(t);
 }
 
+// Four corners and a vertex between them that weights hide: it comes back as it grows heavier, and goes again as the others do.
+static void hide_by_weights(void) {
+    static const double positions[] = {0, 0, 1, 0, 1, 1, 0, 1, 0.5, 0.25};
+    static const double weights[] = {0.5, 0.5, 0.5, 0.5, -0.5};
+    double found[5];
+    uint32_t vertices[5], cells[5];
+    size_t count;
+    bool is_weighted;
+    deldrift_commit_report report;
+    deldrift_triangulation *t;
+    check(deldrift_create_weighted(2, positions, weights, NULL, 5, NULL, &t));
+    check(deldrift_is_weighted(t, &is_weighted));
+    check(deldrift_hidden_by_weight(t, vertices, cells, 5, &count));
+    expect(is_weighted && count == 1 && vertices[0] == 4 && cells[0] < 2, "a light vertex is above a cell");
+    check(deldrift_set_weight(t, 4, 0));
+    check(deldrift_hidden_by_weight(t, NULL, NULL, 0, &count));
+    expect(count == 0, "it is heavy enough");
+    check(deldrift_stage_weights(t, (uint32_t[]){4}, (double[]){-0.5}, 1));
+    check(deldrift_commit_timestamp(t, &report));
+    expect(report.hidden_by_weight == 1 && report.newly_hidden == 1 && report.reweighted == 1, "a report tells it");
+    check(deldrift_commit_weighted(t, NULL, (double[]){0, 0, 0, 0, 0}, 5, &report));
+    expect(report.newly_shown == 1 && report.moved == 0, "weights alone");
+    check(deldrift_weights(t, found, 5, &count));
+    expect(count == 5 && found[4] == 0, "weights are read by id");
+    deldrift_destroy(t);
+}
+
 // A square of two regions whose mesh is refined: where vertices and pieces come from, labels, and the boundary.
 static void refine_a_domain(void) {
     enum { ROOM = 4096 };
@@ -475,6 +502,7 @@ int main(void) {
     ask_for_signs();
     ask_for_a_domain();
     break_ties_by_keys();
+    hide_by_weights();
     refine_a_domain();
     check(deldrift_validate(t, 3));
     check(deldrift_dimension(t, &dimension));

@@ -96,6 +96,18 @@ pub enum AnyWeighted {
 }
 
 impl AnyWeighted {
+    /// Makes the triangulation that has been saved, as [`MovingTriangulation::load`] does, in its dimension.
+    ///
+    /// # Errors
+    /// The errors of [`MovingTriangulation::load`].
+    pub fn load(saved: &Saved<'_>, options: Options) -> Result<Self, LoadError> {
+        if saved.dimension() == 2 {
+            MovingTriangulation::load(saved, options).map(Self::Plane)
+        } else {
+            MovingTriangulation::load(saved, options).map(Self::Space)
+        }
+    }
+
     /// A copy with a monitor of its own, as [`MovingTriangulation::try_clone`] makes it.
     ///
     /// # Errors

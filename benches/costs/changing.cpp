@@ -99,6 +99,26 @@ void stage_insertions(Context &c, const Points &p) {
 void stage_removals(Context &c, const Ids &ids) { must(deldrift_stage_removals(c.t, ids.data(), ids.size())); }
 
 /// Keys of which each is that of several vertices.
+// Makes the triangulation of the vertices with weights up to a hundredth of the square of the mean way from each to the next one;
+// the weights.
+std::vector<double> make_weighted(Context &c) {
+    deldrift_destroy(c.t);
+    c.t = nullptr;
+    const deldrift_options options = c.options();
+    double square = 0;
+    for (std::size_t i = c.dimension; i < c.points.size(); ++i) {
+        const double step = c.points[i] - c.points[i - c.dimension];
+        square += step * step / double(c.n);
+    }
+    std::vector<double> weights(c.n);
+    for (std::size_t v = 0; v < c.n; ++v) weights[v] = 0.01 * square * double(v * 7919 % 1000) / 1000;
+    c.meter.time([&] {
+        must(deldrift_create_weighted(c.dimension, c.points.data(), weights.data(), nullptr, c.n, &options, &c.t));
+    });
+    c.meter.count(double(c.n + c.cells()));
+    return weights;
+}
+
 std::vector<std::uint64_t> few_keys(std::size_t count) {
     std::vector<std::uint64_t> keys(count);
     for (std::size_t i = 0; i < count; ++i) keys[i] = i * 7 % 1009;
@@ -172,6 +192,53 @@ std::vector<Call> changing_calls() {
                  must(deldrift_create_with_keys(c.dimension, c.points.data(), keys.data(), c.n, &options, &c.t));
              });
              c.meter.count(double(c.n + c.cells()));
+         }},
+        {"deldrift_create_weighted", "", [](Context &c) { make_weighted(c); }},
+        {"deldrift_is_weighted", "of one with weights", [](Context &c) {
+             make_weighted(c);
+             bool is_weighted;
+             c.meter.reset();
+             c.meter.time([&] { must(deldrift_is_weighted(c.t, &is_weighted)); });
+             c.meter.count(1);
+         }},
+        {"deldrift_weights", "of one with weights", [](Context &c) {
+             std::vector<double> weights = make_weighted(c);
+             std::size_t count;
+             c.meter.reset();
+             c.meter.time([&] { must(deldrift_weights(c.t, weights.data(), c.n, &count)); });
+             c.meter.count(double(c.n));
+         }},
+        {"deldrift_stage_weights", "all", [](Context &c) {
+             const std::vector<double> weights = make_weighted(c);
+             c.meter.reset();
+             c.meter.time([&] { must(deldrift_stage_weights(c.t, nullptr, weights.data(), c.n)); });
+             c.meter.count(double(c.n));
+         }},
+        {"deldrift_commit_weighted", "weights nearby", [](Context &c) {
+             std::vector<double> weights = make_weighted(c);
+             for (std::size_t v = 0; v < c.n; ++v) weights[v] *= 1 + 1e-3 * double(v % 3);
+             c.meter.reset();
+             c.meter.time([&] { must(deldrift_commit_weighted(c.t, nullptr, weights.data(), c.n, nullptr)); });
+             c.meter.count(double(c.n + c.cells()));
+         }},
+        {"deldrift_set_weight", "one vertex, a hundred times", [](Context &c) {
+             const std::vector<double> weights = make_weighted(c);
+             c.meter.reset();
+             c.meter.time([&] {
+                 for (std::uint32_t k = 0; k < 100; ++k) {
+                     const std::uint32_t v = c.some_vertex(k);
+                     must(deldrift_set_weight(c.t, v, weights[v] * 1.01));
+                 }
+             }, 100);
+             c.meter.count(double(c.n));
+         }},
+        {"deldrift_hidden_by_weight", "of one with weights", [](Context &c) {
+             make_weighted(c);
+             std::vector<std::uint32_t> vertices(c.n + 1), cells(c.n + 1);
+             std::size_t count;
+             c.meter.reset();
+             c.meter.time([&] { must(deldrift_hidden_by_weight(c.t, vertices.data(), cells.data(), c.n, &count)); });
+             c.meter.count(double(c.n));
          }},
         {"deldrift_stage_insertions_with_keys", "as many as there are", [](Context &c) {
              std::uint32_t first;

@@ -531,7 +531,10 @@ static void make_bases(void) {
     }
     OK(deldrift_clone(bases[0], &bases[PREPARED]));
     OK(deldrift_clone(bases[WITHOUT_EDITS], &bases[TAKEN]));
-    OK(deldrift_create_weighted(dimension, points, weights, NULL, COUNT, &options, &bases[WEIGHTED]));
+    // Half of them are well inside, and hidden by weight.
+    double middle[COUNT * 3];
+    for (size_t i = 0; i < COUNT * dimension; i++) middle[i] = i / dimension % 2 == 1 ? 0.4 + 0.2 * points[i] : points[i];
+    OK(deldrift_create_weighted(dimension, middle, weights, NULL, COUNT, &options, &bases[WEIGHTED]));
     OK(deldrift_remove_vertex(bases[WEIGHTED], REMOVED));
     OK(deldrift_commit_timestamp(bases[WEIGHTED], NULL));
     OK(deldrift_clone(bases[WEIGHTED], &bases[WEIGHTED_WITHOUT_EDITS]));

@@ -97,8 +97,8 @@ static void make_arguments(void) {
     for (size_t i = 0; i < sizeof points / sizeof *points; i++) moved[i] = points[i] + 0.01 * next_random(&seed);
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) values[i] = (double)i;
     for (size_t i = 0; i < sizeof inside / sizeof *inside; i++) inside[i] = 0.5;
-    // Of two vertices that are not the hull's one is hidden by weight.
-    for (size_t i = 0; i < sizeof weights / sizeof *weights; i++) weights[i] = i % 4 == 2 ? -0.25 : 0.01 * next_random(&seed);
+    // Of vertices that are not the hull's some are hidden by weight.
+    for (size_t i = 0; i < sizeof weights / sizeof *weights; i++) weights[i] = i % 2 == 1 ? -4 : 0.01 * next_random(&seed);
     // Its rows are the axes, each with a bit of the one before.
     for (size_t i = 0; i < dimension * dimension; i++) {
         vectors[i] = i % (dimension + 1) == 0 ? 1 : i % (dimension + 1) == dimension ? 0.25 : 0;

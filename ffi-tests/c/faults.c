@@ -124,7 +124,8 @@ static const char *fault(scene *s, const control *c, size_t k, later too, bool l
 static void faults_of(uint32_t dimension, call call, size_t which, double share, size_t turn) {
     const setting *setting = &SETTINGS[which];
     // Of those that are in a line without end most images are there.
-    const bool is_periodic = call.kind == CREATE_PERIODIC || call.kind >= PERIODIC_POSITIONS;
+    const bool is_periodic = is_periodic_call(call.kind);
+    if (setting->weighted ? refuses_weights(call.kind) : is_of_weights(call.kind)) return;
     if (is_periodic && (setting->n > 100 || setting->stages > 0)) return;
     // And so many bytes.
     if (call.kind == PERIODIC_LOAD && setting->is_flat) return;
@@ -200,6 +201,13 @@ static deldrift_triangulation *prepared_copy(const deldrift_triangulation *t) {
     return copy;
 }
 
+// One with weights, of the vertices of a scene.
+static deldrift_triangulation *weighted_of(const scene *s) {
+    deldrift_triangulation *made;
+    OK(deldrift_create_weighted(s->dimension, s->points, weights_of(s->n, s->dimension, 0), NULL, s->n, NULL, &made));
+    return made;
+}
+
 // All functions whose documentation does not name DELDRIFT_OUT_OF_MEMORY.
 static void other_functions_ask_for_nothing(uint32_t dimension) {
     const call some = {COMMIT_SOME, DELDRIFT_AUTO, 0};
@@ -207,9 +215,10 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     uint32_t number;
     size_t count;
     uint64_t timestamp;
-    bool present;
+    bool present, is_weighted;
     double position[3];
     deldrift_commit_report report;
+    deldrift_triangulation *const weighted = weighted_of(&s);
     deldrift_released_cells *const owner = released_cells(s.t);
     scene refined = make_scene(2, (call){COARSEN, DELDRIFT_AUTO, 0}, &SETTINGS[0]);
     size_t n_made, n_segments, n_weights;
@@ -236,6 +245,9 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     CHECK_STATUS(deldrift_position(s.t, 1u << 30, position), DELDRIFT_NO_SUCH_VERTEX);
     CHECK(strlen(deldrift_last_error()) > 0);
     OK(deldrift_copy_positions(s.t, numbers_out, ROOM / 3, &count));
+    OK(deldrift_is_weighted(weighted, &is_weighted));
+    OK(deldrift_weights(weighted, numbers_out, ROOM, &count));
+    CHECK_STATUS(deldrift_weights(s.t, numbers_out, ROOM, &count), DELDRIFT_NOT_WEIGHTED);
     OK(deldrift_coincident_representative(s.t, 30, &number));
     if (dimension == 2) {
         OK(deldrift_segments(s.t, ids_out, NULL, NULL, ROOM, &count));
@@ -264,6 +276,7 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     OK(deldrift_withdraw_timestamp(trial));
     stop_counting();
     deldrift_destroy(trial);
+    deldrift_destroy(weighted);
     CHECK(n_requests == 0 && n_written == 0);
     CHECK(n_made > 0 && n_segments > 3 && n_weights == n_made);
     end_scene(&refined);
@@ -336,7 +349,8 @@ int main(void) {
         for (size_t which = 0; which < N_SETTINGS; which++) {
             for (kind k = 0; k < N_KINDS; k++) {
                 bool is_of_one = k == RELOCATE || k == INSERT || k == INSERT_WITH_KEY || k == REMOVE || k == LOCATE ||
-                                 k == LOCATE_POINTS || k == NEAREST || k == NEAREST_VERTICES || k == CONFLICTS;
+                                 k == LOCATE_POINTS || k == NEAREST || k == NEAREST_VERTICES || k == CONFLICTS ||
+                                 k == COMMIT_WEIGHTED || k == SET_WEIGHT || k == REPRESENTATIVE;
                 // Moves and edits that are staged already would be in the way.
                 if (SETTINGS[which].edits && (k == STAGE_REMOVALS || k == MOVE_ALL)) continue;
                 if (dimension == 3 && is_of_plane(k)) continue;

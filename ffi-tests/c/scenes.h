@@ -24,8 +24,8 @@ typedef struct {
     // Segments, in the plane alone: half of them in force, the others staged with a commit; what is staged conflicts.
     size_t segments;
     bool conflicts;
-    // Keys, some of them equal.
-    bool keyed;
+    // Keys, some of them equal; weights, that hide some vertices.
+    bool keyed, weighted;
 } setting;
 
 static const setting SETTINGS[] = {
@@ -49,6 +49,9 @@ static const setting SETTINGS[] = {
     {.n = 60, .threads = 1, .hides = true, .takes = true, .edits = true, .warm = 1, .stages = 3, .keyed = true},
     {.n = 700, .threads = 3, .hides = true, .reads = true, .takes = true, .stages = 16, .keyed = true},
     {.n = 60, .threads = 1, .hides = true, .is_flat = true, .stages = 5, .keyed = true},
+    {.n = 60, .threads = 1, .hides = true, .reads = true, .takes = true, .warm = 1, .stages = 3, .weighted = true},
+    {.n = 60, .threads = 1, .hides = true, .takes = true, .edits = true, .keyed = true, .weighted = true},
+    {.n = 40, .threads = 1, .is_flat = true, .takes = true, .stages = 3, .weighted = true},
 };
 enum { N_SETTINGS = sizeof SETTINGS / sizeof *SETTINGS };
 
@@ -69,7 +72,8 @@ typedef enum { CREATE, CREATE_WITH_KEYS, CREATE_PERIODIC, RELOCATE, INSERT, INSE
     LABEL_CELLS, SET_REGIONS, REGIONS, UPDATE_LABELS, BOUNDARY_CHAINS, REFINE, COARSEN, RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT,
     PERIODIC_POSITIONS, STAGE_VECTORS, CELL_SHIFTS, EDGE_SHIFTS, PERIODIC_CELLS, PERIODIC_FACETS, PERIODIC_CENTRES,
     LOCATE_IN_PERIOD, PERIODIC_NEAREST, PERIODIC_BALL, PERIODIC_LISTS, PERIODIC_LINEAR, PERIODIC_WEIGHTS, PERIODIC_CLONE, PERIODIC_LOAD,
-    PERIODIC_VTU, PERIODIC_NEIGHBOURS, PERIODIC_CHECK, PERIODIC_COMPACT, PERIODIC_HIDDEN, WRAP_POSITIONS, N_KINDS } kind;
+    PERIODIC_VTU, PERIODIC_NEIGHBOURS, PERIODIC_CHECK, PERIODIC_COMPACT, PERIODIC_HIDDEN, WRAP_POSITIONS,
+    CREATE_WEIGHTED, STAGE_WEIGHTS, COMMIT_WEIGHTED, SET_WEIGHT, HIDDEN_BY_WEIGHT, HIDDEN_BY_PLACE, REPRESENTATIVE, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
     "deldrift_create", "deldrift_create_with_keys", "deldrift_create_periodic", "deldrift_relocate_vertex", "deldrift_insert_vertex",
@@ -106,6 +110,8 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_clone, periodic", "deldrift_load, periodic", "deldrift_write_vtu, periodic",
     "deldrift_vertex_neighbours, periodic", "deldrift_validate, periodic", "deldrift_compact, periodic", "deldrift_hidden_vertices, periodic",
     "deldrift_wrap_positions",
+    "deldrift_create_weighted", "deldrift_stage_weights", "deldrift_commit_weighted", "deldrift_set_weight",
+    "deldrift_hidden_by_weight", "deldrift_hidden_vertices, weighted", "deldrift_coincident_representative, weighted",
 };
 
 enum { MOST_PAIRS = 24 };
@@ -125,6 +131,30 @@ static bool is_of_plane(kind k) {
     return k == ORDERED_STAR || k == CHECK_PASSINGS || k == STAGE_SEGMENTS || k == STAGE_SEGMENT_REMOVALS ||
            k == STAGE_SPLITS ||
            (SEGMENTS_OF_CELLS <= k && k <= COARSEN);
+}
+
+// Calls that only a triangulation with weights serves, or that serve it in a way of their own.
+static bool is_of_weights(kind k) { return k >= CREATE_WEIGHTED; }
+
+static bool is_periodic_call(kind k) {
+    return k == CREATE_PERIODIC || (k >= PERIODIC_POSITIONS && k <= WRAP_POSITIONS);
+}
+
+// Calls that refuse weights, or have nothing to do with them.
+static bool refuses_weights(kind k) {
+    switch (k) {
+        case CREATE:
+        case CREATE_WITH_KEYS:
+        case ANNULUS_WIDTHS:
+        case DELIMITER:
+        case NEAREST:
+        case TRANSFER_CELLS:
+        case INTERPOLATE_NATURAL: return true;
+        default: break;
+    }
+    return is_periodic_call(k) || (VORONOI_VOLUMES <= k && k <= VORONOI_CHANGED) ||
+           (NEAREST_VERTICES <= k && k <= VERTICES_IN_REACH) || k == STAGE_SEGMENTS || k == STAGE_SEGMENT_REMOVALS ||
+           k == CHECK_STAGED || k == CHECK_PASSINGS || k == STAGE_SPLITS || (SEGMENTS_OF_CELLS <= k && k <= COARSEN);
 }
 
 typedef struct {
@@ -305,6 +335,16 @@ static const uint64_t *keys_of(size_t count) {
 static const double BOX[2][9] = {{1, 0, 0.25, 1}, {1, 0, 0, 0.25, 1, 0, 0, -0.375, 1}};
 static const double OTHER_BOX[2][9] = {{1, 0, 5.25, 1.125}, {1, 0, 0, 0.25, 1, 0, 0, -0.375, 1.125}};
 
+// Weights that hide some vertices: of a square of spacings, and some much lower; and others, of a second turn.
+static const double *weights_of(size_t count, uint32_t dimension, size_t turn) {
+    static double weights[2][ROOM];
+    CHECK(count <= ROOM);
+    double *these = weights[turn % 2];
+    const double square = pow((double)count, -2.0 / dimension);
+    for (size_t v = 0; v < count; v++) these[v] = (v + 3 * turn) % 5 == 3 ? -square : 0.3 * square * (double)(v % 7) / 7;
+    return these;
+}
+
 // A number for the cells of a periodic triangulation, in any order.
 static uint64_t digest_of_periodic(const deldrift_triangulation *t, uint32_t dimension) {
     static int64_t shifts[12 * 8192];
@@ -338,7 +378,12 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
     if (setting->is_flat) flatten(s.points, s.n, d);
     hide(&s, s.points);
     deldrift_options options = options_of(&s);
-    if (setting->keyed) {
+    if (setting->weighted) {
+        if (is_of_research(call.algorithm)) options.algorithm = DELDRIFT_AUTO;
+        const uint64_t *keys = setting->keyed ? keys_of(s.n) : NULL;
+        OK(deldrift_create_weighted(d, s.points, weights_of(s.n, d, 0), keys, s.n, &options, &s.t));
+        OK(choose(s.t, call.algorithm));
+    } else if (setting->keyed) {
         if (is_of_research(call.algorithm)) options.algorithm = DELDRIFT_AUTO;
         OK(deldrift_create_with_keys(d, s.points, keys_of(s.n), s.n, &options, &s.t));
         OK(choose(s.t, call.algorithm));
@@ -351,7 +396,7 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
         OK(deldrift_move_vertices(s.t, NULL, s.points, s.n));
         OK(deldrift_commit_timestamp(s.t, NULL));
     }
-    if (d == 2) pair_up(&s);
+    if (d == 2 && !setting->weighted) pair_up(&s);
     if (n_laid > 0) {
         stage_pairs(&s, 0, n_laid);
         OK(deldrift_commit_timestamp(s.t, NULL));
@@ -372,7 +417,7 @@ static scene make_scene(uint32_t dimension, call call, const setting *setting) {
     }
     memcpy(s.places, s.points, room * sizeof *s.places);
     nudge(s.places, s.n * d, 0.3 * spacing, &state);
-    if (call.kind >= PERIODIC_POSITIONS) OK(deldrift_create_periodic(d, s.points, s.n, BOX[d - 2], d, &options, &s.periodic));
+    if (call.kind >= PERIODIC_POSITIONS && is_periodic_call(call.kind)) OK(deldrift_create_periodic(d, s.points, s.n, BOX[d - 2], d, &options, &s.periodic));
     if (call.kind == PERIODIC_COMPACT) {
         OK(deldrift_stage_removals(s.periodic, (uint32_t[]){1, 4}, 2));
         OK(deldrift_commit_timestamp(s.periodic, NULL));
@@ -525,6 +570,17 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     switch (s->call.kind) {
         case CREATE: status = deldrift_create(d, s->points, s->n, &options, &made); break;
         case RELOCATE: status = deldrift_relocate_vertex(s->t, vertex, to); break;
+        case CREATE_WEIGHTED:
+            status = deldrift_create_weighted(d, s->points, weights_of(s->n, d, 1), NULL, s->n, &options, &made);
+            break;
+        case STAGE_WEIGHTS: status = deldrift_stage_weights(s->t, NULL, weights_of(s->n, d, 1), s->n); break;
+        case COMMIT_WEIGHTED:
+            status = deldrift_commit_weighted(s->t, goal == 0 ? NULL : s->places, weights_of(s->n, d, 1), s->n, &report);
+            break;
+        case SET_WEIGHT: status = deldrift_set_weight(s->t, vertex, goal == 0 ? 0.5 : goal == 1 ? -0.5 : 0); break;
+        case HIDDEN_BY_WEIGHT: status = deldrift_hidden_by_weight(s->t, ids_out, more_out, ROOM, &count); break;
+        case HIDDEN_BY_PLACE: status = deldrift_hidden_vertices(s->t, ids_out, more_out, ROOM, &count); break;
+        case REPRESENTATIVE: status = deldrift_coincident_representative(s->t, vertex, &out); break;
         case CREATE_PERIODIC:
             status = deldrift_create_periodic(d, s->points, s->n, BOX[d - 2], d, &options, &made);
             break;
@@ -781,6 +837,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             break;
         case CREATE:
         case CREATE_WITH_KEYS:
+        case CREATE_WEIGHTED:
         case CLONE:
         case LOAD:
         case LOAD_FILE:
@@ -791,8 +848,12 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case COMMIT:
         case COMMIT_SOME:
         case COMMIT_POSITIONS:
-            *given = digest_of((uint64_t[]){report.timestamp, report.coincident, report.inserted, report.removed}, 32);
+        case COMMIT_WEIGHTED:
+            *given = digest_of((uint64_t[]){report.timestamp, report.coincident, report.inserted, report.removed,
+                                            report.hidden_by_weight, report.newly_hidden, report.newly_shown}, 56);
             break;
+        case HIDDEN_BY_WEIGHT:
+        case HIDDEN_BY_PLACE: *given = digest_of(ids_out, count * sizeof *ids_out); break;
         case COMPACT:
             *given = digest_of(ids_out, count * sizeof *ids_out);
             renumber(&s->mirror, d + 1, ids_out);

@@ -365,6 +365,9 @@ static void equal_weights_are_none(uint32_t d) {
     CHECK(!is_weighted);
     CHECK_STATUS(deldrift_weights(plain, weights, MOST, &(size_t){0}), DELDRIFT_NOT_WEIGHTED);
     CHECK_STATUS(deldrift_set_weight(plain, 0, 1), DELDRIFT_NOT_WEIGHTED);
+    uint32_t segment;
+    CHECK_STATUS(deldrift_stage_segments(t, (uint32_t[]){0, 1}, NULL, 1, &segment), DELDRIFT_WEIGHTED);
+    CHECK_MESSAGE("t has weights");
     CHECK_STATUS(deldrift_set_weight(t, 0, 1.5e114), DELDRIFT_OUT_OF_RANGE);
     CHECK_MESSAGE("weight[0] is 1.5e114");
     CHECK_STATUS(deldrift_set_weight(t, 0, NAN), DELDRIFT_NOT_FINITE);

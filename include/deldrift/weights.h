@@ -55,12 +55,14 @@ extern "C" {
 /// they do span which says who is hidden by weight.
 ///
 /// Calls that take positions take coordinates alone, as in any triangulation: a vertex that is moved keeps its weight, and one
-/// that is inserted has weight 0 until it is given another one. Functions that do not serve weights return
-/// DELDRIFT_WEIGHTED: those of deldrift/segments.h, deldrift_cells_in_reach, deldrift_hull_facets_in_reach,
-/// deldrift_vertices_in_reach, deldrift_nearest_vertex, deldrift_nearest_vertices, deldrift_vertices_in_ball,
-/// deldrift_vertices_in_box, deldrift_neighbour_lists, deldrift_conflicts, deldrift_interpolate unless it is linear, and the
-/// functions of Voronoi cells. Circumcentres, and masks by circumradius, are those of power spheres: a squared radius may be
-/// negative.
+/// that is inserted has weight 0 until it is given another one. Circumcentres, and masks by circumradius, are those of
+/// power spheres, of which the squared radius may be negative.
+///
+/// All functions serve a triangulation with weights but those of deldrift/segments.h and the following, which return
+/// DELDRIFT_WEIGHTED: deldrift_cells_in_reach, deldrift_hull_facets_in_reach, deldrift_vertices_in_reach,
+/// deldrift_transfer_cells, deldrift_nearest_vertex, deldrift_nearest_vertices, deldrift_vertices_in_ball, deldrift_vertices_in_box,
+/// deldrift_neighbour_lists, deldrift_conflicts, deldrift_research_annulus_widths, deldrift_research_standard_delimiter. So
+/// does deldrift_interpolate unless it is linear.
 ///
 /// Cost: that of deldrift_create.
 ///
@@ -119,8 +121,10 @@ deldrift_status deldrift_stage_weights(deldrift_triangulation *t,
 ///
 /// Cost: as for deldrift_commit_positions.
 ///
-/// Errors: DELDRIFT_NOT_WEIGHTED, and those of deldrift_commit_positions. The triangulation then stays at its timestamp, no
-/// move is staged, and insertions and removals are staged as before.
+/// Errors: DELDRIFT_NOT_WEIGHTED, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT if there are fewer or more,
+/// DELDRIFT_DUPLICATE_MOVE if a move is staged, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the
+/// options reject it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. The triangulation then stays
+/// at its timestamp, no move is staged, and insertions and removals are staged as before.
 deldrift_status deldrift_commit_weighted(deldrift_triangulation *t,
                                          const double *positions,
                                          const double *weights,
@@ -131,7 +135,9 @@ deldrift_status deldrift_commit_weighted(deldrift_triangulation *t,
 ///
 /// Cost: as for deldrift_relocate_vertex, and a pass over all vertices where some are hidden by weight.
 ///
-/// Errors: DELDRIFT_NOT_WEIGHTED, and those of deldrift_relocate_vertex.
+/// Errors: DELDRIFT_NOT_WEIGHTED, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX,
+/// DELDRIFT_DUPLICATE_MOVE, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY,
+/// DELDRIFT_CANCELLED.
 deldrift_status deldrift_set_weight(deldrift_triangulation *t,
                                     uint32_t vertex,
                                     double weight);

@@ -12,7 +12,7 @@ use super::periodic::reject_coincidence;
 use super::pointers::{Array, Buffer, Output, Text, given, write_all};
 use super::status::{Failure, deldrift_status};
 use crate::damage::LoadError;
-use crate::either::AnyTriangulation;
+use crate::either::{AnyTriangulation, AnyWeighted};
 use crate::machine::memory;
 use crate::motion::{Field, Saved};
 use crate::periodic::{AnyPeriodic, SavedPeriodic};
@@ -75,7 +75,6 @@ pub unsafe extern "C" fn deldrift_save(
     given!(t: Reading, buffer[capacity]: Buffer, count: Output);
     t.read_any(|t| {
         t.reject_prepared()?;
-        t.reject_weights()?;
         in_any!(t => {
             buffer.fill_by(count, t.saved_size(), |places| {
                 let mut rest = places;
@@ -171,10 +170,12 @@ fn load_open(
 ) -> Result<(), Failure> {
     let (callbacks, options) = (options.callbacks(), options.convert()?);
     let saved = Saved::of(data).map_err(|damage| Failure::Data { argument, damage })?;
-    match AnyTriangulation::load(&saved, options) {
-        Ok(made) => hand_out(out, made, callbacks),
-        Err(error) => Err(of_load(argument, error)),
+    let of_load = |error| of_load(argument, error);
+    if saved.is_weighted() {
+        let made = AnyWeighted::load(&saved, options).map_err(of_load)?;
+        return hand_out(out, memory::boxed(made)?, callbacks);
     }
+    hand_out(out, AnyTriangulation::load(&saved, options).map_err(of_load)?, callbacks)
 }
 
 /// Why the bytes of an argument make no triangulation.

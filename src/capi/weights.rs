@@ -39,7 +39,7 @@ use crate::predicates::PointArray;
 ///
 /// All functions serve a triangulation with weights but those of deldrift/segments.h and the following, which return
 /// DELDRIFT_WEIGHTED: deldrift_cells_in_reach, deldrift_hull_facets_in_reach, deldrift_vertices_in_reach,
-/// deldrift_nearest_vertex, deldrift_nearest_vertices, deldrift_vertices_in_ball, deldrift_vertices_in_box,
+/// deldrift_transfer_cells, deldrift_nearest_vertex, deldrift_nearest_vertices, deldrift_vertices_in_ball, deldrift_vertices_in_box,
 /// deldrift_neighbour_lists, deldrift_conflicts, deldrift_research_annulus_widths, deldrift_research_standard_delimiter. So
 /// does deldrift_interpolate unless it is linear.
 ///
@@ -176,8 +176,10 @@ pub unsafe extern "C" fn deldrift_stage_weights(
 ///
 /// Cost: as for deldrift_commit_positions.
 ///
-/// Errors: DELDRIFT_NOT_WEIGHTED, and those of deldrift_commit_positions. The triangulation then stays at its timestamp, no
-/// move is staged, and insertions and removals are staged as before.
+/// Errors: DELDRIFT_NOT_WEIGHTED, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT if there are fewer or more,
+/// DELDRIFT_DUPLICATE_MOVE if a move is staged, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the
+/// options reject it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. The triangulation then stays
+/// at its timestamp, no move is staged, and insertions and removals are staged as before.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_commit_weighted(
     t: *mut deldrift_triangulation,
@@ -189,16 +191,14 @@ pub unsafe extern "C" fn deldrift_commit_weighted(
     given!(t: Changing, positions[count]: Points, weights[count]: Array, report: Output);
     t.change_any(|t| {
         let report = report.if_any()?;
-        let t = weighted_mut(t)?;
-        let weights = if weights.is_null() { None } else { Some(weights.get()?) };
-        let done = with_weights!(t, t => {
-            let places = positions.numbers_if_any(t)?;
+        let done = with_weights!(weighted_mut(t)?, t => {
             let wanted = t.id_count();
             if count != wanted {
                 let coming = t.staged_edits().0;
                 return Err(Error::WrongCount { argument: "count", given: count, wanted, coming }.into());
             }
-            t.commit_parts(places, weights)?
+            let weights = if weights.is_null() { None } else { Some(weights.get()?) };
+            t.commit_parts(positions.numbers_if_any(t)?, weights)?
         });
         if let Some(report) = report {
             report.write(done.into());
@@ -211,7 +211,9 @@ pub unsafe extern "C" fn deldrift_commit_weighted(
 ///
 /// Cost: as for deldrift_relocate_vertex, and a pass over all vertices where some are hidden by weight.
 ///
-/// Errors: DELDRIFT_NOT_WEIGHTED, and those of deldrift_relocate_vertex.
+/// Errors: DELDRIFT_NOT_WEIGHTED, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX,
+/// DELDRIFT_DUPLICATE_MOVE, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY,
+/// DELDRIFT_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_set_weight(
     t: *mut deldrift_triangulation,

@@ -7,7 +7,7 @@ use crate::simd::{LANES, Simd};
 /// Points as arrays, whatever their length: written once, but only where that is known.
 pub trait PointArray: Sized {
     /// The coordinates of a point, without a weight.
-    type Place: Copy + Default + AsRef<[f64]> + AsMut<[f64]> + PointArray + 'static;
+    type Place: Copy + AsRef<[f64]> + PointArray + 'static;
 
     /// The point at a place; of this weight if points have weights.
     fn at(place: Self::Place, weight: f64) -> Self;
@@ -33,10 +33,7 @@ pub trait PointArray: Sized {
     fn exact_difference(&self, other: &Self) -> Option<Self>;
 }
 
-impl<const D: usize> PointArray for [f64; D]
-where
-    Self: Default,
-{
+impl<const D: usize> PointArray for [f64; D] {
     type Place = Self;
 
     #[inline(always)]

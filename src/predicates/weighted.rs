@@ -49,10 +49,7 @@ impl<const D: usize> IndexMut<usize> for WeightedPoint<D> {
 }
 
 /// The numbers of points, each its coordinates and then its weight. A vector to a point is one of weights as well.
-impl<const D: usize> PointArray for WeightedPoint<D>
-where
-    [f64; D]: Default,
-{
+impl<const D: usize> PointArray for WeightedPoint<D> {
     type Place = [f64; D];
 
     #[inline(always)]
