@@ -1,8 +1,10 @@
 //! What is the same for points of any dimension.
 
+use super::distance::compare_distance;
 use super::integer::two_difference;
 use super::vectors::square_between;
 use crate::simd::{LANES, Simd};
+use std::cmp::Ordering;
 
 /// Points as arrays, whatever their length: written once, but only where that is known.
 pub trait PointArray: Sized {
@@ -31,6 +33,9 @@ pub trait PointArray: Sized {
     /// The vector to this point from another, if no coordinate of it is rounded; of points that are not finite none is
     /// known.
     fn exact_difference(&self, other: &Self) -> Option<Self>;
+    /// Compares the powers of this place in respect of two points, exactly: the squares of distances, less the weights
+    /// of the points if they have any.
+    fn compare_powers(&self, a: &Self, b: &Self) -> Ordering;
 }
 
 impl<const D: usize> PointArray for [f64; D] {
@@ -82,5 +87,9 @@ impl<const D: usize> PointArray for [f64; D] {
     fn exact_difference(&self, other: &Self) -> Option<Self> {
         let parts: [_; D] = std::array::from_fn(|axis| two_difference(self[axis], other[axis]));
         parts.iter().all(|&(_, tail)| tail == 0.0).then(|| parts.map(|(rounded, _)| rounded))
+    }
+    #[inline(always)]
+    fn compare_powers(&self, a: &Self, b: &Self) -> Ordering {
+        compare_distance(self, a, b)
     }
 }

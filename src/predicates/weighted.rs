@@ -2,9 +2,11 @@
 
 #![allow(unsafe_code)]
 
+use std::cmp::Ordering;
 use std::ops::{Index, IndexMut};
 
 use super::array::PointArray;
+use super::distance::compare_power;
 use super::integer::two_difference;
 use super::vectors::square_between;
 use crate::simd::{LANES, Real, Simd};
@@ -122,6 +124,11 @@ impl<const D: usize> PointArray for WeightedPoint<D> {
         let (weight, tail) = two_difference(self.weight, other.weight);
         let place = self.place.exact_difference(&other.place).filter(|_| tail == 0.0)?;
         Some(WeightedPoint { place, weight })
+    }
+
+    #[inline(always)]
+    fn compare_powers(&self, a: &Self, b: &Self) -> Ordering {
+        compare_power(&self.place, a, b)
     }
 }
 

@@ -48,6 +48,17 @@ pub(in crate::motion) struct HiddenNow {
 }
 
 impl<G: Moving> Mesh<G> {
+    /// The site at the place of a live one that cells have for a corner, while there are cells; none at a place that is hidden by
+    /// weight.
+    #[inline(always)]
+    pub(in crate::motion) fn shown_at(&self, s: SiteId) -> Option<SiteId> {
+        if self.kernel.is_hidden(s) {
+            corner_at_place(&self.kernel, s, self.kernel.cell_below(s))
+        } else {
+            Some(s)
+        }
+    }
+
     /// The vertices that are in no cell, of those with weights.
     pub(in crate::motion) fn vertices_in_no_cell(&self) -> Result<HiddenVertices> {
         HiddenVertices::of(&self.kernel)
