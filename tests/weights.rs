@@ -353,6 +353,36 @@ fn large_sets_match<G: Moving>(n: usize) {
     }
 }
 
+/// Vertices so many that what their relocation reads is asked for in advance, of hidden ones as well.
+#[test]
+fn sets_beyond_a_cache_match_fresh_builds() {
+    fn check<G: Moving>(n: usize) {
+        let rng = &mut Rng::new(4);
+        let spacing = (n as f64).powf(-1.0 / G::D as f64);
+        let mut points = vec![G::Point::default(); n];
+        for p in &mut points {
+            (0..G::D).for_each(|k| p[k] = rng.unit());
+            p[G::D] = 4.0 * spacing * spacing * rng.unit();
+        }
+        let mut t = MovingTriangulation::<G>::new(&points, Options::default()).expect("a build");
+        for algorithm in [Algorithm::Repair, Algorithm::Placement, Algorithm::PlacementFlips] {
+            t.set_algorithm(algorithm);
+            for p in &mut points {
+                (0..G::D).for_each(|k| p[k] += 1e-3 * spacing * (rng.unit() - 0.5));
+                p[G::D] += 0.1 * spacing * spacing * (rng.unit() - 0.5);
+            }
+            t.commit_positions(&points).expect("room");
+        }
+        let present: Vec<Option<G::Point>> = points.iter().copied().map(Some).collect();
+        let (cells, hidden) = shown(&t);
+        let (fresh_cells, fresh_hidden) = fresh::<G>(&present);
+        assert_same_cells(&cells, &fresh_cells, || format!("{}D", G::D));
+        assert_eq!(hidden, fresh_hidden, "{}D", G::D);
+    }
+    check::<PowerPlane>(40_000);
+    check::<PowerSpace>(40_000);
+}
+
 #[test]
 fn large_sets_match_fresh_builds() {
     large_sets_match::<PowerPlane>(20_000);

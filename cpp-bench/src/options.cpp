@@ -181,8 +181,8 @@ private:
                  "boxes that repeat, beside CGAL's periodic triangulations and voro++'s volumes, to boxes.csv; a part of a\n"
                  "run without --scenario or --series, too");
         add_task("--weights", Task::weights,
-                 "points with weights, which move, beside CGAL's regular triangulations, rebuilt, to weights.csv; the smaller\n"
-                 "sets are a part of a run without --scenario or --series, too");
+                 "points with weights, which move, beside CGAL's regular triangulations, rebuilt, to weights.csv;\n"
+                 "the smaller sets, as a table alone, are a part of a run without --scenario or --series, too");
         add_task("--targets", Task::targets,
                  "special cases beside the speed-up wanted, to targets.csv: within nine minutes");
         add_task("--self-test", Task::self_test, "test the benchmark's own checks");

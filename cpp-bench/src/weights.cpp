@@ -151,23 +151,29 @@ private:
 
     void read_deldrift() { require(deldrift_cells(triangulation_.get(), &view_), "deldrift_cells"); }
 
+    /// Cells, and the ids of those that are hidden, must be CGAL's.
     void compare(const char *timed) {
-        const std::vector<std::uint32_t> ids = ids_of(view_.vertices, view_.count);
         std::vector<std::uint32_t> all(n_);
         std::iota(all.begin(), all.end(), 0u);
-        const CellSet ours = canonical(dimension, ids, all);
-        const CellSet theirs = canonical(dimension, ids_of(of_cgal_.vertices, of_cgal_.n_cells), all);
+        const std::vector<std::uint32_t> of_cgal = ids_of(of_cgal_.vertices, of_cgal_.n_cells);
+        const CellSet ours = canonical(dimension, ids_of(view_.vertices, view_.count), all);
+        if (ours != canonical(dimension, of_cgal, all)) refuse(timed, "cells");
         std::vector<bool> is_shown(n_);
-        for (const std::uint32_t id : ids) is_shown[id] = true;
-        n_hidden_ = static_cast<std::size_t>(std::count(is_shown.begin(), is_shown.end(), false));
+        for (const std::uint32_t id : of_cgal) is_shown[id] = true;
+        std::vector<std::uint32_t> hidden(n_);
+        require(deldrift_hidden_by_weight(triangulation_.get(), hidden.data(), nullptr, n_, &n_hidden_),
+                "deldrift_hidden_by_weight");
+        hidden.resize(n_hidden_);
+        all.erase(std::remove_if(all.begin(), all.end(), [&](std::uint32_t id) { return is_shown[id]; }), all.end());
+        if (hidden != all || n_hidden_ != Space::n_hidden(*cgal_)) refuse(timed, "hidden vertices");
         ++checks_.n_comparisons;
         checks_.n_cells += view_.count;
         checks_.n_hidden += n_hidden_;
-        const std::size_t n_theirs = Space::n_hidden(*cgal_);
-        if (ours != theirs || n_hidden_ != n_theirs)
-            throw std::runtime_error(fmt::format("{}D {}, weights up to {:g}: {} vertices are hidden, and {} by CGAL, or "
-                                                 "cells differ",
-                                                 dimension, timed, greatest_, n_hidden_, n_theirs));
+    }
+
+    [[noreturn]] void refuse(const char *timed, const char *what) const {
+        throw std::runtime_error(
+            fmt::format("{}D {}, weights up to {:g}: other {} than CGAL's", dimension, timed, greatest_, what));
     }
 
     static std::vector<std::uint32_t> ids_of(const std::uint32_t *vertices, std::size_t n_cells) {

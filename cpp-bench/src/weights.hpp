@@ -43,7 +43,7 @@ struct WeightChecks {
 };
 
 /// Every figure of random points in the unit square or cube, the weights of which are from 0 to so many squares of the
-/// spacing. Cells, and how many vertices are hidden, are CGAL's at every timestamp; throws std::runtime_error where not.
+/// spacing. Cells and hidden vertices are CGAL's at every timestamp; throws std::runtime_error where not.
 std::vector<WeightLine> measure_weights(unsigned dimension, std::size_t n_points, double greatest,
                                         const WeightEfforts &efforts, std::uint64_t seed, WeightChecks &checks,
                                         Progress &progress);

@@ -163,6 +163,8 @@ impl<G: Geometry> Delaunay<G> {
     pub(crate) fn prefetch_star(&self, s: SiteId, step: usize) {
         match step {
             0 => prefetch(&self.sites, s.index()),
+            // What is hidden has no star.
+            _ if G::HAS_WEIGHTS && self.site(s).cell == Slot::NONE => {}
             1 => self.complex.prefetch(self.site(s).cell),
             2 => self.complex.prefetch_neighbours(self.site(s).cell),
             _ => {
