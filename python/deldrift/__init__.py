@@ -40,6 +40,7 @@ from ._errors import (
     NoSuchSimplex,
     NoSuchVertex,
     NotFinite,
+    NotWeighted,
     OutOfMemory,
     OutOfRange,
     PassingError,
@@ -48,6 +49,7 @@ from ._errors import (
     StagedVertex,
     TooMany,
     UndecidedRegions,
+    Weighted,
     WrongCount,
 )
 from ._geometry import VoronoiCells, VoronoiDerivatives
@@ -95,6 +97,7 @@ __all__ = [
     "NoSuchSimplex",
     "NoSuchVertex",
     "NotFinite",
+    "NotWeighted",
     "OutOfMemory",
     "OutOfRange",
     "PassingError",
@@ -116,6 +119,7 @@ __all__ = [
     "UndecidedRegions",
     "VoronoiCells",
     "VoronoiDerivatives",
+    "Weighted",
     "WrongCount",
     "frombytes",
     "in_power_sphere",

@@ -64,11 +64,11 @@ class InvalidValue(Error, ValueError):
 
 
 class NotFinite(Error, ValueError):
-    """A coordinate is NaN or infinite."""
+    """A coordinate, or a weight, is NaN or infinite."""
 
 
 class OutOfRange(Error, ValueError):
-    """A coordinate is of a magnitude above 1e57."""
+    """A coordinate is of a magnitude above 1e57, or a weight of one above 1e114."""
 
 
 class WrongCount(Error, ValueError):
@@ -117,6 +117,14 @@ class AmbiguousSeed(Error, ValueError):
 
 class UndecidedRegions(Error, RuntimeError):
     """The sides of a region have no label, or several, where refinement goes by them: see `Delaunay.regions`."""
+
+
+class Weighted(Error, RuntimeError):
+    """The vertices have weights, and the call is not for such: see `Regular`."""
+
+
+class NotWeighted(Error, RuntimeError):
+    """The vertices have no weights, and the call is for those that have: see `Regular`."""
 
 
 class ConflictKind(enum.IntEnum):
@@ -242,6 +250,8 @@ KINDS = {
     39: InvalidValue,
     40: ChangesNotTaken,
     41: UndecidedRegions,
+    42: Weighted,
+    43: NotWeighted,
 }
 """Classes by deldrift_status. What is not here comes of a defect, as a pointer of this package that is NULL."""
 
