@@ -1,7 +1,8 @@
 """Exact Delaunay triangulations of moving points, in 2D and 3D.
 
 `Delaunay` has the attributes and methods of `scipy.spatial.Delaunay`; its points may move, be inserted and be removed.
-In the plane it takes segments, which stay edges; `Mesh` is the mesh of a domain within segments, which may move.
+In the plane it takes segments, which stay edges; `Mesh` is the mesh of a domain within segments, which may move. The
+points of `Regular` have weights.
 
 Examples
 --------
@@ -59,6 +60,7 @@ from ._mesh import Mesh
 from ._motion import Changes
 from ._periodic import PeriodicDelaunay, PeriodicLocations
 from ._refining import MadeVertices, RefinedWeights
+from ._regular import HiddenByWeight, Regular, WeightedStep
 from ._segments import Chains, Regions, Segments, Splits
 from ._step import Step, Trial
 from ._transferring import Transfer
@@ -81,6 +83,7 @@ __all__ = [
     "DuplicateMove",
     "Error",
     "FileError",
+    "HiddenByWeight",
     "InternalError",
     "Invalid",
     "InvalidData",
@@ -107,6 +110,7 @@ __all__ = [
     "QualityReport",
     "RefinedWeights",
     "Regions",
+    "Regular",
     "RemovedVertex",
     "Report",
     "Segments",
@@ -120,6 +124,7 @@ __all__ = [
     "VoronoiCells",
     "VoronoiDerivatives",
     "Weighted",
+    "WeightedStep",
     "WrongCount",
     "frombytes",
     "in_power_sphere",

@@ -255,6 +255,12 @@ KINDS = {
 }
 """Classes by deldrift_status. What is not here comes of a defect, as a pointer of this package that is NULL."""
 
+MESSAGES = {
+    42: "the points have weights, and this is for points without alone: see Regular",
+    43: "the points have no weights, and this is for points with weights: see Regular",
+}
+"""What is said of statuses whose messages name what Python has no name for."""
+
 # "positions[12], coordinate 1, is inf", "cells[3] is 99, but ...", "squared_radius is -1", "quality.sizes[3] is 0"
 PLACE = re.compile(
     r"(?:quality\.)?(?P<argument>\w+)(?:\[(?P<index>\d+)\])?(?:, coordinate \d+,)? is (?P<value>[^\s,]+)"
@@ -284,7 +290,7 @@ def entry(flat: int, shape: tuple[int, ...]) -> tuple[str, Index]:
 
 def raise_for(status: int, names: Mapping[str, Name]) -> None:
     """Raises the exception for a status, with the arguments of C named as those of Python."""
-    message = _library.last_error()
+    message = MESSAGES.get(status) or _library.last_error()
     place = PLACE.match(message)
     kind = KINDS.get(status, InternalError)
     if place is None:
