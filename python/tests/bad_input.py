@@ -1,8 +1,8 @@
 """Calls with wrong arguments, and the table of what comes of them: `python tests/bad_input.py` writes BAD_INPUT.md.
 
-Each call is evaluated with a triangulation `tri` of the plane that has the ids 0 to 6: vertex 5 is hidden by vertex 4,
-and vertex 6 has been removed. `bound` has segments around a square and one inside, and `mesh` is the mesh of the square. In
-`regular` vertex 4 is hidden by weight.
+Each call is evaluated with a triangulation `tri` of the plane that has the ids 0 to 6: vertex 5 is hidden by vertex
+4, and vertex 6 has been removed. `bound` has segments around a square and one inside, and `mesh` is the mesh of the
+square. In `regular` vertex 4 is hidden by weight.
 """
 
 import pathlib
