@@ -13,7 +13,7 @@ from ._arrays import keys as given_keys, one_id, points as point_rows, real
 from ._callbacks import calling
 from ._core import check, count_of, fixed, id_count, make_options
 from ._delaunay import Delaunay
-from ._errors import InvalidShape
+from ._errors import Error, InvalidShape
 from ._library import Report
 from ._loading import given_callbacks
 from ._scipy import planes
@@ -51,8 +51,13 @@ class WeightedStep(Step):
         self._failure: Optional[BaseException] = None
 
     def _end(self, is_good: bool) -> None:
-        if is_good and self._failure is not None:
-            raise self._failure
+        failure, self._failure = self._failure, None
+        if is_good and failure is not None:
+            try:
+                raise failure
+            finally:
+                # Kept in this frame, which it refers to, it would be freed by a collection alone.
+                del failure
         super()._end(is_good)
 
     def move(self, points: Any = None, ids: Any = None, *, weights: Any = None) -> None:
@@ -102,14 +107,16 @@ class WeightedStep(Step):
         positions = point_rows("points", points, owner.ndim)
         numbers = None if weights is None else _numbers(weights)
         expect("weights", numbers, len(positions), "points")
-        new = super().insert(positions, keys, reuse_ids=reuse_ids)
-        if numbers is None:
-            return new
+        new = None
         try:
-            with owner._staging as t:
-                owner._check(_stage_weights(t, address(new), address(numbers), len(new)))
+            new = super().insert(positions, keys, reuse_ids=reuse_ids)
+            if numbers is not None:
+                with owner._staging as t:
+                    owner._check(_stage_weights(t, address(new), address(numbers), len(new)))
         except BaseException as error:
-            self._failure = error
+            # Vertices may be staged without their weights, as what a handler of a signal raises comes at any time.
+            if numbers is not None and (new is not None or not isinstance(error, (Error, TypeError))):
+                self._failure = error
             raise
         return new
 
