@@ -730,7 +730,10 @@ fn tolerances_of_orientations_are_certified() {
 }
 
 /// Distances, against thresholds a few last bits off.
-fn distances_are_certified<const D: usize>(n: usize) {
+fn distances_are_certified<const D: usize>(n: usize)
+where
+    [f64; D]: Default,
+{
     use std::cmp::Ordering::{Greater, Less};
     let mut n_undecided = 0;
     for (kind, [p, q, r]) in bicells::<D, 3>(n, 6) {

@@ -239,7 +239,6 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     OK(deldrift_memory_bytes(s.t, &count));
     OK(deldrift_id_count(s.t, &count));
     OK(deldrift_timestamp(s.t, &timestamp));
-    OK(deldrift_statistics(s.t, &report));
     OK(deldrift_is_present(s.t, 3, &present));
     OK(deldrift_position(s.t, 3, position));
     CHECK_STATUS(deldrift_position(s.t, 1u << 30, position), DELDRIFT_NO_SUCH_VERTEX);
@@ -248,7 +247,6 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     OK(deldrift_is_weighted(weighted, &is_weighted));
     OK(deldrift_weights(weighted, numbers_out, ROOM, &count));
     CHECK_STATUS(deldrift_weights(s.t, numbers_out, ROOM, &count), DELDRIFT_NOT_WEIGHTED);
-    OK(deldrift_coincident_representative(s.t, 30, &number));
     if (dimension == 2) {
         OK(deldrift_segments(s.t, ids_out, NULL, NULL, ROOM, &count));
         OK(deldrift_segment_conflicts(s.t, NULL, 0, &count));

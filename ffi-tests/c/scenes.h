@@ -73,7 +73,7 @@ typedef enum { CREATE, CREATE_WITH_KEYS, CREATE_PERIODIC, RELOCATE, INSERT, INSE
     PERIODIC_POSITIONS, STAGE_VECTORS, CELL_SHIFTS, EDGE_SHIFTS, PERIODIC_CELLS, PERIODIC_FACETS, PERIODIC_CENTRES,
     LOCATE_IN_PERIOD, PERIODIC_NEAREST, PERIODIC_BALL, PERIODIC_LISTS, PERIODIC_LINEAR, PERIODIC_WEIGHTS, PERIODIC_CLONE, PERIODIC_LOAD,
     PERIODIC_VTU, PERIODIC_NEIGHBOURS, PERIODIC_CHECK, PERIODIC_COMPACT, PERIODIC_HIDDEN, WRAP_POSITIONS,
-    CREATE_WEIGHTED, STAGE_WEIGHTS, COMMIT_WEIGHTED, SET_WEIGHT, HIDDEN_BY_WEIGHT, HIDDEN_BY_PLACE, REPRESENTATIVE, N_KINDS } kind;
+    CREATE_WEIGHTED, STAGE_WEIGHTS, COMMIT_WEIGHTED, SET_WEIGHT, HIDDEN_BY_WEIGHT, HIDDEN_BY_PLACE, REPRESENTATIVE, STATISTICS, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
     "deldrift_create", "deldrift_create_with_keys", "deldrift_create_periodic", "deldrift_relocate_vertex", "deldrift_insert_vertex",
@@ -112,6 +112,7 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_wrap_positions",
     "deldrift_create_weighted", "deldrift_stage_weights", "deldrift_commit_weighted", "deldrift_set_weight",
     "deldrift_hidden_by_weight", "deldrift_hidden_vertices, weighted", "deldrift_coincident_representative, weighted",
+    "deldrift_statistics, weighted",
 };
 
 enum { MOST_PAIRS = 24 };
@@ -580,6 +581,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case SET_WEIGHT: status = deldrift_set_weight(s->t, vertex, goal == 0 ? 0.5 : goal == 1 ? -0.5 : 0); break;
         case HIDDEN_BY_WEIGHT: status = deldrift_hidden_by_weight(s->t, ids_out, more_out, ROOM, &count); break;
         case HIDDEN_BY_PLACE: status = deldrift_hidden_vertices(s->t, ids_out, more_out, ROOM, &count); break;
+        case STATISTICS: status = deldrift_statistics(s->t, &report); break;
         case REPRESENTATIVE: status = deldrift_coincident_representative(s->t, vertex, &out); break;
         case CREATE_PERIODIC:
             status = deldrift_create_periodic(d, s->points, s->n, BOX[d - 2], d, &options, &made);
@@ -849,6 +851,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case COMMIT_SOME:
         case COMMIT_POSITIONS:
         case COMMIT_WEIGHTED:
+        case STATISTICS:
             *given = digest_of((uint64_t[]){report.timestamp, report.coincident, report.inserted, report.removed,
                                             report.hidden_by_weight, report.newly_hidden, report.newly_shown}, 56);
             break;

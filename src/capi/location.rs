@@ -180,12 +180,12 @@ pub unsafe extern "C" fn deldrift_nearest_vertex(
 }
 
 /// The vertex that represents this one in cells, to *representative. It is the one of the lowest id at the same place,
-/// or, where vertices have keys, of the lowest key and then of the lowest id. It is the vertex itself unless that is
-/// hidden.
+/// or, where vertices have keys, of the lowest key and then of the lowest id; with weights the heaviest one before these.
+/// It is the vertex itself unless that is hidden.
 ///
-/// Cost: constant.
+/// Cost: constant; n for a hidden vertex of a triangulation with weights.
 ///
-/// Errors: DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX.
+/// Errors: DELDRIFT_OUT_OF_MEMORY if t has weights, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_coincident_representative(
     t: *const deldrift_triangulation,
@@ -196,14 +196,15 @@ pub unsafe extern "C" fn deldrift_coincident_representative(
     tell_any!(t, representative => t.coincident_representative(VertexId::new(vertex))?.get())
 }
 
-/// The vertices that are hidden, ascending, each with the one that represents it. In a periodic triangulation vertices
+/// The vertices that are hidden by place, ascending, each with the one that represents it. In a periodic triangulation vertices
 /// share a place if they do in any period.
 ///
 /// vertices, representatives: buffers with room for capacity ids each. count: receives the number of hidden vertices.
 ///
-/// Cost: n; constant where there are none, and for the count alone; n for a periodic triangulation.
+/// Cost: n; constant where there are none, and for the count alone; n for a periodic triangulation, and for one with
+/// weights.
 ///
-/// Errors: DELDRIFT_OUT_OF_MEMORY if t is periodic.
+/// Errors: DELDRIFT_OUT_OF_MEMORY if t is periodic or has weights.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_hidden_vertices(
     t: *const deldrift_triangulation,

@@ -2,7 +2,7 @@
 
 use std::slice;
 
-use super::handle::{Changing, Content, Reading, deldrift_triangulation, in_any, tell_any, with_weights};
+use super::handle::{Changing, Content, Reading, by_kind, deldrift_triangulation, in_any, with_weights};
 use super::pointers::{Array, Output, Point, Points, given};
 use super::status::deldrift_status;
 use crate::error::Error;
@@ -288,17 +288,19 @@ pub unsafe extern "C" fn deldrift_commit_positions(
     })
 }
 
-/// What all commits and immediate calls so far have done, in sum, to *report. Its timestamp and coincident are those of
-/// now.
+/// What all commits and immediate calls so far have done, in sum, to *report. Its timestamp, coincident and
+/// hidden_by_weight are those of now.
 ///
-/// Cost: constant.
+/// Cost: constant; n for a triangulation with weights.
+///
+/// Errors: DELDRIFT_OUT_OF_MEMORY if t has weights.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_statistics(
     t: *const deldrift_triangulation,
     report: *mut deldrift_commit_report,
 ) -> deldrift_status {
     given!(t: Reading, report: Output);
-    tell_any!(t, report => t.statistics().into())
+    t.tell_any(report, |t| Ok(by_kind!(t => t.statistics_of_now()?, periodic t => t.statistics()).into()))
 }
 
 /// An error about arrays of one, told in the names of the single arguments.

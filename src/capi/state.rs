@@ -5,7 +5,7 @@ use super::handle::{Reading, deldrift_triangulation, in_any, tell_any};
 use super::pointers::{Buffer, Output, given};
 use super::status::deldrift_status;
 use crate::ids::VertexId;
-use crate::predicates::PointArray;
+use crate::predicates::{Coordinates, PointArray};
 
 /// How many vertices are present, hidden ones included and removed ones not, to *count.
 ///
@@ -141,16 +141,17 @@ pub unsafe extern "C" fn deldrift_copy_positions(
             let positions = positions.cast();
             given!(positions[capacity]: Buffer);
             let n = t.id_count();
-            positions.fill(count, n, || Ok(VertexId::range(0..n).map(|vertex| or_nan(t.position_or_goal(vertex).map(|p| p.coordinates())))))
+            positions.fill(count, n, || Ok(VertexId::range(0..n).map(|vertex| or_nan(t.position_or_goal(vertex)))))
         })
     })
 }
 
 /// The position of a vertex, or where it will be inserted, NaN if it has been removed.
-fn or_nan<P: Default + AsMut<[f64]>>(position: Option<P>) -> P {
-    position.unwrap_or_else(|| {
+fn or_nan<P: Coordinates>(position: Option<P>) -> P::Place {
+    let position = position.unwrap_or_else(|| {
         let mut nowhere = P::default();
-        nowhere.as_mut().fill(f64::NAN);
+        (0..nowhere.as_ref().len()).for_each(|axis| nowhere[axis] = f64::NAN);
         nowhere
-    })
+    });
+    position.coordinates()
 }

@@ -228,6 +228,13 @@ impl<G: Geometry> Delaunay<G> {
         SiteId::range(0..n).filter(|&s| self.above.has(s))
     }
 
+    /// The hidden sites that are above a cell.
+    #[inline(always)]
+    pub(crate) fn sites_above(&self, cell: Slot) -> impl Iterator<Item = SiteId> + '_ {
+        let there = G::HAS_WEIGHTS && self.above.n > 0;
+        there.then(|| self.above.of(cell)).into_iter().flatten()
+    }
+
     /// Whether a site is in the list of the cell below it, or of those that an undone change has left loose.
     pub(super) fn is_listed(&self, s: SiteId) -> bool {
         let link = self.above.links[s.index()];

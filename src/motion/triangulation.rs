@@ -7,7 +7,7 @@ use crate::machine::memory;
 use crate::machine::threads::Threads;
 use crate::motion::constants::Table;
 use crate::motion::filters::regions::Regions;
-use crate::motion::options::{CoincidencePolicy, Options};
+use crate::motion::options::Options;
 use crate::motion::plan::auto::Auto;
 use crate::motion::plan::switching::Switching;
 use crate::motion::report::{CommitReport, Evaluations};
@@ -267,22 +267,10 @@ impl<G: Moving> MovingTriangulation<G> {
     /// Counts the vertices with weights that are hidden, in the sums; or refuses two at one place, if the options do.
     pub(in crate::motion) fn count_hidden(&mut self) -> Result<()> {
         if G::HAS_WEIGHTS {
-            let found = self.mesh.vertices_in_no_cell()?;
-            self.reject_shared(found.by_place.first())?;
-            self.statistics.coincident = found.by_place.len() as u64;
-            self.statistics.hidden_by_weight = found.by_weight.len() as u64;
+            let now = self.mesh.hidden_in(&self.mesh.kernel, self.options.coincidence)?;
+            (self.statistics.coincident, self.statistics.hidden_by_weight) = (now.by_place, now.by_weight);
         }
         Ok(())
-    }
-
-    /// Refuses two vertices with weights at one place, if the options do.
-    pub(in crate::motion) fn reject_shared(&self, shared: Option<&(VertexId, VertexId)>) -> Result<()> {
-        match shared {
-            Some(&(v, w)) if self.options.coincidence == CoincidencePolicy::Reject => {
-                Err(Error::Coincident { vertex: v.min(w), other: v.max(w) })
-            }
-            _ => Ok(()),
-        }
     }
 
     /// Ids given so far; those below it are valid unless removed.

@@ -1,13 +1,15 @@
 //! What is the same for points of any dimension.
 
+use super::distance::compare_distance;
 use super::integer::two_difference;
 use super::vectors::square_between;
 use crate::simd::{LANES, Simd};
+use std::cmp::Ordering;
 
 /// Points as arrays, whatever their length: written once, but only where that is known.
 pub trait PointArray: Sized {
     /// The coordinates of a point, without a weight.
-    type Place: Copy + Default + AsRef<[f64]> + AsMut<[f64]> + PointArray + 'static;
+    type Place: Copy + AsRef<[f64]> + PointArray + 'static;
 
     /// The point at a place; of this weight if points have weights.
     fn at(place: Self::Place, weight: f64) -> Self;
@@ -31,12 +33,12 @@ pub trait PointArray: Sized {
     /// The vector to this point from another, if no coordinate of it is rounded; of points that are not finite none is
     /// known.
     fn exact_difference(&self, other: &Self) -> Option<Self>;
+    /// Compares the powers of this place in respect of two points, exactly: the squares of distances, less the weights
+    /// of the points if they have any.
+    fn compare_powers(&self, a: &Self, b: &Self) -> Ordering;
 }
 
-impl<const D: usize> PointArray for [f64; D]
-where
-    Self: Default,
-{
+impl<const D: usize> PointArray for [f64; D] {
     type Place = Self;
 
     #[inline(always)]
@@ -85,5 +87,9 @@ where
     fn exact_difference(&self, other: &Self) -> Option<Self> {
         let parts: [_; D] = std::array::from_fn(|axis| two_difference(self[axis], other[axis]));
         parts.iter().all(|&(_, tail)| tail == 0.0).then(|| parts.map(|(rounded, _)| rounded))
+    }
+    #[inline(always)]
+    fn compare_powers(&self, a: &Self, b: &Self) -> Ordering {
+        compare_distance(self, a, b)
     }
 }

@@ -163,6 +163,19 @@ pub(super) fn compare_distance(points: [&[f64]; 3]) -> Ordering {
     (square(&to_a) - square(&to_b)).sign()
 }
 
+/// `compare_power` (`distance.rs`).
+#[cold]
+#[inline(never)]
+pub(super) fn compare_power<const D: usize>(
+    q: &[f64; D],
+    points: [&[f64; D]; 2],
+    [of_a, of_b]: [f64; 2],
+) -> Ordering {
+    let room = LimbRoom::<POWER_LIMBS>::of_any_size();
+    let (_, _, [to_a, to_b]) = lifted(&room, q, points, &[of_a, of_b, 0.0]);
+    (to_a - to_b).sign()
+}
+
 /// Whether the squared distance of two points is at most `squared`, which is finite.
 #[cold]
 #[inline(never)]

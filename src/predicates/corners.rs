@@ -1,14 +1,16 @@
-//! Corners of Voronoi cells in a box: places where bisectors and faces of the box meet, by exact signs.
+//! Corners of Voronoi cells in a box, and of power cells: places where bisectors and faces of the box meet, by exact
+//! signs.
 //!
 //! In the plane the third coordinate is zero, and fixed.
 //!
 //! # Idea
 //!
-//! Let u be the differences from a vertex to others, b a place, h the difference from the vertex to b, and δ that from
-//! b to a corner on the bisectors of the vertex and the others. Each of these says 2 u · δ = u · (u − 2 h). A face of
-//! the box says that δ is zero along its axis. So as many others as there are axes left make a system of linear
-//! equations; Cramer's rule gives δ along an axis as a quotient N / M of polynomials in the differences, of degrees 4
-//! and 3 at most. The sign of δ is the side of the corner on which a face of the box through b is.
+//! Let u be the differences from a vertex to others, w what their weights are more than its own, b a place, h the
+//! difference from the vertex to b, and δ that from b to a corner on the bisectors of the vertex and the others, where
+//! both have one power. Each of these says 2 u · δ = u · (u − 2 h) − w. A face of the box says that δ is zero along its
+//! axis. So as many others as there are axes left make a system of linear equations; Cramer's rule gives δ along an
+//! axis as a quotient N / M of polynomials in the differences, of degrees 4 and 3 at most, where a weight counts as a
+//! square. The sign of δ is the side of the corner on which a face of the box through b is.
 //!
 //! # Accuracy
 //!
@@ -18,25 +20,30 @@
 //! ([`Bounded`]); then from integers of any length (`big.rs`): so the sign is exact, and the value within 2⁻⁴⁹ of
 //! itself.
 //!
-//! With coordinates of magnitude 2¹⁹⁰ at most, nothing overflows but quotients of corners that are too far away to be
-//! in any box.
+//! With coordinates of magnitude 2¹⁹⁰ at most, and weights of twice the exponent, nothing overflows but quotients of
+//! corners that are too far away to be in any box. Of equal weights nothing is computed: corners are those without, to
+//! the last bit.
 
 use std::ops::{Add, Mul, Sub};
 
-use super::big::{LimbRoom, differences_in_units};
+use super::big::{LimbRoom, decode, differences_in_units, in_square_of_unit};
 use super::distance::two_product;
 use super::measures::scaled;
+use super::weighted::WeightedPoint;
 
 /// A place in space, or in the plane at height 0.
 pub type PlaceInSpace = [f64; 3];
+
+/// A vertex in space, or in the plane at height 0, with its weight, 0 if there are none.
+pub type BallInSpace = WeightedPoint<3>;
 
 /// Where the bisectors of a vertex and others meet faces of a box.
 #[derive(Clone, Copy, Debug)]
 pub struct Meeting<'p> {
     /// The vertex.
-    pub vertex: PlaceInSpace,
+    pub vertex: BallInSpace,
     /// The others: as many as there are axes that are not fixed.
-    pub others: &'p [PlaceInSpace],
+    pub others: &'p [BallInSpace],
     /// The place from which offsets are counted, on the faces.
     pub from: PlaceInSpace,
     /// The axes along which the corner is where `from` is.
@@ -88,12 +95,16 @@ impl Meeting<'_> {
         axis: usize,
         difference: impl Fn(f64, f64) -> T,
     ) -> (T, T) {
-        let minus = |p: &PlaceInSpace| [0, 1, 2].map(|k| difference(p[k], self.vertex[k]));
+        let minus = |p: &PlaceInSpace| [0, 1, 2].map(|k| difference(p[k], self.vertex.place[k]));
+        let seen = |p: &BallInSpace| Seen {
+            difference: minus(&p.place),
+            weight: (p.weight != self.vertex.weight).then(|| difference(p.weight, self.vertex.weight)),
+        };
         let from = minus(&self.from);
         match self.others {
-            [p] => quotient(&[minus(p)], &from, &self.is_fixed, axis),
-            [p, q] => quotient(&[minus(p), minus(q)], &from, &self.is_fixed, axis),
-            [p, q, r] => quotient(&[minus(p), minus(q), minus(r)], &from, &self.is_fixed, axis),
+            [p] => quotient(&[seen(p)], &from, &self.is_fixed, axis),
+            [p, q] => quotient(&[seen(p), seen(q)], &from, &self.is_fixed, axis),
+            [p, q, r] => quotient(&[seen(p), seen(q), seen(r)], &from, &self.is_fixed, axis),
             _ => unreachable!("as many others as there are axes that are not fixed"),
         }
     }
@@ -102,11 +113,26 @@ impl Meeting<'_> {
     #[inline(never)]
     fn exact_offset(&self, axis: usize) -> f64 {
         let room = LimbRoom::new();
-        let mut points = [&self.vertex; 4];
-        self.others.iter().zip(&mut points).for_each(|(other, point)| *point = other);
-        points[3] = &self.from;
-        let (unit, [u, v, w, from]) = differences_in_units(&room, &self.vertex, points, i32::MAX);
-        let (above, below) = quotient(&[u, v, w][..self.others.len()], &from, &self.is_fixed, axis);
+        let mut balls = [&self.vertex; 3];
+        self.others.iter().zip(&mut balls).for_each(|(other, ball)| *ball = other);
+        let [p, q, r] = balls;
+        // The square of the unit has to divide weights that count.
+        let count = balls.iter().any(|ball| ball.weight != self.vertex.weight);
+        let weights = balls.map(|ball| ball.weight).into_iter().chain([self.vertex.weight]);
+        let exponents = weights.filter(|&weight| count && weight != 0.0).map(|weight| decode(weight).1);
+        let most = exponents.min().map_or(i32::MAX, |exponent| exponent.div_euclid(2));
+        let points = [&p.place, &q.place, &r.place, &self.from];
+        let (unit, [u, v, w, from]) = differences_in_units(&room, &self.vertex.place, points, most);
+        let seen = |ball: &BallInSpace, difference| Seen {
+            difference,
+            weight: (ball.weight != self.vertex.weight).then(|| {
+                let [weight, own] =
+                    [ball, &self.vertex].map(|ball| in_square_of_unit(&room, ball.weight, unit));
+                weight - own
+            }),
+        };
+        let all = [seen(p, u), seen(q, v), seen(r, w)];
+        let (above, below) = quotient(&all[..self.others.len()], &from, &self.is_fixed, axis);
         let ((numerator, more), (divisor, less)) = (above.rounded(), below.rounded());
         let value = scaled(numerator / divisor, more - less + unit);
         // One that is not zero has a sign, however small it is.
@@ -127,33 +153,44 @@ pub fn sign_of_cross([o, p, q]: [&PlaceInSpace; 3], axis: usize) -> i32 {
     })
 }
 
+/// A vertex as it is seen from another one.
+struct Seen<T> {
+    difference: [T; 3],
+    /// What its weight is more than that of the other one, if it is not the same.
+    weight: Option<T>,
+}
+
 /// Numerator and denominator of the offset along an axis.
 #[inline(always)]
 fn quotient<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>>(
-    differences: &[[T; 3]],
+    others: &[Seen<T>],
     from: &[T; 3],
     is_fixed: &[bool; 3],
     axis: usize,
 ) -> (T, T) {
-    let right = |u: &[T; 3]| {
+    let right = |seen: &Seen<T>| {
+        let u = &seen.difference;
         let part = |k: usize| u[k] * (u[k] - from[k] - from[k]);
-        part(0) + part(1) + part(2)
+        let square = part(0) + part(1) + part(2);
+        seen.weight.map_or(square, |weight| square - weight)
     };
     let twice = |x: T| x + x;
-    match differences {
-        [u] => (right(u), twice(u[axis])),
-        [u, v] => {
+    match others {
+        [p] => (right(p), twice(p.difference[axis])),
+        [p, q] => {
             let other = (0..3).find(|&k| k != axis && !is_fixed[k]).expect("two axes that are not fixed");
-            let above = right(u) * v[other] - right(v) * u[other];
+            let (u, v) = (&p.difference, &q.difference);
+            let above = right(p) * v[other] - right(q) * u[other];
             (above, twice(u[axis] * v[other] - u[other] * v[axis]))
         }
-        [u, v, w] => {
+        [p, q, r] => {
             let minor = |p: &[T; 3], q: &[T; 3], k: usize| {
                 p[(k + 1) % 3] * q[(k + 2) % 3] - p[(k + 2) % 3] * q[(k + 1) % 3]
             };
+            let (u, v, w) = (&p.difference, &q.difference, &r.difference);
             let volume = u[0] * minor(v, w, 0) + u[1] * minor(v, w, 1) + u[2] * minor(v, w, 2);
             let above =
-                right(u) * minor(v, w, axis) + right(v) * minor(w, u, axis) + right(w) * minor(u, v, axis);
+                right(p) * minor(v, w, axis) + right(q) * minor(w, u, axis) + right(r) * minor(u, v, axis);
             (above, twice(volume))
         }
         _ => unreachable!("as many bisectors as there are axes that are not fixed"),
@@ -162,9 +199,10 @@ fn quotient<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>>(
 
 /// A rounded sum of products of differences, and the sum of their magnitudes.
 ///
-/// No product has more than four differences, so it and the sums that it is in are rounded fewer than 24 times: the sum
-/// is off by less than 2⁻⁴⁸ times that of the magnitudes. A product that underflows loses less than 10⁻³²³; times three
-/// differences, and fewer than a hundred times, that is less than [`LOST`].
+/// No product has more than four differences, of which that of weights counts for two, so it and the sums that it is in
+/// are rounded fewer than 24 times: the sum is off by less than 2⁻⁴⁸ times that of the magnitudes. A product that
+/// underflows loses less than 10⁻³²³; times three differences, and fewer than a hundred times, that is less than
+/// [`LOST`].
 #[derive(Clone, Copy, Debug)]
 struct Weighed {
     value: f64,

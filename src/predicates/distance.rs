@@ -1,8 +1,9 @@
-//! Exact comparison of distances, with each other and with a bound, and collinearity in space.
+//! Exact comparison of distances and powers, with each other and with a bound, and collinearity in space.
 
 use super::big::{self, has_room};
 use super::filter::UNDERFLOW;
 use super::tolerance::squared_distance;
+use super::weighted::WeightedPoint;
 use robust::Coord;
 use std::cmp::Ordering;
 
@@ -22,6 +23,26 @@ pub fn compare_distance<P: AsRef<[f64]>>(q: &P, a: &P, b: &P) -> Ordering {
         Ordering::Less
     } else {
         compare_distance_exactly(q, a, b)
+    }
+}
+
+/// Compares the powers of a place in respect of `a` and of `b`, exactly: the squared distances, less the weights.
+pub fn compare_power<const D: usize>(q: &[f64; D], a: &WeightedPoint<D>, b: &WeightedPoint<D>) -> Ordering {
+    if a.weight == b.weight {
+        return compare_distance(q, &a.place, &b.place);
+    }
+    let (to_a, to_b) = (squared_distance(q, &a.place), squared_distance(q, &b.place));
+    let apart = a.weight - b.weight;
+    let difference = (to_a - to_b) - apart;
+    // As in `compare_distance`: 5 u for each squared distance, u for their difference and for that of the weights. The
+    // last subtraction keeps the sign. 8 u covers the higher orders and the rounding of this bound.
+    let bound = 8.0 * (f64::EPSILON / 2.0) * (to_a + to_b + apart.abs()) + UNDERFLOW;
+    if difference > bound {
+        Ordering::Greater
+    } else if difference < -bound {
+        Ordering::Less
+    } else {
+        compare_power_exactly(q, a, b)
     }
 }
 
@@ -65,7 +86,7 @@ pub fn is_collinear3(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) -> bool {
     })
 }
 
-/// The sign of |q − a|² − |q − b|² = Σ a² − b² − 2qa + 2qb, every product being a sum of two doubles.
+/// The sign of |q − a|² − |q − b|².
 #[cold]
 #[inline(never)]
 fn compare_distance_exactly<P: AsRef<[f64]>>(q: &P, a: &P, b: &P) -> Ordering {
@@ -73,6 +94,28 @@ fn compare_distance_exactly<P: AsRef<[f64]>>(q: &P, a: &P, b: &P) -> Ordering {
     if !has_room([q, a, b], 2) {
         return big::compare_distance([q, a, b]);
     }
+    difference_of_squares(q, a, b).sign()
+}
+
+/// The sign of |q − a|² − |q − b|², less what the weight of a is more than that of b.
+#[cold]
+#[inline(never)]
+fn compare_power_exactly<const D: usize>(
+    q: &[f64; D],
+    a: &WeightedPoint<D>,
+    b: &WeightedPoint<D>,
+) -> Ordering {
+    if !has_room([q, &a.place, &b.place], 2) {
+        return big::compare_power(q, [&a.place, &b.place], [a.weight, b.weight]);
+    }
+    let mut sum = difference_of_squares(q, &a.place, &b.place);
+    sum.add(b.weight);
+    sum.add(-a.weight);
+    sum.sign()
+}
+
+/// |q − a|² − |q − b|² = Σ a² − b² − 2qa + 2qb, every product being a sum of two doubles.
+fn difference_of_squares(q: &[f64], a: &[f64], b: &[f64]) -> ExactSum {
     let mut sum = ExactSum::default();
     for ((&q, &a), &b) in q.iter().zip(a).zip(b) {
         for (factor, other) in [(a, a), (-b, b), (-2.0 * q, a), (2.0 * q, b)] {
@@ -81,16 +124,16 @@ fn compare_distance_exactly<P: AsRef<[f64]>>(q: &P, a: &P, b: &P) -> Ordering {
             sum.add(product);
         }
     }
-    sum.sign()
+    sum
 }
 
-/// An exact sum of up to 24 numbers: a non-overlapping expansion, smallest component first.
+/// An exact sum of up to 26 numbers: a non-overlapping expansion, smallest component first.
 ///
 /// (Shewchuk, *Adaptive precision floating-point arithmetic and fast robust geometric predicates*, 1997,
 /// Grow-Expansion with elimination of zeros.)
 #[derive(Default)]
 struct ExactSum {
-    components: [f64; 24],
+    components: [f64; 26],
     length: usize,
 }
 

@@ -61,9 +61,17 @@ pub trait Measures: Sized {
     fn volume_by(cell: &[&Self], sharp: f64) -> f64;
 
     /// Circumcentre and squared circumradius. A coordinate is off by at most 10⁻⁹ circumradii and its own rounding, the
-    /// square by 4·10⁻⁹ of itself. What is beyond the range of numbers is infinite. Of points with weights (`power_measures.rs`) they
-    /// are those of the power sphere.
+    /// square by 4·10⁻⁹ of itself. What is beyond the range of numbers is infinite. Of points with weights
+    /// (`power_measures.rs`) they are those of the power sphere, with other bounds.
     fn circumsphere(cell: &[&Self]) -> (Self, f64);
+
+    /// The circumcentre, and the square of a length m: a coordinate is off by at most 10⁻⁹ m and its own rounding. It
+    /// is the circumradius; of points with weights the greatest of the distance of the power centre from the first
+    /// corner, of differences of coordinates from that, and of roots of differences of weights.
+    #[inline(always)]
+    fn centre(cell: &[&Self]) -> (Self, f64) {
+        Self::circumsphere(cell)
+    }
 
     /// Whether the squared circumradius is at most `squared`, which is not negative: exactly.
     fn is_circumradius_within(cell: &[&Self], squared: f64) -> bool;

@@ -126,10 +126,10 @@ pub(crate) use bicells::{
 };
 pub use big::compare_lengths;
 pub use coordinates::Coordinates;
-pub use corners::{Meeting, PlaceInSpace, sign_of_cross};
+pub use corners::{BallInSpace, Meeting, PlaceInSpace, sign_of_cross};
 pub use crossing::{crossing, passes_near};
 pub use diametral::is_in_diametral_circle;
-pub use distance::{compare_distance, is_collinear3, is_within_distance};
+pub use distance::{compare_distance, compare_power, is_collinear3, is_within_distance};
 pub use filter::StaticFilter;
 pub use hull::{area, ray_and_segment, ray_and_triangle, volumes_over};
 pub use lanes::BiCells;

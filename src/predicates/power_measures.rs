@@ -6,12 +6,13 @@
 //!
 //! # Accuracy
 //!
-//! Let e₁ ≥ e₂ be the two greatest magnitudes of differences along an axis, in the plane 1 for e₂, and q² the greater one of
-//! e₁² and the greatest difference of a weight from that of `a`. A component of n is off by at most β e₁ e₂ q², with β of
-//! `filter.rs`. Where V > 2³¹ β e₁ e₂ q, that is q / 2³² in n / 2V, and V adds less than 2⁻³² of the offset's length, as without
-//! weights: the offset is within 2⁻³⁰ m, for the greater one m of q and its length, and its square within 2⁻²⁸ m². Elsewhere n and
-//! V are computed from integers, and quotients are off by a few last bits. Of underflow the same is true as in `measures.rs`, with
-//! q for e₁.
+//! Let e₁ ≥ e₂ be the two greatest magnitudes of differences along an axis, in the plane 1 for e₂, and q² the greater
+//! one of e₁² and the greatest difference of a weight from that of `a`. A component of n is off by at most β e₁ e₂ q²,
+//! with β of `filter.rs`. Where V > 2³¹ β e₁ e₂ q, that is q / 2³² in n / 2V, and V adds less than 2⁻³² of the offset's
+//! length, as without weights: the offset is within 2⁻³⁰ m, for the greater one m of q and its length, and its square
+//! within 2⁻²⁸ m². Elsewhere n and V are computed from integers, and quotients are off by a few last bits. Of underflow
+//! the same is true as in `measures.rs`, with q for e₁. Of equal weights the centre is the circumcentre, to the last
+//! bit, and within 2⁻³⁰ of its distance from corners.
 
 use super::big::{Integer, LimbRoom, POWER_RADIUS_LIMBS, in_square_of_unit, lifted, square};
 use super::filter::{POWER_CIRCLE_VECTOR, POWER_SPHERE_VECTOR};
@@ -71,6 +72,55 @@ fn offset3d([a, b, c, d]: [&WeightedPoint<3>; 4]) -> Offset<3> {
     let square = square_of_q(extents, a, [b, c, d]);
     extents.sort_unstable_by(f64::total_cmp);
     Offset::new([x, y, z], volume, square, POWER_SPHERE_VECTOR * (extents[2] * extents[1]))
+}
+
+/// A power centre.
+struct Centre<const D: usize> {
+    place: [f64; D],
+    /// The square of the distance from the first corner.
+    square: f64,
+    /// The square of a length m: a coordinate is off by at most 10⁻⁹ m and its own rounding.
+    bound: f64,
+}
+
+impl<const D: usize> Centre<D> {
+    /// From what is known of the offset from the first corner, and the exact one if that is not sharp.
+    fn new(a: &WeightedPoint<D>, offset: &Offset<D>, exactly: impl FnOnce() -> [f64; D]) -> Self {
+        let x = if offset.is_sharp { offset.x } else { exactly() };
+        let square = dot(&x, &x);
+        Centre { place: plus(&a.place, &x), square, bound: square.max(offset.square) }
+    }
+
+    /// From a circumsphere.
+    fn of_equal((place, square): ([f64; D], f64)) -> Self {
+        Centre { place, square, bound: square }
+    }
+
+    fn at(&self) -> WeightedPoint<D> {
+        WeightedPoint { place: self.place, weight: 0.0 }
+    }
+}
+
+/// Whether all weights are the same.
+fn are_equal<const D: usize>(cell: &[&WeightedPoint<D>]) -> bool {
+    cell.iter().all(|p| p.weight == cell[0].weight)
+}
+
+fn centre2d(cell: &[&WeightedPoint<2>]) -> Centre<2> {
+    let &[a, b, c] = cell else { unreachable!("a triangle") };
+    if are_equal(cell) {
+        return Centre::of_equal(<[f64; 2]>::circumsphere(&[&a.place, &b.place, &c.place]));
+    }
+    Centre::new(a, &offset2d([a, b, c]), || exact_offset([a, b, c], |p, lifts| lifted_circle(p, lifts)))
+}
+
+fn centre3d(cell: &[&WeightedPoint<3>]) -> Centre<3> {
+    let &[a, b, c, d] = cell else { unreachable!("a tetrahedron") };
+    if are_equal(cell) {
+        return Centre::of_equal(<[f64; 3]>::circumsphere(&[&a.place, &b.place, &c.place, &d.place]));
+    }
+    let exactly = || exact_offset([a, b, c, d], |p, lifts| lifted_sphere(p, lifts));
+    Centre::new(a, &offset3d([a, b, c, d]), exactly)
 }
 
 fn square_of_q<const D: usize, const N: usize>(
@@ -140,14 +190,13 @@ impl Measures for WeightedPoint<2> {
     }
 
     fn circumsphere(cell: &[&Self]) -> (Self, f64) {
-        let &[a, b, c] = cell else { unreachable!("a triangle") };
-        let offset = offset2d([a, b, c]);
-        let x = if offset.is_sharp {
-            offset.x
-        } else {
-            exact_offset([a, b, c], |p, lifts| lifted_circle(p, lifts))
-        };
-        (WeightedPoint { place: plus(&a.place, &x), weight: 0.0 }, dot(&x, &x) - a.weight)
+        let centre = centre2d(cell);
+        (centre.at(), centre.square - cell[0].weight)
+    }
+
+    fn centre(cell: &[&Self]) -> (Self, f64) {
+        let centre = centre2d(cell);
+        (centre.at(), centre.bound)
     }
 
     fn is_circumradius_within(cell: &[&Self], squared: f64) -> bool {
@@ -164,11 +213,13 @@ impl Measures for WeightedPoint<3> {
     }
 
     fn circumsphere(cell: &[&Self]) -> (Self, f64) {
-        let &[a, b, c, d] = cell else { unreachable!("a tetrahedron") };
-        let offset = offset3d([a, b, c, d]);
-        let exactly = || exact_offset([a, b, c, d], |p, lifts| lifted_sphere(p, lifts));
-        let x = if offset.is_sharp { offset.x } else { exactly() };
-        (WeightedPoint { place: plus(&a.place, &x), weight: 0.0 }, dot(&x, &x) - a.weight)
+        let centre = centre3d(cell);
+        (centre.at(), centre.square - cell[0].weight)
+    }
+
+    fn centre(cell: &[&Self]) -> (Self, f64) {
+        let centre = centre3d(cell);
+        (centre.at(), centre.bound)
     }
 
     fn is_circumradius_within(cell: &[&Self], squared: f64) -> bool {

@@ -2,9 +2,11 @@
 
 #![allow(unsafe_code)]
 
+use std::cmp::Ordering;
 use std::ops::{Index, IndexMut};
 
 use super::array::PointArray;
+use super::distance::compare_power;
 use super::integer::two_difference;
 use super::vectors::square_between;
 use crate::simd::{LANES, Real, Simd};
@@ -49,10 +51,7 @@ impl<const D: usize> IndexMut<usize> for WeightedPoint<D> {
 }
 
 /// The numbers of points, each its coordinates and then its weight. A vector to a point is one of weights as well.
-impl<const D: usize> PointArray for WeightedPoint<D>
-where
-    [f64; D]: Default,
-{
+impl<const D: usize> PointArray for WeightedPoint<D> {
     type Place = [f64; D];
 
     #[inline(always)]
@@ -125,6 +124,11 @@ where
         let (weight, tail) = two_difference(self.weight, other.weight);
         let place = self.place.exact_difference(&other.place).filter(|_| tail == 0.0)?;
         Some(WeightedPoint { place, weight })
+    }
+
+    #[inline(always)]
+    fn compare_powers(&self, a: &Self, b: &Self) -> Ordering {
+        compare_power(&self.place, a, b)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Voronoi cells in a box in exact rationals: slow, small, and independent of the library.
 //!
-//! A cell is a box, in the plane one of unit height, cut by the bisector of its vertex and each other one. Corners have
+//! A cell is a box, in the plane one of unit height, cut by the bisector of its vertex and each other one, where both
+//! have one power. Corners have
 //! homogeneous coordinates, which are integers; each new face is the convex hull of the places where the cut passes.
 
 use crate::exact_oracle::decode;
@@ -111,9 +112,25 @@ fn dropped_axis(plane: &Homogeneous) -> usize {
 }
 
 /// The cell of one of some places, in a box.
-pub fn exact_cell<const D: usize>(places: &[[f64; D]], of: usize, [low, high]: [&[f64; D]; 2]) -> ExactCell {
+pub fn exact_cell<const D: usize>(places: &[[f64; D]], of: usize, clip: [&[f64; D]; 2]) -> ExactCell {
+    exact_power_cell(places, &vec![0.0; places.len()], of, clip)
+}
+
+/// The power cell of one of some places with weights, in a box.
+pub fn exact_power_cell<const D: usize>(
+    places: &[[f64; D]],
+    weights: &[f64],
+    of: usize,
+    [low, high]: [&[f64; D]; 2],
+) -> ExactCell {
     let all = || places.iter().chain([low, high]).flatten();
-    let unit = all().map(|&x| decode(x)).filter(|x| x.0 != 0).map(|x| x.1).min().unwrap_or(0).min(0);
+    let exponent = |x: &f64| Some(decode(*x)).filter(|x| x.0 != 0).map(|x| x.1);
+    let of_weights = weights.iter().filter_map(exponent).map(|exponent| exponent.div_euclid(2));
+    let unit = all().filter_map(exponent).chain(of_weights).min().unwrap_or(0).min(0);
+    let weight = |k: usize| {
+        let (mantissa, exponent) = decode(weights[k]);
+        if mantissa == 0 { zero() } else { BigInt::from(mantissa) << (exponent - 2 * unit) }
+    };
     let integer = |x: f64| {
         let (mantissa, exponent) = decode(x);
         if mantissa == 0 { zero() } else { BigInt::from(mantissa) << (exponent - unit) }
@@ -147,8 +164,10 @@ pub fn exact_cell<const D: usize>(places: &[[f64; D]], of: usize, [low, high]: [
         if to != at {
             let square = |p: &[BigInt; 3]| p.iter().map(|x| x * x).sum::<BigInt>();
             let difference = |axis: usize| (&to[axis] - &at[axis]) * 2;
-            let plane = [difference(0), difference(1), difference(2), square(&at) - square(&to)];
-            cell.cut(plane, other);
+            let offset = square(&at) - square(&to) + weight(other) - weight(of);
+            cell.cut([difference(0), difference(1), difference(2), offset], other);
+        } else if weight(other) > weight(of) || other < of && weight(other) == weight(of) {
+            cell.faces.clear();
         }
     }
     cell

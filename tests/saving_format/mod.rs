@@ -31,6 +31,8 @@ pub struct Weighted {
     /// The cell below each vertex that weights hide.
     pub below: Vec<u32>,
     pub history: [u64; 12],
+    /// Vertices that had another weight, that were hidden, and that were shown.
+    pub sums: [u64; 3],
 }
 
 /// Numbers of `stride` for each of some points: the last of each, if that is a weight, apart from the others.
@@ -108,9 +110,10 @@ impl Parts {
         };
         if is_weighted {
             let history = std::array::from_fn(|k| number(at + 8 * k));
-            at += 96;
+            let sums = std::array::from_fn(|k| number(at + 96 + 8 * k));
+            at += 120;
             let (moved, coming) = (moved_weights, coming_weights);
-            parts.weighted = Some(Weighted { weights, moved, coming, below, history });
+            parts.weighted = Some(Weighted { weights, moved, coming, below, history, sums });
         }
         assert_eq!(word(at), crc32(&bytes[..at]));
         assert_eq!(at + 4, bytes.len());
@@ -146,7 +149,8 @@ impl Parts {
         for numbers in lists.into_iter().chain([&self.moves, &self.insertions, &self.removals]) {
             bytes.extend(numbers.iter().flat_map(|x| x.to_le_bytes()));
         }
-        bytes.extend(weighted.iter().flat_map(|w| w.history).flat_map(|number| number.to_le_bytes()));
+        let numbers = weighted.iter().flat_map(|w| w.history.into_iter().chain(w.sums));
+        bytes.extend(numbers.flat_map(|number| number.to_le_bytes()));
         bytes.extend([0; 4]);
         let size = bytes.len() as u64;
         bytes[16..24].copy_from_slice(&size.to_le_bytes());

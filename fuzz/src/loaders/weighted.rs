@@ -5,7 +5,7 @@ use super::super::calls::places::{Motion, Style, place};
 use super::super::calls::types::Place;
 use super::super::source::Source;
 use super::super::tally;
-use super::{damage, seal};
+use super::{damage, forged, seal};
 use deldrift::internals::{PowerPlane, PowerSpace};
 use deldrift::motion::{Level, MovingTriangulation, Options, Saved};
 use deldrift::{LoadError, Moving, VertexId};
@@ -17,7 +17,10 @@ pub fn run(s: &mut Source, flags: u8, d: usize) {
 
 fn run_in<G: Moving>(s: &mut Source, flags: u8) {
     let style = Style::new(s);
-    let mut bytes = saved::<G>(s, style);
+    let mut bytes = match s.below(16) {
+        0 => forged::covered(G::D, G::D + 1 + s.below(60)).bytes(),
+        _ => saved::<G>(s, style),
+    };
     let is_damaged = damage(s, &mut bytes);
     if flags & 0x30 != 0 && bytes.len() >= 28 {
         let size = bytes.len() as u64;

@@ -88,7 +88,7 @@ pub fn paths(s: &mut Source) {
 pub fn delimiters(s: &mut Source) {
     fn check<const D: usize>(s: &mut Source)
     where
-        [f64; D]: AsRef<[f64]> + PartialEq,
+        [f64; D]: AsRef<[f64]> + Default + PartialEq,
     {
         let [centre, p, q] = points::<D, 3>(s);
         let near = squared_distance(&centre, &p).sqrt();

@@ -76,7 +76,7 @@ impl<G: Moving> MovingTriangulation<G> {
     /// error the change has been undone.
     pub(in crate::motion) fn reach(&mut self, moves: &mut Moves<'_, G>) -> Result<CommitReport> {
         let mut report = CommitReport::default();
-        let hidden = self.hidden_ids()?;
+        let hidden = self.hidden_now()?;
         let advanced = if self.rests_beside_segments(moves) {
             self.mesh.begin(Aim::Rest)?;
             self.mesh.reject_coincidence(self.options.coincidence)

@@ -6,7 +6,7 @@ use crate::ids::VertexId;
 use crate::motion::options::CoincidencePolicy;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::{Movers, Moves};
-use crate::motion::state::hidden_ids::HiddenIds;
+use crate::motion::state::mesh::HiddenNow;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::PointArray;
 
@@ -57,30 +57,28 @@ impl<G: Moving> MovingTriangulation<G> {
     }
 
     /// Who is hidden now, where there are weights.
-    pub(in crate::motion) fn hidden_ids(&self) -> Result<HiddenIds> {
-        if !G::HAS_WEIGHTS {
-            return Ok(HiddenIds::default());
-        }
-        HiddenIds::of(self.mesh.vertices_in_no_cell()?.all(), self.mesh.site_of.len())
+    pub(in crate::motion) fn hidden_now(&self) -> Result<HiddenNow> {
+        self.mesh.hidden_in(&self.mesh.kernel, CoincidencePolicy::Merge)
     }
 
     /// Reports who is hidden, of vertices with weights, and who was not `before`; or refuses two of them at one place.
     pub(in crate::motion) fn tell_hidden(
         &mut self,
-        before: &HiddenIds,
+        before: &HiddenNow,
         report: &mut CommitReport,
     ) -> Result<()> {
         if !G::HAS_WEIGHTS {
             return Ok(());
         }
-        let found = self.mesh.vertices_in_no_cell()?;
-        self.reject_shared(found.by_place.first())?;
-        let now = HiddenIds::of(found.all(), self.mesh.site_of.len())?;
-        for (_, is_hidden) in now.differences(before).filter(|&(v, _)| self.mesh.is_present(v)) {
+        let in_new = self.mesh.hidden_in_new.take().filter(|_| self.mesh.transaction.has_rebuilt());
+        let now = match in_new {
+            Some(now) => now,
+            None => self.mesh.hidden_in(&self.mesh.kernel, self.options.coincidence)?,
+        };
+        for (_, is_hidden) in now.ids.differences(&before.ids).filter(|&(v, _)| self.mesh.is_present(v)) {
             *if is_hidden { &mut report.newly_hidden } else { &mut report.newly_shown } += 1;
         }
-        report.coincident = found.by_place.len() as u64;
-        report.hidden_by_weight = found.by_weight.len() as u64;
+        (report.coincident, report.hidden_by_weight) = (now.by_place, now.by_weight);
         Ok(())
     }
 
@@ -93,11 +91,14 @@ impl<G: Moving> MovingTriangulation<G> {
         }
     }
 
-    /// Refuses two vertices with weights at one place after a change at once, if the options do.
+    /// Refuses two vertices with weights at one place after a change at once, if the options do; where it has built a new kernel
+    /// they have been looked for before.
     pub(in crate::motion) fn reject_shared_places(&self) -> Result<()> {
-        if !G::HAS_WEIGHTS || self.options.coincidence == CoincidencePolicy::Merge {
+        let is_done =
+            self.options.coincidence == CoincidencePolicy::Merge || self.mesh.transaction.has_rebuilt();
+        if !G::HAS_WEIGHTS || is_done {
             return Ok(());
         }
-        self.reject_shared(self.mesh.vertices_in_no_cell()?.by_place.first())
+        self.mesh.hidden_in(&self.mesh.kernel, self.options.coincidence).map(drop)
     }
 }

@@ -10,15 +10,6 @@ use crate::motion::report::CommitReport;
 use crate::motion::state::checking::{check_numbers, check_position};
 use crate::motion::state::part::{Part, set_part};
 use crate::motion::triangulation::MovingTriangulation;
-use crate::predicates::PointArray;
-
-/// The part of a row of numbers.
-const fn width<G: Moving>(part: Part) -> usize {
-    match part {
-        Part::Place => G::D,
-        Part::Weight => 1,
-    }
-}
 
 /// The names of the arguments.
 const fn argument(part: Part) -> &'static str {
@@ -40,7 +31,7 @@ impl<G: Moving> MovingTriangulation<G> {
     /// [`Error::OutOfRange`], [`Error::OutOfMemory`].
     pub fn move_parts(&mut self, part: Part, vertices: Option<&[VertexId]>, numbers: &[f64]) -> Result<()> {
         let n_ids = self.mesh.site_of.len();
-        let n = numbers.len() / width::<G>(part);
+        let n = numbers.len() / part.width::<G>();
         let wanted = vertices.map_or(n.min(n_ids), <[VertexId]>::len);
         if n != wanted {
             return Err(Error::WrongCount {
@@ -64,33 +55,6 @@ impl<G: Moving> MovingTriangulation<G> {
         for k in 0..n {
             if self.edits.is_insertion_staged(vertex_at(k)) {
                 self.edits.set_part(vertex_at(k), part, row::<G>(part, numbers, k));
-            }
-        }
-        Ok(())
-    }
-
-    /// Stages moves of which it is not known what parts they change: those that differ from what is, and the place if none does.
-    ///
-    /// # Errors
-    /// The errors of [`move_vertices`](Self::move_vertices).
-    pub(in crate::motion) fn stage_changed_parts(
-        &mut self,
-        vertices: &[VertexId],
-        goals: &[G::Point],
-    ) -> Result<()> {
-        for (index, (vertex, goal)) in vertices.iter().zip(goals).enumerate() {
-            let goal = check_position::<G>("positions", index, goal)?;
-            let s = self.site_of_vertex("vertices", index, *vertex)?;
-            if self.staging.is_staged(*vertex) {
-                return Err(Error::DuplicateMove { argument: "vertices", index, vertex: *vertex });
-            }
-            let is = self.mesh.kernel.site(s).point;
-            let (same_place, same_weight) = (is.as_ref() == goal.as_ref(), is.weight() == goal.weight());
-            if !same_place || same_weight {
-                self.move_parts(Part::Place, Some(&[*vertex]), goal.as_ref())?;
-            }
-            if !same_weight {
-                self.move_parts(Part::Weight, Some(&[*vertex]), &[goal.weight()])?;
             }
         }
         Ok(())
@@ -145,7 +109,7 @@ impl<G: Moving> MovingTriangulation<G> {
         let n_ids = self.mesh.site_of.len();
         let parts = [(Part::Place, places), (Part::Weight, weights)];
         for (part, numbers) in parts.into_iter().filter_map(|(part, numbers)| Some((part, numbers?))) {
-            let given = numbers.len() / width::<G>(part);
+            let given = numbers.len() / part.width::<G>();
             if given != n_ids {
                 let coming = self.staged_edits().0;
                 return Err(Error::WrongCount { argument: "count", given, wanted: n_ids, coming });
@@ -205,6 +169,6 @@ impl<G: Moving> MovingTriangulation<G> {
 
 /// The row of numbers at an index.
 fn row<G: Moving>(part: Part, numbers: &[f64], index: usize) -> &[f64] {
-    let width = width::<G>(part);
+    let width = part.width::<G>();
     &numbers[width * index..width * (index + 1)]
 }

@@ -4,6 +4,7 @@ use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
+use crate::motion::options::CoincidencePolicy;
 use crate::motion::state::cells::OwnedCells;
 use crate::motion::state::hidden_ids::HiddenIds;
 use crate::motion::state::taken::{Changes, Taken};
@@ -83,7 +84,7 @@ impl<G: Moving> MovingTriangulation<G> {
     /// weights.
     fn list_visibilities(&mut self, taken: &mut Taken<G::Vertices>) -> Result<HiddenIds> {
         if G::HAS_WEIGHTS {
-            let hidden = HiddenIds::of(self.mesh.vertices_in_no_cell()?.all(), self.mesh.site_of.len())?;
+            let hidden = self.mesh.hidden_in(&self.mesh.kernel, CoincidencePolicy::Merge)?.ids;
             let differences = || hidden.differences(&self.mesh.views.visibilities().hidden_when_taken);
             taken.reserve_vertices(differences().count())?;
             for (vertex, is_hidden) in differences().filter(|&(v, _)| self.mesh.is_present(v)) {

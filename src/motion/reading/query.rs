@@ -6,6 +6,7 @@ use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
 use crate::motion::algorithms::Algorithm;
+use crate::motion::options::CoincidencePolicy;
 use crate::motion::report::CommitReport;
 use crate::motion::state::cells::Cells;
 use crate::motion::state::checking::check_position;
@@ -113,6 +114,7 @@ impl<G: Moving> MovingTriangulation<G> {
         let cells = self.cell_arrays()?;
         let index_of = cells.index_of();
         self.foreseen.prefetch_next_stars(&self.mesh, vertex);
+        let Some(s) = self.mesh.shown_at(s) else { return Ok((index_of, 0)) };
         self.mesh.kernel.list_star(s, slots, |slot| prefetch(index_of, slot.index()))?;
         // A program that asks for a star goes on to read the rows of its cells.
         let asked = cells_at(slots, index_of).inspect(|&index| prefetch(cells.corners(), index.index()));
@@ -339,9 +341,23 @@ impl<G: Moving> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// Sums over all commits and immediate calls; `timestamp` and `coincident` are those of now.
+    /// Sums over all commits and immediate calls; `timestamp` and `coincident` are those of now. With weights `coincident` and
+    /// `hidden_by_weight` are those of the latest commit; [`statistics_of_now`](Self::statistics_of_now) counts them anew.
     pub fn statistics(&self) -> CommitReport {
         self.statistics
+    }
+
+    /// Sums over all commits and immediate calls, with who is hidden now.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory), with weights.
+    pub fn statistics_of_now(&self) -> Result<CommitReport> {
+        let mut statistics = self.statistics;
+        if G::HAS_WEIGHTS {
+            let now = self.mesh.hidden_in(&self.mesh.kernel, CoincidencePolicy::Merge)?;
+            (statistics.coincident, statistics.hidden_by_weight) = (now.by_place, now.by_weight);
+        }
+        Ok(statistics)
     }
 
     /// Timestamp reached: 0 at creation.

@@ -1,6 +1,7 @@
 //! The parts of a point with a weight: programs may give either alone.
 
 use crate::delaunay::Moving;
+use crate::predicates::PointArray;
 
 /// A part of a point with a weight, which can be staged alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,6 +13,14 @@ pub enum Part {
 }
 
 impl Part {
+    /// How many numbers it has.
+    pub(in crate::motion) const fn width<G: Moving>(self) -> usize {
+        match self {
+            Part::Place => G::D,
+            Part::Weight => 1,
+        }
+    }
+
     /// A bit for each.
     pub(in crate::motion) const fn bit(self) -> u8 {
         match self {
@@ -25,6 +34,12 @@ impl Part {
 pub(in crate::motion) fn set_part<G: Moving>(point: &mut G::Point, part: Part, numbers: &[f64]) {
     let first = if part == Part::Place { 0 } else { G::D };
     numbers.iter().enumerate().for_each(|(k, &value)| point[first + k] = value + 0.0);
+}
+
+/// The numbers of this part of a point.
+pub(in crate::motion) fn numbers_of<G: Moving>(point: &G::Point, part: Part) -> &[f64] {
+    let numbers = G::Point::flattened(std::slice::from_ref(point));
+    if part == Part::Place { &numbers[..G::D] } else { &numbers[G::D..] }
 }
 
 /// Takes this part of another point.

@@ -100,6 +100,7 @@ impl<G: Moving> MovingTriangulation<G> {
         let built = is_ready.and_then(|()| {
             let built = self.build(&mut next)?;
             self.mesh.enforce_segments_in(&mut next, &built.0)?;
+            self.mesh.hidden_in_new = Some(self.mesh.hidden_in(&next, self.options.coincidence)?);
             self.mesh.make_room_for_former()?;
             Ok(built)
         });

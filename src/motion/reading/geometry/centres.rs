@@ -1,4 +1,5 @@
-//! Circumcentres as Voronoi cells need them: of all cells, or of those around some vertices.
+//! Circumcentres as Voronoi cells need them: of all cells, or of those around some vertices. With weights they are
+//! power centres.
 //!
 //! Corners are taken in the order of a cell's row, which does not depend on its slot: as long as a cell has its index
 //! and its corners have not moved, its centre is the same to the last bit.
@@ -15,8 +16,9 @@ use crate::motion::state::cells::Cells;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::Measures;
 
-/// A circumcentre is used where its radius is at most so many times the size of the box; one in the box, of a cell of
-/// which a vertex is there, too, has less than half of that.
+/// A circumcentre is used where its radius, or with weights the length that says what it is off by, is at most so many
+/// times the size of the box; a circumcentre in the box, of a cell of which a vertex is there, too, has less than half
+/// of that.
 const LARGEST_RADIUS: f64 = 4.0;
 
 /// To compute this number of centres takes a few times as long as a thread takes to wake up.
@@ -75,7 +77,8 @@ impl Numbering for &Ranks {
 /// What is known of the circumcentre of a cell.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Centre<P> {
-    /// Infinite where it is not accurate for the box.
+    /// Infinite where it is not accurate for the box. In the place of a weight is the length that says what it is off
+    /// by.
     pub(super) place: P,
     /// The faces of the box that it is beyond, by their bits; none without a box. [`BEYOND`] if it is beyond a
     /// half-space.
@@ -189,7 +192,10 @@ fn centre_of<G: Moving>(
     let sites = cells.sites(kernel, cell);
     let at = |k: usize| kernel.place(sites[k.min(G::D)]);
     let places = [at(0), at(1), at(2), at(3)];
-    let (mut place, squared) = G::Point::circumsphere(&places[..=G::D]);
+    let (mut place, squared) = G::Point::centre(&places[..=G::D]);
+    if G::HAS_WEIGHTS {
+        place[G::D] = squared.sqrt();
+    }
     let Some(clip) = clip else { return Centre { place, sides: 0 } };
     let sides = clip.sides::<G>(&place, squared, &places[..=G::D]);
     let most = LARGEST_RADIUS * clip.size;

@@ -3,7 +3,7 @@
 //! In the plane, the third coordinate is 0.
 
 use crate::delaunay::Moving;
-use crate::predicates::Meeting;
+use crate::predicates::{BallInSpace, Meeting};
 
 /// A vector of space.
 pub(super) type Vector = [f64; 3];
@@ -13,6 +13,18 @@ pub(super) type Vector = [f64; 3];
 #[inline(always)]
 pub(super) fn in_space<G: Moving>(p: &G::Point) -> Vector {
     [p[0], p[1], if G::D == 3 { p[2] } else { 0.0 }]
+}
+
+/// The weight of a point, 0 if there are none.
+#[inline(always)]
+pub(super) fn weight_of<G: Moving>(p: &G::Point) -> f64 {
+    if G::HAS_WEIGHTS { p[G::D] } else { 0.0 }
+}
+
+/// A point with its weight, in the plane at height 0.
+#[inline(always)]
+pub(super) fn ball<G: Moving>(p: &G::Point) -> BallInSpace {
+    BallInSpace { place: in_space::<G>(p), weight: weight_of::<G>(p) }
 }
 
 #[inline(always)]
@@ -171,8 +183,8 @@ impl Clip {
         &self.high
     }
 
-    /// The faces that the circumcentre of a cell is beyond, by their bits: exact. A centre and a squared radius are as
-    /// [`circumspheres`](crate::motion::MovingTriangulation::circumspheres) says.
+    /// The faces that the circumcentre of a cell is beyond, by their bits: exact. What it is off by follows from the
+    /// square of a length, as [`Measures::centre`](crate::predicates::Measures::centre) says.
     #[inline(always)]
     pub(super) fn sides<G: Moving>(&self, centre: &G::Point, squared: f64, cell: &[&G::Point]) -> u8 {
         // The rounding of a centre that is twice as far away as the box does not matter.
@@ -204,11 +216,11 @@ impl Clip {
     /// The side of a face on which the circumcentre of a cell is.
     #[cold]
     fn sign_of_centre<G: Moving>(&self, face: Face, cell: &[&G::Point]) -> i32 {
-        let places: [Vector; 4] = std::array::from_fn(|k| in_space::<G>(cell[k.min(G::D)]));
+        let corners: [BallInSpace; 4] = std::array::from_fn(|k| ball::<G>(cell[k.min(G::D)]));
         let mut from = [0.0; 3];
         from[face.axis] = self.bound(face);
-        let others = &places[1..=G::D];
+        let others = &corners[1..=G::D];
         let is_fixed = [false, false, G::D == 2];
-        Meeting { vertex: places[0], others, from, is_fixed }.sign(face.axis)
+        Meeting { vertex: corners[0], others, from, is_fixed }.sign(face.axis)
     }
 }

@@ -6,13 +6,13 @@
 //! pyramids from *a* to its facets and to what it has of the faces of the box. That, in its face, consists of those
 //! from the foot of *a* on the face to sides of Voronoi facets and to what the cell has of the edges of the box; and
 //! that of what is between the foot on the edge and corners of facets, or the end of the edge. With heights as factors,
-//! each of these is one term; where *a* is on the other side, it is negative. So a cell is a sum over its facets, their
-//! sides and corners on the box, and those corners of the box that are in it: nothing has to be put together, the terms
-//! are exact but for the rounding of corners, and there are as few as there are corners.
+//! each of these is one term; where *a* is on the other side, as it may be with weights, it is negative. So a cell is a
+//! sum over its facets, their sides and corners on the box, and those corners of the box that are in it: nothing has to
+//! be put together, the terms are exact but for the rounding of corners, and there are as few as there are corners.
 //!
-//! A corner of the box is in the cell of the vertex that is nearest to it. Faces are where cutting facets assumes them
-//! (`cut_facets.rs`): a little farther out, the later the more. So of vertices equally near, it is the one that is
-//! farthest out along the last axis; then, along the one before.
+//! A corner of the box is in the cell of the vertex that is nearest to it, with weights of that of least power. Faces
+//! are where cutting facets assumes them (`cut_facets.rs`): a little farther out, the later the more. So of vertices
+//! equally near, it is the one that is farthest out along the last axis; then, along the one before.
 
 use std::cmp::Ordering;
 
@@ -21,12 +21,13 @@ use crate::error::Result;
 use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::reading::geometry::clipping::{Clip, Face, Vector, cross, dot, in_space, minus, times};
+use crate::motion::reading::geometry::dual::heights;
 use crate::motion::reading::geometry::incidence::Neighbours;
 use crate::motion::reading::geometry::sums::{LEAST_SQUARE, Sums};
 use crate::motion::reading::geometry::voronoi::Voronoi;
 use crate::motion::reading::progress::Progress;
 use crate::motion::reading::query::cells_at;
-use crate::predicates::compare_distance;
+use crate::predicates::{BallInSpace, compare_power};
 
 /// A corner of a box, and which of the faces at it are high, a bit for each axis.
 #[derive(Clone, Copy)]
@@ -58,12 +59,12 @@ impl BoxCorner {
     }
 
     /// Whether it is in the cell of the first of two vertices rather than of the other one.
-    fn prefers(&self, p: &Vector, q: &Vector) -> bool {
+    fn prefers(&self, p: &BallInSpace, q: &BallInSpace) -> bool {
         let farther_out = |axis: usize| {
-            let order = p[axis].partial_cmp(&q[axis]).expect("numbers");
+            let order = p.place[axis].partial_cmp(&q.place[axis]).expect("numbers");
             if self.highs >> axis & 1 == 1 { order } else { order.reverse() }
         };
-        match compare_distance(&self.at, p, q) {
+        match compare_power(&self.at, p, q) {
             Ordering::Equal => {
                 (0..3).rev().map(farther_out).find(|order| order.is_ne()) == Some(Ordering::Greater)
             }
@@ -75,13 +76,13 @@ impl BoxCorner {
     pub(super) fn owner(
         &self,
         near: VertexId,
-        place: impl Fn(VertexId) -> Vector,
+        ball: impl Fn(VertexId) -> BallInSpace,
         mut list: impl FnMut(VertexId, &mut Vec<VertexId>) -> Result<()>,
     ) -> Result<VertexId> {
         let (mut owner, mut others) = (near, Vec::new());
         loop {
             list(owner, &mut others)?;
-            let better = |&best: &VertexId, w: &VertexId| self.prefers(&place(*w), &place(best));
+            let better = |&best: &VertexId, w: &VertexId| self.prefers(&ball(*w), &ball(best));
             let next = others.iter().fold(owner, |best, w| if better(&best, w) { *w } else { best });
             if next == owner {
                 return Ok(owner);
@@ -151,13 +152,15 @@ impl<G: Moving> Voronoi<'_, G> {
         }
         let from_apex =
             |cell: CellId| times(&minus(&in_space::<G>(&self.centres.of(cell).place), &apex), unit);
+        let apart = (self.t.weight(v) - self.t.weight(w)) * (unit * unit);
+        let [height, _] = heights::<G>(square, apart);
         let first = from_apex(self.ring.cells[0]);
         let mut before = from_apex(self.ring.cells[1]);
         if G::D == 2 {
             let step = minus(&before, &first);
             let weight = (step[0] * along[1] - step[1] * along[0]).abs();
             sums.facets += weight / square.sqrt();
-            sums.add(0.25 * weight, 1.0 / 3.0, [&first, &before]);
+            sums.add(0.25 * weight * height, 1.0 / 3.0, [&first, &before]);
             return true;
         }
         let (mut weight, mut moment) = (0.0, [0.0; 3]);
@@ -173,8 +176,8 @@ impl<G: Moving> Voronoi<'_, G> {
         // The ring may go either way around; a facet that is but rounding has no sign.
         let sign = if weight < 0.0 { -1.0 } else { 1.0 };
         sums.facets += 0.5 * weight.abs() / square.sqrt();
-        sums.volume += weight.abs() / 12.0;
-        sums.moment.iter_mut().zip(moment).for_each(|(sum, moment)| *sum += sign * moment / 48.0);
+        sums.volume += weight.abs() / 12.0 * height;
+        sums.moment.iter_mut().zip(moment).for_each(|(sum, moment)| *sum += sign * moment / 48.0 * height);
         true
     }
 
@@ -204,7 +207,7 @@ impl<G: Moving> Voronoi<'_, G> {
             let near = self.t.nearest_vertex(&corner.point::<G>())?.expect("there are vertices");
             let owner = corner.owner(
                 near,
-                |v| self.place(v),
+                |v| self.t.ball(v),
                 |v, others| self.list_neighbours(v, &mut star, others),
             )?;
             tell(corner, owner)?;

@@ -2,10 +2,10 @@
 //!
 //! # Idea
 //!
-//! In its bisector a facet is a convex polygon; in the plane, a piece of a line. Its sides are where it meets the cells
-//! of the vertices of the edge's link, in the order of these. One that is unbounded has a side at infinity. Each face
-//! of the box in turn cuts off what is beyond it: corners are kept or not, and where the one follows the other, there
-//! is a new corner on the face.
+//! In its bisector, with weights the radical plane, a facet is a convex polygon; in the plane, a piece of a line. Its
+//! sides are where it meets the cells of the vertices of the edge's link, in the order of these. One that is unbounded
+//! has a side at infinity. Each face of the box in turn cuts off what is beyond it: corners are kept or not, and where
+//! the one follows the other, there is a new corner on the face.
 //!
 //! A corner is known by the two sides that meet in it, so that whether it is beyond a face is a sign of a polynomial in
 //! the coordinates of vertices and the box. These signs are exact ([`Meeting`]). A corner *on* a face is not beyond it:
@@ -33,7 +33,7 @@ use crate::machine::memory;
 use crate::motion::reading::geometry::centres::Centres;
 use crate::motion::reading::geometry::clipping::{Clip, Face, Vector};
 use crate::motion::reading::geometry::rings::EdgeRing;
-use crate::predicates::{Meeting, sign_of_cross};
+use crate::predicates::{BallInSpace, Meeting, sign_of_cross};
 
 /// What a corner other than a circumcentre may be off by, in sizes of the box: 2⁻⁴⁴.
 const TOLERANCE: f64 = 1.0 / (1u64 << 44) as f64;
@@ -41,8 +41,8 @@ const TOLERANCE: f64 = 1.0 / (1u64 << 44) as f64;
 /// A side of a facet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum FacetSide {
-    /// Where the cell of another vertex begins, which is at this place.
-    With(Vector),
+    /// Where the cell of another vertex begins.
+    With(BallInSpace),
     /// On a face of the box.
     On(Face),
     AtInfinity,
@@ -77,8 +77,8 @@ impl FacetCorner {
 /// A facet, or what is left of it.
 #[derive(Debug, Default)]
 pub(super) struct CutFacet {
-    pub(super) at: Vector,
-    pub(super) to: Vector,
+    pub(super) at: BallInSpace,
+    pub(super) to: BallInSpace,
     /// The signs of the coordinates of the edge.
     pub(super) normal: [i32; 3],
     pub(super) is_plane: bool,
@@ -94,9 +94,10 @@ fn negated(direction: [i32; 3]) -> [i32; 3] {
 }
 
 impl CutFacet {
-    /// Begins with the bisector of two places.
-    fn begin(&mut self, [at, to]: [Vector; 2], is_plane: bool) {
+    /// Begins with the bisector of two vertices.
+    fn begin(&mut self, [at, to]: [BallInSpace; 2], is_plane: bool) {
         (self.at, self.to, self.is_plane) = (at, to, is_plane);
+        let (at, to) = (&at.place, &to.place);
         self.normal = [0, 1, 2].map(|axis| i32::from(to[axis] > at[axis]) - i32::from(to[axis] < at[axis]));
         self.corners.clear();
     }
@@ -115,7 +116,7 @@ impl CutFacet {
 
     /// The direction in which one goes along the cell of a vertex that is on the left, counter-clockwise around this.
     fn along_cell_of(&self, place: &Vector) -> [i32; 3] {
-        [0, 1, 2].map(|axis| sign_of_cross([&self.at, &self.to, place], axis))
+        [0, 1, 2].map(|axis| sign_of_cross([&self.at.place, &self.to.place, place], axis))
     }
 
     /// The direction of a facet in the plane, the first end of the edge on the left.
@@ -123,17 +124,17 @@ impl CutFacet {
         [-self.normal[1], self.normal[0], 0]
     }
 
-    /// Makes it the facet of an edge between two places with a ring that is [oriented](EdgeRing::orient), whole.
+    /// Makes it the facet of an edge between two vertices with a ring that is [oriented](EdgeRing::orient), whole.
     pub(super) fn fill(
         &mut self,
-        edge: [Vector; 2],
+        edge: [BallInSpace; 2],
         ring: &EdgeRing,
-        place: impl Fn(VertexId) -> Vector,
+        ball: impl Fn(VertexId) -> BallInSpace,
         is_plane: bool,
         has_left: bool,
     ) -> Result<()> {
         self.begin(edge, is_plane);
-        let side = |k: usize| FacetSide::With(place(ring.link[k % ring.link.len()]));
+        let side = |k: usize| FacetSide::With(ball(ring.link[k % ring.link.len()]));
         if is_plane {
             return self.fill_line(ring, side, has_left);
         }
@@ -143,7 +144,7 @@ impl CutFacet {
         }
         if !ring.is_closed {
             let last = ring.link.len() - 1;
-            let [first_way, last_way] = [0, last].map(|k| self.along_cell_of(&place(ring.link[k])));
+            let [first_way, last_way] = [0, last].map(|k| self.along_cell_of(&ball(ring.link[k]).place));
             self.corners.push(FacetCorner::far(last_way, [side(last), FacetSide::AtInfinity]));
             self.corners.push(FacetCorner::far(negated(first_way), [FacetSide::AtInfinity, side(0)]));
         }
@@ -171,7 +172,12 @@ impl CutFacet {
 
     /// Makes it the facet between two vertices of a set that is in one hyperplane, whole. In space, `others` are at
     /// most two, the cells of which it meets.
-    pub(super) fn fill_flat(&mut self, edge: [Vector; 2], others: &[Vector], is_plane: bool) -> Result<()> {
+    pub(super) fn fill_flat(
+        &mut self,
+        edge: [BallInSpace; 2],
+        others: &[BallInSpace],
+        is_plane: bool,
+    ) -> Result<()> {
         self.begin(edge, is_plane);
         let infinity = FacetSide::AtInfinity;
         if is_plane {
@@ -179,10 +185,10 @@ impl CutFacet {
             self.push(FacetCorner::far(negated(way), [infinity, FacetSide::None]))?;
             return self.push(FacetCorner::far(way, [infinity, FacetSide::None]));
         }
-        for place in others {
-            let way = self.along_cell_of(place);
-            self.push(FacetCorner::far(negated(way), [infinity, FacetSide::With(*place)]))?;
-            self.push(FacetCorner::far(way, [FacetSide::With(*place), infinity]))?;
+        for other in others {
+            let way = self.along_cell_of(&other.place);
+            self.push(FacetCorner::far(negated(way), [infinity, FacetSide::With(*other)]))?;
+            self.push(FacetCorner::far(way, [FacetSide::With(*other), infinity]))?;
         }
         match others {
             [] => {
@@ -193,9 +199,9 @@ impl CutFacet {
                     self.push(FacetCorner::far(way, [infinity; 2]))?;
                 }
             }
-            [place] => {
+            [other] => {
                 // Any direction on the left of the way.
-                let way = self.along_cell_of(place);
+                let way = self.along_cell_of(&other.place);
                 let axis = (0..3).find(|&axis| way[axis] != 0).expect("places that are not on a line");
                 let across = self.along(axis).map(|sign| sign * way[axis]);
                 self.push(FacetCorner::far(across, [infinity; 2]))?;
@@ -224,8 +230,8 @@ impl CutFacet {
         }
         for side in sides {
             match side {
-                FacetSide::With(place) => {
-                    others[n] = place;
+                FacetSide::With(other) => {
+                    others[n] = other;
                     n += 1;
                 }
                 FacetSide::On(face) => {
@@ -235,7 +241,7 @@ impl CutFacet {
             }
         }
         // One order, so that the answer is alike in all facets at the corner.
-        others[..n].sort_unstable_by(|p, q| p.partial_cmp(q).expect("numbers"));
+        others[..n].sort_unstable_by(|p, q| p.place.partial_cmp(&q.place).expect("numbers"));
         then(Meeting { others: &others[..n], ..meeting })
     }
 
@@ -248,7 +254,7 @@ impl CutFacet {
         if corner.sides.iter().any(|side| matches!(side, FacetSide::On(on) if on.axis == face.axis)) {
             return false;
         }
-        let mut from = self.at;
+        let mut from = self.at.place;
         from[face.axis] = clip.bound(face);
         let sign = if !corner.is_far() {
             self.meet(corner.sides, clip, [None; 3], from, |meeting| meeting.sign(face.axis))
@@ -268,9 +274,9 @@ impl CutFacet {
         if corner.sides.iter().any(is_on_line) {
             // Anywhere along the line.
             let along = others.into_iter().find(|&k| corner.direction[k] != 0).expect("a direction");
-            also[along] = Some(self.at[along]);
+            also[along] = Some(self.at.place[along]);
         } else if others.iter().all(|&k| self.normal[k] == 0) {
-            others.iter().for_each(|&k| also[k] = Some(self.at[k]));
+            others.iter().for_each(|&k| also[k] = Some(self.at.place[k]));
         } else {
             // The sign is open.
             return 0;

@@ -1,4 +1,5 @@
-//! Volumes, boundaries and centroids of Voronoi cells in a box, from one pass over the facets of the Delaunay cells.
+//! Volumes, boundaries and centroids of Voronoi cells, with weights of power cells, in a box, from one pass over the
+//! facets of the Delaunay cells.
 //!
 //! # Idea
 //!
@@ -11,6 +12,12 @@
 //! triangle with a and with b have volume D / 12 each, as their height is |e| / 2, and centroids that are a quarter of
 //! the sum of p, q, m and the end. In the plane a facet of the triangulation is an edge itself, D = g × e is the length
 //! of pq times |e|, and the triangles with a and b have area D / 4. Factors are left for the end.
+//!
+//! With weights the facet is on the radical plane, where a and b have one power: at distances t_a |e| and t_b |e| from
+//! them, with 2 t_a = 1 + (w_a − w_b) / |e|² and t_a + t_b = 1, either of which may be negative, if a vertex is not in
+//! its own cell. D is what it was, as any point of the line ab may stand for b in it. The tetrahedra, which may be
+//! negative, are 2 t_a and 2 t_b times as large, and the foot a + t_a e is where m was. Of equal weights these factors
+//! are 1, and sums the same to the last bit.
 //!
 //! # Accuracy
 //!
@@ -37,6 +44,14 @@
 //! The pieces of all cells have D of one and the same number for both ends, and their sum over a facet of the
 //! triangulation is that between p and q; so volumes add up to that of what cells fill, however far p and q are off.
 //!
+//! With weights h is that of power centres ([`Measures::centre`](crate::predicates::Measures::centre)), and a shift of
+//! E does as before, on whichever sides the feet are: a volume is off by 2/3 h T, an area by h/2 times the sum of r sin
+//! θ. The vertex may be outside of its cell, and far away beside the size of that, so that the surface is no bound, nor
+//! is the length of the boundary by a support function. With the greatest distance r of a corner from the vertex, if it
+//! is more than d, the centroid is off by at most the error of the volume times r / V. A product of D and t_a is
+//! rounded by a few ε times |p − a| |p − b| |g|, as t_a |e| is at most |p − a|, and t_a |e| itself by a few ε times
+//! itself and |e|.
+//!
 //! # The same bits
 //!
 //! A vertex gets its sums from the cells around it in ascending order, with corners in the order of their rows.
@@ -57,7 +72,7 @@ use crate::machine::prefetch::AHEAD;
 use crate::machine::{memory, threads};
 use crate::motion::reading::geometry::cells_within::Region;
 use crate::motion::reading::geometry::centres::{Numbering, SHARED_AT_LEAST, ask_for};
-use crate::motion::reading::geometry::clipping::{Vector, cross, dot, in_space, minus, times};
+use crate::motion::reading::geometry::clipping::{Vector, cross, dot, in_space, minus, times, weight_of};
 use crate::motion::reading::geometry::incidence::Neighbours;
 use crate::motion::reading::geometry::sums::{LEAST_SQUARE, Sums};
 use crate::motion::reading::geometry::voronoi::Voronoi;
@@ -99,6 +114,17 @@ const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 /// How many cells are visited between two looks at whether to go on.
 const CELLS_AT_A_TIME: usize = 1 << 16;
 
+/// Twice the distance of the bisector of an edge from its first end, and from the other one, in lengths of the edge: 1,
+/// unless weights differ. Given are the square of the length, and what the weight of the first end is more.
+#[inline(always)]
+pub(super) fn heights<G: Moving>(square: f64, apart: f64) -> [f64; 2] {
+    if !G::HAS_WEIGHTS {
+        return [1.0; 2];
+    }
+    let more = apart / square;
+    [1.0 + more, 1.0 - more]
+}
+
 /// A facet between two cells: centres p and q on its sides, the way from p to q in the unit of the box.
 struct DualFacet<'f> {
     unit: f64,
@@ -107,28 +133,47 @@ struct DualFacet<'f> {
 }
 
 impl DualFacet<'_> {
+    /// What the weight of an end is more than that of another one.
+    #[inline(always)]
+    fn apart(&self, own: f64, other: f64) -> f64 {
+        (own - other) * (self.unit * self.unit)
+    }
+
     /// Adds pieces to the vertices at its ends, in the plane, where it is an edge.
     #[inline(always)]
-    fn add_in_plane(&self, [a, b]: [&Vector; 2], targets: [usize; 2], part: &mut [Target]) {
+    fn add_in_plane<G: Moving>(
+        &self,
+        [a, b]: [&Vector; 2],
+        [of_a, of_b]: [f64; 2],
+        targets: [usize; 2],
+        part: &mut [Target],
+    ) {
         let (step, to) = (&self.step, |x: &Vector| times(&minus(self.p, x), self.unit));
         let along = times(&minus(b, a), self.unit);
         let weight = step[0] * along[1] - step[1] * along[0];
         let square = dot(&along, &along);
         let facet = weight / square.sqrt();
-        for (target, place) in targets.into_iter().zip([a, b]) {
+        let heights = heights::<G>(square, self.apart(of_a, of_b));
+        for ((target, place), height) in targets.into_iter().zip([a, b]).zip(heights) {
             let Some(target) = part.get_mut(target) else { continue };
-            let from = to(place);
+            let (from, volume) = (to(place), weight * height);
             target.is_cut |= square < LEAST_SQUARE;
-            target.sums.volume += weight;
+            target.sums.volume += volume;
             target.sums.facets += facet;
-            target.sums.moment[0] += weight * (2.0 * from[0] + step[0]);
-            target.sums.moment[1] += weight * (2.0 * from[1] + step[1]);
+            target.sums.moment[0] += volume * (2.0 * from[0] + step[0]);
+            target.sums.moment[1] += volume * (2.0 * from[1] + step[1]);
         }
     }
 
     /// Adds pieces to the vertices at its corners, in space.
     #[inline(always)]
-    fn add_in_space(&self, [a, b, c]: [&Vector; 3], targets: [usize; 3], part: &mut [Target]) {
+    fn add_in_space<G: Moving>(
+        &self,
+        [a, b, c]: [&Vector; 3],
+        [of_a, of_b, of_c]: [f64; 3],
+        targets: [usize; 3],
+        part: &mut [Target],
+    ) {
         let (step, unit) = (&self.step, self.unit);
         let to =
             [times(&minus(self.p, a), unit), times(&minus(self.p, b), unit), times(&minus(self.p, c), unit)];
@@ -141,16 +186,24 @@ impl DualFacet<'_> {
         let squares = [dot(&edges[0], &edges[0]), dot(&edges[1], &edges[1]), dot(&edges[2], &edges[2])];
         let facets =
             [weights[0] / squares[0].sqrt(), weights[1] / squares[1].sqrt(), weights[2] / squares[2].sqrt()];
+        let heights = [
+            heights::<G>(squares[0], self.apart(of_a, of_b)),
+            heights::<G>(squares[1], self.apart(of_b, of_c)),
+            heights::<G>(squares[2], self.apart(of_c, of_a)),
+        ];
         for k in 0..3 {
             let before = (k + 2) % 3;
             let Some(target) = part.get_mut(targets[k]) else { continue };
             let sums = &mut target.sums;
-            let weight = weights[k] + weights[before];
-            sums.volume += weight;
+            let [forth, back] = [heights[k][0], heights[before][1]];
+            let [one, other] = [weights[k] * forth, weights[before] * back];
+            let [to_one, to_other] = [one * forth, other * back];
+            let volume = one + other;
+            sums.volume += volume;
             sums.facets += facets[k] + facets[before];
             for axis in 0..3 {
-                let middles = weights[k] * edges[k][axis] - weights[before] * edges[before][axis];
-                sums.moment[axis] += weight * (2.0 * to[k][axis] + step[axis]) + 0.5 * middles;
+                let feet = to_one * edges[k][axis] - to_other * edges[before][axis];
+                sums.moment[axis] += volume * (2.0 * to[k][axis] + step[axis]) + 0.5 * feet;
             }
             target.is_cut |= (squares[k] < LEAST_SQUARE) | (squares[before] < LEAST_SQUARE);
         }
@@ -214,10 +267,13 @@ impl<G: Moving> Voronoi<'_, G> {
                 let step = times(&minus(&in_space::<G>(&beyond.place), &p), unit);
                 let facet = DualFacet { unit, p: &p, step };
                 let at = [&places[face[0]], &places[face[1]], &places[face[2]]];
+                let weight = |k: usize| weight_of::<G>(kernel.place(corners[face[k].min(G::D)]));
+                let weights = [weight(0), weight(1), weight(2)];
                 if G::D == 2 {
-                    facet.add_in_plane([at[0], at[1]], [ends[0], ends[1]], part);
+                    let [of_a, of_b, _] = weights;
+                    facet.add_in_plane::<G>([at[0], at[1]], [of_a, of_b], [ends[0], ends[1]], part);
                 } else {
-                    facet.add_in_space(at, ends, part);
+                    facet.add_in_space::<G>(at, weights, ends, part);
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 use crate::delaunay::Moving;
 use crate::error::{Error, Result};
-use crate::motion::reading::geometry::clipping::{Clip, in_space};
+use crate::motion::reading::geometry::clipping::{Clip, in_space, minus};
 use crate::motion::reading::geometry::dual::Target;
 use crate::motion::reading::geometry::half_spaces::checked_row;
 use crate::motion::triangulation::MovingTriangulation;
@@ -57,7 +57,10 @@ pub(super) fn cell_of<G: Moving>(clip: &Clip, place: &G::Point, target: &Target)
     let measured = clip.measure_in(G::D, volume).max(0.0);
     let mut centroid = nowhere::<G>();
     if measured > 0.0 {
-        let apex = clip.offset_within(&in_space::<G>(place));
+        let place = in_space::<G>(place);
+        // Pieces are seen from the vertex, which with weights may be outside of the box though its cell is not.
+        let is_outside = G::HAS_WEIGHTS && !target.is_cut;
+        let apex = if is_outside { minus(&place, clip.low()) } else { clip.offset_within(&place) };
         for axis in 0..G::D {
             let way = of_moment * sums.moment[axis] / volume / clip.unit;
             let at = clip.low()[axis] + (apex[axis] + way);

@@ -10,16 +10,20 @@
 //! from y: |z − x|² = |z − y|². If y moves by dy, and z by dz, (y − x) · dz = (y − z) · dy; so the facet moves by
 //! (y − z) · dy / L along its normal, and with it grows the cell of x: dV_x / dy = A (y − c) / L, as was found by many
 //! (for instance Springel, 2010, doi 10.1111/j.1365-2966.2009.15715.x, uses the like for his fluxes). What the box has
-//! of a cell does not move. So dV_y / dx = A (x − c) / L, and what a vertex loses to all its neighbours is what it gains:
-//! dV_x / dx is minus the sum of dV_y / dx over its facets.
+//! of a cell does not move. So dV_y / dx = A (x − c) / L, and what a vertex loses to all its neighbours is what it
+//! gains: dV_x / dx is minus the sum of dV_y / dx over its facets.
+//!
+//! With weights z has one power to both ends, |z − x|² − w_x = |z − y|² − w_y, and the same follows: what differs is
+//! where the facet is. If w_y grows by dw, 2 (y − x) · dz = −dw: all of the facet moves by dw / 2L towards x, and dV_x
+//! / dw_y = dV_y / dw_x = −A / 2L. What a vertex gains by its own weight is what all others lose by it.
 //!
 //! # Accuracy
 //!
 //! With h as in [`dual`](super::dual), P the perimeter and d the diameter of a facet, A is off by h P, as its corners
 //! are off by h; the centroid by h P d / A; a derivative, which is linear in the measure and the moment, by
-//! h P (|y − c| + d) / L. Where A ≤ 2 h P the quotient of moment and measure could be anywhere; such facets are cut by
-//! the box as those are that it does cut, and the centroid is a mean of corners with weights that are not negative: off
-//! by d + h at most.
+//! h P (|y − c| + d) / L, and one by a weight by h P / 2L. Where A ≤ 2 h P the quotient of moment and measure could be
+//! anywhere; such facets are cut by the box as those are that it does cut, and the centroid is a mean of corners with
+//! weights that are not negative: off by d + h at most.
 
 use crate::delaunay::Moving;
 use crate::error::Result;
@@ -32,7 +36,7 @@ use crate::motion::reading::geometry::incidence::EdgeWithCell;
 use crate::motion::reading::geometry::polytopes::Polytope;
 use crate::motion::reading::geometry::sums::LEAST_SQUARE;
 use crate::motion::reading::geometry::voronoi::Voronoi;
-use crate::motion::reading::geometry::whole_facets::FacetMeasures;
+use crate::motion::reading::geometry::whole_facets::{FacetMeasures, by_weight};
 use crate::motion::reading::progress::Progress;
 use crate::motion::triangulation::MovingTriangulation;
 
@@ -48,6 +52,10 @@ pub struct VoronoiFacets<P> {
     /// The derivative of the area or volume of the cell of an edge's first vertex by the position of the second one,
     /// and of that of the second one by the position of the first.
     pub derivatives: Vec<[P; 2]>,
+    /// The derivative of the area or volume of the cell of either end by the weight of the other one, where weights are
+    /// what power distances take from squares: minus the measure of the facet over twice the length of the edge. Where
+    /// there are no weights it is what it would be, were all of them equal.
+    pub weight_derivatives: Vec<f64>,
 }
 
 /// The Voronoi facet of an edge in a box.
@@ -60,6 +68,9 @@ pub struct VoronoiFacet<P> {
     /// The derivative of the area or volume of the cell of the edge's first vertex by the position of the second one,
     /// and of that of the second one by the position of the first.
     pub derivatives: [P; 2],
+    /// The derivative of the area or volume of the cell of either end by the weight of the other one: minus the measure
+    /// of the facet over twice the length of the edge.
+    pub weight_derivative: f64,
 }
 
 /// What the area of a facet is to its perimeter, in sizes of the box, where it is narrow: twice what corners are off,
@@ -98,7 +109,8 @@ impl<G: Moving> Voronoi<'_, G> {
             derivatives[0][axis] = unit(half - from_middle);
             derivatives[1][axis] = unit(-half - from_middle);
         }
-        Some((unit(measure), centroid, derivatives))
+        let weight_derivative = clip.measure_in(G::D - 2, by_weight(measure, length));
+        Some(FacetMeasures { measure: unit(measure), centroid, derivatives, weight_derivative })
     }
 
     /// The facet of an edge, of which `first` is a cell.
@@ -118,7 +130,7 @@ impl<G: Moving> Voronoi<'_, G> {
             return Ok(facet);
         }
         if self.is_outside() {
-            return Ok((0.0, [f64::NAN; 3], [[0.0; 3]; 2]));
+            return Ok(FacetMeasures::NOTHING);
         }
         self.cut(edge, clip)?;
         let (measure, offset) = if region.half_spaces.is_empty() {
@@ -127,13 +139,18 @@ impl<G: Moving> Voronoi<'_, G> {
             left.facet_within::<G>(clip, &region.half_spaces, &self.facet)?
         };
         if measure == 0.0 {
-            return Ok((0.0, [f64::NAN; 3], [[0.0; 3]; 2]));
+            return Ok(FacetMeasures::NOTHING);
         }
         let centroid = [0, 1, 2].map(|axis| (clip.low()[axis] + offset[axis]).min(clip.high()[axis]));
         let way = minus(&ends[1], &ends[0]);
         let length = length_by(dot(&way, &way), &way);
         let derivative = |of: &Vector| [0, 1, 2].map(|axis| measure * ((of[axis] - centroid[axis]) / length));
-        Ok((measure, centroid, [derivative(&ends[1]), derivative(&ends[0])]))
+        Ok(FacetMeasures {
+            measure,
+            centroid,
+            derivatives: [derivative(&ends[1]), derivative(&ends[0])],
+            weight_derivative: by_weight(measure, length),
+        })
     }
 }
 

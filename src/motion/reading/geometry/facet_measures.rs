@@ -29,7 +29,7 @@ pub(super) enum BoundaryPiece {
 impl CutFacet {
     /// The way from its first end to the other one, of length 1.
     pub(super) fn direction(&self) -> Vector {
-        normalised(&minus(&self.to, &self.at))
+        normalised(&minus(&self.to.place, &self.at.place))
     }
 
     /// Tells what it adds to the boundary of a cell.
@@ -68,7 +68,7 @@ impl CutFacet {
 
     /// Its length or area.
     pub(super) fn measure(&self) -> f64 {
-        let normal = minus(&self.to, &self.at);
+        let normal = minus(&self.to.place, &self.at.place);
         match self.places[..] {
             [] => 0.0,
             [p, q] if self.is_plane => {
@@ -93,7 +93,7 @@ impl CutFacet {
         if self.is_plane {
             return (measure, [0, 1, 2].map(|axis| 0.5 * (first[axis] + others[0][axis])));
         }
-        let normal = normalised(&minus(&self.to, &self.at));
+        let normal = normalised(&minus(&self.to.place, &self.at.place));
         let (mut sum, mut moment) = (0.0, [0.0; 3]);
         for pair in others.windows(2) {
             let [p, q] = [0, 1].map(|k| minus(&pair[k], &first));

@@ -4,13 +4,14 @@
 //! With further places, as few as make the vertices span the dimension, there are: those of a triangulation of all. In
 //! it, the sphere of a cell of vertices in a hyperplane and one other place meets the hyperplane in the sphere of the
 //! vertices alone, so it holds no other vertex: these cells are a Delaunay triangulation of the vertices in their
-//! hyperplane. What is said of the further places is left out.
+//! hyperplane. What is said of the further places is left out. With weights the same is true of power spheres and of
+//! the vertices that are shown, whatever the weights of the further places; those that are hidden have no cells.
 
 use std::array::from_fn;
 
 use crate::delaunay::Moving;
 use crate::error::Result;
-use crate::ids::VertexId;
+use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::options::Options;
 use crate::motion::reading::geometry::cells_within::Region;
@@ -66,7 +67,9 @@ impl<G: Moving> MovingTriangulation<G> {
         mut tell: impl FnMut(VertexId, &Sums),
     ) -> Result<()> {
         let (mut ids, mut places) = (Vec::new(), Vec::new());
-        memory::collect(&mut ids, self.mesh.kernel.live_sites().map(|s| self.mesh.kernel.site(s).id))?;
+        let hidden = self.mesh.kernel.hidden_without_cells()?;
+        let shown = self.mesh.kernel.live_sites().filter(|s| !hidden.contains(s));
+        memory::collect(&mut ids, shown.map(|s| self.mesh.kernel.site(s).id))?;
         if ids.is_empty() {
             return Ok(());
         }
@@ -95,18 +98,18 @@ impl<G: Moving> MovingTriangulation<G> {
         let mut cell = Polytope::default();
         let centres = Centres::<G::Point>::NONE;
         for v in VertexId::range(0..n) {
-            let at = self.place_in_space(v);
-            let apex = clip.offset_within(&at);
+            let at = self.ball(v);
+            let apex = clip.offset_within(&at.place);
             cell.clear();
             neighbours.list(v, VertexId::new(0), &mut list, |w, cell| (w, cell))?;
             for &(w, first) in list.iter().filter(|(w, _)| w.index() < n) {
                 ring.go_around(cells, [v, w], first)?;
                 let (mut others, mut n_others) = ([at; 2], 0);
                 for &z in ring.link.iter().filter(|z| G::D == 3 && z.index() < n) {
-                    others[n_others] = self.place_in_space(z);
+                    others[n_others] = self.ball(z);
                     n_others += 1;
                 }
-                facet.fill_flat([at, self.place_in_space(w)], &others[..n_others], G::D == 2)?;
+                facet.fill_flat([at, self.ball(w)], &others[..n_others], G::D == 2)?;
                 facet.cut(clip, &centres)?;
                 facet.place(clip, &centres)?;
                 progress.advance(ring.cells.len())?;
@@ -120,7 +123,7 @@ impl<G: Moving> MovingTriangulation<G> {
                 tell(v, &sums);
             }
             if is_cut {
-                tell(v, &region.sums_of::<G>(&mut cell, &corners, v, &at)?);
+                tell(v, &region.sums_of::<G>(&mut cell, &corners, v, &at.place)?);
             }
         }
         for (corner, owner) in corners.iter().filter(|_| !is_cut) {
@@ -141,7 +144,7 @@ impl<G: Moving> MovingTriangulation<G> {
             let near = self.nearest_of_first(n, &corner)?;
             let owner = corner.owner(
                 near,
-                |v| self.place_in_space(v),
+                |v| self.ball(v),
                 |v, others| {
                     neighbours.list(v, VertexId::new(0), others, |w, _| w)?;
                     others.retain(|w| w.index() < n);
@@ -155,7 +158,12 @@ impl<G: Moving> MovingTriangulation<G> {
 
     /// Of the first vertices, one from which to look for that nearest to a corner of the box.
     fn nearest_of_first(&self, n: usize, corner: &BoxCorner) -> Result<VertexId> {
-        let nearest = self.nearest_vertex(&corner.point::<G>())?.expect("there are vertices");
-        Ok(if nearest.index() < n { nearest } else { VertexId::new(0) })
+        let is_first = |v: &VertexId| v.index() < n;
+        let nearest = self.nearest_vertex(&corner.point::<G>())?.filter(is_first);
+        let of_cell = || self.cell_arrays().map(|cells| cells.corners()[CellId::new(0)]);
+        match nearest {
+            Some(nearest) => Ok(nearest),
+            None => Ok(*of_cell()?.as_ref().iter().find(|&v| is_first(v)).expect("one that is not an apex")),
+        }
     }
 }

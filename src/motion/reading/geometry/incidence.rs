@@ -185,7 +185,7 @@ impl<G: Moving> MovingTriangulation<G> {
         if cells == 0 {
             return 0;
         }
-        let places = self.mesh.n_present - self.mesh.hidden.count();
+        let places = self.mesh.n_present - self.mesh.hidden.count() - self.mesh.kernel.n_hidden();
         // Vertices - edges + facets (- cells) = 1, where in space 2 facets = 4 cells + hull facets.
         if G::D == 2 { places + cells - 1 } else { places + cells + hull / 2 - 1 }
     }

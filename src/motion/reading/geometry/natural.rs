@@ -11,6 +11,10 @@
 //! at it. In space these are never put in a row: their area is a sum over ridges, each of which two facets share, once
 //! in each direction.
 //!
+//! With weights facets are those of power cells, and a place has one as well: all of this is true where a vertex of
+//! that weight would be shown. Where it would be hidden, the corners of the cell that has the place are its neighbours,
+//! as they are when its cell vanishes.
+//!
 //! Circumcentres that are far away, as for places near the hull, make the weights inaccurate. By what they do not
 //! reproduce the place, the linear interpolation of the cell that holds it is added. Where a circumcentre is out of
 //! reach, as for places on the hull, that is all.
@@ -21,7 +25,7 @@ use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::reading::geometry::clipping::{Vector, cross, dot, in_space, minus};
-use crate::motion::reading::geometry::linear::{Weights, barycentric, linear};
+use crate::motion::reading::geometry::linear::{Weights, barycentric, linear, list_linear};
 use crate::predicates::Measures;
 
 /// A ridge of a facet around the place, with the circumcentre of the cell that would join both.
@@ -157,6 +161,11 @@ impl Natural {
         q: &G::Point,
         weights: &mut Weights,
     ) -> Result<()> {
+        // With weights the place may be that of a vertex which would be hidden: in the limit its natural neighbours are
+        // the corners.
+        if G::HAS_WEIGHTS && !kernel.is_in_conflict(cell, q, VertexId::NONE) {
+            return list_linear(kernel, cell, q, weights);
+        }
         self.list_ridges(kernel, cell, q)?;
         let corners = kernel.complex().cell(cell).corners;
         let mut with_places = [(corners[0], q); 4];

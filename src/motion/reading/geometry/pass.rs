@@ -1,4 +1,5 @@
-//! One pass over Voronoi cells and facets, of all vertices or some, whatever cuts them.
+//! One pass over Voronoi cells and facets, of all vertices or some, whatever cuts them. With weights they are power
+//! cells, and those of vertices that weights hide are empty.
 //!
 //! Circumcentres are computed and compared with the box and the half-spaces once, whatever is asked for. Cells are then sums of
 //! pieces of these ([`dual`](super::dual)), and facets are polygons of them ([`dual_facets`](super::dual_facets)); what is cut, or
@@ -53,9 +54,13 @@ impl VoronoiFound {
     /// The facet of an edge, by its number among those that were asked for. Without a box its centroid is as seen from the
     /// edge's first vertex.
     pub(crate) fn facet<G: Moving>(&self, number: usize) -> VoronoiFacet<G::Point> {
-        let (area, centroid, derivatives) = &self.facets[number];
-        let derivatives = derivatives.each_ref().map(of_space::<G>);
-        VoronoiFacet { area: *area, centroid: of_space::<G>(centroid), derivatives }
+        let FacetMeasures { measure, centroid, derivatives, weight_derivative } = &self.facets[number];
+        VoronoiFacet {
+            area: *measure,
+            centroid: of_space::<G>(centroid),
+            derivatives: derivatives.each_ref().map(of_space::<G>),
+            weight_derivative: *weight_derivative,
+        }
     }
 }
 
@@ -114,6 +119,9 @@ impl<G: Moving> MovingTriangulation<G> {
         let Some(region) = region else {
             let mut targets = Vec::new();
             memory::lengthen(&mut targets, self.mesh.kernel.sites().len(), Target::ENDLESS)?;
+            for s in self.mesh.kernel.hidden_without_cells()? {
+                targets[s.index()] = Target::default();
+            }
             return Ok(targets);
         };
         let mut targets = Targets::new(All, self.mesh.kernel.sites().len())?;

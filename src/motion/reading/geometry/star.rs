@@ -73,7 +73,7 @@ where
     pub fn ordered_star(&self, vertex: VertexId) -> Result<impl Iterator<Item = CellId> + Clone + '_> {
         let s: SiteId = self.present_site("vertex", 0, vertex)?;
         let (kernel, cells) = (&self.mesh.kernel, self.cell_arrays()?);
-        let start = (!cells.corners().is_empty()).then(|| {
+        let start = self.mesh.shown_at(s).filter(|_| !cells.corners().is_empty()).map(|s| {
             let around = kernel.site(s).cell;
             let behind = kernel.complex().cell(around).neighbour(<Plane>::D).cell();
             let is_ghost = kernel.complex().cell(around).is_ghost();

@@ -8,11 +8,12 @@ use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::motion::reading::geometry::centres::Centres;
-use crate::motion::reading::geometry::clipping::{Clip, Vector, in_space};
+use crate::motion::reading::geometry::clipping::{Clip, Vector, ball, in_space, weight_of};
 use crate::motion::reading::geometry::cut_facets::CutFacet;
 use crate::motion::reading::geometry::rings::EdgeRing;
 use crate::motion::state::cells::Cells;
 use crate::motion::triangulation::MovingTriangulation;
+use crate::predicates::BallInSpace;
 
 /// Computes Voronoi facets.
 pub(super) struct Voronoi<'t, G: Moving> {
@@ -54,9 +55,8 @@ impl<'t, G: Moving> Voronoi<'t, G> {
     /// Makes `facet` the part in the box of that of an edge, around which `ring` is.
     pub(super) fn cut(&mut self, [v, w]: [VertexId; 2], clip: &Clip) -> Result<()> {
         let has_left = self.ring.orient(self.cells, [v, w]);
-        let edge = [self.place(v), self.place(w)];
         let (t, ring) = (self.t, &self.ring);
-        self.facet.fill(edge, ring, |z| t.place_in_space(z), G::D == 2, has_left)?;
+        self.facet.fill([t.ball(v), t.ball(w)], ring, |z| t.ball(z), G::D == 2, has_left)?;
         self.facet.cut(clip, self.centres)?;
         self.facet.place(clip, self.centres)
     }
@@ -66,5 +66,15 @@ impl<G: Moving> MovingTriangulation<G> {
     /// The place of a vertex, in the plane at height 0.
     pub(super) fn place_in_space(&self, v: VertexId) -> Vector {
         in_space::<G>(&self.mesh.kernel.site(self.mesh.site_of[v]).point)
+    }
+
+    /// A vertex, in the plane at height 0.
+    pub(super) fn ball(&self, v: VertexId) -> BallInSpace {
+        ball::<G>(&self.mesh.kernel.site(self.mesh.site_of[v]).point)
+    }
+
+    /// The weight of a vertex, 0 if there are none.
+    pub(super) fn weight(&self, v: VertexId) -> f64 {
+        weight_of::<G>(&self.mesh.kernel.site(self.mesh.site_of[v]).point)
     }
 }

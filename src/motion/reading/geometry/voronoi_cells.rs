@@ -74,10 +74,14 @@ impl<G: Moving> MovingTriangulation<G> {
     /// edges there, are infinite and have NaN for the rest; all cells are while there are none of the triangulation. Removed
     /// vertices have NaN, hidden ones 0.
     ///
-    /// Rounded: in a box as these say. Without one, let h be 10⁻⁸ times the greatest circumradius around the vertex, or the
-    /// edge, and 10⁻¹⁵ times the greatest magnitude of coordinates of the circumcentres; in place of 10⁻⁸ some last bits,
-    /// unless there are cells that are nearly flat. With that h errors are those in a box. In a box no corner is left out
-    /// and none is too many.
+    /// With weights cells are power cells: the places that have less power in respect of the vertex than of any other
+    /// one. Those of vertices that weights hide are empty.
+    ///
+    /// Rounded: in a box as these say. Without one, let h be 10⁻⁸ times the greatest circumradius around the vertex, or
+    /// the edge, with weights the greatest of the distances of power centres from corners there and of the roots of
+    /// differences of weights, and 10⁻¹⁵ times the greatest magnitude of coordinates of the circumcentres; in place of
+    /// 10⁻⁸ some last bits, unless there are cells that are nearly flat. With that h errors are those in a box. In a
+    /// box no corner is left out and none is too many.
     ///
     /// ```
     /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
@@ -173,7 +177,7 @@ impl<G: Moving> MovingTriangulation<G> {
         };
         let nothing = |x| {
             let row = of_space::<G>(&[x; 3]);
-            VoronoiFacet { area: x, centroid: nowhere::<G>(), derivatives: [row; 2] }
+            VoronoiFacet { area: x, centroid: nowhere::<G>(), derivatives: [row; 2], weight_derivative: x }
         };
         let (there, own) = (plain.edges()?, self.edges()?);
         let mut facets = Vec::new();

@@ -7,14 +7,16 @@
 
 use crate::delaunay::Moving;
 use crate::error::Result;
-use crate::ids::VertexId;
+use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::motion::triangulation::MovingTriangulation;
 
 impl<G: Moving> MovingTriangulation<G> {
     /// For each id 1 if the Voronoi cell of the vertex has changed, or may have, by the changes that were
-    /// [taken](Self::take_changes) last and as these vertices have moved meanwhile, and for removed ones; 0 for others.
-    /// Vertices may be listed more than once. With such a mask [`voronoi_cells`](Self::voronoi_cells) gives what a full pass does, to the last bit.
+    /// [taken](Self::take_changes) last and as these vertices have moved meanwhile, or got other weights, and for
+    /// removed ones and those that weights hide; 0 for others.
+    /// Vertices may be listed more than once. With such a mask [`voronoi_cells`](Self::voronoi_cells) gives what a full
+    /// pass does, to the last bit.
     ///
     /// To be called after changes have been taken, before any others; else all are 1, as they are without cells and in a
     /// constrained triangulation.
@@ -48,10 +50,10 @@ impl<G: Moving> MovingTriangulation<G> {
             memory::lengthen(&mut mask, self.id_count(), 1)?;
             return Ok(mask);
         };
-        // One that has been removed while it was hidden is in no list.
-        let gone = self.mesh.sites_of_ids().map(|(_, site)| u8::from(site.is_none()));
+        // One that has been removed while it was hidden is in no list, and one that weights hide may be in none.
+        let is_none = |(_, s): (VertexId, Option<SiteId>)| s.is_none_or(|s| self.mesh.kernel.is_hidden(s));
         memory::reserve_exact(&mut mask, self.id_count())?;
-        mask.extend(gone);
+        mask.extend(self.mesh.sites_of_ids().map(|entry| u8::from(is_none(entry))));
         let changes = taken.changes();
         let of_cells = around.iter().chain(changes.renumbered_to).map(|&cell| &cells.corners()[cell]);
         let listed = [moved, changes.stars, changes.hidden, changes.shown];

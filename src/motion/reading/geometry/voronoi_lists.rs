@@ -17,8 +17,11 @@ impl<G: Moving> MovingTriangulation<G> {
     /// thirds of that of the triangles that the vertex makes with its edges, whichever is more (an area, by h times the
     /// length of the boundary), an area by h times the sum of the perimeters of its facets, and a centroid by the error
     /// of the volume times d / V, where d is the diameter of the cell and V its volume.
-    /// In place of 10⁻⁸ it is some last bits unless cells are nearly flat. The volumes of all ids add up to that of the
-    /// box.
+    /// With weights these are power cells, of which a vertex may be outside. Then a volume is off by two thirds of the
+    /// area of these triangles times h (an area, by half of the sum of the distances of the corners from the vertex),
+    /// and d is at least the greatest distance of a corner from the vertex; of a cell that the box cuts, in place of
+    /// the vertex take what is nearest to it in the box. In place of 10⁻⁸ it is some last bits unless cells are nearly
+    /// flat. The volumes of all ids add up to that of the box.
     ///
     /// ```
     /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
@@ -93,15 +96,16 @@ impl<G: Moving> MovingTriangulation<G> {
     }
 
     /// The Voronoi facets of all edges within the box from `low` to `high`: measures, centroids, and derivatives of the
-    /// areas or volumes on their sides. With a `mask`, NaN for edges that have no end of which the entry is not 0.
+    /// areas or volumes on their sides by positions and by weights. With a `mask`, NaN for edges that have no end of
+    /// which the entry is not 0.
     ///
     /// The derivative of the volume of a cell by the position of its own vertex is minus the sum of those of its
-    /// neighbours by that position.
+    /// neighbours by that position; so it is for weights.
     ///
     /// Rounded: with h as for [`voronoi_cells`](Self::voronoi_cells), P the perimeter of a facet (in the plane, 2), d
     /// its diameter, A its measure and L the length of its edge, a measure is off by at most h P, a centroid by
     /// h P d / A, or by d + h where A is less than 4 h P, a derivative by h P / L times the sum of d and the distance
-    /// from the vertex to the centroid.
+    /// from the vertex to the centroid, one by a weight by h P / 2 L.
     ///
     /// ```
     /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
@@ -144,7 +148,9 @@ impl<G: Moving> MovingTriangulation<G> {
     ) -> Result<VoronoiFacets<G::Point>> {
         let nowhere = of_space::<G>(&[f64::NAN; 3]);
         let (mut areas, mut centroids, mut derivatives) = (Vec::new(), Vec::new(), Vec::new());
+        let mut weight_derivatives = Vec::new();
         memory::lengthen(&mut areas, self.edge_count(), f64::NAN)?;
+        memory::lengthen(&mut weight_derivatives, self.edge_count(), f64::NAN)?;
         memory::lengthen(&mut centroids, self.edge_count(), nowhere)?;
         memory::lengthen(&mut derivatives, self.edge_count(), [nowhere; 2])?;
         let edges = self.edges()?;
@@ -152,8 +158,9 @@ impl<G: Moving> MovingTriangulation<G> {
             areas[edge] = facet.area;
             centroids[edge] = facet.centroid;
             derivatives[edge] = facet.derivatives;
+            weight_derivatives[edge] = facet.weight_derivative;
         };
         self.for_voronoi(Some(clip), half_spaces, mask, monitor, None, Some(tell))?;
-        Ok(VoronoiFacets { edges, areas, centroids, derivatives })
+        Ok(VoronoiFacets { edges, areas, centroids, derivatives, weight_derivatives })
     }
 }

@@ -1,4 +1,5 @@
-//! Voronoi cells of some vertices that no box cuts: areas or volumes, boundaries and centroids.
+//! Voronoi cells of some vertices that no box cuts: areas or volumes, boundaries and centroids. With weights those are
+//! sums of signed parts, as a vertex may be outside of its own cell.
 //!
 //! Measures are sums of pieces, as `dual` says, in a unit that the caller chooses. Where pieces do not suffice, as on the
 //! hull, where an edge is too short for products in the unit, or numbers too large, a cell is put together from its
@@ -16,6 +17,7 @@ use crate::motion::reading::geometry::dual_facets::of_space;
 use crate::motion::reading::geometry::incidence::Neighbours;
 use crate::motion::reading::geometry::sums::Sums;
 use crate::motion::reading::geometry::voronoi::Voronoi;
+use crate::motion::reading::geometry::whole_facets::FacetMeasures;
 use crate::motion::reading::progress::Progress;
 
 impl<G: Moving> Voronoi<'_, G> {
@@ -49,7 +51,7 @@ impl<G: Moving> Voronoi<'_, G> {
             let mut sums = Sums::default();
             pyramids.clear();
             for &(w, cell) in &list {
-                let (measure, centroid, _) = self.facet_without_box([v, w], cell)?;
+                let FacetMeasures { measure, centroid, .. } = self.facet_without_box([v, w], cell)?;
                 progress.advance(self.ring.cells.len())?;
                 if measure == f64::INFINITY {
                     // Whatever there is besides.
@@ -57,11 +59,22 @@ impl<G: Moving> Voronoi<'_, G> {
                     break;
                 }
                 let way = minus(&self.place(w), &self.place(v));
-                // Half of the least length is zero.
-                let volume = 0.5 * length_by(dot(&way, &way), &way) * measure / G::D as f64;
+                let length = length_by(dot(&way, &way), &way);
+                // Half of the least length is zero, and the foot on a facet without extent may be beyond the range of
+                // numbers.
+                let twice = if G::HAS_WEIGHTS && measure > 0.0 {
+                    length + (t.weight(v) - t.weight(w)) / length
+                } else {
+                    length
+                };
+                let volume = 0.5 * twice * measure / G::D as f64;
                 sums.volume += volume;
                 sums.facets += measure;
                 memory::push(&mut pyramids, (volume, centroid))?;
+            }
+            if G::HAS_WEIGHTS && !sums.volume.is_finite() {
+                // Of signed parts that are beyond the range of numbers.
+                sums.volume = f64::INFINITY;
             }
             sums.moment = mean_of::<G>(&pyramids, sums.volume);
             targets.of(t.mesh.site_of[v]).sums = sums;
@@ -73,7 +86,7 @@ impl<G: Moving> Voronoi<'_, G> {
 /// The centroid of pyramids of some volume in all, by the centroids of their bases as seen from the apex.
 fn mean_of<G: Moving>(pyramids: &[(f64, Vector)], total: f64) -> Vector {
     let mut mean = [0.0; 3];
-    for (volume, centroid) in pyramids.iter().filter(|(volume, _)| *volume > 0.0) {
+    for (volume, centroid) in pyramids.iter().filter(|(volume, _)| *volume != 0.0) {
         let share = volume / total * (G::D as f64 / (G::D + 1) as f64);
         (0..3).for_each(|axis| mean[axis] += share * centroid[axis]);
     }
@@ -89,7 +102,7 @@ pub(super) fn whole_cell<G: Moving>(unit: f64, target: &Target) -> VoronoiCell<G
         } else {
             nowhere::<G>()
         };
-        return VoronoiCell { volume: sums.volume, area: sums.facets, centroid };
+        return VoronoiCell { volume: sums.volume.max(0.0), area: sums.facets, centroid };
     }
     let volume = of_volume * sums.volume;
     let told = without_unit(unit, G::D, volume).max(0.0);

@@ -7,8 +7,10 @@
 //!
 //! Let R be the greatest circumradius of the cells around the edge, M the greatest magnitude of a coordinate of their
 //! circumcentres, and h = 10⁻⁸ R + 10⁻¹⁵ M: corners are off by less than h. With P the perimeter and d the diameter of
-//! the facet, its measure A is off by h P, its centroid by h P d / A, a derivative, which is linear in measure and moment,
-//! by h P (|x − c| + d) / L. Where A ≤ 2 h P the mean of the corners stands for the centroid: off by d + h at most.
+//! the facet, its measure A is off by h P, its centroid by h P d / A, a derivative, which is linear in measure and
+//! moment, by h P (|x − c| + d) / L. Where A ≤ 2 h P the mean of the corners stands for the centroid: off by d + h at
+//! most. The derivative by a weight is off by h P / 2 L. With weights R is the greatest of the lengths that say what
+//! the corners are off by ([`Measures::centre`](crate::predicates::Measures::centre)).
 
 use crate::delaunay::Moving;
 use crate::error::Result;
@@ -25,8 +27,40 @@ const OFF: f64 = 3.5e-8;
 /// What they are off besides, in magnitudes of coordinates.
 const OFF_BY_PLACE: f64 = 1e-15;
 
-/// A facet: measure, centroid, derivatives.
-pub(super) type FacetMeasures = (f64, Vector, [Vector; 2]);
+/// What a facet measures.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FacetMeasures {
+    pub(super) measure: f64,
+    pub(super) centroid: Vector,
+    /// As [`VoronoiFacet`](crate::motion::VoronoiFacet) has them.
+    pub(super) derivatives: [Vector; 2],
+    pub(super) weight_derivative: f64,
+}
+
+impl FacetMeasures {
+    /// There is nothing of the facet.
+    pub(super) const NOTHING: Self = FacetMeasures {
+        measure: 0.0,
+        centroid: [f64::NAN; 3],
+        derivatives: [[0.0; 3]; 2],
+        weight_derivative: 0.0,
+    };
+
+    /// The facet has no end.
+    const ENDLESS: Self = FacetMeasures {
+        measure: f64::INFINITY,
+        centroid: [f64::NAN; 3],
+        derivatives: [[f64::NAN; 3]; 2],
+        weight_derivative: f64::NAN,
+    };
+}
+
+/// The derivative of the volume of the cell of an edge's end by the weight of the other one, from the measure of the
+/// facet and the length of the edge.
+#[inline(always)]
+pub(super) fn by_weight(measure: f64, length: f64) -> f64 {
+    if measure == 0.0 { 0.0 } else { -0.5 * (measure / length) }
+}
 
 /// Sums over triangles of a facet, with lengths in some unit.
 pub(super) struct Polygon {
@@ -83,7 +117,7 @@ impl<G: Moving> Voronoi<'_, G> {
         let to = |&cell: &CellId| minus(&in_space::<G>(&self.centres.of(cell).place), &x);
         let reach = self.ring.cells.iter().fold(greatest(&way), |most, cell| most.max(greatest(&to(cell))));
         if !self.ring.is_closed || reach == f64::INFINITY {
-            return Ok((f64::INFINITY, [f64::NAN; 3], [[f64::NAN; 3]; 2]));
+            return Ok(FacetMeasures::ENDLESS);
         }
         let unit = unit_of(reach);
         let (half, normal) = (times(&way, 0.5 * unit), normalised(&way));
@@ -91,7 +125,7 @@ impl<G: Moving> Voronoi<'_, G> {
         let polygon = self.whole_polygon(&x, &half, &normal, unit);
         let factor = if G::D == 2 { 1.0 } else { 0.5 };
         let measure = factor * polygon.weight;
-        let off = OFF + OFF_BY_PLACE * unit * (reach + greatest(&x));
+        let off = self.off(unit) + OFF_BY_PLACE * unit * (reach + greatest(&x));
         // In the plane the mean of the corners is the centroid.
         let by_mean = G::D == 2 || measure <= 2.0 * off * polygon.perimeter;
         let (share, mut sum) = (1.0 / self.ring.cells.len() as f64, [0.0; 3]);
@@ -112,6 +146,21 @@ impl<G: Moving> Voronoi<'_, G> {
             derivatives[0][axis] = without_unit(unit, G::D - 1, middle - from_middle);
             derivatives[1][axis] = without_unit(unit, G::D - 1, -middle - from_middle);
         }
-        Ok((without_unit(unit, G::D - 1, measure), centroid, derivatives))
+        Ok(FacetMeasures {
+            measure: without_unit(unit, G::D - 1, measure),
+            centroid,
+            derivatives,
+            weight_derivative: without_unit(unit, G::D - 2, by_weight(measure, length)),
+        })
+    }
+
+    /// What corners of the facet of the ring are off in its unit.
+    #[inline(always)]
+    fn off(&self, unit: f64) -> f64 {
+        if !G::HAS_WEIGHTS {
+            return OFF;
+        }
+        let lengths = self.ring.cells.iter().map(|&cell| self.centres.of(cell).place[G::D]);
+        1e-8 * unit * lengths.fold(0.0, f64::max)
     }
 }

@@ -1,7 +1,8 @@
 //! The vertices in a ball.
 //!
 //! A vertex that is not the nearest to a place has a neighbour that is nearer, and so there is a path to the nearest
-//! one that does not leave the ball: the vertices in a ball are connected by edges.
+//! one that does not leave the ball: the vertices in a ball are connected by edges. Where cells are not Delaunay, as
+//! with weights, they are found by cells.
 
 use crate::delaunay::{IndexSet, Moving};
 use crate::error::Result;
@@ -34,7 +35,7 @@ impl<G: Moving> MovingTriangulation<G> {
         let kernel = &self.mesh.kernel;
         let is_in = |s: SiteId| is_within_distance(&q, &kernel.site(s).point, squared_radius);
         let mut found = IndexSet::new();
-        if kernel.is_constrained() {
+        if self.are_by_cells() {
             // Until there is one in the ball, the nearest has to be found.
             let mut nearest = f64::INFINITY;
             self.for_sites_by_cells(&q, Slot::NONE, |s| {

@@ -8,7 +8,8 @@
 //!   comes into sight that was not, and the last ones that are seen hold the place where the way enters.
 //!
 //! So a flood from the located centre of a box, over the cells whose bounding boxes meet it and the ghost cells beyond
-//! whose facets it has a corner, finds all cells that meet it, and with them all vertices in it. (Where the centre is a
+//! whose facets it has a corner, finds all cells that meet it, and with them all vertices in it, also those that
+//! weights hide, which are above the cells that have their places. (Where the centre is a
 //! vertex, the flood may begin at a ghost cell there that does not meet the box; the cell behind it has the vertex as a
 //! corner, and is looked at next.)
 
@@ -94,7 +95,8 @@ impl<G: Moving> MovingTriangulation<G> {
         let mut found = IndexSet::new();
         for &cell in cells.iter().filter(|&&cell| !kernel.complex().cell(cell).is_ghost()) {
             let corners = kernel.complex().cell(cell).corners;
-            for &s in corners.as_ref().iter().filter(|&&s| wanted.has(&kernel.site(s).point)) {
+            let sites = corners.as_ref().iter().copied().chain(kernel.sites_above(cell));
+            for s in sites.filter(|&s| wanted.has(&kernel.site(s).point)) {
                 found.insert(s)?;
             }
         }

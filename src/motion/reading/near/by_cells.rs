@@ -1,5 +1,6 @@
 //! Sites in order of distance, by cells: for triangulations that are not Delaunay, where a vertex may have no neighbour
-//! that is nearer to a place.
+//! that is nearer to a place. Those are constrained ones, and those with weights, where some vertices are corners of no
+//! cell but above the one that has their place.
 //!
 //! The cells that meet a ball are connected by facets, as what it shares with the hull is convex. They are looked at in
 //! order of the distance of their bounding boxes, which is rounded downwards, until that is beyond what is wanted.
@@ -61,7 +62,7 @@ impl<G: Moving> MovingTriangulation<G> {
         memory::enter(&mut waiting, WaitingCell { least: 0.0, cell: first })?;
         while let Some(next) = waiting.pop().filter(|next| next.least <= most) {
             let cell = kernel.complex().cell(next.cell);
-            for &s in cell.corners.as_ref() {
+            for s in cell.corners.as_ref().iter().copied().chain(kernel.sites_above(next.cell)) {
                 if sites.insert(s)? {
                     most = told(s)?;
                 }

@@ -1,7 +1,7 @@
 //! The cells that a new vertex would remove: those in conflict with a place.
 //!
 //! Cells in conflict are connected by facets. The cell that holds the place is among them, or one beyond whose facet it
-//! is.
+//! is; with weights, if any is.
 
 use crate::complex::Corners;
 use crate::delaunay::{Delaunay, IndexSet, Moving, Place};
@@ -51,6 +51,9 @@ impl<G: Moving> MovingTriangulation<G> {
     /// ties broken as for a vertex of the highest id. None at the place of a vertex, nor while there are no cells. It
     /// is looked for from `near`, if that is near it.
     ///
+    /// With weights they are those of whose power sphere the place, with its own weight, is inside: none if the vertex
+    /// would be hidden, and at the place of a vertex those that one of greater weight would remove.
+    ///
     /// ```
     /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
     ///
@@ -68,10 +71,15 @@ impl<G: Moving> MovingTriangulation<G> {
         let q = check_position::<G>("position", 0, position)?;
         let index_of = self.cell_arrays()?.index_of();
         let (mut zone, mut cells) = (IndexSet::new(), Vec::new());
-        if let Place::Cell(first) | Place::Outside(first) =
-            self.mesh.kernel.locate(&q, self.start_near(near)?)
-        {
-            list_conflicts(&self.mesh.kernel, first, &q, &mut zone)?;
+        let kernel = &self.mesh.kernel;
+        let first = match kernel.locate(&q, self.start_near(near)?) {
+            Place::Cell(first) | Place::Outside(first) => first,
+            Place::Site(s) if G::HAS_WEIGHTS => kernel.site(s).cell,
+            Place::Site(_) | Place::NoCells => return Ok(cells),
+        };
+        // With weights the vertex may be above the cell that has its place.
+        if !G::HAS_WEIGHTS || kernel.is_in_conflict_with(&kernel.filter_for(&q), first, &q, VertexId::NONE) {
+            list_conflicts(kernel, first, &q, &mut zone)?;
             memory::collect(&mut cells, cells_at(&zone, index_of))?;
         }
         Ok(cells)

@@ -3,6 +3,13 @@
 //! Some neighbour of a vertex that is not the nearest is nearer. So a walk along edges ends at the nearest one, and of
 //! the vertices in order of distance each is a neighbour of an earlier one, but for those that are nearest: these are
 //! on an empty sphere around the place, so they are connected by edges. Distances are compared exactly.
+//!
+//! With weights the same is true of powers and of the vertices that are shown: one of greater power than another is out
+//! of its cell, beyond a facet, and those of least power are the corners of a face of the lower hull. So
+//! [`nearest_vertex`] is the one of least power. In order of distance vertices are found by cells there, whether they
+//! are shown or not.
+//!
+//! [`nearest_vertex`]: MovingTriangulation::nearest_vertex
 
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
@@ -15,7 +22,7 @@ use crate::machine::memory;
 use crate::motion::reading::near::AroundSite;
 use crate::motion::state::checking::check_position;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::predicates::{compare_distance, squared_distance};
+use crate::predicates::{PointArray, compare_distance, squared_distance};
 
 /// A search for the nearest vertex that has looked around so many others is on a long way.
 const MANY_STARS: u32 = 8;
@@ -54,8 +61,10 @@ impl<P: AsRef<[f64]>> PartialEq for WaitingVertex<'_, P> {
 impl<P: AsRef<[f64]>> Eq for WaitingVertex<'_, P> {}
 
 impl<G: Moving> MovingTriangulation<G> {
-    /// The vertex nearest to a point, of the nearest that of the lowest key, then place, then id; `None` if there are no vertices. Distances
-    /// are compared exactly.
+    /// The vertex nearest to a point, of the nearest that of the lowest key, then place, then id; `None` if there are
+    /// no vertices. Distances are compared exactly. With weights it is the vertex of least power, in whose power cell
+    /// the point is, whatever weight is given with that; never one that weights hide. Where there are no cells, and
+    /// several have the least power, that takes as long as a build.
     ///
     /// ```
     /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
@@ -72,7 +81,7 @@ impl<G: Moving> MovingTriangulation<G> {
     pub fn nearest_vertex(&self, position: &G::Point) -> Result<Option<VertexId>> {
         let q = check_position::<G>("position", 0, position)?;
         if !self.mesh.kernel.has_cells() {
-            return Ok(self.nearest_of(&q, self.mesh.kernel.live_sites()));
+            return self.nearest_without_cells(&q);
         }
         let (nearest, _) = self.nearest_sites(&q, Slot::NONE)?;
         let lowest = nearest.as_slice().iter().copied().min_by(|&s, &t| self.compare_ranks(s, t));
@@ -80,8 +89,8 @@ impl<G: Moving> MovingTriangulation<G> {
     }
 
     /// The `k` vertices nearest to each of several places, told to `found` one after the other: `k` for each place, in
-    /// order of distance and, at the same distance, of key, then place, then id, hidden ones included; [`VertexId::NONE`] where there are no
-    /// more. Each place is looked for from the one before.
+    /// order of distance, whatever weights are, and, at the same distance, of key, then place, then id, hidden ones
+    /// included; [`VertexId::NONE`] where there are no more. Each place is looked for from the one before.
     ///
     /// ```
     /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
@@ -114,7 +123,7 @@ impl<G: Moving> MovingTriangulation<G> {
         for q in positions {
             let mut waiting = BinaryHeap::new();
             seen.clear();
-            if self.mesh.kernel.is_constrained() {
+            if self.are_by_cells() {
                 near = self.enter_by_cells(q, k, near, &mut waiting)?;
             } else if self.mesh.kernel.has_cells() {
                 let (nearest, start) = self.nearest_sites(q, near)?;
@@ -157,7 +166,7 @@ impl<G: Moving> MovingTriangulation<G> {
         for top in self.mesh.hidden.tops_below(vertex).into_iter().filter(|&top| top != VertexId::NONE) {
             memory::enter(waiting, WaitingVertex { q, point, vertex: top, site, keys })?;
         }
-        if vertex != self.mesh.kernel.site(site).id || self.mesh.kernel.is_constrained() {
+        if vertex != self.mesh.kernel.site(site).id || self.are_by_cells() {
             return Ok(());
         }
         for &x in around.list(&self.mesh.kernel, site)? {
@@ -168,7 +177,16 @@ impl<G: Moving> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// All sites nearest to a place, where there are cells, and a slot near it; `near` is where to begin.
+    /// Whether there are cells of which some vertex has no neighbour that is nearer to a place than itself though it is
+    /// not the nearest: those of a constrained triangulation, and those with weights.
+    #[inline(always)]
+    pub(super) fn are_by_cells(&self) -> bool {
+        let kernel = &self.mesh.kernel;
+        kernel.is_constrained() || G::HAS_WEIGHTS && kernel.has_cells()
+    }
+
+    /// All sites nearest to a place, with weights those of least power, where there are cells, and a slot near it;
+    /// `near` is where to begin.
     pub(super) fn nearest_sites(&self, q: &G::Point, near: Slot) -> Result<(IndexSet<SiteId>, Slot)> {
         let mut nearest = IndexSet::new();
         if self.mesh.kernel.is_constrained() {
@@ -178,6 +196,7 @@ impl<G: Moving> MovingTriangulation<G> {
         let place = self.mesh.kernel.locate(q, near);
         let start = self.slot_at(place);
         let mut best = match place {
+            Place::Site(s) if G::HAS_WEIGHTS => s,
             Place::Site(s) => {
                 nearest.insert(s)?;
                 return Ok((nearest, start));
@@ -270,10 +289,24 @@ impl<G: Moving> MovingTriangulation<G> {
     }
 
     fn compare(&self, q: &G::Point, a: SiteId, b: SiteId) -> Ordering {
-        compare_distance(q, &self.mesh.kernel.site(a).point, &self.mesh.kernel.site(b).point)
+        q.compare_powers(&self.mesh.kernel.site(a).point, &self.mesh.kernel.site(b).point)
     }
 
-    fn nearest_of(&self, q: &G::Point, mut sites: impl Iterator<Item = SiteId>) -> Option<VertexId> {
+    /// The nearest vertex where there are no cells.
+    fn nearest_without_cells(&self, q: &G::Point) -> Result<Option<VertexId>> {
+        let sites = || self.mesh.kernel.live_sites();
+        let Some(best) = self.nearest_of(q, sites()) else { return Ok(None) };
+        let is_as_near = |&s: &SiteId| self.compare(q, s, best) == Ordering::Equal;
+        let best = if G::HAS_WEIGHTS && sites().filter(is_as_near).nth(1).is_some() {
+            let hidden = self.mesh.kernel.hidden_without_cells()?;
+            self.nearest_of(q, sites().filter(|s| !hidden.contains(s))).expect("not all are hidden")
+        } else {
+            best
+        };
+        Ok(Some(self.mesh.kernel.site(best).id))
+    }
+
+    fn nearest_of(&self, q: &G::Point, mut sites: impl Iterator<Item = SiteId>) -> Option<SiteId> {
         let mut best = sites.next()?;
         for s in sites {
             let order = self.compare(q, s, best);
@@ -281,7 +314,7 @@ impl<G: Moving> MovingTriangulation<G> {
                 best = s;
             }
         }
-        Some(self.mesh.kernel.site(best).id)
+        Some(best)
     }
 
     /// The order of what represents two sites, by key, place and id.

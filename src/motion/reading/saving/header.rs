@@ -45,6 +45,9 @@ const PIECE: usize = 16;
 /// Bytes of a history.
 const HISTORY: usize = 96;
 
+/// Sums that there are with weights alone: vertices that had another weight, that were hidden, and that were shown.
+pub(super) const N_SUMS_OF_WEIGHTS: usize = 3;
+
 /// Bytes of the header.
 pub(super) const SIZE: usize = 72 + 8 * N_SUMS;
 
@@ -149,43 +152,20 @@ pub(super) struct History {
     /// Whether vertices had keys.
     pub(super) had_keys: bool,
     pub(super) density: Density,
-    /// Sums of what changes of weights have done, where there are weights: these are never refined.
-    pub(super) weight_sums: [u64; N_WEIGHT_SUMS],
 }
-
-/// How many sums there are of what changes of weights have done.
-pub(super) const N_WEIGHT_SUMS: usize = 3;
 
 impl History {
     /// In the order in which they are saved.
     pub(super) fn numbers(&self) -> impl Iterator<Item = u64> + use<> {
-        let mut numbers = [0; 12];
-        (numbers[0], numbers[1]) = (self.n_known as u64, u64::from(self.had_keys));
-        numbers[2..].iter_mut().zip(self.density.numbers()).for_each(|(number, of)| *number = of);
-        numbers[2..]
-            .iter_mut()
-            .zip(self.weight_sums)
-            .for_each(|(number, sum)| *number += sum.min(GREATEST_SUM));
-        numbers.into_iter()
+        [self.n_known as u64, u64::from(self.had_keys)].into_iter().chain(self.density.numbers())
     }
 
     /// The history that twelve numbers give.
-    pub(super) fn of(
-        [n_known, had_keys, mut density @ ..]: [u64; 12],
-        has_weights: bool,
-    ) -> Result<Self, Damage> {
-        let mut weight_sums = [0; N_WEIGHT_SUMS];
-        if has_weights {
-            weight_sums.copy_from_slice(&density[..N_WEIGHT_SUMS]);
-            density[..N_WEIGHT_SUMS].fill(0);
-            if weight_sums.iter().any(|&sum| sum > GREATEST_SUM) {
-                return Err(Damage::Counts);
-            }
-        }
+    pub(super) fn of([n_known, had_keys, density @ ..]: [u64; 12]) -> Result<Self, Damage> {
         let n_known = usize::try_from(n_known).map_err(|_| Damage::Counts)?;
         let density = Density::of_numbers(density).ok_or(Damage::Counts)?;
         match had_keys {
-            0 | 1 => Ok(History { n_known, had_keys: had_keys == 1, density, weight_sums }),
+            0 | 1 => Ok(History { n_known, had_keys: had_keys == 1, density }),
             _ => Err(Damage::Counts),
         }
     }
@@ -224,7 +204,7 @@ impl Header {
         let sum = |counts: &[usize]| counts.iter().map(|&n| n as u128).sum::<u128>();
         let bytes = SIZE as u128
             + 8 * (d + weight) * sum(&places)
-            + 4 * weight * self.ids as u128
+            + weight * (4 * self.ids as u128 + 8 * N_SUMS_OF_WEIGHTS as u128)
             + 4 * (sum(&numbers) + 2 * (d + 1) * self.cells as u128)
             + if self.has_keys { KEY as u128 * self.ids as u128 } else { 0 }
             + if self.has_history { HISTORY as u128 } else { 0 }
@@ -361,6 +341,28 @@ impl SegmentCounts {
             Err(Damage::Counts)
         }
     }
+}
+
+/// The sums that there are with weights alone, in the order in which they are saved.
+pub(super) fn sums_of_weights(statistics: &CommitReport) -> [u64; N_SUMS_OF_WEIGHTS] {
+    let sums = [statistics.reweighted, statistics.newly_hidden, statistics.newly_shown];
+    sums.map(|sum| sum.min(GREATEST_SUM))
+}
+
+/// Enters these sums, which are at this place in the data.
+pub(super) fn enter_sums_of_weights(
+    statistics: &mut CommitReport,
+    sums: &[[u8; 8]],
+    offset: usize,
+) -> Result<(), Damage> {
+    let places = [&mut statistics.reweighted, &mut statistics.newly_hidden, &mut statistics.newly_shown];
+    for (k, (place, &bytes)) in places.into_iter().zip(sums).enumerate() {
+        *place = u64::from_le_bytes(bytes);
+        if *place > GREATEST_SUM {
+            return Err(Damage::Sum { offset: offset + 8 * k, value: *place });
+        }
+    }
+    Ok(())
 }
 
 /// The number of four bytes at a place.

@@ -3,19 +3,21 @@
 use crate::complex::Corners;
 use crate::damage::{Damage, LoadError};
 use crate::delaunay::{Delaunay, Keys, Moving, Rows};
-use crate::error::{Error, Result};
+use crate::error::{AXIS_OF_WEIGHT, Error, Result};
 use crate::ids::{CellId, Id, SegmentId, Slot, VertexId};
 use crate::machine::memory;
 use crate::machine::threads::Threads;
 use crate::motion::options::Options;
 use crate::motion::reading::saving::Saved;
-use crate::motion::reading::saving::header::{GIVEN_UP, Header, History, SIZE, SegmentCounts};
+use crate::motion::reading::saving::header::{
+    GIVEN_UP, Header, History, N_SUMS_OF_WEIGHTS, SIZE, SegmentCounts, enter_sums_of_weights,
+};
 use crate::motion::reading::saving::reader::Reader;
-use crate::motion::report::CommitReport;
 use crate::motion::state::cells::Cells;
 use crate::motion::state::checking::{check_position, limit};
 use crate::motion::state::hidden::Hidden;
 use crate::motion::state::made::{Made, Origin};
+use crate::motion::state::part::{Part, numbers_of};
 use crate::motion::state::segments::{Segment, Segments};
 use crate::motion::triangulation::{MAX_VERTICES, MovingTriangulation};
 
@@ -37,7 +39,7 @@ impl Reader<'_> {
             return Ok(None);
         }
         let numbers = self.entries::<8>(12);
-        History::of(std::array::from_fn(|k| u64::from_le_bytes(numbers[k])), header.has_weights).map(Some)
+        History::of(std::array::from_fn(|k| u64::from_le_bytes(numbers[k]))).map(Some)
     }
 
     fn rows<I: Id, C: Corners<I>>(&mut self, n: usize) -> Result<Vec<C>> {
@@ -180,9 +182,22 @@ fn of_segment(error: Error) -> LoadError {
     }
 }
 
-/// What is wrong with a number of a point.
-fn of_number<G: Moving>(vertex: VertexId, k: usize, value: f64) -> Damage {
-    if k >= G::D { Damage::Weight { vertex, value } } else { Damage::Position { vertex, axis: k, value } }
+/// What is wrong with a coordinate, or a weight.
+fn of_number(vertex: VertexId, axis: usize, value: f64) -> Damage {
+    match axis {
+        AXIS_OF_WEIGHT => Damage::Weight { vertex, value },
+        axis => Damage::Position { vertex, axis, value },
+    }
+}
+
+/// The part of a goal that is staged; both if none is left out.
+fn staged_part<G: Moving>(goal: &G::Point) -> Option<Part> {
+    let is_without = |part| numbers_of::<G>(goal, part).iter().all(|x| x.is_nan());
+    match [Part::Place, Part::Weight].map(is_without) {
+        [true, false] => Some(Part::Weight),
+        [false, true] => Some(Part::Place),
+        _ => None,
+    }
 }
 
 /// Checks where the present vertices are, and what stands for their places, and that all others are nowhere and above no
@@ -212,7 +227,8 @@ fn check_vertices<G: Moving>(
         // What is not a number is within no limit.
         let n_good = (0..G::NUMBERS).take_while(|&k| p[k].abs() <= limit::<G>(k)).count();
         if n_good < G::NUMBERS {
-            return Err(of_number::<G>(vertex, n_good, p[n_good]));
+            let axis = if n_good == G::D { AXIS_OF_WEIGHT } else { n_good };
+            return Err(of_number(vertex, axis, p[n_good]));
         }
         if first != vertex {
             // One beyond the last represents none; with weights, each stands for itself.
@@ -322,10 +338,15 @@ impl<G: Moving> MovingTriangulation<G> {
         }
         t.statistics = header.statistics;
         t.statistics.coincident = t.mesh.hidden.count() as u64;
-        if let Some(History { weight_sums: [reweighted, newly_hidden, newly_shown], .. }) = history {
-            t.statistics = CommitReport { reweighted, newly_hidden, newly_shown, ..t.statistics };
+        if G::HAS_WEIGHTS {
+            let sums = later.entries::<8>(N_SUMS_OF_WEIGHTS);
+            enter_sums_of_weights(
+                &mut t.statistics,
+                sums,
+                data.len() - later.0.len() - 8 * N_SUMS_OF_WEIGHTS,
+            )?;
+            t.count_hidden()?;
         }
-        t.count_hidden()?;
         t.stage_saved(header, &mut reader, (&moved, &coming), history)?;
         Ok(t)
     }
@@ -349,13 +370,13 @@ impl<G: Moving> MovingTriangulation<G> {
                 return Err(Damage::Insertion { vertex }.into());
             }
             let checked = check_position::<G>("positions", index, position);
-            let position = checked.map_err(|error| of_staged::<G>(error, &insertions))?;
+            let position = checked.map_err(|error| of_staged(error, &insertions))?;
             self.edits.insert(vertex, position);
             last = Some(vertex);
         }
         let usual = self.usual_history();
         let told = history.unwrap_or(usual);
-        let History { n_known, had_keys, density, .. } = told;
+        let History { n_known, had_keys, density } = told;
         let is_staged = (n_known, had_keys) == (usual.n_known, usual.had_keys) || self.edits.has_insertions();
         let is_known =
             (usual.n_known..=self.mesh.site_of.len()).contains(&n_known) && had_keys <= self.has_keys();
@@ -371,25 +392,37 @@ impl<G: Moving> MovingTriangulation<G> {
         if let Some(vertex) = self.first_key_of_none() {
             return Err(Damage::Key { vertex, given: self.mesh.kernel.keys().of(vertex) }.into());
         }
-        self.stage_removals(&removals).map_err(|error| of_staged::<G>(error, &removals))?;
-        let staged = if G::HAS_WEIGHTS {
-            self.stage_changed_parts(&moves, moved)
-        } else {
-            self.move_vertices(&moves, moved)
-        };
-        staged.map_err(|error| of_staged::<G>(error, &moves))
+        self.stage_removals(&removals).map_err(|error| of_staged(error, &removals))?;
+        if !G::HAS_WEIGHTS {
+            return self.move_vertices(&moves, moved).map_err(|error| of_staged(error, &moves));
+        }
+        if !moves.is_empty() {
+            self.staging.reserve(header.ids, moves.len())?;
+        }
+        for (&v, goal) in moves.iter().zip(moved) {
+            let staged = match staged_part::<G>(goal) {
+                // The other part may be staged beside it, and weights of what is to be inserted, but each vertex is told once.
+                Some(_) if self.staging.is_staged(v) || !self.mesh.is_present(v) => {
+                    return Err(Damage::Staged { vertex: v }.into());
+                }
+                Some(part) => self.move_parts(part, Some(&[v]), numbers_of::<G>(goal, part)),
+                None => self.move_vertices(&[v], std::slice::from_ref(goal)),
+            };
+            staged.map_err(|error| of_staged(error, &[v]))?;
+        }
+        Ok(())
     }
 }
 
 /// Why something cannot be staged that has been: the data are wrong, or there is no memory.
-fn of_staged<G: Moving>(error: Error, vertices: &[VertexId]) -> LoadError {
+fn of_staged(error: Error, vertices: &[VertexId]) -> LoadError {
     match error {
         Error::NoSuchVertex { vertex, .. }
         | Error::RemovedVertex { vertex, .. }
         | Error::StagedVertex { vertex, .. }
         | Error::DuplicateMove { vertex, .. } => Damage::Staged { vertex }.into(),
         Error::NotFinite { index, axis, value, .. } | Error::OutOfRange { index, axis, value, .. } => {
-            of_number::<G>(vertices[index], axis, value).into()
+            of_number(vertices[index], axis, value).into()
         }
         error => error.into(),
     }

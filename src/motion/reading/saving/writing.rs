@@ -5,12 +5,12 @@ use crate::error::{Error, Result};
 use crate::ids::{CellId, SegmentId, VertexId};
 use crate::machine::memory;
 use crate::motion::reading::chunks::Chunks;
-use crate::motion::reading::saving::header::{GIVEN_UP, Header, History, SegmentCounts};
-use crate::motion::report::CommitReport;
+use crate::motion::reading::saving::header::{GIVEN_UP, Header, History, SegmentCounts, sums_of_weights};
 use crate::motion::state::cells::Cells;
 use crate::motion::state::density::Density;
 use crate::motion::state::made::Origin;
 use crate::motion::state::mesh::Standing;
+use crate::motion::state::part::{Part, set_part};
 use crate::motion::state::segments::{Segment, Segments};
 use crate::motion::triangulation::MovingTriangulation;
 
@@ -100,8 +100,18 @@ impl<G: Moving> MovingTriangulation<G> {
         for (_, s) in self.mesh.sites_of_ids() {
             chunks.whole_point::<G>(s.map_or(&nowhere, |s| &self.mesh.kernel.site(s).point))?;
         }
-        self.staged_vertices().try_for_each(|v| chunks.whole_point::<G>(self.staging.goal(v)))?;
+        self.staged_vertices().try_for_each(|v| chunks.whole_point::<G>(&self.staged_parts(v)))?;
         insertions.iter().try_for_each(|(_, point)| chunks.whole_point::<G>(point))
+    }
+
+    /// Where a vertex is to go, and the weight that it is to have; NaN for what is not staged, and stays.
+    fn staged_parts(&self, vertex: VertexId) -> G::Point {
+        let mut goal = *self.staging.goal(vertex);
+        let parts = if G::HAS_WEIGHTS { &[Part::Place, Part::Weight][..] } else { &[] };
+        for &part in parts.iter().filter(|&&part| !self.staging.is_part_staged(vertex, part)) {
+            set_part::<G>(&mut goal, part, &[f64::NAN; 3][..part.width::<G>()]);
+        }
+        goal
     }
 
     /// Writes which vertices are present and hidden, and by what, the cells, and what is staged.
@@ -126,6 +136,11 @@ impl<G: Moving> MovingTriangulation<G> {
         self.save_keys(chunks)?;
         for number in self.history_to_save().iter().flat_map(History::numbers) {
             chunks.numbers(&[number as u32, (number >> 32) as u32])?;
+        }
+        if G::HAS_WEIGHTS {
+            for sum in sums_of_weights(&self.statistics) {
+                chunks.numbers(&[sum as u32, (sum >> 32) as u32])?;
+            }
         }
         let Some(segments) = self.segments_to_save() else { return Ok(()) };
         save_segments(segments, self.counts_of(segments), chunks)?;
@@ -171,14 +186,7 @@ impl<G: Moving> MovingTriangulation<G> {
         let n_ids = self.id_count();
         let last = self.edits.insertions().iter().rev().zip(1..=n_ids);
         let n_last = last.take_while(|&(&(v, _), k)| v.index() == n_ids - k).count();
-        let CommitReport { reweighted, newly_hidden, newly_shown, .. } = self.statistics;
-        let weight_sums = [reweighted, newly_hidden, newly_shown];
-        History {
-            n_known: n_ids - n_last,
-            had_keys: self.has_keys(),
-            density: Density::default(),
-            weight_sums,
-        }
+        History { n_known: n_ids - n_last, had_keys: self.has_keys(), density: Density::default() }
     }
 
     /// The history, if it is to be saved.

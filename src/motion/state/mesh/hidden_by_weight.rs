@@ -11,9 +11,11 @@
 use std::cmp::Ordering;
 
 use crate::delaunay::{Delaunay, Moving};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
+use crate::motion::options::CoincidencePolicy;
+use crate::motion::state::hidden_ids::HiddenIds;
 use crate::motion::state::mesh::Mesh;
 use crate::predicates::PointArray;
 
@@ -37,10 +39,53 @@ pub(in crate::motion) struct HiddenVertices {
 /// How many bits there are for each place in a table of places, by a hash.
 const BITS_PER_PLACE: usize = 16;
 
+/// Who is hidden, and how many by what.
+#[derive(Debug, Default)]
+pub(in crate::motion) struct HiddenNow {
+    pub(in crate::motion) ids: HiddenIds,
+    pub(in crate::motion) by_place: u64,
+    pub(in crate::motion) by_weight: u64,
+}
+
 impl<G: Moving> Mesh<G> {
+    /// The site at the place of a live one that cells have for a corner, while there are cells; none at a place that is hidden by
+    /// weight.
+    #[inline(always)]
+    pub(in crate::motion) fn shown_at(&self, s: SiteId) -> Option<SiteId> {
+        if self.kernel.is_hidden(s) {
+            corner_at_place(&self.kernel, s, self.kernel.cell_below(s))
+        } else {
+            Some(s)
+        }
+    }
+
     /// The vertices that are in no cell, of those with weights.
     pub(in crate::motion) fn vertices_in_no_cell(&self) -> Result<HiddenVertices> {
-        let kernel = &self.kernel;
+        HiddenVertices::of(&self.kernel)
+    }
+
+    /// Who is hidden in a kernel, of vertices with weights; an error if two are at one place, and that is refused.
+    pub(in crate::motion) fn hidden_in(
+        &self,
+        kernel: &Delaunay<G>,
+        policy: CoincidencePolicy,
+    ) -> Result<HiddenNow> {
+        if !G::HAS_WEIGHTS {
+            return Ok(HiddenNow::default());
+        }
+        let found = HiddenVertices::of(kernel)?;
+        if let Some(&(v, w)) = found.by_place.first().filter(|_| policy == CoincidencePolicy::Reject) {
+            return Err(Error::Coincident { vertex: v.min(w), other: v.max(w) });
+        }
+        let ids = HiddenIds::of(found.all(), self.site_of.len())?;
+        let [by_place, by_weight] = [found.by_place.len(), found.by_weight.len()].map(|n| n as u64);
+        Ok(HiddenNow { ids, by_place, by_weight })
+    }
+}
+
+impl HiddenVertices {
+    /// The vertices that are in no cell of a kernel, of those with weights.
+    pub(in crate::motion) fn of<G: Moving>(kernel: &Delaunay<G>) -> Result<Self> {
         let (mut found, mut alone) = (HiddenVertices::default(), Vec::new());
         if kernel.has_cells() {
             for s in kernel.hidden_sites() {
@@ -52,13 +97,19 @@ impl<G: Moving> Mesh<G> {
                     None => memory::push(&mut alone, (s, cell))?,
                 }
             }
-            self.list_by_place(&alone, &mut found)?;
-            memory::collect(&mut found.by_weight, alone.iter().map(|&(s, cell)| self.covered(s, cell)))?;
+            found.list_by_place(kernel, &alone)?;
+            memory::collect(
+                &mut found.by_weight,
+                alone.iter().map(|&(s, cell)| Covered { vertex: kernel.site(s).id, cell }),
+            )?;
         } else {
             memory::collect(&mut alone, kernel.live_sites().map(|s| (s, Slot::NONE)))?;
-            self.list_by_place(&alone, &mut found)?;
+            found.list_by_place(kernel, &alone)?;
             let sites = kernel.hidden_without_cells()?;
-            memory::collect(&mut found.by_weight, sites.into_iter().map(|s| self.covered(s, Slot::NONE)))?;
+            memory::collect(
+                &mut found.by_weight,
+                sites.into_iter().map(|s| Covered { vertex: kernel.site(s).id, cell: Slot::NONE }),
+            )?;
         }
         let HiddenVertices { by_place, by_weight } = &mut found;
         by_place.sort_unstable();
@@ -68,14 +119,15 @@ impl<G: Moving> Mesh<G> {
         Ok(found)
     }
 
-    fn covered(&self, s: SiteId, cell: Slot) -> Covered {
-        Covered { vertex: self.kernel.site(s).id, cell }
+    /// All of them, in no particular order.
+    pub(in crate::motion) fn all(&self) -> impl Iterator<Item = VertexId> {
+        let by_weight = self.by_weight.iter().map(|covered| covered.vertex);
+        self.by_place.iter().map(|&(vertex, _)| vertex).chain(by_weight)
     }
 
     /// Lists those of these sites that share a place and do not represent it.
-    fn list_by_place(&self, sites: &[(SiteId, Slot)], found: &mut HiddenVertices) -> Result<()> {
-        let kernel = &self.kernel;
-        let mut shared = self.maybe_shared(sites)?;
+    fn list_by_place<G: Moving>(&mut self, kernel: &Delaunay<G>, sites: &[(SiteId, Slot)]) -> Result<()> {
+        let mut shared = maybe_shared(kernel, sites)?;
         let of = |s: SiteId| (kernel.site(s).id, kernel.site(s).point);
         let by_place = |a: &SiteId, b: &SiteId| -> Ordering {
             let ((v, p), (w, q)) = (of(*a), of(*b));
@@ -90,47 +142,40 @@ impl<G: Moving> Mesh<G> {
         shared.sort_unstable_by(by_place);
         for group in shared.chunk_by(|&a, &b| of(a).1.as_ref() == of(b).1.as_ref()) {
             let others = group[1..].iter().map(|&s| (of(s).0, of(group[0]).0));
-            memory::collect(&mut found.by_place, others)?;
+            memory::collect(&mut self.by_place, others)?;
         }
         Ok(())
     }
-
-    /// Those of these sites that may share a place: all that do, and few others.
-    fn maybe_shared(&self, sites: &[(SiteId, Slot)]) -> Result<Vec<SiteId>> {
-        let n_bits = (BITS_PER_PLACE * sites.len()).next_power_of_two().max(64);
-        let (mut seen, mut again) = (Vec::new(), Vec::new());
-        memory::lengthen(&mut seen, n_bits / 64, 0_u64)?;
-        memory::lengthen(&mut again, n_bits / 64, 0_u64)?;
-        let bit_of = |s: SiteId| {
-            let hash = self.kernel.site(s).point.as_ref().iter().fold(0_u64, |hash, x| {
-                (hash.rotate_left(26) ^ x.to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15)
-            });
-            let bit = (hash >> 32) as usize & (n_bits - 1);
-            (bit / 64, 1_u64 << (bit % 64))
-        };
-        for &(s, _) in sites {
-            let (word, bit) = bit_of(s);
-            again[word] |= seen[word] & bit;
-            seen[word] |= bit;
-        }
-        let mut shared = Vec::new();
-        if again.iter().any(|&word| word != 0) {
-            let repeated = sites.iter().map(|&(s, _)| s).filter(|&s| {
-                let (word, bit) = bit_of(s);
-                again[word] & bit != 0
-            });
-            memory::collect(&mut shared, repeated)?;
-        }
-        Ok(shared)
-    }
 }
 
-impl HiddenVertices {
-    /// All of them, in no particular order.
-    pub(in crate::motion) fn all(&self) -> impl Iterator<Item = VertexId> {
-        let by_weight = self.by_weight.iter().map(|covered| covered.vertex);
-        self.by_place.iter().map(|&(vertex, _)| vertex).chain(by_weight)
+/// Those of these sites that may share a place: all that do, and few others.
+fn maybe_shared<G: Moving>(kernel: &Delaunay<G>, sites: &[(SiteId, Slot)]) -> Result<Vec<SiteId>> {
+    let n_bits = (BITS_PER_PLACE * sites.len()).next_power_of_two().max(64);
+    let (mut seen, mut again) = (Vec::new(), Vec::new());
+    memory::lengthen(&mut seen, n_bits / 64, 0_u64)?;
+    memory::lengthen(&mut again, n_bits / 64, 0_u64)?;
+    let bit_of = |s: SiteId| {
+        let hash =
+            kernel.site(s).point.as_ref().iter().fold(0_u64, |hash, x| {
+                (hash.rotate_left(26) ^ x.to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15)
+            });
+        let bit = (hash >> 32) as usize & (n_bits - 1);
+        (bit / 64, 1_u64 << (bit % 64))
+    };
+    for &(s, _) in sites {
+        let (word, bit) = bit_of(s);
+        again[word] |= seen[word] & bit;
+        seen[word] |= bit;
     }
+    let mut shared = Vec::new();
+    if again.iter().any(|&word| word != 0) {
+        let repeated = sites.iter().map(|&(s, _)| s).filter(|&s| {
+            let (word, bit) = bit_of(s);
+            again[word] & bit != 0
+        });
+        memory::collect(&mut shared, repeated)?;
+    }
+    Ok(shared)
 }
 
 /// The corner of the cell below a hidden site that is at its place.

@@ -26,6 +26,7 @@ use crate::motion::state::transaction::Transaction;
 use crate::motion::state::views::Views;
 use crate::predicates::exact_calls;
 
+pub(in crate::motion) use hidden_by_weight::HiddenNow;
 pub(in crate::motion) use standing::Standing;
 
 /// Before the tolerances of all bi-cells are computed, cells are sorted again if this many times as many as there are
@@ -46,6 +47,8 @@ pub(in crate::motion) struct Mesh<G: Moving> {
     pub(in crate::motion) views: Views<G>,
     /// Segments that have to be edges, once there was one.
     pub(in crate::motion) segments: Option<Box<Segments<G>>>,
+    /// Who is hidden, of vertices with weights, in a new kernel that is in place: found before, as nothing may fail after.
+    pub(in crate::motion) hidden_in_new: Option<HiddenNow>,
     /// What the latest call has found to be in their way.
     pub(in crate::motion) last_found: LastFound,
     /// Changes that can still all be taken back, while a timestamp is being prepared.
@@ -77,6 +80,7 @@ impl<G: Moving> Mesh<G> {
             transaction: Transaction::default(),
             views: Views::default(),
             segments: None,
+            hidden_in_new: None,
             last_found: LastFound::default(),
             rounds: None,
             constants: TABLE.of::<G>(),
@@ -99,6 +103,7 @@ impl<G: Moving> Mesh<G> {
                 Some(segments) => Some(memory::boxed(segments.copied()?)?),
                 None => None,
             },
+            hidden_in_new: None,
             last_found: LastFound::default(),
             rounds: None,
             constants: self.constants,
