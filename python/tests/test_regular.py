@@ -45,6 +45,8 @@ def check(tri):
         assert above(points, weights, tri.simplices[[simplex]], vertex)[0] >= 0
         barycentric = tri.barycentric(points[vertex], [simplex])
         assert (barycentric >= 0).all()
+    assert tri.statistics.hidden_by_weight == len(by_weight.vertices)
+    assert tri.statistics.coincident == len(by_place)
     fresh = deldrift.Regular(points[present], weights[present])
     assert as_sets(tri.simplices) == as_sets(present[fresh.simplices])
     np.testing.assert_array_equal(by_weight.vertices, present[fresh.hidden_by_weight.vertices])
@@ -200,6 +202,7 @@ def test_what_is_asked_heeds_weights(rng, ndim):
     hidden = tri.hidden_by_weight
     np.testing.assert_array_equal(tri.find_simplex(points[hidden.vertices]), hidden.simplices)
     assert (tri.vertex_to_simplex[hidden.vertices] == -1).all() and len(tri.star(hidden.vertices[0])) == 0
+    assert ndim == 3 or len(tri.star(hidden.vertices[0], ordered=True)) == 0
     assert len(tri.segments.ids) == len(tri.segments.ends) == len(tri.segments.markers) == 0
 
 
