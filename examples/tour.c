@@ -254,6 +254,10 @@ static void ask_for_geometry(const deldrift_triangulation *t) {
     expect(memcmp(same_areas, areas, count * sizeof *areas) == 0 &&
                memcmp(same_lengths, lengths, n_lengths * sizeof *lengths) == 0,
            "both come from one call, too");
+    check(deldrift_voronoi_weight_derivatives(t, (double[]){0, 0}, (double[]){1, 1}, below_diagonal, 1, NULL, 0, same_areas,
+                                              MOST, &count, same_lengths, MOST, &n_lengths));
+    expect(memcmp(same_areas, areas, count * sizeof *areas) == 0 && n_lengths == n_edges && same_lengths[0] <= 0,
+           "a cell shrinks as a neighbour grows heavier");
 }
 
 // Whether two triangulations have the same cells under the same indices.

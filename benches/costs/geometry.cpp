@@ -155,6 +155,17 @@ void voronoi_cells_and_facets(Context &c) {
                     });
 }
 
+template <int percent>
+void voronoi_weight_derivatives(Context &c) {
+    const auto [low, high] = c.box(percent / 100.0);
+    std::vector<double> volumes(c.n);
+    std::size_t n_ids;
+    counted<double>(c, 1, [&, low = low.data(), high = high.data()](double *to, std::size_t room, std::size_t *count) {
+        return deldrift_voronoi_weight_derivatives(c.t, low, high, nullptr, 0, nullptr, 0, volumes.data(), c.n, &n_ids, to,
+                                                   room, count);
+    });
+}
+
 /// A place with natural neighbours costs what a vertex there would change: counted for some, by inserting it in a copy.
 void count_natural_neighbours(Context &c, const Points &places) {
     const std::size_t count = places.size() / c.dimension, counted = std::min<std::size_t>(count, 16);
@@ -406,6 +417,7 @@ std::vector<Call> geometry_calls() {
          }},
         {"deldrift_voronoi_derivatives", "in a box around all", voronoi_derivatives<10>},
         {"deldrift_voronoi_derivatives", "in a box inside", voronoi_derivatives<-20>},
+        {"deldrift_voronoi_weight_derivatives", "in a box around all", voronoi_weight_derivatives<10>},
         {"deldrift_voronoi_cells_and_facets", "in a box around all", voronoi_cells_and_facets<10>},
         {"deldrift_interpolate", "linear, anywhere, as many places as vertices", [](Context &c) {
              interpolate(c, DELDRIFT_INTERPOLATION_LINEAR, c.many(c.n, &Context::anywhere));

@@ -64,7 +64,7 @@ typedef enum { CREATE, CREATE_WITH_KEYS, CREATE_PERIODIC, RELOCATE, INSERT, INSE
     MASK_BOUNDARY, HULL_FACETS, EDGES, VERTEX_NEIGHBOURS, VERTEX_CELLS, MIRROR_INDICES, MIRROR_INDEX, ORDERED_STAR,
     CELLS_AROUND, CELLS_AROUND_ALL, UPDATE_CIRCUMCENTRES, UPDATE_VOLUMES, UPDATE_MASK,
     VORONOI_VOLUMES, VORONOI_FACETS, VORONOI_CELLS, VORONOI_CELLS_WITHIN, VORONOI_DERIVATIVES,
-    VORONOI_DERIVATIVES_WITHIN, VORONOI_BOTH, VORONOI_CHANGED, INTERPOLATE, INTERPOLATE_NATURAL,
+    VORONOI_DERIVATIVES_WITHIN, VORONOI_BY_WEIGHTS, VORONOI_BOTH, VORONOI_CHANGED, INTERPOLATE, INTERPOLATE_NATURAL,
     NEAREST_VERTICES, VERTICES_IN_BALL, NEIGHBOUR_LISTS, VERTICES_IN_BOX, CONFLICTS,
     CELLS_IN_REACH, HULL_FACETS_IN_REACH, VERTICES_IN_REACH, FIND_SIMPLICES, FIND_SIMPLICES_ALL,
     CELL_OF_EACH_VERTEX, BARYCENTRIC, MASK_WITHOUT_FLAT_CELLS, SEGMENTS_OF_CELLS, CELLS_OF_SEGMENTS, NESTING_LEVELS,
@@ -94,6 +94,7 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_update_circumcentres", "deldrift_update_volumes", "deldrift_update_mask_by_circumradius",
     "deldrift_voronoi_volumes", "deldrift_voronoi_facets", "deldrift_voronoi_cells",
     "deldrift_voronoi_cells_within", "deldrift_voronoi_derivatives", "deldrift_voronoi_derivatives_within",
+    "deldrift_voronoi_weight_derivatives",
     "deldrift_voronoi_cells_and_facets", "deldrift_voronoi_changed", "deldrift_interpolate", "deldrift_interpolate, natural",
     "deldrift_nearest_vertices", "deldrift_vertices_in_ball", "deldrift_neighbour_lists", "deldrift_vertices_in_box", "deldrift_conflicts",
     "deldrift_cells_in_reach", "deldrift_hull_facets_in_reach", "deldrift_vertices_in_reach",
@@ -148,13 +149,10 @@ static bool refuses_weights(kind k) {
         case CREATE_WITH_KEYS:
         case ANNULUS_WIDTHS:
         case DELIMITER:
-        case NEAREST:
-        case TRANSFER_CELLS:
-        case INTERPOLATE_NATURAL: return true;
+        case TRANSFER_CELLS: return true;
         default: break;
     }
-    return is_periodic_call(k) || (VORONOI_VOLUMES <= k && k <= VORONOI_CHANGED) ||
-           (NEAREST_VERTICES <= k && k <= VERTICES_IN_REACH) || k == STAGE_SEGMENTS || k == STAGE_SEGMENT_REMOVALS ||
+    return is_periodic_call(k) || (CELLS_IN_REACH <= k && k <= VERTICES_IN_REACH) || k == STAGE_SEGMENTS || k == STAGE_SEGMENT_REMOVALS ||
            k == CHECK_STAGED || k == CHECK_PASSINGS || k == STAGE_SPLITS || (SEGMENTS_OF_CELLS <= k && k <= COARSEN);
 }
 
@@ -718,6 +716,12 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             status = deldrift_voronoi_derivatives_within(s->t, low, high, (double[]){1, 1, 1, 0.5, 2, -1, 1, 3}, 2, NULL, 0,
                                                          numbers_out, NULL, NULL, ROOM, &count);
             break;
+        case VORONOI_BY_WEIGHTS: {
+            size_t n_edges;
+            status = deldrift_voronoi_weight_derivatives(s->t, low, high, NULL, 0, NULL, 0, numbers_out, ROOM / 2, &count,
+                                                         numbers_out + ROOM / 2, ROOM / 2, &n_edges);
+            break;
+        }
         case VORONOI_BOTH: {
             size_t n_edges;
             status = deldrift_voronoi_cells_and_facets(s->t, low, high, NULL, 0, NULL, 0, numbers_out, NULL, NULL, ROOM / 2,
@@ -899,6 +903,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             break;
         case VORONOI_CELLS:
         case VORONOI_CELLS_WITHIN:
+        case VORONOI_BY_WEIGHTS:
         case VORONOI_BOTH:
         case VORONOI_VOLUMES:
             for (size_t i = 0; i < count; i++) *given += (uint64_t)(1e6 * (numbers_out[i] > 0 ? numbers_out[i] : 0));

@@ -445,6 +445,9 @@ static void ask_about(const deldrift_triangulation *t, const places *p) {
         TRY(deldrift_voronoi_cells_and_facets(t, p->low, p->high, NULL, 0, mask, mask_count, numbers, NULL, NULL, TOUR_ROOM,
                                               &count, more, NULL, NULL, TOUR_ROOM, &n_edges));
         note(numbers, n_ids * sizeof *numbers);
+        TRY(deldrift_voronoi_weight_derivatives(t, p->low, p->high, NULL, 0, mask, mask_count, numbers, TOUR_ROOM, &count,
+                                                more, TOUR_ROOM, &n_edges));
+        note(numbers, n_ids * sizeof *numbers);
     }
     for (uint32_t method = 0; method < 2; method++) {
         TRY(deldrift_interpolate(t, method, p->then, n_ids, 1, p->later, p->n, NULL, NULL, numbers));

@@ -53,7 +53,7 @@ static bool is_not_saved(size_t k) {
 static bool is_rounded_by_slots(size_t k) {
     static const char *const all[] = {"circumcentres",  "volumes",   "cells_in_reach",  "tolerance",  "interpolate",
                                       "voronoi_volumes", "voronoi_facets", "voronoi_cells", "voronoi_derivatives",
-                                      "voronoi_cells_within", "voronoi_derivatives_within", "voronoi_cells_and_facets",
+                                      "voronoi_cells_within", "voronoi_derivatives_within", "voronoi_cells_and_facets", "voronoi_weight_derivatives",
                                       "annulus_widths",
                                       "standard_delimiter"};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {

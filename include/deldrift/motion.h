@@ -303,10 +303,12 @@ deldrift_status deldrift_commit_positions(deldrift_triangulation *t,
                                           size_t count,
                                           deldrift_commit_report *report);
 
-/// What all commits and immediate calls so far have done, in sum, to *report. Its timestamp and coincident are those of
-/// now.
+/// What all commits and immediate calls so far have done, in sum, to *report. Its timestamp, coincident and
+/// hidden_by_weight are those of now.
 ///
-/// Cost: constant.
+/// Cost: constant; n for a triangulation with weights.
+///
+/// Errors: DELDRIFT_OUT_OF_MEMORY if t has weights.
 deldrift_status deldrift_statistics(const deldrift_triangulation *t,
                                     deldrift_commit_report *report);
 

@@ -13,7 +13,7 @@
  *     deldrift_locate_in_period: Where count points lie, exactly, to locations, and in which period, to shifts.
  *     deldrift_nearest_vertex: The vertex nearest to a point, to *vertex.
  *     deldrift_coincident_representative: The vertex that represents this one in cells, to *representative.
- *     deldrift_hidden_vertices: The vertices that are hidden, ascending, each with the one that represents it.
+ *     deldrift_hidden_vertices: The vertices that are hidden by place, ascending, each with the one that represents it.
  *
  * What is near a place: the nearest vertices, those in a ball or a box, the cells that a new vertex would remove.
  *
@@ -204,24 +204,25 @@ deldrift_status deldrift_nearest_vertex(const deldrift_triangulation *t,
                                         uint32_t *vertex);
 
 /// The vertex that represents this one in cells, to *representative. It is the one of the lowest id at the same place,
-/// or, where vertices have keys, of the lowest key and then of the lowest id. It is the vertex itself unless that is
-/// hidden.
+/// or, where vertices have keys, of the lowest key and then of the lowest id; with weights the heaviest one before these.
+/// It is the vertex itself unless that is hidden.
 ///
-/// Cost: constant.
+/// Cost: constant; n for a hidden vertex of a triangulation with weights.
 ///
-/// Errors: DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX.
+/// Errors: DELDRIFT_OUT_OF_MEMORY if t has weights, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX.
 deldrift_status deldrift_coincident_representative(const deldrift_triangulation *t,
                                                    uint32_t vertex,
                                                    uint32_t *representative);
 
-/// The vertices that are hidden, ascending, each with the one that represents it. In a periodic triangulation vertices
+/// The vertices that are hidden by place, ascending, each with the one that represents it. In a periodic triangulation vertices
 /// share a place if they do in any period.
 ///
 /// vertices, representatives: buffers with room for capacity ids each. count: receives the number of hidden vertices.
 ///
-/// Cost: n; constant where there are none, and for the count alone; n for a periodic triangulation.
+/// Cost: n; constant where there are none, and for the count alone; n for a periodic triangulation, and for one with
+/// weights.
 ///
-/// Errors: DELDRIFT_OUT_OF_MEMORY if t is periodic.
+/// Errors: DELDRIFT_OUT_OF_MEMORY if t is periodic or has weights.
 deldrift_status deldrift_hidden_vertices(const deldrift_triangulation *t,
                                          uint32_t *vertices,
                                          uint32_t *representatives,

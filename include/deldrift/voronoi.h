@@ -20,6 +20,9 @@
  *     deldrift_voronoi_derivatives_within: The Voronoi facets of all edges within a box and half-spaces, with
  *         derivatives, as deldrift_voronoi_derivatives has them within a box.
  *     deldrift_voronoi_cells_and_facets: Voronoi cells and facets in one call.
+ *     deldrift_voronoi_weight_derivatives: Areas (2D) or volumes (3D) of Voronoi cells, and their derivatives by
+ *         weights, in one call: what Newton's method needs that looks for weights for which cells have prescribed areas
+ *         or volumes, as in semi-discrete optimal transport.
  *     deldrift_voronoi_changed: Marks the vertices whose Voronoi cell has changed, or may have.
  */
 
@@ -342,6 +345,38 @@ deldrift_status deldrift_voronoi_cells_and_facets(const deldrift_triangulation *
                                                   double *derivatives,
                                                   size_t edge_capacity,
                                                   size_t *edge_count);
+
+/// Areas (2D) or volumes (3D) of Voronoi cells, and their derivatives by weights, in one call: what Newton's method needs
+/// that looks for weights for which cells have prescribed areas or volumes, as in semi-discrete optimal transport.
+///
+/// low, high, half_spaces, half_space_count, mask, mask_count: as deldrift_voronoi_cells_within has them; NULL for low and
+/// high is no box. volumes, capacity, count: as deldrift_voronoi_volumes has them. weight_derivatives: a buffer with room
+/// for edge_capacity numbers, one for each edge in the order of deldrift_edges: the derivative of the area or volume of the
+/// cell of either end by the weight of the other one, which is minus the measure of the facet over twice the length of the
+/// edge. The derivative by the own weight is minus the sum over the edges of the vertex, in a box as well as without one.
+/// edge_count: receives the number of edges. Where there are no weights derivatives are those at equal ones. With NULL for
+/// weight_derivatives, and edge_capacity 0, it takes as long as deldrift_voronoi_volumes.
+///
+/// Rounded: volumes as deldrift_voronoi_volumes has them. A derivative is off by what the measure of its facet is off,
+/// see deldrift_voronoi_derivatives, over twice the length of its edge.
+///
+/// Cost: that of deldrift_voronoi_cells_and_facets.
+///
+/// Errors: those of deldrift_voronoi_cells_within: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_INVALID_VALUE, DELDRIFT_WRONG_COUNT, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+deldrift_status deldrift_voronoi_weight_derivatives(const deldrift_triangulation *t,
+                                                    const double *low,
+                                                    const double *high,
+                                                    const double *half_spaces,
+                                                    size_t half_space_count,
+                                                    const uint8_t *mask,
+                                                    size_t mask_count,
+                                                    double *volumes,
+                                                    size_t capacity,
+                                                    size_t *count,
+                                                    double *weight_derivatives,
+                                                    size_t edge_capacity,
+                                                    size_t *edge_count);
 
 /// Marks the vertices whose Voronoi cell has changed, or may have. With this mask for deldrift_voronoi_cells a step
 /// costs what has changed.

@@ -63,9 +63,6 @@ pub unsafe extern "C" fn deldrift_interpolate(
     given!(outside[n_values]: Array, results[n_results]: Buffer);
     t.read_any(|t| {
         let method = method_of(method)?;
-        if method != Interpolation::Linear {
-            t.reject_weights()?;
-        }
         let (wanted, coming) = ids_of(t);
         if value_count != wanted {
             let (argument, given) = ("value_count", value_count);

@@ -173,7 +173,6 @@ pub unsafe extern "C" fn deldrift_nearest_vertex(
 ) -> deldrift_status {
     given!(t: Reading, position: Point, vertex: Output);
     t.tell_any(vertex, |t| {
-        t.reject_weights()?;
         let nearest = in_any!(t => t.nearest_vertex(&position.of("position", t)?)?);
         Ok(nearest.map_or(DELDRIFT_NONE, VertexId::get))
     })

@@ -117,3 +117,4 @@ pub use status::*;
 pub use transferring::*;
 pub use triangulation::*;
 pub use voronoi::*;
+pub use weights::*;

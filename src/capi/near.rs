@@ -36,7 +36,6 @@ pub unsafe extern "C" fn deldrift_nearest_vertices(
     let n_found = count.saturating_mul(k);
     given!(t: Reading, positions[count]: Points, vertices[n_found]: Buffer);
     t.read_any(|t| {
-        t.reject_weights()?;
         in_any!(t => {
             let positions = positions.of(t)?;
             check_product::<u32>("vertices", count, k)?;
@@ -75,7 +74,6 @@ pub unsafe extern "C" fn deldrift_vertices_in_ball(
 ) -> deldrift_status {
     given!(t: Reading, centre: Point, vertices[capacity]: Buffer, count: Output);
     t.read_any(|t| {
-        t.reject_weights()?;
         in_any!(t => {
             let found = t.vertices_in_ball(&centre.of("centre", t)?, squared_radius)?;
             vertices.fill(count, found.len(), || Ok(found.into_iter().map(VertexId::get)))
@@ -153,7 +151,6 @@ pub unsafe extern "C" fn deldrift_neighbour_lists(
     given!(t: Reading, squared_radii[radius_count]: Array, mask[mask_count]: Array, offsets[offset_count]: Buffer);
     given!(neighbours[capacity]: Buffer, count: Output);
     t.read_any_watched(|t, monitor| {
-        t.reject_weights()?;
         let (n_ids, d) = (in_any!(t => t.id_count()), t.dimension() as usize);
         let room = capacity.saturating_mul(d);
         given!(shifts[room]: Buffer);
@@ -266,7 +263,6 @@ pub unsafe extern "C" fn deldrift_vertices_in_box(
 ) -> deldrift_status {
     given!(t: Reading, low: Point, high: Point, vertices[capacity]: Buffer, count: Output);
     t.read_any(|t| {
-        t.reject_weights()?;
         in_any!(t => {
             let found = t.vertices_in_box(&low.of("low", t)?, &high.of("high", t)?)?;
             vertices.fill(count, found.len(), || Ok(found.into_iter().map(VertexId::get)))
@@ -304,7 +300,6 @@ pub unsafe extern "C" fn deldrift_conflicts(
     let hint = hint.cast();
     given!(t: Reading, position: Point, hint: Input, cells[capacity]: Buffer, count: Output);
     t.read_any(|t| {
-        t.reject_weights()?;
         in_any!(t => {
             let found = t.conflicts(&position.of("position", t)?, hint_at(hint)?)?;
             cells.fill(count, found.len(), || Ok(found.into_iter().map(CellId::get)))

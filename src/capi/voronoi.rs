@@ -11,6 +11,7 @@ use parts::{CellArrays, FacetArrays, box_for, clip_for, fill, half_space_rows, m
 /// Rows of half-spaces and a mask that are not given: pointers and counts.
 const NO_ROWS: (*const f64, usize) = (std::ptr::null(), 0);
 const NO_MASK: (*const u8, usize) = (std::ptr::null(), 0);
+const NO_NUMBERS: *mut f64 = std::ptr::null_mut();
 
 /// Computes Voronoi cells and facets in one pass, whatever is asked for.
 ///
@@ -26,7 +27,6 @@ unsafe fn pass(
 ) -> deldrift_status {
     given!(t: Reading, low: Point, high: Point, mask[mask_count]: Array);
     t.read_any_watched(|t, monitor| {
-        t.reject_weights()?;
         let d = t.dimension() as usize;
         let are_both = cells.is_some() && facets.is_some();
         // SAFETY: the caller promises that there are as many half-spaces.
@@ -331,7 +331,8 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    let facets = FacetArrays { measures, centroids, derivatives, capacity, count };
+    let facets =
+        FacetArrays { measures, centroids, derivatives, weight_derivatives: NO_NUMBERS, capacity, count };
     // SAFETY: what the caller promises here is what is to be promised there; there are no half-spaces.
     unsafe { pass(t, [low, high], NO_ROWS, (mask, mask_count), None, Some(facets)) }
 }
@@ -370,7 +371,8 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives_within(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    let facets = FacetArrays { measures, centroids, derivatives, capacity, count };
+    let facets =
+        FacetArrays { measures, centroids, derivatives, weight_derivatives: NO_NUMBERS, capacity, count };
     let half_spaces = (half_spaces, half_space_count);
     // SAFETY: what the caller promises here is what is to be promised there.
     unsafe { pass(t, [low, high], half_spaces, (mask, mask_count), None, Some(facets)) }
@@ -417,9 +419,51 @@ pub unsafe extern "C" fn deldrift_voronoi_cells_and_facets(
         measures,
         centroids: facet_centroids,
         derivatives,
+        weight_derivatives: NO_NUMBERS,
         capacity: edge_capacity,
         count: edge_count,
     };
+    let half_spaces = (half_spaces, half_space_count);
+    // SAFETY: what the caller promises here is what is to be promised there.
+    unsafe { pass(t, [low, high], half_spaces, (mask, mask_count), Some(cells), Some(facets)) }
+}
+
+/// Areas (2D) or volumes (3D) of Voronoi cells, and their derivatives by weights, in one call: what Newton's method needs
+/// that looks for weights for which cells have prescribed areas or volumes, as in semi-discrete optimal transport.
+///
+/// low, high, half_spaces, half_space_count, mask, mask_count: as deldrift_voronoi_cells_within has them; NULL for low and
+/// high is no box. volumes, capacity, count: as deldrift_voronoi_volumes has them. weight_derivatives: a buffer with room
+/// for edge_capacity numbers, one for each edge in the order of deldrift_edges: the derivative of the area or volume of the
+/// cell of either end by the weight of the other one, which is minus the measure of the facet over twice the length of the
+/// edge. The derivative by the own weight is minus the sum over the edges of the vertex, in a box as well as without one.
+/// edge_count: receives the number of edges. Where there are no weights derivatives are those at equal ones. With NULL for
+/// weight_derivatives, and edge_capacity 0, it takes as long as deldrift_voronoi_volumes.
+///
+/// Rounded: volumes as deldrift_voronoi_volumes has them. A derivative is off by what the measure of its facet is off,
+/// see deldrift_voronoi_derivatives, over twice the length of its edge.
+///
+/// Cost: that of deldrift_voronoi_cells_and_facets.
+///
+/// Errors: those of deldrift_voronoi_cells_within: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_INVALID_VALUE, DELDRIFT_WRONG_COUNT, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_voronoi_weight_derivatives(
+    t: *const deldrift_triangulation,
+    low: *const f64,
+    high: *const f64,
+    half_spaces: *const f64,
+    half_space_count: usize,
+    mask: *const u8,
+    mask_count: usize,
+    volumes: *mut f64,
+    capacity: usize,
+    count: *mut usize,
+    weight_derivatives: *mut f64,
+    edge_capacity: usize,
+    edge_count: *mut usize,
+) -> deldrift_status {
+    let cells = CellArrays { volumes, areas: NO_NUMBERS, centroids: NO_NUMBERS, capacity, count };
+    let facets = FacetArrays::of_weight_derivatives(weight_derivatives, edge_capacity, edge_count);
     let half_spaces = (half_spaces, half_space_count);
     // SAFETY: what the caller promises here is what is to be promised there.
     unsafe { pass(t, [low, high], half_spaces, (mask, mask_count), Some(cells), Some(facets)) }
@@ -460,7 +504,6 @@ pub unsafe extern "C" fn deldrift_voronoi_changed(
 ) -> deldrift_status {
     given!(t: Reading, vertices[vertex_count]: Array, mask[capacity]: Buffer, count: Output);
     t.read_any(|t| {
-        t.reject_weights()?;
         in_any!(t => {
             let moved = VertexId::of_numbers(vertices.get()?);
             mask.fill(count, t.id_count(), || Ok(t.voronoi_changed(moved)?))

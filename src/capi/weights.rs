@@ -35,13 +35,14 @@ use crate::predicates::PointArray;
 ///
 /// Calls that take positions take coordinates alone, as in any triangulation: a vertex that is moved keeps its weight, and one
 /// that is inserted has weight 0 until it is given another one. Circumcentres, and masks by circumradius, are those of
-/// power spheres, of which the squared radius may be negative.
+/// power spheres, of which the squared radius may be negative; Voronoi cells are power cells, and that of a hidden vertex is
+/// empty. deldrift_nearest_vertex is the one of least power distance, and natural neighbours are those of power cells. All
+/// else that is near is so by distance, hidden vertices included, and deldrift_conflicts are those of a vertex of weight 0.
 ///
 /// All functions serve a triangulation with weights but those of deldrift/segments.h and the following, which return
 /// DELDRIFT_WEIGHTED: deldrift_cells_in_reach, deldrift_hull_facets_in_reach, deldrift_vertices_in_reach,
-/// deldrift_transfer_cells, deldrift_nearest_vertex, deldrift_nearest_vertices, deldrift_vertices_in_ball, deldrift_vertices_in_box,
-/// deldrift_neighbour_lists, deldrift_conflicts, deldrift_research_annulus_widths, deldrift_research_standard_delimiter. So
-/// does deldrift_interpolate unless it is linear.
+/// deldrift_transfer_cells, deldrift_research_annulus_widths, deldrift_research_standard_delimiter. The tolerance of a
+/// vertex is of the root of the square of the way that it moves and of the magnitude by which its weight changes.
 ///
 /// Cost: that of deldrift_create.
 ///

@@ -32,6 +32,7 @@ pub fn names_of_headers() -> BTreeSet<&'static str> {
         ("voronoi", include_str!("../../../include/deldrift/voronoi.h")),
         ("segments", include_str!("../../../include/deldrift/segments.h")),
         ("periodic", include_str!("../../../include/deldrift/periodic.h")),
+        ("weights", include_str!("../../../include/deldrift/weights.h")),
         ("files", include_str!("../../../include/deldrift/files.h")),
     ];
     let includes = include_str!("../../../include/deldrift.h").lines();

@@ -20,6 +20,7 @@ mod regions;
 mod segments;
 mod transferring;
 pub mod types;
+mod weights;
 
 use super::allocator::Fault;
 use super::source::Source;
@@ -306,6 +307,7 @@ impl<'a> History<'a> {
             21 => self.take_changes(),
             22 => self.clone_or_load(),
             23..=26 => self.read(),
+            28 if choice & 0x20 != 0 => self.weigh(),
             27 | 28 => self.read_geometry(),
             29 if choice & 0x20 != 0 => self.repeat(),
             29 => self.write_files(),

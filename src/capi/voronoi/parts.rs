@@ -26,6 +26,7 @@ pub(super) struct FacetArrays {
     pub(super) measures: *mut f64,
     pub(super) centroids: *mut f64,
     pub(super) derivatives: *mut f64,
+    pub(super) weight_derivatives: *mut f64,
     pub(super) capacity: usize,
     pub(super) count: *mut usize,
 }
@@ -34,13 +35,30 @@ impl FacetArrays {
     /// For measures alone.
     pub(super) fn of_measures(measures: *mut f64, capacity: usize, count: *mut usize) -> Self {
         let none = std::ptr::null_mut();
-        FacetArrays { measures, centroids: none, derivatives: none, capacity, count }
+        FacetArrays {
+            measures,
+            centroids: none,
+            derivatives: none,
+            weight_derivatives: none,
+            capacity,
+            count,
+        }
+    }
+
+    /// For derivatives by weights alone.
+    pub(super) fn of_weight_derivatives(
+        weight_derivatives: *mut f64,
+        capacity: usize,
+        count: *mut usize,
+    ) -> Self {
+        let none = Self::of_measures(std::ptr::null_mut(), capacity, count);
+        FacetArrays { weight_derivatives, ..none }
     }
 }
 
-/// Three buffers that have room for rows, or are not there.
+/// Buffers that have room for rows, or are not there.
 pub(super) struct Rows<'a> {
-    columns: [&'a mut [MaybeUninit<f64>]; 3],
+    columns: [&'a mut [MaybeUninit<f64>]; 4],
     fitting: Fitting<'a>,
 }
 
@@ -59,6 +77,7 @@ impl CellArrays {
             volumes.places_if_any(needed)?,
             areas.places_if_any(needed)?,
             centroids.places_if_any(needed * d)?,
+            &mut [],
         ];
         Ok(Rows { columns, fitting })
     }
@@ -75,9 +94,10 @@ impl FacetArrays {
         needed: usize,
         is_beside_cells: bool,
     ) -> Result<Rows<'a>, Failure> {
-        let FacetArrays { measures, centroids, derivatives, capacity, count } = self;
+        let FacetArrays { measures, centroids, derivatives, weight_derivatives, capacity, count } = self;
         let (facet_centroids, edge_count, n) = (centroids, count, capacity.saturating_mul(d));
         given!(measures[capacity]: Buffer, derivatives[n.saturating_mul(2)]: Buffer);
+        given!(weight_derivatives[capacity]: Buffer);
         let (centroids, count) = if is_beside_cells {
             given!(facet_centroids[n]: Buffer, edge_count: Output);
             (facet_centroids, edge_count)
@@ -85,7 +105,11 @@ impl FacetArrays {
             given!(centroids[n]: Buffer, count: Output);
             (centroids, count)
         };
-        let offers = [measures.offer(), centroids.offer(), derivatives.offer()];
+        let offers = if weight_derivatives.is_null() {
+            [measures.offer(), centroids.offer(), derivatives.offer()]
+        } else {
+            [weight_derivatives.offer(); 3]
+        };
         let fitting = fit(count, needed, capacity, &offers).map_err(|failure| match failure {
             Failure::BufferTooSmall { capacity, needed, .. } if is_beside_cells => {
                 Failure::BufferTooSmall { argument: "edge_capacity", capacity, needed }
@@ -96,6 +120,7 @@ impl FacetArrays {
             measures.places_if_any(needed)?,
             centroids.places_if_any(needed * d)?,
             derivatives.places_if_any(needed * 2 * d)?,
+            weight_derivatives.places_if_any(needed)?,
         ];
         Ok(Rows { columns, fitting })
     }
@@ -127,7 +152,7 @@ pub(super) fn fill<P: AsRef<[f64]>>(
     let [mut cells, mut facets] = in_order(cells, facets)?;
     let are_any = |rows: &&mut Rows<'_>| rows.fitting.are_any;
     let mut tell_cell = cells.as_mut().filter(are_any).map(|rows| {
-        let [volumes, areas, centroids] = &mut rows.columns;
+        let [volumes, areas, centroids, _] = &mut rows.columns;
         |v: VertexId, cell: VoronoiCell<P>| {
             write(volumes, v.index(), &[cell.volume]);
             write(areas, v.index(), &[cell.area]);
@@ -135,12 +160,13 @@ pub(super) fn fill<P: AsRef<[f64]>>(
         }
     });
     let mut tell_facet = facets.as_mut().filter(are_any).map(|rows| {
-        let [measures, centroids, derivatives] = &mut rows.columns;
+        let [measures, centroids, derivatives, weight_derivatives] = &mut rows.columns;
         |edge: usize, facet: VoronoiFacet<P>| {
             write(measures, edge, &[facet.area]);
             write(centroids, edge, facet.centroid.as_ref());
             write(derivatives, 2 * edge, facet.derivatives[0].as_ref());
             write(derivatives, 2 * edge + 1, facet.derivatives[1].as_ref());
+            write(weight_derivatives, edge, &[facet.weight_derivative]);
         }
     });
     if tell_cell.is_some() || tell_facet.is_some() {
