@@ -917,6 +917,24 @@ public:
             facets.derivatives.data(), edges, &edges));
         return {std::move(cells), std::move(facets)};
     }
+    // What Newton's method needs that looks for weights with which cells have prescribed volumes.
+    VoronoiWeightDerivatives voronoi_weight_derivatives(span<const double> low = {}, span<const double> high = {},
+                                                        const Positions &half_spaces = {},
+                                                        span<const std::uint8_t> mask = {}) const {
+        std::vector<double> room;
+        const span<const double> numbers = half_spaces.rows("half_spaces", dimension_ + 1, room);
+        const std::size_t rows = numbers.size() / (dimension_ + 1);
+        expect("half_spaces", numbers.size(), rows * (dimension_ + 1));
+        std::size_t count = id_count(), edges = 0;
+        require_ok(deldrift_edges(native(), nullptr, 0, &edges));
+        const double nan = std::numeric_limits<double>::quiet_NaN();
+        VoronoiWeightDerivatives made{std::vector<double>(count, nan), std::vector<double>(edges, nan)};
+        require_ok(deldrift_voronoi_weight_derivatives(native(), corner("low", low), corner("high", high),
+                                                       numbers.data(), rows, mask.empty() ? nullptr : mask.data(),
+                                                       mask.size(), made.volumes.data(), count, &count,
+                                                       made.derivatives.data(), edges, &edges));
+        return made;
+    }
     // values: n_values numbers for each id. outside: those of positions outside the hull, NaN if there are none.
     std::vector<double> interpolate(deldrift_interpolation method, span<const double> values, std::size_t n_values,
                                     const Positions &positions, span<const double> outside = {},

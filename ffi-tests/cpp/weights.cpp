@@ -149,6 +149,37 @@ static void hides_and_shows() {
     CHECK(std::isnan(t.weights()[4]) && t.weights()[5] == 9);
 }
 
+// Power cells of a box fill it, and volumes follow weights as their derivatives say.
+static void has_power_cells() {
+    const std::vector<std::array<double, 2>> places{{1, 1}, {3, 1}, {1, 3}, {3, 3}, {2, 2}};
+    std::vector<double> weights{0, 0.25, 0.5, 0, 1};
+    Triangulation t(2, places, Weights(weights));
+    const std::vector<double> low{0, 0}, high{4, 4};
+    const deldrift::VoronoiWeightDerivatives before = t.voronoi_weight_derivatives(low, high);
+    CHECK(before.volumes == t.voronoi_volumes(low, high) && before.derivatives.size() == t.edges().size() / 2);
+    double sum = 0;
+    for (const double volume : before.volumes) sum += volume;
+    CHECK(std::fabs(sum - 16) < 1e-12);
+    const double step = 1e-6;
+    weights[4] += step;
+    t.commit_weighted({}, weights);
+    const std::vector<double> after = t.voronoi_volumes(low, high);
+    const std::vector<std::uint32_t> edges = t.edges();
+    double own = 0;
+    for (std::size_t e = 0; 2 * e < edges.size(); e++) {
+        if (edges[2 * e + 1] != 4) continue;
+        const std::uint32_t other = edges[2 * e];
+        CHECK(std::fabs((after[other] - before.volumes[other]) / step - before.derivatives[e]) < 1e-5);
+        own -= before.derivatives[e];
+    }
+    CHECK(own > 0.5 && std::fabs((after[4] - before.volumes[4]) / step - own) < 1e-5);
+    const std::vector<std::uint8_t> mask{1, 0, 0, 0, 0};
+    const deldrift::VoronoiWeightDerivatives left = t.voronoi_weight_derivatives(low, high, {1.0, 0.0, 2.0}, mask);
+    CHECK(left.volumes[0] > 0 && std::isnan(left.volumes[1]));
+    CHECK_THROWS(t.voronoi_weight_derivatives(low, high, {1.0, 0.0}), DELDRIFT_WRONG_COUNT, "half_spaces has 2");
+    CHECK(t.nearest_vertex(std::vector<double>{2.4, 2.4}) == 4);
+}
+
 static void refuses() {
     const std::vector<double> square{0, 0, 4, 0, 4, 4, 0, 4}, weights{1, 2, 3, 4}, few{1, 2, 3};
     const std::vector<double> heavy{0, 0, 1e115, 0};
@@ -161,7 +192,7 @@ static void refuses() {
     CHECK_THROWS(t.commit_weighted({}, few), DELDRIFT_WRONG_COUNT, "3");
     CHECK_THROWS(t.stage_weights(std::vector<std::uint32_t>{0, 1}, few), DELDRIFT_WRONG_COUNT, "weights has 3 numbers");
     CHECK_THROWS(t.set_weight(4, 1), DELDRIFT_NO_SUCH_VERTEX, "4");
-    CHECK_THROWS(t.nearest_vertex(std::vector<double>{1, 1}), DELDRIFT_WEIGHTED, "weights");
+    CHECK_THROWS(t.cells_in_reach(square, square), DELDRIFT_WEIGHTED, "weights");
     CHECK(!plain.is_weighted());
     CHECK_THROWS(plain.weights(), DELDRIFT_NOT_WEIGHTED, "weights");
     CHECK_THROWS(plain.stage_weights(weights), DELDRIFT_NOT_WEIGHTED, "weights");
@@ -179,6 +210,7 @@ int main() {
     live(DELDRIFT_TOLERANCE);
     live(DELDRIFT_REPAIR);
     hides_and_shows();
+    has_power_cells();
     refuses();
     return 0;
 }

@@ -81,6 +81,13 @@ struct VoronoiDerivatives {
     std::vector<double> derivatives;
 };
 
+// Volumes of Voronoi cells by vertex id, and for each edge the derivative of that of either end by the weight of the
+// other one: see deldrift_voronoi_weight_derivatives. NaN where a mask has 0.
+struct VoronoiWeightDerivatives {
+    std::vector<double> volumes;
+    std::vector<double> derivatives;
+};
+
 // The vectors of a periodic box, one after the other; see deldrift_create_periodic.
 struct Periodic {
     explicit Periodic(const Positions &of) noexcept : vectors(of) {}

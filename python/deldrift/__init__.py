@@ -53,7 +53,7 @@ from ._errors import (
     Weighted,
     WrongCount,
 )
-from ._geometry import VoronoiCells, VoronoiDerivatives
+from ._geometry import VoronoiCells, VoronoiDerivatives, VoronoiWeightDerivatives
 from ._measured import Boundary
 from ._library import QualityReport, Report, version
 from ._mesh import Mesh
@@ -123,6 +123,7 @@ __all__ = [
     "UndecidedRegions",
     "VoronoiCells",
     "VoronoiDerivatives",
+    "VoronoiWeightDerivatives",
     "Weighted",
     "WeightedStep",
     "WrongCount",

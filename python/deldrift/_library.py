@@ -394,6 +394,7 @@ PROTOTYPES = {
     "voronoi_cells_within": (T, A, A, A, N, A, N, A, A, A, N, C),
     "voronoi_derivatives": (T, A, A, A, N, A, A, A, N, C),
     "voronoi_derivatives_within": (T, A, A, A, N, A, N, A, A, A, N, C),
+    "voronoi_weight_derivatives": (T, A, A, A, N, A, N, A, N, C, A, N, C),
     "voronoi_cells_and_facets": (T, A, A, A, N, A, N, A, A, A, N, C, A, A, A, N, C),
     "interpolate": (T, U32, A, N, N, A, N, A, A, A),
     "clone": (T, POINTER(T)),

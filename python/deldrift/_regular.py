@@ -133,8 +133,9 @@ class Regular(Delaunay):
     `Delaunay`.
 
     It has what `Delaunay` has. Circumcentres and alpha masks are those of power spheres, whose squared radii may be
-    negative. `insert` and `relocate` take places alone: a vertex comes with weight 0, or keeps its weight. Segments,
-    and questions of distances that weights do not count in, raise `Weighted`.
+    negative. Voronoi cells are power cells, and natural neighbours theirs; what is near is so by distance, without
+    weights. `insert` and `relocate` take places alone: a vertex comes with weight 0, or keeps its weight. Segments,
+    refinement, `transfer_cells` and what is in reach raise `Weighted`.
 
     Parameters
     ----------
