@@ -35,9 +35,7 @@ impl Header {
                 config.sys_includes = ["stdbool.h", "stddef.h", "stdint.h"].map(String::from).into();
                 config.after_includes = Some(version());
             }
-            // Weights are committed, and what a commit reports is in another header, which includes the first one.
-            Some(_) if self.sources.contains(&"weights") => config.includes = vec!["motion.h".to_string()],
-            Some(_) => config.includes = vec![CORE.to_string()],
+            Some(_) => config.includes = [CORE].into_iter().chain(self.also).map(String::from).collect(),
             None => config.header = config.header.map(|page| page.trim().to_string()),
         }
         let mut builder = cbindgen::Builder::new().with_config(config);

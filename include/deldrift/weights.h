@@ -25,6 +25,7 @@
 #ifndef DELDRIFT_WEIGHTS_H
 #define DELDRIFT_WEIGHTS_H
 
+#include "core.h"
 #include "motion.h"
 
 #ifdef __cplusplus
