@@ -1,13 +1,24 @@
 //! What is the same for points of any dimension.
 
+use super::corners::{InSpace, PlaceInSpace};
 use super::distance::compare_distance;
 use super::integer::two_difference;
 use super::vectors::square_between;
 use crate::simd::{LANES, Simd};
 use std::cmp::Ordering;
 
+/// A place in space, of the plane at height 0.
+#[inline(always)]
+pub(super) fn place_in_space<const D: usize>(p: &[f64; D]) -> PlaceInSpace {
+    [p[0], p[1], if D == 3 { p[D - 1] } else { 0.0 }]
+}
+
 /// Points as arrays, whatever their length: written once, but only where that is known.
 pub trait PointArray: Sized {
+    /// A point in space.
+    type InSpace: InSpace;
+    /// This point in space, of the plane at height 0.
+    fn in_space(&self) -> Self::InSpace;
     /// The coordinates of points, one after the other.
     fn flattened(points: &[Self]) -> &[f64];
     /// The coordinates of points, one after the other, to write.
@@ -28,6 +39,13 @@ pub trait PointArray: Sized {
 }
 
 impl<const D: usize> PointArray for [f64; D] {
+    type InSpace = PlaceInSpace;
+
+    #[inline(always)]
+    fn in_space(&self) -> PlaceInSpace {
+        place_in_space(self)
+    }
+
     fn flattened(points: &[Self]) -> &[f64] {
         points.as_flattened()
     }

@@ -5,7 +5,7 @@
 use std::cmp::Ordering;
 use std::ops::{Index, IndexMut};
 
-use super::array::PointArray;
+use super::array::{PointArray, place_in_space};
 use super::distance::compare_power;
 use super::integer::two_difference;
 use super::vectors::square_between;
@@ -52,6 +52,13 @@ impl<const D: usize> IndexMut<usize> for WeightedPoint<D> {
 
 /// The numbers of points, each its coordinates and then its weight. A vector to a point is one of weights as well.
 impl<const D: usize> PointArray for WeightedPoint<D> {
+    type InSpace = WeightedPoint<3>;
+
+    #[inline(always)]
+    fn in_space(&self) -> WeightedPoint<3> {
+        WeightedPoint { place: place_in_space(&self.place), weight: self.weight }
+    }
+
     fn flattened(points: &[Self]) -> &[f64] {
         // SAFETY: a point is D + 1 numbers, one after the other.
         unsafe { std::slice::from_raw_parts(points.as_ptr().cast(), points.len() * (D + 1)) }
