@@ -38,8 +38,8 @@ fn history<G: Weighted>() {
         let mask = t.voronoi_changed(&moved).expect("present");
         let all = t.voronoi_cells(clip, None, &mut |_| true).expect("room");
         let some = t.voronoi_cells(clip, Some(&mask), &mut |_| true).expect("room");
-        for k in 0..n {
-            if mask[k] != 0 {
+        for (k, &is_changed) in mask.iter().enumerate() {
+            if is_changed != 0 {
                 kept.volumes[k] = some.volumes[k];
                 kept.areas[k] = some.areas[k];
                 kept.centroids[k] = some.centroids[k];
