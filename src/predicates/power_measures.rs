@@ -171,8 +171,8 @@ fn is_exactly_within<const D: usize, const M: usize, const N: usize>(
     squared: f64,
     sphere: impl for<'r> FnOnce(&[[Long<'r>; D]; M], [Long<'r>; M]) -> ([Long<'r>; D], Long<'r>),
 ) -> bool {
-    if squared == f64::INFINITY {
-        return true;
+    if squared.is_infinite() {
+        return squared > 0.0;
     }
     let room = LimbRoom::of_any_size();
     let points: [&[f64; D]; M] = others(cell.map(|p| &p.place));

@@ -207,12 +207,25 @@ impl<G: Moving> MovingTriangulation<G> {
         }
     }
 
-    /// Among the vertices at the place of this one, the one of the lowest [key](Self::key) and then of the lowest id.
+    /// Among the vertices at the place of this one, the one of the lowest [key](Self::key) and then of the lowest id; with
+    /// weights, among those of the greatest weight there, whether that is hidden by others elsewhere or not.
     ///
     /// # Errors
-    /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
+    /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex); with
+    /// weights [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn coincident_representative(&self, vertex: VertexId) -> Result<VertexId> {
-        Ok(self.mesh.kernel.site(self.present_site("vertex", 0, vertex)?).id)
+        let site = self.mesh.kernel.site(self.present_site("vertex", 0, vertex)?);
+        if !G::HAS_WEIGHTS {
+            return Ok(site.id);
+        }
+        let weight = |&v: &VertexId| self.mesh.kernel.site(self.mesh.site_of[v]).point[G::D];
+        let ranked = |v: VertexId| (v, site.point.as_ref());
+        let keys = self.mesh.kernel.keys();
+        let there = self.vertices_in_box(&site.point, &site.point)?.into_iter();
+        let first = there.min_by(|v, w| {
+            weight(w).total_cmp(&weight(v)).then_with(|| keys.compare_at(ranked(*v), ranked(*w)))
+        });
+        Ok(first.unwrap_or(vertex))
     }
 
     /// The vertices that are hidden, ascending, each with the one that represents it.

@@ -1,10 +1,11 @@
 //! Stars in the order in which one goes around a vertex of the plane.
 
-use crate::delaunay::{Plane, Shape};
+use crate::delaunay::{Moving, Plane, Shape};
 use crate::error::Result;
 use crate::ids::{CellId, SiteId, VertexId};
 use crate::motion::state::cells::NO_CORNER;
 use crate::motion::triangulation::MovingTriangulation;
+use crate::predicates::PlanePoint;
 
 /// A cell around a vertex, and which of its corners the vertex is: in a box it may be several.
 type Met = (CellId, usize);
@@ -60,9 +61,13 @@ pub(crate) fn ordered_star(
     star
 }
 
-impl MovingTriangulation<Plane> {
+impl<P: PlanePoint> MovingTriangulation<Plane<P>>
+where
+    Plane<P>: Moving,
+{
     /// The cells around the place of a vertex, counter-clockwise: from the one of lowest index, or, for a vertex of the
-    /// convex hull, from the one at the hull's edge that leaves the vertex when the hull is passed counter-clockwise.
+    /// convex hull, from the one at the hull's edge that leaves the vertex when the hull is passed counter-clockwise. None for
+    /// one that weights hide.
     ///
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex),
@@ -70,12 +75,17 @@ impl MovingTriangulation<Plane> {
     pub fn ordered_star(&self, vertex: VertexId) -> Result<impl Iterator<Item = CellId> + Clone + '_> {
         let s: SiteId = self.present_site("vertex", 0, vertex)?;
         let (kernel, cells) = (&self.mesh.kernel, self.cell_arrays()?);
-        let start = (!cells.corners().is_empty()).then(|| {
+        let is_shown = !cells.corners().is_empty() && !kernel.is_hidden(s);
+        let start = is_shown.then(|| {
             let around = kernel.site(s).cell;
-            let behind = kernel.complex().cell(around).neighbour(<Plane>::D).cell();
+            let behind = kernel.complex().cell(around).neighbour(Plane::<P>::D).cell();
             let is_ghost = kernel.complex().cell(around).is_ghost();
             let cell = cells.index_of()[if is_ghost { behind } else { around }];
-            let at = cells.corners()[cell].iter().position(|&v| v == kernel.site(s).id).expect("a corner");
+            let at = cells.corners()[cell]
+                .as_ref()
+                .iter()
+                .position(|&v| v == kernel.site(s).id)
+                .expect("a corner");
             (cell, at)
         });
         let neighbours = cells.neighbours();
