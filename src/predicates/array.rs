@@ -1,6 +1,6 @@
 //! What is the same for points of any dimension.
 
-use super::corners::{InSpace, PlaceInSpace};
+use super::corners::{PlaceInSpace, VertexInSpace};
 use super::distance::compare_distance;
 use super::integer::two_difference;
 use super::vectors::square_between;
@@ -16,9 +16,9 @@ pub(super) fn place_in_space<const D: usize>(p: &[f64; D]) -> PlaceInSpace {
 /// Points as arrays, whatever their length: written once, but only where that is known.
 pub trait PointArray: Sized {
     /// A point in space.
-    type InSpace: InSpace;
-    /// This point in space, of the plane at height 0.
-    fn in_space(&self) -> Self::InSpace;
+    type VertexInSpace: VertexInSpace;
+    /// The point in space, of the plane at height 0.
+    fn in_space(&self) -> Self::VertexInSpace;
     /// The coordinates of points, one after the other.
     fn flattened(points: &[Self]) -> &[f64];
     /// The coordinates of points, one after the other, to write.
@@ -39,7 +39,7 @@ pub trait PointArray: Sized {
 }
 
 impl<const D: usize> PointArray for [f64; D] {
-    type InSpace = PlaceInSpace;
+    type VertexInSpace = PlaceInSpace;
 
     #[inline(always)]
     fn in_space(&self) -> PlaceInSpace {

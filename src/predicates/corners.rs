@@ -36,7 +36,7 @@ use super::weighted::WeightedPoint;
 pub type PlaceInSpace = [f64; 3];
 
 /// A vertex in space, or in the plane at height 0: a [`PlaceInSpace`], or one with a weight.
-pub trait InSpace: Copy + Debug + Default + PartialEq + Send + Sync {
+pub trait VertexInSpace: Copy + Debug + Default + PartialEq + Send + Sync {
     /// Whether there are weights.
     const HAS_WEIGHT: bool;
     /// Where it is.
@@ -45,7 +45,7 @@ pub trait InSpace: Copy + Debug + Default + PartialEq + Send + Sync {
     fn weight(&self) -> f64;
 }
 
-impl InSpace for PlaceInSpace {
+impl VertexInSpace for PlaceInSpace {
     const HAS_WEIGHT: bool = false;
 
     #[inline(always)]
@@ -59,7 +59,7 @@ impl InSpace for PlaceInSpace {
     }
 }
 
-impl InSpace for WeightedPoint<3> {
+impl VertexInSpace for WeightedPoint<3> {
     const HAS_WEIGHT: bool = true;
 
     #[inline(always)]
@@ -86,7 +86,7 @@ pub struct Meeting<'p, V> {
     pub is_fixed: [bool; 3],
 }
 
-impl<V: InSpace> Meeting<'_, V> {
+impl<V: VertexInSpace> Meeting<'_, V> {
     /// The sign of the offset along an axis that is not fixed: exact.
     #[inline(always)]
     pub fn sign(&self, axis: usize) -> i32 {
@@ -132,7 +132,7 @@ impl<V: InSpace> Meeting<'_, V> {
         difference: impl Fn(f64, f64) -> T,
     ) -> (T, T) {
         let minus = |p: &PlaceInSpace| [0, 1, 2].map(|k| difference(p[k], self.vertex.place()[k]));
-        let seen = |p: &V| Seen {
+        let seen = |p: &V| SeenVertex {
             difference: minus(p.place()),
             weight: self.is_other(p).then(|| difference(p.weight(), self.vertex.weight())),
         };
@@ -165,7 +165,7 @@ impl<V: InSpace> Meeting<'_, V> {
         let most = exponents.min().map_or(i32::MAX, |exponent| exponent.div_euclid(2));
         let points = [p.place(), q.place(), r.place(), &self.from];
         let (unit, [u, v, w, from]) = differences_in_units(&room, self.vertex.place(), points, most);
-        let seen = |ball: &V, difference| Seen {
+        let seen = |ball: &V, difference| SeenVertex {
             difference,
             weight: self.is_other(ball).then(|| {
                 let [weight, own] =
@@ -196,7 +196,7 @@ pub fn sign_of_cross([o, p, q]: [&PlaceInSpace; 3], axis: usize) -> i32 {
 }
 
 /// A vertex as it is seen from another one.
-struct Seen<T> {
+struct SeenVertex<T> {
     difference: [T; 3],
     /// What its weight is more than that of the other one, if it is not the same.
     weight: Option<T>,
@@ -205,12 +205,12 @@ struct Seen<T> {
 /// Numerator and denominator of the offset along an axis.
 #[inline(always)]
 fn quotient<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>>(
-    others: &[Seen<T>],
+    others: &[SeenVertex<T>],
     from: &[T; 3],
     is_fixed: &[bool; 3],
     axis: usize,
 ) -> (T, T) {
-    let right = |seen: &Seen<T>| {
+    let right = |seen: &SeenVertex<T>| {
         let u = &seen.difference;
         let part = |k: usize| u[k] * (u[k] - from[k] - from[k]);
         let square = part(0) + part(1) + part(2);

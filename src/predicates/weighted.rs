@@ -52,7 +52,7 @@ impl<const D: usize> IndexMut<usize> for WeightedPoint<D> {
 
 /// The numbers of points, each its coordinates and then its weight. A vector to a point is one of weights as well.
 impl<const D: usize> PointArray for WeightedPoint<D> {
-    type InSpace = WeightedPoint<3>;
+    type VertexInSpace = WeightedPoint<3>;
 
     #[inline(always)]
     fn in_space(&self) -> WeightedPoint<3> {

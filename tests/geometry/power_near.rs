@@ -3,9 +3,13 @@
 
 use super::power_cells::{build, weighted};
 use crate::common::{Rng, cell_set};
+use crate::exact_oracle::decode;
+use deldrift::internals::predicates::{WeightedPoint, compare_power};
 use deldrift::internals::{PowerPlane, PowerSpace};
 use deldrift::motion::{Interpolation, ListsOf, Location, MovingTriangulation, TransferOrder, VertexValues};
 use deldrift::{CellId, Error, Moving, VertexId};
+use num_bigint::BigInt;
+use std::cmp::Ordering;
 
 /// The square of the distance of integer places.
 fn square<G: Moving>(p: &G::Point, q: &G::Point) -> i64 {
@@ -209,7 +213,8 @@ fn check_incidence<G: Moving>() {
             assert_eq!(t.coincident_representative(v).ok(), heaviest, "{points:?}");
         }
         assert!(t.annulus_widths().expect("room").iter().all(|width| width.is_nan()));
-        // All hull facets are those of the cells, and masks by a bound of the power of a centre are as good as these are known.
+        // All hull facets are those of the cells, and masks by a bound of the power of a centre are as good as these
+        // are known.
         let mut n_hull = 0;
         t.hull_facets(|_| n_hull += 1).expect("room");
         assert_eq!(n_hull, t.hull_facet_count());
@@ -304,4 +309,55 @@ fn check_transfer<G: Moving>() {
 fn contents_stay_when_weights_change() {
     check_transfer::<PowerPlane>();
     check_transfer::<PowerSpace>();
+}
+
+/// The order of two powers, in exact integers.
+fn exact_order(q: &[f64; 3], a: &WeightedPoint<3>, b: &WeightedPoint<3>) -> Ordering {
+    let all = q.iter().chain(&a.place).chain(&b.place);
+    let exponents = all.map(|&x| (x, 1)).chain([(a.weight, 2), (b.weight, 2)]).filter(|(x, _)| *x != 0.0);
+    let unit = exponents.map(|(x, share)| decode(x).1.div_euclid(share)).min().unwrap_or(0);
+    let integer = |x: f64, share: i32| {
+        let (mantissa, exponent) = decode(x);
+        if mantissa == 0 { BigInt::ZERO } else { BigInt::from(mantissa) << (exponent - share * unit) }
+    };
+    let power = |p: &WeightedPoint<3>| {
+        let square =
+            (0..3).map(|k| integer(p.place[k], 1) - integer(q[k], 1)).map(|x| &x * &x).sum::<BigInt>();
+        square - integer(p.weight, 2)
+    };
+    power(a).cmp(&power(b))
+}
+
+/// Powers that tie or nearly do, of weights and places of any size.
+#[test]
+fn powers_are_compared_exactly() {
+    let rng = &mut Rng::new(8);
+    let (mut n_equal, mut n_near) = (0, 0);
+    for case in 0..60_000 {
+        let scale = [1.0, 1e-160, 1e-200, 1e50, 1e-3][case % 5];
+        let mut coordinate = |_| match rng.below(3) {
+            0 => scale * rng.within(-3, 3) as f64,
+            1 => scale * (2.0 * rng.unit() - 1.0),
+            _ => rng.within(-2, 2) as f64,
+        };
+        let [q, a, b]: [[f64; 3]; 3] = [(); 3].map(|()| std::array::from_fn(&mut coordinate));
+        let square = |p: &[f64; 3]| (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>();
+        let near = square(&b) - square(&a);
+        // The weight that makes powers tie, but for rounding, a bit more or less.
+        let of_b = if rng.one_in(3) {
+            near + [0.0, 1.0, 5e-324][rng.below(3)]
+        } else {
+            near * (1.0 + f64::EPSILON * rng.within(-2, 2) as f64)
+        };
+        let of_a = [0.0, 1.0, 1e-300][rng.below(3)];
+        let [a, b] = [(a, of_a), (b, of_b + of_a)].map(|(place, weight)| WeightedPoint { place, weight });
+        let order = exact_order(&q, &a, &b);
+        n_equal += usize::from(order == Ordering::Equal);
+        n_near += usize::from(order != Ordering::Equal);
+        assert_eq!(compare_power(&q, &a, &b), order, "{q:?} {a:?} {b:?}");
+        assert_eq!(compare_power(&q, &b, &a), order.reverse());
+        let other = WeightedPoint { weight: a.weight, ..b };
+        assert_eq!(compare_power(&q, &a, &other), exact_order(&q, &a, &other));
+    }
+    assert!(n_equal > 100 && n_near > 500, "{n_equal} {n_near}");
 }

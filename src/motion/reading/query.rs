@@ -207,8 +207,8 @@ impl<G: Moving> MovingTriangulation<G> {
         }
     }
 
-    /// Among the vertices at the place of this one, the one of the lowest [key](Self::key) and then of the lowest id; with
-    /// weights, among those of the greatest weight there, whether that is hidden by others elsewhere or not.
+    /// Among the vertices at the place of this one, the one of the lowest [key](Self::key) and then of the lowest id;
+    /// with weights, among those of the greatest weight there, whether that is hidden by others elsewhere or not.
     ///
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex); with

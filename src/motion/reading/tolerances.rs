@@ -23,11 +23,11 @@ impl<G: Moving> MovingTriangulation<G> {
     /// move without a change of connectivity, as far as the bi-cells of this one go (report, section 2.4). 0 if it
     /// shares its place with another; infinite while there are no cells.
     ///
-    /// With weights a vertex goes as far as the root of the square of the distance and the magnitude of the change of its weight, and 0 is
-    /// told of one that weights hide: what it takes to bring those back is in no bi-cell.
+    /// With weights a vertex goes as far as the root of the square of the distance and the magnitude of the change of
+    /// its weight, and 0 is told of one that weights hide: what it takes to bring those back is in no bi-cell.
     ///
-    /// A bi-cell whose facet is a segment stays as it is while its two cells are positively oriented: each has the tolerance
-    /// of that alone, whatever is beyond the segment.
+    /// A bi-cell whose facet is a segment stays as it is while its two cells are positively oriented: each has the
+    /// tolerance of that alone, whatever is beyond the segment.
     ///
     /// ```
     /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
@@ -54,7 +54,8 @@ impl<G: Moving> MovingTriangulation<G> {
 
     /// Annulus width of the bi-cell beyond each facet of each finite cell, as a certified lower bound, in the order of
     /// [`cells`](Self::cells): entry `i` of a cell is that of the facet opposite corner `i`. Every interior bi-cell is
-    /// listed from both sides; facets of the hull have none and hold NaN, as all do with weights: there are no annuli then.
+    /// listed from both sides; facets of the hull have none and hold NaN, as all do with weights: there are no annuli
+    /// then.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).

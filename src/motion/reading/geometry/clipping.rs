@@ -16,7 +16,7 @@ pub(super) fn in_space<G: Moving>(p: &G::Point) -> Vector {
 }
 
 /// A point in space, with its weight if it has one.
-pub(super) type Ball<G> = <<G as Shape>::Point as PointArray>::InSpace;
+pub(super) type Ball<G> = <<G as Shape>::Point as PointArray>::VertexInSpace;
 
 #[inline(always)]
 pub(super) fn minus(p: &Vector, q: &Vector) -> Vector {

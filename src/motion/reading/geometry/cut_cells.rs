@@ -27,7 +27,7 @@ use crate::motion::reading::geometry::sums::{LEAST_SQUARE, Sums};
 use crate::motion::reading::geometry::voronoi::Voronoi;
 use crate::motion::reading::progress::Progress;
 use crate::motion::reading::query::cells_at;
-use crate::predicates::{InSpace, WeightedPoint, compare_power};
+use crate::predicates::{VertexInSpace, WeightedPoint, compare_power};
 
 /// A corner of a box, and which of the faces at it are high, a bit for each axis.
 #[derive(Clone, Copy)]
@@ -59,7 +59,7 @@ impl BoxCorner {
     }
 
     /// Whether it is in the cell of the first of two vertices rather than of the other one.
-    fn prefers<V: InSpace>(&self, p: &V, q: &V) -> bool {
+    fn prefers<V: VertexInSpace>(&self, p: &V, q: &V) -> bool {
         let farther_out = |axis: usize| {
             let order = p.place()[axis].partial_cmp(&q.place()[axis]).expect("numbers");
             if self.highs >> axis & 1 == 1 { order } else { order.reverse() }
@@ -74,7 +74,7 @@ impl BoxCorner {
     }
 
     /// The vertex in whose cell it is, from one that is near, by those that have a facet with each.
-    pub(super) fn owner<V: InSpace>(
+    pub(super) fn owner<V: VertexInSpace>(
         &self,
         near: VertexId,
         ball: impl Fn(VertexId) -> V,

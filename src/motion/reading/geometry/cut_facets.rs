@@ -33,7 +33,7 @@ use crate::machine::memory;
 use crate::motion::reading::geometry::centres::Centres;
 use crate::motion::reading::geometry::clipping::{Clip, Face, Vector};
 use crate::motion::reading::geometry::rings::EdgeRing;
-use crate::predicates::{InSpace, Meeting, sign_of_cross};
+use crate::predicates::{Meeting, VertexInSpace, sign_of_cross};
 
 /// What a corner other than a circumcentre may be off by, in sizes of the box: 2⁻⁴⁴.
 const TOLERANCE: f64 = 1.0 / (1u64 << 44) as f64;
@@ -93,7 +93,7 @@ fn negated(direction: [i32; 3]) -> [i32; 3] {
     direction.map(|sign| -sign)
 }
 
-impl<V: InSpace> CutFacet<V> {
+impl<V: VertexInSpace> CutFacet<V> {
     /// Begins with the bisector of two vertices.
     fn begin(&mut self, [at, to]: [V; 2], is_plane: bool) {
         (self.at, self.to, self.is_plane) = (at, to, is_plane);

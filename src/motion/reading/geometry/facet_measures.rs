@@ -6,7 +6,7 @@ use crate::motion::reading::geometry::clipping::{
 };
 use crate::motion::reading::geometry::cut_facets::{CutFacet, FacetSide};
 use crate::motion::reading::geometry::sums::Sums;
-use crate::predicates::InSpace;
+use crate::predicates::VertexInSpace;
 
 /// What a facet adds to the boundary of the cell of its edge's first end, in the unit of the box.
 pub(super) enum BoundaryPiece {
@@ -27,7 +27,7 @@ pub(super) enum BoundaryPiece {
     },
 }
 
-impl<V: InSpace> CutFacet<V> {
+impl<V: VertexInSpace> CutFacet<V> {
     /// The way from its first end to the other one, of length 1.
     pub(super) fn direction(&self) -> Vector {
         normalised(&minus(self.to.place(), self.at.place()))

@@ -25,7 +25,7 @@ use crate::motion::reading::geometry::rings::EdgeRing;
 use crate::motion::reading::geometry::sums::Sums;
 use crate::motion::reading::progress::Progress;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::predicates::{InSpace, sign_of_cross};
+use crate::predicates::{VertexInSpace, sign_of_cross};
 
 /// Whether places are moved along each axis from the first one of a set to make it span the dimension.
 fn missing_axes<G: Moving>(places: &[Vector]) -> [bool; 3] {

@@ -68,10 +68,10 @@ impl<G: Moving> MovingTriangulation<G> {
     /// itself; by a few last bits unless the cell is nearly flat. They are infinite where the value is too large for a
     /// number, and never NaN.
     ///
-    /// With weights these are power spheres: the power of the centre in respect of every corner is the squared radius, which may be
-    /// negative. With the greatest m of the distance of the centre from the first corner, of differences of coordinates of corners from
-    /// that one's, and of roots of differences of weights, a coordinate is off by at most 10⁻⁹ m and its own rounding, a squared radius by
-    /// 4·10⁻⁹ m² and the rounding of that weight.
+    /// With weights these are power spheres: the power of the centre in respect of every corner is the squared radius,
+    /// which may be negative. With the greatest m of the distance of the centre from the first corner, of differences
+    /// of coordinates of corners from that one's, and of roots of differences of weights, a coordinate is off by at
+    /// most 10⁻⁹ m and its own rounding, a squared radius by 4·10⁻⁹ m² and the rounding of that weight.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`].

@@ -25,8 +25,8 @@ const FIRST_CELLS: usize = 64;
 impl<G: Moving> MovingTriangulation<G> {
     /// For each simplex a cell that has all its vertices as corners, `None` if there is none; told to `found` one after
     /// the other. `vertices`: rows of `n_corners` ids, from 1 (a cell of each vertex) to `D + 1`. A hidden vertex
-    /// stands for the one that represents it. A simplex with two corners at one place is in no cell, nor is one with a vertex
-    /// that weights hide.
+    /// stands for the one that represents it. A simplex with two corners at one place is in no cell, nor is one with a
+    /// vertex that weights hide.
     ///
     /// ```
     /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};

@@ -66,8 +66,8 @@ where
     Plane<P>: Moving,
 {
     /// The cells around the place of a vertex, counter-clockwise: from the one of lowest index, or, for a vertex of the
-    /// convex hull, from the one at the hull's edge that leaves the vertex when the hull is passed counter-clockwise. None for
-    /// one that weights hide.
+    /// convex hull, from the one at the hull's edge that leaves the vertex when the hull is passed counter-clockwise.
+    /// None for one that weights hide.
     ///
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex),
