@@ -18,7 +18,8 @@ use crate::motion::triangulation::MovingTriangulation;
 /// Where a point lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Location {
-    /// At the place of this vertex (the representative).
+    /// At the place of this vertex (the representative; with weights, one that is shown: the place of another is in a
+    /// cell).
     Vertex(VertexId),
     /// In the closure of the cell of this index, at no vertex.
     Cell(CellId),

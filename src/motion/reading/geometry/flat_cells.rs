@@ -68,7 +68,7 @@ impl<G: Moving> MovingTriangulation<G> {
     ) -> Result<()> {
         let (mut ids, mut places) = (Vec::new(), Vec::new());
         let hidden = self.mesh.kernel.hidden_without_cells()?;
-        let shown = self.mesh.kernel.live_sites().filter(|s| !hidden.contains(s));
+        let shown = self.mesh.kernel.live_sites().filter(|s| hidden.binary_search(s).is_err());
         memory::collect(&mut ids, shown.map(|s| self.mesh.kernel.site(s).id))?;
         if ids.is_empty() {
             return Ok(());
