@@ -229,10 +229,8 @@ impl<G: Geometry> Delaunay<G> {
     }
 
     /// The hidden sites that are above a cell.
-    #[inline(always)]
     pub(crate) fn sites_above(&self, cell: Slot) -> impl Iterator<Item = SiteId> + '_ {
-        let there = G::HAS_WEIGHTS && self.above.n > 0;
-        there.then(|| self.above.of(cell)).into_iter().flatten()
+        self.above.of(cell)
     }
 
     /// Whether a site is in the list of the cell below it, or of those that an undone change has left loose.

@@ -1,15 +1,24 @@
 //! What is the same for points of any dimension.
 
+use super::corners::{PlaceInSpace, VertexInSpace};
 use super::distance::compare_distance;
 use super::integer::two_difference;
 use super::vectors::square_between;
 use crate::simd::{LANES, Simd};
 use std::cmp::Ordering;
 
+/// A place in space, of the plane at height 0.
+#[inline(always)]
+pub(super) fn place_in_space<const D: usize>(p: &[f64; D]) -> PlaceInSpace {
+    [p[0], p[1], if D == 3 { p[D - 1] } else { 0.0 }]
+}
+
 /// Points as arrays, whatever their length: written once, but only where that is known.
 pub trait PointArray: Sized {
     /// The coordinates of a point, without a weight.
     type Place: Copy + AsRef<[f64]> + PointArray + 'static;
+    /// A point in space.
+    type VertexInSpace: VertexInSpace;
 
     /// The point at a place; of this weight if points have weights.
     fn at(place: Self::Place, weight: f64) -> Self;
@@ -19,6 +28,8 @@ pub trait PointArray: Sized {
     fn weight(&self) -> f64;
     /// These points, if they are no more than their places.
     fn of_places(places: &[Self::Place]) -> Option<&[Self]>;
+    /// The point in space, of the plane at height 0.
+    fn in_space(&self) -> Self::VertexInSpace;
     /// The coordinates of points, one after the other.
     fn flattened(points: &[Self]) -> &[f64];
     /// The coordinates of points, one after the other, to write.
@@ -40,6 +51,7 @@ pub trait PointArray: Sized {
 
 impl<const D: usize> PointArray for [f64; D] {
     type Place = Self;
+    type VertexInSpace = PlaceInSpace;
 
     #[inline(always)]
     fn at(place: Self, _: f64) -> Self {
@@ -59,6 +71,11 @@ impl<const D: usize> PointArray for [f64; D] {
     #[inline(always)]
     fn of_places(places: &[Self]) -> Option<&[Self]> {
         Some(places)
+    }
+
+    #[inline(always)]
+    fn in_space(&self) -> PlaceInSpace {
+        place_in_space(self)
     }
 
     fn flattened(points: &[Self]) -> &[f64] {

@@ -312,11 +312,12 @@ pub(super) const MOST_LIMBS: usize = 6720;
 
 /// Limbs of all integers that comparing the radius of a power sphere takes (`power_measures.rs`).
 ///
-/// As for a sphere, with lifts of 44 in the place of squares: 12 coordinates and 9 differences, 21 · 21; three squares of 202, four
-/// weights and three differences of 43, three lifts of 44; nine minors of 121; a volume, 484; a vector, three times 3 · 84 + 2 · 85;
-/// its square, 3 · 170 + 2 · 171; that of the volume, 122; two numbers and their sum, 3 · 44, its product with that, 166, and
-/// a difference of 173. These are 5,540.
-pub(super) const POWER_RADIUS_LIMBS: usize = 5544;
+/// As for a sphere, with lifts of 44 in the place of squares: 12 coordinates and 9 differences, 21 · 21; three squares
+/// of 202, four weights and three differences of 43, three lifts of 44; nine minors of 121; a volume, 484; a vector,
+/// three times 3 · 84 + 2 · 85; its square, 3 · 170 + 2 · 171; that of the volume, 122; the weight, 44, the given
+/// number, which may be as great as any, 53, and their sum, 54; its product with that, 176, and a difference of 177.
+/// These are 5,573.
+pub(super) const POWER_RADIUS_LIMBS: usize = 5576;
 
 /// Room for integers, which are given up together.
 pub(super) struct LimbRoom<const N: usize = LIMBS> {

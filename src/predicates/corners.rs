@@ -24,6 +24,7 @@
 //! corners that are too far away to be in any box. Of equal weights nothing is computed: corners are those without, to
 //! the last bit.
 
+use std::fmt::Debug;
 use std::ops::{Add, Mul, Sub};
 
 use super::big::{LimbRoom, decode, differences_in_units, in_square_of_unit};
@@ -34,23 +35,58 @@ use super::weighted::WeightedPoint;
 /// A place in space, or in the plane at height 0.
 pub type PlaceInSpace = [f64; 3];
 
-/// A vertex in space, or in the plane at height 0, with its weight, 0 if there are none.
-pub type BallInSpace = WeightedPoint<3>;
+/// A vertex in space, or in the plane at height 0: a [`PlaceInSpace`], or one with a weight.
+pub trait VertexInSpace: Copy + Debug + Default + PartialEq + Send + Sync {
+    /// Whether there are weights.
+    const HAS_WEIGHT: bool;
+    /// Where it is.
+    fn place(&self) -> &PlaceInSpace;
+    /// Its weight, 0 if there are none.
+    fn weight(&self) -> f64;
+}
+
+impl VertexInSpace for PlaceInSpace {
+    const HAS_WEIGHT: bool = false;
+
+    #[inline(always)]
+    fn place(&self) -> &PlaceInSpace {
+        self
+    }
+
+    #[inline(always)]
+    fn weight(&self) -> f64 {
+        0.0
+    }
+}
+
+impl VertexInSpace for WeightedPoint<3> {
+    const HAS_WEIGHT: bool = true;
+
+    #[inline(always)]
+    fn place(&self) -> &PlaceInSpace {
+        &self.place
+    }
+
+    #[inline(always)]
+    fn weight(&self) -> f64 {
+        self.weight
+    }
+}
 
 /// Where the bisectors of a vertex and others meet faces of a box.
 #[derive(Clone, Copy, Debug)]
-pub struct Meeting<'p> {
+pub struct Meeting<'p, V> {
     /// The vertex.
-    pub vertex: BallInSpace,
+    pub vertex: V,
     /// The others: as many as there are axes that are not fixed.
-    pub others: &'p [BallInSpace],
+    pub others: &'p [V],
     /// The place from which offsets are counted, on the faces.
     pub from: PlaceInSpace,
     /// The axes along which the corner is where `from` is.
     pub is_fixed: [bool; 3],
 }
 
-impl Meeting<'_> {
+impl<V: VertexInSpace> Meeting<'_, V> {
     /// The sign of the offset along an axis that is not fixed: exact.
     #[inline(always)]
     pub fn sign(&self, axis: usize) -> i32 {
@@ -95,10 +131,10 @@ impl Meeting<'_> {
         axis: usize,
         difference: impl Fn(f64, f64) -> T,
     ) -> (T, T) {
-        let minus = |p: &PlaceInSpace| [0, 1, 2].map(|k| difference(p[k], self.vertex.place[k]));
-        let seen = |p: &BallInSpace| Seen {
-            difference: minus(&p.place),
-            weight: (p.weight != self.vertex.weight).then(|| difference(p.weight, self.vertex.weight)),
+        let minus = |p: &PlaceInSpace| [0, 1, 2].map(|k| difference(p[k], self.vertex.place()[k]));
+        let seen = |p: &V| SeenVertex {
+            difference: minus(p.place()),
+            weight: self.is_other(p).then(|| difference(p.weight(), self.vertex.weight())),
         };
         let from = minus(&self.from);
         match self.others {
@@ -109,6 +145,12 @@ impl Meeting<'_> {
         }
     }
 
+    /// Whether a vertex has another weight.
+    #[inline(always)]
+    fn is_other(&self, p: &V) -> bool {
+        V::HAS_WEIGHT && p.weight() != self.vertex.weight()
+    }
+
     #[cold]
     #[inline(never)]
     fn exact_offset(&self, axis: usize) -> f64 {
@@ -117,17 +159,17 @@ impl Meeting<'_> {
         self.others.iter().zip(&mut balls).for_each(|(other, ball)| *ball = other);
         let [p, q, r] = balls;
         // The square of the unit has to divide weights that count.
-        let count = balls.iter().any(|ball| ball.weight != self.vertex.weight);
-        let weights = balls.map(|ball| ball.weight).into_iter().chain([self.vertex.weight]);
+        let count = balls.iter().any(|ball| self.is_other(ball));
+        let weights = balls.map(V::weight).into_iter().chain([self.vertex.weight()]);
         let exponents = weights.filter(|&weight| count && weight != 0.0).map(|weight| decode(weight).1);
         let most = exponents.min().map_or(i32::MAX, |exponent| exponent.div_euclid(2));
-        let points = [&p.place, &q.place, &r.place, &self.from];
-        let (unit, [u, v, w, from]) = differences_in_units(&room, &self.vertex.place, points, most);
-        let seen = |ball: &BallInSpace, difference| Seen {
+        let points = [p.place(), q.place(), r.place(), &self.from];
+        let (unit, [u, v, w, from]) = differences_in_units(&room, self.vertex.place(), points, most);
+        let seen = |ball: &V, difference| SeenVertex {
             difference,
-            weight: (ball.weight != self.vertex.weight).then(|| {
+            weight: self.is_other(ball).then(|| {
                 let [weight, own] =
-                    [ball, &self.vertex].map(|ball| in_square_of_unit(&room, ball.weight, unit));
+                    [ball, &self.vertex].map(|ball| in_square_of_unit(&room, ball.weight(), unit));
                 weight - own
             }),
         };
@@ -154,7 +196,7 @@ pub fn sign_of_cross([o, p, q]: [&PlaceInSpace; 3], axis: usize) -> i32 {
 }
 
 /// A vertex as it is seen from another one.
-struct Seen<T> {
+struct SeenVertex<T> {
     difference: [T; 3],
     /// What its weight is more than that of the other one, if it is not the same.
     weight: Option<T>,
@@ -163,12 +205,12 @@ struct Seen<T> {
 /// Numerator and denominator of the offset along an axis.
 #[inline(always)]
 fn quotient<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>>(
-    others: &[Seen<T>],
+    others: &[SeenVertex<T>],
     from: &[T; 3],
     is_fixed: &[bool; 3],
     axis: usize,
 ) -> (T, T) {
-    let right = |seen: &Seen<T>| {
+    let right = |seen: &SeenVertex<T>| {
         let u = &seen.difference;
         let part = |k: usize| u[k] * (u[k] - from[k] - from[k]);
         let square = part(0) + part(1) + part(2);

@@ -126,7 +126,7 @@ pub(crate) use bicells::{
 };
 pub use big::compare_lengths;
 pub use coordinates::Coordinates;
-pub use corners::{BallInSpace, Meeting, PlaceInSpace, sign_of_cross};
+pub use corners::{Meeting, PlaceInSpace, VertexInSpace, sign_of_cross};
 pub use crossing::{crossing, passes_near};
 pub use diametral::is_in_diametral_circle;
 pub use distance::{compare_distance, compare_power, is_collinear3, is_within_distance};

@@ -75,7 +75,7 @@ fn offset3d([a, b, c, d]: [&WeightedPoint<3>; 4]) -> Offset<3> {
 }
 
 /// A power centre.
-struct Centre<const D: usize> {
+struct PowerCentre<const D: usize> {
     place: [f64; D],
     /// The square of the distance from the first corner.
     square: f64,
@@ -83,17 +83,17 @@ struct Centre<const D: usize> {
     bound: f64,
 }
 
-impl<const D: usize> Centre<D> {
+impl<const D: usize> PowerCentre<D> {
     /// From what is known of the offset from the first corner, and the exact one if that is not sharp.
     fn new(a: &WeightedPoint<D>, offset: &Offset<D>, exactly: impl FnOnce() -> [f64; D]) -> Self {
         let x = if offset.is_sharp { offset.x } else { exactly() };
         let square = dot(&x, &x);
-        Centre { place: plus(&a.place, &x), square, bound: square.max(offset.square) }
+        PowerCentre { place: plus(&a.place, &x), square, bound: square.max(offset.square) }
     }
 
     /// From a circumsphere.
     fn of_equal((place, square): ([f64; D], f64)) -> Self {
-        Centre { place, square, bound: square }
+        PowerCentre { place, square, bound: square }
     }
 
     fn at(&self) -> WeightedPoint<D> {
@@ -106,21 +106,21 @@ fn are_equal<const D: usize>(cell: &[&WeightedPoint<D>]) -> bool {
     cell.iter().all(|p| p.weight == cell[0].weight)
 }
 
-fn centre2d(cell: &[&WeightedPoint<2>]) -> Centre<2> {
+fn centre2d(cell: &[&WeightedPoint<2>]) -> PowerCentre<2> {
     let &[a, b, c] = cell else { unreachable!("a triangle") };
     if are_equal(cell) {
-        return Centre::of_equal(<[f64; 2]>::circumsphere(&[&a.place, &b.place, &c.place]));
+        return PowerCentre::of_equal(<[f64; 2]>::circumsphere(&[&a.place, &b.place, &c.place]));
     }
-    Centre::new(a, &offset2d([a, b, c]), || exact_offset([a, b, c], |p, lifts| lifted_circle(p, lifts)))
+    PowerCentre::new(a, &offset2d([a, b, c]), || exact_offset([a, b, c], |p, lifts| lifted_circle(p, lifts)))
 }
 
-fn centre3d(cell: &[&WeightedPoint<3>]) -> Centre<3> {
+fn centre3d(cell: &[&WeightedPoint<3>]) -> PowerCentre<3> {
     let &[a, b, c, d] = cell else { unreachable!("a tetrahedron") };
     if are_equal(cell) {
-        return Centre::of_equal(<[f64; 3]>::circumsphere(&[&a.place, &b.place, &c.place, &d.place]));
+        return PowerCentre::of_equal(<[f64; 3]>::circumsphere(&[&a.place, &b.place, &c.place, &d.place]));
     }
     let exactly = || exact_offset([a, b, c, d], |p, lifts| lifted_sphere(p, lifts));
-    Centre::new(a, &offset3d([a, b, c, d]), exactly)
+    PowerCentre::new(a, &offset3d([a, b, c, d]), exactly)
 }
 
 fn square_of_q<const D: usize, const N: usize>(
@@ -171,8 +171,8 @@ fn is_exactly_within<const D: usize, const M: usize, const N: usize>(
     squared: f64,
     sphere: impl for<'r> FnOnce(&[[Long<'r>; D]; M], [Long<'r>; M]) -> ([Long<'r>; D], Long<'r>),
 ) -> bool {
-    if squared == f64::INFINITY {
-        return true;
+    if squared.is_infinite() {
+        return squared > 0.0;
     }
     let room = LimbRoom::of_any_size();
     let points: [&[f64; D]; M] = others(cell.map(|p| &p.place));

@@ -5,7 +5,7 @@
 use std::cmp::Ordering;
 use std::ops::{Index, IndexMut};
 
-use super::array::PointArray;
+use super::array::{PointArray, place_in_space};
 use super::distance::compare_power;
 use super::integer::two_difference;
 use super::vectors::square_between;
@@ -53,6 +53,7 @@ impl<const D: usize> IndexMut<usize> for WeightedPoint<D> {
 /// The numbers of points, each its coordinates and then its weight. A vector to a point is one of weights as well.
 impl<const D: usize> PointArray for WeightedPoint<D> {
     type Place = [f64; D];
+    type VertexInSpace = WeightedPoint<3>;
 
     #[inline(always)]
     fn at(place: [f64; D], weight: f64) -> Self {
@@ -72,6 +73,11 @@ impl<const D: usize> PointArray for WeightedPoint<D> {
     #[inline(always)]
     fn of_places(_: &[[f64; D]]) -> Option<&[Self]> {
         None
+    }
+
+    #[inline(always)]
+    fn in_space(&self) -> WeightedPoint<3> {
+        WeightedPoint { place: place_in_space(&self.place), weight: self.weight }
     }
 
     fn flattened(points: &[Self]) -> &[f64] {

@@ -3,9 +3,13 @@
 
 use super::power_cells::{build, weighted};
 use crate::common::{Rng, cell_set};
+use crate::exact_oracle::decode;
+use deldrift::internals::predicates::{WeightedPoint, compare_power};
 use deldrift::internals::{PowerPlane, PowerSpace};
-use deldrift::motion::{Interpolation, ListsOf, Location, MovingTriangulation, VertexValues};
-use deldrift::{Moving, VertexId};
+use deldrift::motion::{Interpolation, ListsOf, Location, MovingTriangulation, TransferOrder, VertexValues};
+use deldrift::{CellId, Error, Moving, VertexId};
+use num_bigint::BigInt;
+use std::cmp::Ordering;
 
 /// The square of the distance of integer places.
 fn square<G: Moving>(p: &G::Point, q: &G::Point) -> i64 {
@@ -171,4 +175,189 @@ fn check_values<G: Moving>() {
 fn linear_functions_are_reproduced() {
     check_values::<PowerPlane>();
     check_values::<PowerSpace>();
+}
+
+/// What meets what: the lists of shown vertices are those of the cells, those of hidden ones are empty.
+fn check_incidence<G: Moving>() {
+    for_sets::<G>(4, |(points, _, t), rng| {
+        let hidden = t.vertices_hidden_by_weight().expect("room");
+        let corners = t.cells().expect("room").corners;
+        let around = |v: VertexId| -> Vec<CellId> {
+            CellId::range(0..corners.len()).filter(|&cell| corners[cell].as_ref().contains(&v)).collect()
+        };
+        let (cells, neighbours) = (t.vertex_cells().expect("room"), t.vertex_neighbours().expect("room"));
+        let first = t.cell_of_each_vertex().expect("room");
+        assert_eq!(t.edges().expect("room").len(), t.edge_count());
+        assert_eq!(neighbours.entries.len(), 2 * t.edge_count());
+        let mut star = Vec::new();
+        for v in VertexId::range(0..points.len()) {
+            let wanted = around(v);
+            assert_eq!(cells.row(v), wanted);
+            assert!(corners.is_empty() || wanted.is_empty() == hidden.contains(&v));
+            assert_eq!(first[v], wanted.first().copied().unwrap_or(CellId::NONE));
+            t.star(v, &mut star).expect("room");
+            star.sort_unstable();
+            assert_eq!(star, wanted);
+            assert_eq!(t.cells_around(&[v]).expect("room"), wanted);
+            t.find_simplices(&[v], 1, |cell| assert_eq!(cell.is_some(), !wanted.is_empty())).expect("room");
+            let w = VertexId::at(rng.below(points.len()));
+            let is_edge = v != w && wanted.iter().any(|&cell| corners[cell].as_ref().contains(&w));
+            if v != w {
+                t.find_simplices(&[v, w], 2, |cell| assert_eq!(cell.is_some(), is_edge)).expect("room");
+            }
+            assert_eq!(t.tolerance(v).expect("room") > 0.0 || t.cell_count() == 0, t.tolerance(v) != Ok(0.0));
+            let same = |w: &VertexId| points[w.index()].as_ref() == points[v.index()].as_ref();
+            let heaviest = VertexId::range(0..points.len())
+                .filter(same)
+                .min_by(|&w, &x| points[x.index()][G::D].total_cmp(&points[w.index()][G::D]).then(w.cmp(&x)));
+            assert_eq!(t.coincident_representative(v).ok(), heaviest, "{points:?}");
+        }
+        assert!(t.annulus_widths().expect("room").iter().all(|width| width.is_nan()));
+        // All hull facets are those of the cells, and masks by a bound of the power of a centre are as good as these
+        // are known.
+        let mut n_hull = 0;
+        t.hull_facets(|_| n_hull += 1).expect("room");
+        assert_eq!(n_hull, t.hull_facet_count());
+        let spheres: Vec<_> = t.circumspheres().expect("room").collect();
+        for (row, (centre, squared)) in corners.iter().zip(&spheres) {
+            for &v in row.as_ref() {
+                let p = &points[v.index()];
+                let apart: f64 = (0..G::D).map(|k| (centre[k] - p[k]).powi(2)).sum();
+                assert!(
+                    (apart - p[G::D] - squared).abs() <= 1e-6 * (1.0 + apart + p[G::D].abs()),
+                    "{points:?}"
+                );
+            }
+        }
+        for bound in [f64::NEG_INFINITY, -f64::MAX, -5.0, 0.0, 7.5, f64::MAX, f64::INFINITY] {
+            let mask: Vec<bool> = t.mask_by_circumradius(bound).expect("a bound").collect();
+            for (is_within, (_, squared)) in mask.into_iter().zip(&spheres) {
+                let is_near = (squared - bound).abs() <= 1e-6 * (1.0 + squared.abs());
+                assert!(is_near || is_within == (*squared <= bound), "{squared} {bound}");
+            }
+        }
+        assert!(t.mask_by_circumradius(f64::NAN).is_err());
+        let mut written = 0;
+        t.write_vtu::<Error>(&[], &[], |bytes| {
+            written += bytes.len();
+            Ok(())
+        })
+        .expect("room");
+        assert!(written > 0);
+    });
+}
+
+#[test]
+fn incidence_is_that_of_the_cells() {
+    check_incidence::<PowerPlane>();
+    check_incidence::<PowerSpace>();
+}
+
+/// Stars in the plane follow each other around a vertex.
+#[test]
+fn stars_are_in_order() {
+    for_sets::<PowerPlane>(5, |(points, _, t), _| {
+        for v in VertexId::range(0..points.len()) {
+            let (mut ordered, mut star) = (t.ordered_star(v).expect("room").collect::<Vec<_>>(), Vec::new());
+            t.star(v, &mut star).expect("room");
+            ordered.sort_unstable();
+            star.sort_unstable();
+            assert_eq!(ordered, star);
+        }
+    });
+}
+
+/// Means in cells go on to those that come when weights change: constants stay, and contents.
+fn check_transfer<G: Moving>() {
+    let rng = &mut Rng::new(6);
+    let n = 60;
+    let mut points: Vec<G::Point> = (0..n)
+        .map(|_| {
+            let weight = 2.0 * rng.unit();
+            weighted::<G>(weight, |_| 10.0 * rng.unit())
+        })
+        .collect();
+    // Corners far away, so that the hull stays.
+    for k in 0..1 << G::D {
+        points.push(weighted::<G>(0.0, |axis| if k >> axis & 1 == 1 { 20.0 } else { -10.0 }));
+    }
+    let mut t = build::<G>(&points);
+    t.take_changes().expect("room");
+    for order in [TransferOrder::First, TransferOrder::Second] {
+        for step in 0..20 {
+            let mut means: Vec<f64> = (0..t.cell_count()).flat_map(|_| [1.0, rng.unit()]).collect();
+            let content = |t: &MovingTriangulation<G>, means: &[f64]| -> f64 {
+                t.volumes().expect("room").zip(means.chunks(2)).map(|(volume, mean)| volume * mean[1]).sum()
+            };
+            let before = points.clone();
+            for p in points.iter_mut().take(n) {
+                p[G::D] = if step % 3 == 0 { 6.0 } else { 2.0 } * rng.unit();
+            }
+            let was = content(&t, &means);
+            t.move_vertices(&VertexId::range(0..n).collect::<Vec<_>>(), &points[..n]).expect("good places");
+            t.commit_timestamp().expect("room");
+            t.take_changes().expect("room");
+            t.transfer_cells(Some(&before), order, 2, &mut means, &mut |_| true).expect("room");
+            assert!(means.iter().step_by(2).all(|&x| x == 1.0));
+            let now = content(&t, &means);
+            assert!((now - was).abs() < 1e-9 * was, "{now}, not {was}");
+        }
+    }
+}
+
+#[test]
+fn contents_stay_when_weights_change() {
+    check_transfer::<PowerPlane>();
+    check_transfer::<PowerSpace>();
+}
+
+/// The order of two powers, in exact integers.
+fn exact_order(q: &[f64; 3], a: &WeightedPoint<3>, b: &WeightedPoint<3>) -> Ordering {
+    let all = q.iter().chain(&a.place).chain(&b.place);
+    let exponents = all.map(|&x| (x, 1)).chain([(a.weight, 2), (b.weight, 2)]).filter(|(x, _)| *x != 0.0);
+    let unit = exponents.map(|(x, share)| decode(x).1.div_euclid(share)).min().unwrap_or(0);
+    let integer = |x: f64, share: i32| {
+        let (mantissa, exponent) = decode(x);
+        if mantissa == 0 { BigInt::ZERO } else { BigInt::from(mantissa) << (exponent - share * unit) }
+    };
+    let power = |p: &WeightedPoint<3>| {
+        let square =
+            (0..3).map(|k| integer(p.place[k], 1) - integer(q[k], 1)).map(|x| &x * &x).sum::<BigInt>();
+        square - integer(p.weight, 2)
+    };
+    power(a).cmp(&power(b))
+}
+
+/// Powers that tie or nearly do, of weights and places of any size.
+#[test]
+fn powers_are_compared_exactly() {
+    let rng = &mut Rng::new(8);
+    let (mut n_equal, mut n_near) = (0, 0);
+    for case in 0..60_000 {
+        let scale = [1.0, 1e-160, 1e-200, 1e50, 1e-3][case % 5];
+        let mut coordinate = |_| match rng.below(3) {
+            0 => scale * rng.within(-3, 3) as f64,
+            1 => scale * (2.0 * rng.unit() - 1.0),
+            _ => rng.within(-2, 2) as f64,
+        };
+        let [q, a, b]: [[f64; 3]; 3] = [(); 3].map(|()| std::array::from_fn(&mut coordinate));
+        let square = |p: &[f64; 3]| (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>();
+        let near = square(&b) - square(&a);
+        // The weight that makes powers tie, but for rounding, a bit more or less.
+        let of_b = if rng.one_in(3) {
+            near + [0.0, 1.0, 5e-324][rng.below(3)]
+        } else {
+            near * (1.0 + f64::EPSILON * rng.within(-2, 2) as f64)
+        };
+        let of_a = [0.0, 1.0, 1e-300][rng.below(3)];
+        let [a, b] = [(a, of_a), (b, of_b + of_a)].map(|(place, weight)| WeightedPoint { place, weight });
+        let order = exact_order(&q, &a, &b);
+        n_equal += usize::from(order == Ordering::Equal);
+        n_near += usize::from(order != Ordering::Equal);
+        assert_eq!(compare_power(&q, &a, &b), order, "{q:?} {a:?} {b:?}");
+        assert_eq!(compare_power(&q, &b, &a), order.reverse());
+        let other = WeightedPoint { weight: a.weight, ..b };
+        assert_eq!(compare_power(&q, &a, &other), exact_order(&q, &a, &other));
+    }
+    assert!(n_equal > 100 && n_near > 500, "{n_equal} {n_near}");
 }

@@ -1,10 +1,11 @@
 //! Power cells of vertices that move and whose weights change, of vertices in one hyperplane, and at the ends of the
 //! range of numbers.
 
-use super::power_cells::{Weighted, build, check_of, cube, weighted};
+use super::power_cells::{Weighted, build, check_of, cube, numbers, weighted};
 use crate::common::Rng;
 use deldrift::VertexId;
 use deldrift::internals::{PowerPlane, PowerSpace};
+use deldrift::motion::{MovingTriangulation, Options};
 
 /// Moves, and changes of weights alone: numbers are those of a fresh build, those of changed cells are all that change.
 fn history<G: Weighted>() {
@@ -38,8 +39,8 @@ fn history<G: Weighted>() {
         let mask = t.voronoi_changed(&moved).expect("present");
         let all = t.voronoi_cells(clip, None, &mut |_| true).expect("room");
         let some = t.voronoi_cells(clip, Some(&mask), &mut |_| true).expect("room");
-        for k in 0..n {
-            if mask[k] != 0 {
+        for (k, &is_changed) in mask.iter().enumerate() {
+            if is_changed != 0 {
                 kept.volumes[k] = some.volumes[k];
                 kept.areas[k] = some.areas[k];
                 kept.centroids[k] = some.centroids[k];
@@ -137,4 +138,37 @@ fn extremes<G: Weighted>() {
 fn cells_at_the_ends_of_the_range_are_exact_but_for_rounding() {
     extremes::<PowerPlane>();
     extremes::<PowerSpace>();
+}
+
+/// Numbers are the same to the last bit on any number of threads, and of copies.
+fn threads<G: Weighted>() {
+    let rng = &mut Rng::new(29);
+    let n = 6_000;
+    let spacing = 10.0 * f64::powf(n as f64, -1.0 / G::D as f64);
+    let points: Vec<G::Point> = (0..n)
+        .map(|_| {
+            let weight = spacing * spacing * rng.unit();
+            weighted::<G>(weight, |_| 10.0 * rng.unit())
+        })
+        .collect();
+    let [low, high] = cube::<G>(1.0, 9.0);
+    let all = |threads| {
+        let options = Options { threads, ..Options::default() };
+        let t = MovingTriangulation::<G>::new(&points, options).expect("room");
+        assert!(!t.vertices_hidden_by_weight().expect("room").is_empty());
+        let copy = t.try_clone(None).expect("room");
+        assert_eq!(t.voronoi_volumes(None), copy.voronoi_volumes(None));
+        assert_eq!(
+            format!("{:?}", numbers(&t, [&low, &high])),
+            format!("{:?}", numbers(&copy, [&low, &high]))
+        );
+        format!("{:?}", numbers(&t, [&low, &high]))
+    };
+    assert!(all(1) == all(3));
+}
+
+#[test]
+fn numbers_are_the_same_on_any_number_of_threads() {
+    threads::<PowerPlane>();
+    threads::<PowerSpace>();
 }

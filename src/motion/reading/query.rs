@@ -19,7 +19,8 @@ use crate::motion::triangulation::MovingTriangulation;
 /// Where a point lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Location {
-    /// At the place of this vertex (the representative).
+    /// At the place of this vertex (the representative; with weights, one that is shown: the place of another is in a
+    /// cell).
     Vertex(VertexId),
     /// In the closure of the cell of this index, at no vertex.
     Cell(CellId),
@@ -209,18 +210,25 @@ impl<G: Moving> MovingTriangulation<G> {
         }
     }
 
-    /// Among the vertices at the place of this one, the one of the lowest [key](Self::key) and then of the lowest id.
+    /// Among the vertices at the place of this one, the one of the lowest [key](Self::key) and then of the lowest id;
+    /// with weights, among those of the greatest weight there, whether that is hidden by others elsewhere or not.
     ///
     /// # Errors
-    /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
+    /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex); with
+    /// weights [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn coincident_representative(&self, vertex: VertexId) -> Result<VertexId> {
-        let s = self.present_site("vertex", 0, vertex)?;
-        if G::HAS_WEIGHTS && (!self.mesh.kernel.has_cells() || self.mesh.kernel.is_hidden(s)) {
-            let by_place = self.mesh.vertices_in_no_cell()?.by_place;
-            let at = by_place.binary_search_by_key(&vertex, |&(hidden, _)| hidden);
-            return Ok(at.map_or(vertex, |k| by_place[k].1));
+        let site = self.mesh.kernel.site(self.present_site("vertex", 0, vertex)?);
+        if !G::HAS_WEIGHTS {
+            return Ok(site.id);
         }
-        Ok(self.mesh.kernel.site(s).id)
+        let weight = |&v: &VertexId| self.mesh.kernel.site(self.mesh.site_of[v]).point[G::D];
+        let ranked = |v: VertexId| (v, site.point.as_ref());
+        let keys = self.mesh.kernel.keys();
+        let there = self.vertices_in_box(&site.point, &site.point)?.into_iter();
+        let first = there.min_by(|v, w| {
+            weight(w).total_cmp(&weight(v)).then_with(|| keys.compare_at(ranked(*v), ranked(*w)))
+        });
+        Ok(first.unwrap_or(vertex))
     }
 
     /// The vertices that are hidden, ascending, each with the one that represents it.

@@ -23,8 +23,11 @@ impl<G: Moving> MovingTriangulation<G> {
     /// move without a change of connectivity, as far as the bi-cells of this one go (report, section 2.4). 0 if it
     /// shares its place with another; infinite while there are no cells.
     ///
-    /// A bi-cell whose facet is a segment stays as it is while its two cells are positively oriented: each has the tolerance
-    /// of that alone, whatever is beyond the segment.
+    /// With weights a vertex goes as far as the root of the square of the distance and the magnitude of the change of
+    /// its weight, and 0 is told of one that weights hide: what it takes to bring those back is in no bi-cell.
+    ///
+    /// A bi-cell whose facet is a segment stays as it is while its two cells are positively oriented: each has the
+    /// tolerance of that alone, whatever is beyond the segment.
     ///
     /// ```
     /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
@@ -40,7 +43,7 @@ impl<G: Moving> MovingTriangulation<G> {
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
     pub fn tolerance(&self, vertex: VertexId) -> Result<f64> {
         let s = self.present_site("vertex", 0, vertex)?;
-        if self.mesh.is_shared(s) {
+        if self.mesh.is_shared(s) || self.mesh.kernel.is_hidden(s) {
             return Ok(0.0);
         }
         let mut tolerance = f64::INFINITY;
@@ -51,7 +54,8 @@ impl<G: Moving> MovingTriangulation<G> {
 
     /// Annulus width of the bi-cell beyond each facet of each finite cell, as a certified lower bound, in the order of
     /// [`cells`](Self::cells): entry `i` of a cell is that of the facet opposite corner `i`. Every interior bi-cell is
-    /// listed from both sides; facets of the hull have none and hold NaN.
+    /// listed from both sides; facets of the hull have none and hold NaN, as all do with weights: there are no annuli
+    /// then.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -61,7 +65,8 @@ impl<G: Moving> MovingTriangulation<G> {
         memory::reserve_exact(&mut widths, cells.corners().len() * G::Corners::N)?;
         for index in CellId::range(0..cells.corners().len()) {
             for corner in 0..G::Corners::N {
-                let delimiter = BiCell::of(&self.mesh.kernel, cells.facet(index, corner)).delimiter();
+                let bicell = BiCell::of(&self.mesh.kernel, cells.facet(index, corner));
+                let delimiter = bicell.delimiter().filter(|_| !G::HAS_WEIGHTS);
                 widths.push(delimiter.map_or(f64::NAN, |delimiter| 2.0 * delimiter.half_width));
             }
         }
@@ -69,13 +74,13 @@ impl<G: Moving> MovingTriangulation<G> {
     }
 
     /// Standard delimiter of the bi-cell of the facet opposite corner `corner` of the finite cell of index `cell` in
-    /// [`cells`](Self::cells); `None` if there is no such facet or it is on the hull.
+    /// [`cells`](Self::cells); `None` if there is no such facet or it is on the hull, and with weights.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn standard_delimiter(&self, cell: CellId, corner: u32) -> Result<Option<Delimiter<G::Point>>> {
         let cells = self.cell_arrays()?;
-        if cell.index() >= cells.corners().len() || corner as usize > G::D {
+        if G::HAS_WEIGHTS || cell.index() >= cells.corners().len() || corner as usize > G::D {
             return Ok(None);
         }
         Ok(BiCell::of(&self.mesh.kernel, cells.facet(cell, corner as usize)).delimiter())

@@ -2,8 +2,8 @@
 //!
 //! In the plane, the third coordinate is 0.
 
-use crate::delaunay::Moving;
-use crate::predicates::{BallInSpace, Meeting};
+use crate::delaunay::{Moving, Shape};
+use crate::predicates::{Meeting, PointArray};
 
 /// A vector of space.
 pub(super) type Vector = [f64; 3];
@@ -15,17 +15,8 @@ pub(super) fn in_space<G: Moving>(p: &G::Point) -> Vector {
     [p[0], p[1], if G::D == 3 { p[2] } else { 0.0 }]
 }
 
-/// The weight of a point, 0 if there are none.
-#[inline(always)]
-pub(super) fn weight_of<G: Moving>(p: &G::Point) -> f64 {
-    if G::HAS_WEIGHTS { p[G::D] } else { 0.0 }
-}
-
-/// A point with its weight, in the plane at height 0.
-#[inline(always)]
-pub(super) fn ball<G: Moving>(p: &G::Point) -> BallInSpace {
-    BallInSpace { place: in_space::<G>(p), weight: weight_of::<G>(p) }
-}
+/// A point in space, with its weight if it has one.
+pub(super) type Ball<G> = <<G as Shape>::Point as PointArray>::VertexInSpace;
 
 #[inline(always)]
 pub(super) fn minus(p: &Vector, q: &Vector) -> Vector {
@@ -216,7 +207,7 @@ impl Clip {
     /// The side of a face on which the circumcentre of a cell is.
     #[cold]
     fn sign_of_centre<G: Moving>(&self, face: Face, cell: &[&G::Point]) -> i32 {
-        let corners: [BallInSpace; 4] = std::array::from_fn(|k| ball::<G>(cell[k.min(G::D)]));
+        let corners: [Ball<G>; 4] = std::array::from_fn(|k| cell[k.min(G::D)].in_space());
         let mut from = [0.0; 3];
         from[face.axis] = self.bound(face);
         let others = &corners[1..=G::D];

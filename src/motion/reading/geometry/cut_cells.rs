@@ -27,7 +27,7 @@ use crate::motion::reading::geometry::sums::{LEAST_SQUARE, Sums};
 use crate::motion::reading::geometry::voronoi::Voronoi;
 use crate::motion::reading::progress::Progress;
 use crate::motion::reading::query::cells_at;
-use crate::predicates::{BallInSpace, compare_power};
+use crate::predicates::{VertexInSpace, WeightedPoint, compare_power};
 
 /// A corner of a box, and which of the faces at it are high, a bit for each axis.
 #[derive(Clone, Copy)]
@@ -59,12 +59,13 @@ impl BoxCorner {
     }
 
     /// Whether it is in the cell of the first of two vertices rather than of the other one.
-    fn prefers(&self, p: &BallInSpace, q: &BallInSpace) -> bool {
+    fn prefers<V: VertexInSpace>(&self, p: &V, q: &V) -> bool {
         let farther_out = |axis: usize| {
-            let order = p.place[axis].partial_cmp(&q.place[axis]).expect("numbers");
+            let order = p.place()[axis].partial_cmp(&q.place()[axis]).expect("numbers");
             if self.highs >> axis & 1 == 1 { order } else { order.reverse() }
         };
-        match compare_power(&self.at, p, q) {
+        let [to_p, to_q] = [p, q].map(|v| WeightedPoint { place: *v.place(), weight: v.weight() });
+        match compare_power(&self.at, &to_p, &to_q) {
             Ordering::Equal => {
                 (0..3).rev().map(farther_out).find(|order| order.is_ne()) == Some(Ordering::Greater)
             }
@@ -73,10 +74,10 @@ impl BoxCorner {
     }
 
     /// The vertex in whose cell it is, from one that is near, by those that have a facet with each.
-    pub(super) fn owner(
+    pub(super) fn owner<V: VertexInSpace>(
         &self,
         near: VertexId,
-        ball: impl Fn(VertexId) -> BallInSpace,
+        ball: impl Fn(VertexId) -> V,
         mut list: impl FnMut(VertexId, &mut Vec<VertexId>) -> Result<()>,
     ) -> Result<VertexId> {
         let (mut owner, mut others) = (near, Vec::new());

@@ -33,16 +33,16 @@ use crate::machine::memory;
 use crate::motion::reading::geometry::centres::Centres;
 use crate::motion::reading::geometry::clipping::{Clip, Face, Vector};
 use crate::motion::reading::geometry::rings::EdgeRing;
-use crate::predicates::{BallInSpace, Meeting, sign_of_cross};
+use crate::predicates::{Meeting, VertexInSpace, sign_of_cross};
 
 /// What a corner other than a circumcentre may be off by, in sizes of the box: 2⁻⁴⁴.
 const TOLERANCE: f64 = 1.0 / (1u64 << 44) as f64;
 
 /// A side of a facet.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum FacetSide {
+pub(super) enum FacetSide<V> {
     /// Where the cell of another vertex begins.
-    With(BallInSpace),
+    With(V),
     /// On a face of the box.
     On(Face),
     AtInfinity,
@@ -52,20 +52,20 @@ pub(super) enum FacetSide {
 
 /// A corner of a facet, and the sides before and after it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct FacetCorner {
-    pub(super) sides: [FacetSide; 2],
+pub(super) struct FacetCorner<V> {
+    pub(super) sides: [FacetSide<V>; 2],
     /// The cell of which it is the circumcentre, if any.
     cell: CellId,
     /// The signs of the direction in which it is, if it is at infinity.
     direction: [i32; 3],
 }
 
-impl FacetCorner {
-    fn of_cell(cell: CellId, sides: [FacetSide; 2]) -> Self {
+impl<V> FacetCorner<V> {
+    fn of_cell(cell: CellId, sides: [FacetSide<V>; 2]) -> Self {
         FacetCorner { sides, cell, direction: [0; 3] }
     }
 
-    fn far(direction: [i32; 3], sides: [FacetSide; 2]) -> Self {
+    fn far(direction: [i32; 3], sides: [FacetSide<V>; 2]) -> Self {
         FacetCorner { sides, cell: CellId::NONE, direction }
     }
 
@@ -76,14 +76,14 @@ impl FacetCorner {
 
 /// A facet, or what is left of it.
 #[derive(Debug, Default)]
-pub(super) struct CutFacet {
-    pub(super) at: BallInSpace,
-    pub(super) to: BallInSpace,
+pub(super) struct CutFacet<V> {
+    pub(super) at: V,
+    pub(super) to: V,
     /// The signs of the coordinates of the edge.
     pub(super) normal: [i32; 3],
     pub(super) is_plane: bool,
-    pub(super) corners: Vec<FacetCorner>,
-    cut: Vec<FacetCorner>,
+    pub(super) corners: Vec<FacetCorner<V>>,
+    cut: Vec<FacetCorner<V>>,
     is_beyond: Vec<bool>,
     /// The corners that are left, from the box's corner of least coordinates.
     pub(super) places: Vec<Vector>,
@@ -93,16 +93,16 @@ fn negated(direction: [i32; 3]) -> [i32; 3] {
     direction.map(|sign| -sign)
 }
 
-impl CutFacet {
+impl<V: VertexInSpace> CutFacet<V> {
     /// Begins with the bisector of two vertices.
-    fn begin(&mut self, [at, to]: [BallInSpace; 2], is_plane: bool) {
+    fn begin(&mut self, [at, to]: [V; 2], is_plane: bool) {
         (self.at, self.to, self.is_plane) = (at, to, is_plane);
-        let (at, to) = (&at.place, &to.place);
+        let (at, to) = (at.place(), to.place());
         self.normal = [0, 1, 2].map(|axis| i32::from(to[axis] > at[axis]) - i32::from(to[axis] < at[axis]));
         self.corners.clear();
     }
 
-    fn push(&mut self, corner: FacetCorner) -> Result<()> {
+    fn push(&mut self, corner: FacetCorner<V>) -> Result<()> {
         memory::push(&mut self.corners, corner)
     }
 
@@ -116,7 +116,7 @@ impl CutFacet {
 
     /// The direction in which one goes along the cell of a vertex that is on the left, counter-clockwise around this.
     fn along_cell_of(&self, place: &Vector) -> [i32; 3] {
-        [0, 1, 2].map(|axis| sign_of_cross([&self.at.place, &self.to.place, place], axis))
+        [0, 1, 2].map(|axis| sign_of_cross([self.at.place(), self.to.place(), place], axis))
     }
 
     /// The direction of a facet in the plane, the first end of the edge on the left.
@@ -127,9 +127,9 @@ impl CutFacet {
     /// Makes it the facet of an edge between two vertices with a ring that is [oriented](EdgeRing::orient), whole.
     pub(super) fn fill(
         &mut self,
-        edge: [BallInSpace; 2],
+        edge: [V; 2],
         ring: &EdgeRing,
-        ball: impl Fn(VertexId) -> BallInSpace,
+        ball: impl Fn(VertexId) -> V,
         is_plane: bool,
         has_left: bool,
     ) -> Result<()> {
@@ -144,7 +144,7 @@ impl CutFacet {
         }
         if !ring.is_closed {
             let last = ring.link.len() - 1;
-            let [first_way, last_way] = [0, last].map(|k| self.along_cell_of(&ball(ring.link[k]).place));
+            let [first_way, last_way] = [0, last].map(|k| self.along_cell_of(ball(ring.link[k]).place()));
             self.corners.push(FacetCorner::far(last_way, [side(last), FacetSide::AtInfinity]));
             self.corners.push(FacetCorner::far(negated(first_way), [FacetSide::AtInfinity, side(0)]));
         }
@@ -155,7 +155,7 @@ impl CutFacet {
     fn fill_line(
         &mut self,
         ring: &EdgeRing,
-        side: impl Fn(usize) -> FacetSide,
+        side: impl Fn(usize) -> FacetSide<V>,
         has_left: bool,
     ) -> Result<()> {
         let of_cell = |k: usize| FacetCorner::of_cell(ring.cells[k], [side(k), FacetSide::None]);
@@ -172,12 +172,7 @@ impl CutFacet {
 
     /// Makes it the facet between two vertices of a set that is in one hyperplane, whole. In space, `others` are at
     /// most two, the cells of which it meets.
-    pub(super) fn fill_flat(
-        &mut self,
-        edge: [BallInSpace; 2],
-        others: &[BallInSpace],
-        is_plane: bool,
-    ) -> Result<()> {
+    pub(super) fn fill_flat(&mut self, edge: [V; 2], others: &[V], is_plane: bool) -> Result<()> {
         self.begin(edge, is_plane);
         let infinity = FacetSide::AtInfinity;
         if is_plane {
@@ -186,7 +181,7 @@ impl CutFacet {
             return self.push(FacetCorner::far(way, [infinity, FacetSide::None]));
         }
         for other in others {
-            let way = self.along_cell_of(&other.place);
+            let way = self.along_cell_of(other.place());
             self.push(FacetCorner::far(negated(way), [infinity, FacetSide::With(*other)]))?;
             self.push(FacetCorner::far(way, [FacetSide::With(*other), infinity]))?;
         }
@@ -201,7 +196,7 @@ impl CutFacet {
             }
             [other] => {
                 // Any direction on the left of the way.
-                let way = self.along_cell_of(&other.place);
+                let way = self.along_cell_of(other.place());
                 let axis = (0..3).find(|&axis| way[axis] != 0).expect("places that are not on a line");
                 let across = self.along(axis).map(|sign| sign * way[axis]);
                 self.push(FacetCorner::far(across, [infinity; 2]))?;
@@ -214,11 +209,11 @@ impl CutFacet {
     /// Where sides meet, as seen from a place; the axes `also` are fixed as well.
     fn meet<T>(
         &self,
-        sides: [FacetSide; 2],
+        sides: [FacetSide<V>; 2],
         clip: &Clip,
         also: [Option<f64>; 3],
         from: Vector,
-        then: impl FnOnce(Meeting) -> T,
+        then: impl FnOnce(Meeting<'_, V>) -> T,
     ) -> T {
         let (mut others, mut n) = ([self.to; 3], 1);
         let mut meeting =
@@ -241,12 +236,12 @@ impl CutFacet {
             }
         }
         // One order, so that the answer is alike in all facets at the corner.
-        others[..n].sort_unstable_by(|p, q| p.place.partial_cmp(&q.place).expect("numbers"));
+        others[..n].sort_unstable_by(|p, q| p.place().partial_cmp(q.place()).expect("numbers"));
         then(Meeting { others: &others[..n], ..meeting })
     }
 
     /// Whether a corner is beyond a face.
-    fn is_beyond<P>(&self, corner: &FacetCorner, face: Face, clip: &Clip, centres: &Centres<P>) -> bool {
+    fn is_beyond<P>(&self, corner: &FacetCorner<V>, face: Face, clip: &Clip, centres: &Centres<P>) -> bool {
         if corner.cell != CellId::NONE {
             return centres.of(corner.cell).sides & face.bit() != 0;
         }
@@ -254,7 +249,7 @@ impl CutFacet {
         if corner.sides.iter().any(|side| matches!(side, FacetSide::On(on) if on.axis == face.axis)) {
             return false;
         }
-        let mut from = self.at.place;
+        let mut from = *self.at.place();
         from[face.axis] = clip.bound(face);
         let sign = if !corner.is_far() {
             self.meet(corner.sides, clip, [None; 3], from, |meeting| meeting.sign(face.axis))
@@ -267,16 +262,16 @@ impl CutFacet {
     }
 
     /// The side of a face on which what leads to a corner at infinity is, parallel to that.
-    fn sign_of_parallel(&self, corner: &FacetCorner, axis: usize, clip: &Clip, from: Vector) -> i32 {
-        let is_on_line = |side: &FacetSide| matches!(side, FacetSide::With(_) | FacetSide::On(_));
+    fn sign_of_parallel(&self, corner: &FacetCorner<V>, axis: usize, clip: &Clip, from: Vector) -> i32 {
+        let is_on_line = |side: &FacetSide<V>| matches!(side, FacetSide::With(_) | FacetSide::On(_));
         let others = [(axis + 1) % 3, (axis + 2) % 3];
         let mut also = [None; 3];
         if corner.sides.iter().any(is_on_line) {
             // Anywhere along the line.
             let along = others.into_iter().find(|&k| corner.direction[k] != 0).expect("a direction");
-            also[along] = Some(self.at.place[along]);
+            also[along] = Some(self.at.place()[along]);
         } else if others.iter().all(|&k| self.normal[k] == 0) {
-            others.iter().for_each(|&k| also[k] = Some(self.at.place[k]));
+            others.iter().for_each(|&k| also[k] = Some(self.at.place()[k]));
         } else {
             // The sign is open.
             return 0;
@@ -285,7 +280,7 @@ impl CutFacet {
     }
 
     /// Whether a corner is open to the faces of an axis.
-    fn is_open(&self, corner: &FacetCorner, axis: usize) -> bool {
+    fn is_open(&self, corner: &FacetCorner<V>, axis: usize) -> bool {
         let is_parallel = (0..3).all(|k| k == axis || self.normal[k] == 0);
         let has_line = corner.sides.iter().any(|side| *side != FacetSide::AtInfinity);
         corner.is_far() && corner.direction[axis] == 0 && !has_line && !is_parallel
@@ -293,7 +288,7 @@ impl CutFacet {
 
     /// The faces that some corner may be beyond, by their bits: no corner that is new is beyond others.
     fn faces_to_cut<P>(&self, centres: &Centres<P>) -> u8 {
-        let faces = |corner: &FacetCorner| {
+        let faces = |corner: &FacetCorner<V>| {
             if corner.is_far() { u8::MAX } else { centres.of(corner.cell).faces() }
         };
         self.corners.iter().fold(0, |all, corner| all | faces(corner))
@@ -370,7 +365,12 @@ impl CutFacet {
         Ok(())
     }
 
-    fn place_of<P: AsRef<[f64]>>(&self, corner: &FacetCorner, clip: &Clip, centres: &Centres<P>) -> Vector {
+    fn place_of<P: AsRef<[f64]>>(
+        &self,
+        corner: &FacetCorner<V>,
+        clip: &Clip,
+        centres: &Centres<P>,
+    ) -> Vector {
         let within = |axis: usize, offset: f64| offset.clamp(0.0, clip.extent(axis));
         if corner.cell != CellId::NONE {
             let centre = centres.of(corner.cell).place.as_ref();

@@ -72,7 +72,7 @@ use crate::machine::prefetch::AHEAD;
 use crate::machine::{memory, threads};
 use crate::motion::reading::geometry::cells_within::Region;
 use crate::motion::reading::geometry::centres::{Numbering, SHARED_AT_LEAST, ask_for};
-use crate::motion::reading::geometry::clipping::{Vector, cross, dot, in_space, minus, times, weight_of};
+use crate::motion::reading::geometry::clipping::{Vector, cross, dot, in_space, minus, times};
 use crate::motion::reading::geometry::incidence::Neighbours;
 use crate::motion::reading::geometry::sums::{LEAST_SQUARE, Sums};
 use crate::motion::reading::geometry::voronoi::Voronoi;
@@ -267,8 +267,8 @@ impl<G: Moving> Voronoi<'_, G> {
                 let step = times(&minus(&in_space::<G>(&beyond.place), &p), unit);
                 let facet = DualFacet { unit, p: &p, step };
                 let at = [&places[face[0]], &places[face[1]], &places[face[2]]];
-                let weight = |k: usize| weight_of::<G>(kernel.place(corners[face[k].min(G::D)]));
-                let weights = [weight(0), weight(1), weight(2)];
+                let weight = |k: usize| kernel.place(corners[face[k].min(G::D)])[G::D];
+                let weights = if G::HAS_WEIGHTS { [weight(0), weight(1), weight(2)] } else { [0.0; 3] };
                 if G::D == 2 {
                     let [of_a, of_b, _] = weights;
                     facet.add_in_plane::<G>([at[0], at[1]], [of_a, of_b], [ends[0], ends[1]], part);

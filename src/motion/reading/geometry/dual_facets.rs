@@ -53,8 +53,8 @@ pub struct VoronoiFacets<P> {
     /// and of that of the second one by the position of the first.
     pub derivatives: Vec<[P; 2]>,
     /// The derivative of the area or volume of the cell of either end by the weight of the other one, where weights are
-    /// what power distances take from squares: minus the measure of the facet over twice the length of the edge. Where
-    /// there are no weights it is what it would be, were all of them equal.
+    /// what power distances take from squares: minus the measure of the facet over twice the length of the edge. NaN
+    /// where there are no weights.
     pub weight_derivatives: Vec<f64>,
 }
 
@@ -69,7 +69,7 @@ pub struct VoronoiFacet<P> {
     /// and of that of the second one by the position of the first.
     pub derivatives: [P; 2],
     /// The derivative of the area or volume of the cell of either end by the weight of the other one: minus the measure
-    /// of the facet over twice the length of the edge.
+    /// of the facet over twice the length of the edge. NaN where there are no weights.
     pub weight_derivative: f64,
 }
 
@@ -109,7 +109,7 @@ impl<G: Moving> Voronoi<'_, G> {
             derivatives[0][axis] = unit(half - from_middle);
             derivatives[1][axis] = unit(-half - from_middle);
         }
-        let weight_derivative = clip.measure_in(G::D - 2, by_weight(measure, length));
+        let weight_derivative = clip.measure_in(G::D - 2, by_weight::<G>(measure, length));
         Some(FacetMeasures { measure: unit(measure), centroid, derivatives, weight_derivative })
     }
 
@@ -149,7 +149,7 @@ impl<G: Moving> Voronoi<'_, G> {
             measure,
             centroid,
             derivatives: [derivative(&ends[1]), derivative(&ends[0])],
-            weight_derivative: by_weight(measure, length),
+            weight_derivative: by_weight::<G>(measure, length),
         })
     }
 }

@@ -6,6 +6,7 @@ use crate::motion::reading::geometry::clipping::{
 };
 use crate::motion::reading::geometry::cut_facets::{CutFacet, FacetSide};
 use crate::motion::reading::geometry::sums::Sums;
+use crate::predicates::VertexInSpace;
 
 /// What a facet adds to the boundary of the cell of its edge's first end, in the unit of the box.
 pub(super) enum BoundaryPiece {
@@ -26,10 +27,10 @@ pub(super) enum BoundaryPiece {
     },
 }
 
-impl CutFacet {
+impl<V: VertexInSpace> CutFacet<V> {
     /// The way from its first end to the other one, of length 1.
     pub(super) fn direction(&self) -> Vector {
-        normalised(&minus(&self.to.place, &self.at.place))
+        normalised(&minus(self.to.place(), self.at.place()))
     }
 
     /// Tells what it adds to the boundary of a cell.
@@ -68,7 +69,7 @@ impl CutFacet {
 
     /// Its length or area.
     pub(super) fn measure(&self) -> f64 {
-        let normal = minus(&self.to.place, &self.at.place);
+        let normal = minus(self.to.place(), self.at.place());
         match self.places[..] {
             [] => 0.0,
             [p, q] if self.is_plane => {
@@ -93,7 +94,7 @@ impl CutFacet {
         if self.is_plane {
             return (measure, [0, 1, 2].map(|axis| 0.5 * (first[axis] + others[0][axis])));
         }
-        let normal = normalised(&minus(&self.to.place, &self.at.place));
+        let normal = normalised(&minus(self.to.place(), self.at.place()));
         let (mut sum, mut moment) = (0.0, [0.0; 3]);
         for pair in others.windows(2) {
             let [p, q] = [0, 1].map(|k| minus(&pair[k], &first));

@@ -25,7 +25,7 @@ use crate::motion::reading::geometry::rings::EdgeRing;
 use crate::motion::reading::geometry::sums::Sums;
 use crate::motion::reading::progress::Progress;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::predicates::sign_of_cross;
+use crate::predicates::{VertexInSpace, sign_of_cross};
 
 /// Whether places are moved along each axis from the first one of a set to make it span the dimension.
 fn missing_axes<G: Moving>(places: &[Vector]) -> [bool; 3] {
@@ -68,7 +68,7 @@ impl<G: Moving> MovingTriangulation<G> {
     ) -> Result<()> {
         let (mut ids, mut places) = (Vec::new(), Vec::new());
         let hidden = self.mesh.kernel.hidden_without_cells()?;
-        let shown = self.mesh.kernel.live_sites().filter(|s| !hidden.contains(s));
+        let shown = self.mesh.kernel.live_sites().filter(|s| hidden.binary_search(s).is_err());
         memory::collect(&mut ids, shown.map(|s| self.mesh.kernel.site(s).id))?;
         if ids.is_empty() {
             return Ok(());
@@ -99,7 +99,7 @@ impl<G: Moving> MovingTriangulation<G> {
         let centres = Centres::<G::Point>::NONE;
         for v in VertexId::range(0..n) {
             let at = self.ball(v);
-            let apex = clip.offset_within(&at.place);
+            let apex = clip.offset_within(at.place());
             cell.clear();
             neighbours.list(v, VertexId::new(0), &mut list, |w, cell| (w, cell))?;
             for &(w, first) in list.iter().filter(|(w, _)| w.index() < n) {
@@ -123,7 +123,7 @@ impl<G: Moving> MovingTriangulation<G> {
                 tell(v, &sums);
             }
             if is_cut {
-                tell(v, &region.sums_of::<G>(&mut cell, &corners, v, &at.place)?);
+                tell(v, &region.sums_of::<G>(&mut cell, &corners, v, at.place())?);
             }
         }
         for (corner, owner) in corners.iter().filter(|_| !is_cut) {

@@ -66,7 +66,9 @@ impl<G: Moving> MovingTriangulation<G> {
     /// the convex hull. Values of hidden and removed vertices are not read. Each position is looked for from the one
     /// before, the first one from `near`, if that is near it.
     ///
-    /// A linear function is reproduced but for rounding; at the place of a vertex, its own values are.
+    /// A linear function is reproduced but for rounding; at the place of a vertex, its own values are. With weights
+    /// vertices are those that are shown, and natural neighbours are by power cells, with the weight of a position for
+    /// its own: where a vertex of that weight would be hidden, values are linear in the cell.
     ///
     /// ```
     /// use deldrift::{Plane, motion::{Interpolation, MovingTriangulation, Options, VertexValues}};

@@ -68,6 +68,11 @@ impl<G: Moving> MovingTriangulation<G> {
     /// itself; by a few last bits unless the cell is nearly flat. They are infinite where the value is too large for a
     /// number, and never NaN.
     ///
+    /// With weights these are power spheres: the power of the centre in respect of every corner is the squared radius,
+    /// which may be negative. With the greatest m of the distance of the centre from the first corner, of differences
+    /// of coordinates of corners from that one's, and of roots of differences of weights, a coordinate is off by at
+    /// most 10⁻⁹ m and its own rounding, a squared radius by 4·10⁻⁹ m² and the rounding of that weight.
+    ///
     /// # Errors
     /// [`Error::OutOfMemory`].
     pub fn circumspheres(&self) -> Result<impl ExactSizeIterator<Item = (G::Point, f64)> + '_> {
@@ -127,7 +132,7 @@ impl<G: Moving> MovingTriangulation<G> {
     }
 
     /// Whether the squared circumradius of each cell is at most `squared_radius`, decided exactly; in the order of
-    /// [`cells`](Self::cells).
+    /// [`cells`](Self::cells). With weights it is that of the power sphere, and may be negative, as the bound may.
     ///
     /// ```
     /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
@@ -140,12 +145,12 @@ impl<G: Moving> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] if the bound is negative or NaN, [`Error::OutOfMemory`].
+    /// [`Error::InvalidValue`] if the bound is negative or NaN, with weights only if it is NaN; [`Error::OutOfMemory`].
     pub fn mask_by_circumradius(
         &self,
         squared_radius: f64,
     ) -> Result<impl ExactSizeIterator<Item = bool> + '_> {
-        check_not_negative("squared_radius", squared_radius)?;
+        check_square::<G>(squared_radius)?;
         self.measures_of_all(
             #[inline(always)]
             move |cell| G::Point::is_circumradius_within(cell, squared_radius),
@@ -156,13 +161,14 @@ impl<G: Moving> MovingTriangulation<G> {
     /// their order.
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] if the bound is negative or NaN, [`Error::NoSuchCell`], [`Error::OutOfMemory`].
+    /// [`Error::InvalidValue`] if the bound is negative or NaN, with weights only if it is NaN; [`Error::NoSuchCell`],
+    /// [`Error::OutOfMemory`].
     pub fn mask_by_circumradius_of<'t>(
         &'t self,
         cells: &'t [CellId],
         squared_radius: f64,
     ) -> Result<impl ExactSizeIterator<Item = bool> + 't> {
-        check_not_negative("squared_radius", squared_radius)?;
+        check_square::<G>(squared_radius)?;
         self.measures_of(
             cells,
             #[inline(always)]
@@ -204,6 +210,19 @@ impl<G: Moving> MovingTriangulation<G> {
             None => tell_all(None, self.mask_by_circumradius(squared_radius)?, tell),
             Some(some) => tell_all(cells, self.mask_by_circumradius_of(some, squared_radius)?, tell),
         }
+        Ok(())
+    }
+}
+
+/// Whether a bound of squared circumradii is one; with weights these may be negative.
+fn check_square<G: Moving>(squared: f64) -> Result<()> {
+    if !G::HAS_WEIGHTS {
+        return check_not_negative("squared_radius", squared);
+    }
+    let (argument, wanted) = ("squared_radius", "a number or infinite");
+    if squared.is_nan() {
+        Err(Error::InvalidValue { argument, index: 0, value: squared, wanted })
+    } else {
         Ok(())
     }
 }

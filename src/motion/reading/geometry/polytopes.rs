@@ -25,7 +25,7 @@
 use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::machine::memory;
-use crate::motion::reading::geometry::clipping::{Clip, Face, Vector, cross, dot, minus, times};
+use crate::motion::reading::geometry::clipping::{Ball, Clip, Face, Vector, cross, dot, minus, times};
 use crate::motion::reading::geometry::cut_cells::BoxCorner;
 use crate::motion::reading::geometry::cut_facets::CutFacet;
 use crate::motion::reading::geometry::facet_measures::BoundaryPiece;
@@ -126,7 +126,7 @@ impl Polytope {
     }
 
     /// Adds a facet in the box, and what it borders of faces of the box.
-    pub(super) fn add_facet<G: Moving>(&mut self, clip: &Clip, facet: &CutFacet) -> Result<()> {
+    pub(super) fn add_facet<G: Moving>(&mut self, clip: &Clip, facet: &CutFacet<Ball<G>>) -> Result<()> {
         facet.for_pieces(clip.unit, |piece| match piece {
             BoundaryPiece::Edge(edge) => push(&mut self.edges, edge),
             BoundaryPiece::On(face, [p, q]) => memory::push(&mut self.walls, (face.bit(), [q, p])),
@@ -229,7 +229,7 @@ impl Polytope {
         &mut self,
         clip: &Clip,
         spaces: &HalfSpaces,
-        facet: &CutFacet,
+        facet: &CutFacet<Ball<G>>,
     ) -> Result<(f64, Vector)> {
         self.clear();
         facet.for_pieces(clip.unit, |piece| match piece {

@@ -25,7 +25,8 @@ const FIRST_CELLS: usize = 64;
 impl<G: Moving> MovingTriangulation<G> {
     /// For each simplex a cell that has all its vertices as corners, `None` if there is none; told to `found` one after
     /// the other. `vertices`: rows of `n_corners` ids, from 1 (a cell of each vertex) to `D + 1`. A hidden vertex
-    /// stands for the one that represents it. A simplex with two corners at one place is in no cell.
+    /// stands for the one that represents it. A simplex with two corners at one place is in no cell, nor is one with a
+    /// vertex that weights hide.
     ///
     /// ```
     /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
@@ -150,6 +151,9 @@ fn find_around<G: Moving>(
         let cell = kernel.complex().cell(slot);
         !cell.is_ghost() && are_corners(cell.corners.as_ref(), sites)
     };
+    if sites.iter().any(|&s| kernel.is_hidden(s)) {
+        return Ok(None);
+    }
     let mut most = FIRST_CELLS;
     while !sites.is_empty() {
         for &s in sites {

@@ -5,6 +5,7 @@ use crate::error::Result;
 use crate::ids::{CellId, SiteId, VertexId};
 use crate::motion::state::cells::NO_CORNER;
 use crate::motion::triangulation::MovingTriangulation;
+use crate::predicates::PlanePoint;
 
 /// A cell around a vertex, and which of its corners the vertex is: in a box it may be several.
 type Met = (CellId, usize);
@@ -60,12 +61,13 @@ pub(crate) fn ordered_star(
     star
 }
 
-impl<P> MovingTriangulation<Plane<P>>
+impl<P: PlanePoint> MovingTriangulation<Plane<P>>
 where
-    Plane<P>: Moving<Vertices = <Plane as Shape>::Vertices>,
+    Plane<P>: Moving,
 {
     /// The cells around the place of a vertex, counter-clockwise: from the one of lowest index, or, for a vertex of the
     /// convex hull, from the one at the hull's edge that leaves the vertex when the hull is passed counter-clockwise.
+    /// None for one that weights hide.
     ///
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex),
@@ -75,10 +77,14 @@ where
         let (kernel, cells) = (&self.mesh.kernel, self.cell_arrays()?);
         let start = self.mesh.shown_at(s).filter(|_| !cells.corners().is_empty()).map(|s| {
             let around = kernel.site(s).cell;
-            let behind = kernel.complex().cell(around).neighbour(<Plane>::D).cell();
+            let behind = kernel.complex().cell(around).neighbour(Plane::<P>::D).cell();
             let is_ghost = kernel.complex().cell(around).is_ghost();
             let cell = cells.index_of()[if is_ghost { behind } else { around }];
-            let at = cells.corners()[cell].iter().position(|&v| v == kernel.site(s).id).expect("a corner");
+            let at = cells.corners()[cell]
+                .as_ref()
+                .iter()
+                .position(|&v| v == kernel.site(s).id)
+                .expect("a corner");
             (cell, at)
         });
         let neighbours = cells.neighbours();

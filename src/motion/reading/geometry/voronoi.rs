@@ -8,12 +8,12 @@ use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::motion::reading::geometry::centres::Centres;
-use crate::motion::reading::geometry::clipping::{Clip, Vector, ball, in_space, weight_of};
+use crate::motion::reading::geometry::clipping::{Ball, Clip, Vector, in_space};
 use crate::motion::reading::geometry::cut_facets::CutFacet;
 use crate::motion::reading::geometry::rings::EdgeRing;
 use crate::motion::state::cells::Cells;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::predicates::BallInSpace;
+use crate::predicates::PointArray;
 
 /// Computes Voronoi facets.
 pub(super) struct Voronoi<'t, G: Moving> {
@@ -21,7 +21,7 @@ pub(super) struct Voronoi<'t, G: Moving> {
     pub(super) cells: &'t Cells<G>,
     pub(super) centres: &'t Centres<'t, G::Point>,
     pub(super) ring: EdgeRing,
-    pub(super) facet: CutFacet,
+    pub(super) facet: CutFacet<Ball<G>>,
 }
 
 impl<'t, G: Moving> Voronoi<'t, G> {
@@ -69,12 +69,12 @@ impl<G: Moving> MovingTriangulation<G> {
     }
 
     /// A vertex, in the plane at height 0.
-    pub(super) fn ball(&self, v: VertexId) -> BallInSpace {
-        ball::<G>(&self.mesh.kernel.site(self.mesh.site_of[v]).point)
+    pub(super) fn ball(&self, v: VertexId) -> Ball<G> {
+        self.mesh.kernel.site(self.mesh.site_of[v]).point.in_space()
     }
 
     /// The weight of a vertex, 0 if there are none.
     pub(super) fn weight(&self, v: VertexId) -> f64 {
-        weight_of::<G>(&self.mesh.kernel.site(self.mesh.site_of[v]).point)
+        if G::HAS_WEIGHTS { self.mesh.kernel.site(self.mesh.site_of[v]).point[G::D] } else { 0.0 }
     }
 }

@@ -177,7 +177,8 @@ impl<G: Moving> MovingTriangulation<G> {
         };
         let nothing = |x| {
             let row = of_space::<G>(&[x; 3]);
-            VoronoiFacet { area: x, centroid: nowhere::<G>(), derivatives: [row; 2], weight_derivative: x }
+            let weight_derivative = f64::NAN;
+            VoronoiFacet { area: x, centroid: nowhere::<G>(), derivatives: [row; 2], weight_derivative }
         };
         let (there, own) = (plain.edges()?, self.edges()?);
         let mut facets = Vec::new();

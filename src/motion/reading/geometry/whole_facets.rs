@@ -56,10 +56,14 @@ impl FacetMeasures {
 }
 
 /// The derivative of the volume of the cell of an edge's end by the weight of the other one, from the measure of the
-/// facet and the length of the edge.
+/// facet and the length of the edge; NaN if there are no weights.
 #[inline(always)]
-pub(super) fn by_weight(measure: f64, length: f64) -> f64 {
-    if measure == 0.0 { 0.0 } else { -0.5 * (measure / length) }
+pub(super) fn by_weight<G: Moving>(measure: f64, length: f64) -> f64 {
+    match measure {
+        _ if !G::HAS_WEIGHTS => f64::NAN,
+        0.0 => 0.0,
+        measure => -0.5 * (measure / length),
+    }
 }
 
 /// Sums over triangles of a facet, with lengths in some unit.
@@ -150,7 +154,7 @@ impl<G: Moving> Voronoi<'_, G> {
             measure: without_unit(unit, G::D - 1, measure),
             centroid,
             derivatives,
-            weight_derivative: without_unit(unit, G::D - 2, by_weight(measure, length)),
+            weight_derivative: without_unit(unit, G::D - 2, by_weight::<G>(measure, length)),
         })
     }
 

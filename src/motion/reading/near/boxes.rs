@@ -95,9 +95,13 @@ impl<G: Moving> MovingTriangulation<G> {
         let mut found = IndexSet::new();
         for &cell in cells.iter().filter(|&&cell| !kernel.complex().cell(cell).is_ghost()) {
             let corners = kernel.complex().cell(cell).corners;
-            let sites = corners.as_ref().iter().copied().chain(kernel.sites_above(cell));
-            for s in sites.filter(|&s| wanted.has(&kernel.site(s).point)) {
+            for &s in corners.as_ref().iter().filter(|&&s| wanted.has(&kernel.site(s).point)) {
                 found.insert(s)?;
+            }
+            if G::HAS_WEIGHTS {
+                for s in kernel.sites_above(cell).filter(|&s| wanted.has(&kernel.site(s).point)) {
+                    found.insert(s)?;
+                }
             }
         }
         self.vertices_at(found.as_slice().iter().copied())

@@ -62,8 +62,13 @@ impl<G: Moving> MovingTriangulation<G> {
         memory::enter(&mut waiting, WaitingCell { least: 0.0, cell: first })?;
         while let Some(next) = waiting.pop().filter(|next| next.least <= most) {
             let cell = kernel.complex().cell(next.cell);
-            for s in cell.corners.as_ref().iter().copied().chain(kernel.sites_above(next.cell)) {
+            for &s in cell.corners.as_ref() {
                 if sites.insert(s)? {
+                    most = told(s)?;
+                }
+            }
+            if G::HAS_WEIGHTS {
+                for s in kernel.sites_above(next.cell) {
                     most = told(s)?;
                 }
             }

@@ -299,7 +299,8 @@ impl<G: Moving> MovingTriangulation<G> {
         let is_as_near = |&s: &SiteId| self.compare(q, s, best) == Ordering::Equal;
         let best = if G::HAS_WEIGHTS && sites().filter(is_as_near).nth(1).is_some() {
             let hidden = self.mesh.kernel.hidden_without_cells()?;
-            self.nearest_of(q, sites().filter(|s| !hidden.contains(s))).expect("not all are hidden")
+            self.nearest_of(q, sites().filter(|s| hidden.binary_search(s).is_err()))
+                .expect("not all are hidden")
         } else {
             best
         };

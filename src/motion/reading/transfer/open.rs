@@ -108,7 +108,8 @@ impl<G: Moving> MovingTriangulation<G> {
         if self.cell_count() == 0 {
             return Ok(None);
         }
-        let slot = kernel.site(self.present_site("vertex", 0, vertex)?).cell;
+        let s = self.present_site("vertex", 0, vertex)?;
+        let slot = if kernel.is_hidden(s) { kernel.cell_below(s) } else { kernel.site(s).cell };
         let around = kernel.complex().cell(slot);
         let finite = if around.is_ghost() { around.neighbour(G::D).cell() } else { slot };
         Ok(Some(cells.index_of()[finite]))
