@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 class Picture {
 public:
@@ -26,9 +27,11 @@ public:
     }
 
     // Filled by a value from 0 to 1.
-    void triangle(double value, const double *a, const double *b, const double *c) {
+    void triangle(double value, const double *a, const double *b, const double *c) { polygon(value, {a, b, c}); }
+
+    void polygon(double value, const std::vector<const double *> &corners) {
         const double shade = std::floor(value * n_shades);
-        fills_[static_cast<std::size_t>(std::clamp(shade, 0.0, n_shades - 1.0))] += lines({a, b, c}) + 'z';
+        fills_[static_cast<std::size_t>(std::clamp(shade, 0.0, n_shades - 1.0))] += lines(corners) + 'z';
     }
 
     void segment(const double *a, const double *b) { strokes_ += lines({a, b}); }
@@ -61,7 +64,7 @@ private:
     }
 
     // From the first point on by differences, which are shorter.
-    std::string lines(std::initializer_list<const double *> points) const {
+    std::string lines(const std::vector<const double *> &points) const {
         std::string path;
         std::pair<long, long> last{0, 0};
         for (const double *point : points) {

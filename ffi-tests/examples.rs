@@ -54,6 +54,15 @@ fn voronoi_volumes_add_up_and_give_densities() {
 
 #[test]
 #[ignore = "needs Eigen and pkg-config"]
+fn power_cells_have_the_areas_that_are_wanted() {
+    let said = run("transport", "examples/transport.cpp", &["500"], true);
+    let number = |before: &str| number_after(before, &said);
+    assert!(number("areas within ") < 1e-6 && number("sum of areas within ") < 1e-12, "{said}");
+    assert!(number("mean after ") < 20.0, "{said}");
+}
+
+#[test]
+#[ignore = "needs Eigen and pkg-config"]
 fn a_gas_of_voronoi_cells_comes_to_rest() {
     let said = run("gas", "examples/gas.cpp", &["196", "900"], true);
     let number = |before: &str| number_after(before, &said);
