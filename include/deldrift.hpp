@@ -95,6 +95,24 @@ public:
                                             vectors.data(), count_of("vectors", vectors), &options, &t));
         t_.reset(t);
     }
+    // Of vertices with weights, a number for each: the regular triangulation. keys: one for each, or none.
+    //     const std::vector<double> squared_radii = radii_of(atoms);
+    //     deldrift::Triangulation t(3, centres, deldrift::Weights(squared_radii));
+    Triangulation(std::uint32_t dimension, const Positions &positions, Weights weights,
+                  const deldrift_options &options = default_options())
+        : Triangulation(dimension, positions, weights, span<const std::uint64_t>{}, options) {}
+    Triangulation(std::uint32_t dimension, const Positions &positions, Weights weights, span<const std::uint64_t> keys,
+                  const deldrift_options &options = default_options())
+        : dimension_(dimension) {
+        deldrift_triangulation *t = nullptr;
+        const span<const double> numbers = gathered(positions);
+        const std::size_t count = count_of("positions", numbers);
+        expect("weights", weights.numbers.size(), count);
+        if (!keys.empty()) expect("keys", keys.size(), count);
+        require_ok(deldrift_create_weighted(dimension, numbers.data(), weights.numbers.data(),
+                                            keys.empty() ? nullptr : keys.data(), count, &options, &t));
+        t_.reset(t);
+    }
     // Takes over what deldrift_create has made.
     explicit Triangulation(deldrift_triangulation *t) : t_(t) { require_ok(deldrift_dimension(t, &dimension_)); }
 
@@ -230,6 +248,41 @@ public:
         deldrift_commit_report report;
         require_change(deldrift_commit_positions(native(), numbers.data(), count_of("positions", numbers), &report));
         return report;
+    }
+    // Of vertices with weights. weights: those of the first ids, as many as there are, or of the ids in vertices. Staged
+    // insertions may be among them: without this they have weight 0.
+    void stage_weights(span<const double> weights) {
+        require_ok(deldrift_stage_weights(native(), nullptr, weights.data(), weights.size()));
+    }
+    void stage_weights(span<const std::uint32_t> vertices, span<const double> weights) {
+        expect("weights", weights.size(), vertices.size());
+        require_ok(deldrift_stage_weights(native(), vertices.data(), weights.data(), vertices.size()));
+    }
+    // Those of all ids, as for commit_positions(). None of positions, or of weights: these stay.
+    //     const deldrift_commit_report report = t.commit_weighted({}, weights);
+    //     if (report.newly_hidden > 0) shorten(step);
+    deldrift_commit_report commit_weighted(const Positions &positions, span<const double> weights) {
+        const span<const double> numbers = gathered(positions);
+        std::size_t count = id_count();
+        if (!numbers.empty()) count = count_of("positions", numbers);
+        if (!weights.empty()) {
+            if (!numbers.empty()) expect("weights", weights.size(), count);
+            count = weights.size();
+        }
+        deldrift_commit_report report;
+        require_ok(deldrift_commit_weighted(native(), numbers.empty() ? nullptr : numbers.data(),
+                                            weights.empty() ? nullptr : weights.data(), count, &report));
+        return report;
+    }
+    // At once, without a commit.
+    void set_weight(std::uint32_t vertex, double weight) { require_ok(deldrift_set_weight(native(), vertex, weight)); }
+    bool is_weighted() const { return ask<bool>(deldrift_is_weighted); }
+    // By id; NaN for removed vertices.
+    std::vector<double> weights() const {
+        std::size_t count = id_count();
+        std::vector<double> weights(count);
+        require_ok(deldrift_weights(native(), weights.data(), count, &count));
+        return weights;
     }
     // For the next commit; returns the id of the first one, which those of the others follow.
     std::uint32_t stage_insertions(const Positions &positions) {
@@ -864,6 +917,24 @@ public:
             facets.derivatives.data(), edges, &edges));
         return {std::move(cells), std::move(facets)};
     }
+    // What Newton's method needs that looks for weights with which cells have prescribed volumes.
+    VoronoiWeightDerivatives voronoi_weight_derivatives(span<const double> low = {}, span<const double> high = {},
+                                                        const Positions &half_spaces = {},
+                                                        span<const std::uint8_t> mask = {}) const {
+        std::vector<double> room;
+        const span<const double> numbers = half_spaces.rows("half_spaces", dimension_ + 1, room);
+        const std::size_t rows = numbers.size() / (dimension_ + 1);
+        expect("half_spaces", numbers.size(), rows * (dimension_ + 1));
+        std::size_t count = id_count(), edges = 0;
+        require_ok(deldrift_edges(native(), nullptr, 0, &edges));
+        const double nan = std::numeric_limits<double>::quiet_NaN();
+        VoronoiWeightDerivatives made{std::vector<double>(count, nan), std::vector<double>(edges, nan)};
+        require_ok(deldrift_voronoi_weight_derivatives(native(), corner("low", low), corner("high", high),
+                                                       numbers.data(), rows, mask.empty() ? nullptr : mask.data(),
+                                                       mask.size(), made.volumes.data(), count, &count,
+                                                       made.derivatives.data(), edges, &edges));
+        return made;
+    }
     // values: n_values numbers for each id. outside: those of positions outside the hull, NaN if there are none.
     std::vector<double> interpolate(deldrift_interpolation method, span<const double> values, std::size_t n_values,
                                     const Positions &positions, span<const double> outside = {},
@@ -1029,6 +1100,14 @@ public:
         Hidden hidden{std::vector<std::uint32_t>(count), std::vector<std::uint32_t>(count)};
         require_ok(deldrift_hidden_vertices(native(), hidden.vertices.data(), hidden.representatives.data(), count,
                                             &count));
+        return hidden;
+    }
+    // Vertices that are corners of no cell, as the weights of others are greater.
+    HiddenByWeight hidden_by_weight() const {
+        std::size_t count = 0;
+        require_ok(deldrift_hidden_by_weight(native(), nullptr, nullptr, 0, &count));
+        HiddenByWeight hidden{std::vector<std::uint32_t>(count), std::vector<std::uint32_t>(count)};
+        require_ok(deldrift_hidden_by_weight(native(), hidden.vertices.data(), hidden.cells.data(), count, &count));
         return hidden;
     }
     std::uint32_t coincident_representative(std::uint32_t vertex) const {

@@ -217,7 +217,6 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     uint64_t timestamp;
     bool present, is_weighted;
     double position[3];
-    deldrift_commit_report report;
     deldrift_triangulation *const weighted = weighted_of(&s);
     deldrift_released_cells *const owner = released_cells(s.t);
     scene refined = make_scene(2, (call){COARSEN, DELDRIFT_AUTO, 0}, &SETTINGS[0]);

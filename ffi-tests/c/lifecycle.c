@@ -18,7 +18,7 @@ static void every_status_has_a_text_of_its_own(void) {
                          deldrift_status_string((deldrift_status)other)) != 0);
         }
     }
-    CHECK(strcmp(deldrift_status_string((deldrift_status)(DELDRIFT_UNDECIDED_REGIONS + 1)), "unknown status") == 0);
+    CHECK(strcmp(deldrift_status_string((deldrift_status)(DELDRIFT_NOT_WEIGHTED + 1)), "unknown status") == 0);
     CHECK(strcmp(deldrift_status_string((deldrift_status)UINT32_MAX), "unknown status") == 0);
 }
 

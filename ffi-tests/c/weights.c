@@ -382,6 +382,49 @@ static void equal_weights_are_none(uint32_t d) {
     free(positions);
 }
 
+// Power cells fill a box, whatever the weights; their derivatives by weights are what differences say, and a sum of nothing.
+static void cells_follow_weights(uint32_t d) {
+    enum { N = 40, EDGES = 12 * N };
+    static const double low[] = {-1, -1, -1}, high[] = {2, 2, 2};
+    double *positions = random_positions(d, N, 11), weights[N], volumes[N], others[N], by_weight[EDGES];
+    uint64_t state = 5;
+    for (int v = 0; v < N; v++) weights[v] = 0.06 * next_random(&state);
+    deldrift_triangulation *t;
+    OK(deldrift_create_weighted(d, positions, weights, NULL, N, NULL, &t));
+    uint32_t edges[2 * EDGES];
+    size_t n, n_edges, n_hidden;
+    OK(deldrift_edges(t, edges, EDGES, &n_edges));
+    OK(deldrift_hidden_by_weight(t, NULL, NULL, 0, &n_hidden));
+    CHECK(n_hidden > 0);
+    OK(deldrift_voronoi_weight_derivatives(t, low, high, NULL, 0, NULL, 0, volumes, N, &n, by_weight, EDGES, &n_edges));
+    double sum = 0, whole = d == 2 ? 9 : 27;
+    size_t n_empty = 0;
+    for (int v = 0; v < N; v++) {
+        sum += volumes[v];
+        n_empty += volumes[v] == 0;
+    }
+    CHECK(fabs(sum - whole) < 1e-6 && n_empty == n_hidden);
+    // A step so small that no cell changes its neighbours, and so large that it is seen.
+    const double step = 1e-6;
+    for (uint32_t v = 0; v < N; v += 7) {
+        if (volumes[v] == 0) continue;
+        OK(deldrift_set_weight(t, v, weights[v] + step));
+        OK(deldrift_voronoi_volumes(t, low, high, others, N, &n));
+        OK(deldrift_set_weight(t, v, weights[v]));
+        double own = 0;
+        for (size_t e = 0; e < n_edges; e++) {
+            const uint32_t *ends = edges + 2 * e;
+            if (ends[0] != v && ends[1] != v) continue;
+            const uint32_t other = ends[ends[0] == v];
+            CHECK(by_weight[e] <= 0 && fabs((others[other] - volumes[other]) / step - by_weight[e]) < 1e-2);
+            own -= by_weight[e];
+        }
+        CHECK(own > 0 && fabs((others[v] - volumes[v]) / step - own) < 1e-2);
+    }
+    deldrift_destroy(t);
+    free(positions);
+}
+
 // Two vertices at one place are refused where the options say so, of whatever weights.
 static void coincidence_is_refused(uint32_t d) {
     deldrift_options options;
@@ -417,6 +460,7 @@ int main(void) {
     for (uint32_t d = 2; d <= 3; d++) {
         equal_weights_are_none(d);
         coincidence_is_refused(d);
+        cells_follow_weights(d);
         for (size_t a = 0; a < sizeof algorithms / sizeof *algorithms; a++) {
             for (int kind = 0; kind < 3; kind++) {
                 for (uint64_t seed = 1; seed <= 4; seed++) n_hidden += live(d, algorithms[a], kind, seed * 1000 + a);

@@ -35,7 +35,7 @@ impl Header {
                 config.sys_includes = ["stdbool.h", "stddef.h", "stdint.h"].map(String::from).into();
                 config.after_includes = Some(version());
             }
-            Some(_) => config.includes = vec![CORE.to_string()],
+            Some(_) => config.includes = [CORE].into_iter().chain(self.also).map(String::from).collect(),
             None => config.header = config.header.map(|page| page.trim().to_string()),
         }
         let mut builder = cbindgen::Builder::new().with_config(config);

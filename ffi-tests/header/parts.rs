@@ -9,6 +9,8 @@ pub struct Header {
     /// What it has, for the first lines of the header and for the index of deldrift.h. The header for comparisons is not
     /// a part of deldrift.h, and has a first page of its own in its configuration.
     pub subject: Option<&'static str>,
+    /// Another part, of which it uses types.
+    pub also: Option<&'static str>,
     /// Files of src/capi, in the order in which the header shows them.
     pub sources: &'static [&'static str],
     /// The enumeration of algorithms, where the header has it.
@@ -65,12 +67,16 @@ pub const HEADERS: [Header; 10] = [
         &["segments", "splitting", "domain", "regions", "refining"],
     ),
     part("include/deldrift/periodic.h", "Periodic boxes.", &["periodic"]),
-    part("include/deldrift/weights.h", "Vertices with weights: regular triangulations.", &["weights"]),
+    Header {
+        also: Some("motion.h"),
+        ..part("include/deldrift/weights.h", "Vertices with weights: regular triangulations.", &["weights"])
+    },
     part("include/deldrift/files.h", "Copies, saved data, and files for other programs.", &["saving"]),
     Header {
         path: "include/deldrift/research.h",
         configuration: "ffi-tests/header/research.toml",
         subject: None,
+        also: None,
         sources: &["research"],
         algorithms: Some(Algorithms {
             name: "deldrift_research_algorithm",
@@ -81,7 +87,8 @@ pub const HEADERS: [Header; 10] = [
 ];
 
 const fn part(path: &'static str, subject: &'static str, sources: &'static [&'static str]) -> Header {
-    Header { path, configuration: "cbindgen.toml", subject: Some(subject), sources, algorithms: None }
+    let configuration = "cbindgen.toml";
+    Header { path, configuration, subject: Some(subject), also: None, sources, algorithms: None }
 }
 
 /// The headers that declare functions, in the order of deldrift.h.

@@ -43,10 +43,23 @@ struct Lists {
     }
 };
 
-// Vertices at the place of others, and those: see deldrift_hidden_vertices.
+// Vertices at the place of others, which represent them: see deldrift_hidden_vertices.
 struct Hidden {
     std::vector<std::uint32_t> vertices;
     std::vector<std::uint32_t> representatives;
+    std::size_t size() const noexcept { return vertices.size(); }
+};
+
+// A number for each vertex; see deldrift_create_weighted.
+struct Weights {
+    explicit Weights(span<const double> of) noexcept : numbers(of) {}
+    span<const double> numbers;
+};
+
+// Vertices that heavier ones hide, and the cell that each is above: see deldrift_hidden_by_weight.
+struct HiddenByWeight {
+    std::vector<std::uint32_t> vertices;
+    std::vector<std::uint32_t> cells;
     std::size_t size() const noexcept { return vertices.size(); }
 };
 
@@ -65,6 +78,13 @@ struct VoronoiDerivatives {
     // Rows of coordinates.
     std::vector<double> centroids;
     // Two rows of coordinates for each edge.
+    std::vector<double> derivatives;
+};
+
+// Volumes of Voronoi cells by vertex id, and for each edge the derivative of that of either end by the weight of the
+// other one: see deldrift_voronoi_weight_derivatives. NaN where a mask has 0.
+struct VoronoiWeightDerivatives {
+    std::vector<double> volumes;
     std::vector<double> derivatives;
 };
 

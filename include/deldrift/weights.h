@@ -26,6 +26,7 @@
 #define DELDRIFT_WEIGHTS_H
 
 #include "core.h"
+#include "motion.h"
 
 #ifdef __cplusplus
 extern "C" {

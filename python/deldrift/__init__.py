@@ -1,7 +1,8 @@
 """Exact Delaunay triangulations of moving points, in 2D and 3D.
 
 `Delaunay` has the attributes and methods of `scipy.spatial.Delaunay`; its points may move, be inserted and be removed.
-In the plane it takes segments, which stay edges; `Mesh` is the mesh of a domain within segments, which may move.
+In the plane it takes segments, which stay edges; `Mesh` is the mesh of a domain within segments, which may move. The
+points of `Regular` have weights.
 
 Examples
 --------
@@ -40,6 +41,7 @@ from ._errors import (
     NoSuchSimplex,
     NoSuchVertex,
     NotFinite,
+    NotWeighted,
     OutOfMemory,
     OutOfRange,
     PassingError,
@@ -48,15 +50,17 @@ from ._errors import (
     StagedVertex,
     TooMany,
     UndecidedRegions,
+    Weighted,
     WrongCount,
 )
-from ._geometry import VoronoiCells, VoronoiDerivatives
+from ._geometry import VoronoiCells, VoronoiDerivatives, VoronoiWeightDerivatives
 from ._measured import Boundary
 from ._library import QualityReport, Report, version
 from ._mesh import Mesh
 from ._motion import Changes
 from ._periodic import PeriodicDelaunay, PeriodicLocations
 from ._refining import MadeVertices, RefinedWeights
+from ._regular import HiddenByWeight, Regular, WeightedStep
 from ._segments import Chains, Regions, Segments, Splits
 from ._step import Step, Trial
 from ._transferring import Transfer
@@ -79,6 +83,7 @@ __all__ = [
     "DuplicateMove",
     "Error",
     "FileError",
+    "HiddenByWeight",
     "InternalError",
     "Invalid",
     "InvalidData",
@@ -95,6 +100,7 @@ __all__ = [
     "NoSuchSimplex",
     "NoSuchVertex",
     "NotFinite",
+    "NotWeighted",
     "OutOfMemory",
     "OutOfRange",
     "PassingError",
@@ -104,6 +110,7 @@ __all__ = [
     "QualityReport",
     "RefinedWeights",
     "Regions",
+    "Regular",
     "RemovedVertex",
     "Report",
     "Segments",
@@ -116,6 +123,9 @@ __all__ = [
     "UndecidedRegions",
     "VoronoiCells",
     "VoronoiDerivatives",
+    "VoronoiWeightDerivatives",
+    "Weighted",
+    "WeightedStep",
     "WrongCount",
     "frombytes",
     "in_power_sphere",

@@ -114,6 +114,9 @@ class Asking(Scipy):
     def representative(self, vertex: int) -> int:
         """The vertex of the lowest key, and then of the lowest id, at the place of one: the corner of simplices there.
 
+        Of `Regular` it is that of the greatest weight, and of these the one of the lowest key. It may be hidden by
+        weight.
+
         Parameters
         ----------
         vertex : int

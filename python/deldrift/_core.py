@@ -189,6 +189,10 @@ class Core:
     """The number of dimensions, 2 or 3."""
     is_periodic = False
     """Whether points repeat."""
+    is_weighted = False
+    """Whether points have weights."""
+    # What data with weights become where this class would be made of them, if it would.
+    _weighted_kind: Optional[type] = None
 
     def _start(
         self, handle: Handle, ndim: int, division: Division, coincidence: str, passing: str, callbacks: Optional[Callbacks]

@@ -64,11 +64,11 @@ class InvalidValue(Error, ValueError):
 
 
 class NotFinite(Error, ValueError):
-    """A coordinate is NaN or infinite."""
+    """A coordinate, or a weight, is NaN or infinite."""
 
 
 class OutOfRange(Error, ValueError):
-    """A coordinate is of a magnitude above 1e57."""
+    """A coordinate is of a magnitude above 1e57, or a weight of one above 1e114."""
 
 
 class WrongCount(Error, ValueError):
@@ -117,6 +117,14 @@ class AmbiguousSeed(Error, ValueError):
 
 class UndecidedRegions(Error, RuntimeError):
     """The sides of a region have no label, or several, where refinement goes by them: see `Delaunay.regions`."""
+
+
+class Weighted(Error, RuntimeError):
+    """The vertices have weights, and the call is not for such: see `Regular`."""
+
+
+class NotWeighted(Error, RuntimeError):
+    """The vertices have no weights, and the call is for those that have: see `Regular`."""
 
 
 class ConflictKind(enum.IntEnum):
@@ -242,8 +250,16 @@ KINDS = {
     39: InvalidValue,
     40: ChangesNotTaken,
     41: UndecidedRegions,
+    42: Weighted,
+    43: NotWeighted,
 }
 """Classes by deldrift_status. What is not here comes of a defect, as a pointer of this package that is NULL."""
+
+MESSAGES = {
+    42: "the points have weights, and this is for points without alone: see Regular",
+    43: "the points have no weights, and this is for points with weights: see Regular",
+}
+"""What is said of statuses whose messages name what Python has no name for."""
 
 # "positions[12], coordinate 1, is inf", "cells[3] is 99, but ...", "squared_radius is -1", "quality.sizes[3] is 0"
 PLACE = re.compile(
@@ -274,7 +290,7 @@ def entry(flat: int, shape: tuple[int, ...]) -> tuple[str, Index]:
 
 def raise_for(status: int, names: Mapping[str, Name]) -> None:
     """Raises the exception for a status, with the arguments of C named as those of Python."""
-    message = _library.last_error()
+    message = MESSAGES.get(status) or _library.last_error()
     place = PLACE.match(message)
     kind = KINDS.get(status, InternalError)
     if place is None:

@@ -20,6 +20,7 @@ _voronoi_facets = _library.function("voronoi_facets")
 _voronoi_cells_within = _library.function("voronoi_cells_within")
 _voronoi_derivatives_within = _library.function("voronoi_derivatives_within")
 _voronoi_cells_and_facets = _library.function("voronoi_cells_and_facets")
+_voronoi_weight_derivatives = _library.function("voronoi_weight_derivatives")
 
 
 class VoronoiCells(NamedTuple):
@@ -43,6 +44,16 @@ class VoronoiDerivatives(NamedTuple):
     derivatives: np.ndarray
     """For the edge of i and j the derivative of the volume of the cell of i by the position of j, and that of the cell
     of j by the position of i: of shape (edges, 2, ndim)."""
+
+
+class VoronoiWeightDerivatives(NamedTuple):
+    """Areas or volumes of Voronoi cells, and their derivatives by weights."""
+
+    volumes: np.ndarray
+    """By vertex id: 0 for hidden vertices, NaN for removed ones."""
+    derivatives: np.ndarray
+    """For each edge, in the order of `edges`, the derivative of the area or volume of either end by the weight of the
+    other one. The derivative by the own weight is minus the sum over the edges of the vertex."""
 
 
 class Geometry(Measured, Scipy):
@@ -223,6 +234,51 @@ class Geometry(Measured, Scipy):
             walls = address_if(low), address_if(high), address(planes), len(planes)
             return cells_and_facets(self._check, t, self.ndim, walls, chosen)
 
+    def voronoi_weight_derivatives(
+        self, box: Any = None, mask: Any = None, *, half_spaces: Any = None
+    ) -> VoronoiWeightDerivatives:
+        """Areas or volumes of the Voronoi cells, and their derivatives by weights.
+
+        With these Newton's method finds weights for which cells have prescribed volumes. Cells of `Regular` are power
+        cells; without weights derivatives are those at equal ones.
+
+        Parameters
+        ----------
+        box : (array_like, array_like), optional
+            As for `voronoi_cells`.
+        mask : array_like of bool, optional
+            Ids of which the cells are asked for, and edges with an end there; all are by default. The others get NaN.
+        half_spaces : array_like, (n, ndim + 1), optional
+            As for `voronoi_cells`.
+
+        Returns
+        -------
+        VoronoiWeightDerivatives
+            Volumes by id, and a derivative for each edge.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Regular([[1, 1], [3, 1], [1, 3], [3, 3]], [0.5, 0, 0, 0])
+        >>> tri.voronoi_weight_derivatives(box=([0, 0], [4, 4])).volumes.tolist()
+        [4.5078125, 3.75, 3.75, 3.9921875]
+        """
+        low, high = box_corners(box, self.ndim)
+        planes = half_space_rows(half_spaces, self.ndim)
+        chosen = None if mask is None else mask_of("mask", mask)
+        with self._reading as t:
+            walls = address_if(low), address_if(high), address(planes), len(planes)
+            return weight_derivatives(self._check, t, walls, chosen)
+
+
+def weight_derivatives(check: Any, t: Any, walls: tuple[Any, ...], chosen: Any) -> VoronoiWeightDerivatives:
+    """Volumes and their derivatives, within walls, of a mask of vertices or of all."""
+    n, n_edges = id_count(t), count_of(lambda t, count: _edges(t, None, 0, count), t)
+    given = vertex_mask(chosen, n)
+    made = VoronoiWeightDerivatives(np.full(n, np.nan), np.full(n_edges, np.nan))
+    to = address(made.volumes), n, ctypes.c_size_t(), address(made.derivatives), n_edges, ctypes.c_size_t()
+    check(_voronoi_weight_derivatives(t, *walls, *given, *to))
+    return made
 
 
 def cells_and_facets(

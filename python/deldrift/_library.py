@@ -84,7 +84,7 @@ class Report(Counts):
     rebuilds : int
         1 if the triangulation was rebuilt; in `Delaunay.statistics` how often.
     coincident : int
-        Hidden vertices at the end: those at the place of a vertex with a lower id.
+        Vertices hidden by place at the end: those at the place of a vertex with a lower id, or greater weight.
     within_tolerance : int
         Vertices that were certainly within their tolerance, with an algorithm that tests it.
     tolerances : int
@@ -95,6 +95,14 @@ class Report(Counts):
         Signs that floating-point filters left to exact arithmetic.
     inserted, removed : int
         Vertices inserted and removed.
+    reweighted : int
+        Vertices of `Regular` whose weight differs from that of the timestamp before.
+    hidden_by_weight : int
+        Vertices hidden by weight at the end; `Regular.hidden_by_weight` lists them.
+    newly_hidden : int
+        Vertices of `Regular` that are hidden at the end, by weight or by place, and were not.
+    newly_shown : int
+        Vertices of `Regular` that were hidden, and are there at the end and not hidden.
     """
 
     timestamp: int
@@ -110,12 +118,16 @@ class Report(Counts):
     exact_calls: int
     inserted: int
     removed: int
+    reweighted: int
+    hidden_by_weight: int
+    newly_hidden: int
+    newly_shown: int
 
     _fields_ = [
         (name, c_uint64)
         for name in (
             "timestamp moved unchanged placements flips rebuilds coincident within_tolerance tolerances certificates "
-            "exact_calls inserted removed"
+            "exact_calls inserted removed reweighted hidden_by_weight newly_hidden newly_shown"
         ).split()
     ] + [("_reserved", c_uint64 * 3)]
 
@@ -361,6 +373,13 @@ PROTOTYPES = {
     "update_circumcentres": (T, A, N, A, A, N),
     "update_volumes": (T, A, N, A, N),
     "update_mask_by_circumradius": (T, A, N, F64, A, N),
+    "create_weighted": (U32, A, A, A, N, POINTER(Options), POINTER(T)),
+    "is_weighted": (T, POINTER(c_bool)),
+    "weights": (T, A, N, C),
+    "stage_weights": (T, A, A, N),
+    "commit_weighted": (T, A, A, N, POINTER(Report)),
+    "set_weight": (T, U32, F64),
+    "hidden_by_weight": (T, A, A, N, C),
     "create_periodic": (U32, A, N, A, N, POINTER(Options), POINTER(T)),
     "stage_vectors": (T, A, N),
     "vectors": (T, A, N, C),
@@ -375,6 +394,7 @@ PROTOTYPES = {
     "voronoi_cells_within": (T, A, A, A, N, A, N, A, A, A, N, C),
     "voronoi_derivatives": (T, A, A, A, N, A, A, A, N, C),
     "voronoi_derivatives_within": (T, A, A, A, N, A, N, A, A, A, N, C),
+    "voronoi_weight_derivatives": (T, A, A, A, N, A, N, A, N, C, A, N, C),
     "voronoi_cells_and_facets": (T, A, A, A, N, A, N, A, A, A, N, C, A, A, A, N, C),
     "interpolate": (T, U32, A, N, N, A, N, A, A, A),
     "clone": (T, POINTER(T)),

@@ -19,6 +19,7 @@ _discard_moves = _library.function("discard_moves")
 _load = _library.function("load")
 _load_file = _library.function("load_file")
 _vectors = _library.function("vectors")
+_is_weighted = _library.function("is_weighted")
 
 Kind = TypeVar("Kind", bound=Core)
 
@@ -50,6 +51,10 @@ def made(
             "make others",
             name,
         )
+    is_weighted = ctypes.c_bool()
+    check(_is_weighted(handle.pointer, is_weighted))
+    if is_weighted.value and not kind.is_weighted and kind._weighted_kind is not None:
+        kind = kind._weighted_kind
     check(_discard_moves(handle.pointer))
     ndim = ctypes.c_uint32()
     check(_dimension(handle.pointer, ndim))

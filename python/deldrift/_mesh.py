@@ -524,7 +524,8 @@ class Mesh(MeshCells):
 
 def _joined(segments: np.ndarray, vertices: np.ndarray) -> np.ndarray:
     """One number for each pair of a segment and a vertex."""
-    return segments.astype(np.int64) << 32 | vertices
+    joined: np.ndarray = segments.astype(np.int64) << 32 | vertices
+    return joined
 
 
 def _without_degenerate(rows: np.ndarray, segments: Any, markers: Any) -> tuple[np.ndarray, Any]:

@@ -53,7 +53,7 @@ class Changes(NamedTuple):
     stars: np.ndarray
     """Vertices of created and removed simplices, ascending."""
     hidden: np.ndarray
-    """Vertices that a vertex of lower id at the same place hides, and did not before."""
+    """Vertices that are hidden and were not: by one of lower id at the same place, or, of `Regular`, by weight."""
     shown: np.ndarray
     """Vertices that were hidden and are not."""
 

@@ -13,7 +13,8 @@ from ._arrays import mask as mask_of, one_id, places, points as point_rows
 from ._callbacks import calling
 from ._core import cell_count, check, count_of, fixed, id_count, make_options
 from ._errors import WrongCount
-from ._geometry import VoronoiCells, VoronoiDerivatives, cells_and_facets, vertex_mask
+from ._geometry import VoronoiCells, VoronoiDerivatives, VoronoiWeightDerivatives, cells_and_facets, vertex_mask
+from ._geometry import weight_derivatives
 from ._library import Report
 from ._loading import given_callbacks, made, of_bytes, of_file
 from ._measured import Measured
@@ -620,6 +621,32 @@ class PeriodicDelaunay(Near, Measured, Meeting, Transferring, Writing):
         with self._reading as t:
             walls = address_if(low), address_if(high), address(planes), len(planes)
             return cells_and_facets(self._check, t, self.ndim, walls, chosen)
+
+    def voronoi_weight_derivatives(
+        self, mask: Any = None, *, box: Any = None, half_spaces: Any = None
+    ) -> VoronoiWeightDerivatives:
+        """Areas or volumes of the Voronoi cells, and their derivatives by weights, at equal ones.
+
+        Parameters
+        ----------
+        mask : array_like of bool, optional
+            Ids of which the cells are asked for, and edges with an end there; all are by default. The others get NaN.
+        box : (array_like, array_like), optional
+            Where walls are, as for `voronoi_cells`.
+        half_spaces : array_like, (n, ndim + 1), optional
+            Walls, as for `voronoi_cells`.
+
+        Returns
+        -------
+        VoronoiWeightDerivatives
+            Volumes by id, and a derivative for each edge.
+        """
+        low, high = box_corners(box, self.ndim)
+        planes = half_space_rows(half_spaces, self.ndim)
+        chosen = None if mask is None else mask_of("mask", mask)
+        with self._reading as t:
+            walls = address_if(low), address_if(high), address(planes), len(planes)
+            return weight_derivatives(self._check, t, walls, chosen)
 
     def move(self, points: Any = None, ids: Any = None, *, vectors: Any = None) -> Report:
         """Moves vertices, changes the box, or both, and makes that the next timestamp.

@@ -185,7 +185,7 @@ class Scipy(Near, Meeting):
 
     def _hyperplanes(self) -> np.ndarray:
         corners = self.lift_points(self.points)[self.simplices]
-        return fixed(_planes(corners))
+        return fixed(planes(corners))
 
     def plane_distance(self, xi: Any) -> np.ndarray:
         """How far lifted points are from the hyperplanes of the lifted simplices.
@@ -327,7 +327,7 @@ def _paraboloid(positions: np.ndarray) -> tuple[float, float]:
     return scale, float(-heights.min() * scale)
 
 
-def _planes(corners: np.ndarray) -> np.ndarray:
+def planes(corners: np.ndarray) -> np.ndarray:
     """The hyperplane of each row of corners: a unit normal whose last entry is negative, and an offset."""
     spans = corners[:, 1:] - corners[:, :1]
     width = corners.shape[2]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import functools
-from typing import Any, Iterator
+from typing import Any, Iterator, TypeVar
 
 import numpy as np
 
@@ -23,6 +23,8 @@ _commit_timestamp = _library.function("commit_timestamp")
 _prepare_timestamp = _library.function("prepare_timestamp")
 _publish_timestamp = _library.function("publish_timestamp")
 _withdraw_timestamp = _library.function("withdraw_timestamp")
+
+Opened = TypeVar("Opened", bound="Step")
 
 
 class _Exit:
@@ -91,7 +93,7 @@ class Step(_Block):
         # Whether the end of the block commits what is staged.
         self._is_kept = True
 
-    def __enter__(self) -> "Step":
+    def __enter__(self: Opened) -> Opened:
         owner = self._owner
         try:
             with owner._taking:

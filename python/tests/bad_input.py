@@ -1,7 +1,8 @@
 """Calls with wrong arguments, and the table of what comes of them: `python tests/bad_input.py` writes BAD_INPUT.md.
 
-Each call is evaluated with a triangulation `tri` of the plane that has the ids 0 to 6: vertex 5 is hidden by vertex 4,
-and vertex 6 has been removed. `bound` has segments around a square and one inside, and `mesh` is the mesh of the square.
+Each call is evaluated with a triangulation `tri` of the plane that has the ids 0 to 6: vertex 5 is hidden by vertex
+4, and vertex 6 has been removed. `bound` has segments around a square and one inside, and `mesh` is the mesh of the
+square. In `regular` vertex 4 is hidden by weight.
 """
 
 import pathlib
@@ -281,6 +282,7 @@ tri.voronoi_cells(([0, 0], [1, 1]), half_spaces=[[1, 0, nan]])
 tri.voronoi_cells(([0, 0], [1, 1]), half_spaces=[[1, 0, 1], [0, 0, 1]])
 tri.voronoi_derivatives(([0, 0], [0, 1]))
 tri.voronoi_cells_and_facets(([0, 0], [0, 1]))
+tri.voronoi_weight_derivatives(([0, 0], [0, 1]))
 tri.interpolate([1, 2], [[0, 0]])
 tri.interpolate(np.zeros(7), [[0, nan]])
 tri.interpolate(np.zeros(7), [[0, 0]], method="cubic")
@@ -300,6 +302,42 @@ tri.write_medit("file", [[1]])
 tri.write_medit("file", "a")
 bound.write_vtu("file", None, {"marker": np.zeros(bound.nsimplex)})
 space.plot()
+Regular([1, 2, 3])
+Regular(POINTS, [1, 2])
+Regular(POINTS, 3)
+Regular(POINTS, [[1, 2, 3]])
+Regular(POINTS, [1, 2, nan])
+Regular(POINTS, [1, inf, 2])
+Regular(POINTS, [1e115, 1, 2])
+Regular(POINTS, ["a", "b", "c"])
+Regular(POINTS, [1, 2, 1j])
+Regular(POINTS, np.ma.masked_all(3))
+Regular([[0, nan]], [1])
+Regular(POINTS, keys=[1])
+Regular([[0, 0], [1, 0], [0, 0]], coincidence="reject")
+regular.move()
+regular.move(ids=[1])
+regular.move(weights=[1])
+regular.move(POINTS, weights=[1, 2, 3])
+regular.move(weights=[0, 0, 0, 0, nan])
+regular.move(ids=[1, 7], weights=[1, 2])
+regular.move(ids=[1, 1], weights=[1, 2])
+regular.move(ids=[1], weights=[1, 2])
+regular.move([[0, 0]], ids=[1], weights=[1, 2])
+regular.move([[0, inf]], ids=[1], weights=[2])
+regular.set_weight(1, nan)
+regular.set_weight(1, 1e115)
+regular.set_weight(1, "a")
+regular.set_weight(9, 1)
+regular.add_points(POINTS, weights=[1])
+in_step(regular, lambda step: step.move(weights=[1]))
+in_step(regular, lambda step: step.move([[0, nan]], ids=[1], weights=[1]))
+in_step(regular, lambda step: step.insert(POINTS, weights=[1, 2]))
+in_step(regular, lambda step: step.insert(POINTS, weights=[1, 2, nan]))
+in_step(regular, lambda step: (step.remove([1]), step.move(ids=[1], weights=[1])))
+regular.add_segments([[0, 1]])
+regular.simplices_in_reach([0, 0], [1, 1])
+regular.refine()
 Mesh([[0, 0, 0]], [[0, 1]])
 Mesh([[0, 0], [1, nan]], [[0, 1]])
 Mesh(SQUARE, [[0, 9]])
@@ -362,7 +400,10 @@ def make():
     """What calls are made with, by name."""
     space = deldrift.Delaunay(np.vstack([np.zeros(3), np.eye(3)]))
     bound = deldrift.Delaunay(SQUARE, segments=AROUND + [[0, 2]])
-    return {"tri": make_tri(), "space": space, "bound": bound, "mesh": deldrift.Mesh(SQUARE, AROUND)}
+    regular = deldrift.Regular(SQUARE, [0, 0, 0, 0, -9])
+    return {
+        "tri": make_tri(), "space": space, "bound": bound, "regular": regular, "mesh": deldrift.Mesh(SQUARE, AROUND)
+    }
 
 
 def make_tri():
@@ -415,7 +456,7 @@ def page():
         "",
         "`tri` has the ids 0 to 6: vertex 5 is at the place of vertex 4, and vertex 6 has been removed. `space` is a",
         "tetrahedron. `bound` is a square `SQUARE` with the vertex 4 inside, segments `AROUND` it, and one from corner 0",
-        "to corner 2; `mesh` is the mesh of the square.",
+        "to corner 2; `mesh` is the mesh of the square. `regular` is `SQUARE` with the vertex 4 hidden by weight.",
         "",
         "| call | exception | message | argument, index, value |",
         "|---|---|---|---|",

@@ -47,6 +47,8 @@ def test_every_function_is_in_the_table():
     # Those without an error in the plane are called in space, and on what has segments.
     missing = [name for name in missing if f"space.{name}(" not in text and f"bound.{name}(" not in text]
     assert missing == []
+    methods = [(n, f) for n, f in vars(deldrift.Regular).items() if inspect.isfunction(f)]
+    assert [n for n, f in methods if n[0] != "_" and has_arguments(f) and f"regular.{n}(" not in text] == []
     methods = inspect.getmembers(deldrift.Mesh, inspect.isroutine)
     missing = [n for n, f in methods if n[0] != "_" and has_arguments(f) and f"mesh.{n}(" not in text.lower()]
     assert missing == []

@@ -73,6 +73,11 @@ try:
     tri.segments.ends.append(3)  # wrong: an array
 except deldrift.ConflictError as error:
     kind: deldrift.ConflictKind = error.kind
+regular = deldrift.Regular([[0, 0], [1, 0], [0, 1]], [1, 2, 3])
+shown: int = regular.move(weights=[3, 2, 1]).newly_shown
+with regular.step() as weighted:
+    heavy: np.ndarray = weighted.insert([[1.0, 1.0]], weights=[4.0])
+hidden: np.ndarray = regular.copy().hidden_by_weight.vertices
 mesh = deldrift.Mesh.from_triangle({"vertices": [[0, 0], [1, 0], [0, 1]], "segments": [[0, 1], [1, 2], [2, 0]]})
 part: float = mesh.advance([[0, 0]], ids=[0])
 mesh.labels.append(3)  # wrong: an array

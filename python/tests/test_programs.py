@@ -361,3 +361,21 @@ def test_adaptive_learns_with_it():
     ours.tri._tri.validate()
     assert ours.tri.simplices == as_sets(ours.tri._tri.simplices)
     assert ours.tri.reference_invariant()
+
+
+def test_buried_atoms_are_covered_by_others(rng, capsys):
+    import buried_atoms
+
+    tri = buried_atoms.main(count=300, n_steps=3)
+    assert capsys.readouterr().out.count("out of reach") == 4
+    hidden = buried_atoms.buried(tri)
+    fresh = deldrift.Regular(tri.points, tri.weights)
+    np.testing.assert_array_equal(hidden, buried_atoms.buried(fresh))
+    assert 50 < len(hidden) < 250
+    for vertex in hidden:
+        directions = rng.standard_normal((200, 3))
+        directions /= np.linalg.norm(directions, axis=1)[:, None]
+        surface = tri.points[vertex] + np.sqrt(tri.weights[vertex]) * directions
+        others = np.delete(np.arange(300), vertex)
+        powers = ((surface[:, None] - tri.points[others]) ** 2).sum(axis=2) - tri.weights[others]
+        assert (powers.min(axis=1) <= 1e-12).all()

@@ -331,8 +331,7 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    let facets =
-        FacetArrays { measures, centroids, derivatives, weight_derivatives: NO_NUMBERS, capacity, count };
+    let facets = FacetArrays { measures, centroids, derivatives, weight_derivatives: None, capacity, count };
     // SAFETY: what the caller promises here is what is to be promised there; there are no half-spaces.
     unsafe { pass(t, [low, high], NO_ROWS, (mask, mask_count), None, Some(facets)) }
 }
@@ -371,8 +370,7 @@ pub unsafe extern "C" fn deldrift_voronoi_derivatives_within(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    let facets =
-        FacetArrays { measures, centroids, derivatives, weight_derivatives: NO_NUMBERS, capacity, count };
+    let facets = FacetArrays { measures, centroids, derivatives, weight_derivatives: None, capacity, count };
     let half_spaces = (half_spaces, half_space_count);
     // SAFETY: what the caller promises here is what is to be promised there.
     unsafe { pass(t, [low, high], half_spaces, (mask, mask_count), None, Some(facets)) }
@@ -419,7 +417,7 @@ pub unsafe extern "C" fn deldrift_voronoi_cells_and_facets(
         measures,
         centroids: facet_centroids,
         derivatives,
-        weight_derivatives: NO_NUMBERS,
+        weight_derivatives: None,
         capacity: edge_capacity,
         count: edge_count,
     };

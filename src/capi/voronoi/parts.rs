@@ -26,7 +26,8 @@ pub(super) struct FacetArrays {
     pub(super) measures: *mut f64,
     pub(super) centroids: *mut f64,
     pub(super) derivatives: *mut f64,
-    pub(super) weight_derivatives: *mut f64,
+    /// For derivatives by weights, if these are all that is asked for.
+    pub(super) weight_derivatives: Option<*mut f64>,
     pub(super) capacity: usize,
     pub(super) count: *mut usize,
 }
@@ -39,7 +40,7 @@ impl FacetArrays {
             measures,
             centroids: none,
             derivatives: none,
-            weight_derivatives: none,
+            weight_derivatives: None,
             capacity,
             count,
         }
@@ -52,7 +53,7 @@ impl FacetArrays {
         count: *mut usize,
     ) -> Self {
         let none = Self::of_measures(std::ptr::null_mut(), capacity, count);
-        FacetArrays { weight_derivatives, ..none }
+        FacetArrays { weight_derivatives: Some(weight_derivatives), ..none }
     }
 }
 
@@ -97,6 +98,8 @@ impl FacetArrays {
         let FacetArrays { measures, centroids, derivatives, weight_derivatives, capacity, count } = self;
         let (facet_centroids, edge_count, n) = (centroids, count, capacity.saturating_mul(d));
         given!(measures[capacity]: Buffer, derivatives[n.saturating_mul(2)]: Buffer);
+        let are_by_weight = weight_derivatives.is_some();
+        let weight_derivatives = weight_derivatives.unwrap_or(std::ptr::null_mut());
         given!(weight_derivatives[capacity]: Buffer);
         let (centroids, count) = if is_beside_cells {
             given!(facet_centroids[n]: Buffer, edge_count: Output);
@@ -105,10 +108,10 @@ impl FacetArrays {
             given!(centroids[n]: Buffer, count: Output);
             (centroids, count)
         };
-        let offers = if weight_derivatives.is_null() {
-            [measures.offer(), centroids.offer(), derivatives.offer()]
-        } else {
+        let offers = if are_by_weight {
             [weight_derivatives.offer(); 3]
+        } else {
+            [measures.offer(), centroids.offer(), derivatives.offer()]
         };
         let fitting = fit(count, needed, capacity, &offers).map_err(|failure| match failure {
             Failure::BufferTooSmall { capacity, needed, .. } if is_beside_cells => {

@@ -1,0 +1,407 @@
+"""Triangulations of vertices with weights."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any, Callable, NamedTuple, Optional, cast
+
+import numpy as np
+
+from . import _library
+from ._arrays import F64, I32, Handle, address, address_if, floats, ids as listed_ids
+from ._arrays import keys as given_keys, one_id, points as point_rows, real
+from ._callbacks import calling
+from ._core import check, count_of, fixed, id_count, make_options
+from ._delaunay import Delaunay
+from ._errors import Error, InvalidShape
+from ._library import Report
+from ._loading import given_callbacks
+from ._scipy import planes
+from ._segments import Segments
+from ._staging import check_rows, ids_for, move_vertices, positions_of
+from ._step import Step
+from ._values import expect
+
+_create_weighted = _library.function("create_weighted")
+_weights = _library.function("weights")
+_stage_weights = _library.function("stage_weights")
+_commit_weighted = _library.function("commit_weighted")
+_commit_timestamp = _library.function("commit_timestamp")
+_set_weight = _library.function("set_weight")
+_hidden_by_weight = _library.function("hidden_by_weight")
+
+
+class HiddenByWeight(NamedTuple):
+    """Vertices that are hidden by weight."""
+
+    vertices: np.ndarray
+    """Their ids, ascending."""
+    simplices: np.ndarray
+    """For each the simplex at its place, whose power sphere says that it is hidden; -1 where there are no simplices."""
+
+
+class WeightedStep(Step):
+    """Moves, weights, insertions and removals that `Regular.step` commits together."""
+
+    _owner: "Regular"
+
+    def __init__(self, owner: "Regular") -> None:
+        super().__init__(owner)
+        # Of a call of which a part is staged: the step cannot be committed.
+        self._failure: Optional[BaseException] = None
+
+    def _end(self, is_good: bool) -> None:
+        failure, self._failure = self._failure, None
+        if is_good and failure is not None:
+            try:
+                raise failure
+            finally:
+                # Kept in this frame, which it refers to, it would be freed by a collection alone.
+                del failure
+        super()._end(is_good)
+
+    def move(self, points: Any = None, ids: Any = None, *, weights: Any = None) -> None:
+        """Moves vertices to new places, gives them other weights, or both.
+
+        Parameters
+        ----------
+        points : array_like, optional
+            A row of coordinates for each vertex; by default all stay.
+        ids : array_like of int, optional
+            The vertices, each at most once in a step; all by default.
+        weights : array_like, optional
+            A number for each vertex; by default all keep theirs.
+        """
+        self._check_open()
+        owner = self._owner
+        positions, numbers, listed = _given(points, weights, ids, owner.ndim)
+        try:
+            with owner._staging as t:
+                owner._stage_both(t, positions, numbers, listed)
+        except BaseException as error:
+            if positions is not None and numbers is not None:
+                self._failure = error
+            raise
+
+    def insert(self, points: Any, keys: Any = None, *, reuse_ids: bool = False, weights: Any = None) -> np.ndarray:
+        """Inserts vertices.
+
+        Parameters
+        ----------
+        points : array_like
+            A row of coordinates for each new vertex.
+        keys : array_like of int, optional
+            A key for each, as those of `Regular`; their ids by default.
+        reuse_ids : bool, optional
+            Whether vertices get the ids of removed ones, the lowest first, and only then new ones.
+        weights : array_like, optional
+            A number for each; 0 by default.
+
+        Returns
+        -------
+        ndarray of int
+            Their ids.
+        """
+        self._check_open()
+        owner = self._owner
+        positions = point_rows("points", points, owner.ndim)
+        numbers = None if weights is None else _numbers(weights)
+        expect("weights", numbers, len(positions), "points")
+        new = None
+        try:
+            new = super().insert(positions, keys, reuse_ids=reuse_ids)
+            if numbers is not None:
+                with owner._staging as t:
+                    owner._check(_stage_weights(t, address(new), address(numbers), len(new)))
+        except BaseException as error:
+            # Vertices may be staged without their weights, as what a handler of a signal raises comes at any time.
+            if numbers is not None and (new is not None or not isinstance(error, (Error, TypeError))):
+                self._failure = error
+            raise
+        return new
+
+
+class Regular(Delaunay):
+    """The regular triangulation of points with weights in the plane or in space, whose points and weights may change.
+
+    It is the weighted Delaunay triangulation, the dual of the power diagram. The power distance of a place x from a
+    point at p of weight w is ``|x - p|**2 - w``: for a ball of radius r the weight is r**2. No point is at less power
+    distance from the power centre of a simplex than its corners are. So a point of little weight beside heavy ones
+    may be a corner of no simplex: `hidden_by_weight` has these. Of points at one place that of the greatest weight,
+    and of these the one of the lowest key, represents the place; `coplanar` has the others, with a simplex there,
+    which is -1 if the one that represents it is hidden by weight. Where all weights are equal, simplices are those of
+    `Delaunay`.
+
+    It has what `Delaunay` has. Circumcentres and alpha masks are those of power spheres, whose squared radii may be
+    negative. Voronoi cells are power cells, and natural neighbours theirs; what is near is so by distance, without
+    weights. `insert` and `relocate` take places alone: a vertex comes with weight 0, or keeps its weight. Segments,
+    refinement, `transfer_cells` and what is in reach raise `Weighted`.
+
+    Parameters
+    ----------
+    points : array_like
+        A row of 2 or 3 coordinates for each point. Row i is vertex i.
+    weights : array_like, optional
+        A number for each point, finite, at most 1e114 in magnitude, maybe negative; by default all are 0.
+    algorithm, threads, parts, coincidence, progress, cancel, keys
+        As of `Delaunay`.
+
+    Examples
+    --------
+    >>> import deldrift
+    >>> tri = deldrift.Regular([[0, 0], [4, 0], [4, 4], [0, 4], [2, 2], [2.5, 2]], [0, 0, 0, 0, 4, 0])
+    >>> tri.hidden_by_weight.vertices
+    array([5], dtype=int32)
+    >>> report = tri.move(weights=[0, 0, 0, 0, 4, 4])
+    >>> report.newly_shown, len(tri.simplices)
+    (1, 6)
+    """
+
+    is_weighted = True
+    """Whether points have weights."""
+
+    def __init__(
+        self,
+        points: Any,
+        weights: Any = None,
+        *,
+        algorithm: str = "auto",
+        threads: int = 0,
+        parts: int = 0,
+        coincidence: str = "merge",
+        progress: Any = None,
+        cancel: Optional[Callable[[], bool]] = None,
+        keys: Any = None,
+    ) -> None:
+        rows = point_rows("points", points)
+        numbers = None if weights is None else _numbers(weights)
+        expect("weights", numbers, len(rows), "points")
+        given = given_keys("keys", keys, len(rows))
+        callbacks = given_callbacks(progress, cancel)
+        options = make_options(algorithm, (threads, parts), coincidence, "ignore", callbacks)
+        handle = Handle(callbacks)
+        arrays = address(rows), address_if(numbers), address_if(given), len(rows)
+        status = calling(callbacks, _create_weighted, rows.shape[1], *arrays, options, handle.made)
+        check(status, {"positions": "points"}, callbacks)
+        self._start(handle, rows.shape[1], (threads, parts), coincidence, "ignore", callbacks)
+
+    @property
+    def weights(self) -> np.ndarray:
+        """The weights of all ids; NaN for removed vertices. Read-only."""
+        return self._once("weights", self._copy_weights)
+
+    def _copy_weights(self) -> np.ndarray:
+        with self._reading as t:
+            weights = np.empty(id_count(t), F64)
+            self._check(_weights(t, address(weights), len(weights), ctypes.c_size_t()))
+        return fixed(weights)
+
+    @property
+    def hidden_by_weight(self) -> HiddenByWeight:
+        """The vertices that are corners of no simplex, as others are heavier, each with the simplex at its place."""
+        found: HiddenByWeight = self._once("hidden_by_weight", self._list_hidden)
+        return found
+
+    def _list_hidden(self) -> HiddenByWeight:
+        with self._reading as t:
+            count = count_of(lambda t, count: _hidden_by_weight(t, None, None, 0, count), t)
+            vertices, simplices = np.empty(count, I32), np.empty(count, I32)
+            room = ctypes.c_size_t()
+            self._check(_hidden_by_weight(t, address(vertices), address(simplices), count, room))
+        return HiddenByWeight(fixed(vertices), fixed(simplices))
+
+    def move(self, points: Any = None, ids: Any = None, *, weights: Any = None) -> Report:
+        """Moves vertices, gives them other weights, or both, and makes that the next timestamp.
+
+        The simplices, and who is hidden, are then as if they had been computed from nothing.
+
+        Parameters
+        ----------
+        points : array_like, optional
+            A row of coordinates for each vertex; by default all stay. Without `ids` there is one for each id, and rows
+            of removed vertices are not read.
+        ids : array_like of int, optional
+            The vertices that change, each at most once; all by default.
+        weights : array_like, optional
+            A number for each vertex; by default all keep theirs.
+
+        Returns
+        -------
+        Report
+            What was done, with how many are hidden now; also `Delaunay.report`.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Regular([[0, 0], [4, 0], [4, 4], [0, 4], [2, 2]], [1, 1, 1, 1, 0])
+        >>> tri.move(ids=[4], weights=[-8]).newly_hidden
+        1
+        >>> tri.move([[1, 1]], ids=[4], weights=[2]).newly_shown
+        1
+        >>> tri.weights
+        array([1., 1., 1., 1., 2.])
+        """
+        if self._trial is not None:
+            with self.step() as step:
+                step.move(points, ids, weights=weights)
+            return cast(Report, self._last_report)
+        positions, numbers, listed = _given(points, weights, ids, self.ndim)
+        report = Report()
+        if listed is not None:
+            self._change_some(positions, numbers, listed, report)
+            return report
+        with self._changing as t:
+            status = _commit_weighted(
+                t, address_if(positions), address_if(numbers), _length(positions, numbers), report
+            )
+            if status:
+                _check_length(t, positions, numbers)
+                self._check(status, positions="points")
+            self._last_report = report
+        return report
+
+    def _change_some(
+        self, positions: Optional[np.ndarray], numbers: Optional[np.ndarray], listed: np.ndarray, report: Report
+    ) -> None:
+        try:
+            with self._changing as t:
+                # Until it is committed.
+                self._must_discard = True
+                self._stage_both(t, positions, numbers, listed)
+                self._check(_commit_timestamp(t, report))
+                self._must_discard = False
+                self._last_report = report
+        except BaseException:
+            if self._must_discard:
+                self._settle()
+            raise
+
+    def _stage_both(
+        self, t: int, positions: Optional[np.ndarray], numbers: Optional[np.ndarray], listed: Optional[np.ndarray]
+    ) -> None:
+        """Stages moves, weights, or both: of vertices in a list, or of all."""
+        names = {"positions": "points", "vertices": "ids", "vertex": "ids"}
+        if listed is None:
+            _check_length(t, positions, numbers)
+        ids, count = address_if(listed), _length(positions, numbers)
+        if numbers is not None:
+            self._check(_stage_weights(t, ids, address(numbers), count), **names)
+        if positions is not None:
+            self._check(move_vertices(t, ids, address(positions), count), **names)
+
+    def step(self) -> WeightedStep:
+        """A step: changes that are committed together at the end of a `with` block.
+
+        All or nothing: an exception in the block, or of the commit, leaves the triangulation as it was.
+
+        Returns
+        -------
+        WeightedStep
+            What has `move`, `insert` and `remove`.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Regular([[0, 0], [4, 0], [4, 4], [0, 4]])
+        >>> with tri.step() as step:
+        ...     step.move(ids=[0], weights=[3])
+        ...     new = step.insert([[2, 2], [3, 3]], weights=[5, 1])
+        >>> tri.weights[new], tri.report.reweighted
+        (array([5., 1.]), 1)
+        """
+        return WeightedStep(self)
+
+    def add_points(self, points: Any, restart: bool = False, *, weights: Any = None) -> None:
+        """Inserts points, whose ids follow those that have been given.
+
+        Parameters
+        ----------
+        points : array_like
+            A row of coordinates for each.
+        restart : bool, optional
+            Without an effect: simplices depend on positions, weights and keys alone.
+        weights : array_like, optional
+            A number for each; 0 by default.
+        """
+        with self.step() as step:
+            step.insert(points, weights=weights)
+
+    def set_weight(self, vertex: int, weight: float) -> None:
+        """Gives one vertex another weight at once; the timestamp stays.
+
+        Parameters
+        ----------
+        vertex : int
+            Its id.
+        weight : float
+            The weight.
+        """
+        number, given = one_id("vertex", vertex), real("weight", weight)
+        with self._changing as t:
+            self._check(_set_weight(t, number, given), vertex="vertex!", weight="weight!", weights="weight!")
+
+    @property
+    def segments(self) -> Segments:
+        """None, as vertices with weights have no segments."""
+        return NO_SEGMENTS
+
+    def _hyperplanes(self) -> np.ndarray:
+        lifted = self.lift_points(self.points)
+        lifted[:, -1] -= self.paraboloid_scale * self.weights
+        return fixed(planes(lifted[self.simplices]))
+
+    def copy(self) -> "Regular":
+        """An independent triangulation that is as this one.
+
+        Returns
+        -------
+        Regular
+            After the same calls it has the same simplices. It calls the same callbacks.
+        """
+        return cast(Regular, super().copy())
+
+    def __repr__(self) -> str:
+        return f"<deldrift.Regular of {self.nvertices} points in {self.ndim}D, {self.nsimplex} simplices>"
+
+
+Delaunay._weighted_kind = Regular
+
+NO_SEGMENTS = Segments(fixed(np.empty(0, I32)), fixed(np.empty((0, 2), I32)), fixed(np.empty(0, I32)))
+
+
+def _numbers(values: Any) -> np.ndarray:
+    """Weights as a list of doubles."""
+    array = floats("weights", values)
+    if array.ndim != 1:
+        raise InvalidShape(f"weights has the shape {array.shape}, and must be a list", "weights")
+    return array
+
+
+def _given(
+    points: Any, weights: Any, ids: Any, ndim: int
+) -> tuple[Optional[np.ndarray], Optional[np.ndarray], Optional[np.ndarray]]:
+    """Positions, weights and ids of a change, of which at least one of the former has to be given."""
+    if points is None and weights is None:
+        raise TypeError("neither points nor weights are given, and something has to change")
+    positions = None if points is None else positions_of(points, ndim)
+    numbers = None if weights is None else _numbers(weights)
+    listed = None
+    if positions is not None:
+        listed = None if ids is None else ids_for(ids, positions)
+        expect("weights", numbers, len(positions), "rows of points")
+    elif ids is not None:
+        listed = listed_ids("ids", ids)
+        expect("weights", numbers, len(listed), "ids")
+    return positions, numbers, listed
+
+
+def _length(positions: Optional[np.ndarray], numbers: Optional[np.ndarray]) -> int:
+    given = numbers if positions is None else positions
+    return 0 if given is None else len(given)
+
+
+def _check_length(t: int, positions: Optional[np.ndarray], numbers: Optional[np.ndarray]) -> None:
+    """Whether there is a row, or a weight, for each id."""
+    if positions is not None:
+        check_rows(t, len(positions))
+    expect("weights", numbers, id_count(t), "ids")
