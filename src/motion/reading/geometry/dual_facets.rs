@@ -53,7 +53,7 @@ pub struct VoronoiFacets<P> {
     /// and of that of the second one by the position of the first.
     pub derivatives: Vec<[P; 2]>,
     /// The derivative of the area or volume of the cell of either end by the weight of the other one, where weights are
-    /// what power distances take from squares: minus the measure of the facet over twice the length of the edge. NaN
+    /// what power distances take from squares: minus the measure of the facet over twice the length of the edge. 0
     /// where there are no weights.
     pub weight_derivatives: Vec<f64>,
 }
@@ -69,7 +69,7 @@ pub struct VoronoiFacet<P> {
     /// and of that of the second one by the position of the first.
     pub derivatives: [P; 2],
     /// The derivative of the area or volume of the cell of either end by the weight of the other one: minus the measure
-    /// of the facet over twice the length of the edge. NaN where there are no weights.
+    /// of the facet over twice the length of the edge. 0 where there are no weights.
     pub weight_derivative: f64,
 }
 

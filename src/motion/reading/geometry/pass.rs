@@ -59,7 +59,7 @@ impl VoronoiFound {
             area: *measure,
             centroid: of_space::<G>(centroid),
             derivatives: derivatives.each_ref().map(of_space::<G>),
-            weight_derivative: if G::HAS_WEIGHTS { *weight_derivative } else { f64::NAN },
+            weight_derivative: if G::HAS_WEIGHTS { *weight_derivative } else { 0.0 },
         }
     }
 }

@@ -177,8 +177,7 @@ impl<G: Moving> MovingTriangulation<G> {
         };
         let nothing = |x| {
             let row = of_space::<G>(&[x; 3]);
-            let weight_derivative = f64::NAN;
-            VoronoiFacet { area: x, centroid: nowhere::<G>(), derivatives: [row; 2], weight_derivative }
+            VoronoiFacet { area: x, centroid: nowhere::<G>(), derivatives: [row; 2], weight_derivative: 0.0 }
         };
         let (there, own) = (plain.edges()?, self.edges()?);
         let mut facets = Vec::new();

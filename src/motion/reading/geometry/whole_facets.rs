@@ -56,11 +56,11 @@ impl FacetMeasures {
 }
 
 /// The derivative of the volume of the cell of an edge's end by the weight of the other one, from the measure of the
-/// facet and the length of the edge; NaN if there are no weights.
+/// facet and the length of the edge; 0 if there are no weights.
 #[inline(always)]
 pub(super) fn by_weight<G: Moving>(measure: f64, length: f64) -> f64 {
     match measure {
-        _ if !G::HAS_WEIGHTS => f64::NAN,
+        _ if !G::HAS_WEIGHTS => 0.0,
         0.0 => 0.0,
         measure => -0.5 * (measure / length),
     }
