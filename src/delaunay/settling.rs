@@ -66,6 +66,8 @@ impl<G: Geometry> Delaunay<G> {
     fn settle_above(&mut self, s: SiteId, cell: Slot) {
         self.above.take_out(s);
         self.above.enter(s, Some(cell));
+        // The next one in the list is near, as those listed after a build are along a curve.
+        self.recent = cell;
     }
 
     /// The cell that has the place of a loose site.
