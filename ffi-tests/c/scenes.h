@@ -148,8 +148,7 @@ static bool refuses_weights(kind k) {
         case CREATE:
         case CREATE_WITH_KEYS:
         case ANNULUS_WIDTHS:
-        case DELIMITER:
-        case TRANSFER_CELLS: return true;
+        case DELIMITER: return true;
         default: break;
     }
     return is_periodic_call(k) || (CELLS_IN_REACH <= k && k <= VERTICES_IN_REACH) || k == STAGE_SEGMENTS || k == STAGE_SEGMENT_REMOVALS ||

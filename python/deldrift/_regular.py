@@ -135,7 +135,7 @@ class Regular(Delaunay):
     It has what `Delaunay` has. Circumcentres and alpha masks are those of power spheres, whose squared radii may be
     negative. Voronoi cells are power cells, and natural neighbours theirs; what is near is so by distance, without
     weights. `insert` and `relocate` take places alone: a vertex comes with weight 0, or keeps its weight. Segments,
-    refinement, `transfer_cells` and what is in reach raise `Weighted`.
+    refinement and what is in reach raise `Weighted`.
 
     Parameters
     ----------

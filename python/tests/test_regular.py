@@ -384,7 +384,6 @@ def test_refused_moves_change_nothing(rng):
 REFUSED = """
 simplices_in_reach([0, 0], [1, 1])
 vertices_in_reach([0, 0], [1, 1])
-transfer_cells([0.0] * tri.nsimplex)
 add_segments([[0, 1]])
 check(tri.points)
 nesting_levels()

@@ -103,7 +103,7 @@ pub unsafe extern "C" fn deldrift_mask_by_circumradius(
 ) -> deldrift_status {
     given!(t: Reading, mask[capacity]: Buffer, count: Output);
     t.read_any(|t| {
-        check_not_negative("squared_radius", squared_radius)?;
+        check_squared_radius(t, squared_radius)?;
         mask.fill_by(count, cell_count_of(t)?, |places| {
             let mut places = places.iter_mut();
             let write = |_, is_in: bool| write_next(&mut places, is_in.into());
@@ -224,6 +224,13 @@ pub unsafe extern "C" fn deldrift_hull_facets(
 }
 
 /// How many cells there are, of those of a periodic triangulation one of each class.
+/// The square of a radius must be a number, and not negative unless there are weights.
+pub(super) fn check_squared_radius(t: &Content, squared_radius: f64) -> Result<()> {
+    let least = if matches!(t, Content::Weighted(_)) { squared_radius.abs() } else { squared_radius };
+    check_not_negative("squared_radius", least)
+}
+
+/// How many cells there are.
 pub(super) fn cell_count_of(t: &Content) -> Result<usize> {
     by_kind!(t => Ok(t.cell_count()), periodic t => t.cell_count())
 }

@@ -59,11 +59,6 @@ impl Content {
         in_any!(content => content.reject_prepared())
     }
 
-    /// Refuses a triangulation with weights, for a function that does not serve such.
-    pub(super) fn reject_weights(&self) -> Result<(), Failure> {
-        if let Content::Weighted(_) = self { Err(Failure::Weighted) } else { Ok(()) }
-    }
-
     /// For a function that serves neither periodic triangulations nor weights.
     #[inline(always)]
     fn open(&self) -> Result<&AnyTriangulation, Failure> {

@@ -5,7 +5,7 @@ use super::pointers::{Buffer, Output, Point, fit, given, write_all};
 use super::status::deldrift_status;
 use crate::ids::VertexId;
 use crate::in_its_dimension;
-use crate::motion::Part;
+use crate::motion::PointPart;
 
 /// Moves one vertex at once. When the call returns the triangulation is that of the new position. The timestamp stays,
 /// and so do the moves staged for other vertices.
@@ -40,7 +40,7 @@ fn relocate_in_guard(t: Changing<'_>, vertex: VertexId, position: Point<'_>) -> 
     t.change_any(|t| {
         if let Content::Weighted(t) = t {
             return with_weights!(&mut **t, t => {
-                Ok(t.relocate_part(Part::Place, vertex, position.place("position", t)?)?)
+                Ok(t.relocate_part(PointPart::Place, vertex, position.place("position", t)?)?)
             });
         }
         in_any!(t => Ok(t.relocate_vertex(vertex, &position.of("position", t)?)?))

@@ -7,7 +7,7 @@ use super::pointers::{Array, Output, Point, Points, given};
 use super::status::deldrift_status;
 use crate::error::Error;
 use crate::ids::VertexId;
-use crate::motion::{CommitReport, Part};
+use crate::motion::{CommitReport, PointPart};
 
 /// What a commit did, or, from deldrift_statistics, what all of them did.
 ///
@@ -99,7 +99,7 @@ pub unsafe extern "C" fn deldrift_move_vertex(
         if let Content::Weighted(t) = t {
             return with_weights!(&mut **t, t => {
                 let place = position.place("position", t)?;
-                Ok(t.move_parts(Part::Place, Some(&[vertex]), place).map_err(of_one)?)
+                Ok(t.move_parts(PointPart::Place, Some(&[vertex]), place).map_err(of_one)?)
             });
         }
         in_any!(t => {
@@ -136,7 +136,7 @@ pub unsafe extern "C" fn deldrift_move_vertices(
         }
         let vertices = if vertices.is_null() { None } else { Some(VertexId::of_numbers(vertices.get()?)) };
         if let Content::Weighted(t) = t {
-            return with_weights!(&mut **t, t => Ok(t.move_parts(Part::Place, vertices, positions.numbers(t)?)?));
+            return with_weights!(&mut **t, t => Ok(t.move_parts(PointPart::Place, vertices, positions.numbers(t)?)?));
         }
         in_any!(t => {
             let positions = positions.of(t)?;

@@ -234,25 +234,25 @@ impl<'a> Points<'a> {
     /// The points, which must be there unless their count is 0, of weight 0 where there are weights; `t` is the triangulation of the
     /// call.
     #[inline(always)]
-    pub(super) fn of<T: OfPoints>(self, _t: &T) -> Result<Taken<'a, T::Point>, Failure> {
+    pub(super) fn of<T: OfPoints>(self, _t: &T) -> Result<TakenPoints<'a, T::Point>, Failure> {
         self.of_kind::<T>()
     }
 
     /// The points; none if they are not given.
-    pub(super) fn if_any<T: OfPoints>(self, t: &T) -> Result<Option<Taken<'a, T::Point>>, Failure> {
+    pub(super) fn if_any<T: OfPoints>(self, t: &T) -> Result<Option<TakenPoints<'a, T::Point>>, Failure> {
         if self.0.is_null() { Ok(None) } else { self.of(t).map(Some) }
     }
 
     /// Those of what is still to be made.
     #[inline(always)]
-    pub(super) fn of_kind<T: OfPoints>(self) -> Result<Taken<'a, T::Point>, Failure> {
+    pub(super) fn of_kind<T: OfPoints>(self) -> Result<TakenPoints<'a, T::Point>, Failure> {
         let places = self.places::<T>()?;
         Ok(match T::Point::of_places(places) {
-            Some(points) => Taken::Lent(points),
+            Some(points) => TakenPoints::Lent(points),
             None => {
                 let mut points = Vec::new();
                 memory::collect(&mut points, places.iter().map(|&place| T::Point::at(place, 0.0)))?;
-                Taken::Made(points)
+                TakenPoints::Made(points)
             }
         })
     }
@@ -280,19 +280,19 @@ impl<'a> Points<'a> {
 pub(super) type PlaceOf<T> = <<T as OfPoints>::Point as PointArray>::Place;
 
 /// Points of the caller's, or made of places.
-pub(super) enum Taken<'a, P> {
+pub(super) enum TakenPoints<'a, P> {
     Lent(&'a [P]),
     Made(Vec<P>),
 }
 
-impl<P> Deref for Taken<'_, P> {
+impl<P> Deref for TakenPoints<'_, P> {
     type Target = [P];
 
     #[inline(always)]
     fn deref(&self) -> &[P] {
         match self {
-            Taken::Lent(points) => points,
-            Taken::Made(points) => points,
+            TakenPoints::Lent(points) => points,
+            TakenPoints::Made(points) => points,
         }
     }
 }

@@ -129,7 +129,6 @@ pub unsafe extern "C" fn deldrift_transfer_cells(
     given!(t: Reading, positions[position_count]: Points, values[n_places]: Buffer, report: Output);
     given!(lost[n_values]: Buffer, gained[n_values]: Buffer);
     t.read_any_watched(|t, monitor| {
-        t.reject_weights()?;
         let order = order_of(order)?;
         in_any!(t => {
             let positions = positions.if_any(t)?;

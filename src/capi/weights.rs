@@ -11,7 +11,7 @@ use crate::either::AnyWeighted;
 use crate::error::Error;
 use crate::ids::VertexId;
 use crate::machine::memory;
-use crate::motion::{MAX_VERTICES, MovingTriangulation, Options, Part};
+use crate::motion::{MAX_VERTICES, MovingTriangulation, Options, PointPart};
 use crate::predicates::PointArray;
 
 /// Creates the regular triangulation of count points with weights in the plane or in space, at timestamp 0: the weighted
@@ -41,7 +41,7 @@ use crate::predicates::PointArray;
 ///
 /// All functions serve a triangulation with weights but those of deldrift/segments.h and the following, which return
 /// DELDRIFT_WEIGHTED: deldrift_cells_in_reach, deldrift_hull_facets_in_reach, deldrift_vertices_in_reach,
-/// deldrift_transfer_cells, deldrift_research_annulus_widths, deldrift_research_standard_delimiter. The tolerance of a
+/// deldrift_research_annulus_widths, deldrift_research_standard_delimiter. The tolerance of a
 /// vertex is of the root of the square of the way that it moves and of the magnitude by which its weight changes.
 ///
 /// Cost: that of deldrift_create.
@@ -164,7 +164,7 @@ pub unsafe extern "C" fn deldrift_stage_weights(
         let t = weighted_mut(t)?;
         let weights = weights.get()?;
         let vertices = if vertices.is_null() { None } else { Some(VertexId::of_numbers(vertices.get()?)) };
-        with_weights!(t, t => Ok(t.move_parts(Part::Weight, vertices, weights)?))
+        with_weights!(t, t => Ok(t.move_parts(PointPart::Weight, vertices, weights)?))
     })
 }
 
@@ -223,7 +223,7 @@ pub unsafe extern "C" fn deldrift_set_weight(
 ) -> deldrift_status {
     given!(t: Changing);
     t.change_any(|t| {
-        with_weights!(weighted_mut(t)?, t => Ok(t.relocate_part(Part::Weight, VertexId::new(vertex), &[weight])?))
+        with_weights!(weighted_mut(t)?, t => Ok(t.relocate_part(PointPart::Weight, VertexId::new(vertex), &[weight])?))
     })
 }
 

@@ -74,7 +74,7 @@ pub use report::{CommitReport, QualityReport, SplitReport, VertexWeights};
 pub use state::cells::{NO_CELL, NO_CORNER, OwnedCells};
 pub use state::changes::NO_VERTEX;
 pub(crate) use state::checking::{check_not_negative, check_position};
-pub use state::part::Part;
+pub use state::part::PointPart;
 pub use state::segments::{NO_LABEL, Segment};
 pub use state::taken::Changes;
 pub use state::views::CellsView;

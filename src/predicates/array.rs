@@ -26,7 +26,7 @@ pub trait PointArray: Sized {
     fn coordinates(&self) -> Self::Place;
     /// Its weight; 0 if points have none.
     fn weight(&self) -> f64;
-    /// These points, if they are no more than their places.
+    /// The points at some places, without a copy, if a point is no more than its place.
     fn of_places(places: &[Self::Place]) -> Option<&[Self]>;
     /// The point in space, of the plane at height 0.
     fn in_space(&self) -> Self::VertexInSpace;

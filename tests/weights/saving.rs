@@ -5,7 +5,7 @@ use crate::common::inputs::KINDS;
 use crate::common::{Rng, assert_same_cells, check_adjacency, seeds, vertex};
 use crate::saving_format::{Parts, Weighted, forged, seal};
 use deldrift::internals::{PowerPlane, PowerSpace};
-use deldrift::motion::{Algorithm, CoincidencePolicy, Level, MovingTriangulation, Options, Part, Saved};
+use deldrift::motion::{Algorithm, CoincidencePolicy, Level, MovingTriangulation, Options, PointPart, Saved};
 use deldrift::{AnyTriangulation, Damage, LoadError, Moving, Plane, Space, VertexId};
 
 fn load<G: Moving>(bytes: &[u8]) -> Result<MovingTriangulation<G>, LoadError> {
@@ -90,11 +90,11 @@ impl<G: Moving> History<G> {
                         *point = q;
                     }
                     1 => {
-                        self.t.move_parts(Part::Place, Some(&[v]), q.as_ref()).expect("good places");
+                        self.t.move_parts(PointPart::Place, Some(&[v]), q.as_ref()).expect("good places");
                         (0..G::D).for_each(|k| point[k] = q[k]);
                     }
                     _ => {
-                        self.t.move_parts(Part::Weight, Some(&[v]), &[q[G::D]]).expect("good weights");
+                        self.t.move_parts(PointPart::Weight, Some(&[v]), &[q[G::D]]).expect("good weights");
                         point[G::D] = q[G::D];
                     }
                 }
@@ -186,8 +186,8 @@ fn staged_parts_are_saved() {
     let points = small::<PowerPlane>(9, 6, &mut Rng::new(3));
     let mut t = build::<PowerPlane>(&points);
     let [v, w, both] = [1, 2, 3].map(vertex);
-    t.move_parts(Part::Place, Some(&[v]), &[0.25, 0.5]).expect("a place");
-    t.move_parts(Part::Weight, Some(&[w]), &[7.0]).expect("a weight");
+    t.move_parts(PointPart::Place, Some(&[v]), &[0.25, 0.5]).expect("a place");
+    t.move_parts(PointPart::Weight, Some(&[w]), &[7.0]).expect("a weight");
     t.move_vertices(&[both], &points[..1]).expect("a place and a weight");
     t.stage_insertions(&points[..1]).expect("a place");
     let bytes = t.saved().expect("room");
@@ -198,12 +198,12 @@ fn staged_parts_are_saved() {
     let mut loaded = load::<PowerPlane>(&bytes).expect("saved");
     assert_same(&t, &loaded, "parts");
     for t in [&mut t, &mut loaded] {
-        t.move_parts(Part::Place, Some(&[v]), &[0.0; 2]).expect_err("it is staged");
-        t.move_parts(Part::Weight, Some(&[w]), &[1.0]).expect_err("it is staged");
-        t.move_parts(Part::Weight, Some(&[v]), &[3.0]).expect("it is not");
-        t.move_parts(Part::Place, Some(&[w]), &[2.5, 1.5]).expect("it is not");
-        for part in [Part::Place, Part::Weight] {
-            t.move_parts(part, Some(&[both]), &[1.0; 2][..1 + usize::from(part == Part::Place)])
+        t.move_parts(PointPart::Place, Some(&[v]), &[0.0; 2]).expect_err("it is staged");
+        t.move_parts(PointPart::Weight, Some(&[w]), &[1.0]).expect_err("it is staged");
+        t.move_parts(PointPart::Weight, Some(&[v]), &[3.0]).expect("it is not");
+        t.move_parts(PointPart::Place, Some(&[w]), &[2.5, 1.5]).expect("it is not");
+        for part in [PointPart::Place, PointPart::Weight] {
+            t.move_parts(part, Some(&[both]), &[1.0; 2][..1 + usize::from(part == PointPart::Place)])
                 .expect_err("both are staged");
         }
         t.commit_timestamp().expect("room");

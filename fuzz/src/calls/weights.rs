@@ -1,10 +1,9 @@
 //! Vertices with weights, that come, go, move and grow, beside a triangulation that is made of what they have become.
 
+use super::History;
 use super::asking::{rows, slice};
 use super::called::{c, note};
 use super::types::Row;
-use super::{History, message};
-use deldrift::capi::deldrift_status::*;
 use deldrift::capi::*;
 use std::collections::BTreeSet;
 use std::ptr::{null, null_mut};

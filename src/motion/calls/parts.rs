@@ -8,14 +8,14 @@ use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::report::CommitReport;
 use crate::motion::state::checking::{check_numbers, check_position};
-use crate::motion::state::part::{Part, set_part};
+use crate::motion::state::part::{PointPart, set_part};
 use crate::motion::triangulation::MovingTriangulation;
 
 /// The names of the arguments.
-const fn argument(part: Part) -> &'static str {
+const fn argument(part: PointPart) -> &'static str {
     match part {
-        Part::Place => "positions",
-        Part::Weight => "weights",
+        PointPart::Place => "positions",
+        PointPart::Weight => "weights",
     }
 }
 
@@ -29,7 +29,12 @@ impl<G: Moving> MovingTriangulation<G> {
     /// [`Error::WrongCount`] if there are more rows than ids, or not one for each; [`Error::NoSuchVertex`], [`Error::RemovedVertex`],
     /// [`Error::StagedVertex`]; [`Error::DuplicateMove`] if this part is staged already; [`Error::NotFinite`],
     /// [`Error::OutOfRange`], [`Error::OutOfMemory`].
-    pub fn move_parts(&mut self, part: Part, vertices: Option<&[VertexId]>, numbers: &[f64]) -> Result<()> {
+    pub fn move_parts(
+        &mut self,
+        part: PointPart,
+        vertices: Option<&[VertexId]>,
+        numbers: &[f64],
+    ) -> Result<()> {
         let n_ids = self.mesh.site_of.len();
         let n = numbers.len() / part.width::<G>();
         let wanted = vertices.map_or(n.min(n_ids), <[VertexId]>::len);
@@ -63,14 +68,14 @@ impl<G: Moving> MovingTriangulation<G> {
     /// Checks one row, and stages it unless the vertex is yet to be inserted, or is skipped.
     fn stage_part(
         &mut self,
-        part: Part,
+        part: PointPart,
         index: usize,
         vertex: VertexId,
         is_listed: bool,
         numbers: &[f64],
     ) -> Result<()> {
         let row = row::<G>(part, numbers, index);
-        if self.edits.is_insertion_staged(vertex) && !(is_listed && part == Part::Place) {
+        if self.edits.is_insertion_staged(vertex) && !(is_listed && part == PointPart::Place) {
             return check_numbers::<G>(argument(part), index, part, row);
         }
         if !is_listed && (!self.mesh.is_present(vertex) || self.edits.is_removal_staged(vertex)) {
@@ -88,7 +93,7 @@ impl<G: Moving> MovingTriangulation<G> {
     }
 
     /// Takes back what [`stage_part`](Self::stage_part) has staged last.
-    fn unstage_part(&mut self, part: Part, vertex: VertexId) {
+    fn unstage_part(&mut self, part: PointPart, vertex: VertexId) {
         if let Some(s) = self.mesh.site(vertex).filter(|_| self.staging.is_part_staged(vertex, part)) {
             self.staging.unstage_part(vertex, part, &self.mesh.kernel.site(s).point);
         }
@@ -107,7 +112,7 @@ impl<G: Moving> MovingTriangulation<G> {
             return Err(Error::DuplicateMove { argument: "positions", index: vertex.index(), vertex });
         }
         let n_ids = self.mesh.site_of.len();
-        let parts = [(Part::Place, places), (Part::Weight, weights)];
+        let parts = [(PointPart::Place, places), (PointPart::Weight, weights)];
         for (part, numbers) in parts.into_iter().filter_map(|(part, numbers)| Some((part, numbers?))) {
             let given = numbers.len() / part.width::<G>();
             if given != n_ids {
@@ -140,10 +145,10 @@ impl<G: Moving> MovingTriangulation<G> {
                     *goal = mesh.kernel.site(mesh.site_of[VertexId::at(k)]).point;
                 }
                 if let Some(places) = places {
-                    set_part::<G>(goal, Part::Place, row::<G>(Part::Place, places, k));
+                    set_part::<G>(goal, PointPart::Place, row::<G>(PointPart::Place, places, k));
                 }
                 if let Some(weights) = weights {
-                    set_part::<G>(goal, Part::Weight, row::<G>(Part::Weight, weights, k));
+                    set_part::<G>(goal, PointPart::Weight, row::<G>(PointPart::Weight, weights, k));
                 }
                 check_position::<G>("positions", k, goal)?;
             }
@@ -160,7 +165,7 @@ impl<G: Moving> MovingTriangulation<G> {
     ///
     /// # Errors
     /// The errors of [`relocate_vertex`](Self::relocate_vertex).
-    pub fn relocate_part(&mut self, part: Part, vertex: VertexId, numbers: &[f64]) -> Result<()> {
+    pub fn relocate_part(&mut self, part: PointPart, vertex: VertexId, numbers: &[f64]) -> Result<()> {
         let mut goal = self.position(vertex)?;
         set_part::<G>(&mut goal, part, numbers);
         self.relocate_vertex(vertex, &goal)
@@ -168,7 +173,7 @@ impl<G: Moving> MovingTriangulation<G> {
 }
 
 /// The row of numbers at an index.
-fn row<G: Moving>(part: Part, numbers: &[f64], index: usize) -> &[f64] {
+fn row<G: Moving>(part: PointPart, numbers: &[f64], index: usize) -> &[f64] {
     let width = part.width::<G>();
     &numbers[width * index..width * (index + 1)]
 }

@@ -5,6 +5,7 @@ pub(in crate::motion) mod chunks;
 pub(in crate::motion) mod domain;
 pub(in crate::motion) mod exporting;
 pub(in crate::motion) mod geometry;
+pub(in crate::motion) mod hidden;
 pub(in crate::motion) mod near;
 pub(in crate::motion) mod progress;
 pub(in crate::motion) mod query;

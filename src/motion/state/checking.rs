@@ -2,7 +2,7 @@
 
 use crate::delaunay::Moving;
 use crate::error::{AXIS_OF_WEIGHT, Error, Result};
-use crate::motion::state::part::{Part, set_part};
+use crate::motion::state::part::{PointPart, set_part};
 use crate::predicates::{MAX_MAGNITUDE, MAX_WEIGHT, PointArray, is_in_range};
 
 /// Whether two places, without negative zeros, differ.
@@ -77,7 +77,7 @@ fn weights_of(argument: &'static str) -> &'static str {
 pub(in crate::motion) fn check_numbers<G: Moving>(
     argument: &'static str,
     index: usize,
-    part: Part,
+    part: PointPart,
     numbers: &[f64],
 ) -> Result<()> {
     let mut point = G::Point::default();

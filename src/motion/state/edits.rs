@@ -4,7 +4,7 @@ use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
-use crate::motion::state::part::{Part, set_part};
+use crate::motion::state::part::{PointPart, set_part};
 
 /// What waits.
 #[derive(Debug, Default)]
@@ -109,7 +109,7 @@ impl<G: Moving> Edits<G> {
     }
 
     /// A vertex that will be inserted will be at this place, or have this weight; the numbers have been checked.
-    pub(in crate::motion) fn set_part(&mut self, vertex: VertexId, part: Part, numbers: &[f64]) {
+    pub(in crate::motion) fn set_part(&mut self, vertex: VertexId, part: PointPart, numbers: &[f64]) {
         if let Ok(at) = self.insertions.binary_search_by_key(&vertex, |&(id, _)| id) {
             set_part::<G>(&mut self.insertions[at].1, part, numbers);
         }

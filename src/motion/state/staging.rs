@@ -6,7 +6,7 @@ use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::state::checking::copy_checked;
 use crate::motion::state::goals::{Movers, Moves};
-use crate::motion::state::part::{Part, copy_part, set_part};
+use crate::motion::state::part::{PointPart, copy_part, set_part};
 
 /// Both parts.
 const WHOLE: u8 = 3;
@@ -19,7 +19,7 @@ const WHOLE: u8 = 3;
 pub(in crate::motion) struct Staging<G: Moving> {
     /// Where the vertices are to go that are staged.
     goals: Vec<G::Point>,
-    /// By vertex id, which [parts](Part) of its goal are staged; nothing while whole, when all are.
+    /// By vertex id, which [parts](PointPart) of its goal are staged; nothing while whole, when all are.
     parts: Vec<u8>,
     /// Staged vertices in the order of the calls; none while whole. Moves that were forgotten one by one stay listed
     /// until the list is [tidied](Self::tidy): to find each would take a pass.
@@ -54,7 +54,7 @@ impl<G: Moving> Staging<G> {
     }
 
     /// Whether this part of the goal of a vertex is staged.
-    pub(in crate::motion) fn is_part_staged(&self, vertex: VertexId, part: Part) -> bool {
+    pub(in crate::motion) fn is_part_staged(&self, vertex: VertexId, part: PointPart) -> bool {
         self.is_whole || self.parts.get(vertex.index()).is_some_and(|&parts| parts & part.bit() != 0)
     }
 
@@ -63,7 +63,7 @@ impl<G: Moving> Staging<G> {
     pub(in crate::motion) fn stage_part(
         &mut self,
         vertex: VertexId,
-        part: Part,
+        part: PointPart,
         is: impl FnOnce() -> G::Point,
         numbers: &[f64],
     ) {
@@ -77,7 +77,7 @@ impl<G: Moving> Staging<G> {
     }
 
     /// Forgets a part of the goal of a vertex that was staged last, or beside another part that stays.
-    pub(in crate::motion) fn unstage_part(&mut self, vertex: VertexId, part: Part, was: &G::Point) {
+    pub(in crate::motion) fn unstage_part(&mut self, vertex: VertexId, part: PointPart, was: &G::Point) {
         let parts = &mut self.parts[vertex.index()];
         *parts &= !part.bit();
         if *parts == 0 {

@@ -10,7 +10,7 @@ use crate::motion::state::cells::Cells;
 use crate::motion::state::density::Density;
 use crate::motion::state::made::Origin;
 use crate::motion::state::mesh::Standing;
-use crate::motion::state::part::{Part, set_part};
+use crate::motion::state::part::{PointPart, set_part};
 use crate::motion::state::segments::{Segment, Segments};
 use crate::motion::triangulation::MovingTriangulation;
 
@@ -107,7 +107,7 @@ impl<G: Moving> MovingTriangulation<G> {
     /// Where a vertex is to go, and the weight that it is to have; NaN for what is not staged, and stays.
     fn staged_parts(&self, vertex: VertexId) -> G::Point {
         let mut goal = *self.staging.goal(vertex);
-        let parts = if G::HAS_WEIGHTS { &[Part::Place, Part::Weight][..] } else { &[] };
+        let parts = if G::HAS_WEIGHTS { &[PointPart::Place, PointPart::Weight][..] } else { &[] };
         for &part in parts.iter().filter(|&&part| !self.staging.is_part_staged(vertex, part)) {
             set_part::<G>(&mut goal, part, &[f64::NAN; 3][..part.width::<G>()]);
         }

@@ -30,9 +30,9 @@ pub(in crate::motion) struct Covered {
 /// The vertices that are in no cell.
 #[derive(Debug, Default)]
 pub(in crate::motion) struct HiddenVertices {
-    /// Those hidden by place, ascending, each with the one that represents it.
+    /// Vertices hidden by place, ascending, each with the one that represents it.
     pub(in crate::motion) by_place: Vec<(VertexId, VertexId)>,
-    /// Those hidden by weight, ascending by id.
+    /// Vertices hidden by weight, ascending by id.
     pub(in crate::motion) by_weight: Vec<Covered>,
 }
 
@@ -148,7 +148,7 @@ impl HiddenVertices {
     }
 }
 
-/// Those of these sites that may share a place: all that do, and few others.
+/// Sites of a list that may share a place: all that do, and few others.
 fn maybe_shared<G: Moving>(kernel: &Delaunay<G>, sites: &[(SiteId, Slot)]) -> Result<Vec<SiteId>> {
     let n_bits = (BITS_PER_PLACE * sites.len()).next_power_of_two().max(64);
     let (mut seen, mut again) = (Vec::new(), Vec::new());

@@ -1,0 +1,123 @@
+//! Which vertices are hidden, by what is at their place or, with weights, by the cells that they are above.
+
+use crate::delaunay::Moving;
+use crate::error::Result;
+use crate::ids::{CellId, Slot, VertexId};
+use crate::machine::memory;
+use crate::motion::options::CoincidencePolicy;
+use crate::motion::report::CommitReport;
+use crate::motion::state::mesh::Standing;
+use crate::motion::triangulation::MovingTriangulation;
+
+impl<G: Moving> MovingTriangulation<G> {
+    /// Among the vertices at the place of this one, the one of the lowest [key](Self::key) and then of the lowest id;
+    /// with weights, among those of the greatest weight there, whether that is hidden by others elsewhere or not.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex); with
+    /// weights [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn coincident_representative(&self, vertex: VertexId) -> Result<VertexId> {
+        let site = self.mesh.kernel.site(self.present_site("vertex", 0, vertex)?);
+        if !G::HAS_WEIGHTS {
+            return Ok(site.id);
+        }
+        let weight = |&v: &VertexId| self.mesh.kernel.site(self.mesh.site_of[v]).point[G::D];
+        let ranked = |v: VertexId| (v, site.point.as_ref());
+        let keys = self.mesh.kernel.keys();
+        let there = self.vertices_in_box(&site.point, &site.point)?.into_iter();
+        let first = there.min_by(|v, w| {
+            weight(w).total_cmp(&weight(v)).then_with(|| keys.compare_at(ranked(*v), ranked(*w)))
+        });
+        Ok(first.unwrap_or(vertex))
+    }
+
+    /// The vertices that are hidden, ascending, each with the one that represents it.
+    ///
+    /// ```
+    /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
+    ///
+    /// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 0.0]];
+    /// let t = MovingTriangulation::<Plane>::new(&points, Options::default())?;
+    /// let hidden: Vec<_> = t.hidden_vertices().collect();
+    /// assert_eq!(hidden, [(VertexId::new(3), VertexId::new(1))]);
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    pub fn hidden_vertices(&self) -> impl Iterator<Item = (VertexId, VertexId)> {
+        let n = if self.hidden_count() == 0 { 0 } else { self.id_count() };
+        VertexId::range(0..n).filter_map(|v| match self.mesh.standing(v) {
+            Standing::Hidden(s) => Some((v, self.mesh.kernel.site(s).id)),
+            Standing::Shown(_) | Standing::Above(_) | Standing::Gone => None,
+        })
+    }
+
+    /// The vertices that are hidden by another one at their place, ascending, each with the one that represents it, with weights
+    /// or without.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn hidden_by_place(&self) -> Result<Vec<(VertexId, VertexId)>> {
+        if G::HAS_WEIGHTS {
+            return Ok(self.mesh.vertices_in_no_cell()?.by_place);
+        }
+        let mut hidden = Vec::new();
+        memory::collect(&mut hidden, self.hidden_vertices())?;
+        Ok(hidden)
+    }
+
+    /// The vertices that are hidden by weight, ascending, each with the index of the cell that it is above, [`CellId::NONE`] where
+    /// there are no cells: those that are in no cell and represent their place. On a facet the cell is any of those around it. Where
+    /// there are no cells it is the lower hull in the dimension that all vertices span which says who is hidden, at the cost of
+    /// a build.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn hidden_by_weight(&self) -> Result<Vec<(VertexId, CellId)>> {
+        let mut hidden = Vec::new();
+        if G::HAS_WEIGHTS {
+            let index_of = self.cell_arrays()?.index_of();
+            let found = self.mesh.vertices_in_no_cell()?.by_weight;
+            let index = |slot: Slot| if slot == Slot::NONE { CellId::NONE } else { index_of[slot] };
+            memory::collect(&mut hidden, found.iter().map(|covered| (covered.vertex, index(covered.cell))))?;
+        }
+        Ok(hidden)
+    }
+
+    /// How many vertices are hidden.
+    pub fn hidden_count(&self) -> usize {
+        self.mesh.hidden.count()
+    }
+
+    /// The vertices that are corners of no cell because of weights, ascending: each is above the cell that has its place, or at the place of
+    /// a vertex of greater weight, or of the same weight and lower key, then lower id. Where there are no cells it is the
+    /// lower hull in the dimension that all vertices span which says who is hidden, at the cost of a build.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn vertices_hidden_by_weight(&self) -> Result<Vec<VertexId>> {
+        let kernel = &self.mesh.kernel;
+        let mut hidden = Vec::new();
+        if kernel.has_cells() {
+            let n = if kernel.n_hidden() == 0 { 0 } else { self.id_count() };
+            let are_covered = |&v: &VertexId| matches!(self.mesh.standing(v), Standing::Above(_));
+            memory::collect(&mut hidden, VertexId::range(0..n).filter(are_covered))?;
+        } else {
+            let sites = kernel.hidden_without_cells()?;
+            memory::collect(&mut hidden, sites.into_iter().map(|s| kernel.site(s).id))?;
+            hidden.sort_unstable();
+        }
+        Ok(hidden)
+    }
+
+    /// Sums over all commits and immediate calls, with who is hidden now.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory), with weights.
+    pub fn statistics_of_now(&self) -> Result<CommitReport> {
+        let mut statistics = self.statistics;
+        if G::HAS_WEIGHTS {
+            let now = self.mesh.hidden_in(&self.mesh.kernel, CoincidencePolicy::Merge)?;
+            (statistics.coincident, statistics.hidden_by_weight) = (now.by_place, now.by_weight);
+        }
+        Ok(statistics)
+    }
+}
