@@ -24,54 +24,12 @@
 //! corners that are too far away to be in any box. Of equal weights nothing is computed: corners are those without, to
 //! the last bit.
 
-use std::fmt::Debug;
 use std::ops::{Add, Mul, Sub};
 
 use super::big::{LimbRoom, decode, differences_in_units, in_square_of_unit};
 use super::distance::two_product;
+use super::in_space::{PlaceInSpace, VertexInSpace};
 use super::measures::scaled;
-use super::weighted::WeightedPoint;
-
-/// A place in space, or in the plane at height 0.
-pub type PlaceInSpace = [f64; 3];
-
-/// A vertex in space, or in the plane at height 0: a [`PlaceInSpace`], or one with a weight.
-pub trait VertexInSpace: Copy + Debug + Default + PartialEq + Send + Sync {
-    /// Whether there are weights.
-    const HAS_WEIGHT: bool;
-    /// Where it is.
-    fn place(&self) -> &PlaceInSpace;
-    /// Its weight, 0 if there are none.
-    fn weight(&self) -> f64;
-}
-
-impl VertexInSpace for PlaceInSpace {
-    const HAS_WEIGHT: bool = false;
-
-    #[inline(always)]
-    fn place(&self) -> &PlaceInSpace {
-        self
-    }
-
-    #[inline(always)]
-    fn weight(&self) -> f64 {
-        0.0
-    }
-}
-
-impl VertexInSpace for WeightedPoint<3> {
-    const HAS_WEIGHT: bool = true;
-
-    #[inline(always)]
-    fn place(&self) -> &PlaceInSpace {
-        &self.place
-    }
-
-    #[inline(always)]
-    fn weight(&self) -> f64 {
-        self.weight
-    }
-}
 
 /// Where the bisectors of a vertex and others meet faces of a box.
 #[derive(Clone, Copy, Debug)]

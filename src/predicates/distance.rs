@@ -2,7 +2,7 @@
 
 use super::big::{self, has_room};
 use super::filter::UNDERFLOW;
-use super::tolerance::squared_distance;
+use super::vectors::squared_distance;
 use super::weighted::WeightedPoint;
 use robust::Coord;
 use std::cmp::Ordering;

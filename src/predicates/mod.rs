@@ -89,6 +89,7 @@ mod distance;
 mod dyadic;
 mod filter;
 mod hull;
+mod in_space;
 mod integer;
 mod lanes;
 mod lattice;
@@ -126,12 +127,13 @@ pub(crate) use bicells::{
 };
 pub use big::compare_lengths;
 pub use coordinates::Coordinates;
-pub use corners::{Meeting, PlaceInSpace, VertexInSpace, sign_of_cross};
+pub use corners::{Meeting, sign_of_cross};
 pub use crossing::{crossing, passes_near};
 pub use diametral::is_in_diametral_circle;
 pub use distance::{compare_distance, compare_power, is_collinear3, is_within_distance};
 pub use filter::StaticFilter;
 pub use hull::{area, ray_and_segment, ray_and_triangle, volumes_over};
+pub use in_space::{PlaceInSpace, VertexInSpace};
 pub use lanes::BiCells;
 pub use lattice::exact_filter;
 pub use lifted::{Lifted, seen_circle_bound, seen_circle_running_bound, side_of_seen_circle};
@@ -152,10 +154,10 @@ pub use sphere::{Circle, Sphere, edge_length, half_space, half_space_by_length, 
 pub use sphere::{OwnBounds2d, OwnBounds3d, circle, is_box_outside_circle, is_box_outside_sphere, sphere};
 pub use tolerance::{
     Delimiter, delimiter2d, displacement_limit, distance_above, is_certainly_inside,
-    is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d, squared_distance,
-    tolerances2d,
+    is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d, tolerances2d,
 };
 pub(crate) use tolerance::{are_within, distances_above};
+pub use vectors::squared_distance;
 pub(crate) use vectors::{cross, dot, minus};
 pub use weighted::WeightedPoint;
 

@@ -115,7 +115,7 @@
 use super::array::PointArray;
 use super::filter::{extents, largest};
 use super::lanes::BiCells;
-use super::vectors::{cross, dot, minor, minus, plus, square_between};
+use super::vectors::{cross, dot, minor, minus, plus, square_between, squared_distance};
 use crate::simd::{LANES, Lanes, Real, Simd, in_lanes};
 
 /// Delimiter of a bi-cell: a sphere with the interior facet inside and the opposing vertices outside.
@@ -163,12 +163,6 @@ pub(super) const CROSS: f64 = 14.0 * UNIT;
 const CROSS_SUM: f64 = 60.0 * UNIT;
 /// Half, less 8 u: two roundings of the numerator, 4 of the denominator, a quotient and a product.
 const HALF: f64 = 0.5 - 4.0 * UNIT;
-
-/// Squared distance, in the order of operations that the thresholds of this module certify.
-#[inline(always)]
-pub fn squared_distance<P: AsRef<[f64]>>(p: &P, q: &P) -> f64 {
-    square_between(p.as_ref(), q.as_ref())
-}
 
 /// Upper bound of the [way](PointArray::squared_way) from one to the other.
 #[inline(always)]

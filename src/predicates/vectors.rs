@@ -89,3 +89,9 @@ pub(super) fn greatest_of<T: Real, const N: usize>(magnitudes: &[T; N]) -> T {
     }
     greatest
 }
+
+/// Squared distance, in the order of operations that the thresholds of tolerances certify.
+#[inline(always)]
+pub fn squared_distance<P: AsRef<[f64]>>(p: &P, q: &P) -> f64 {
+    square_between(p.as_ref(), q.as_ref())
+}

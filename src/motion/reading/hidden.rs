@@ -82,11 +82,6 @@ impl<G: Moving> MovingTriangulation<G> {
         Ok(hidden)
     }
 
-    /// How many vertices are hidden.
-    pub fn hidden_count(&self) -> usize {
-        self.mesh.hidden.count()
-    }
-
     /// The vertices that are corners of no cell because of weights, ascending: each is above the cell that has its place, or at the place of
     /// a vertex of greater weight, or of the same weight and lower key, then lower id. Where there are no cells it is the
     /// lower hull in the dimension that all vertices span which says who is hidden, at the cost of a build.

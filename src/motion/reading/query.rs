@@ -208,6 +208,11 @@ impl<G: Moving> MovingTriangulation<G> {
         }
     }
 
+    /// How many vertices are hidden.
+    pub fn hidden_count(&self) -> usize {
+        self.mesh.hidden.count()
+    }
+
     /// Checks the triangulation: see [`Level`].
     ///
     /// ```

@@ -215,3 +215,14 @@ impl Clip {
         Meeting { vertex: corners[0], others, from, is_fixed }.sign(face.axis)
     }
 }
+
+/// Twice the distance of the bisector of an edge from its first end, and from the other one, in lengths of the edge: 1,
+/// unless weights differ. Given are the square of the length, and what the weight of the first end is more.
+#[inline(always)]
+pub(super) fn heights<G: Moving>(square: f64, apart: f64) -> [f64; 2] {
+    if !G::HAS_WEIGHTS {
+        return [1.0; 2];
+    }
+    let more = apart / square;
+    [1.0 + more, 1.0 - more]
+}

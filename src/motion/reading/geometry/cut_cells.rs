@@ -20,8 +20,9 @@ use crate::delaunay::{IndexSet, Moving};
 use crate::error::Result;
 use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
-use crate::motion::reading::geometry::clipping::{Clip, Face, Vector, cross, dot, in_space, minus, times};
-use crate::motion::reading::geometry::dual::heights;
+use crate::motion::reading::geometry::clipping::{
+    Clip, Face, Vector, cross, dot, heights, in_space, minus, times,
+};
 use crate::motion::reading::geometry::incidence::Neighbours;
 use crate::motion::reading::geometry::sums::{LEAST_SQUARE, Sums};
 use crate::motion::reading::geometry::voronoi::Voronoi;

@@ -72,7 +72,7 @@ use crate::machine::prefetch::AHEAD;
 use crate::machine::{memory, threads};
 use crate::motion::reading::geometry::cells_within::Region;
 use crate::motion::reading::geometry::centres::{Numbering, SHARED_AT_LEAST, ask_for};
-use crate::motion::reading::geometry::clipping::{Vector, cross, dot, in_space, minus, times};
+use crate::motion::reading::geometry::clipping::{Vector, cross, dot, heights, in_space, minus, times};
 use crate::motion::reading::geometry::incidence::Neighbours;
 use crate::motion::reading::geometry::sums::{LEAST_SQUARE, Sums};
 use crate::motion::reading::geometry::voronoi::Voronoi;
@@ -113,17 +113,6 @@ const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
 /// How many cells are visited between two looks at whether to go on.
 const CELLS_AT_A_TIME: usize = 1 << 16;
-
-/// Twice the distance of the bisector of an edge from its first end, and from the other one, in lengths of the edge: 1,
-/// unless weights differ. Given are the square of the length, and what the weight of the first end is more.
-#[inline(always)]
-pub(super) fn heights<G: Moving>(square: f64, apart: f64) -> [f64; 2] {
-    if !G::HAS_WEIGHTS {
-        return [1.0; 2];
-    }
-    let more = apart / square;
-    [1.0 + more, 1.0 - more]
-}
 
 /// A facet between two cells: centres p and q on its sides, the way from p to q in the unit of the box.
 struct DualFacet<'f> {
