@@ -32,8 +32,9 @@ static void look_at_sets(const deldrift_triangulation *at, look *l) {
     uint8_t *const bytes = l->saved;
     const uint64_t n = number_at(bytes, 24), m = number_at(bytes, 32);
     const uint64_t moving = number_at(bytes, 40), coming = number_at(bytes, 48);
-    const size_t rows = 168 + (n + moving + coming) * dimension * 8 + n * 4;
-    memset(bytes + rows, 0, m * (dimension + 1) * 8);
+    // With weights there are cells below vertices before the rows, and a weight behind each position.
+    const size_t one = has_weights(at), before = 168 + (n + moving + coming) * (dimension + one) * 8 + n * 4;
+    memset(bytes + before, 0, one * n * 4 + m * (dimension + 1) * 8);
     // Vertices moved, inserted and removed are counted by all alike.
     memset(bytes + 80, 0, 9 * 8);
     memset(bytes + l->size - 4, 0, 4);

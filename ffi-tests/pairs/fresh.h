@@ -1,4 +1,4 @@
-// The triangulation that is made anew of the places, keys, segments and vectors of another one has the same cells.
+// The triangulation that is made anew of the places, keys, weights, segments and vectors of another one has the same cells.
 #ifndef FRESH_H
 #define FRESH_H
 
@@ -32,10 +32,18 @@ static uint64_t set_of_cells(const deldrift_triangulation *at, const uint32_t *n
     return all;
 }
 
-static deldrift_triangulation *built(const double *at, const uint64_t *names, size_t count, const double *box,
-                                     uint32_t n_box) {
+static bool has_weights(const deldrift_triangulation *of) {
+    bool is_weighted;
+    OK(deldrift_is_weighted(of, &is_weighted));
+    return is_weighted;
+}
+
+static deldrift_triangulation *built(const double *at, const uint64_t *names, const double *weighing, size_t count,
+                                     const double *box, uint32_t n_box) {
     deldrift_triangulation *made = NULL;
-    if (n_box > 0) {
+    if (weighing != NULL) {
+        OK(deldrift_create_weighted(dimension, at, weighing, names, count, NULL, &made));
+    } else if (n_box > 0) {
         OK(deldrift_create_periodic(dimension, at, count, box, n_box, NULL, &made));
     } else {
         OK(deldrift_create_with_keys(dimension, at, names, count, NULL, &made));
@@ -55,7 +63,7 @@ static void lay(deldrift_triangulation *made, const deldrift_triangulation *of, 
 
 // What is wrong with a triangulation of which nothing is prepared, or NULL.
 static const char *difference_from_fresh(const deldrift_triangulation *of) {
-    double places[ROOM * 3], box[9], *at = places;
+    double places[ROOM * 3], weighing[ROOM], box[9], *at = places;
     uint64_t names[ROOM];
     uint32_t index[ROOM], ids_of[ROOM], first, expected;
     size_t n, count = 0, n_box;
@@ -63,6 +71,8 @@ static const char *difference_from_fresh(const deldrift_triangulation *of) {
     OK(deldrift_copy_positions(of, places, ROOM, &n));
     for (size_t v = 0; v < n; v++) names[v] = v;
     if (n_box == 0) OK(deldrift_keys(of, names, ROOM, &n));
+    const bool is_weighted = has_weights(of);
+    if (is_weighted) OK(deldrift_weights(of, weighing, ROOM, &n));
     for (uint32_t v = 0; v < n; v++) {
         bool present;
         OK(deldrift_is_present(of, v, &present));
@@ -70,11 +80,12 @@ static const char *difference_from_fresh(const deldrift_triangulation *of) {
         memmove(at, places + v * dimension, dimension * sizeof *at);
         at += dimension;
         names[count] = names[v];
+        weighing[count] = weighing[v];
         index[v] = (uint32_t)count;
         ids_of[count++] = v;
     }
-    deldrift_triangulation *made = built(places, names, count, box, (uint32_t)n_box);
-    if (dimension == 2 && n_box == 0) lay(made, of, index);
+    deldrift_triangulation *made = built(places, names, is_weighted ? weighing : NULL, count, box, (uint32_t)n_box);
+    if (dimension == 2 && n_box == 0 && !is_weighted) lay(made, of, index);
     const char *wrong = NULL;
     if (set_of_cells(of, NULL) != set_of_cells(made, ids_of)) wrong = "other cells than those of a fresh build";
     for (uint32_t v = 0; v < count && wrong == NULL; v++) {

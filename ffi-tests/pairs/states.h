@@ -44,6 +44,22 @@ static deldrift_triangulation *keyed(void) {
     return made;
 }
 
+// Some are hidden by weight, and two at one place.
+static deldrift_triangulation *weighted(void) {
+    deldrift_triangulation *made = NULL;
+    double middle[COUNT * 3];
+    for (size_t i = 0; i < COUNT * dimension; i++) middle[i] = i / dimension % 2 == 1 ? 0.4 + 0.2 * points[i] : points[i];
+    memcpy(middle + HIDDEN * dimension, middle + 3 * dimension, dimension * sizeof *middle);
+    OK(deldrift_create_weighted(dimension, middle, weights, NULL, COUNT, &options, &made));
+    return made;
+}
+
+static deldrift_triangulation *weighted_in_line(void) {
+    deldrift_triangulation *made = NULL;
+    OK(deldrift_create_weighted(dimension, in_line, weights, keys, 6, &options, &made));
+    return made;
+}
+
 // A fence around a cell, two more segments from its first corner, of which one has been removed.
 static deldrift_triangulation *fenced_in(void) {
     deldrift_triangulation *made = plain();
@@ -187,6 +203,14 @@ static deldrift_triangulation *keys_coming(deldrift_triangulation *of) {
     return of;
 }
 
+// Of one vertex the place is to change, of another one the weight.
+static deldrift_triangulation *reweighted(deldrift_triangulation *of) {
+    OK(deldrift_stage_weights(of, (uint32_t[]){3}, (double[]){0.5}, 1));
+    return edited(of);
+}
+
+static deldrift_triangulation *reweighted_and_loaded(deldrift_triangulation *of) { return loaded(reweighted(of)); }
+
 // One is to come under the highest id, which another one had.
 static deldrift_triangulation *free_ids(deldrift_triangulation *of) {
     uint32_t given[1];
@@ -248,6 +272,13 @@ static const state states[] = {
     {"keyed, edited", keyed, edited, true, true, true},
     {"keyed, loaded", keyed, edited_and_loaded, true, false, false},
     {"keyed, compacted", keyed, compacted, true, false, false},
+    {"weighted", weighted, as_it_is, true, false, false},
+    {"weighted, edited", weighted, reweighted, true, true, true},
+    {"weighted, prepared", weighted, prepared, true, false, false},
+    {"weighted, loaded", weighted, reweighted_and_loaded, true, false, false},
+    {"weighted, compacted", weighted, compacted, true, false, false},
+    {"weighted, cloned", weighted, cloned, true, false, false},
+    {"weighted in a line", weighted_in_line, edited, true, false, false},
     {"segments", fenced_in, as_it_is, true, false, false},
     {"segments, edited", fenced_in, edited, true, false, false},
     {"segments, prepared", fenced_in, prepared, true, false, false},

@@ -90,8 +90,8 @@ deldrift_status deldrift_volumes(const deldrift_triangulation *t,
 /// Which cells have a circumradius of at most a given one, as for an alpha shape, in the order of deldrift_cells. It is
 /// 1 for those whose squared circumradius is at most squared_radius, 0 for the others.
 ///
-/// squared_radius: 0 or more; infinity is all cells. mask: a buffer with room for capacity bytes. count: receives the
-/// number of cells.
+/// squared_radius: 0 or more, with weights any number; infinity is all cells. mask: a buffer with room for capacity
+/// bytes. count: receives the number of cells.
 ///
 /// Exact: squared_radius, as given, is compared exactly with the squared radius of the circle or sphere through the
 /// positions. One pass over the cells; where the two nearly agree, a cell takes a microsecond.
@@ -242,8 +242,9 @@ deldrift_status deldrift_update_volumes(const deldrift_triangulation *t,
 /// Decides for some cells again whether their circumradius is at most a given one, in a mask that
 /// deldrift_mask_by_circumradius has filled for the same one. Entries are as for deldrift_update_circumcentres.
 ///
-/// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once. squared_radius: 0 or more;
-/// infinity is all cells. mask: an array with room for capacity bytes. capacity: at least deldrift_cell_count.
+/// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once. squared_radius: 0 or more,
+/// with weights any number; infinity is all cells. mask: an array with room for capacity bytes. capacity: at least
+/// deldrift_cell_count.
 ///
 /// deldrift_update_circumcentres has the steps by which an array for all cells is brought up to date, and when that
 /// pays.

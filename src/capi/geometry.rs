@@ -84,8 +84,8 @@ pub unsafe extern "C" fn deldrift_volumes(
 /// Which cells have a circumradius of at most a given one, as for an alpha shape, in the order of deldrift_cells. It is
 /// 1 for those whose squared circumradius is at most squared_radius, 0 for the others.
 ///
-/// squared_radius: 0 or more; infinity is all cells. mask: a buffer with room for capacity bytes. count: receives the
-/// number of cells.
+/// squared_radius: 0 or more, with weights any number; infinity is all cells. mask: a buffer with room for capacity
+/// bytes. count: receives the number of cells.
 ///
 /// Exact: squared_radius, as given, is compared exactly with the squared radius of the circle or sphere through the
 /// positions. One pass over the cells; where the two nearly agree, a cell takes a microsecond.

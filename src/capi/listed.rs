@@ -116,8 +116,9 @@ pub unsafe extern "C" fn deldrift_update_volumes(
 /// Decides for some cells again whether their circumradius is at most a given one, in a mask that
 /// deldrift_mask_by_circumradius has filled for the same one. Entries are as for deldrift_update_circumcentres.
 ///
-/// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once. squared_radius: 0 or more;
-/// infinity is all cells. mask: an array with room for capacity bytes. capacity: at least deldrift_cell_count.
+/// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once. squared_radius: 0 or more,
+/// with weights any number; infinity is all cells. mask: an array with room for capacity bytes. capacity: at least
+/// deldrift_cell_count.
 ///
 /// deldrift_update_circumcentres has the steps by which an array for all cells is brought up to date, and when that
 /// pays.

@@ -7,6 +7,7 @@
 
 use super::{Delaunay, Geometry, IndexSet};
 use crate::complex::{Cell, Corners};
+use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::prefetch::{CACHE_BYTES, prefetch};
 use crate::predicates::StaticFilter;
@@ -75,6 +76,25 @@ impl<G: Geometry> Delaunay<G> {
             }
             return (cell, false);
         }
+    }
+
+    /// Enters the finite cells that have a place in their closure, of which `start` is one, into an empty set.
+    pub(crate) fn list_cells_at(&self, q: &G::Point, start: Slot, cells: &mut IndexSet<Slot>) -> Result<()> {
+        cells.insert(start)?;
+        let mut next = 0;
+        while let Some(&cell) = cells.as_slice().get(next) {
+            next += 1;
+            let row = self.complex.cell(cell);
+            for i in 0..G::Corners::N {
+                let beyond = row.neighbour(i).cell();
+                if G::orientation_with(&self.filter, self.view(), &row.corners, i, q) == 0.0
+                    && !self.complex.cell(beyond).is_ghost()
+                {
+                    cells.insert(beyond)?;
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Whether `q` is in the closure of a finite cell, which is positive.

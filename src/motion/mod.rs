@@ -18,7 +18,8 @@
 //!
 //! Invariants between calls:
 //! - the cells are those of a fresh build of (positions, ids), whatever happened before;
-//! - the vertices at one place share a site; the lowest key and then id represents it, the others are *hidden*;
+//! - the vertices at one place share a site; the lowest key and then id represents it, the others are *hidden*; with weights each
+//!   has a site of its own, and who is hidden is found anew (state/mesh/hidden_by_weight);
 //! - a call that fails has no effect: every change is a transaction, which is undone from its own record.
 //!
 //! Memory per vertex: the kernel's, 4 bytes for the site of an id, once there was a commit a position, and once moves

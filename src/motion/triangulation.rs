@@ -215,10 +215,11 @@ impl<G: Moving> MovingTriangulation<G> {
         self.count_hidden()
     }
 
-    /// Makes a change, all of it or nothing.
+    /// Makes a change, all of it or nothing; `put_back` follows where it is undone, and puts vertices back that it has only moved.
     pub(in crate::motion) fn transact<T>(
         &mut self,
         change: impl FnOnce(&mut Self) -> Result<T>,
+        put_back: impl FnOnce(&mut Self),
     ) -> Result<T> {
         self.mesh.begin(Aim::Other)?;
         let done = change(self).and_then(|done| {
@@ -232,16 +233,25 @@ impl<G: Moving> MovingTriangulation<G> {
                 Ok(done)
             }
             Err(error) => {
-                self.undo();
+                self.undo_but_places();
+                put_back(self);
+                self.mesh.kernel.settle_undone();
                 Err(error)
             }
         }
     }
 
-    /// Puts all back as it was when a change began. Needs no memory.
-    pub(in crate::motion) fn undo(&mut self) {
+    /// Puts all back as it was when a change began, but for places of vertices that were only moved, which nothing has noted, and for
+    /// where hidden ones are: [`settle_undone`](Delaunay::settle_undone) must follow. Needs no memory.
+    fn undo_but_places(&mut self) {
         self.mesh.undo();
         self.regions.invalidate();
+    }
+
+    /// Puts all back as it was when a change began. Needs no memory.
+    pub(in crate::motion) fn undo(&mut self) {
+        self.undo_but_places();
+        self.mesh.kernel.settle_undone();
     }
 
     /// Enters what was evaluated since then.

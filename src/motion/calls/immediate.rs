@@ -58,17 +58,13 @@ impl<G: Moving> MovingTriangulation<G> {
         self.foreseen.prefetch_next_stars(&self.mesh, vertex);
         let before = self.mesh.evaluations();
         let mut report = CommitReport { moved: 1, ..CommitReport::default() };
-        let relocated = self.transact(|t| {
+        let relocate = |t: &mut Self| {
             t.mesh.reject_occupied(vertex, &q, t.options.coincidence)?;
             t.relocate_filtered(vertex, &q, &mut report)?;
             t.settle_hidden(false, &mut report)?;
             t.reject_shared_places()
-        });
-        if let Err(error) = relocated {
-            // Undoing does not know the place of a vertex that was only moved.
-            self.mesh.kernel.set_point(self.mesh.site_of[vertex], old);
-            return Err(error);
-        }
+        };
+        self.transact(relocate, |t| t.mesh.kernel.set_point(t.mesh.site_of[vertex], old))?;
         self.enter_evaluations(&mut report, before);
         self.count(report);
         if self.options.algorithm == Algorithm::Auto && self.mesh.kernel.has_cells() {
@@ -123,12 +119,13 @@ impl<G: Moving> MovingTriangulation<G> {
         self.mesh.site_of.push(SiteId::NONE);
         let before = self.mesh.evaluations();
         let mut report = CommitReport { inserted: 1, ..CommitReport::default() };
-        let inserted = self.transact(|t| {
+        let insert = |t: &mut Self| {
             t.mesh.reject_occupied(id, &q, t.options.coincidence)?;
             t.insert_at(id, &q, &mut report)?;
             t.settle_hidden(false, &mut report)?;
             t.reject_shared_places()
-        });
+        };
+        let inserted = self.transact(insert, |_| {});
         if let Err(error) = inserted {
             self.mesh.site_of.pop();
             if had_keys {
@@ -188,10 +185,11 @@ impl<G: Moving> MovingTriangulation<G> {
         self.staging.list()?;
         let before = self.mesh.evaluations();
         let mut report = CommitReport { removed: 1, ..CommitReport::default() };
-        self.transact(|t| {
+        let remove = |t: &mut Self| {
             t.with_regions(&mut report, |t, _| t.remove_present(vertex))?;
             t.settle_hidden(false, &mut report)
-        })?;
+        };
+        self.transact(remove, |_| {})?;
         self.staging.unstage(vertex);
         self.edits.forget_removal(vertex);
         self.enter_evaluations(&mut report, before);

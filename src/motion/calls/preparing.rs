@@ -83,6 +83,7 @@ impl<G: Moving> MovingTriangulation<G> {
     fn withdraw(&mut self, are_all: bool) {
         self.regions.release();
         let Some(savepoint) = self.mesh.withdraw_rounds(are_all) else { return };
+        self.mesh.kernel.settle_undone();
         self.auto.note_withdrawn(self.mesh.constants);
         self.regions.invalidate();
         self.statistics = savepoint.statistics;

@@ -1,8 +1,8 @@
 //! Which vertices are hidden, by what is at their place or, with weights, by the cells that they are above.
 
-use crate::delaunay::Moving;
+use crate::delaunay::{IndexSet, Moving};
 use crate::error::Result;
-use crate::ids::{CellId, Slot, VertexId};
+use crate::ids::{CellId, SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::options::CoincidencePolicy;
 use crate::motion::report::CommitReport;
@@ -65,7 +65,7 @@ impl<G: Moving> MovingTriangulation<G> {
     }
 
     /// The vertices that are hidden by weight, ascending, each with the index of the cell that it is above, [`CellId::NONE`] where
-    /// there are no cells: those that are in no cell and represent their place. On a facet the cell is any of those around it. Where
+    /// there are no cells: those that are in no cell and represent their place. Of several cells that have its place on their boundary it is the one of the lowest index. Where
     /// there are no cells it is the lower hull in the dimension that all vertices span which says who is hidden, at the cost of
     /// a build.
     ///
@@ -75,11 +75,29 @@ impl<G: Moving> MovingTriangulation<G> {
         let mut hidden = Vec::new();
         if G::HAS_WEIGHTS {
             let index_of = self.cell_arrays()?.index_of();
-            let found = self.mesh.vertices_in_no_cell()?.by_weight;
-            let index = |slot: Slot| if slot == Slot::NONE { CellId::NONE } else { index_of[slot] };
-            memory::collect(&mut hidden, found.iter().map(|covered| (covered.vertex, index(covered.cell))))?;
+            for covered in self.mesh.vertices_in_no_cell()?.by_weight {
+                let s = self.mesh.site_of[covered.vertex];
+                let cell = self.lowest_cell_at(s, covered.cell, index_of)?;
+                memory::push(&mut hidden, (covered.vertex, cell))?;
+            }
         }
         Ok(hidden)
+    }
+
+    /// Of the cells that have the place of a hidden site in their closure, of which one is given, the lowest index: it does not depend
+    /// on where the site has been looked for. [`CellId::NONE`] where there are no cells.
+    pub(in crate::motion) fn lowest_cell_at(
+        &self,
+        s: SiteId,
+        one: Slot,
+        index_of: &[CellId],
+    ) -> Result<CellId> {
+        if one == Slot::NONE {
+            return Ok(CellId::NONE);
+        }
+        let (kernel, mut cells) = (&self.mesh.kernel, IndexSet::new());
+        kernel.list_cells_at(&kernel.site(s).point, one, &mut cells)?;
+        Ok(cells.as_slice().iter().map(|&slot| index_of[slot]).min().unwrap_or(CellId::NONE))
     }
 
     /// The vertices that are corners of no cell because of weights, ascending: each is above the cell that has its place, or at the place of

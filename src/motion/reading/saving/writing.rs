@@ -115,7 +115,7 @@ impl<G: Moving> MovingTriangulation<G> {
     }
 
     /// Writes which vertices are present and hidden, and by what, the cells, and what is staged.
-    fn save_numbers<E>(
+    fn save_numbers<E: From<Error>>(
         &self,
         cells: &Cells<G>,
         insertions: &[(VertexId, G::Point)],
@@ -158,11 +158,14 @@ impl<G: Moving> MovingTriangulation<G> {
         &self,
         cells: &Cells<G>,
         chunks: &mut Chunks<impl FnMut(&[u8]) -> Result<(), E>>,
-    ) -> Result<(), E> {
+    ) -> Result<(), E>
+    where
+        E: From<Error>,
+    {
         let kernel = &self.mesh.kernel;
         self.mesh.standings().try_for_each(|(_, standing)| {
             let below = match standing {
-                Standing::Above(s) => cells.index_of()[kernel.cell_below(s)],
+                Standing::Above(s) => self.lowest_cell_at(s, kernel.cell_below(s), cells.index_of())?,
                 _ => CellId::NONE,
             };
             chunks.numbers(&[below.get()])
