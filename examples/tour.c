@@ -426,7 +426,7 @@ static void hide_by_weights(void) {
     check(deldrift_is_weighted(t, &is_weighted));
     check(deldrift_hidden_by_weight(t, vertices, cells, 5, &count));
     expect(is_weighted && count == 1 && vertices[0] == 4 && cells[0] < 2, "a light vertex is above a cell");
-    check(deldrift_set_weight(t, 4, 0));
+    check(deldrift_set_weight(t, 4, 0.25));
     check(deldrift_hidden_by_weight(t, NULL, NULL, 0, &count));
     expect(count == 0, "it is heavy enough");
     check(deldrift_stage_weights(t, (uint32_t[]){4}, (double[]){-0.5}, 1));
