@@ -223,14 +223,13 @@ pub unsafe extern "C" fn deldrift_hull_facets(
     })
 }
 
-/// How many cells there are, of those of a periodic triangulation one of each class.
 /// The square of a radius must be a number, and not negative unless there are weights.
 pub(super) fn check_squared_radius(t: &Content, squared_radius: f64) -> Result<()> {
     let least = if matches!(t, Content::Weighted(_)) { squared_radius.abs() } else { squared_radius };
     check_not_negative("squared_radius", least)
 }
 
-/// How many cells there are.
+/// How many cells there are, of those of a periodic triangulation one of each class.
 pub(super) fn cell_count_of(t: &Content) -> Result<usize> {
     by_kind!(t => Ok(t.cell_count()), periodic t => t.cell_count())
 }

@@ -24,6 +24,13 @@ impl ChangedParts {
         self.moved += u64::from(was.as_ref() != is.as_ref());
         self.reweighted += u64::from(was.weight() != is.weight());
     }
+
+    /// Adds them to sums.
+    #[inline(always)]
+    pub(in crate::motion) fn add_to(&self, statistics: &mut CommitReport) {
+        statistics.moved += self.moved;
+        statistics.reweighted += self.reweighted;
+    }
 }
 
 impl<G: Moving> MovingTriangulation<G> {
@@ -49,10 +56,9 @@ impl<G: Moving> MovingTriangulation<G> {
     #[inline(always)]
     pub(in crate::motion) fn tell_parts(&mut self, report: &mut CommitReport, changed: ChangedParts) {
         if G::HAS_WEIGHTS {
-            let ChangedParts { moved, reweighted } = changed;
-            self.statistics.moved = self.statistics.moved + moved - report.moved;
-            self.statistics.reweighted += reweighted;
-            (report.moved, report.reweighted) = (moved, reweighted);
+            self.statistics.moved -= report.moved;
+            changed.add_to(&mut self.statistics);
+            (report.moved, report.reweighted) = (changed.moved, changed.reweighted);
         }
     }
 

@@ -13,7 +13,6 @@ use crate::motion::state::checking::{check_position, differ};
 use crate::motion::state::passings::Steps;
 use crate::motion::triangulation::{MAX_VERTICES, MovingTriangulation};
 use crate::motion::ways::placement::Placed;
-use crate::predicates::PointArray;
 
 impl<G: Moving> MovingTriangulation<G> {
     /// Moves one vertex at once, whatever is staged for others.
@@ -235,8 +234,9 @@ impl<G: Moving> MovingTriangulation<G> {
         let old = std::mem::replace(&mut site.point, q);
         let moved = differ::<G>(&old, &q);
         if G::HAS_WEIGHTS {
-            self.statistics.moved += u64::from(old.as_ref() != q.as_ref());
-            self.statistics.reweighted += u64::from(old.weight() != q.weight());
+            let mut changed = ChangedParts::default();
+            changed.count(&old, &q);
+            changed.add_to(&mut self.statistics);
         } else {
             self.statistics.moved += u64::from(moved);
         }

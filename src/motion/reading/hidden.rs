@@ -8,6 +8,7 @@ use crate::motion::options::CoincidencePolicy;
 use crate::motion::report::CommitReport;
 use crate::motion::state::mesh::Standing;
 use crate::motion::triangulation::MovingTriangulation;
+use crate::predicates::PointArray;
 
 impl<G: Moving> MovingTriangulation<G> {
     /// Among the vertices at the place of this one, the one of the lowest [key](Self::key) and then of the lowest id;
@@ -21,7 +22,7 @@ impl<G: Moving> MovingTriangulation<G> {
         if !G::HAS_WEIGHTS {
             return Ok(site.id);
         }
-        let weight = |&v: &VertexId| self.mesh.kernel.site(self.mesh.site_of[v]).point[G::D];
+        let weight = |&v: &VertexId| self.mesh.kernel.site(self.mesh.site_of[v]).point.weight();
         let ranked = |v: VertexId| (v, site.point.as_ref());
         let keys = self.mesh.kernel.keys();
         let there = self.vertices_in_box(&site.point, &site.point)?.into_iter();
@@ -50,8 +51,7 @@ impl<G: Moving> MovingTriangulation<G> {
         })
     }
 
-    /// The vertices that are hidden by another one at their place, ascending, each with the one that represents it, with weights
-    /// or without.
+    /// The vertices that are hidden by another one at their place, ascending, each with the one that represents it.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -64,10 +64,9 @@ impl<G: Moving> MovingTriangulation<G> {
         Ok(hidden)
     }
 
-    /// The vertices that are hidden by weight, ascending, each with the index of the cell that it is above, [`CellId::NONE`] where
-    /// there are no cells: those that are in no cell and represent their place. Of several cells that have its place on their boundary it is the one of the lowest index. Where
-    /// there are no cells it is the lower hull in the dimension that all vertices span which says who is hidden, at the cost of
-    /// a build.
+    /// The vertices that are hidden by weight, ascending: those that represent their place and are corners of no cell. Each is listed
+    /// with the index of the cell that it is above, the lowest one if its place is on the boundary of several. Where there are no cells
+    /// that is [`CellId::NONE`], and the lower hull in the dimension that all vertices span says who is hidden, at the cost of a build.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -100,9 +99,9 @@ impl<G: Moving> MovingTriangulation<G> {
         Ok(cells.as_slice().iter().map(|&slot| index_of[slot]).min().unwrap_or(CellId::NONE))
     }
 
-    /// The vertices that are corners of no cell because of weights, ascending: each is above the cell that has its place, or at the place of
-    /// a vertex of greater weight, or of the same weight and lower key, then lower id. Where there are no cells it is the
-    /// lower hull in the dimension that all vertices span which says who is hidden, at the cost of a build.
+    /// The vertices that are corners of no cell, ascending, in a triangulation with weights: those of
+    /// [`hidden_by_weight`](Self::hidden_by_weight) and of [`hidden_by_place`](Self::hidden_by_place). Where there are no cells the lower
+    /// hull in the dimension that all vertices span says who is hidden, at the cost of a build.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).

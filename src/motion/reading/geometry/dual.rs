@@ -78,6 +78,7 @@ use crate::motion::reading::geometry::sums::{LEAST_SQUARE, Sums};
 use crate::motion::reading::geometry::voronoi::Voronoi;
 use crate::motion::reading::progress::Progress;
 use crate::motion::state::cells::NO_CELL;
+use crate::predicates::PointArray;
 
 /// What a vertex has so far.
 #[derive(Clone, Copy, Debug, Default)]
@@ -256,8 +257,8 @@ impl<G: Moving> Voronoi<'_, G> {
                 let step = times(&minus(&in_space::<G>(&beyond.place), &p), unit);
                 let facet = DualFacet { unit, p: &p, step };
                 let at = [&places[face[0]], &places[face[1]], &places[face[2]]];
-                let weight = |k: usize| kernel.place(corners[face[k].min(G::D)])[G::D];
-                let weights = if G::HAS_WEIGHTS { [weight(0), weight(1), weight(2)] } else { [0.0; 3] };
+                let weight = |k: usize| kernel.place(corners[face[k].min(G::D)]).weight();
+                let weights = [weight(0), weight(1), weight(2)];
                 if G::D == 2 {
                     let [of_a, of_b, _] = weights;
                     facet.add_in_plane::<G>([at[0], at[1]], [of_a, of_b], [ends[0], ends[1]], part);

@@ -75,6 +75,6 @@ impl<G: Moving> MovingTriangulation<G> {
 
     /// The weight of a vertex, 0 if there are none.
     pub(super) fn weight(&self, v: VertexId) -> f64 {
-        if G::HAS_WEIGHTS { self.mesh.kernel.site(self.mesh.site_of[v]).point[G::D] } else { 0.0 }
+        self.mesh.kernel.site(self.mesh.site_of[v]).point.weight()
     }
 }

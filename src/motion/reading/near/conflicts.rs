@@ -78,7 +78,7 @@ impl<G: Moving> MovingTriangulation<G> {
             Place::Site(_) | Place::NoCells => return Ok(cells),
         };
         // With weights the vertex may be above the cell that has its place.
-        if !G::HAS_WEIGHTS || kernel.is_in_conflict_with(&kernel.filter_for(&q), first, &q, VertexId::NONE) {
+        if !G::HAS_WEIGHTS || kernel.is_in_conflict(first, &q, VertexId::NONE) {
             list_conflicts(kernel, first, &q, &mut zone)?;
             memory::collect(&mut cells, cells_at(&zone, index_of))?;
         }
