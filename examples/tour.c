@@ -437,6 +437,10 @@ static void hide_by_weights(void) {
     check(deldrift_weights(t, found, 5, &count));
     expect(count == 5 && found[4] == 0, "weights are read by id");
     deldrift_destroy(t);
+    check(deldrift_create_periodic_weighted(2, positions + 8, (double[]){3}, 1, (double[]){1, 0, 0, 1}, 2, NULL, &t));
+    check(deldrift_cell_count(t, &count));
+    expect(count == 2, "one vertex that repeats has two cells, whatever its weight");
+    deldrift_destroy(t);
 }
 
 // A square of two regions whose mesh is refined: where vertices and pieces come from, labels, and the boundary.

@@ -95,6 +95,21 @@ public:
                                             vectors.data(), count_of("vectors", vectors), &options, &t));
         t_.reset(t);
     }
+    // Of points with weights that repeat.
+    //     deldrift::Triangulation t(3, centres, deldrift::Weights(squared_radii), deldrift::Periodic{box});
+    Triangulation(std::uint32_t dimension, const Positions &positions, Weights weights, Periodic box,
+                  const deldrift_options &options = default_options())
+        : dimension_(dimension) {
+        deldrift_triangulation *t = nullptr;
+        const span<const double> numbers = gathered(positions);
+        const std::size_t count = count_of("positions", numbers);
+        expect("weights", weights.numbers.size(), count);
+        std::vector<double> room;
+        const span<const double> vectors = box.vectors.numbers("vectors", dimension_, room);
+        require_ok(deldrift_create_periodic_weighted(dimension, numbers.data(), weights.numbers.data(), count,
+                                                     vectors.data(), count_of("vectors", vectors), &options, &t));
+        t_.reset(t);
+    }
     // Of vertices with weights, a number for each: the regular triangulation. keys: one for each, or none.
     //     const std::vector<double> squared_radii = radii_of(atoms);
     //     deldrift::Triangulation t(3, centres, deldrift::Weights(squared_radii));

@@ -333,6 +333,21 @@ std::vector<Call> geometry_calls() {
         {"deldrift_create_periodic", "in a box around all", [](Context &c) {
              make_periodic(c);
          }},
+        {"deldrift_create_periodic_weighted", "in a box around all", [](Context &c) {
+             const std::vector<double> box = make_periodic(c);
+             deldrift_destroy(c.t);
+             c.t = nullptr;
+             const deldrift_options options = c.options();
+             const double square = std::pow(box[0], 2) * std::pow(double(c.n), -2.0 / c.dimension);
+             std::vector<double> weights(c.n);
+             for (std::size_t v = 0; v < c.n; ++v) weights[v] = 0.1 * square * double(v * 7919 % 1000) / 1000;
+             c.meter.reset();
+             c.meter.time([&] {
+                 must(deldrift_create_periodic_weighted(c.dimension, c.points.data(), weights.data(), c.n, box.data(),
+                                                        c.dimension, &options, &c.t));
+             });
+             c.meter.count(double(c.n + c.cells()));
+         }},
         {"deldrift_stage_vectors", "of a periodic one", [](Context &c) {
              const std::vector<double> box = make_periodic(c);
              c.meter.reset();

@@ -58,6 +58,10 @@ pub const ROWS: &[Row] = &[
         "deldrift_create_periodic",
         &["dimension", "points", "COUNT", "vectors", "dimension", "&options", "&out.handle"],
     ),
+    row(
+        "deldrift_create_periodic_weighted",
+        &["dimension", "points", "weights", "COUNT", "vectors", "dimension", "&options", "&out.handle"],
+    ),
     row("deldrift_stage_vectors", &["t", "NULL", "0"]),
     row("deldrift_vectors", &["t", "out.numbers", "8", "&out.count"]),
     row("deldrift_reduced_vectors", &["t", "out.numbers", "out.shifts", "out.ids", "8", "&out.count"]),

@@ -73,7 +73,7 @@ typedef enum { CREATE, CREATE_WITH_KEYS, CREATE_PERIODIC, RELOCATE, INSERT, INSE
     PERIODIC_POSITIONS, STAGE_VECTORS, CELL_SHIFTS, EDGE_SHIFTS, PERIODIC_CELLS, PERIODIC_FACETS, PERIODIC_CENTRES,
     LOCATE_IN_PERIOD, PERIODIC_NEAREST, PERIODIC_BALL, PERIODIC_LISTS, PERIODIC_LINEAR, PERIODIC_WEIGHTS, PERIODIC_CLONE, PERIODIC_LOAD,
     PERIODIC_VTU, PERIODIC_NEIGHBOURS, PERIODIC_CHECK, PERIODIC_COMPACT, PERIODIC_HIDDEN, WRAP_POSITIONS,
-    CREATE_WEIGHTED, STAGE_WEIGHTS, COMMIT_WEIGHTED, SET_WEIGHT, HIDDEN_BY_WEIGHT, HIDDEN_BY_PLACE, REPRESENTATIVE, STATISTICS, N_KINDS } kind;
+    CREATE_WEIGHTED, CREATE_PERIODIC_WEIGHTED, STAGE_WEIGHTS, COMMIT_WEIGHTED, SET_WEIGHT, HIDDEN_BY_WEIGHT, HIDDEN_BY_PLACE, REPRESENTATIVE, STATISTICS, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
     "deldrift_create", "deldrift_create_with_keys", "deldrift_create_periodic", "deldrift_relocate_vertex", "deldrift_insert_vertex",
@@ -111,7 +111,7 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_clone, periodic", "deldrift_load, periodic", "deldrift_write_vtu, periodic",
     "deldrift_vertex_neighbours, periodic", "deldrift_validate, periodic", "deldrift_compact, periodic", "deldrift_hidden_vertices, periodic",
     "deldrift_wrap_positions",
-    "deldrift_create_weighted", "deldrift_stage_weights", "deldrift_commit_weighted", "deldrift_set_weight",
+    "deldrift_create_weighted", "deldrift_create_periodic_weighted", "deldrift_stage_weights", "deldrift_commit_weighted", "deldrift_set_weight",
     "deldrift_hidden_by_weight", "deldrift_hidden_vertices, weighted", "deldrift_coincident_representative, weighted",
     "deldrift_statistics, weighted",
 };
@@ -570,6 +570,9 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case RELOCATE: status = deldrift_relocate_vertex(s->t, vertex, to); break;
         case CREATE_WEIGHTED:
             status = deldrift_create_weighted(d, s->points, weights_of(s->n, d, 1), NULL, s->n, &options, &made);
+            break;
+        case CREATE_PERIODIC_WEIGHTED:
+            status = deldrift_create_periodic_weighted(d, s->points, weights_of(s->n, d, 1), s->n, BOX[d - 2], d, &options, &made);
             break;
         case STAGE_WEIGHTS: status = deldrift_stage_weights(s->t, NULL, weights_of(s->n, d, 1), s->n); break;
         case COMMIT_WEIGHTED:

@@ -673,6 +673,23 @@ static void make_tour(const places *p, record *made) {
     note(tour_out.ids, count * (d + 1) * sizeof *tour_out.ids);
     DO(deldrift_destroy(t));
 
+    // One with weights that repeats.
+    t = NULL;
+    GO(deldrift_create_periodic_weighted(d, in_box, weights, 12, box[d - 2], d, &options, &t));
+    for (uint32_t i = 0; i < 12; i++) weights[i] = i % 4 == 0 ? -1.5 : i / 8.0;
+    GO(deldrift_commit_weighted(t, in_other_box, weights, 12, &report));
+    note(&report, sizeof report);
+    GO(deldrift_stage_weights(t, (const uint32_t[]){3}, (const double[]){-3}, 1));
+    GO(deldrift_stage_vectors(t, other_box[d - 2], d));
+    GO(deldrift_commit_timestamp(t, &report));
+    note(&report, sizeof report);
+    GO(deldrift_hidden_by_weight(t, tour_out.ids, tour_out.ids + 13, 13, &count));
+    note(tour_out.ids, count * sizeof *tour_out.ids);
+    note(tour_out.ids + 13, count * sizeof *tour_out.ids);
+    GO(deldrift_voronoi_volumes(t, NULL, NULL, tour_out.numbers, 12, &count));
+    note(tour_out.numbers, count * sizeof *tour_out.numbers);
+    DO(deldrift_destroy(t));
+
     // Calls that are refused: what a number is like is told.
     uint32_t vertex = 0;
     t = NULL;

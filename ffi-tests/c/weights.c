@@ -451,6 +451,56 @@ static void coincidence_is_refused(uint32_t d) {
     free(positions);
 }
 
+// In a box equal weights are none, one that is heavy enough hides all others, and what is staged is saved.
+static void weights_repeat(uint32_t d) {
+    static const double box[2][9] = {{1, 0, 0.25, 1}, {1, 0, 0, 0.25, 1, 0, 0, 0.5, 1}};
+    enum { BYTES = 1 << 20 };
+    static uint8_t bytes[BYTES], again[BYTES];
+    double *positions = random_positions(d, MOST, 8), weights[MOST], volumes[MOST], plain_volumes[MOST], found[MOST];
+    size_t count, size, n_cells, plain_cells;
+    bool is_weighted;
+    deldrift_commit_report report;
+    deldrift_triangulation *t, *plain, *loaded;
+    for (size_t v = 0; v < MOST; v++) weights[v] = 7;
+    OK(deldrift_create_periodic_weighted(d, positions, weights, MOST, box[d - 2], d, NULL, &t));
+    OK(deldrift_create_periodic(d, positions, MOST, box[d - 2], d, NULL, &plain));
+    OK(deldrift_is_weighted(t, &is_weighted));
+    CHECK(is_weighted);
+    OK(deldrift_cell_count(t, &n_cells));
+    OK(deldrift_cell_count(plain, &plain_cells));
+    CHECK(n_cells == plain_cells);
+    OK(deldrift_voronoi_volumes(t, NULL, NULL, volumes, MOST, &count));
+    OK(deldrift_voronoi_volumes(plain, NULL, NULL, plain_volumes, MOST, &count));
+    for (size_t v = 0; v < MOST; v++) CHECK(fabs(volumes[v] - plain_volumes[v]) < 1e-12);
+    CHECK_STATUS(deldrift_hidden_by_weight(plain, NULL, NULL, 0, &count), DELDRIFT_NOT_WEIGHTED);
+    OK(deldrift_set_weight(t, 5, 100));
+    uint32_t hidden[MOST], above[MOST];
+    OK(deldrift_hidden_by_weight(t, hidden, above, MOST, &count));
+    OK(deldrift_cell_count(t, &n_cells));
+    CHECK(count == MOST - 1 && n_cells == (d == 2 ? 2 : 6) && above[0] < n_cells);
+    OK(deldrift_move_vertex(t, 4, positions));
+    OK(deldrift_stage_weights(t, (uint32_t[]){5}, (double[]){7}, 1));
+    CHECK_STATUS(deldrift_stage_weights(t, (uint32_t[]){3, 5}, (double[]){1, 2}, 2), DELDRIFT_DUPLICATE_MOVE);
+    OK(deldrift_save(t, bytes, BYTES, &size));
+    OK(deldrift_load(bytes, size, NULL, &loaded));
+    OK(deldrift_save(loaded, again, BYTES, &count));
+    CHECK(count == size && memcmp(bytes, again, size) == 0);
+    OK(deldrift_commit_timestamp(loaded, &report));
+    CHECK(report.reweighted == 1 && report.moved == 1 && report.newly_shown == MOST - 2 && report.coincident == 1);
+    OK(deldrift_weights(loaded, found, MOST, &count));
+    CHECK(memcmp(found, weights, sizeof weights) == 0);
+    OK(deldrift_validate(loaded, 3));
+    weights[2] = NAN;
+    CHECK_STATUS(deldrift_commit_weighted(loaded, NULL, weights, MOST, &report), DELDRIFT_NOT_FINITE);
+    deldrift_triangulation *none = NULL;
+    CHECK_STATUS(deldrift_create_periodic_weighted(d, positions, weights, MOST, box[d - 2], d, NULL, &none), DELDRIFT_NOT_FINITE);
+    CHECK(none == NULL);
+    deldrift_destroy(loaded);
+    deldrift_destroy(plain);
+    deldrift_destroy(t);
+    free(positions);
+}
+
 int main(void) {
     static const deldrift_algorithm algorithms[] = {
         DELDRIFT_AUTO, DELDRIFT_REBUILDING, DELDRIFT_REPAIR, DELDRIFT_TOLERANCE, DELDRIFT_PLACEMENT_FLIPS,
@@ -460,6 +510,7 @@ int main(void) {
     for (uint32_t d = 2; d <= 3; d++) {
         equal_weights_are_none(d);
         coincidence_is_refused(d);
+        weights_repeat(d);
         cells_follow_weights(d);
         for (size_t a = 0; a < sizeof algorithms / sizeof *algorithms; a++) {
             for (int kind = 0; kind < 3; kind++) {

@@ -203,7 +203,21 @@ static void refuses() {
     CHECK(none.is_weighted() && none.weights().empty() && none.commit_weighted({}, {}).timestamp == 1);
 }
 
+// One vertex that repeats is heavy enough to hide all others, until they are as heavy.
+static void weights_in_a_box() {
+    const std::vector<double> places{0.125, 0.25, 0.5, 0.75, 0.875, 0.375}, box{1, 0, 0.25, 1}, none(3);
+    std::vector<double> weights{2, 0, 0};
+    Triangulation t(2, places, Weights(weights), deldrift::Periodic{box});
+    CHECK(t.is_weighted() && t.cell_count() == 2 && t.hidden_by_weight().vertices == (std::vector<std::uint32_t>{1, 2}));
+    const auto report = t.commit_weighted({}, none);
+    CHECK(report.newly_shown == 2 && report.reweighted == 1 && t.cell_count() == 6);
+    Triangulation plain(2, places, deldrift::Periodic{box});
+    CHECK(t.voronoi_volumes() == plain.voronoi_volumes());
+    CHECK_THROWS(Triangulation(2, places, Weights(box), deldrift::Periodic{box}), DELDRIFT_WRONG_COUNT, "weights has 4 numbers, but");
+}
+
 int main() {
+    weights_in_a_box();
     live(DELDRIFT_AUTO);
     live(DELDRIFT_REBUILDING);
     live(DELDRIFT_PLACEMENT_FLIPS);

@@ -41,7 +41,9 @@ static bool has_weights(const deldrift_triangulation *of) {
 static deldrift_triangulation *built(const double *at, const uint64_t *names, const double *weighing, size_t count,
                                      const double *box, uint32_t n_box) {
     deldrift_triangulation *made = NULL;
-    if (weighing != NULL) {
+    if (weighing != NULL && n_box > 0) {
+        OK(deldrift_create_periodic_weighted(dimension, at, weighing, count, box, n_box, NULL, &made));
+    } else if (weighing != NULL) {
         OK(deldrift_create_weighted(dimension, at, weighing, names, count, NULL, &made));
     } else if (n_box > 0) {
         OK(deldrift_create_periodic(dimension, at, count, box, n_box, NULL, &made));

@@ -131,6 +131,16 @@ static deldrift_triangulation *box_with_hidden(void) {
     return in_box_of(at, 5, dimension);
 }
 
+// Some are hidden by weight, and the first one is there twice, once in another period.
+static deldrift_triangulation *weighted_box(void) {
+    deldrift_triangulation *made = NULL;
+    double at[PLACES * 3];
+    for (size_t i = 0; i < 8 * dimension; i++) at[i] = i / dimension % 2 == 1 ? 0.4 + 0.2 * points[i] : points[i];
+    for (size_t axis = 0; axis < dimension; axis++) at[2 * dimension + axis] = points[axis] + vectors[axis];
+    OK(deldrift_create_periodic_weighted(dimension, at, weights, 7, vectors, dimension, &options, &made));
+    return made;
+}
+
 static deldrift_triangulation *as_it_is(deldrift_triangulation *of) { return of; }
 
 static deldrift_triangulation *without_two(deldrift_triangulation *of) {
@@ -302,6 +312,8 @@ static const state states[] = {
     {"box, vectors staged", box, strained_soon, true, false, false},
     {"box, one vertex", box_of_one, as_it_is, true, false, false},
     {"box, one hidden", box_with_hidden, edited, true, false, false},
+    {"box, weighted, edited", weighted_box, reweighted, true, false, true},
+    {"box, weighted, loaded", weighted_box, reweighted_and_loaded, true, false, false},
     {"slab", slab, edited, true, false, false},
     {"slab, loaded", slab, edited_and_loaded, true, false, false},
     {"rod", rod, edited, false, true, false},

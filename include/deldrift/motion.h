@@ -306,7 +306,7 @@ deldrift_status deldrift_commit_positions(deldrift_triangulation *t,
 /// What all commits and immediate calls so far have done, in sum, to *report. Its timestamp, coincident and
 /// hidden_by_weight are those of now.
 ///
-/// Cost: constant; n for a triangulation with weights.
+/// Cost: constant; for a triangulation with weights, what deldrift_hidden_by_weight costs.
 ///
 /// Errors: DELDRIFT_OUT_OF_MEMORY if t has weights.
 deldrift_status deldrift_statistics(const deldrift_triangulation *t,

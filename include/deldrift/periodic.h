@@ -8,6 +8,8 @@
  * Periodic triangulations: their creation, and what only they have.
  *
  *     deldrift_create_periodic: Creates the Delaunay triangulation of points that repeat.
+ *     deldrift_create_periodic_weighted: Creates the regular triangulation of points with weights that repeat:
+ *         deldrift_create_periodic for vertices with weights, as deldrift_create_weighted has them.
  *     deldrift_stage_vectors: Stages other vectors for the box: strain, shear, or others of the same lattice.
  *     deldrift_vectors: The vectors by which the triangulation repeats: those that were given, on the grid of
  *         deldrift_create_periodic.
@@ -81,6 +83,33 @@ deldrift_status deldrift_create_periodic(uint32_t dimension,
                                          size_t vector_count,
                                          const deldrift_options *options,
                                          deldrift_triangulation **out);
+
+/// Creates the regular triangulation of points with weights that repeat: deldrift_create_periodic for vertices with
+/// weights, as deldrift_create_weighted has them.
+///
+/// weights: count numbers, or NULL: then all are 0. Each is finite and at most 1e114 in magnitude, and may be negative.
+/// Weights are not rounded to the grid, and may be as far apart as they like: one heavy vertex may hide all others, whose
+/// cells are then its own in several periods. All else is as in deldrift_create_periodic.
+///
+/// Of vertices at one place in any period that of the greatest weight represents the place; of these the one of the lowest
+/// id. deldrift_hidden_by_weight and deldrift_hidden_vertices tell who is hidden.
+///
+/// The functions that serve such a triangulation are those that serve a periodic one and one with weights.
+/// deldrift_nearest_vertices looks at all vertices for each position.
+///
+/// Cost: that of deldrift_create_periodic. A commit looks at all cells at home where weights hide vertices.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_INVALID_OPTIONS, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_DEPENDENT_VECTORS, DELDRIFT_TOO_MANY_VERTICES,
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+deldrift_status deldrift_create_periodic_weighted(uint32_t dimension,
+                                                  const double *positions,
+                                                  const double *weights,
+                                                  size_t count,
+                                                  const double *vectors,
+                                                  size_t vector_count,
+                                                  const deldrift_options *options,
+                                                  deldrift_triangulation **out);
 
 /// Stages other vectors for the box: strain, shear, or others of the same lattice. The next commit, with or without
 /// moves, makes them those of the triangulation.

@@ -135,7 +135,7 @@ deldrift_status deldrift_commit_weighted(deldrift_triangulation *t,
 
 /// Gives one vertex another weight at once, whatever is staged for others; it stays where it is.
 ///
-/// Cost: as for deldrift_relocate_vertex, and a pass over all vertices where some are hidden by weight.
+/// Cost: as for deldrift_relocate_vertex.
 ///
 /// Errors: DELDRIFT_NOT_WEIGHTED, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX,
 /// DELDRIFT_DUPLICATE_MOVE, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY,
@@ -151,7 +151,8 @@ deldrift_status deldrift_set_weight(deldrift_triangulation *t,
 /// vertices: a buffer with room for capacity ids. cells: one with room for as many indices into deldrift_cells,
 /// DELDRIFT_NONE where there are no cells. Either may be NULL. count: receives the number of vertices.
 ///
-/// Cost: n, and the corners of the cells below hidden vertices. While there are no cells, that of deldrift_create.
+/// Cost: the number of hidden vertices, and the corners of the cells below them. While there are no cells, that of
+/// deldrift_create.
 ///
 /// Errors: DELDRIFT_NOT_WEIGHTED, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_hidden_by_weight(const deldrift_triangulation *t,

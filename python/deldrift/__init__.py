@@ -2,7 +2,7 @@
 
 `Delaunay` has the attributes and methods of `scipy.spatial.Delaunay`; its points may move, be inserted and be removed.
 In the plane it takes segments, which stay edges; `Mesh` is the mesh of a domain within segments, which may move. The
-points of `Regular` have weights.
+points of `Regular` and `PeriodicRegular` have weights.
 
 Examples
 --------
@@ -60,10 +60,12 @@ from ._mesh import Mesh
 from ._motion import Changes
 from ._periodic import PeriodicDelaunay, PeriodicLocations
 from ._refining import MadeVertices, RefinedWeights
-from ._regular import HiddenByWeight, Regular, WeightedStep
+from ._periodic_regular import PeriodicRegular
+from ._regular import Regular, WeightedStep
 from ._segments import Chains, Regions, Segments, Splits
 from ._step import Step, Trial
 from ._transferring import Transfer
+from ._weighing import HiddenByWeight
 
 __version__ = "0.1.0"
 
@@ -106,6 +108,7 @@ __all__ = [
     "PassingError",
     "PeriodicDelaunay",
     "PeriodicLocations",
+    "PeriodicRegular",
     "Prepared",
     "QualityReport",
     "RefinedWeights",

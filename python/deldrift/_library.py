@@ -381,6 +381,7 @@ PROTOTYPES = {
     "set_weight": (T, U32, F64),
     "hidden_by_weight": (T, A, A, N, C),
     "create_periodic": (U32, A, N, A, N, POINTER(Options), POINTER(T)),
+    "create_periodic_weighted": (U32, A, A, N, A, N, POINTER(Options), POINTER(T)),
     "stage_vectors": (T, A, N),
     "vectors": (T, A, N, C),
     "reduced_vectors": (T, A, A, A, N, C),

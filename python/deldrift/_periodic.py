@@ -125,7 +125,7 @@ class PeriodicDelaunay(Near, Measured, Meeting, Transferring, Writing):
     ) -> None:
         rows = point_rows("points", points)
         ndim = rows.shape[1]
-        box = _box(vectors, ndim)
+        box = box_of(vectors, ndim)
         callbacks = given_callbacks(progress, cancel)
         options = make_options(algorithm, (threads, parts), "merge", "ignore", callbacks)
         handle = Handle(callbacks)
@@ -671,7 +671,7 @@ class PeriodicDelaunay(Near, Measured, Meeting, Transferring, Writing):
             raise WrongCount("ids are given, and no points", "ids")
         if moving is not None and positions is not None and len(moving) != len(positions):
             raise WrongCount(f"there are {len(positions)} points for {len(moving)} ids", "points", None, len(positions))
-        box = None if vectors is None else _box(vectors, self.ndim)
+        box = None if vectors is None else box_of(vectors, self.ndim)
 
         def change(t: int, report: Report) -> int:
             status = 0
@@ -842,7 +842,7 @@ class PeriodicDelaunay(Near, Measured, Meeting, Transferring, Writing):
         return f"<deldrift.PeriodicDelaunay of {self.nvertices} points in {self.ndim}D, {self.nsimplex} simplices>"
 
 
-def _box(vectors: Any, ndim: int) -> np.ndarray:
+def box_of(vectors: Any, ndim: int) -> np.ndarray:
     """The vectors of a box, a row for each."""
     given = array_of("vectors", vectors)
     if given.shape == (ndim,) and given.dtype.kind in "fiu":

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import ctypes
-from typing import Any, Callable, NamedTuple, Optional, cast
+from typing import Any, Callable, Optional, cast
 
 import numpy as np
 
 from . import _library
-from ._arrays import F64, I32, Handle, address, address_if, floats, ids as listed_ids
-from ._arrays import keys as given_keys, one_id, points as point_rows, real
+from ._arrays import I32, Handle, address, address_if, ids as listed_ids
+from ._arrays import keys as given_keys, points as point_rows
 from ._callbacks import calling
-from ._core import check, count_of, fixed, id_count, make_options
+from ._core import check, fixed, id_count, make_options
 from ._delaunay import Delaunay
-from ._errors import Error, InvalidShape
+from ._errors import Error
 from ._library import Report
 from ._loading import given_callbacks
 from ._scipy import planes
@@ -21,23 +20,12 @@ from ._segments import Segments
 from ._staging import check_rows, ids_for, move_vertices, positions_of
 from ._step import Step
 from ._values import expect
+from ._weighing import Weighing, numbers_of
 
 _create_weighted = _library.function("create_weighted")
-_weights = _library.function("weights")
 _stage_weights = _library.function("stage_weights")
 _commit_weighted = _library.function("commit_weighted")
 _commit_timestamp = _library.function("commit_timestamp")
-_set_weight = _library.function("set_weight")
-_hidden_by_weight = _library.function("hidden_by_weight")
-
-
-class HiddenByWeight(NamedTuple):
-    """Vertices that are hidden by weight."""
-
-    vertices: np.ndarray
-    """Their ids, ascending."""
-    simplices: np.ndarray
-    """For each the simplex at its place, whose power sphere says that it is hidden; -1 where there are no simplices."""
 
 
 class WeightedStep(Step):
@@ -105,7 +93,7 @@ class WeightedStep(Step):
         self._check_open()
         owner = self._owner
         positions = point_rows("points", points, owner.ndim)
-        numbers = None if weights is None else _numbers(weights)
+        numbers = None if weights is None else numbers_of(weights)
         expect("weights", numbers, len(positions), "points")
         new = None
         try:
@@ -121,7 +109,7 @@ class WeightedStep(Step):
         return new
 
 
-class Regular(Delaunay):
+class Regular(Weighing, Delaunay):
     """The regular triangulation of points with weights in the plane or in space, whose points and weights may change.
 
     It is the weighted Delaunay triangulation, the dual of the power diagram. The power distance of a place x from a
@@ -157,9 +145,6 @@ class Regular(Delaunay):
     (1, 6)
     """
 
-    is_weighted = True
-    """Whether points have weights."""
-
     def __init__(
         self,
         points: Any,
@@ -174,7 +159,7 @@ class Regular(Delaunay):
         keys: Any = None,
     ) -> None:
         rows = point_rows("points", points)
-        numbers = None if weights is None else _numbers(weights)
+        numbers = None if weights is None else numbers_of(weights)
         expect("weights", numbers, len(rows), "points")
         given = given_keys("keys", keys, len(rows))
         callbacks = given_callbacks(progress, cancel)
@@ -184,31 +169,6 @@ class Regular(Delaunay):
         status = calling(callbacks, _create_weighted, rows.shape[1], *arrays, options, handle.made)
         check(status, {"positions": "points"}, callbacks)
         self._start(handle, rows.shape[1], (threads, parts), coincidence, "ignore", callbacks)
-
-    @property
-    def weights(self) -> np.ndarray:
-        """The weights of all ids; NaN for removed vertices. Read-only."""
-        return self._once("weights", self._copy_weights)
-
-    def _copy_weights(self) -> np.ndarray:
-        with self._reading as t:
-            weights = np.empty(id_count(t), F64)
-            self._check(_weights(t, address(weights), len(weights), ctypes.c_size_t()))
-        return fixed(weights)
-
-    @property
-    def hidden_by_weight(self) -> HiddenByWeight:
-        """The vertices that are corners of no simplex, as others are heavier, each with the simplex at its place."""
-        found: HiddenByWeight = self._once("hidden_by_weight", self._list_hidden)
-        return found
-
-    def _list_hidden(self) -> HiddenByWeight:
-        with self._reading as t:
-            count = count_of(lambda t, count: _hidden_by_weight(t, None, None, 0, count), t)
-            vertices, simplices = np.empty(count, I32), np.empty(count, I32)
-            room = ctypes.c_size_t()
-            self._check(_hidden_by_weight(t, address(vertices), address(simplices), count, room))
-        return HiddenByWeight(fixed(vertices), fixed(simplices))
 
     def move(self, points: Any = None, ids: Any = None, *, weights: Any = None) -> Report:
         """Moves vertices, gives them other weights, or both, and makes that the next timestamp.
@@ -326,20 +286,6 @@ class Regular(Delaunay):
         with self.step() as step:
             step.insert(points, weights=weights)
 
-    def set_weight(self, vertex: int, weight: float) -> None:
-        """Gives one vertex another weight at once; the timestamp stays.
-
-        Parameters
-        ----------
-        vertex : int
-            Its id.
-        weight : float
-            The weight.
-        """
-        number, given = one_id("vertex", vertex), real("weight", weight)
-        with self._changing as t:
-            self._check(_set_weight(t, number, given), vertex="vertex!", weight="weight!", weights="weight!")
-
     @property
     def segments(self) -> Segments:
         """None, as vertices with weights have no segments."""
@@ -369,14 +315,6 @@ Delaunay._weighted_kind = Regular
 NO_SEGMENTS = Segments(fixed(np.empty(0, I32)), fixed(np.empty((0, 2), I32)), fixed(np.empty(0, I32)))
 
 
-def _numbers(values: Any) -> np.ndarray:
-    """Weights as a list of doubles."""
-    array = floats("weights", values)
-    if array.ndim != 1:
-        raise InvalidShape(f"weights has the shape {array.shape}, and must be a list", "weights")
-    return array
-
-
 def _given(
     points: Any, weights: Any, ids: Any, ndim: int
 ) -> tuple[Optional[np.ndarray], Optional[np.ndarray], Optional[np.ndarray]]:
@@ -384,7 +322,7 @@ def _given(
     if points is None and weights is None:
         raise TypeError("neither points nor weights are given, and something has to change")
     positions = None if points is None else positions_of(points, ndim)
-    numbers = None if weights is None else _numbers(weights)
+    numbers = None if weights is None else numbers_of(weights)
     listed = None
     if positions is not None:
         listed = None if ids is None else ids_for(ids, positions)

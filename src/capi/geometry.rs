@@ -225,7 +225,7 @@ pub unsafe extern "C" fn deldrift_hull_facets(
 
 /// The square of a radius must be a number, and not negative unless there are weights.
 pub(super) fn check_squared_radius(t: &Content, squared_radius: f64) -> Result<()> {
-    let least = if matches!(t, Content::Weighted(_)) { squared_radius.abs() } else { squared_radius };
+    let least = if t.is_weighted() { squared_radius.abs() } else { squared_radius };
     check_not_negative("squared_radius", least)
 }
 

@@ -53,6 +53,15 @@ impl Content {
         }
     }
 
+    /// Whether vertices have weights.
+    pub(super) fn is_weighted(&self) -> bool {
+        match self {
+            Content::Open(_) => false,
+            Content::Weighted(_) => true,
+            Content::Periodic(t) => t.is_weighted(),
+        }
+    }
+
     /// Refuses what may not be done while a timestamp is prepared.
     pub(super) fn reject_prepared(&self) -> Result<(), Error> {
         let content = self;
@@ -379,6 +388,8 @@ macro_rules! in_its_period {
         match $crate::capi::handle::Within::within($periodic) {
             $crate::periodic::AnyPeriodic::Plane($t) => $body,
             $crate::periodic::AnyPeriodic::Space($t) => $body,
+            $crate::periodic::AnyPeriodic::PowerPlane($t) => $body,
+            $crate::periodic::AnyPeriodic::PowerSpace($t) => $body,
         }
     };
 }
@@ -394,6 +405,25 @@ macro_rules! with_weights {
     };
 }
 pub(super) use with_weights;
+
+/// Evaluates an expression on what is in a triangulation with weights, which may be periodic, in its dimension; any other is
+/// refused.
+macro_rules! in_weighted {
+    ($t:ident => $body:expr) => {
+        match $t {
+            $crate::capi::handle::Content::Weighted(t) => {
+                $crate::capi::handle::with_weights!($crate::capi::handle::Within::within(t), $t => $body)
+            }
+            $crate::capi::handle::Content::Periodic(t) => match $crate::capi::handle::Within::within(t) {
+                $crate::periodic::AnyPeriodic::PowerPlane($t) => $body,
+                $crate::periodic::AnyPeriodic::PowerSpace($t) => $body,
+                _ => return Err($crate::capi::status::Failure::NotWeighted),
+            },
+            $crate::capi::handle::Content::Open(_) => return Err($crate::capi::status::Failure::NotWeighted),
+        }
+    };
+}
+pub(super) use in_weighted;
 
 /// Evaluates one expression on what is in a triangulation that does not repeat, with weights or without, in its dimension, and
 /// another one on what is in a periodic one: `by_kind!(t => t.count(), periodic t => t.count_anew()?)`.

@@ -1,6 +1,6 @@
 //! Changes that take effect at once, one vertex at a time; and new ids.
 
-use super::handle::{Changing, Content, deldrift_triangulation, in_any, with_weights};
+use super::handle::{Changing, deldrift_triangulation, in_any, in_weighted};
 use super::pointers::{Buffer, Output, Point, fit, given, write_all};
 use super::status::deldrift_status;
 use crate::ids::VertexId;
@@ -38,8 +38,8 @@ pub unsafe extern "C" fn deldrift_relocate_vertex(
 #[inline(never)]
 fn relocate_in_guard(t: Changing<'_>, vertex: VertexId, position: Point<'_>) -> deldrift_status {
     t.change_any(|t| {
-        if let Content::Weighted(t) = t {
-            return with_weights!(&mut **t, t => {
+        if t.is_weighted() {
+            return in_weighted!(t => {
                 Ok(t.relocate_part(PointPart::Place, vertex, position.place("position", t)?)?)
             });
         }

@@ -255,22 +255,25 @@ pub unsafe extern "C" fn deldrift_ordered_star(
 ) -> deldrift_status {
     given!(t: Reading, cells[capacity]: Buffer, count: Output);
     let vertex = VertexId::new(vertex);
+    // Each kind of triangulation has an iterator of its own.
+    macro_rules! fill {
+        ($t:ident) => {{
+            let star = $t.ordered_star(vertex)?;
+            cells.fill(count, star.clone().count(), || Ok(star.map(CellId::get)))
+        }};
+    }
     t.read_any(|t| match t {
-        Content::Open(AnyTriangulation::Plane(t)) => {
-            let star = t.ordered_star(vertex)?;
-            cells.fill(count, star.clone().count(), || Ok(star.map(CellId::get)))
-        }
-        Content::Weighted(t) => {
-            let AnyWeighted::Plane(t) = &**t else { return Err(Failure::NotOfThePlane) };
-            let star = t.ordered_star(vertex)?;
-            cells.fill(count, star.clone().count(), || Ok(star.map(CellId::get)))
-        }
-        Content::Periodic(t) => {
-            let AnyPeriodic::Plane(t) = &**t else { return Err(Failure::NotOfThePlane) };
-            let star = t.ordered_star(vertex)?;
-            cells.fill(count, star.clone().count(), || Ok(star.map(CellId::get)))
-        }
+        Content::Open(AnyTriangulation::Plane(t)) => fill!(t),
         Content::Open(AnyTriangulation::Space(_)) => Err(Failure::NotOfThePlane),
+        Content::Weighted(t) => match &**t {
+            AnyWeighted::Plane(t) => fill!(t),
+            AnyWeighted::Space(_) => Err(Failure::NotOfThePlane),
+        },
+        Content::Periodic(t) => match &**t {
+            AnyPeriodic::Plane(t) => fill!(t),
+            AnyPeriodic::PowerPlane(t) => fill!(t),
+            AnyPeriodic::Space(_) | AnyPeriodic::PowerSpace(_) => Err(Failure::NotOfThePlane),
+        },
     })
 }
 

@@ -2,7 +2,7 @@
 
 use std::slice;
 
-use super::handle::{Changing, Content, Reading, by_kind, deldrift_triangulation, in_any, with_weights};
+use super::handle::{Changing, Reading, by_kind, deldrift_triangulation, in_any, in_weighted};
 use super::pointers::{Array, Output, Point, Points, given};
 use super::status::deldrift_status;
 use crate::error::Error;
@@ -96,8 +96,8 @@ pub unsafe extern "C" fn deldrift_move_vertex(
     given!(t: Changing, position: Point);
     t.change_any(|t| {
         let vertex = VertexId::new(vertex);
-        if let Content::Weighted(t) = t {
-            return with_weights!(&mut **t, t => {
+        if t.is_weighted() {
+            return in_weighted!(t => {
                 let place = position.place("position", t)?;
                 Ok(t.move_parts(PointPart::Place, Some(&[vertex]), place).map_err(of_one)?)
             });
@@ -135,8 +135,8 @@ pub unsafe extern "C" fn deldrift_move_vertices(
             return Ok(());
         }
         let vertices = if vertices.is_null() { None } else { Some(VertexId::of_numbers(vertices.get()?)) };
-        if let Content::Weighted(t) = t {
-            return with_weights!(&mut **t, t => Ok(t.move_parts(PointPart::Place, vertices, positions.numbers(t)?)?));
+        if t.is_weighted() {
+            return in_weighted!(t => Ok(t.move_parts(PointPart::Place, vertices, positions.numbers(t)?)?));
         }
         in_any!(t => {
             let positions = positions.of(t)?;
@@ -276,8 +276,8 @@ pub unsafe extern "C" fn deldrift_commit_positions(
     given!(t: Changing, positions[count]: Points, report: Output);
     t.change_any(|t| {
         let report = report.if_any()?;
-        let done = if let Content::Weighted(t) = t {
-            with_weights!(&mut **t, t => t.commit_parts(Some(positions.numbers(t)?), None))?
+        let done = if t.is_weighted() {
+            in_weighted!(t => t.commit_parts(Some(positions.numbers(t)?), None))?
         } else {
             in_any!(t => t.commit_positions(&positions.of(t)?))?
         };
@@ -291,7 +291,7 @@ pub unsafe extern "C" fn deldrift_commit_positions(
 /// What all commits and immediate calls so far have done, in sum, to *report. Its timestamp, coincident and
 /// hidden_by_weight are those of now.
 ///
-/// Cost: constant; n for a triangulation with weights.
+/// Cost: constant; for a triangulation with weights, what deldrift_hidden_by_weight costs.
 ///
 /// Errors: DELDRIFT_OUT_OF_MEMORY if t has weights.
 #[unsafe(no_mangle)]

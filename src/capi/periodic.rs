@@ -7,7 +7,7 @@ use super::geometry::cell_count_of;
 use super::guard;
 use super::handle::{Changing, Content, Reading, by_kind, deldrift_triangulation, hand_out, in_its_period};
 use super::options::{GivenOptions, deldrift_options, invalid};
-use super::pointers::{Buffer, Output, Points, fill_all, given, write_all};
+use super::pointers::{Array, Buffer, Output, Points, fill_all, given, write_all};
 use super::status::{Failure, deldrift_status};
 use crate::delaunay::{Moving, Plane, Space};
 use crate::error::Error;
@@ -70,32 +70,102 @@ pub unsafe extern "C" fn deldrift_create_periodic(
 ) -> deldrift_status {
     given!(positions[count]: Points, vectors[vector_count]: Points, options: GivenOptions, out: Output);
     guard::enter(|| {
-        let out = out.place()?;
-        if dimension != 2 && dimension != 3 {
-            return Err(Error::InvalidDimension { given: dimension }.into());
-        }
-        let options = options.read()?;
-        let callbacks = options.callbacks();
-        let options = options.convert()?;
-        reject_coincidence(&options)?;
-        // Looked at here as well, lest an absurd count becomes the length of a slice.
-        if count > MAX_VERTICES {
-            return Err(Error::TooManyVertices { given: count, limit: MAX_VERTICES }.into());
-        }
-        if vector_count == 0 || vector_count > dimension as usize {
-            return Err(Error::DependentVectors { count: vector_count }.into());
-        }
-        let made = if dimension == 2 {
-            type Made = PeriodicTriangulation<Plane>;
-            let (positions, vectors) = (&positions.of_kind::<Made>()?, &vectors.of_kind::<Made>()?);
-            AnyPeriodic::Plane(Made::new(positions, vectors, options)?)
-        } else {
-            type Made = PeriodicTriangulation<Space>;
-            let (positions, vectors) = (&positions.of_kind::<Made>()?, &vectors.of_kind::<Made>()?);
-            AnyPeriodic::Space(Made::new(positions, vectors, options)?)
-        };
-        hand_out(out, memory::boxed(made)?, callbacks)
+        create(dimension, options, [count, vector_count], out, |options| {
+            Ok(if dimension == 2 {
+                AnyPeriodic::Plane(PeriodicTriangulation::new(
+                    &positions.of_kind::<PeriodicTriangulation<Plane>>()?,
+                    &vectors.of_kind::<PeriodicTriangulation<Plane>>()?,
+                    options,
+                )?)
+            } else {
+                AnyPeriodic::Space(PeriodicTriangulation::new(
+                    &positions.of_kind::<PeriodicTriangulation<Space>>()?,
+                    &vectors.of_kind::<PeriodicTriangulation<Space>>()?,
+                    options,
+                )?)
+            })
+        })
     })
+}
+
+/// Creates the regular triangulation of points with weights that repeat: deldrift_create_periodic for vertices with
+/// weights, as deldrift_create_weighted has them.
+///
+/// weights: count numbers, or NULL: then all are 0. Each is finite and at most 1e114 in magnitude, and may be negative.
+/// Weights are not rounded to the grid, and may be as far apart as they like: one heavy vertex may hide all others, whose
+/// cells are then its own in several periods. All else is as in deldrift_create_periodic.
+///
+/// Of vertices at one place in any period that of the greatest weight represents the place; of these the one of the lowest
+/// id. deldrift_hidden_by_weight and deldrift_hidden_vertices tell who is hidden.
+///
+/// The functions that serve such a triangulation are those that serve a periodic one and one with weights.
+/// deldrift_nearest_vertices looks at all vertices for each position.
+///
+/// Cost: that of deldrift_create_periodic. A commit looks at all cells at home where weights hide vertices.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_INVALID_OPTIONS, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_DEPENDENT_VECTORS, DELDRIFT_TOO_MANY_VERTICES,
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_create_periodic_weighted(
+    dimension: u32,
+    positions: *const f64,
+    weights: *const f64,
+    count: usize,
+    vectors: *const f64,
+    vector_count: usize,
+    options: *const deldrift_options,
+    out: *mut *mut deldrift_triangulation,
+) -> deldrift_status {
+    given!(positions[count]: Points, weights[count]: Array, vectors[vector_count]: Points, options: GivenOptions, out: Output);
+    guard::enter(|| {
+        create(dimension, options, [count, vector_count], out, |options| {
+            let weights = if weights.is_null() { None } else { Some(weights.get()?) };
+            Ok(if dimension == 2 {
+                AnyPeriodic::PowerPlane(weighted(positions, weights, vectors, options)?)
+            } else {
+                AnyPeriodic::PowerSpace(weighted(positions, weights, vectors, options)?)
+            })
+        })
+    })
+}
+
+/// Builds one of places and weights.
+fn weighted<G: Moving>(
+    positions: Points<'_>,
+    weights: Option<&[f64]>,
+    vectors: Points<'_>,
+    options: Options,
+) -> Result<PeriodicTriangulation<G>, Failure> {
+    let points = positions.with_weights::<PeriodicTriangulation<G>>(weights)?;
+    let vectors = vectors.of_kind::<PeriodicTriangulation<G>>()?;
+    Ok(PeriodicTriangulation::new(&points, &vectors, options)?)
+}
+
+/// Hands out what is made by these options, in this dimension, of so many positions and vectors.
+fn create(
+    dimension: u32,
+    options: GivenOptions<'_>,
+    [count, vector_count]: [usize; 2],
+    out: Output<'_, *mut deldrift_triangulation>,
+    make: impl FnOnce(Options) -> Result<AnyPeriodic, Failure>,
+) -> Result<(), Failure> {
+    let out = out.place()?;
+    if dimension != 2 && dimension != 3 {
+        return Err(Error::InvalidDimension { given: dimension }.into());
+    }
+    let options = options.read()?;
+    let callbacks = options.callbacks();
+    let options = options.convert()?;
+    reject_coincidence(&options)?;
+    // Looked at here as well, lest an absurd count becomes the length of a slice.
+    if count > MAX_VERTICES {
+        return Err(Error::TooManyVertices { given: count, limit: MAX_VERTICES }.into());
+    }
+    if vector_count == 0 || vector_count > dimension as usize {
+        return Err(Error::DependentVectors { count: vector_count }.into());
+    }
+    hand_out(out, memory::boxed(make(options)?)?, callbacks)
 }
 
 /// Stages other vectors for the box: strain, shear, or others of the same lattice. The next commit, with or without

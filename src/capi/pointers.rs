@@ -11,7 +11,7 @@ use std::ops::Deref;
 use std::{ptr, slice};
 
 use super::status::{Failure, Wrong};
-use crate::delaunay::{Dimension, Moving};
+use crate::delaunay::Moving;
 use crate::machine::memory;
 use crate::motion::MovingTriangulation;
 use crate::periodic::PeriodicTriangulation;
@@ -176,7 +176,7 @@ impl<G: Moving> OfPoints for MovingTriangulation<G> {
     type Point = G::Point;
 }
 
-impl<G: Dimension> OfPoints for PeriodicTriangulation<G> {
+impl<G: Moving> OfPoints for PeriodicTriangulation<G> {
     type Point = G::Point;
 }
 
@@ -255,6 +255,15 @@ impl<'a> Points<'a> {
                 TakenPoints::Made(points)
             }
         })
+    }
+
+    /// Those of what is still to be made, with these weights, or with 0 if there are none.
+    pub(super) fn with_weights<T: OfPoints>(self, weights: Option<&[f64]>) -> Result<Vec<T::Point>, Failure> {
+        let weight_of = |k: usize| weights.map_or(0.0, |weights| weights[k]);
+        let mut points = Vec::new();
+        let places = self.places::<T>()?.iter().enumerate();
+        memory::collect(&mut points, places.map(|(k, &place)| T::Point::at(place, weight_of(k))))?;
+        Ok(points)
     }
 
     /// The coordinates, one after the other.

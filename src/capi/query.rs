@@ -106,6 +106,8 @@ pub unsafe extern "C" fn deldrift_release_cells(
             Content::Periodic(t) => match &mut **t {
                 AnyPeriodic::Plane(t) => Arrays::Plane(t.release_cells()?),
                 AnyPeriodic::Space(t) => Arrays::Space(t.release_cells()?),
+                AnyPeriodic::PowerPlane(t) => Arrays::PowerPlane(t.release_cells()?),
+                AnyPeriodic::PowerSpace(t) => Arrays::PowerSpace(t.release_cells()?),
             },
         });
         view.write(match arrays {

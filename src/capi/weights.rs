@@ -1,7 +1,7 @@
 //! Triangulations of vertices with weights: their creation, and what only they have.
 
 use super::guard;
-use super::handle::{Changing, Content, Reading, deldrift_triangulation, hand_out, with_weights};
+use super::handle::{Changing, Reading, deldrift_triangulation, hand_out, in_weighted};
 use super::motion::deldrift_commit_report;
 use super::options::{GivenOptions, deldrift_options};
 use super::pointers::{Array, Buffer, Output, Points, fill_all, given, write_all};
@@ -90,11 +90,7 @@ fn build<G: Moving>(
     keys: Option<&[u64]>,
     options: Options,
 ) -> Result<MovingTriangulation<G>, Failure> {
-    let places = positions.places::<MovingTriangulation<G>>()?;
-    let weight_of = |k: usize| weights.map_or(0.0, |weights| weights[k]);
-    let mut points = Vec::new();
-    let all = places.iter().enumerate().map(|(k, &place)| G::Point::at(place, weight_of(k)));
-    memory::collect(&mut points, all)?;
+    let points = positions.with_weights::<MovingTriangulation<G>>(weights)?;
     let mut t = MovingTriangulation::unbuilt(options);
     match keys {
         Some(keys) => t.build_first_with_keys(&points, keys)?,
@@ -112,7 +108,7 @@ pub unsafe extern "C" fn deldrift_is_weighted(
     weighted: *mut bool,
 ) -> deldrift_status {
     given!(t: Reading, weighted: Output);
-    t.tell_any(weighted, |t| Ok(matches!(t, Content::Weighted(_))))
+    t.tell_any(weighted, |t| Ok(t.is_weighted()))
 }
 
 /// The weights of all ids, in their order: those of the current timestamp, or those that vertices whose insertion is staged
@@ -132,7 +128,7 @@ pub unsafe extern "C" fn deldrift_weights(
 ) -> deldrift_status {
     given!(t: Reading, weights[capacity]: Buffer, count: Output);
     t.read_any(|t| {
-        with_weights!(weighted(t)?, t => {
+        in_weighted!(t => {
             let n = t.id_count();
             let weight = |v: VertexId| t.position_or_goal(v).map_or(f64::NAN, |point| point.weight());
             weights.fill(count, n, || Ok(VertexId::range(0..n).map(weight)))
@@ -161,10 +157,9 @@ pub unsafe extern "C" fn deldrift_stage_weights(
 ) -> deldrift_status {
     given!(t: Changing, vertices[count]: Array, weights[count]: Array);
     t.change_any(|t| {
-        let t = weighted_mut(t)?;
         let weights = weights.get()?;
         let vertices = if vertices.is_null() { None } else { Some(VertexId::of_numbers(vertices.get()?)) };
-        with_weights!(t, t => Ok(t.move_parts(PointPart::Weight, vertices, weights)?))
+        in_weighted!(t => Ok(t.move_parts(PointPart::Weight, vertices, weights)?))
     })
 }
 
@@ -192,7 +187,7 @@ pub unsafe extern "C" fn deldrift_commit_weighted(
     given!(t: Changing, positions[count]: Points, weights[count]: Array, report: Output);
     t.change_any(|t| {
         let report = report.if_any()?;
-        let done = with_weights!(weighted_mut(t)?, t => {
+        let done = in_weighted!(t => {
             let wanted = t.id_count();
             if count != wanted {
                 let coming = t.staged_edits().0;
@@ -210,7 +205,7 @@ pub unsafe extern "C" fn deldrift_commit_weighted(
 
 /// Gives one vertex another weight at once, whatever is staged for others; it stays where it is.
 ///
-/// Cost: as for deldrift_relocate_vertex, and a pass over all vertices where some are hidden by weight.
+/// Cost: as for deldrift_relocate_vertex.
 ///
 /// Errors: DELDRIFT_NOT_WEIGHTED, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX,
 /// DELDRIFT_DUPLICATE_MOVE, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY,
@@ -222,9 +217,9 @@ pub unsafe extern "C" fn deldrift_set_weight(
     weight: f64,
 ) -> deldrift_status {
     given!(t: Changing);
-    t.change_any(|t| {
-        with_weights!(weighted_mut(t)?, t => Ok(t.relocate_part(PointPart::Weight, VertexId::new(vertex), &[weight])?))
-    })
+    t.change_any(
+        |t| in_weighted!(t => Ok(t.relocate_part(PointPart::Weight, VertexId::new(vertex), &[weight])?)),
+    )
 }
 
 /// The vertices that are hidden by weight, ascending, each with the cell that it is above: at its place the power sphere of
@@ -234,7 +229,8 @@ pub unsafe extern "C" fn deldrift_set_weight(
 /// vertices: a buffer with room for capacity ids. cells: one with room for as many indices into deldrift_cells,
 /// DELDRIFT_NONE where there are no cells. Either may be NULL. count: receives the number of vertices.
 ///
-/// Cost: n, and the corners of the cells below hidden vertices. While there are no cells, that of deldrift_create.
+/// Cost: the number of hidden vertices, and the corners of the cells below them. While there are no cells, that of
+/// deldrift_create.
 ///
 /// Errors: DELDRIFT_NOT_WEIGHTED, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
@@ -247,7 +243,7 @@ pub unsafe extern "C" fn deldrift_hidden_by_weight(
 ) -> deldrift_status {
     given!(t: Reading, vertices[capacity]: Buffer, cells[capacity]: Buffer, count: Output);
     t.read_any(|t| {
-        let hidden = with_weights!(weighted(t)?, t => t.hidden_by_weight()?);
+        let hidden = in_weighted!(t => t.hidden_by_weight()?);
         let needed = hidden.len();
         fill_all(count, needed, capacity, [vertices.offer(), cells.offer()], || {
             let (vertices, cells) = (vertices.places_if_any(needed)?, cells.places_if_any(needed)?);
@@ -256,13 +252,4 @@ pub unsafe extern "C" fn deldrift_hidden_by_weight(
             Ok(())
         })
     })
-}
-
-/// What is in a triangulation that has weights.
-fn weighted(t: &Content) -> Result<&AnyWeighted, Failure> {
-    if let Content::Weighted(t) = t { Ok(t) } else { Err(Failure::NotWeighted) }
-}
-
-fn weighted_mut(t: &mut Content) -> Result<&mut AnyWeighted, Failure> {
-    if let Content::Weighted(t) = t { Ok(t) } else { Err(Failure::NotWeighted) }
 }

@@ -17,7 +17,7 @@
 //! Invariants: a live site has a cell if it is shown, else [`Slot::NONE`]; after `settle` each hidden one is in the list of one live,
 //! finite cell that has its place.
 //!
-//! Cost: a walk of few steps for each site that was loosened; 16 bytes a site and 4 a cell, where there are weights.
+//! Cost: a walk of few steps for each site that was loosened; 20 bytes a site and 4 a cell, where there are weights.
 
 use super::{Delaunay, Geometry};
 use crate::complex::Row;
@@ -33,10 +33,20 @@ struct Link {
     /// The sites after it and before it in the list of that cell, or of those that are loose.
     next: SiteId,
     previous: SiteId,
-    is_loose: bool,
+    /// Its index among all hidden ones, less than [`LOOSE`]; that added if it is loose.
+    index: u32,
 }
 
-const SHOWN: Link = Link { cell: Slot::NONE, next: SiteId::NONE, previous: SiteId::NONE, is_loose: false };
+/// Marks indices of sites that are loose. There are fewer sites than this.
+const LOOSE: u32 = 1 << 31;
+
+impl Link {
+    fn is_loose(&self) -> bool {
+        self.index >= LOOSE
+    }
+}
+
+const SHOWN: Link = Link { cell: Slot::NONE, next: SiteId::NONE, previous: SiteId::NONE, index: 0 };
 
 /// The hidden sites.
 #[derive(Debug)]
@@ -47,21 +57,23 @@ pub(super) struct Above {
     first: Vec<SiteId>,
     /// The first one that is loose.
     loose: SiteId,
-    n: usize,
+    /// All of them, in no particular order.
+    all: Vec<SiteId>,
     /// Those that the last insertion has hidden, and a cell that each had before.
     swallowed: Vec<(SiteId, Slot)>,
 }
 
 impl Default for Above {
     fn default() -> Self {
-        Above { links: Vec::new(), first: Vec::new(), loose: SiteId::NONE, n: 0, swallowed: Vec::new() }
+        let (links, first, all) = (Vec::new(), Vec::new(), Vec::new());
+        Above { links, first, loose: SiteId::NONE, all, swallowed: Vec::new() }
     }
 }
 
 impl Above {
     /// How many sites are hidden.
     pub(super) fn count(&self) -> usize {
-        self.n
+        self.all.len()
     }
 
     /// The first site that is loose, [`SiteId::NONE`] if none is.
@@ -72,11 +84,14 @@ impl Above {
     /// Where a site is listed: the cell below it, or what was, and whether it is loose.
     pub(super) fn link(&self, s: SiteId) -> (Slot, bool) {
         let link = self.links[s.index()];
-        (link.cell, link.is_loose)
+        (link.cell, link.is_loose())
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
-        memory::bytes_of(&self.links) + memory::bytes_of(&self.first) + memory::bytes_of(&self.swallowed)
+        memory::bytes_of(&self.links)
+            + memory::bytes_of(&self.first)
+            + memory::bytes_of(&self.all)
+            + memory::bytes_of(&self.swallowed)
     }
 
     /// A copy, without scratch memory.
@@ -84,14 +99,17 @@ impl Above {
         Ok(Above {
             links: memory::copy_of(&self.links)?,
             first: memory::copy_of(&self.first)?,
+            loose: self.loose,
+            all: memory::copy_with_room(&self.all, self.links.len())?,
             swallowed: Vec::new(),
-            ..*self
         })
     }
 
     /// Makes room for this number of sites and of slots.
     fn reserve(&mut self, n_sites: usize, n_slots: usize) -> Result<()> {
         if self.links.len() < n_sites {
+            let n_more = n_sites - self.all.len();
+            memory::reserve(&mut self.all, n_more)?;
             memory::lengthen(&mut self.links, n_sites, SHOWN)?;
         }
         if self.first.len() < n_slots {
@@ -100,51 +118,58 @@ impl Above {
         Ok(())
     }
 
-    /// Enters a site into the list of a cell; if there is none, into the list of the loose sites.
+    /// Enters a site into the list of a cell; if there is none, into the list of the loose sites. There is room for all sites.
     pub(super) fn enter(&mut self, s: SiteId, cell: Option<Slot>) {
-        let Above { links, first, loose, n, .. } = self;
+        let Above { links, first, loose, all, .. } = self;
         let head = cell.map_or(loose, |cell| &mut first[cell.index()]);
         let next = std::mem::replace(head, s);
         if next != SiteId::NONE {
             links[next.index()].previous = s;
         }
         let link = &mut links[s.index()];
-        *link =
-            Link { cell: cell.unwrap_or(link.cell), next, previous: SiteId::NONE, is_loose: cell.is_none() };
-        *n += 1;
+        let index = all.len() as u32 + if cell.is_none() { LOOSE } else { 0 };
+        *link = Link { cell: cell.unwrap_or(link.cell), next, previous: SiteId::NONE, index };
+        all.push(s);
     }
 
     /// Takes a site out of the list that it is in.
     pub(super) fn take_out(&mut self, s: SiteId) {
-        let Link { cell, next, previous, is_loose } = self.links[s.index()];
+        let link = self.links[s.index()];
+        let Link { cell, next, previous, index } = link;
         if next != SiteId::NONE {
             self.links[next.index()].previous = previous;
         }
         let before = if previous != SiteId::NONE {
             &mut self.links[previous.index()].next
-        } else if is_loose {
+        } else if link.is_loose() {
             &mut self.loose
         } else {
             &mut self.first[cell.index()]
         };
         *before = next;
         self.links[s.index()] = SHOWN;
-        self.n -= 1;
+        // The last of all takes its index.
+        let index = index & !LOOSE;
+        self.all.swap_remove(index as usize);
+        if let Some(&last) = self.all.get(index as usize) {
+            let of_last = &mut self.links[last.index()].index;
+            *of_last = index | *of_last & LOOSE;
+        }
     }
 
     /// Moves a site from the list of a cell to that of the loose sites. The cell stays as where to look for another one.
     fn loosen_one(&mut self, s: SiteId) {
-        let Link { cell, is_loose, .. } = self.links[s.index()];
-        if !is_loose {
+        let link = self.links[s.index()];
+        if !link.is_loose() {
             self.take_out(s);
-            self.links[s.index()].cell = cell;
+            self.links[s.index()].cell = link.cell;
             self.enter(s, None);
         }
     }
 
     /// Whether a site is in a list.
     fn has(&self, s: SiteId) -> bool {
-        self.links.get(s.index()).is_some_and(|link| link.is_loose || link.cell != Slot::NONE)
+        self.links.get(s.index()).is_some_and(|link| link.is_loose() || link.cell != Slot::NONE)
     }
 
     /// Loosens what is above a cell.
@@ -219,13 +244,12 @@ impl<G: Geometry> Delaunay<G> {
 
     /// How many sites are hidden.
     pub fn n_hidden(&self) -> usize {
-        if G::HAS_WEIGHTS { self.above.n } else { 0 }
+        if G::HAS_WEIGHTS { self.above.count() } else { 0 }
     }
 
     /// The sites that are hidden, in no particular order; none while there are no cells.
     pub(crate) fn hidden_sites(&self) -> impl Iterator<Item = SiteId> + '_ {
-        let n = if self.n_hidden() == 0 { 0 } else { self.above.links.len() };
-        SiteId::range(0..n).filter(|&s| self.above.has(s))
+        self.above.all.iter().copied()
     }
 
     /// The hidden sites that are above a cell.
@@ -236,7 +260,7 @@ impl<G: Geometry> Delaunay<G> {
     /// Whether a site is in the list of the cell below it, or of those that an undone change has left loose.
     pub(super) fn is_listed(&self, s: SiteId) -> bool {
         let link = self.above.links[s.index()];
-        link.is_loose || self.above.of(link.cell).any(|other| other == s)
+        link.is_loose() || self.above.of(link.cell).any(|other| other == s)
     }
 
     /// Makes room for what an insertion may hide.
@@ -277,7 +301,7 @@ impl<G: Geometry> Delaunay<G> {
     /// Loosens the sites above the cells of the gathered star.
     #[inline(always)]
     pub(super) fn loosen_star(&mut self) {
-        if G::HAS_WEIGHTS && self.above.n > 0 {
+        if G::HAS_WEIGHTS && self.above.count() > 0 {
             let Self { above, star, .. } = self;
             star.iter().for_each(|&(cell, _)| above.loosen(cell));
         }
@@ -285,7 +309,7 @@ impl<G: Geometry> Delaunay<G> {
 
     /// Loosens the sites above cells that have been changed.
     pub(super) fn loosen_rows(&mut self, rows: &[Row<G::Corners>]) {
-        if G::HAS_WEIGHTS && self.above.n > 0 {
+        if G::HAS_WEIGHTS && self.above.count() > 0 {
             rows.iter().for_each(|row| self.above.loosen(row.slot));
         }
     }
@@ -306,11 +330,10 @@ impl<G: Geometry> Delaunay<G> {
 
     /// Loosens all hidden sites, where any site may have moved.
     pub(crate) fn loosen_all(&mut self) {
-        if G::HAS_WEIGHTS && self.above.n > 0 {
-            for s in SiteId::range(1..self.above.links.len()) {
-                if self.above.has(s) {
-                    self.loosen_site(s);
-                }
+        if G::HAS_WEIGHTS && self.above.count() > 0 {
+            // Each goes to the end of the list, and one that has been there takes its index.
+            for index in (0..self.above.count()).rev() {
+                self.loosen_site(self.above.all[index]);
             }
         }
     }
@@ -325,7 +348,8 @@ impl<G: Geometry> Delaunay<G> {
         if G::HAS_WEIGHTS {
             self.above.links.fill(SHOWN);
             self.above.first.fill(SiteId::NONE);
-            (self.above.loose, self.above.n) = (SiteId::NONE, 0);
+            self.above.loose = SiteId::NONE;
+            self.above.all.clear();
         }
     }
 

@@ -47,6 +47,18 @@ impl<G: Geometry> Delaunay<G> {
         n: usize,
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Vec<(SiteId, SiteId)>> {
+        let coincident = self.triangulate_shown(order, n, monitor)?;
+        self.find_hidden()?;
+        Ok(coincident)
+    }
+
+    /// As [`triangulate`](Self::triangulate), but where the hidden sites are is left to be [found](Self::find_hidden).
+    pub(super) fn triangulate_shown(
+        &mut self,
+        order: &[SiteId],
+        n: usize,
+        monitor: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<Vec<(SiteId, SiteId)>> {
         self.complex.clear();
         self.forget_all_hidden();
         self.is_sorted = false;
@@ -63,9 +75,14 @@ impl<G: Geometry> Delaunay<G> {
         self.filter = filter;
         let coincident = inserted?;
         self.flat.clear();
-        self.list_hidden()?;
-        self.settle(|_| Ok(()))?;
         Ok(coincident)
+    }
+
+    /// Lists the hidden sites anew, after a build, each above its cell.
+    pub(super) fn find_hidden(&mut self) -> Result<()> {
+        self.forget_all_hidden();
+        self.list_hidden()?;
+        self.settle(|_| Ok(()))
     }
 
     /// Bounds for the box of the filter if it and the sites are on a lattice, and few steps of it apart. With keys there are

@@ -107,7 +107,10 @@ impl<G: Geometry> Delaunay<G> {
         self.complex.reclaim();
         self.parts = parts;
         match built {
-            Ok(coincident) => Ok(Some(coincident)),
+            Ok(coincident) => {
+                self.find_hidden()?;
+                Ok(Some(coincident))
+            }
             Err(_) => {
                 self.flat.clear();
                 if is_cancelled { Err(Error::Cancelled) } else { Ok(None) }
@@ -210,7 +213,7 @@ impl<G: Geometry> Build<'_, G> {
             return Err(Error::Cancelled);
         }
         let mut monitor = |fraction: f64| monitor(self.share_triangulated(fraction));
-        let coincident = t.triangulate(&order, self.n_sites_of(part), &mut monitor)?;
+        let coincident = t.triangulate_shown(&order, self.n_sites_of(part), &mut monitor)?;
         self.done.fetch_add(1, Relaxed);
         Ok(coincident)
     }
@@ -243,13 +246,15 @@ impl<G: Geometry> Build<'_, G> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::delaunay::{Level, Plane, Space};
+    use crate::delaunay::{Level, Plane, PowerPlane, PowerSpace, Space};
     use crate::random::Rng;
 
     fn random<G: Geometry>(n: usize) -> Vec<G::Point> {
         let rng = &mut Rng::new(1);
         let mut points = vec![G::Point::default(); n];
-        points.iter_mut().for_each(|p| (0..G::D).for_each(|k| p[k] = rng.unit()));
+        // Of those with weights some are hidden.
+        let most = |k: usize| if k < G::D { 1.0 } else { 2.0 * (n as f64).powf(-2.0 / G::D as f64) };
+        points.iter_mut().for_each(|p| (0..G::NUMBERS).for_each(|k| p[k] = most(k) * rng.unit()));
         points
     }
 
@@ -266,6 +271,7 @@ mod tests {
             one.rebuild(&mut |_| true).expect("room for it");
             assert_eq!(t.complex().n_finite(), one.complex().n_finite());
             assert_eq!(t.complex().n_ghosts(), one.complex().n_ghosts());
+            assert_eq!((t.n_hidden(), t.n_hidden() > 0), (one.n_hidden(), G::HAS_WEIGHTS));
             // Cells crossed by the walk of an insertion.
             let [of_parts, of_one] = [&t, &one].map(|t| t.cavity.steps as f64 / t.sites.len() as f64);
             assert!(of_parts < 2.0 * of_one, "{of_parts} and {of_one}");
@@ -276,6 +282,8 @@ mod tests {
     fn parts_are_united() {
         unites::<Plane>();
         unites::<Space>();
+        unites::<PowerPlane>();
+        unites::<PowerSpace>();
     }
 
     /// What is built depends on the parts alone, slot by slot, and progress never goes back.
@@ -311,6 +319,8 @@ mod tests {
         }
         check::<Plane>();
         check::<Space>();
+        check::<PowerPlane>();
+        check::<PowerSpace>();
     }
 
     /// No hyperplane separates parts of which a site has left for the place of another one; they are united all the
@@ -330,6 +340,8 @@ mod tests {
         }
         unites::<Plane>();
         unites::<Space>();
+        unites::<PowerPlane>();
+        unites::<PowerSpace>();
     }
 
     /// Points on the moment curve have a cell for each pair of pairs of neighbours along it: parts outgrow the room for

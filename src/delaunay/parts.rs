@@ -181,10 +181,6 @@ pub(super) fn end_from(part: usize, n_parts: usize) -> usize {
 impl<G: Geometry> Delaunay<G> {
     /// In how many parts to build a triangulation of this number of sites.
     pub(crate) fn build_parts(&self, n: usize) -> usize {
-        // Parts are not united where weights may hide what is at their borders.
-        if G::HAS_WEIGHTS {
-            return 1;
-        }
         self.threads.parts_of(n, BUILT_AT_LEAST[G::D - 2], BUILT_IF_ASKED)
     }
 

@@ -138,6 +138,14 @@ pub(crate) fn copy_of<T: Copy>(array: &[T]) -> Result<Vec<T>> {
     Ok(copy)
 }
 
+/// A copy of an array, with room for so many entries in all.
+pub(crate) fn copy_with_room<T: Copy>(array: &[T], room: usize) -> Result<Vec<T>> {
+    let mut copy = Vec::new();
+    reserve_exact(&mut copy, room.max(array.len()))?;
+    copy.extend_from_slice(array);
+    Ok(copy)
+}
+
 /// Appends copies of entries.
 pub(crate) fn append<T: Copy>(array: &mut Vec<T>, entries: &[T]) -> Result<()> {
     reserve(array, entries.len())?;

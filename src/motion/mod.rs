@@ -41,6 +41,7 @@ mod ways;
 pub use crate::delaunay::{Level, Violation};
 pub use crate::refine::Kept;
 pub use algorithms::{Algorithm, AlgorithmRow, Commits, Purpose};
+pub(crate) use calls::hiding::ChangedParts;
 pub use options::{
     CoarsenOptions, CoincidencePolicy, MAX_LEAST_ANGLE, Monitor, Options, PassingPolicy, Quality,
     RefineOptions, SwitchingRule, TooLarge,
@@ -63,7 +64,9 @@ pub(crate) use reading::progress::Progress;
 pub use reading::query::Location;
 pub(crate) use reading::query::cells_at;
 pub use reading::saving::Saved;
-pub(crate) use reading::saving::header::Beginning;
+pub(crate) use reading::saving::header::{
+    Beginning, N_SUMS_OF_WEIGHTS, enter_sums_of_weights, sums_of_weights,
+};
 pub(crate) use reading::saving::reader::Reader;
 #[cfg(test)]
 pub(crate) use reading::transfer::finds_as_by_a_look_at_all;
@@ -74,8 +77,10 @@ pub use reading::transfer::{TransferOrder, TransferReport};
 pub use report::{CommitReport, QualityReport, SplitReport, VertexWeights};
 pub use state::cells::{NO_CELL, NO_CORNER, OwnedCells};
 pub use state::changes::NO_VERTEX;
-pub(crate) use state::checking::{check_not_negative, check_position};
+pub(crate) use state::checking::{check_not_negative, check_numbers, check_position, check_weight};
+pub(crate) use state::hidden_ids::HiddenIds;
 pub use state::part::PointPart;
+pub(crate) use state::part::{copy_part, numbers_of, set_part, staged_part};
 pub use state::segments::{NO_LABEL, Segment};
 pub use state::taken::Changes;
 pub use state::views::CellsView;

@@ -11,7 +11,7 @@
 //!
 //! Of a box that is short beside the period only the vertices in a ball around it are looked at.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -54,7 +54,7 @@ impl Group {
 }
 
 /// A closed box, in units of the grid along axes along which vectors go.
-struct BoxOnGrid<'l, G: Dimension> {
+struct BoxOnGrid<'l, G: Moving> {
     lattice: &'l Lattice<G>,
     corners: [G::Point; 2],
     low: [i128; 3],
@@ -64,7 +64,7 @@ struct BoxOnGrid<'l, G: Dimension> {
     groups: [Option<(Group, TranslationSearch)>; 3],
 }
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// The vertices of which an image is in a closed box: each coordinate is at least that of `low` and at most that of `high`. Ascending,
     /// each once, hidden ones included. The box may be larger than the period, and its coordinates infinite; it is empty if one of
     /// `low` is above that of `high`.
@@ -121,7 +121,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 }
 
-impl<'l, G: Dimension> BoxOnGrid<'l, G> {
+impl<'l, G: Moving> BoxOnGrid<'l, G> {
     fn new(lattice: &'l Lattice<G>, low: &G::Point, high: &G::Point) -> Result<Self> {
         for (argument, corner) in [("low", low), ("high", high)] {
             if let Some(index) = (0..G::D).find(|&axis| corner[axis].is_nan()) {

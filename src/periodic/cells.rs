@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
 use crate::complex::Corners;
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
@@ -14,7 +14,7 @@ use crate::periodic::lattice::{HOME, Shift, minus, plus};
 
 /// The cells, one of each class of translations of each other.
 #[derive(Clone, Copy, Debug)]
-pub struct PeriodicView<'t, G: Dimension> {
+pub struct PeriodicView<'t, G: Moving> {
     /// Vertex ids of each cell, positively oriented. A vertex may be there more than once, in several periods.
     pub corners: &'t [G::Vertices],
     /// The class of the neighbour opposite each corner, [`NO_CELL`] on the hull.
@@ -24,7 +24,7 @@ pub struct PeriodicView<'t, G: Dimension> {
 /// Cells, each with its least vertex at home: the one of the lowest id, and of several images of that the first in the order
 /// of coordinates.
 #[derive(Debug)]
-pub(super) struct PeriodicCells<G: Dimension> {
+pub(super) struct PeriodicCells<G: Moving> {
     pub(super) corners: Vec<G::Vertices>,
     /// By cell and corner, the shift of the vertex from home.
     pub(super) shifts: Shifts,
@@ -149,7 +149,7 @@ fn key_of(mut row: CornerRow) -> [RowPart; 4] {
     row.map(RowPart)
 }
 
-impl<G: Dimension> PeriodicCells<G> {
+impl<G: Moving> PeriodicCells<G> {
     pub(super) fn none() -> Self {
         PeriodicCells {
             corners: Vec::new(),
@@ -258,13 +258,13 @@ fn row_of<V: AsRef<[VertexId]>>(row: &V) -> CornerRow {
 }
 
 /// Finds translations of cells inside.
-struct Finder<'t, G: Dimension> {
+struct Finder<'t, G: Moving> {
     inside: &'t Inside<G>,
     cells: CellsView<'t, G>,
     straddling: Straddling,
 }
 
-impl<G: Dimension> Finder<'_, G> {
+impl<G: Moving> Finder<'_, G> {
     /// The cell that is the translation of one by less than nothing by a shift that takes one of its corners home; of two
     /// such cells one has a vertex at home and another one that is not.
     fn translated(&self, cell: CellId, shift: Shift) -> CellId {
@@ -318,7 +318,7 @@ fn first_of(row: &[VertexId]) -> usize {
     (1..row.len()).fold(0, |least, i| if row[i] < row[least] { i } else { least })
 }
 
-impl<G: Dimension> Inside<G> {
+impl<G: Moving> Inside<G> {
     /// Whether all corners of a cell are at home.
     fn is_at_home(&self, row: &G::Vertices) -> bool {
         row.as_ref().iter().all(|v| self.images.is_home(*v))

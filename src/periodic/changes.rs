@@ -8,7 +8,7 @@
 use std::collections::HashMap;
 use std::hash::BuildHasherDefault;
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
@@ -22,7 +22,7 @@ pub(super) type Name = [(VertexId, [i64; 3]); 4];
 
 /// The cells when changes were last taken.
 #[derive(Debug)]
-pub(super) struct Base<G: Dimension> {
+pub(super) struct Base<G: Moving> {
     pub(super) corners: Vec<G::Vertices>,
     pub(super) index_of: HashMap<Name, CellId, BuildHasherDefault<RowHasher>>,
     /// By index, whether a name lists the corners in the opposite orientation.
@@ -33,7 +33,7 @@ pub(super) struct Base<G: Dimension> {
     pub(super) lattice: Option<Lattice<G>>,
 }
 
-impl<G: Dimension> Base<G> {
+impl<G: Moving> Base<G> {
     /// The base of a box of which no cell has been reported yet.
     pub(super) fn none() -> Self {
         Base {
@@ -79,7 +79,7 @@ impl<G: Dimension> Base<G> {
 
 /// The lists behind [`Changes`].
 #[derive(Debug)]
-pub(super) struct ChangeLists<G: Dimension> {
+pub(super) struct ChangeLists<G: Moving> {
     pub(super) created: Vec<CellId>,
     pub(super) removed: Vec<CellId>,
     pub(super) removed_corners: Vec<G::Vertices>,
@@ -94,7 +94,7 @@ pub(super) struct ChangeLists<G: Dimension> {
     pub(super) shown: Vec<VertexId>,
 }
 
-impl<G: Dimension> ChangeLists<G> {
+impl<G: Moving> ChangeLists<G> {
     pub(super) fn none() -> Self {
         ChangeLists {
             created: Vec::new(),
@@ -137,7 +137,7 @@ impl<G: Dimension> ChangeLists<G> {
 
 /// Changes that have been taken.
 #[derive(Debug)]
-pub(super) struct Taking<G: Dimension> {
+pub(super) struct Taking<G: Moving> {
     pub(super) base: Base<G>,
     pub(super) lists: ChangeLists<G>,
     /// The timestamp at which they were taken, if the lists are still of these ids.
@@ -146,7 +146,7 @@ pub(super) struct Taking<G: Dimension> {
     pub(super) is_strained: bool,
 }
 
-impl<G: Dimension> Taking<G> {
+impl<G: Moving> Taking<G> {
     /// What it is for another triangulation with these ids, listed by the old ones; without the lists.
     pub(super) fn renumbered(&self, new_id: impl Fn(VertexId) -> VertexId) -> Result<Self> {
         let base = self.base.renumbered(new_id)?;
@@ -154,7 +154,7 @@ impl<G: Dimension> Taking<G> {
     }
 }
 
-impl<G: Dimension> PeriodicCells<G> {
+impl<G: Moving> PeriodicCells<G> {
     /// The index that a cell had at the base; none for one that was not there.
     pub(super) fn origin(&self, cell: CellId) -> CellId {
         self.origins.get(cell.index()).copied().unwrap_or(NO_CELL)

@@ -2,14 +2,14 @@
 
 use std::sync::OnceLock;
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::machine::memory;
 use crate::motion::Monitor;
 use crate::periodic::inside::Inside;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// An independent triangulation that is as this one: positions, ids, vectors, cells with their indices, what is staged, the
     /// timestamp, statistics, options, and what the algorithm keeps between commits. The callback of the options is
     /// `monitor`, as that of this one cannot be copied.
@@ -47,7 +47,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 }
 
-impl<G: Dimension> Inside<G> {
+impl<G: Moving> Inside<G> {
     /// A copy, without the room for goals.
     pub(super) fn copied(&self, monitor: Option<Monitor>) -> Result<Self> {
         Ok(Inside {

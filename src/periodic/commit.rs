@@ -2,16 +2,16 @@
 
 use std::sync::OnceLock;
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
-use crate::motion::CommitReport;
+use crate::motion::{ChangedParts, CommitReport, HiddenIds};
 use crate::periodic::editing::ImageEdits;
 use crate::periodic::images::Image;
 use crate::periodic::inside::{Inside, InsideBefore};
 use crate::periodic::lattice::{HOME, Lattice, Occupied};
-use crate::periodic::rounds::{MovedBefore, PlacesBefore, RoundBefore, Wraps};
+use crate::periodic::rounds::{MovedBefore, PlacesBefore, RoundBefore};
 use crate::periodic::triangulation::PeriodicTriangulation;
 
 /// What a round of moves and few edits has done, and what there was before.
@@ -19,14 +19,14 @@ type RoundMade<G> = (CommitReport, MovedBefore<G>);
 
 /// Where vertices go.
 #[derive(Clone, Copy)]
-pub(super) enum PeriodicGoals<'a, G: Dimension> {
+pub(super) enum PeriodicGoals<'a, G: Moving> {
     /// To what is staged for them; others stay.
     Staged,
     /// To the entries of an array by id.
     Of(&'a [G::Point]),
 }
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// Makes all that is staged the next timestamp; on an error nothing has happened.
     ///
     /// # Errors
@@ -70,21 +70,25 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         &mut self,
         goals: PeriodicGoals<'_, G>,
     ) -> Result<(CommitReport, RoundBefore<G>)> {
-        let (mut report, before) = match self.moved(goals)? {
+        let mut hidden = HiddenIds::default();
+        if G::HAS_WEIGHTS {
+            hidden = self.inside.hidden_homes(&self.lattice)?.ids(self.inside.images.n_vertices())?;
+        }
+        let (mut report, before) = match self.moved(goals, &hidden)? {
             Some((report, moved)) => (report, RoundBefore::Moved(moved)),
-            None => self.rebuilt(goals)?,
+            None => self.rebuilt(goals, &hidden)?,
         };
         self.staged.clear();
         report.timestamp = self.statistics.timestamp + 1;
-        report.coincident = self.inside.coincident() as u64;
         self.statistics.add(&report);
         self.statistics.coincident = report.coincident;
+        self.statistics.hidden_by_weight = report.hidden_by_weight;
         Ok((report, before))
     }
 
     /// Moves vertices and images, makes the edits, and inserts images that are missing; none, without a change, if a vertex would
     /// be too far from the unit cell, the lattice too different, or the edits too many.
-    fn moved(&mut self, goals: PeriodicGoals<'_, G>) -> Result<Option<RoundMade<G>>> {
+    fn moved(&mut self, goals: PeriodicGoals<'_, G>, hidden: &HiddenIds) -> Result<Option<RoundMade<G>>> {
         let n = self.inside.images.n_vertices();
         let lattice = self.coming.as_ref().unwrap_or(&self.lattice);
         let edits = ImageEdits::of(&self.inside, lattice, &self.staged, |index| match goals {
@@ -94,17 +98,18 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let Some(edits) = edits? else { return Ok(None) };
         memory::reserve(&mut self.wraps, edits.wraps().len())?;
         let moved = match (goals, &self.coming) {
-            (PeriodicGoals::Staged, None) => self.some_moved(&edits),
+            (PeriodicGoals::Staged, None) => self.some_moved(&edits, hidden),
             (PeriodicGoals::Of(positions), None) => {
-                self.inside.move_all(&self.lattice, positions, &edits, &self.wraps, |wrap| wrap)
+                let goals = AllGoals { positions, wraps: &self.wraps, hidden };
+                self.inside.move_all(&self.lattice, goals, &edits, |wrap| wrap)
             }
-            (PeriodicGoals::Of(positions), Some(_)) => self.all_moved_in_other(positions, &edits),
+            (PeriodicGoals::Of(positions), Some(_)) => self.all_moved_in_other(positions, &edits, hidden),
             (PeriodicGoals::Staged, Some(_)) => {
                 let mut positions = Vec::new();
                 let places = VertexId::range(0..n).map(|v| self.position(v).unwrap_or_default());
                 memory::collect(&mut positions, places)?;
                 self.staged.moves().iter().for_each(|&(vertex, goal)| positions[vertex] = goal);
-                self.all_moved_in_other(&positions, &edits)
+                self.all_moved_in_other(&positions, &edits, hidden)
             }
         };
         let Some((mut report, mut before)) = moved? else { return Ok(None) };
@@ -116,18 +121,19 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 
     /// Of those whose moves are staged.
-    fn some_moved(&mut self, edits: &ImageEdits<G>) -> Result<Option<RoundMade<G>>> {
+    fn some_moved(&mut self, edits: &ImageEdits<G>, hidden: &HiddenIds) -> Result<Option<RoundMade<G>>> {
         let Self { lattice, inside, wraps, staged, .. } = self;
         let (mut new_wraps, mut ids, mut places) = (Vec::new(), Vec::new(), Vec::new());
-        let (mut occupied, mut n_moved, mut before) = (inside.occupied, 0, inside.before_round());
+        let (mut occupied, mut changed, mut before) =
+            (inside.occupied, ChangedParts::default(), inside.before_round());
         edits.enter(lattice, &mut occupied);
         edits.forget_wraps(&mut new_wraps)?;
         for &(vertex, position) in staged.moves().iter().filter(|&&(vertex, _)| !staged.goes(vertex)) {
             let near = inside.places[inside.images.home(vertex)];
             let mut wrap = wraps[vertex];
             let place = lattice.wrapped_near("positions", vertex.index(), &position, &near, &mut wrap)?;
-            occupied.enter(&lattice.multiples(&place));
-            n_moved += u64::from(place != near || wrap != wraps[vertex]);
+            lattice.enter(&mut occupied, &place);
+            changed.count_in_period(&near, &place, wrap != wraps[vertex]);
             if wrap != wraps[vertex] {
                 memory::push(&mut new_wraps, (vertex, wrap))?;
             }
@@ -142,8 +148,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let n_more = (inside.images.len() + edits.len()).saturating_sub(inside.places.len());
         memory::reserve(&mut inside.places, n_more)?;
         inside.t.move_vertices(&ids, &places)?;
-        let mut report = inside.commit_edits(lattice, occupied, edits)?;
-        report.moved = n_moved;
+        let report = inside.commit_edits(lattice, occupied, edits, changed, hidden)?;
         (before.places, before.wraps) = (PlacesBefore::Some(ids, places), new_wraps);
         inside.settle(edits, &mut before);
         Ok(Some((report, before)))
@@ -155,12 +160,13 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         &mut self,
         positions: &[G::Point],
         edits: &ImageEdits<G>,
+        hidden: &HiddenIds,
     ) -> Result<Option<RoundMade<G>>> {
         let Some(other) = &self.coming else { return Ok(None) };
         let Some(relation) = self.lattice.relation_to(other) else { return Ok(None) };
-        let mut n_moved = 0;
+        let mut changed = ChangedParts::default();
         for (vertex, _) in self.inside.images.homes().filter(|&(vertex, _)| !self.staged.goes(vertex)) {
-            n_moved += u64::from(self.position(vertex) != Ok(positions[vertex]));
+            changed.count(&self.position(vertex)?, &positions[vertex]);
         }
         let Self { inside, wraps, .. } = self;
         let mut images = Vec::new();
@@ -182,18 +188,22 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         }
         inside.images.exchange(&mut images);
         let in_other = |wrap| relation.of(wrap).unwrap_or(wrap);
-        let moved = inside.move_all(other, positions, edits, wraps, in_other);
+        let moved = inside.move_all(other, AllGoals { positions, wraps, hidden }, edits, in_other);
         let Ok(Some((mut report, mut before))) = moved else {
             inside.images.exchange(&mut images);
             return moved;
         };
-        report.moved = n_moved;
+        (report.moved, report.reweighted) = (changed.moved, changed.reweighted);
         before.other = self.coming.take().map(|other| (std::mem::replace(&mut self.lattice, other), images));
         Ok(Some((report, before)))
     }
 
     /// Builds another triangulation, with all that is staged, which takes the place of the present one.
-    fn rebuilt(&mut self, goals: PeriodicGoals<'_, G>) -> Result<(CommitReport, RoundBefore<G>)> {
+    fn rebuilt(
+        &mut self,
+        goals: PeriodicGoals<'_, G>,
+        hidden: &HiddenIds,
+    ) -> Result<(CommitReport, RoundBefore<G>)> {
         let lattice = self.coming.as_ref().unwrap_or(&self.lattice);
         let (n_before, n_ids) = (self.inside.images.n_vertices(), self.id_count());
         let mut positions = Vec::new();
@@ -211,7 +221,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             }));
         }
         self.staged.moves().iter().for_each(|&(vertex, goal)| positions[vertex] = Some(goal));
-        let mut moved = 0;
+        let mut changed = ChangedParts::default();
         let (mut home, mut wraps) = (Vec::new(), Vec::new());
         memory::reserve_exact(&mut home, n_ids)?;
         memory::reserve_exact(&mut wraps, n_ids)?;
@@ -221,32 +231,47 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             wraps.push([0; 3]);
             let Some(position) = position.filter(|_| is_there && !self.staged.goes(vertex)) else { continue };
             let (place, wrap) = lattice.wrapped("positions", index, &position)?;
-            moved += u64::from(index < n_before && self.position(vertex) != Ok(position));
+            if index < n_before {
+                changed.count(&self.position(vertex)?, &position);
+            }
             wraps[index] = wrap;
             home.push((vertex, place));
         }
         let mut inside =
             memory::boxed(Inside::unbuilt(lattice, &home, n_ids, self.inside.t.options_of_another())?)?;
         inside.t.exchange_monitors(&mut self.inside.t);
-        if let Err(error) = inside.build(lattice) {
+        let (inserted, removed) =
+            (self.staged.insertions().len() as u64, self.staged.removals().len() as u64);
+        let mut report = CommitReport { rebuilds: 1, inserted, removed, ..CommitReport::default() };
+        let built =
+            inside.build(lattice).and_then(|()| inside.enter_change(lattice, changed, hidden, &mut report));
+        if let Err(error) = built {
             inside.t.exchange_monitors(&mut self.inside.t);
             return Err(error);
         }
         std::mem::swap(&mut self.inside, &mut inside);
         std::mem::swap(&mut self.wraps, &mut wraps);
         let lattice = self.coming.take().map(|lattice| std::mem::replace(&mut self.lattice, lattice));
-        let (inserted, removed) =
-            (self.staged.insertions().len() as u64, self.staged.removals().len() as u64);
-        let report = CommitReport { moved, rebuilds: 1, inserted, removed, ..CommitReport::default() };
         Ok((report, RoundBefore::Built { inside, wraps, lattice }))
     }
 }
 
-/// What moves come to: what vertices at home occupy then, how many of them move, and which ones come home by another
+/// What moves come to: what vertices at home occupy then, what of them changes, and which ones come home by another
 /// translation than before, and by which.
-type MovedHomes = (Occupied, u64, Vec<(VertexId, [i64; 3])>);
+type MovedHomes = (Occupied, ChangedParts, Vec<(VertexId, [i64; 3])>);
 
-impl<G: Dimension> Inside<G> {
+/// Where all vertices go.
+#[derive(Clone, Copy)]
+struct AllGoals<'a, G: Moving> {
+    /// By id.
+    positions: &'a [G::Point],
+    /// By vertex, the translation by which it came home.
+    wraps: &'a [[i64; 3]],
+    /// The vertices that were hidden.
+    hidden: &'a HiddenIds,
+}
+
+impl<G: Moving> Inside<G> {
     /// Moves all to these positions by id, and inserts images that are missing, all of it or, on an error, nothing;
     /// returns what there was before as well, where vertices have the translations by which they come home. None,
     /// without a change, if one would be too far from the unit cell. `wrap_of` tells what a translation is by the
@@ -254,19 +279,17 @@ impl<G: Dimension> Inside<G> {
     fn move_all(
         &mut self,
         lattice: &Lattice<G>,
-        positions: &[G::Point],
+        all: AllGoals<'_, G>,
         edits: &ImageEdits<G>,
-        wraps: &Wraps,
         wrap_of: impl Fn([i64; 3]) -> [i64; 3],
     ) -> Result<Option<RoundMade<G>>> {
         let (mut goals, mut before) = (std::mem::take(&mut self.goals), self.before_round());
-        let moved = self.goals_of(lattice, positions, edits, wraps, wrap_of, &mut goals);
+        let moved = self.goals_of(lattice, all, edits, wrap_of, &mut goals);
         let done = moved.and_then(|moved| {
-            let Some((occupied, n_moved, new_wraps)) = moved else { return Ok(None) };
+            let Some((occupied, changed, new_wraps)) = moved else { return Ok(None) };
             memory::reserve(&mut goals, edits.len())?;
             self.t.move_all(&goals)?;
-            let mut report = self.commit_edits(lattice, occupied, edits)?;
-            report.moved = n_moved;
+            let report = self.commit_edits(lattice, occupied, edits, changed, all.hidden)?;
             (before.places, before.wraps) = (PlacesBefore::All(std::mem::take(&mut goals)), new_wraps);
             self.settle(edits, &mut before);
             Ok(Some((report, before)))
@@ -280,15 +303,15 @@ impl<G: Dimension> Inside<G> {
     fn goals_of(
         &self,
         lattice: &Lattice<G>,
-        positions: &[G::Point],
+        AllGoals { positions, wraps, .. }: AllGoals<'_, G>,
         edits: &ImageEdits<G>,
-        wraps: &Wraps,
         wrap_of: impl Fn([i64; 3]) -> [i64; 3],
         goals: &mut Vec<G::Point>,
     ) -> Result<Option<MovedHomes>> {
         goals.clear();
         memory::lengthen(goals, self.images.len(), G::Point::default())?;
-        let (mut occupied, mut n_moved, mut new_wraps) = (Occupied::NOTHING, 0, Vec::new());
+        let (mut occupied, mut changed, mut new_wraps) =
+            (Occupied::NOTHING, ChangedParts::default(), Vec::new());
         edits.enter(lattice, &mut occupied);
         edits.forget_wraps(&mut new_wraps)?;
         let mut going = edits.going().iter().peekable();
@@ -300,8 +323,8 @@ impl<G: Dimension> Inside<G> {
             let mut wrap = before;
             let (index, position) = (vertex.index(), &positions[vertex]);
             let place = lattice.wrapped_near("positions", index, position, near, &mut wrap)?;
-            occupied.enter(&lattice.multiples(&place));
-            n_moved += u64::from(place != *near || wrap != before);
+            lattice.enter(&mut occupied, &place);
+            changed.count_in_period(near, &place, wrap != before);
             goals[inner] = place;
             if wrap != wraps[vertex] {
                 memory::push(&mut new_wraps, (vertex, wrap))?;
@@ -315,7 +338,7 @@ impl<G: Dimension> Inside<G> {
                 goals[inner] = lattice.translated(&goals[self.images.home(image.vertex)], image.shift);
             }
         }
-        Ok(Some((occupied, n_moved, new_wraps)))
+        Ok(Some((occupied, changed, new_wraps)))
     }
 
     /// Makes the moves that are staged inside, and the edits, and inserts images that are missing then: all of it or, on an error,
@@ -325,6 +348,8 @@ impl<G: Dimension> Inside<G> {
         lattice: &Lattice<G>,
         occupied: Occupied,
         edits: &ImageEdits<G>,
+        changed: ChangedParts,
+        hidden: &HiddenIds,
     ) -> Result<CommitReport> {
         if !self.t.is_prepared() {
             self.since =
@@ -343,6 +368,7 @@ impl<G: Dimension> Inside<G> {
                 report.add(&t.prepare_timestamp()?);
                 Ok(())
             })?;
+            self.enter_change(lattice, changed, hidden, &mut report)?;
             Ok(report)
         });
         if done.is_err() {
@@ -352,6 +378,33 @@ impl<G: Dimension> Inside<G> {
             self.occupied = before;
         }
         done
+    }
+
+    /// Enters into a report of what is inside what has become of the vertices: how many have changed, are hidden, and were not
+    /// or were hidden before.
+    fn enter_change(
+        &self,
+        lattice: &Lattice<G>,
+        changed: ChangedParts,
+        before: &HiddenIds,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        (report.moved, report.reweighted) = (changed.moved, changed.reweighted);
+        let hidden = self.hidden_homes(lattice)?;
+        hidden.count_in(report);
+        if G::HAS_WEIGHTS {
+            (report.newly_hidden, report.newly_shown) = (0, 0);
+            let is_there = |v: VertexId| {
+                let home = self.images.home(v);
+                home != VertexId::NONE && self.t.is_present(home)
+            };
+            for (_, is_hidden) in
+                hidden.ids(self.images.n_vertices())?.differences(before).filter(|&(v, _)| is_there(v))
+            {
+                *if is_hidden { &mut report.newly_hidden } else { &mut report.newly_shown } += 1;
+            }
+        }
+        Ok(())
     }
 
     /// The rounds stay: what they have removed is forgotten, and their room is for the next goals.

@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -10,7 +10,7 @@ use crate::motion::NO_VERTEX;
 use crate::periodic::inside::Inside;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// Numbers the vertices that are there from 0 on, in the order of their ids, and then those of staged insertions. Returns the
     /// new id of each old one, [`NO_VERTEX`] for removed vertices. Positions, what is staged and the timestamp stay, and so do
     /// the cells, which may have other indices, as the triangulation inside is built anew; nothing is done if no vertex has

@@ -1,13 +1,13 @@
 //! Whether the cells inside are those of the repeating set, whatever made them.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::machine::memory;
 use crate::periodic::inside::Inside;
 use crate::periodic::lattice::Lattice;
 use crate::periodic::needed::Needed;
 
-impl<G: Dimension> Inside<G> {
+impl<G: Moving> Inside<G> {
     /// Whether the cells at vertices at home are those of the repeating set: no image is missing by the balls of all cells, or
     /// those that are change no cell at home when they come, in a copy. What is inside must be a Delaunay triangulation of
     /// vertices at home and their images.

@@ -13,7 +13,7 @@
 //! Bounds of a polygon are those of its sides, each of which is what the other lines leave of a line. That takes the square of
 //! their number; these bounds are rounded, and widened by more than that.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::machine::memory;
 use crate::motion::check_position;
@@ -70,12 +70,12 @@ impl LeastBox {
 
 /// What cells of vertices at home are cut by inside: a box, and half-spaces as they were given.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Container<'h, G: Dimension> {
+pub(crate) struct Container<'h, G: Moving> {
     pub(super) corners: [G::Point; 2],
     pub(super) half_spaces: &'h [f64],
 }
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// What cuts the cells; none if nothing does.
     ///
     /// Cost: the number of half-spaces, and its square where the set is open in two directions.
@@ -144,10 +144,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
 }
 
 /// The corners of a box that may be cut by, infinite where it has no face.
-fn checked_corners<G: Dimension>(
-    lattice: &Lattice<G>,
-    clip: Option<[&G::Point; 2]>,
-) -> Result<[G::Point; 2]> {
+fn checked_corners<G: Moving>(lattice: &Lattice<G>, clip: Option<[&G::Point; 2]>) -> Result<[G::Point; 2]> {
     let mut corners = [f64::NEG_INFINITY, f64::INFINITY].map(|x| {
         let mut corner = G::Point::default();
         (0..G::D).for_each(|axis| corner[axis] = x);
@@ -232,7 +229,7 @@ fn interval(walls: &[Wall], but: Option<usize>, at: &SpaceVector, along: &SpaceV
     ends
 }
 
-impl<G: Dimension> Lattice<G> {
+impl<G: Moving> Lattice<G> {
     /// A product of a normal with a vector that is not exactly 0, rounded, if there is one.
     fn product_with_vectors(&self, normal: &[f64]) -> Option<f64> {
         self.reduced().iter().find_map(|vector| {

@@ -4,7 +4,7 @@
 //! an open triangulation are: by the half-spaces, and by the box that [`container`](PeriodicTriangulation::container)
 //! makes.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -14,7 +14,7 @@ use crate::motion::{
 use crate::periodic::container::Container;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// Tells Voronoi cells, facets, or both, of all ids and edges, or of ids of which `mask` has an entry that is not 0 and
     /// of edges that have such an end, in any order, when all are computed: what a box and half-spaces leave of them. Cells
     /// are told as [`for_voronoi_cells`](Self::for_voronoi_cells) does, facets as
@@ -82,7 +82,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let is_wanted = |v: VertexId| mask.is_none_or(|mask| mask[v.index()] != 0);
         let homes = || images.homes().filter(|&(vertex, _)| is_wanted(vertex)).map(|(_, inner)| inner);
         let (mut vertices, mut chosen, mut numbers) = (Vec::new(), Vec::new(), Vec::new());
-        let is_shown = |inner: &VertexId| t.coincident_representative(*inner) == Ok(*inner);
+        let is_shown = |inner: &VertexId| t.corner_at(*inner) == Some(*inner);
         memory::collect(&mut vertices, homes().filter(is_shown))?;
         let n_shown = vertices.len();
         if tell_facet.is_some() {

@@ -1,6 +1,6 @@
 //! The edges of a set that repeats, one of each class of translations of each other.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
@@ -17,7 +17,7 @@ pub(super) struct PeriodicEdges {
 
 impl PeriodicEdges {
     /// Reads all edges. The cells of a vertex at home are all inside, and so is the edge of each class at each of its ends.
-    pub(super) fn of<G: Dimension>(inside: &Inside<G>) -> Result<Self> {
+    pub(super) fn of<G: Moving>(inside: &Inside<G>) -> Result<Self> {
         let images = &inside.images;
         let mut list: Vec<([VertexId; 2], CellId)> = Vec::new();
         let mut begin = 0;

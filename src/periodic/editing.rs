@@ -5,7 +5,7 @@
 //! triangulation is built anew, and as well when there are far more or fewer vertices than at the last build, whose mean
 //! distance is what the margin of images is told by.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -24,7 +24,7 @@ const GROWTH: usize = 2;
 
 /// Insertions and removals.
 #[derive(Debug)]
-pub(super) struct ImageEdits<G: Dimension> {
+pub(super) struct ImageEdits<G: Moving> {
     /// Vertices that come, and then images of them, in the order of the ids that they get inside.
     images: Vec<Image>,
     places: Vec<G::Point>,
@@ -36,7 +36,7 @@ pub(super) struct ImageEdits<G: Dimension> {
     going_inside: Vec<VertexId>,
 }
 
-impl<G: Dimension> ImageEdits<G> {
+impl<G: Moving> ImageEdits<G> {
     /// What is staged, if that costs less than to build anew; vertices that come are at the places that `position_of` tells by
     /// their number.
     pub(super) fn of(
@@ -84,7 +84,7 @@ impl<G: Dimension> ImageEdits<G> {
 
     /// Vertices that come occupy their places.
     pub(super) fn enter(&self, lattice: &Lattice<G>, occupied: &mut Occupied) {
-        self.places[..self.wraps.len()].iter().for_each(|place| occupied.enter(&lattice.multiples(place)));
+        self.places[..self.wraps.len()].iter().for_each(|place| lattice.enter(occupied, place));
     }
 
     /// Vertices that go are translated by nothing.
@@ -113,7 +113,7 @@ impl<G: Dimension> ImageEdits<G> {
     }
 }
 
-impl<G: Dimension> Inside<G> {
+impl<G: Moving> Inside<G> {
     /// Whether so many vertices may come and go without a build.
     fn can_edit(&self, n_coming: usize, n_going: usize) -> bool {
         let n = self.images.n_present();

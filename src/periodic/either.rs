@@ -1,7 +1,7 @@
-//! A periodic triangulation of either dimension, for bindings to other languages.
+//! A periodic triangulation of either dimension, with weights or without, for bindings to other languages.
 
 use crate::damage::LoadError;
-use crate::delaunay::{Plane, Space};
+use crate::delaunay::{Plane, PowerPlane, PowerSpace, Space};
 use crate::error::Result;
 use crate::motion::{Monitor, Options};
 use crate::periodic::saving::SavedPeriodic;
@@ -14,6 +14,10 @@ pub enum AnyPeriodic {
     Plane(PeriodicTriangulation<Plane>),
     /// Three dimensions.
     Space(PeriodicTriangulation<Space>),
+    /// Two dimensions, of vertices with weights.
+    PowerPlane(PeriodicTriangulation<PowerPlane>),
+    /// Three dimensions, of vertices with weights.
+    PowerSpace(PeriodicTriangulation<PowerSpace>),
 }
 
 impl AnyPeriodic {
@@ -22,10 +26,11 @@ impl AnyPeriodic {
     /// # Errors
     /// The errors of [`PeriodicTriangulation::load`].
     pub fn load(saved: &SavedPeriodic<'_>, options: Options) -> Result<Self, LoadError> {
-        if saved.dimension() == 2 {
-            PeriodicTriangulation::load(saved, options).map(Self::Plane)
-        } else {
-            PeriodicTriangulation::load(saved, options).map(Self::Space)
+        match (saved.dimension(), saved.is_weighted()) {
+            (2, false) => PeriodicTriangulation::load(saved, options).map(Self::Plane),
+            (2, true) => PeriodicTriangulation::load(saved, options).map(Self::PowerPlane),
+            (_, false) => PeriodicTriangulation::load(saved, options).map(Self::Space),
+            (_, true) => PeriodicTriangulation::load(saved, options).map(Self::PowerSpace),
         }
     }
 
@@ -37,6 +42,8 @@ impl AnyPeriodic {
         Ok(match self {
             Self::Plane(t) => Self::Plane(t.try_clone(monitor)?),
             Self::Space(t) => Self::Space(t.try_clone(monitor)?),
+            Self::PowerPlane(t) => Self::PowerPlane(t.try_clone(monitor)?),
+            Self::PowerSpace(t) => Self::PowerSpace(t.try_clone(monitor)?),
         })
     }
 
@@ -45,6 +52,8 @@ impl AnyPeriodic {
         match self {
             Self::Plane(t) => t.id_count(),
             Self::Space(t) => t.id_count(),
+            Self::PowerPlane(t) => t.id_count(),
+            Self::PowerSpace(t) => t.id_count(),
         }
     }
 
@@ -56,14 +65,21 @@ impl AnyPeriodic {
         match self {
             Self::Plane(t) => t.cell_count(),
             Self::Space(t) => t.cell_count(),
+            Self::PowerPlane(t) => t.cell_count(),
+            Self::PowerSpace(t) => t.cell_count(),
         }
     }
 
     /// The number of coordinates of a point, 2 or 3.
     pub fn dimension(&self) -> u32 {
         match self {
-            Self::Plane(_) => 2,
-            Self::Space(_) => 3,
+            Self::Plane(_) | Self::PowerPlane(_) => 2,
+            Self::Space(_) | Self::PowerSpace(_) => 3,
         }
+    }
+
+    /// Whether vertices have weights.
+    pub fn is_weighted(&self) -> bool {
+        matches!(self, Self::PowerPlane(_) | Self::PowerSpace(_))
     }
 }

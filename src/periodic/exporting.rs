@@ -1,7 +1,7 @@
 //! Files for programs that draw and mesh: cells together as they are in space, and so a vertex once for each period in which
 //! a cell has it.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -9,7 +9,7 @@ use crate::motion::{Drawn, Field, check_references};
 use crate::periodic::triangulation::PeriodicTriangulation;
 
 /// Points that cells have, and vertices that no cell has.
-struct Periods<'t, G: Dimension> {
+struct Periods<'t, G: Moving> {
     t: &'t PeriodicTriangulation<G>,
     /// Ascending by vertex, and by the multiples of the vectors by which it is translated from its position.
     points: Vec<(VertexId, G::Point)>,
@@ -29,7 +29,7 @@ struct ExportedCorner {
     from_home: [i64; 3],
 }
 
-impl<'t, G: Dimension> Periods<'t, G> {
+impl<'t, G: Moving> Periods<'t, G> {
     fn of(t: &'t PeriodicTriangulation<G>) -> Result<Self> {
         let cells = t.read_cells()?;
         let n = G::D + 1;
@@ -68,7 +68,7 @@ impl<'t, G: Dimension> Periods<'t, G> {
     }
 }
 
-impl<G: Dimension> Drawn<G> for Periods<'_, G> {
+impl<G: Moving> Drawn<G> for Periods<'_, G> {
     fn id_counts(&self) -> [usize; 2] {
         [self.t.id_count(), self.t.staged.insertions().len()]
     }
@@ -98,7 +98,7 @@ impl<G: Dimension> Drawn<G> for Periods<'_, G> {
     }
 }
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// Hands on the bytes of a `.vtu` file, some thousand at a time: the cells, together as
     /// [`cell_shifts`](Self::cell_shifts) has them. A vertex is a point for each period in which a cell has it, and once at its
     /// position if no cell has it; its id is in an array `vertex`, and its numbers of fields are those of all of its points. The

@@ -14,7 +14,7 @@
 //! another some places have come or gone, and not all, and vertices that are not connected any more were in one that has gone,
 //! or in several at a vertex that has been removed. Vertices that have been inserted have to be connected to others.
 
-use crate::delaunay::{Dimension, IndexSet};
+use crate::delaunay::{IndexSet, Moving};
 use crate::error::Result;
 use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
@@ -42,13 +42,13 @@ struct ChangedPlace {
 }
 
 /// Finds cells among those at a vertex.
-struct Stars<'t, G: Dimension> {
+struct Stars<'t, G: Moving> {
     inside: &'t Inside<G>,
     cells: CellsView<'t, G>,
     slots: IndexSet<Slot>,
 }
 
-impl<G: Dimension> Stars<'_, G> {
+impl<G: Moving> Stars<'_, G> {
     /// The cell at a vertex that has these corners, in any order.
     fn find(&mut self, vertex: VertexId, row: &G::Vertices) -> Result<Option<CellId>> {
         self.slots.clear();
@@ -186,10 +186,10 @@ impl Joined {
     }
 }
 
-impl<G: Dimension> Inside<G> {
-    /// Whether the set repeats along all axes, and no two of its vertices share a place.
+impl<G: Moving> Inside<G> {
+    /// Whether the set repeats along all axes, and all of its vertices are corners: no two share a place, and weights hide none.
     pub(super) fn is_plain(&self, lattice: &Lattice<G>) -> bool {
-        lattice.rank() == G::D && self.t.cell_count() > 0 && self.t.hidden_count() == 0
+        lattice.rank() == G::D && self.t.cell_count() > 0 && self.t.count_in_no_cell() == 0
     }
 
     /// The images that are missing after rounds, where before them all was as in the repeating set.
@@ -321,6 +321,11 @@ impl<G: Dimension> Inside<G> {
         Ok(())
     }
 
+    /// The cell inside at a vertex that has these corners, in any order.
+    pub(super) fn cell_at(&self, vertex: VertexId, row: &G::Vertices) -> Result<Option<CellId>> {
+        Stars { inside: self, cells: self.t.cells()?, slots: IndexSet::new() }.find(vertex, row)
+    }
+
     /// Whether none of the corners of a cell that has gone has been removed.
     fn are_present(&self, row: &G::Vertices) -> bool {
         row.as_ref().iter().all(|&v| self.t.is_present(v))
@@ -341,7 +346,7 @@ impl<G: Dimension> Inside<G> {
     }
 
     /// The corners of a cell after the translation that takes one of them home, if all are there.
-    fn translated_home(&self, row: &G::Vertices, corner: VertexId) -> Option<G::Vertices> {
+    pub(super) fn translated_home(&self, row: &G::Vertices, corner: VertexId) -> Option<G::Vertices> {
         let shift = self.images.of(corner).shift;
         debug_assert!(shift != HOME);
         let mut translated = *row;

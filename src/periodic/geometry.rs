@@ -3,7 +3,7 @@
 //! Numbers of a cell are those that it has inside, where its least vertex is at home. What is told of places is so where
 //! that vertex is at its own position, as in [`cell_shifts`](PeriodicTriangulation::cell_shifts).
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
@@ -11,7 +11,7 @@ use crate::motion::{BoundaryFacet, list_boundary, tell_all, without_flat_cells};
 use crate::periodic::lattice::HOME;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// Tells circumcentre and squared circumradius of each cell, or of those of these indices, in their order.
     ///
     /// A coordinate of a centre is off by at most 10⁻⁹ circumradii and its own rounding, where the corner is in another

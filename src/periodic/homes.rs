@@ -4,9 +4,10 @@
 
 use crate::delaunay::Shape;
 use crate::error::{Error, Result};
+use crate::motion::check_weight;
 use crate::periodic::grid::{MOST_UNITS, ROOM, exact};
 use crate::periodic::lattice::Lattice;
-use crate::predicates::MAX_MAGNITUDE;
+use crate::predicates::{MAX_MAGNITUDE, PointArray};
 
 /// Positions of fewer units of the grid are rounded to it without long numbers, and translated by a vector without rounding.
 const SHORT: f64 = (1u64 << 51) as f64;
@@ -39,6 +40,7 @@ impl<G: Shape> Lattice<G> {
 
     /// Checks that a position is one of a vertex.
     pub(super) fn check(&self, argument: &'static str, index: usize, position: &G::Point) -> Result<()> {
+        check_weight(argument, index, position.weight())?;
         self.units_of(argument, index, position).map(drop)
     }
 
@@ -65,6 +67,7 @@ impl<G: Shape> Lattice<G> {
         index: usize,
         position: &G::Point,
     ) -> Result<(G::Point, [i64; 3])> {
+        check_weight(argument, index, position.weight())?;
         if let Some(place) = self.place_of_short(position, &[0; 3])
             && self.multiples(&place).iter().all(|&x| (0.0..1.0).contains(&x))
         {
@@ -100,6 +103,7 @@ impl<G: Shape> Lattice<G> {
         near: &G::Point,
         wrap: &mut [i64; 3],
     ) -> Result<G::Point> {
+        check_weight(argument, index, position.weight())?;
         if let Some(place) = self.place_of_short(position, wrap) {
             let mut square = 0.0;
             (0..G::D).for_each(|axis| square += (place[axis] - near[axis]) * (place[axis] - near[axis]));

@@ -2,12 +2,12 @@
 //!
 //! Each is a commit of its own, of that one edit; the timestamp stays.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result, StagedEdit};
 use crate::ids::VertexId;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// Moves one vertex at once, whatever is staged for others.
     ///
     /// Cost: that of a commit of one move.

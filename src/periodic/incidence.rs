@@ -3,7 +3,7 @@
 //! A vertex meets an edge or a cell once for each end or corner that it is, as in space, where it is at one place. So an edge from
 //! a vertex to itself in another period is met twice, and a cell with a vertex in two periods as well.
 
-use crate::delaunay::{Dimension, Plane};
+use crate::delaunay::{Moving, Plane};
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
@@ -12,8 +12,9 @@ use crate::motion::{
 };
 use crate::periodic::cells::PeriodicCells;
 use crate::periodic::triangulation::PeriodicTriangulation;
+use crate::predicates::PlanePoint;
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// The vertices to which edges lead from each one, ascending: one for each edge, so that a vertex is there several times where
     /// edges lead to it in several periods, and itself twice for each edge to itself. None for those that are hidden or removed.
     ///
@@ -67,7 +68,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// The errors of [`position`](Self::position), and [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn star(&self, vertex: VertexId) -> Result<Vec<CellId>> {
         let mut star = Vec::new();
-        self.enter_star(self.coincident_representative(vertex)?, &mut star)?;
+        self.enter_star(self.represented(vertex)?, &mut star)?;
         star.sort_unstable();
         Ok(star)
     }
@@ -102,7 +103,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         for row in vertices.chunks_exact(n_corners) {
             let mut wanted = [VertexId::NONE; 4];
             for (k, &vertex) in row.iter().enumerate() {
-                wanted[k] = self.coincident_representative(vertex)?;
+                wanted[k] = self.represented(vertex)?;
                 stars[k].clear();
                 if all.is_none() {
                     self.enter_star(wanted[k], &mut stars[k])?;
@@ -132,7 +133,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         self.check_present(vertices)?;
         let mut list = Vec::new();
         for &vertex in vertices {
-            if self.coincident_representative(vertex)? == vertex {
+            if self.represented(vertex)? == vertex {
                 self.enter_star(vertex, &mut list)?;
             }
         }
@@ -145,25 +146,6 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let n_coming = self.staged.insertions().len();
         let mut all = vertices.iter().enumerate();
         all.try_for_each(|(index, &vertex)| self.inside.images.check(index, vertex, n_coming).map(drop))
-    }
-
-    /// The vertices that are hidden, ascending, each with the one of the lowest id at its place in any period.
-    ///
-    /// # Errors
-    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-    pub fn hidden_vertices(&self) -> Result<Vec<(VertexId, VertexId)>> {
-        let mut hidden = Vec::new();
-        if self.inside.t.hidden_count() == 0 {
-            return Ok(hidden);
-        }
-        let vertex = |inner| self.inside.images.of(inner).vertex;
-        for (inner, shown) in self.inside.t.hidden_vertices() {
-            if self.inside.images.is_home(inner) {
-                memory::push(&mut hidden, (vertex(inner), vertex(shown)))?;
-            }
-        }
-        hidden.sort_unstable();
-        Ok(hidden)
     }
 
     /// For each cell and each of its corners the corner of the neighbour across the facet opposite it that is opposite the same
@@ -195,7 +177,10 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 }
 
-impl PeriodicTriangulation<Plane> {
+impl<P: PlanePoint> PeriodicTriangulation<Plane<P>>
+where
+    Plane<P>: Moving,
+{
     /// The cells around the place of a vertex, counter-clockwise, each once for each of its corners that is the vertex: from the
     /// one of lowest index, or, on the hull of a set that is open somewhere, from the one at the hull's edge that leaves the
     /// vertex when the hull is passed counter-clockwise.
@@ -203,19 +188,19 @@ impl PeriodicTriangulation<Plane> {
     /// # Errors
     /// The errors of [`star`](Self::star).
     pub fn ordered_star(&self, vertex: VertexId) -> Result<impl Iterator<Item = CellId> + Clone + '_> {
-        let (vertex, cells) = (self.coincident_representative(vertex)?, self.read_cells()?);
+        let (vertex, cells) = (self.represented(vertex)?, self.read_cells()?);
         let first = self.star(vertex)?.first().copied();
-        let start =
-            first.and_then(|cell| Some((cell, cells.corners[cell].iter().position(|&v| v == vertex)?)));
+        let start = first
+            .and_then(|cell| Some((cell, cells.corners[cell].as_ref().iter().position(|&v| v == vertex)?)));
         Ok(ordered_star(start, move |cell, corner| {
-            let mirror = mirror::<Plane>(cells, cell.index(), corner);
+            let mirror = mirror::<Plane<P>>(cells, cell.index(), corner);
             (mirror != NO_CORNER).then(|| (cells.neighbours[cell][corner], usize::from(mirror)))
         }))
     }
 }
 
 /// The corner of the neighbour that is not one of the facet opposite a corner of a cell.
-fn mirror<G: Dimension>(cells: &PeriodicCells<G>, cell: usize, corner: usize) -> u8 {
+fn mirror<G: Moving>(cells: &PeriodicCells<G>, cell: usize, corner: usize) -> u8 {
     let across = cells.neighbours[cell].as_ref()[corner];
     if across == NO_CELL {
         return NO_CORNER;

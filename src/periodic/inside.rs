@@ -1,6 +1,6 @@
 //! What is triangulated: vertices at home, and images of them.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::machine::memory;
 use crate::motion::MovingTriangulation;
 use crate::periodic::images::Images;
@@ -8,7 +8,7 @@ use crate::periodic::lattice::Occupied;
 
 /// Vertices at home and their images, triangulated.
 #[derive(Debug)]
-pub(super) struct Inside<G: Dimension> {
+pub(super) struct Inside<G: Moving> {
     pub(super) t: MovingTriangulation<G>,
     pub(super) images: Images,
     /// The number of vertices when this was built.
@@ -32,7 +32,7 @@ pub(super) struct InsideBefore {
     pub(super) is_plain: bool,
 }
 
-impl<G: Dimension> Inside<G> {
+impl<G: Moving> Inside<G> {
     pub(super) fn memory_bytes(&self) -> usize {
         self.t.memory_bytes()
             + self.images.memory_bytes()

@@ -3,7 +3,7 @@
 //! Of each class one cell inside has its least vertex at home. A place is taken to where it is in that cell, exactly, so the
 //! numbers do not depend on the period.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::CellId;
 use crate::machine::memory;
@@ -16,7 +16,7 @@ use crate::periodic::reduction::SLACK;
 use crate::periodic::triangulation::PeriodicTriangulation;
 use crate::periodic::zone::ZoneCells;
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// Interpolates values of vertices at positions, rounded to the grid of the lattice: those of each are told to `found`, or `None` for positions outside the convex hull of a set that is open in some direction. An image of a
     /// vertex has its values. Those of hidden and removed vertices are not read. Each position is looked for from the one before,
     /// the first one from `near`, if that is near it.

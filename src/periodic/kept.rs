@@ -1,6 +1,6 @@
 //! What is read once after each change and kept: the cells, in the order of those that the program knows, and the edges.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
@@ -11,7 +11,7 @@ use crate::periodic::edges::PeriodicEdges;
 use crate::periodic::lattice::Shift;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// The cells, which the first that asks reads; several threads may do that at the same time.
     pub(super) fn read_cells(&self) -> Result<&PeriodicCells<G>> {
         if let Some(cells) = self.cells.get() {

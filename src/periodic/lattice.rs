@@ -22,6 +22,7 @@ use crate::error::{Error, Result};
 use crate::periodic::grid::{Grid, MOST_UNITS, ROOM, greatest_of};
 use crate::periodic::reduction::{SLACK, dot, dual_of};
 use crate::periodic::relation::Relation;
+use crate::predicates::PointArray;
 
 /// Multiples of one vector.
 pub(super) type Range = std::ops::RangeInclusive<i32>;
@@ -42,20 +43,22 @@ pub(super) fn minus(one: Shift, other: Shift) -> Shift {
     [0, 1, 2].map(|j| one[j] - other[j])
 }
 
-/// The least and the greatest multiples of each vector that vertices at home have.
+/// The least and the greatest multiples of each vector that vertices at home have, and their greatest weight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Occupied {
     low: [f64; 3],
     high: [f64; 3],
+    /// 0 without weights.
+    pub(super) weight: f64,
 }
 
 impl Occupied {
     /// What no vertex occupies.
-    pub(super) const NOTHING: Self = Occupied { low: [0.0; 3], high: [0.0; 3] };
+    pub(super) const NOTHING: Self = Occupied { low: [0.0; 3], high: [0.0; 3], weight: f64::NEG_INFINITY };
 
     /// Now a place with these multiples, too.
     #[inline(always)]
-    pub(super) fn enter(&mut self, multiples: &[f64; 3]) {
+    fn enter(&mut self, multiples: &[f64; 3]) {
         self.low.iter_mut().zip(multiples).for_each(|(low, &x)| *low = low.min(x));
         self.high.iter_mut().zip(multiples).for_each(|(high, &x)| *high = high.max(x));
     }
@@ -206,7 +209,7 @@ impl<G: Shape> Lattice<G> {
             self.unit[axis] == 0.0 || units == units.round_ties_even() && units.abs() <= MOST_UNITS as f64
         };
         let mut occupied = Occupied::NOTHING;
-        occupied.enter(&self.multiples(place));
+        self.enter(&mut occupied, place);
         (0..G::D).all(is_on_grid) && occupied.is_within(&[ROOM; 3])
     }
 
@@ -243,6 +246,15 @@ impl<G: Shape> Lattice<G> {
     /// By vector, the greatest multiples of images that can be needed.
     pub(super) fn greatest(&self) -> Shift {
         self.greatest
+    }
+
+    /// Enters a vertex at home into what is occupied.
+    #[inline(always)]
+    pub(super) fn enter(&self, occupied: &mut Occupied, home: &G::Point) {
+        occupied.enter(&self.multiples(home));
+        if G::HAS_WEIGHTS {
+            occupied.weight = occupied.weight.max(home.weight());
+        }
     }
 
     /// The multiples of the vectors that a place has, rounded.

@@ -4,7 +4,7 @@
 //! which some vertex at home comes near another one. Sums of places and translations have to be numbers on the grid, so that
 //! distances are those of the set: a radius for which they are not is refused.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -30,7 +30,7 @@ pub(crate) struct PeriodicLists {
     shifts: Vec<Shift>,
 }
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// For each vertex the images of vertices whose squared distance from it is at most that of its list, exactly: ascending by id
     /// and by shift, itself in other periods and hidden vertices included, which have lists as well.
     ///
@@ -108,7 +108,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let [mut low, mut high] = [placed[0].place; 2];
         let mut occupied = Occupied::NOTHING;
         for p in placed {
-            occupied.enter(&lattice.multiples(&p.place));
+            lattice.enter(&mut occupied, &p.place);
             for axis in 0..G::D {
                 low[axis] = low[axis].min(p.place[axis]);
                 high[axis] = high[axis].max(p.place[axis]);
@@ -136,7 +136,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 }
 
-impl<G: Dimension> Lattice<G> {
+impl<G: Moving> Lattice<G> {
     /// By vector, the range of multiples by which what is occupied can be translated to come as near to itself as a radius; `None`
     /// if they are no numbers for shifts.
     fn shifts_within(&self, radius: f64, occupied: &Occupied) -> Option<[Range; 3]> {

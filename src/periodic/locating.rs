@@ -19,7 +19,7 @@
 use std::collections::HashMap;
 use std::hash::BuildHasherDefault;
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
@@ -29,6 +29,7 @@ use crate::periodic::images::Image;
 use crate::periodic::lattice::{HOME, Lattice, Shift, plus};
 use crate::periodic::reduction::SLACK;
 use crate::periodic::triangulation::PeriodicTriangulation;
+use crate::predicates::PointArray;
 
 /// A cell of the repeating set: one of a class, translated by this shift from where its least vertex is at home.
 pub(super) type PlacedCell = (CellId, Shift);
@@ -46,8 +47,17 @@ pub(super) enum PeriodicLocation {
     NoCells,
 }
 
+/// What there is at an image of a vertex.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum AtImage {
+    /// A corner of cells: the image, or what represents it.
+    Corner(Image),
+    /// The image is hidden by weight, above this cell.
+    Above(PlacedCell),
+}
+
 /// Places that are asked for.
-pub(super) struct AskedPlaces<G: Dimension> {
+pub(super) struct AskedPlaces<G: Moving> {
     /// In the unit cell.
     pub(super) places: Vec<G::Point>,
     /// By which multiples of the reduced vectors each has been translated to come from there.
@@ -61,7 +71,7 @@ struct PlaceRanges {
 }
 
 impl PlaceRanges {
-    fn of<G: Dimension>(lattice: &Lattice<G>, places: &[G::Point]) -> Self {
+    fn of<G: Moving>(lattice: &Lattice<G>, places: &[G::Point]) -> Self {
         let (mut extent, used) = (PlaceRanges { low: [0.0; 6], high: [0.0; 6] }, [0..G::D, 3..6]);
         for k in used.into_iter().flatten() {
             (extent.low[k], extent.high[k]) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -90,7 +100,7 @@ impl PlaceRanges {
 /// Cells that have been seen by a search.
 type SeenCells = HashMap<PlacedCell, (), BuildHasherDefault<RowHasher>>;
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// Where a position, rounded to the grid of the lattice, lies: the class of cells, or the vertex, of which a translation is
     /// there.
     ///
@@ -207,7 +217,10 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         inner: Location,
     ) -> Result<PeriodicLocation> {
         match inner {
-            Location::Vertex(v) => Ok(PeriodicLocation::Vertex(self.represented(self.inside.images.of(v))?)),
+            Location::Vertex(v) => Ok(match self.at_image(cells, self.inside.images.of(v))? {
+                AtImage::Corner(image) => PeriodicLocation::Vertex(image),
+                AtImage::Above(placed) => PeriodicLocation::Cell(placed),
+            }),
             Location::Cell(cell) if cells.class_of[cell] != NO_CELL => {
                 Ok(PeriodicLocation::Cell(self.placed(cells, cell)?))
             }
@@ -218,11 +231,30 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         }
     }
 
-    /// What represents an image: where it is, inside need not have all images.
-    pub(super) fn represented(&self, image: Image) -> Result<Image> {
-        let images = &self.inside.images;
-        let shown = images.of(self.inside.t.coincident_representative(images.home(image.vertex))?);
-        Ok(Image { vertex: shown.vertex, shift: plus(shown.shift, image.shift) })
+    /// What is at an image, by what is at its vertex at home: where the image is, inside need not have all images. There must be
+    /// cells.
+    pub(super) fn at_image(&self, cells: &PeriodicCells<G>, image: Image) -> Result<AtImage> {
+        if let Some(corner) = self.inside.corner_at_image(image) {
+            return Ok(AtImage::Corner(corner));
+        }
+        let below = self.inside.t.cell_below(self.inside.images.home(image.vertex))?;
+        let (class, by) = self.placed_anywhere(cells, below)?;
+        Ok(AtImage::Above((class, plus(by, image.shift))))
+    }
+
+    /// Which cell of the repeating set one inside is that is a cell of it, with a vertex at home or without one.
+    pub(super) fn placed_anywhere(&self, cells: &PeriodicCells<G>, cell: CellId) -> Result<PlacedCell> {
+        if cells.class_of[cell] != NO_CELL {
+            return self.placed(cells, cell);
+        }
+        let row = self.inside.t.cells()?.corners[cell];
+        let corner = row.as_ref()[0];
+        let translated =
+            self.inside.translated_home(&row, corner).expect("a cell is there around each of its corners");
+        let Image { vertex, shift } = self.inside.images.of(corner);
+        let home = self.inside.cell_at(self.inside.images.home(vertex), &translated)?;
+        let (class, by) = self.placed(cells, home.expect("a cell is there around each of its corners"))?;
+        Ok((class, plus(by, shift)))
     }
 
     /// Which cell of the repeating set one inside is that has a vertex at home.
@@ -248,15 +280,19 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         corners
     }
 
-    /// The image of a vertex at a place in the unit cell, by a look at all vertices; the one of the lowest id.
+    /// The image of a vertex at a place in the unit cell, by a look at all vertices; the one of the lowest id, with weights of
+    /// those of the greatest weight.
     fn at_vertex(&self, place: &G::Point) -> Option<Image> {
-        self.inside.images.homes().find_map(|(vertex, inner)| {
+        let there = self.inside.images.homes().filter_map(|(vertex, inner)| {
             let (home, mut way) = (&self.inside.places[inner], *place);
             (0..G::D).for_each(|axis| way[axis] -= home[axis]);
             let shift = self.lattice.multiples(&way).map(|x| x.round() as i32);
             let is_there = self.lattice.translated(home, shift).as_ref() == place.as_ref();
-            is_there.then_some(Image { vertex, shift })
-        })
+            is_there.then_some((home.weight(), Image { vertex, shift }))
+        });
+        let heavier =
+            |first: (f64, Image), other: (f64, Image)| if other.0 > first.0 { other } else { first };
+        there.reduce(heavier).map(|(_, image)| image)
     }
 
     /// Where a place is, by a search from a corner of a cell inside.
@@ -306,7 +342,14 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let inside = &self.inside;
         let row = inside.t.cells()?.corners[cell];
         let corner = row.as_ref().iter().copied().min().expect("a cell has corners");
-        let Image { vertex, shift } = self.represented(inside.images.of(corner))?;
+        let image = inside.images.of(corner);
+        let Image { vertex, shift } = match self.at_image(cells, image)? {
+            AtImage::Corner(shown) => shown,
+            AtImage::Above(placed) => {
+                let home = &inside.places[inside.images.home(image.vertex)];
+                return Ok((placed, self.lattice.translated(home, image.shift)));
+            }
+        };
         let place = self.lattice.translated(&inside.places[inside.images.home(vertex)], shift);
         if cells.class_of[cell] != NO_CELL {
             return Ok((self.placed(cells, cell)?, place));
@@ -338,7 +381,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
 }
 
 /// The cell beyond the facet of one that is opposite a corner; none on the hull.
-pub(super) fn across<G: Dimension>(
+pub(super) fn across<G: Moving>(
     cells: &PeriodicCells<G>,
     (class, by): PlacedCell,
     i: usize,

@@ -12,16 +12,15 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use crate::delaunay::{Dimension, IndexSet};
+use crate::delaunay::{IndexSet, Moving};
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::{Location, check_not_negative};
-use crate::periodic::images::Image;
 use crate::periodic::inside::all;
-use crate::periodic::lattice::HOME;
+use crate::periodic::locating::AtImage;
 use crate::periodic::triangulation::PeriodicTriangulation;
-use crate::predicates::{compare_distance, is_within_distance, squared_distance};
+use crate::predicates::{PointArray, compare_distance, is_within_distance, squared_distance};
 
 /// A flood that has come to more vertices than this share of them takes longer than a pass over all.
 const MOST_OF_ALL: f64 = 0.05;
@@ -63,7 +62,7 @@ struct BesideVertex {
 }
 
 impl BesideVertex {
-    fn list<G: Dimension>(&mut self, t: &PeriodicTriangulation<G>, vertex: VertexId) -> Result<&[VertexId]> {
+    fn list<G: Moving>(&mut self, t: &PeriodicTriangulation<G>, vertex: VertexId) -> Result<&[VertexId]> {
         t.inside.t.star(t.inside.images.home(vertex), &mut self.star)?;
         let corners = t.inside.t.cells()?.corners;
         self.vertices.clear();
@@ -77,9 +76,9 @@ impl BesideVertex {
     }
 }
 
-impl<G: Dimension> PeriodicTriangulation<G> {
-    /// The vertex of which an image is nearest to a position, rounded to the grid of the lattice; of the nearest that of the lowest
-    /// id; `None` if there are no vertices. Distances are compared exactly.
+impl<G: Moving> PeriodicTriangulation<G> {
+    /// The vertex of which an image is nearest to a position, rounded to the grid of the lattice; with weights, of least power
+    /// distance. Of the nearest that of the lowest id; `None` if there are no vertices. Distances are compared exactly.
     ///
     /// ```
     /// use deldrift::{Plane, VertexId, motion::Options, periodic::PeriodicTriangulation};
@@ -97,7 +96,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let (q, _) = self.lattice.wrapped("position", 0, position)?;
         let start = self.start_at(self.inside.t.locate(&q)?)?;
         let nearest = self.nearest_of(&q, start)?.into_iter().min_by(|(vertex, image), (other, of_other)| {
-            compare_distance(&q, image, of_other).then(vertex.cmp(other))
+            q.compare_powers(image, of_other).then(vertex.cmp(other))
         });
         Ok(nearest.map(|(vertex, _)| vertex))
     }
@@ -129,6 +128,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let asked = self.asked(positions)?;
         if k == 0 {
             return Ok(());
+        }
+        if G::HAS_WEIGHTS {
+            return asked.places.iter().try_for_each(|q| self.nearest_by_distance(q, k, &mut found));
         }
         let hidden = self.hidden_by_shown()?;
         let mut inner = Vec::new();
@@ -162,6 +164,17 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         Ok(())
     }
 
+    /// Tells the vertices nearest to a place, by a look at all of them: neighbours by power need not be near.
+    fn nearest_by_distance(&self, q: &G::Point, k: usize, found: &mut impl FnMut(VertexId)) -> Result<()> {
+        let mut all = BinaryHeap::new();
+        for (vertex, _) in self.inside.images.homes() {
+            let image = self.nearest_image(q, vertex);
+            memory::enter(&mut all, WaitingImage { q, image, vertex, is_hidden: false })?;
+        }
+        (0..k).for_each(|_| found(all.pop().map_or(VertexId::NONE, |next| next.vertex)));
+        Ok(())
+    }
+
     /// The vertices of which an image is in a closed ball around a centre, rounded to the grid of the lattice: those of which the
     /// squared distance from it is at most `squared_radius`, exactly. Ascending, each once, hidden ones included.
     ///
@@ -186,6 +199,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         let mut found = Vec::new();
         if inner == Location::NoCells
             || self.inside.t.hidden_count() > 0
+            || G::HAS_WEIGHTS
             || !self.flood_ball(&q, inner, is_in, &mut found)?
         {
             found.clear();
@@ -239,7 +253,11 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             }
             Location::NoCells => return Ok(None),
         };
-        Ok(Some(self.represented(self.inside.images.of(corner))?.vertex))
+        let cells = self.read_cells()?;
+        Ok(Some(match self.at_image(cells, self.inside.images.of(corner))? {
+            AtImage::Corner(image) => image.vertex,
+            AtImage::Above((class, _)) => cells.corners[class].as_ref()[0],
+        }))
     }
 
     /// All vertices, but hidden ones, that are nearest to a place in the unit cell, each with its nearest image, from a vertex on;
@@ -249,7 +267,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         // At a vertex there may be no cells around it, as it is on a line with all others.
         let Some(start) = start.filter(|_| self.inside.t.cell_count() > 0) else {
             for (vertex, _) in self.inside.images.homes() {
-                if self.represented(Image { vertex, shift: HOME })?.vertex == vertex {
+                if self.represented(vertex)? == vertex {
                     memory::push(&mut nearest, (vertex, self.nearest_image(q, vertex)))?;
                 }
             }
@@ -265,7 +283,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             next += 1;
             for &other in beside.list(self, vertex)? {
                 let image = self.nearest_image(q, other);
-                let order = compare_distance(q, &image, &best);
+                let order = q.compare_powers(&image, &best);
                 if order == Ordering::Less {
                     best = image;
                     next = 0;

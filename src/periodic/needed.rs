@@ -2,7 +2,7 @@
 
 use std::ops::Range as Indices;
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::{memory, threads};
@@ -10,6 +10,7 @@ use crate::motion::{MovingTriangulation, NO_CELL};
 use crate::periodic::images::Image;
 use crate::periodic::inside::{Inside, all};
 use crate::periodic::lattice::{HOME, Lattice, Occupied, Range, Shift};
+use crate::predicates::{PointArray, squared_distance};
 
 /// What makes a rounded radius one that certainly is no less than the distance of a corner from a rounded centre.
 const RADIUS: f64 = 1.0 + 1e-8;
@@ -28,7 +29,7 @@ pub(super) struct Needed {
 
 impl Needed {
     /// The images that are missing, by a look at all cells.
-    pub(super) fn of_all<G: Dimension>(inside: &Inside<G>, lattice: &Lattice<G>) -> Result<Self> {
+    pub(super) fn of_all<G: Moving>(inside: &Inside<G>, lattice: &Lattice<G>) -> Result<Self> {
         let mut needed = Needed::default();
         if inside.t.cell_count() == 0 {
             // All vertices are in a line or plane: only images anywhere can change that.
@@ -47,11 +48,7 @@ impl Needed {
     }
 
     /// The images that the cells of a range of indices ask for.
-    fn of_range<G: Dimension>(
-        inside: &Inside<G>,
-        lattice: &Lattice<G>,
-        range: Indices<usize>,
-    ) -> Result<Self> {
+    fn of_range<G: Moving>(inside: &Inside<G>, lattice: &Lattice<G>, range: Indices<usize>) -> Result<Self> {
         let mut needed = Needed::default();
         let corners = inside.t.cells()?.corners;
         for (cell, sphere) in CellId::range(range.clone()).zip(inside.t.circumspheres_in(range)?) {
@@ -64,7 +61,7 @@ impl Needed {
 
     /// The images that are missing, by a look at the cells that have come since changes were taken, where before none
     /// was missing but what has been inserted since then.
-    pub(super) fn of_new<G: Dimension>(inside: &Inside<G>, lattice: &Lattice<G>) -> Result<Self> {
+    pub(super) fn of_new<G: Moving>(inside: &Inside<G>, lattice: &Lattice<G>) -> Result<Self> {
         let Some(rows) = inside.t.rows_since_taken()? else { return Self::of_all(inside, lattice) };
         let mut needed = Needed::default();
         for (row, created) in rows {
@@ -78,7 +75,7 @@ impl Needed {
     }
 
     /// Enters those that the ball of a cell asks for.
-    pub(super) fn enter_cell<G: Dimension>(
+    pub(super) fn enter_cell<G: Moving>(
         &mut self,
         inside: &Inside<G>,
         lattice: &Lattice<G>,
@@ -90,7 +87,7 @@ impl Needed {
         Ok(())
     }
 
-    fn enter_by_ball<G: Dimension>(
+    fn enter_by_ball<G: Moving>(
         &mut self,
         inside: &Inside<G>,
         lattice: &Lattice<G>,
@@ -98,6 +95,13 @@ impl Needed {
         (centre, square): (G::Point, f64),
     ) -> Result<()> {
         let cells = inside.t.cells()?;
+        // Of all places at which a vertex of the greatest weight would change the cell, none is farther.
+        let square = if G::HAS_WEIGHTS {
+            let corner = inside.t.position(cells.corners[cell].as_ref()[0])?;
+            squared_distance(&centre, &corner) + (inside.occupied.weight - corner.weight())
+        } else {
+            square
+        };
         let is_at_hull = cells.neighbours[cell].as_ref().contains(&NO_CELL);
         let ranges = if is_at_hull {
             lattice.all_shifts()
@@ -114,7 +118,7 @@ impl Needed {
     }
 
     /// Enters those images of a vertex that are not there, with shifts that are less than nothing by these.
-    fn enter<G: Dimension>(
+    fn enter<G: Moving>(
         &mut self,
         inside: &Inside<G>,
         vertex: VertexId,
@@ -137,7 +141,7 @@ impl Needed {
 }
 
 /// Enters the shifts of the images that a vertex at home has from the beginning: where what is occupied, translated, is so near.
-pub(super) fn for_images<G: Dimension>(
+pub(super) fn for_images<G: Moving>(
     lattice: &Lattice<G>,
     place: &G::Point,
     spacing: f64,
@@ -162,7 +166,7 @@ pub(super) fn keys_of(images: &[Image]) -> Result<Vec<u64>> {
     Ok(keys)
 }
 
-impl<G: Dimension> Inside<G> {
+impl<G: Moving> Inside<G> {
     /// Inserts images that are needed, and in further rounds those that are missing after that, until there are none.
     pub(super) fn complete(
         &mut self,

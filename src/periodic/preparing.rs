@@ -4,7 +4,7 @@
 //! back to its savepoint, and all are published or withdrawn together. What was before them, beside the triangulation
 //! inside, is in [`RoundBefore`].
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::machine::memory;
 use crate::motion::CommitReport;
@@ -12,7 +12,7 @@ use crate::periodic::commit::PeriodicGoals;
 use crate::periodic::rounds::{BeforeRounds, RoundBefore};
 use crate::periodic::triangulation::PeriodicTriangulation;
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// Brings the triangulation to what is staged, as a commit does, and keeps what it was: all that reads sees the prepared
     /// state, which [`publish_timestamp`](Self::publish_timestamp) makes the next timestamp, and
     /// [`withdraw_timestamp`](Self::withdraw_timestamp) takes back. More may be staged then, and prepared in another round

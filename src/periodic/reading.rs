@@ -2,7 +2,7 @@
 
 use std::mem;
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -10,7 +10,7 @@ use crate::motion::{Algorithm, CommitReport, OwnedCells};
 use crate::periodic::cells::PeriodicView;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// The number of vertices that are there.
     pub fn vertex_count(&self) -> usize {
         self.inside.images.n_present()
@@ -206,16 +206,6 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     /// [`Error::OutOfMemory`].
     pub fn edge_count(&self) -> Result<usize> {
         Ok(self.read_edges()?.list.len())
-    }
-
-    /// The vertex of lowest id of those that share a place with this one, in any period.
-    ///
-    /// # Errors
-    /// The errors of [`position`](Self::position).
-    pub fn coincident_representative(&self, vertex: VertexId) -> Result<VertexId> {
-        self.position(vertex)?;
-        let shown = self.inside.t.coincident_representative(self.inside.images.home(vertex))?;
-        Ok(self.inside.images.of(shown).vertex)
     }
 
     /// Tolerance of a vertex at its current position, as

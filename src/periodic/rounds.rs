@@ -6,7 +6,7 @@
 
 use std::sync::OnceLock;
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::CommitReport;
@@ -18,7 +18,7 @@ use crate::periodic::lattice::{Lattice, Occupied};
 
 /// What a triangulation was at its timestamp, while another one is prepared.
 #[derive(Debug)]
-pub(super) struct BeforeRounds<G: Dimension> {
+pub(super) struct BeforeRounds<G: Moving> {
     pub(super) statistics: CommitReport,
     pub(super) cells: OnceLock<PeriodicCells<G>>,
     pub(super) edges: OnceLock<PeriodicEdges>,
@@ -27,7 +27,7 @@ pub(super) struct BeforeRounds<G: Dimension> {
 
 /// What there was before a round.
 #[derive(Debug)]
-pub(super) enum RoundBefore<G: Dimension> {
+pub(super) enum RoundBefore<G: Moving> {
     /// Of one that has built another triangulation.
     Built { inside: Box<Inside<G>>, wraps: Wraps, lattice: Option<Box<Lattice<G>>> },
     /// Of one that has not.
@@ -39,7 +39,7 @@ pub(super) type Wraps = Vec<[i64; 3]>;
 
 /// What there was before a round of moves and few edits.
 #[derive(Debug)]
-pub(super) struct MovedBefore<G: Dimension> {
+pub(super) struct MovedBefore<G: Moving> {
     /// How many ids there were inside.
     pub(super) n_images: usize,
     pub(super) n_places: usize,
@@ -56,13 +56,13 @@ pub(super) struct MovedBefore<G: Dimension> {
 
 /// Where vertices were that are at home.
 #[derive(Debug)]
-pub(super) enum PlacesBefore<G: Dimension> {
+pub(super) enum PlacesBefore<G: Moving> {
     All(Vec<G::Point>),
     /// By ids inside; those of images say nothing.
     Some(Vec<VertexId>, Vec<G::Point>),
 }
 
-impl<G: Dimension> BeforeRounds<G> {
+impl<G: Moving> BeforeRounds<G> {
     pub(super) fn memory_bytes(&self) -> usize {
         self.cells.get().map_or(0, PeriodicCells::memory_bytes)
             + self.edges.get().map_or(0, |edges| memory::bytes_of(&edges.list))
@@ -71,7 +71,7 @@ impl<G: Dimension> BeforeRounds<G> {
     }
 }
 
-impl<G: Dimension> RoundBefore<G> {
+impl<G: Moving> RoundBefore<G> {
     fn memory_bytes(&self) -> usize {
         match self {
             Self::Built { inside, wraps, .. } => inside.memory_bytes() + memory::bytes_of(wraps),
@@ -89,14 +89,14 @@ impl<G: Dimension> RoundBefore<G> {
     }
 }
 
-impl<G: Dimension> MovedBefore<G> {
+impl<G: Moving> MovedBefore<G> {
     /// The vertices that have come home by other translations get these, for those that they have.
     pub(super) fn exchange_wraps(&mut self, wraps: &mut [[i64; 3]]) {
         self.wraps.iter_mut().for_each(|(vertex, wrap)| std::mem::swap(wrap, &mut wraps[*vertex]));
     }
 }
 
-impl<G: Dimension> Inside<G> {
+impl<G: Moving> Inside<G> {
     /// Puts images and places back.
     pub(super) fn put_back(&mut self, before: &mut MovedBefore<G>) {
         self.occupied = before.occupied;

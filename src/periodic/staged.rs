@@ -1,32 +1,37 @@
 //! What waits for a commit.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result, StagedEdit};
 use crate::ids::VertexId;
 use crate::machine::memory;
+use crate::motion::{PointPart, copy_part, set_part};
 
 /// Moves, insertions and removals that are staged.
 #[derive(Debug)]
-pub(super) struct Staged<G: Dimension> {
-    /// Vertices, and where they go.
+pub(super) struct Staged<G: Moving> {
+    /// Vertices, and where they go: with weights, the part of that which is not staged is what they have.
     moves: Vec<(VertexId, G::Point)>,
-    /// By vertex, whether it is among those that move, and whether it goes; as long as any is.
+    /// By vertex, which parts of it are staged, and whether it goes; as long as any is.
     marks: Vec<u8>,
+    /// With weights, by vertex that is among those that move, its place in the list.
+    entries: Vec<u32>,
     insertions: Vec<G::Point>,
     removals: Vec<VertexId>,
 }
 
-const MOVES: u8 = 1;
-const GOES: u8 = 2;
+/// Marks that a place, or a weight, is staged.
+const MOVES: u8 = PointPart::Place.bit() | PointPart::Weight.bit();
+/// Marks that a removal is staged.
+const GOES: u8 = 4;
 
-impl<G: Dimension> Default for Staged<G> {
+impl<G: Moving> Default for Staged<G> {
     fn default() -> Self {
-        let (moves, marks, insertions, removals) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Staged { moves, marks, insertions, removals }
+        let (moves, insertions, removals) = (Vec::new(), Vec::new(), Vec::new());
+        Staged { moves, marks: Vec::new(), entries: Vec::new(), insertions, removals }
     }
 }
 
-impl<G: Dimension> Staged<G> {
+impl<G: Moving> Staged<G> {
     pub(super) fn moves(&self) -> &[(VertexId, G::Point)] {
         &self.moves
     }
@@ -47,8 +52,30 @@ impl<G: Dimension> Staged<G> {
         self.marks.get(vertex.index()).is_some_and(|marks| marks & mark != 0)
     }
 
+    /// Whether a part of a vertex is staged.
+    pub(super) fn is_moving(&self, vertex: VertexId) -> bool {
+        self.has(vertex, MOVES)
+    }
+
+    /// Whether this part of a vertex is staged.
+    pub(super) fn has_part(&self, vertex: VertexId, part: PointPart) -> bool {
+        self.has(vertex, part.bit())
+    }
+
     fn make_room(&mut self, n_vertices: usize) -> Result<()> {
+        if G::HAS_WEIGHTS {
+            memory::lengthen(&mut self.entries, n_vertices, 0)?;
+        }
         memory::lengthen(&mut self.marks, n_vertices, 0)
+    }
+
+    /// Enters where the vertices of the list are in it; there is room.
+    fn index_moves(&mut self) {
+        if G::HAS_WEIGHTS {
+            for (entry, &(vertex, _)) in self.moves.iter().enumerate() {
+                self.entries[vertex.index()] = entry as u32;
+            }
+        }
     }
 
     /// Checks that a vertex that is there can move, or go.
@@ -74,9 +101,7 @@ impl<G: Dimension> Staged<G> {
                 if self.has(vertex, MOVES) {
                     return Err(Error::DuplicateMove { argument: "vertices", index, vertex });
                 }
-                memory::push(&mut self.moves, (vertex, goal))?;
-                self.marks[vertex] |= MOVES;
-                Ok(())
+                self.push_move(vertex, goal, MOVES)
             });
             if staged.is_err() {
                 for (vertex, _) in self.moves.drain(before..) {
@@ -86,6 +111,60 @@ impl<G: Dimension> Staged<G> {
             }
         }
         Ok(())
+    }
+
+    fn push_move(&mut self, vertex: VertexId, goal: G::Point, marks: u8) -> Result<()> {
+        memory::push(&mut self.moves, (vertex, goal))?;
+        self.marks[vertex] |= marks;
+        if G::HAS_WEIGHTS {
+            self.entries[vertex] = self.moves.len() as u32 - 1;
+        }
+        Ok(())
+    }
+
+    /// Stages one part of vertices that are there, each with its place among what the program has given, by which `row` tells the
+    /// numbers; all of them, or none. `present` tells what they have.
+    pub(super) fn move_parts<'n>(
+        &mut self,
+        part: PointPart,
+        n_vertices: usize,
+        vertices: &[(usize, VertexId)],
+        row: impl Fn(usize) -> &'n [f64],
+        present: impl Fn(VertexId) -> G::Point,
+    ) -> Result<()> {
+        self.make_room(n_vertices)?;
+        for (k, &(index, vertex)) in vertices.iter().enumerate() {
+            let staged = self.check(index, vertex).and_then(|()| {
+                if self.has_part(vertex, part) {
+                    return Err(Error::DuplicateMove { argument: "vertices", index, vertex });
+                }
+                if !self.has(vertex, MOVES) {
+                    self.push_move(vertex, present(vertex), 0)?;
+                }
+                self.marks[vertex] |= part.bit();
+                let entry = self.entries[vertex] as usize;
+                set_part::<G>(&mut self.moves[entry].1, part, row(index));
+                Ok(())
+            });
+            if staged.is_err() {
+                for &(_, vertex) in vertices[..k].iter().rev() {
+                    self.marks[vertex] &= !part.bit();
+                    if self.has(vertex, MOVES) {
+                        let entry = self.entries[vertex] as usize;
+                        copy_part::<G>(&mut self.moves[entry].1, part, &present(vertex));
+                    } else {
+                        self.moves.pop();
+                    }
+                }
+                return staged;
+            }
+        }
+        Ok(())
+    }
+
+    /// A vertex that is to be inserted has this part.
+    pub(super) fn set_part_of_insertion(&mut self, index: usize, part: PointPart, numbers: &[f64]) {
+        set_part::<G>(&mut self.insertions[index], part, numbers);
     }
 
     /// Stages removals of vertices that are there; all of them, or none. Their moves are forgotten by the commit.
@@ -135,6 +214,7 @@ impl<G: Dimension> Staged<G> {
         self.insertions.clear();
         self.removals.clear();
         self.marks.clear();
+        self.entries.clear();
         n
     }
 
@@ -142,6 +222,7 @@ impl<G: Dimension> Staged<G> {
         Ok(Staged {
             moves: memory::copy_of(&self.moves)?,
             marks: memory::copy_of(&self.marks)?,
+            entries: memory::copy_of(&self.entries)?,
             insertions: memory::copy_of(&self.insertions)?,
             removals: memory::copy_of(&self.removals)?,
         })
@@ -154,6 +235,7 @@ impl<G: Dimension> Staged<G> {
         if let Some(marks) = self.marks.get_mut(vertex.index()) {
             *marks = 0;
         }
+        self.index_moves();
     }
 
     /// The edits with the vertices under new ids; there are `n_vertices` vertices.
@@ -161,16 +243,21 @@ impl<G: Dimension> Staged<G> {
         let mut new = self.copied()?;
         new.marks.clear();
         new.make_room(n_vertices)?;
-        new.moves.iter_mut().for_each(|(vertex, _)| *vertex = new_ids[*vertex]);
+        for (vertex, _) in &mut new.moves {
+            let marks = self.marks[vertex.index()];
+            *vertex = new_ids[*vertex];
+            new.marks[vertex.index()] |= marks & MOVES;
+        }
         new.removals.iter_mut().for_each(|vertex| *vertex = new_ids[*vertex]);
-        new.moves.iter().for_each(|(vertex, _)| new.marks[vertex.index()] |= MOVES);
         new.removals.iter().for_each(|vertex| new.marks[vertex.index()] |= GOES);
+        new.index_moves();
         Ok(new)
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.moves)
             + memory::bytes_of(&self.marks)
+            + memory::bytes_of(&self.entries)
             + memory::bytes_of(&self.insertions)
             + memory::bytes_of(&self.removals)
     }

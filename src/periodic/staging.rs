@@ -1,6 +1,6 @@
 //! Staging: what the next commit is to do.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -8,7 +8,7 @@ use crate::motion::MAX_VERTICES;
 use crate::periodic::lattice::Lattice;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// Stages a move of `vertices[i]` to `positions[i]` for each `i`; all of them or, on an error, none.
     ///
     /// # Errors

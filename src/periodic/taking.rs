@@ -1,6 +1,6 @@
 //! Taking what has changed.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
@@ -9,7 +9,7 @@ use crate::periodic::cells::PeriodicCells;
 use crate::periodic::changes::{Base, ChangeLists, Name, Taking};
 use crate::periodic::triangulation::PeriodicTriangulation;
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// What has changed since this was last called: everything, as created, at the first call. A cell is its vertices with their
     /// [shifts](Self::cell_shifts) from each other, so one is new if the program takes one of its vertices to another period,
     /// or gives other vectors of the lattice. A cell that stays keeps its index unless it is among the renumbered ones.
@@ -75,16 +75,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             base.index_of.insert(name, cell);
             base.is_odd.push(is_odd);
         }
-        base.hidden = self.hidden_now()?;
+        base.hidden = self.vertices_in_no_cell()?;
         base.lattice = Some(self.lattice.copied());
         Ok(base)
-    }
-
-    /// Vertices that others hide, ascending.
-    fn hidden_now(&self) -> Result<Vec<VertexId>> {
-        let mut hidden = Vec::new();
-        memory::collect(&mut hidden, self.hidden_vertices()?.into_iter().map(|(vertex, _)| vertex))?;
-        Ok(hidden)
     }
 
     fn list_changes(&self, cells: &PeriodicCells<G>, is_odd: &[bool]) -> Result<ChangeLists<G>> {
@@ -121,7 +114,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         self.name_removed(base, &is_there, &mut lists)?;
         lists.stars.sort_unstable();
         lists.stars.dedup();
-        let hidden = self.hidden_now()?;
+        let hidden = self.vertices_in_no_cell()?;
         for &v in hidden.iter().filter(|v| base.hidden.binary_search(v).is_err()) {
             memory::push(&mut lists.hidden, v)?;
         }

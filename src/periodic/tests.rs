@@ -1,10 +1,11 @@
 //! Beside copies: a part of the repeating set that is large enough is triangulated as a whole.
 
 use super::*;
-use crate::delaunay::{Dimension, Plane, Space};
+use crate::delaunay::{Moving, Plane, PowerPlane, PowerSpace, Space};
 use crate::error::Error;
 use crate::ids::VertexId;
 use crate::motion::{Algorithm, MovingTriangulation, NO_CELL, Options};
+use crate::predicates::WeightedPoint;
 use crate::random::Rng;
 use std::collections::BTreeSet;
 
@@ -12,6 +13,7 @@ mod boxes;
 mod changes;
 mod editing;
 mod grid;
+mod hidden;
 mod histories;
 mod keeping;
 mod lists;
@@ -26,11 +28,7 @@ mod transferring;
 mod zone;
 
 /// Made anew of those vertices that are there.
-fn anew<G: Dimension>(
-    points: &[G::Point],
-    is_there: &[bool],
-    basis: &[G::Point],
-) -> PeriodicTriangulation<G> {
+fn anew<G: Moving>(points: &[G::Point], is_there: &[bool], basis: &[G::Point]) -> PeriodicTriangulation<G> {
     let mut t = PeriodicTriangulation::<G>::new(points, basis, Options::default()).unwrap();
     let gone: Vec<_> = VertexId::range(0..points.len()).filter(|&v| !is_there[v.index()]).collect();
     t.stage_removals(&gone).unwrap();
@@ -51,7 +49,7 @@ fn class(mut corners: Vec<(u32, [i64; 3])>, place: &dyn Fn(u32, [i64; 3]) -> Vec
     corners.iter().map(|&(v, s)| (v, [0, 1, 2].map(|j| s[j] - first[j]))).collect()
 }
 
-fn place<G: Dimension>(points: &[G::Point], basis: &[G::Point], v: u32, s: [i64; 3]) -> G::Point {
+fn place<G: Moving>(points: &[G::Point], basis: &[G::Point], v: u32, s: [i64; 3]) -> G::Point {
     let mut p = points[v as usize];
     for (j, b) in basis.iter().enumerate() {
         for axis in 0..G::D {
@@ -62,7 +60,7 @@ fn place<G: Dimension>(points: &[G::Point], basis: &[G::Point], v: u32, s: [i64;
 }
 
 /// All classes at vertices that are not translated, of copies from -n to n.
-fn by_copies<G: Dimension>(points: &[G::Point], basis: &[G::Point], n: i64) -> BTreeSet<Class> {
+fn by_copies<G: Moving>(points: &[G::Point], basis: &[G::Point], n: i64) -> BTreeSet<Class> {
     let at = |v: u32, s: [i64; 3]| place::<G>(points, basis, v, s).as_ref().to_vec();
     let mut all = Vec::new();
     let mut places = Vec::new();
@@ -89,7 +87,7 @@ fn by_copies<G: Dimension>(points: &[G::Point], basis: &[G::Point], n: i64) -> B
     classes
 }
 
-fn classes<G: Dimension>(
+fn classes<G: Moving>(
     t: &PeriodicTriangulation<G>,
     points: &[G::Point],
     basis: &[G::Point],
@@ -108,7 +106,7 @@ fn classes<G: Dimension>(
 
 /// Cells are beside each other as neighbours and their shifts say, edges are those of the cells, and where the set repeats along
 /// all axes, Voronoi cells fill the unit cell.
-fn check_structure<G: Dimension>(t: &PeriodicTriangulation<G>, basis: &[G::Point]) {
+fn check_structure<G: Moving>(t: &PeriodicTriangulation<G>, basis: &[G::Point]) {
     let n = G::D + 1;
     let cells = t.cells().unwrap();
     let shifts: Vec<_> = t.cell_shifts().unwrap().collect();
@@ -161,9 +159,12 @@ fn check_structure<G: Dimension>(t: &PeriodicTriangulation<G>, basis: &[G::Point
     }
 }
 
-fn random_points<G: Dimension>(rng: &mut Rng, n: usize, basis: &[G::Point]) -> Vec<G::Point> {
+/// Random points in the unit cell; if they have weights, these are to a tenth of the squared spacing or one, a few of them or a
+/// thousand.
+fn random_points<G: Moving>(rng: &mut Rng, n: usize, basis: &[G::Point]) -> Vec<G::Point> {
     let grid = (1u64 << 20) as f64;
-    (0..n)
+    let spread = spread_of_weights::<G>(rng, n);
+    let places: Vec<G::Point> = (0..n)
         .map(|_| {
             let mut p = G::Point::default();
             for axis in 0..G::D {
@@ -180,10 +181,27 @@ fn random_points<G: Dimension>(rng: &mut Rng, n: usize, basis: &[G::Point]) -> V
             }
             q
         })
-        .collect()
+        .collect();
+    places.into_iter().map(|p| with_random_weight::<G>(rng, p, spread)).collect()
 }
 
-fn check<G: Dimension>(seed: u64, basis: &[G::Point], n: usize) {
+/// How far weights are to spread in one set.
+fn spread_of_weights<G: Moving>(rng: &mut Rng, n: usize) -> f64 {
+    if !G::HAS_WEIGHTS {
+        return 0.0;
+    }
+    [0.1, 1.0, 4.0, 1000.0][rng.below(4)] * (n as f64).powf(-2.0 / G::D as f64)
+}
+
+/// A point with a weight up to a bound, if points have weights.
+fn with_random_weight<G: Moving>(rng: &mut Rng, mut p: G::Point, spread: f64) -> G::Point {
+    if G::HAS_WEIGHTS {
+        p[G::D] = spread * (rng.unit() - 0.25);
+    }
+    p
+}
+
+fn check<G: Moving>(seed: u64, basis: &[G::Point], n: usize) {
     let rng = &mut Rng::new(seed);
     let mut points = random_points::<G>(rng, n, basis);
     let mut t = PeriodicTriangulation::<G>::new(&points, basis, Options::default()).unwrap();
@@ -194,10 +212,12 @@ fn check<G: Dimension>(seed: u64, basis: &[G::Point], n: usize) {
         "seed {seed}, {n}, {basis:?}"
     );
     for _ in 0..3 {
+        let spread = spread_of_weights::<G>(rng, n);
         for p in &mut points {
             for axis in 0..G::D {
                 p[axis] += (rng.below(1 << 18) as f64 - (1 << 17) as f64) / (1u64 << 20) as f64;
             }
+            *p = with_random_weight::<G>(rng, *p, spread);
         }
         t.commit_positions(&points).unwrap();
         let expected = by_copies::<G>(&points, basis, copies + 1);
@@ -221,9 +241,30 @@ fn cells_are_those_of_copies() {
     }
 }
 
+/// Vectors, as points without weight.
+fn unweighted<const D: usize>(vectors: &[[f64; D]]) -> Vec<WeightedPoint<D>> {
+    vectors.iter().map(|&place| WeightedPoint { place, weight: 0.0 }).collect()
+}
+
+#[test]
+fn cells_with_weights_are_those_of_copies() {
+    for seed in 0..40 {
+        let n = [1, 2, 3, 5, 20, 60][seed as usize % 6];
+        check::<PowerPlane>(seed, &unweighted(&[[1.0, 0.0], [0.0, 1.0]]), n);
+        check::<PowerPlane>(seed, &unweighted(&[[1.0, 0.0], [0.375, 1.0]]), n);
+        check::<PowerPlane>(seed, &unweighted(&[[1.0, 0.25], [-0.125, 3.0]]), n);
+        check::<PowerPlane>(seed, &unweighted(&[[1.0, 0.0]]), n);
+    }
+    for seed in 0..8 {
+        let n = [1, 2, 5, 20][seed as usize % 4];
+        check::<PowerSpace>(seed, &unweighted(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]), n);
+        check::<PowerSpace>(seed, &unweighted(&[[1.0, 0.0, 0.0], [0.5, 1.0, 0.0], [0.25, -0.375, 1.5]]), n);
+    }
+}
+
 /// One vector that is along no axis, or nearly along one: vertices are several of its lengths apart across it. The cells are those
 /// of copies of the positions and vectors that are used.
-fn check_oblique<G: Dimension>(seed: u64) {
+fn check_oblique<G: Moving>(seed: u64) {
     let rng = &mut Rng::new(seed);
     let mut number = |most: f64| most * (rng.below(1 << 40) as f64 / (1u64 << 39) as f64 - 1.0);
     let mut vector = G::Point::default();

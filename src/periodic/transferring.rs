@@ -1,7 +1,7 @@
 //! Conservative transfer of means in cells of a set that repeats: cells that are gone are met in all the periods in
 //! which they meet those that have come.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
@@ -22,7 +22,7 @@ const ROUNDING: f64 = 1.0 / (1u64 << 40) as f64;
 /// Through how many periods a cell that is gone may reach at the new positions.
 const MOST_PERIODS: i64 = 64;
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// As of [`MovingTriangulation`](crate::motion::MovingTriangulation::transfer_cells). Positions are where vertices
     /// have gone from where they were when changes were taken before, whatever periods they have come to: where the
     /// program has taken some to other periods since, those before it did. Volumes and what is in common are those
@@ -103,13 +103,13 @@ impl<G: Dimension> PeriodicTriangulation<G> {
 }
 
 /// The cells of now.
-pub(super) struct Repeating<'t, G: Dimension> {
+pub(super) struct Repeating<'t, G: Moving> {
     t: &'t PeriodicTriangulation<G>,
     cells: &'t PeriodicCells<G>,
     lists: &'t ChangeLists<G>,
 }
 
-impl<G: Dimension> Repeating<'_, G> {
+impl<G: Moving> Repeating<'_, G> {
     /// The cells that are gone and those that have come, those that were turned over are both.
     pub(super) fn gone_and_arrived(
         &self,
@@ -149,7 +149,7 @@ impl<G: Dimension> Repeating<'_, G> {
     }
 }
 
-impl<G: Dimension> Now for Repeating<'_, G> {
+impl<G: Moving> Now for Repeating<'_, G> {
     const D: usize = G::D;
 
     fn len(&self) -> usize {

@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -32,7 +32,7 @@ const DRIFT: f64 = 1.0;
 /// # Ok::<(), deldrift::Error>(())
 /// ```
 #[derive(Debug)]
-pub struct PeriodicTriangulation<G: Dimension> {
+pub struct PeriodicTriangulation<G: Moving> {
     pub(super) lattice: Box<Lattice<G>>,
     pub(super) inside: Inside<G>,
     /// By vertex, the translation by which it went from where it was given to home: it is where it was given less that.
@@ -50,7 +50,7 @@ pub struct PeriodicTriangulation<G: Dimension> {
     pub(super) former: Option<BeforeRounds<G>>,
 }
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// Triangulates `positions` and all places to which sums of multiples of `vectors` take them.
     ///
     /// # Errors
@@ -73,7 +73,8 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         }
         let mut inside = Inside::unbuilt(&lattice, &home, n, options)?;
         inside.build(&lattice)?;
-        let statistics = CommitReport { coincident: inside.coincident() as u64, ..CommitReport::default() };
+        let mut statistics = CommitReport::default();
+        inside.hidden_homes(&lattice)?.count_in(&mut statistics);
         Ok(PeriodicTriangulation {
             lattice,
             inside,
@@ -122,7 +123,7 @@ pub(super) fn check_options(options: &Options) -> Result<()> {
     Ok(())
 }
 
-impl<G: Dimension> Inside<G> {
+impl<G: Moving> Inside<G> {
     /// Vertices, which are in the unit cell, and images near it, that are to be [built](Self::build); others of the ids up to
     /// `n_ids` are of removed vertices.
     pub(super) fn unbuilt(
@@ -132,7 +133,7 @@ impl<G: Dimension> Inside<G> {
         options: Options,
     ) -> Result<Self> {
         let mut occupied = Occupied::NOTHING;
-        home.iter().for_each(|(_, place)| occupied.enter(&lattice.multiples(place)));
+        home.iter().for_each(|(_, place)| lattice.enter(&mut occupied, place));
         let spacing = spacing(lattice, home);
         let mut images = Images::default();
         images.reserve(n_ids, home.len())?;
@@ -171,18 +172,10 @@ impl<G: Dimension> Inside<G> {
     pub(super) fn is_near(&self, lattice: &Lattice<G>, occupied: &Occupied) -> bool {
         occupied.is_within(&lattice.thickness().map(|thickness| ROOM.min(DRIFT * self.spacing * thickness)))
     }
-
-    /// The number of vertices that others hide.
-    pub(super) fn coincident(&self) -> usize {
-        if self.t.hidden_count() == 0 {
-            return 0;
-        }
-        self.t.hidden_vertices().filter(|(hidden, _)| self.images.is_home(*hidden)).count()
-    }
 }
 
 /// The mean distance of vertices.
-pub(super) fn spacing<G: Dimension>(lattice: &Lattice<G>, home: &[(VertexId, G::Point)]) -> f64 {
+pub(super) fn spacing<G: Moving>(lattice: &Lattice<G>, home: &[(VertexId, G::Point)]) -> f64 {
     let mut measure = lattice.measure();
     // Along axes that are open, the box of the vertices.
     for axis in (0..G::D).filter(|&axis| !lattice.is_spanned(axis)) {

@@ -1,6 +1,6 @@
 //! Checks of all that has to hold.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
@@ -9,7 +9,7 @@ use crate::periodic::inside::Inside;
 use crate::periodic::lattice::{HOME, Lattice};
 use crate::periodic::triangulation::PeriodicTriangulation;
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// Looks for what is wrong: in the triangulation inside, which is checked as one of the plane or of space, at images that are
     /// not where the vectors take their vertices, and at [`Level::Delaunay`] at cells that are not those of the set that repeats, or
     /// not in all places. `None` if nothing is wrong.
@@ -56,7 +56,7 @@ impl<G: Dimension> PeriodicTriangulation<G> {
     }
 }
 
-impl<G: Dimension> Inside<G> {
+impl<G: Moving> Inside<G> {
     /// An image that is not a translation of its vertex at home, or has not its key.
     fn misplaced(&self, lattice: &Lattice<G>) -> Result<Option<VertexId>> {
         for (inner, image) in VertexId::range(0..self.images.len()).zip(self.images.as_slice()) {

@@ -3,14 +3,14 @@
 //! Inside, the cells of each vertex at home are whole, so its Voronoi cell is the one that it has there; those of images
 //! are not looked at. What is told of places is so where a vertex is at its own position.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::{VoronoiCell, VoronoiFacet};
 use crate::periodic::triangulation::PeriodicTriangulation;
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// By vertex id the area or volume of its Voronoi cell, as [`for_voronoi_cells`](Self::for_voronoi_cells) tells it.
     /// `monitor` is called now and then, and told the fraction done.
     ///

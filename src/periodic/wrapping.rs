@@ -1,20 +1,20 @@
 //! Positions that are taken into the box, in whole numbers of sixteenths.
 
 use super::*;
-use crate::delaunay::{Dimension, Plane, Space};
+use crate::delaunay::{Moving, Plane, Space};
 use crate::error::Error;
 use crate::motion::Options;
 use crate::random::Rng;
 
 type Rows = [[i64; 3]; 3];
 
-fn point_of<G: Dimension>(sixteenths: &[i64; 3]) -> G::Point {
+fn point_of<G: Moving>(sixteenths: &[i64; 3]) -> G::Point {
     let mut point = G::Point::default();
     (0..G::D).for_each(|axis| point[axis] = sixteenths[axis] as f64 / 16.0);
     point
 }
 
-fn sixteenths_of<G: Dimension>(point: &G::Point) -> [i64; 3] {
+fn sixteenths_of<G: Moving>(point: &G::Point) -> [i64; 3] {
     [0, 1, 2].map(|axis| {
         let x = if axis < G::D { point[axis] * 16.0 } else { 0.0 };
         assert!(x.fract() == 0.0, "{x}");
@@ -41,7 +41,7 @@ fn multiples_of(vector: &[i64; 3], rows: &Rows) -> [i64; 3] {
 }
 
 /// Vectors that are those of a box, padded so that they span space.
-fn box_of<G: Dimension>(rng: &mut Rng, rank: usize) -> Rows {
+fn box_of<G: Moving>(rng: &mut Rng, rank: usize) -> Rows {
     let mut rows = [[16, 0, 0], [0, 16, 0], [0, 0, 16]];
     for (j, row) in rows.iter_mut().enumerate().take(rank) {
         for (axis, entry) in row.iter_mut().enumerate().take(G::D) {
@@ -55,7 +55,7 @@ fn box_of<G: Dimension>(rng: &mut Rng, rank: usize) -> Rows {
     rows
 }
 
-fn check<G: Dimension>(seed: u64, rank: usize) {
+fn check<G: Moving>(seed: u64, rank: usize) {
     let rng = &mut Rng::new(seed);
     let rows = box_of::<G>(rng, rank);
     let basis: Vec<_> = rows[..rank].iter().map(point_of::<G>).collect();

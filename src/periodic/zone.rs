@@ -11,7 +11,7 @@
 use std::collections::HashMap;
 use std::hash::BuildHasherDefault;
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::CellId;
 use crate::machine::memory;
@@ -46,7 +46,7 @@ impl ZoneCells {
     }
 }
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// The cells that the insertion of a vertex at a position, rounded to the grid of the lattice, would remove with all of its
     /// images: those of which a translation has the position inside of its circle or sphere, with ties broken as for a vertex of the
     /// highest id. Ascending, each once. None at the place of a vertex, nor while there are no cells. The position is looked for

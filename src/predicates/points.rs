@@ -8,8 +8,8 @@ use super::perturbation::{
     in_power_circle_perturbed, in_power_sphere_perturbed, incircle_perturbed, insphere_perturbed,
 };
 use super::sphere::{
-    OwnBounds2d, OwnBounds3d, circle_seen, is_box_outside_circle, is_box_outside_sphere, side_of_circle_seen,
-    side_of_sphere_seen, sphere_seen,
+    OwnBounds2d, OwnBounds3d, circle_seen, is_box_outside_circle, is_box_outside_sphere, least_outside,
+    side_of_circle_seen, side_of_sphere_seen, sphere_seen,
 };
 use super::vectors::{greatest_along_axes, greatest_of};
 use super::weighted::WeightedPoint;
@@ -278,10 +278,20 @@ impl PlanePoint for WeightedPoint<2> {
         in_power_circle_perturbed(f, points, ranks)
     }
 
-    /// Nothing is said: what the weights in the box are is not asked.
+    /// Derived as without weights: the bound holds for all points of the box up to the last rounding.
     #[inline(always)]
-    fn is_box_outside(_: [&Self; 3], _: [&Self; 2]) -> bool {
-        false
+    fn is_box_outside(triangle: [&Self; 3], sides: [&Self; 2]) -> bool {
+        let [a, b, c] = triangle.map(Located::alone);
+        let circle = Self::circle(a, b, c);
+        let [x, y, volume] = circle;
+        let (q, mut extents, mut weight) = least_outside(triangle[0], [x, y], volume, sides);
+        for p in [b, c] {
+            let seen = Self::seen(p, a).difference;
+            (0..2).for_each(|k| extents[k] = extents[k].max(seen[k].abs()));
+            weight = weight.max(Self::weight_apart(p, a));
+        }
+        let [_, bound] = power_bounds_2d(extents, weight);
+        volume > 0.0 && side_of_circle_seen(&circle, &q) < -4.0 * bound
     }
 
     #[inline(always)]
@@ -317,10 +327,20 @@ impl SpacePoint for WeightedPoint<3> {
         in_power_sphere_perturbed(f, points, ranks)
     }
 
-    /// Nothing is said: what the weights in the box are is not asked.
+    /// Derived as without weights: the bound holds for all points of the box up to the last rounding.
     #[inline(always)]
-    fn is_box_outside(_: [&Self; 4], _: [&Self; 2]) -> bool {
-        false
+    fn is_box_outside(tetrahedron: [&Self; 4], sides: [&Self; 2]) -> bool {
+        let [a, b, c, d] = tetrahedron.map(Located::alone);
+        let sphere = Self::sphere(a, b, c, d);
+        let [x, y, z, volume] = sphere;
+        let (q, mut extents, mut weight) = least_outside(tetrahedron[0], [x, y, z], volume, sides);
+        for p in [b, c, d] {
+            let seen = Self::seen(p, a).difference;
+            (0..3).for_each(|k| extents[k] = extents[k].max(seen[k].abs()));
+            weight = weight.max(Self::weight_apart(p, a));
+        }
+        let [_, bound] = power_bounds_3d(extents, weight);
+        volume > 0.0 && side_of_sphere_seen(&sphere, &q) < -4.0 * bound
     }
 
     #[inline(always)]

@@ -33,6 +33,7 @@ use super::lengths::{
 };
 use super::located::SeenPoint;
 use super::vectors::{cross, dot, minor, minus};
+use super::weighted::WeightedPoint;
 use crate::simd::Real;
 
 /// Vector and area of a cell of the plane: `[n_x, n_y, V]`.
@@ -239,6 +240,26 @@ fn nearest<const D: usize>(
     (s, reach)
 }
 
+/// The point of a box of places and weights that is the least outside of a power circle or sphere, as it is seen from the first
+/// corner; and what the differences of points in the box are at most, along axes and of weights: what [`nearest`] is without
+/// weights. The side of a place grows with its weight, so the greatest one counts.
+#[inline(always)]
+pub(super) fn least_outside<const D: usize>(
+    a: &WeightedPoint<D>,
+    n: [f64; D],
+    volume: f64,
+    [lower, upper]: [&WeightedPoint<D>; 2],
+) -> (SeenPoint<f64, D>, [f64; D], f64) {
+    let (mut extents, apart) = ([0.0; D], [lower, upper].map(|p| p.weight - a.weight));
+    let difference: [f64; D] = std::array::from_fn(|k| {
+        let (least, greatest) = (lower.place[k] - a.place[k], upper.place[k] - a.place[k]);
+        extents[k] = (-least).max(greatest);
+        next_to(n[k] / (2.0 * volume), least, greatest)
+    });
+    let seen = SeenPoint { difference, lift: dot(&difference, &difference) - apart[1] };
+    (seen, extents, apart[0].abs().max(apart[1].abs()))
+}
+
 /// The number between `lower` and `upper` that is next to `x`.
 #[inline(always)]
 fn next_to(x: f64, lower: f64, upper: f64) -> f64 {
@@ -254,7 +275,7 @@ fn next_to(x: f64, lower: f64, upper: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::predicates::{SpacePoint, incircle, insphere, orient2d, orient3d};
+    use crate::predicates::{PlanePoint, SpacePoint, incircle, insphere, orient2d, orient3d};
     use crate::random::Rng;
 
     fn certain(f: &StaticFilter, value: f64) -> Option<bool> {
@@ -332,6 +353,59 @@ mod tests {
             if orient2d(&g, &a, &b, &c) > 0.0 {
                 let outside = is_box_outside_circle([&a, &b, &c], [&lower, &upper]);
                 let is_seen = points().any(|q| incircle(&g, &a, &b, &c, &[q[0], q[1]]) >= 0.0);
+                assert!(!(outside && is_seen), "{p:?}");
+                (n_outside, n_seen) = (n_outside + outside as usize, n_seen + is_seen as usize);
+            }
+        }
+        assert!(n_outside > 2_000 && n_seen > 2_000, "{n_outside} outside, {n_seen} not");
+    }
+
+    /// The same with weights: no point of a box of places and weights is inside the power circle or sphere.
+    #[test]
+    fn boxes_outside_of_power_spheres_are_outside() {
+        let rng = &mut Rng::new(11);
+        let corner = |x: f64| WeightedPoint { place: [x; 3], weight: 4.0 * x };
+        let f = WeightedPoint::<3>::filter(&corner(-6.0), &corner(6.0));
+        let flat = |p: &WeightedPoint<3>| WeightedPoint { place: [p.place[0], p.place[1]], weight: p.weight };
+        let g = WeightedPoint::<2>::filter(&flat(&corner(-6.0)), &flat(&corner(6.0)));
+        let (mut n_outside, mut n_seen) = (0, 0);
+        for _ in 0..20_000 {
+            let mut number = || (rng.unit() * 12.0).round() - 6.0;
+            let p: [WeightedPoint<3>; 6] = std::array::from_fn(|_| WeightedPoint {
+                place: std::array::from_fn(|_| number()),
+                weight: 4.0 * number(),
+            });
+            let [a, b, c, d, l, u] = &p;
+            let lower = WeightedPoint {
+                place: std::array::from_fn(|k| l.place[k].min(u.place[k])),
+                weight: l.weight.min(u.weight),
+            };
+            let upper = WeightedPoint {
+                place: std::array::from_fn(|k| l.place[k].max(u.place[k])),
+                weight: l.weight.max(u.weight),
+            };
+            let points = || {
+                let axis = |k: usize| (lower.place[k] as i32..=upper.place[k] as i32).map(f64::from);
+                let places =
+                    axis(0).flat_map(move |x| axis(1).flat_map(move |y| axis(2).map(move |z| [x, y, z])));
+                places.flat_map(|place| {
+                    [lower.weight, upper.weight].map(|weight| WeightedPoint { place, weight })
+                })
+            };
+            if orient3d(&StaticFilter::space([-6.0; 3], [6.0; 3]), &a.place, &b.place, &c.place, &d.place)
+                > 0.0
+            {
+                let outside = WeightedPoint::<3>::is_box_outside([a, b, c, d], [&lower, &upper]);
+                let is_seen = points()
+                    .any(|q| WeightedPoint::<3>::is_in_sphere(&f, [a, b, c, d, &q], || [0, 1, 2, 3, 4]));
+                assert!(!(outside && is_seen), "{p:?}");
+                (n_outside, n_seen) = (n_outside + outside as usize, n_seen + is_seen as usize);
+            }
+            let [a, b, c, low, high] = [a, b, c, &lower, &upper].map(flat);
+            if orient2d(&StaticFilter::plane([-6.0; 2], [6.0; 2]), &a.place, &b.place, &c.place) > 0.0 {
+                let outside = WeightedPoint::<2>::is_box_outside([&a, &b, &c], [&low, &high]);
+                let is_seen = points()
+                    .any(|q| WeightedPoint::<2>::is_in_circle(&g, [&a, &b, &c, &flat(&q)], || [0, 1, 2, 3]));
                 assert!(!(outside && is_seen), "{p:?}");
                 (n_outside, n_seen) = (n_outside + outside as usize, n_seen + is_seen as usize);
             }

@@ -8,6 +8,9 @@ use deldrift::capi::*;
 use std::collections::BTreeSet;
 use std::ptr::{null, null_mut};
 
+/// The length of what repeats.
+const PERIOD: f64 = 5.0;
+
 /// Vertices by id: where each is, and its weight; none if it has gone.
 type Weighed = Vec<Option<(Vec<f64>, f64)>>;
 
@@ -22,13 +25,21 @@ impl History<'_> {
         let mut all: Weighed = (0..n).map(|_| Some(self.weighed(d))).collect();
         let (positions, weights) = numbers_of(&all);
         let mut t = null_mut();
+        let repeats = self.s.below(2) == 0;
         let create = |positions: &[f64], weights: &[f64], n: usize, t: &mut *mut deldrift_triangulation| {
-            c!(deldrift_create_weighted(d as u32, positions.as_ptr(), weights.as_ptr(), null(), n, null(), t))
+            let (positions, weights, vectors) = (positions.as_ptr(), weights.as_ptr(), vectors_of(d));
+            if repeats {
+                let vectors = vectors.as_ptr();
+                c!(deldrift_create_periodic_weighted(d as u32, positions, weights, n, vectors, d, null(), t))
+            } else {
+                c!(deldrift_create_weighted(d as u32, positions, weights, null(), n, null(), t))
+            }
         };
         self.is_ok(create(&positions, &weights, n, &mut t));
         let mut taken = BTreeSet::new();
         for _ in 0..1 + self.s.below(6) {
             self.change_weights(t, d, &mut all);
+            self.look_at_power_cells(t, d, &all, repeats);
             if self.s.below(2) == 0 {
                 self.take_hidden(t, &mut taken);
             }
@@ -106,15 +117,20 @@ impl History<'_> {
             vertex.as_ref().map_or(w.is_nan(), |vertex| vertex.1 == w)
         };
         assert!(count == all.len() && weights.iter().zip(all.iter()).all(is_same));
-        let mut edges = 0;
+    }
+
+    /// Power cells fill the box, or the period.
+    fn look_at_power_cells(&self, t: *mut deldrift_triangulation, d: usize, all: &Weighed, repeats: bool) {
+        let (mut edges, mut count) = (0, 0);
         self.is_ok(c!(deldrift_edges(t, null_mut(), 0, &mut edges)));
         let mut by_weights = vec![0.0; edges];
         let mut volumes = vec![0.0; all.len()];
         let (low, high) = ([-1.0; 3], [5.0; 3]);
+        let (low, high) = if repeats { (null(), null()) } else { (low.as_ptr(), high.as_ptr()) };
         self.is_ok(c!(deldrift_voronoi_weight_derivatives(
             t,
-            low.as_ptr(),
-            high.as_ptr(),
+            low,
+            high,
             null(),
             0,
             null(),
@@ -127,7 +143,7 @@ impl History<'_> {
             &mut edges
         )));
         assert!(by_weights.iter().all(|&x| x <= 0.0));
-        let whole = 6.0_f64.powi(d as i32);
+        let whole = if repeats { PERIOD } else { 6.0_f64 }.powi(d as i32);
         let sum: f64 = volumes.iter().filter(|volume| !volume.is_nan()).sum();
         assert!(all.iter().all(Option::is_none) || (sum - whole).abs() < 1e-5 * whole, "{sum}: {all:?}");
     }
@@ -188,6 +204,11 @@ impl History<'_> {
         let pairs = firsts.iter().zip(&seconds).take(count).map(|(&v, &w)| (name(v), name(w))).collect();
         (cells, by_weight.into_iter().map(name).collect(), pairs)
     }
+}
+
+/// The vectors of a cube.
+fn vectors_of(d: usize) -> Vec<f64> {
+    (0..d * d).map(|k| if k % (d + 1) == 0 { PERIOD } else { 0.0 }).collect()
 }
 
 /// Coordinates and weights, one after the other; what has gone is NaN.

@@ -4,7 +4,7 @@ use std::mem::MaybeUninit;
 
 use crate::capi::pointers::{Array, Buffer, Fitting, Output, Point, fit, given};
 use crate::capi::status::Failure;
-use crate::delaunay::{Dimension, Moving};
+use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::motion::{MovingTriangulation, TellCell, TellFacet, VoronoiCell, VoronoiFacet};
@@ -223,7 +223,7 @@ pub(super) fn mask_for(
 }
 
 /// The corners of a box; none if both are NULL.
-pub(super) fn box_for<G: Dimension>(
+pub(super) fn box_for<G: Moving>(
     t: &PeriodicTriangulation<G>,
     low: Point<'_>,
     high: Point<'_>,

@@ -12,16 +12,23 @@ use crate::predicates::PointArray;
 
 /// How many vertices have another place, and how many another weight.
 #[derive(Clone, Copy, Debug, Default)]
-pub(in crate::motion) struct ChangedParts {
-    moved: u64,
-    reweighted: u64,
+pub(crate) struct ChangedParts {
+    pub(crate) moved: u64,
+    pub(crate) reweighted: u64,
 }
 
 impl ChangedParts {
     /// Counts a vertex.
     #[inline(always)]
-    pub(in crate::motion) fn count<P: AsRef<[f64]> + PointArray>(&mut self, was: &P, is: &P) {
+    pub(crate) fn count<P: AsRef<[f64]> + PointArray>(&mut self, was: &P, is: &P) {
         self.moved += u64::from(was.as_ref() != is.as_ref());
+        self.reweighted += u64::from(was.weight() != is.weight());
+    }
+
+    /// Counts a vertex, which has another place as well if it comes there from another period.
+    #[inline(always)]
+    pub(crate) fn count_in_period<P: AsRef<[f64]> + PointArray>(&mut self, was: &P, is: &P, is_other: bool) {
+        self.moved += u64::from(is_other || was.as_ref() != is.as_ref());
         self.reweighted += u64::from(was.weight() != is.weight());
     }
 

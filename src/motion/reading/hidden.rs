@@ -83,6 +83,22 @@ impl<G: Moving> MovingTriangulation<G> {
         Ok(hidden)
     }
 
+    /// The corner of cells at the place of a vertex; none at one that is hidden by weight. There must be cells.
+    pub(crate) fn corner_at(&self, vertex: VertexId) -> Option<VertexId> {
+        let (mesh, s) = (&self.mesh, self.mesh.site_of[vertex]);
+        let corner = if G::HAS_WEIGHTS { mesh.shown_at(s) } else { Some(s) };
+        corner.map(|s| mesh.kernel.site(s).id)
+    }
+
+    /// The cell that a vertex hidden by weight is above: of several the one of the lowest index.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub(crate) fn cell_below(&self, vertex: VertexId) -> Result<CellId> {
+        let s = self.mesh.site_of[vertex];
+        self.lowest_cell_at(s, self.mesh.kernel.cell_below(s), self.cell_arrays()?.index_of())
+    }
+
     /// Of the cells that have the place of a hidden site in their closure, of which one is given, the lowest index: it does not depend
     /// on where the site has been looked for. [`CellId::NONE`] where there are no cells.
     pub(in crate::motion) fn lowest_cell_at(

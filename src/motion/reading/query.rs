@@ -213,6 +213,11 @@ impl<G: Moving> MovingTriangulation<G> {
         self.mesh.hidden.count()
     }
 
+    /// The number of vertices that are corners of no cell, while there are cells.
+    pub(crate) fn count_in_no_cell(&self) -> usize {
+        self.mesh.hidden.count() + self.mesh.kernel.n_hidden()
+    }
+
     /// Checks the triangulation: see [`Level`].
     ///
     /// ```

@@ -56,9 +56,10 @@ pub(crate) fn check_position<G: Moving>(
         if value.abs() <= limit::<G>(axis) {
             continue;
         }
+        if axis == G::D {
+            check_weight(argument, index, value)?;
+        }
         let limit = limit::<G>(axis);
-        let (argument, axis) =
-            if axis < G::D { (argument, axis) } else { (weights_of(argument), AXIS_OF_WEIGHT) };
         return Err(if value.is_finite() {
             Error::OutOfRange { argument, index, axis, value, limit }
         } else {
@@ -68,13 +69,27 @@ pub(crate) fn check_position<G: Moving>(
     Ok(checked)
 }
 
+/// Checks a weight of a point.
+#[inline(always)]
+pub(crate) fn check_weight(argument: &'static str, index: usize, weight: f64) -> Result<()> {
+    if weight.abs() <= MAX_WEIGHT {
+        return Ok(());
+    }
+    let (argument, axis, value) = (weights_of(argument), AXIS_OF_WEIGHT, weight);
+    Err(if weight.is_finite() {
+        Error::OutOfRange { argument, index, axis, value, limit: MAX_WEIGHT }
+    } else {
+        Error::NotFinite { argument, index, axis, value }
+    })
+}
+
 /// What the weights are called of points that have this name.
 fn weights_of(argument: &'static str) -> &'static str {
     if argument == "position" { "weight" } else { "weights" }
 }
 
 /// The numbers of a part of a point must be good.
-pub(in crate::motion) fn check_numbers<G: Moving>(
+pub(crate) fn check_numbers<G: Moving>(
     argument: &'static str,
     index: usize,
     part: PointPart,

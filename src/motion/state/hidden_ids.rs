@@ -6,11 +6,11 @@ use crate::machine::memory;
 
 /// A set of vertices. Those beyond its end are not in it.
 #[derive(Debug, Default)]
-pub(in crate::motion) struct HiddenIds(Vec<u64>);
+pub(crate) struct HiddenIds(Vec<u64>);
 
 impl HiddenIds {
     /// The set of these, of so many ids.
-    pub(in crate::motion) fn of(vertices: impl Iterator<Item = VertexId>, n_ids: usize) -> Result<Self> {
+    pub(crate) fn of(vertices: impl Iterator<Item = VertexId>, n_ids: usize) -> Result<Self> {
         let mut words = Vec::new();
         memory::lengthen(&mut words, n_ids.div_ceil(64), 0_u64)?;
         vertices.for_each(|v| words[v.index() / 64] |= 1 << (v.index() % 64));
@@ -22,7 +22,7 @@ impl HiddenIds {
     }
 
     /// The vertices that are in one of two sets alone, ascending, each with whether it is in this one.
-    pub(in crate::motion) fn differences(&self, other: &Self) -> impl Iterator<Item = (VertexId, bool)> {
+    pub(crate) fn differences(&self, other: &Self) -> impl Iterator<Item = (VertexId, bool)> {
         (0..self.0.len().max(other.0.len())).flat_map(move |k| {
             let own = self.word(k);
             let mut bits = own ^ other.word(k);

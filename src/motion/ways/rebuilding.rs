@@ -100,13 +100,14 @@ impl<G: Moving> MovingTriangulation<G> {
         let built = is_ready.and_then(|()| {
             let built = self.build(&mut next)?;
             self.mesh.enforce_segments_in(&mut next, &built.0)?;
-            self.mesh.hidden_in_new = Some(self.mesh.hidden_in(&next, self.options.coincidence)?);
+            let in_no_cell = self.mesh.hidden_in(&next, self.options.coincidence)?;
             self.mesh.make_room_for_former()?;
-            Ok(built)
+            Ok((built, in_no_cell))
         });
         match built {
-            Ok((hidden, stride, keeps_sites)) => {
+            Ok(((hidden, stride, keeps_sites), in_no_cell)) => {
                 report.rebuilds += 1;
+                self.mesh.hidden_in_new = Some(in_no_cell);
                 self.adopt(next, hidden, stride);
                 if !keeps_sites {
                     self.mesh.find_sites();

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::delaunay::{Dimension, Plane, Space};
+use crate::delaunay::{Moving, Plane, Space};
 use crate::error::Error;
 use crate::ids::VertexId;
 use crate::motion::{MovingTriangulation, Options, VoronoiCell, VoronoiFacet};
@@ -13,14 +13,14 @@ use crate::random::Rng;
 const INFINITE: f64 = f64::INFINITY;
 
 /// A box that repeats, and what cuts its cells: the corners of a box, and half-spaces; with the measure of what is left of one period.
-struct Case<G: Dimension> {
+struct Case<G: Moving> {
     basis: Vec<G::Point>,
     clip: Option<[G::Point; 2]>,
     half_spaces: Vec<f64>,
     measure: f64,
 }
 
-fn translated<G: Dimension>(p: &G::Point, basis: &[G::Point], shift: [i64; 3]) -> G::Point {
+fn translated<G: Moving>(p: &G::Point, basis: &[G::Point], shift: [i64; 3]) -> G::Point {
     let mut place = *p;
     for (vector, n) in basis.iter().zip(shift) {
         (0..G::D).for_each(|axis| place[axis] += n as f64 * vector[axis]);
@@ -28,7 +28,7 @@ fn translated<G: Dimension>(p: &G::Point, basis: &[G::Point], shift: [i64; 3]) -
     place
 }
 
-fn cells<G: Dimension>(t: &PeriodicTriangulation<G>, case: &Case<G>) -> Vec<VoronoiCell<G::Point>> {
+fn cells<G: Moving>(t: &PeriodicTriangulation<G>, case: &Case<G>) -> Vec<VoronoiCell<G::Point>> {
     let mut told = vec![None; t.id_count()];
     let clip = case.clip.as_ref().map(|clip| clip.each_ref());
     let tell =
@@ -37,7 +37,7 @@ fn cells<G: Dimension>(t: &PeriodicTriangulation<G>, case: &Case<G>) -> Vec<Voro
     told.into_iter().map(Option::unwrap).collect()
 }
 
-fn facets<G: Dimension>(t: &PeriodicTriangulation<G>, case: &Case<G>) -> Vec<VoronoiFacet<G::Point>> {
+fn facets<G: Moving>(t: &PeriodicTriangulation<G>, case: &Case<G>) -> Vec<VoronoiFacet<G::Point>> {
     let mut told = vec![None; t.edge_count().unwrap()];
     let clip = case.clip.as_ref().map(|clip| clip.each_ref());
     let tell = &mut |k: usize, facet| assert!(told[k].replace(facet).is_none(), "{k} is told once");
@@ -45,7 +45,7 @@ fn facets<G: Dimension>(t: &PeriodicTriangulation<G>, case: &Case<G>) -> Vec<Vor
     told.into_iter().map(Option::unwrap).collect()
 }
 
-fn volumes_within<G: Dimension>(
+fn volumes_within<G: Moving>(
     t: &PeriodicTriangulation<G>,
     clip: Option<[&G::Point; 2]>,
     rows: &[f64],
@@ -62,7 +62,7 @@ fn is_close(x: f64, y: f64, scale: f64) -> bool {
 
 /// Compares all numbers with those of copies in the open, of points from 0 to 1 along axes, of which coordinates are multiples
 /// of a step.
-fn check<G: Dimension>(seed: u64, n: usize, step: f64, case: &Case<G>) {
+fn check<G: Moving>(seed: u64, n: usize, step: f64, case: &Case<G>) {
     let context = format!("seed {seed}, {n} points, {step}, {:?}, {:?}", case.basis, case.clip);
     let rng = &mut Rng::new(seed);
     let far = |v: usize| if v % 3 == 1 { [2, -5, 1] } else { [0; 3] };

@@ -1,6 +1,6 @@
 //! Numbers of cells beside those of their corners alone, and boundaries by their definition.
 
-use crate::delaunay::{Dimension, Plane, Space};
+use crate::delaunay::{Moving, Plane, Space};
 use crate::error::Error;
 use crate::ids::CellId;
 use crate::motion::{MovingTriangulation, NO_CELL, Options};
@@ -8,7 +8,7 @@ use crate::periodic::PeriodicTriangulation;
 use crate::random::Rng;
 
 /// A cell of corners that are where the shifts have them is triangulated alone.
-fn check<G: Dimension>(seed: u64, n: usize, basis: &[G::Point]) {
+fn check<G: Moving>(seed: u64, n: usize, basis: &[G::Point]) {
     let rng = &mut Rng::new(seed);
     let points: Vec<G::Point> = (0..n)
         .map(|_| {
@@ -65,7 +65,7 @@ fn check<G: Dimension>(seed: u64, n: usize, basis: &[G::Point]) {
     ));
 }
 
-fn check_boundaries<G: Dimension>(t: &PeriodicTriangulation<G>, mask: &[u8]) {
+fn check_boundaries<G: Moving>(t: &PeriodicTriangulation<G>, mask: &[u8]) {
     let cells = t.cells().unwrap();
     let (mut expected, mut hull) = (Vec::new(), Vec::new());
     for (c, row) in cells.neighbours.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! What the data are, and how much of each kind there is.
 
 use crate::damage::Damage;
-use crate::motion::{Beginning, CommitReport};
+use crate::motion::{Beginning, CommitReport, N_SUMS_OF_WEIGHTS};
 
 /// Bytes up to the first entry: of what all data begin with, and of three more counts.
 pub(super) const SIZE: usize = Beginning::SIZE + 24;
@@ -10,6 +10,7 @@ pub(super) const SIZE: usize = Beginning::SIZE + 24;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct PeriodicHeader {
     pub(super) dimension: u32,
+    pub(super) has_weights: bool,
     /// Ids that vertices have been given, without those of staged insertions.
     pub(super) ids: usize,
     /// Vertices inside: those at home, and images.
@@ -30,9 +31,12 @@ impl PeriodicHeader {
     /// Bytes of all data, if they are not too many for a number.
     pub(super) fn size(&self) -> Option<u64> {
         let (d, r) = (u128::from(self.dimension), self.vectors as u128);
+        let weight = u128::from(self.has_weights);
         let sum = |counts: &[usize]| counts.iter().map(|&n| n as u128).sum::<u128>();
         let bytes = (SIZE + Beginning::CHECKSUM) as u128
-            + 8 * d * sum(&[self.vectors, self.staged_vectors, self.moves, self.insertions])
+            + 8 * d * sum(&[self.vectors, self.staged_vectors])
+            + 8 * (d + weight) * sum(&[self.moves, self.insertions])
+            + 8 * weight * N_SUMS_OF_WEIGHTS as u128
             + 8 * r * self.ids as u128
             + 4 * sum(&[self.moves, self.removals])
             + (4 + 4 * r) * self.images as u128
@@ -43,7 +47,7 @@ impl PeriodicHeader {
     /// Its bytes.
     pub(super) fn bytes(&self) -> [u8; SIZE] {
         let beginning = Beginning {
-            version: Beginning::PERIODIC,
+            version: Beginning::of_periodic(self.has_weights),
             dimension: self.dimension,
             size: self.size().expect("what is in memory has a size"),
             counts: [self.ids, self.images, self.moves, self.insertions, self.removals],
@@ -59,10 +63,11 @@ impl PeriodicHeader {
 
     /// Reads it, and checks that the data are as long as it says.
     pub(super) fn read(data: &[u8]) -> Result<Self, Damage> {
-        let Beginning { version, dimension, size, counts } = Beginning::read(data, data.len() as u64)?;
-        if version != Beginning::PERIODIC {
+        let beginning = Beginning::read(data, data.len() as u64)?;
+        let Some(has_weights) = beginning.is_periodic_with_weights() else {
             return Err(Damage::Periodic { is_periodic: false });
-        }
+        };
+        let Beginning { dimension, size, counts, .. } = beginning;
         if data.len() < SIZE {
             return Err(Damage::NoHeader { given: data.len(), wanted: SIZE });
         }
@@ -75,6 +80,7 @@ impl PeriodicHeader {
         let statistics = Beginning::statistics_of(data)?;
         let header = PeriodicHeader {
             dimension,
+            has_weights,
             ids,
             images,
             moves,

@@ -3,11 +3,14 @@
 use std::sync::OnceLock;
 
 use crate::damage::{Damage, LoadError};
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
-use crate::motion::{MAX_VERTICES, MovingTriangulation, Options, Reader, Saved, check_position};
+use crate::motion::{
+    MAX_VERTICES, MovingTriangulation, N_SUMS_OF_WEIGHTS, Options, PointPart, Reader, Saved, check_position,
+    copy_part, enter_sums_of_weights, numbers_of, staged_part,
+};
 use crate::periodic::images::{Image, Images};
 use crate::periodic::inside::{Inside, InsideBefore};
 use crate::periodic::lattice::{HOME, Lattice, Occupied};
@@ -17,7 +20,7 @@ use crate::periodic::staged::Staged;
 use crate::periodic::triangulation::{PeriodicTriangulation, check_options, spacing};
 
 /// What is staged, as it is read.
-struct StagedLists<G: Dimension> {
+struct StagedLists<G: Moving> {
     vectors: Vec<G::Point>,
     goals: Vec<G::Point>,
     insertions: Vec<G::Point>,
@@ -25,7 +28,7 @@ struct StagedLists<G: Dimension> {
     removals: Vec<VertexId>,
 }
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     /// The triangulation that has been saved, under other options. The cells have the indices that they had.
     ///
     /// After the same calls the loaded triangulation has the same cells as the saved one: cells created by these calls may
@@ -57,14 +60,17 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         if header.dimension != G::D as u32 {
             return Err(Damage::Dimension { given: header.dimension }.into());
         }
+        if header.has_weights != G::HAS_WEIGHTS {
+            return Err(Damage::Weighted { is_weighted: header.has_weights }.into());
+        }
         let given = header.ids.saturating_add(header.insertions);
         if given > MAX_VERTICES {
             return Err(Error::TooManyVertices { given, limit: MAX_VERTICES }.into());
         }
         let mut reader = Reader(&data[SIZE..]);
-        let lattice = lattice_of(&reader.points::<G>(header.vectors)?)?;
+        let lattice = lattice_of(&reader.vectors::<G>(header.vectors)?)?;
         let mut waiting = StagedLists::<G> {
-            vectors: reader.points::<G>(header.staged_vectors)?,
+            vectors: reader.vectors::<G>(header.staged_vectors)?,
             goals: reader.points::<G>(header.moves)?,
             insertions: reader.points::<G>(header.insertions)?,
             moves: Vec::new(),
@@ -88,14 +94,18 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             images.push(Image { vertex: VertexId::new(u32::from_le_bytes(row[0])), shift });
         }
         let images = images_of(&lattice, &images, header.ids)?;
+        let mut statistics = header.statistics;
+        if G::HAS_WEIGHTS {
+            let offset = data.len() - reader.0.len();
+            enter_sums_of_weights(&mut statistics, reader.entries::<8>(N_SUMS_OF_WEIGHTS), offset)?;
+        }
         let t = inside_of(&reader.0[..header.inside_bytes], &images, options)?;
         let inside = placed(&lattice, t, images)?;
         check_wraps(&lattice, &inside, &wraps)?;
         if !inside.is_complete(&lattice)? {
             return Err(Damage::NoImages.into());
         }
-        let mut statistics = header.statistics;
-        statistics.coincident = inside.coincident() as u64;
+        inside.hidden_homes(&lattice)?.count_in(&mut statistics);
         let (staged, cells) = (Staged::default(), OnceLock::new());
         let (edges, taking) = (OnceLock::new(), None);
         let mut t = PeriodicTriangulation {
@@ -129,23 +139,54 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         };
         // What vectors of the program's will allow is checked by the commit.
         for (&vertex, goal) in waiting.moves.iter().zip(&waiting.goals) {
-            position(vertex, goal)?;
+            let part = staged_part::<G>(goal);
+            let mut checked = *goal;
+            if let Some(part) = part {
+                copy_part::<G>(&mut checked, part.other(), &G::Point::default());
+            }
+            position(vertex, &checked)?;
         }
         for (index, coming) in waiting.insertions.iter().enumerate() {
             position(VertexId::at(header.ids + index), coming)?;
         }
         let images = &self.inside.images;
         let check = |index, vertex| images.check(index, vertex, 0).map(|_| vertex);
-        let moves = waiting.moves.iter().zip(&waiting.goals).enumerate();
-        let moves = moves.map(|(index, (&v, goal))| (index, check(index, v).map(|v| (v, *goal))));
-        self.staged.move_vertices(header.ids, moves).map_err(of_staged)?;
+        if G::HAS_WEIGHTS {
+            for (&vertex, goal) in waiting.moves.iter().zip(&waiting.goals) {
+                images.check(0, vertex, 0).map_err(of_staged)?;
+                if self.staged.is_moving(vertex) {
+                    return Err(Damage::Staged { vertex }.into());
+                }
+                let present =
+                    |v: VertexId| self.lattice.unwrapped(&self.inside.places[images.home(v)], &self.wraps[v]);
+                let parts = match staged_part::<G>(goal) {
+                    Some(part) => &[part][..],
+                    None => &PointPart::BOTH,
+                };
+                for &part in parts {
+                    self.staged
+                        .move_parts(
+                            part,
+                            header.ids,
+                            &[(0, vertex)],
+                            |_| numbers_of::<G>(goal, part),
+                            present,
+                        )
+                        .map_err(of_staged)?;
+                }
+            }
+        } else {
+            let moves = waiting.moves.iter().zip(&waiting.goals).enumerate();
+            let moves = moves.map(|(index, (&v, goal))| (index, check(index, v).map(|v| (v, *goal))));
+            self.staged.move_vertices(header.ids, moves).map_err(of_staged)?;
+        }
         self.staged.insert(&waiting.insertions)?;
         let removals = waiting.removals.iter().enumerate();
         self.staged.remove(header.ids, removals.map(|(index, &v)| check(index, v))).map_err(of_staged)
     }
 }
 
-fn lattice_of<G: Dimension>(vectors: &[G::Point]) -> Result<Box<Lattice<G>>, LoadError> {
+fn lattice_of<G: Moving>(vectors: &[G::Point]) -> Result<Box<Lattice<G>>, LoadError> {
     Ok(memory::boxed(Lattice::new(vectors).map_err(of_vectors)?)?)
 }
 
@@ -169,11 +210,7 @@ fn of_staged(error: Error) -> LoadError {
 }
 
 /// What each vertex inside is. Those at home are in the order of vertices, and each comes before its images.
-fn images_of<G: Dimension>(
-    lattice: &Lattice<G>,
-    listed: &[Image],
-    n_ids: usize,
-) -> Result<Images, LoadError> {
+fn images_of<G: Moving>(lattice: &Lattice<G>, listed: &[Image], n_ids: usize) -> Result<Images, LoadError> {
     let mut images = Images::default();
     images.reserve(n_ids, listed.len())?;
     for (index, &image) in listed.iter().enumerate() {
@@ -204,7 +241,7 @@ fn images_of<G: Dimension>(
 
 /// What is inside, of its own bytes: the images with the keys of their vertices, ids of vertices that have been removed, and
 /// nothing else.
-fn inside_of<G: Dimension>(
+fn inside_of<G: Moving>(
     data: &[u8],
     images: &Images,
     options: Options,
@@ -229,7 +266,7 @@ fn inside_of<G: Dimension>(
 }
 
 /// What is inside, if all are where the lattice has them.
-fn placed<G: Dimension>(
+fn placed<G: Moving>(
     lattice: &Lattice<G>,
     mut t: MovingTriangulation<G>,
     images: Images,
@@ -245,7 +282,7 @@ fn placed<G: Dimension>(
         let place = t.position(inside)?;
         let is_right = if image.shift == HOME {
             home.push((image.vertex, place));
-            occupied.enter(&lattice.multiples(&place));
+            lattice.enter(&mut occupied, &place);
             lattice.has_at_home(&place)
         } else {
             let first: &G::Point = &places[images.home(image.vertex).index()];
@@ -263,7 +300,7 @@ fn placed<G: Dimension>(
 }
 
 /// Checks by which translations vertices have come home.
-fn check_wraps<G: Dimension>(
+fn check_wraps<G: Moving>(
     lattice: &Lattice<G>,
     inside: &Inside<G>,
     wraps: &[[i64; 3]],

@@ -35,11 +35,16 @@ impl<'d> SavedPeriodic<'d> {
     /// Whether these bytes, or the first of them, are those of a periodic triangulation, right or not; `given` bytes are there in
     /// all.
     pub fn is_of(data: &[u8], given: u64) -> bool {
-        Beginning::read(data, given).is_ok_and(|beginning| beginning.version == Beginning::PERIODIC)
+        Beginning::read(data, given).is_ok_and(|beginning| beginning.is_periodic_with_weights().is_some())
     }
 
     /// The dimension of the triangulation, 2 or 3.
     pub fn dimension(&self) -> u32 {
         self.header.dimension
+    }
+
+    /// Whether the vertices of the triangulation have weights.
+    pub fn is_weighted(&self) -> bool {
+        self.header.has_weights
     }
 }

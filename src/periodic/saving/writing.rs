@@ -1,19 +1,20 @@
 //! Writing all bytes, from the first to the last.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
-use crate::motion::Chunks;
+use crate::motion::{Chunks, sums_of_weights};
 use crate::periodic::images::Image;
 use crate::periodic::lattice::HOME;
 use crate::periodic::saving::header::PeriodicHeader;
 use crate::periodic::triangulation::PeriodicTriangulation;
 
-impl<G: Dimension> PeriodicTriangulation<G> {
+impl<G: Moving> PeriodicTriangulation<G> {
     fn header(&self) -> PeriodicHeader {
         PeriodicHeader {
             dimension: G::D as u32,
+            has_weights: G::HAS_WEIGHTS,
             ids: self.inside.images.n_vertices(),
             images: self.inside.images.len(),
             moves: self.staged.moves().len(),
@@ -49,9 +50,10 @@ impl<G: Dimension> PeriodicTriangulation<G> {
         chunks.write(self.header().bytes())?;
         let vectors = self.lattice.given().iter();
         let staged = self.coming.iter().flat_map(|lattice| lattice.given());
-        let goals = self.staged.moves().iter().map(|(_, goal)| goal);
-        for point in vectors.chain(staged).chain(goals).chain(self.staged.insertions()) {
-            chunks.point::<G>(point)?;
+        vectors.chain(staged).try_for_each(|vector| chunks.point::<G>(vector))?;
+        let goals = self.staged.moves().iter().map(|(vertex, goal)| self.staged_parts_of(*vertex, goal));
+        for point in goals.chain(self.staged.insertions().iter().copied()) {
+            chunks.whole_point::<G>(&point)?;
         }
         let rank = self.lattice.rank();
         for wrap in &self.wraps {
@@ -63,6 +65,9 @@ impl<G: Dimension> PeriodicTriangulation<G> {
             chunks.numbers(&[image.vertex.get()])?;
             let shift = if *image == Image::GONE { HOME } else { image.shift };
             shift[..rank].iter().try_for_each(|n| chunks.write(n.to_le_bytes()))?;
+        }
+        if G::HAS_WEIGHTS {
+            sums_of_weights(&self.statistics).iter().try_for_each(|sum| chunks.write(sum.to_le_bytes()))?;
         }
         self.inside.t.save(|bytes| chunks.append(bytes))?;
         chunks.end()?;

@@ -4,7 +4,7 @@ use super::*;
 use crate::motion::VoronoiCell;
 
 /// The vertices of which a translation by multiples up to some number is in a box: coordinates are few digits long, so that sums are exact.
-fn among_translations<G: Dimension>(
+fn among_translations<G: Moving>(
     points: &[G::Point],
     basis: &[G::Point],
     [low, high]: [&G::Point; 2],
@@ -26,7 +26,7 @@ fn among_translations<G: Dimension>(
     VertexId::range(0..points.len()).filter(|&v| is_in(&points[v])).collect()
 }
 
-fn check<G: Dimension>(seed: u64, basis: &[G::Point], most: i64) {
+fn check<G: Moving>(seed: u64, basis: &[G::Point], most: i64) {
     let rng = &mut Rng::new(seed);
     let mut coordinate =
         |least: f64, extent: f64| least + extent * rng.below(1 << 6) as f64 / f64::from(1 << 6);

@@ -3,7 +3,7 @@
 use super::*;
 
 /// The cells by index, as a program knows them: rows of vertices, and these in order with their shifts from the first.
-fn known<G: Dimension>(t: &PeriodicTriangulation<G>) -> Vec<(Vec<VertexId>, Class)> {
+fn known<G: Moving>(t: &PeriodicTriangulation<G>) -> Vec<(Vec<VertexId>, Class)> {
     let shifts: Vec<_> = t.cell_shifts().unwrap().collect();
     let rows = t.cells().unwrap().corners.iter().zip(shifts.chunks_exact(G::D + 1));
     let known = rows.map(|(row, shifts)| {
@@ -17,7 +17,7 @@ fn known<G: Dimension>(t: &PeriodicTriangulation<G>) -> Vec<(Vec<VertexId>, Clas
 }
 
 /// What is kept for each cell by the lists of changes is what there is, and what need not change stays.
-fn keeps_what_it_knows<G: Dimension>(seed: u64, n: usize, rank: usize) {
+fn keeps_what_it_knows<G: Moving>(seed: u64, n: usize, rank: usize) {
     let rng = &mut Rng::new(seed);
     let mut basis = vec![G::Point::default(); rank];
     (0..rank).for_each(|j| basis[j][j] = 1.0);

@@ -9,7 +9,7 @@ const N_COMING: [usize; 3] = [1, 0, 2];
 
 /// What a history of edits is made of: moves of all or of some, vertices that come and go, some of them where others are, and
 /// other vectors. After each commit all is as in what is made anew, and most commits are no builds.
-fn edited<G: Dimension>(seed: u64, n: usize, basis: &[G::Point]) {
+fn edited<G: Moving>(seed: u64, n: usize, basis: &[G::Point]) {
     let rng = &mut Rng::new(seed);
     let grid = (1u64 << 20) as f64;
     let mut basis = basis.to_vec();

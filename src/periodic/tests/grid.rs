@@ -26,11 +26,7 @@ impl Whole {
 }
 
 /// A sum of multiples of vectors, and a place.
-fn sum_of<G: Dimension>(
-    place: &G::Point,
-    multiples: &[i64],
-    vectors: &[G::Point],
-) -> Vec<num_bigint::BigInt> {
+fn sum_of<G: Moving>(place: &G::Point, multiples: &[i64], vectors: &[G::Point]) -> Vec<num_bigint::BigInt> {
     let along = |axis: usize| {
         let of = |(n, v): (&i64, &G::Point)| Whole::of(v[axis]).0 * *n;
         Whole::of(place[axis]).0 + multiples.iter().zip(vectors).map(of).sum::<num_bigint::BigInt>()
@@ -38,7 +34,7 @@ fn sum_of<G: Dimension>(
     (0..G::D).map(along).collect()
 }
 
-fn wholes<G: Dimension>(place: &G::Point) -> Vec<num_bigint::BigInt> {
+fn wholes<G: Moving>(place: &G::Point) -> Vec<num_bigint::BigInt> {
     (0..G::D).map(|axis| Whole::of(place[axis]).0).collect()
 }
 
@@ -62,7 +58,7 @@ fn unimodular(rng: &mut Rng, rank: usize, steps: usize) -> Matrix {
 }
 
 /// The basis of these multiples, if its numbers are doubles.
-fn of_multiples<G: Dimension>(m: &Matrix, basis: &[G::Point]) -> Option<Vec<G::Point>> {
+fn of_multiples<G: Moving>(m: &Matrix, basis: &[G::Point]) -> Option<Vec<G::Point>> {
     let zero = G::Point::default();
     let vector = |row: &[i64; 3]| {
         let mut vector = zero;
@@ -75,7 +71,7 @@ fn of_multiples<G: Dimension>(m: &Matrix, basis: &[G::Point]) -> Option<Vec<G::P
 }
 
 /// The classes of cells, told by multiples of another basis, of which the vectors in force are these multiples.
-fn classes_by<G: Dimension>(
+fn classes_by<G: Moving>(
     t: &PeriodicTriangulation<G>,
     m: &Matrix,
     points: &[G::Point],
@@ -96,7 +92,7 @@ fn classes_by<G: Dimension>(
 }
 
 /// What is told, given afresh and staged, is kept as it is.
-fn assert_kept<G: Dimension>(t: &PeriodicTriangulation<G>, context: &str) {
+fn assert_kept<G: Moving>(t: &PeriodicTriangulation<G>, context: &str) {
     let used: Vec<G::Point> = VertexId::range(0..t.id_count()).map(|v| t.position(v).unwrap()).collect();
     let vectors: Vec<G::Point> = t.vectors().collect();
     let mut again = PeriodicTriangulation::<G>::new(&used, &vectors, Options::default()).unwrap();
@@ -111,7 +107,7 @@ fn assert_kept<G: Dimension>(t: &PeriodicTriangulation<G>, context: &str) {
 }
 
 /// By thirds or halves of the vectors, where very much is tied; one of them twice.
-fn tied_points<G: Dimension>(rng: &mut Rng, basis: &[G::Point]) -> Vec<G::Point> {
+fn tied_points<G: Moving>(rng: &mut Rng, basis: &[G::Point]) -> Vec<G::Point> {
     let n = if G::D == 2 { 3 } else { 2 };
     let mut points = Vec::new();
     let third = if G::D == 2 { 0..=0 } else { 0..=n - 1 };
@@ -130,7 +126,7 @@ fn tied_points<G: Dimension>(rng: &mut Rng, basis: &[G::Point]) -> Vec<G::Point>
     points
 }
 
-fn check_bases<G: Dimension>(name: &str, basis: &[G::Point]) {
+fn check_bases<G: Moving>(name: &str, basis: &[G::Point]) {
     let rng = &mut Rng::new(name.len() as u64);
     let points = tied_points::<G>(rng, basis);
     let t = PeriodicTriangulation::<G>::new(&points, basis, Options::default()).unwrap();
@@ -168,7 +164,7 @@ fn check_bases<G: Dimension>(name: &str, basis: &[G::Point]) {
 }
 
 /// A basis, and others like it of numbers that are not on the grid, and strained.
-fn check_scaled<G: Dimension>(name: &str, basis: &[G::Point]) {
+fn check_scaled<G: Moving>(name: &str, basis: &[G::Point]) {
     for (scale, strain) in [(1.0, 0.0), (0.7, 0.0), (0.7, 2f64.powi(-35)), (3.0, 1e-3)] {
         let mut scaled = basis.to_vec();
         for v in &mut scaled {
@@ -222,7 +218,7 @@ fn one_vector_and_its_opposite_have_one_grid() {
 }
 
 /// Vectors of a box that is skewed by up to 2 to the `bits` of its lengths.
-fn skewed<G: Dimension>(rng: &mut Rng, rank: usize, bits: i64) -> Vec<G::Point> {
+fn skewed<G: Moving>(rng: &mut Rng, rank: usize, bits: i64) -> Vec<G::Point> {
     let mut basis = vec![G::Point::default(); rank];
     for (j, vector) in basis.iter_mut().enumerate() {
         (0..G::D)
@@ -239,7 +235,7 @@ fn skewed<G: Dimension>(rng: &mut Rng, rank: usize, bits: i64) -> Vec<G::Point> 
 
 /// Sums of the told vectors are the reduced ones, to the last bit, and positions differ from their places by sums of the told
 /// ones.
-fn check_identities<G: Dimension>(seed: u64, rank: usize, bits: i64) {
+fn check_identities<G: Moving>(seed: u64, rank: usize, bits: i64) {
     let rng = &mut Rng::new(seed);
     let basis = skewed::<G>(rng, rank, bits);
     let context = format!("seed {seed}: {basis:?}");
@@ -332,7 +328,7 @@ fn far_positions_in_skewed_boxes_are_exact_or_refused() {
 }
 
 /// What is told, committed, moves nothing: however far away vertices are, and however they have come there.
-fn check_told<G: Dimension>(seed: u64, rank: usize) {
+fn check_told<G: Moving>(seed: u64, rank: usize) {
     let rng = &mut Rng::new(seed);
     let basis = skewed::<G>(rng, rank, 3);
     let any = |rng: &mut Rng| {
@@ -380,7 +376,7 @@ fn told_positions_move_nothing() {
 }
 
 /// Data with a vertex in a far period are those of a triangulation only if its position there is a number.
-fn check_far_data<G: Dimension>() {
+fn check_far_data<G: Moving>() {
     let mut basis = vec![G::Point::default(); G::D];
     (0..G::D).for_each(|axis| basis[axis][axis] = 1.0);
     let (mut n_right, mut n_refused) = (0, 0);

@@ -4,7 +4,7 @@ use super::*;
 
 /// A random history: moves of all and of some, steps and drifts, positions wrapped by the program, vertices that come and go, and
 /// other lattices. After each commit the cells are those of a triangulation that is made anew, and of copies.
-fn history<G: Dimension>(seed: u64, basis: &[G::Point], n: usize) {
+fn history<G: Moving>(seed: u64, basis: &[G::Point], n: usize) {
     let rng = &mut Rng::new(seed);
     let mut basis = basis.to_vec();
     let mut points = random_points::<G>(rng, n, &basis);
@@ -18,7 +18,11 @@ fn history<G: Dimension>(seed: u64, basis: &[G::Point], n: usize) {
         let drift = [0, 1].map(|_| if drifts { rng.below(1 << 18) as f64 / grid } else { 0.0 });
         let size = [1 << 10, 1 << 13, 1 << 16, 1 << 19][rng.below(4)];
         let mut goals = points.clone();
+        let (changes_weights, spread) = (G::HAS_WEIGHTS && rng.one_in(2), spread_of_weights::<G>(rng, n));
         for p in &mut goals {
+            if changes_weights {
+                *p = with_random_weight::<G>(rng, *p, spread);
+            }
             for axis in 0..G::D {
                 p[axis] += drift[axis.min(1)] + (rng.below(2 * size) as f64 - size as f64) / grid;
             }
@@ -96,9 +100,29 @@ fn histories_end_as_what_is_made_anew() {
     }
 }
 
+#[test]
+fn histories_with_weights_end_as_what_is_made_anew() {
+    for seed in 0..36 {
+        let n = [1, 2, 4, 9, 30, 300][seed as usize % 6];
+        history::<PowerPlane>(seed, &unweighted(&[[1.0, 0.0], [0.0, 1.0]]), n);
+        history::<PowerPlane>(seed, &unweighted(&[[1.0, 0.25], [-0.125, 0.5]]), n);
+        history::<PowerPlane>(seed, &unweighted(&[[0.75, 0.25]]), n);
+    }
+    for seed in 0..8 {
+        let n = [1, 2, 5, 60][seed as usize % 4];
+        history::<PowerSpace>(seed, &unweighted(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]), n);
+        history::<PowerSpace>(
+            seed,
+            &unweighted(&[[1.0, 0.0, 0.0], [0.5, 1.0, 0.0], [0.25, -0.375, 0.75]]),
+            n,
+        );
+        history::<PowerSpace>(seed, &unweighted(&[[1.0, 0.0, 0.0], [0.5, 1.0, 0.0]]), n);
+    }
+}
+
 /// A box that is strained and sheared, through boxes whose shortest vectors are others, with what is in it: as what is made
 /// anew, and built anew seldom.
-fn strained<G: Dimension>(seed: u64, n: usize, rank: usize) {
+fn strained<G: Moving>(seed: u64, n: usize, rank: usize) {
     let rng = &mut Rng::new(seed);
     let grid = (1u64 << 20) as f64;
     let mut basis = vec![G::Point::default(); rank];

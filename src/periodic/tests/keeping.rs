@@ -11,12 +11,12 @@ use crate::periodic::needed::keys_of;
 
 pub(super) type Loaded<G> = Result<PeriodicTriangulation<G>, LoadError>;
 
-pub(super) fn load<G: Dimension>(bytes: &[u8]) -> Loaded<G> {
+pub(super) fn load<G: Moving>(bytes: &[u8]) -> Loaded<G> {
     PeriodicTriangulation::load(&SavedPeriodic::of(bytes)?, Options::default())
 }
 
 /// All that is read of one is read of the other.
-fn assert_same<G: Dimension>(t: &PeriodicTriangulation<G>, other: &PeriodicTriangulation<G>, context: &str) {
+fn assert_same<G: Moving>(t: &PeriodicTriangulation<G>, other: &PeriodicTriangulation<G>, context: &str) {
     let read = |t: &PeriodicTriangulation<G>| {
         let cells = t.cells().unwrap();
         let ids = || VertexId::range(0..t.id_count());
@@ -34,7 +34,7 @@ fn assert_same<G: Dimension>(t: &PeriodicTriangulation<G>, other: &PeriodicTrian
 }
 
 /// One step of a history: what is staged, some of it several times over.
-fn stage<G: Dimension>(t: &mut PeriodicTriangulation<G>, rng: &mut Rng, basis: &[G::Point]) {
+fn stage<G: Moving>(t: &mut PeriodicTriangulation<G>, rng: &mut Rng, basis: &[G::Point]) {
     let present: Vec<_> = VertexId::range(0..t.id_count()).filter(|&v| t.is_present(v)).collect();
     let size = [1e-3, 0.05, 3.0][rng.below(3)];
     let mut moving: Vec<_> = present.iter().copied().filter(|_| rng.one_in(2)).collect();
@@ -63,7 +63,7 @@ fn stage<G: Dimension>(t: &mut PeriodicTriangulation<G>, rng: &mut Rng, basis: &
 }
 
 /// A history, and others that go on from what it was, cloned and loaded with all that is staged.
-fn history<G: Dimension>(seed: u64, basis: &[G::Point], n: usize) {
+fn history<G: Moving>(seed: u64, basis: &[G::Point], n: usize) {
     let rng = &mut Rng::new(seed);
     let points = random_points::<G>(rng, n, basis);
     let mut t = PeriodicTriangulation::<G>::new(&points, basis, Options::default()).unwrap();
@@ -110,7 +110,7 @@ fn what_is_kept_goes_on() {
 }
 
 /// With everything: vertices removed, at the same place, in far periods, and all kinds of edits staged.
-fn with_everything<G: Dimension>() -> PeriodicTriangulation<G> {
+fn with_everything<G: Moving>() -> PeriodicTriangulation<G> {
     let rng = &mut Rng::new(3);
     let mut basis = vec![G::Point::default(); G::D];
     (0..G::D).for_each(|k| (0..=k).for_each(|axis| basis[k][axis] = if axis == k { 1.0 } else { 0.25 }));
@@ -128,7 +128,7 @@ fn with_everything<G: Dimension>() -> PeriodicTriangulation<G> {
     t
 }
 
-fn samples<G: Dimension>() -> [PeriodicTriangulation<G>; 3] {
+fn samples<G: Moving>() -> [PeriodicTriangulation<G>; 3] {
     let mut vector = G::Point::default();
     vector[0] = 1.0;
     let of = |n: usize| {
@@ -137,7 +137,7 @@ fn samples<G: Dimension>() -> [PeriodicTriangulation<G>; 3] {
     [with_everything(), of(0), of(1)]
 }
 
-fn every_byte_is_protected<G: Dimension>() {
+fn every_byte_is_protected<G: Moving>() {
     for t in samples::<G>() {
         let bytes = t.saved().unwrap();
         assert_same(&t, &load(&bytes).unwrap(), "a sample");
@@ -175,7 +175,7 @@ pub(super) fn seal(bytes: &mut [u8]) {
 }
 
 /// The cells, by names for their vertices, each as a sorted list of corners with their shifts.
-fn by_id<G: Dimension>(
+fn by_id<G: Moving>(
     t: &PeriodicTriangulation<G>,
     names: &dyn Fn(VertexId) -> VertexId,
 ) -> BTreeSet<Vec<(VertexId, [i64; 3])>> {
@@ -191,7 +191,7 @@ fn by_id<G: Dimension>(
 
 /// What is loaded is what is made anew of its positions and vectors. Positions that are too far away to be read exactly, and
 /// vectors that are, tell nothing.
-fn check_loaded<G: Dimension>(t: &PeriodicTriangulation<G>) {
+fn check_loaded<G: Moving>(t: &PeriodicTriangulation<G>) {
     let ids = VertexId::range(0..t.id_count()).filter(|&v| t.is_present(v));
     let present: Vec<VertexId> = ids.collect();
     let points: Vec<G::Point> = present.iter().map(|&v| t.position(v).unwrap()).collect();
@@ -203,7 +203,7 @@ fn check_loaded<G: Dimension>(t: &PeriodicTriangulation<G>) {
     assert!(by_id(t, &|v| v) == by_id(&fresh, &|v| present[v.index()]));
 }
 
-fn forged_bytes_give_triangulations_or_nothing<G: Dimension>() {
+fn forged_bytes_give_triangulations_or_nothing<G: Moving>() {
     let rng = &mut Rng::new(9);
     let (mut n_refused, mut n_loaded) = (0, 0);
     let mut check = |bytes: &[u8]| match load::<G>(bytes) {
@@ -308,7 +308,7 @@ fn with_images(shifts: &[[i32; 2]]) -> PeriodicTriangulation<Plane> {
         images.push(Image { vertex: VertexId::new(0), shift });
         places.push(lattice.translated(&[0.5, 0.5], shift));
     }
-    occupied.enter(&[0.5, 0.5, 0.0]);
+    t.lattice.enter(&mut occupied, &[0.5, 0.5]);
     let keys = keys_of(images.as_slice()).unwrap();
     let inside = MovingTriangulation::with_keys(&places, &keys, Options::default()).unwrap();
     let (spacing, n_built) = (t.inside.spacing, 1);
@@ -350,7 +350,7 @@ fn kinds_of_data_are_told_apart() {
 }
 
 /// Ids are closed up; cells, positions and what is staged stay.
-fn check_compaction<G: Dimension>(seed: u64, basis: &[G::Point]) {
+fn check_compaction<G: Moving>(seed: u64, basis: &[G::Point]) {
     let rng = &mut Rng::new(seed);
     let points = random_points::<G>(rng, 12, basis);
     let mut t = PeriodicTriangulation::<G>::new(&points, basis, Options::default()).unwrap();
@@ -388,7 +388,7 @@ fn compactions_keep_all_but_ids() {
 }
 
 /// Single vertices at once, while edits of others are staged: cells are those of what is made anew, and the edits stay.
-fn check_at_once<G: Dimension>(seed: u64, basis: &[G::Point]) {
+fn check_at_once<G: Moving>(seed: u64, basis: &[G::Point]) {
     let rng = &mut Rng::new(seed);
     let mut points = random_points::<G>(rng, 8, basis);
     let mut t = PeriodicTriangulation::<G>::new(&points, basis, Options::default()).unwrap();

@@ -10,7 +10,7 @@ const SCALE: f64 = (1u64 << 22) as f64;
 type Found = (VertexId, [i64; 3]);
 
 /// The square of the distance of a vertex from the image of another one, whole.
-fn square<G: Dimension>(points: &[G::Point], basis: &[G::Point], v: usize, (w, shift): Found) -> i128 {
+fn square<G: Moving>(points: &[G::Point], basis: &[G::Point], v: usize, (w, shift): Found) -> i128 {
     let along = |axis: usize| {
         let whole = |x: f64| (x * SCALE) as i128;
         let by = basis.iter().zip(shift).map(|(b, n)| i128::from(n) * whole(b[axis]));
@@ -20,7 +20,7 @@ fn square<G: Dimension>(points: &[G::Point], basis: &[G::Point], v: usize, (w, s
 }
 
 /// The lists by the definition, from all images that are so many periods away at most from the nearest one.
-fn by_definition<G: Dimension>(
+fn by_definition<G: Moving>(
     t: &PeriodicTriangulation<G>,
     points: &[G::Point],
     basis: &[G::Point],
@@ -62,7 +62,7 @@ fn by_definition<G: Dimension>(
 /// Radii are less than so many distances between the sides of the box.
 const MOST: i32 = 3;
 
-fn check_lists<G: Dimension>(
+fn check_lists<G: Moving>(
     t: &PeriodicTriangulation<G>,
     points: &[G::Point],
     basis: &[G::Point],
@@ -100,7 +100,7 @@ fn check_lists<G: Dimension>(
     }
 }
 
-fn check_kinds<G: Dimension>(bases: [&[G::Point]; 6]) {
+fn check_kinds<G: Moving>(bases: [&[G::Point]; 6]) {
     for (k, basis) in bases.into_iter().enumerate() {
         for kind in 0..4 {
             let rng = &mut Rng::new(k as u64 * 16 + kind as u64);

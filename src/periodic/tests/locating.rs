@@ -23,7 +23,7 @@ pub(super) const OF_SPACE: [&[[f64; 3]]; 6] = [
 ];
 
 /// A lattice of points of a box, where much ties, or random ones on a fine grid.
-pub(super) fn points_of_kind<G: Dimension>(rng: &mut Rng, n: usize, basis: &[G::Point]) -> Vec<G::Point> {
+pub(super) fn points_of_kind<G: Moving>(rng: &mut Rng, n: usize, basis: &[G::Point]) -> Vec<G::Point> {
     let mut points = random_points::<G>(rng, n, basis);
     if rng.one_in(2) {
         for p in &mut points {
@@ -34,7 +34,7 @@ pub(super) fn points_of_kind<G: Dimension>(rng: &mut Rng, n: usize, basis: &[G::
 }
 
 /// A position, maybe many periods away, maybe at a vertex or in the middle of two.
-pub(super) fn position<G: Dimension>(rng: &mut Rng, points: &[G::Point], basis: &[G::Point]) -> G::Point {
+pub(super) fn position<G: Moving>(rng: &mut Rng, points: &[G::Point], basis: &[G::Point]) -> G::Point {
     let mut p = random_points::<G>(rng, 1, basis)[0];
     match rng.below(4) {
         0 => p = points[rng.below(points.len())],
@@ -51,7 +51,7 @@ pub(super) fn position<G: Dimension>(rng: &mut Rng, points: &[G::Point], basis: 
 }
 
 /// Whether a place is on the inner side of the facet of a cell that is opposite a corner, or in its plane.
-fn side<G: Dimension>(corners: &[G::Point], i: usize, p: &G::Point) -> f64 {
+fn side<G: Moving>(corners: &[G::Point], i: usize, p: &G::Point) -> f64 {
     let (mut low, mut high) = (*p, *p);
     for q in corners {
         for axis in 0..G::D {
@@ -64,7 +64,7 @@ fn side<G: Dimension>(corners: &[G::Point], i: usize, p: &G::Point) -> f64 {
 }
 
 /// The corners of a cell after a translation from where its shifts have it.
-pub(super) fn corners<G: Dimension>(
+pub(super) fn corners<G: Moving>(
     t: &PeriodicTriangulation<G>,
     points: &[G::Point],
     basis: &[G::Point],
@@ -78,13 +78,13 @@ pub(super) fn corners<G: Dimension>(
 }
 
 /// What a triangulation says of where positions are.
-struct Found<'t, G: Dimension> {
+struct Found<'t, G: Moving> {
     t: &'t PeriodicTriangulation<G>,
     points: &'t [G::Point],
     basis: &'t [G::Point],
 }
 
-impl<G: Dimension> Found<'_, G> {
+impl<G: Moving> Found<'_, G> {
     fn check(&self, p: &G::Point, location: Location, shift: [i64; 3]) {
         match location {
             Location::Vertex(v) => {
@@ -126,7 +126,7 @@ impl<G: Dimension> Found<'_, G> {
     }
 }
 
-fn check_located<G: Dimension>(
+fn check_located<G: Moving>(
     t: &PeriodicTriangulation<G>,
     points: &[G::Point],
     basis: &[G::Point],
@@ -160,7 +160,7 @@ fn check_located<G: Dimension>(
     assert!(told.next().is_none());
 }
 
-fn check_all<G: Dimension>(seed: u64, basis: &[G::Point], n: usize) {
+fn check_all<G: Moving>(seed: u64, basis: &[G::Point], n: usize) {
     let rng = &mut Rng::new(seed);
     let mut points = points_of_kind::<G>(rng, n, basis);
     let mut t = PeriodicTriangulation::<G>::new(&points, basis, Options::default()).unwrap();

@@ -10,7 +10,7 @@ fn has_each(row: &[VertexId], wanted: &[VertexId]) -> bool {
 }
 
 /// A set of which vertex 3 is hidden by vertex 1 in another period.
-fn set<G: Dimension>(rng: &mut Rng, n: usize, basis: &[G::Point]) -> Vec<G::Point> {
+fn set<G: Moving>(rng: &mut Rng, n: usize, basis: &[G::Point]) -> Vec<G::Point> {
     let mut points = random_points::<G>(rng, n, basis);
     if n > 3 {
         points[3] = place::<G>(&points, basis, 1, [1, 0, 0]);
@@ -18,7 +18,7 @@ fn set<G: Dimension>(rng: &mut Rng, n: usize, basis: &[G::Point]) -> Vec<G::Poin
     points
 }
 
-fn check_simplices<G: Dimension>(seed: u64, n: usize, basis: &[G::Point]) -> usize {
+fn check_simplices<G: Moving>(seed: u64, n: usize, basis: &[G::Point]) -> usize {
     let rng = &mut Rng::new(seed);
     let points = set::<G>(rng, n, basis);
     let t = PeriodicTriangulation::<G>::new(&points, basis, Options::default()).unwrap();
@@ -134,7 +134,7 @@ fn is_near(a: [f64; 2], b: [f64; 2]) -> bool {
 }
 
 /// All move by less than the least tolerance: the cells stay.
-fn check_tolerances<G: Dimension>(seed: u64, n: usize, basis: &[G::Point]) {
+fn check_tolerances<G: Moving>(seed: u64, n: usize, basis: &[G::Point]) {
     let rng = &mut Rng::new(seed);
     let mut points = Vec::new();
     for _ in 0..n {
@@ -169,7 +169,7 @@ fn check_tolerances<G: Dimension>(seed: u64, n: usize, basis: &[G::Point]) {
 }
 
 /// Copies in periods from -2 to 2, and the number of the first that is not translated.
-fn copies<G: Dimension>(points: &[G::Point], basis: &[G::Point]) -> (Vec<G::Point>, usize) {
+fn copies<G: Moving>(points: &[G::Point], basis: &[G::Point]) -> (Vec<G::Point>, usize) {
     let range = |j: usize| if j < basis.len() { -2..=2 } else { 0..=0 };
     let (mut all, mut middle) = (Vec::new(), 0);
     for (x, y) in range(0).flat_map(|x| range(1).map(move |y| (x, y))) {

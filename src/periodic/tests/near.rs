@@ -8,12 +8,12 @@ use crate::motion::{Interpolation, Location, VertexValues};
 /// All coordinates of these tests are multiples of its inverse.
 const SCALE: f64 = (1u64 << 22) as f64;
 
-fn whole<G: Dimension>(p: &G::Point) -> [i128; 3] {
+fn whole<G: Moving>(p: &G::Point) -> [i128; 3] {
     [0, 1, 2].map(|axis| if axis < G::D { (p[axis] * SCALE) as i128 } else { 0 })
 }
 
 /// The squares of the distances of the nearest images of all vertices, in order, and of the same the lower id first.
-fn by_distance<G: Dimension>(t: &PeriodicTriangulation<G>, p: &G::Point) -> Vec<(i128, VertexId)> {
+fn by_distance<G: Moving>(t: &PeriodicTriangulation<G>, p: &G::Point) -> Vec<(i128, VertexId)> {
     let unit = |j: usize| [0, 1, 2].map(|i| i32::from(i == j));
     let vectors = [0, 1, 2].map(|j| whole::<G>(&t.lattice.translated(&G::Point::default(), unit(j))));
     let mut squares: Vec<_> = VertexId::range(0..t.id_count())
@@ -40,7 +40,7 @@ fn by_distance<G: Dimension>(t: &PeriodicTriangulation<G>, p: &G::Point) -> Vec<
     squares
 }
 
-fn check_near<G: Dimension>(t: &PeriodicTriangulation<G>, p: &G::Point, rng: &mut Rng) {
+fn check_near<G: Moving>(t: &PeriodicTriangulation<G>, p: &G::Point, rng: &mut Rng) {
     let squares = by_distance(t, p);
     assert_eq!(t.nearest_vertex(p), Ok(squares.first().map(|&(_, v)| v)), "{p:?}");
     for k in [1, 3, squares.len() + 2] {
@@ -64,7 +64,7 @@ fn check_near<G: Dimension>(t: &PeriodicTriangulation<G>, p: &G::Point, rng: &mu
 }
 
 /// Volumes of a cell with a place for each of its corners in turn, and of the cell.
-fn volumes<G: Dimension>(corners: &[G::Point], p: &G::Point) -> (Vec<i128>, i128) {
+fn volumes<G: Moving>(corners: &[G::Point], p: &G::Point) -> (Vec<i128>, i128) {
     let volume = |points: &[G::Point]| {
         let at: Vec<_> = points.iter().map(whole::<G>).collect();
         let row = |i: usize| [0, 1, 2].map(|axis| at[i][axis] - at[0][axis]);
@@ -85,7 +85,7 @@ fn volumes<G: Dimension>(corners: &[G::Point], p: &G::Point) -> (Vec<i128>, i128
     ((0..corners.len()).map(of).collect(), sign * volume(corners))
 }
 
-fn check_values<G: Dimension>(
+fn check_values<G: Moving>(
     t: &PeriodicTriangulation<G>,
     points: &[G::Point],
     basis: &[G::Point],
@@ -142,7 +142,7 @@ fn check_values<G: Dimension>(
     assert_eq!(n_told, positions.len());
 }
 
-fn check_all<G: Dimension>(seed: u64, basis: &[G::Point], n: usize) {
+fn check_all<G: Moving>(seed: u64, basis: &[G::Point], n: usize) {
     let rng = &mut Rng::new(seed);
     let mut points = points_of_kind::<G>(rng, n, basis);
     let mut t = PeriodicTriangulation::<G>::new(&points, basis, Options::default()).unwrap();

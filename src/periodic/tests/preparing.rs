@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicI64, Ordering::Relaxed};
 use std::sync::{Arc, OnceLock};
 
 /// Stages edits, moves of some or of all, and now and then other vectors.
-fn stage<G: Dimension>(t: &mut PeriodicTriangulation<G>, rng: &mut Rng, basis: &[G::Point]) {
+fn stage<G: Moving>(t: &mut PeriodicTriangulation<G>, rng: &mut Rng, basis: &[G::Point]) {
     let grid = (1u64 << 20) as f64;
     let n = t.inside.images.n_vertices();
     let present: Vec<VertexId> = VertexId::range(0..n).filter(|&v| t.is_present(v)).collect();
@@ -47,7 +47,7 @@ struct Seen {
     waiting: (usize, (usize, usize)),
 }
 
-fn seen<G: Dimension>(t: &PeriodicTriangulation<G>) -> Seen {
+fn seen<G: Moving>(t: &PeriodicTriangulation<G>) -> Seen {
     let cells = t.cells().unwrap();
     let position = |v| t.position(v).ok().map(|p| p.as_ref().to_vec());
     Seen {
@@ -67,11 +67,11 @@ fn seen<G: Dimension>(t: &PeriodicTriangulation<G>) -> Seen {
 }
 
 /// Its bytes, and what is seen of it; it has not been read for that.
-fn all_of<G: Dimension>(t: &PeriodicTriangulation<G>) -> (Vec<u8>, Seen) {
+fn all_of<G: Moving>(t: &PeriodicTriangulation<G>) -> (Vec<u8>, Seen) {
     (t.saved().unwrap(), seen(&t.try_clone(None).unwrap()))
 }
 
-fn refuses_all_else<G: Dimension>(t: &mut PeriodicTriangulation<G>, rounds: usize) {
+fn refuses_all_else<G: Moving>(t: &mut PeriodicTriangulation<G>, rounds: usize) {
     let (prepared, origin) = (Error::Prepared { timestamp: t.timestamp() + 1, rounds }, G::Point::default());
     assert_eq!(t.commit_timestamp().err(), Some(prepared.clone()));
     assert_eq!(t.commit_positions(&[]).err(), Some(prepared.clone()));
@@ -85,7 +85,7 @@ fn refuses_all_else<G: Dimension>(t: &mut PeriodicTriangulation<G>, rounds: usiz
 }
 
 /// The cells are those of a fresh build.
-fn is_as_anew<G: Dimension>(t: &PeriodicTriangulation<G>, context: &str) {
+fn is_as_anew<G: Moving>(t: &PeriodicTriangulation<G>, context: &str) {
     assert_eq!(t.violation(Level::Delaunay), Ok(None), "{context}");
     let ids = || VertexId::range(0..t.inside.images.n_vertices());
     let places: Vec<G::Point> = ids().map(|v| t.position(v).unwrap_or_default()).collect();
@@ -97,7 +97,7 @@ fn is_as_anew<G: Dimension>(t: &PeriodicTriangulation<G>, context: &str) {
 
 /// Rounds, some of them refused on the way, which leaves those before, are withdrawn, which leaves the bytes that
 /// there were, or published. How many have been refused after others.
-fn prepared<G: Dimension>(seed: u64, n: usize, basis: &[G::Point]) -> usize {
+fn prepared<G: Moving>(seed: u64, n: usize, basis: &[G::Point]) -> usize {
     let rng = &mut Rng::new(seed);
     let points = random_points::<G>(rng, n, basis);
     let patience = Arc::new(AtomicI64::new(-1));
@@ -205,7 +205,7 @@ fn rounds_are_published_or_withdrawn() {
 }
 
 /// What is prepared again and again, and withdrawn or published, needs no more memory.
-fn keeps_its_memory<G: Dimension>(basis: &[G::Point], is_published: bool) {
+fn keeps_its_memory<G: Moving>(basis: &[G::Point], is_published: bool) {
     let rng = &mut Rng::new(9);
     let points = random_points::<G>(rng, 300, basis);
     let mut t = PeriodicTriangulation::<G>::new(&points, basis, Options::default()).unwrap();

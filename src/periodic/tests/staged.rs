@@ -49,7 +49,7 @@ const CALLS: [Call; 17] = [
 
 /// What a triangulation should be, and what should wait in it.
 #[derive(Clone)]
-struct Model<G: Dimension> {
+struct Model<G: Moving> {
     /// By id, where a vertex is; none for removed ones.
     positions: Vec<Option<G::Point>>,
     moves: Vec<(usize, G::Point)>,
@@ -74,7 +74,7 @@ fn kind(error: &Error) -> &'static str {
     }
 }
 
-impl<G: Dimension> Model<G> {
+impl<G: Moving> Model<G> {
     fn id_count(&self) -> usize {
         self.positions.len() + self.insertions.len()
     }
@@ -203,7 +203,7 @@ impl<G: Dimension> Model<G> {
 }
 
 /// Makes a call on a triangulation that is as the model.
-fn make<G: Dimension>(
+fn make<G: Moving>(
     t: &mut PeriodicTriangulation<G>,
     model: &Model<G>,
     call: Call,
@@ -247,11 +247,7 @@ fn make<G: Dimension>(
     }
 }
 
-fn assert_as_model<G: Dimension>(
-    t: &PeriodicTriangulation<G>,
-    model: &Model<G>,
-    context: &dyn Fn() -> String,
-) {
+fn assert_as_model<G: Moving>(t: &PeriodicTriangulation<G>, model: &Model<G>, context: &dyn Fn() -> String) {
     assert_eq!(t.id_count(), model.id_count(), "{}", context());
     assert_eq!(t.staged_count(), model.moves.len(), "{}", context());
     assert_eq!(t.staged_edits(), (model.insertions.len(), model.removals.len()), "{}", context());
@@ -267,7 +263,7 @@ fn assert_as_model<G: Dimension>(
 }
 
 /// Cells by the ids of the vertices that are there, with their shifts.
-fn cells_of<G: Dimension>(t: &PeriodicTriangulation<G>, names: &[usize]) -> BTreeSet<Vec<(usize, [i64; 3])>> {
+fn cells_of<G: Moving>(t: &PeriodicTriangulation<G>, names: &[usize]) -> BTreeSet<Vec<(usize, [i64; 3])>> {
     let shifts: Vec<_> = t.cell_shifts().unwrap().collect();
     let rows = t.cells().unwrap().corners.iter().zip(shifts.chunks(G::D + 1));
     let rows = rows.map(|(row, shifts)| {
@@ -278,11 +274,7 @@ fn cells_of<G: Dimension>(t: &PeriodicTriangulation<G>, names: &[usize]) -> BTre
     rows.collect()
 }
 
-fn assert_as_fresh<G: Dimension>(
-    t: &PeriodicTriangulation<G>,
-    model: &Model<G>,
-    context: &dyn Fn() -> String,
-) {
+fn assert_as_fresh<G: Moving>(t: &PeriodicTriangulation<G>, model: &Model<G>, context: &dyn Fn() -> String) {
     let there: Vec<usize> = (0..model.positions.len()).filter(|&v| model.positions[v].is_some()).collect();
     let points: Vec<G::Point> = there.iter().filter_map(|&v| model.positions[v]).collect();
     let fresh = PeriodicTriangulation::<G>::new(&points, &model.basis, Options::default()).unwrap();
@@ -293,7 +285,7 @@ fn assert_as_fresh<G: Dimension>(
 }
 
 /// All sequences of so many calls, from a state.
-fn walk<G: Dimension>(
+fn walk<G: Moving>(
     t: &PeriodicTriangulation<G>,
     model: &Model<G>,
     goals: &[G::Point],
@@ -331,7 +323,7 @@ fn walk<G: Dimension>(
 }
 
 /// From a set that has just been made, and in a copy of which vertices share places.
-fn walk_from<G: Dimension>(n_calls: usize, shares_places: bool) {
+fn walk_from<G: Moving>(n_calls: usize, shares_places: bool) {
     let mut basis = vec![G::Point::default(); G::D];
     (0..G::D).for_each(|axis| basis[axis][axis] = 1.0);
     let mut goals = random_points::<G>(&mut Rng::new(5), 16, &basis);
@@ -367,7 +359,7 @@ fn all_calls_in_every_order_do_what_a_model_does() {
 /// A vertex that has been inserted can be staged at once, whatever was before.
 #[test]
 fn an_inserted_vertex_can_be_staged() {
-    fn check<G: Dimension>() {
+    fn check<G: Moving>() {
         let mut basis = vec![G::Point::default(); G::D];
         (0..G::D).for_each(|axis| basis[axis][axis] = 1.0);
         let points = random_points::<G>(&mut Rng::new(7), 6, &basis);

@@ -5,7 +5,7 @@ use crate::ids::CellId;
 use crate::motion::{Field, Level, NO_CORNER};
 
 /// By vertex, the cells and the ends of edges at it among copies from -n to n, in an open triangulation.
-fn around_in_copies<G: Dimension>(
+fn around_in_copies<G: Moving>(
     points: &[G::Point],
     basis: &[G::Point],
     n: i64,
@@ -38,7 +38,7 @@ fn around_in_copies<G: Dimension>(
     found
 }
 
-fn check_incidence<G: Dimension>(seed: u64, n: usize, basis: &[G::Point]) {
+fn check_incidence<G: Moving>(seed: u64, n: usize, basis: &[G::Point]) {
     let rng = &mut Rng::new(seed);
     let mut points = random_points::<G>(rng, n, basis);
     if n > 3 {
@@ -143,7 +143,7 @@ fn written(write: impl FnOnce(&mut dyn FnMut(&[u8]) -> Result<(), Error>) -> Res
     bytes
 }
 
-fn check_files<G: Dimension>(n: usize, basis: &[G::Point]) {
+fn check_files<G: Moving>(n: usize, basis: &[G::Point]) {
     let n_corners = G::D + 1;
     let mut points = random_points::<G>(&mut Rng::new(2), n, basis);
     points[n - 1] = points[0];

@@ -7,7 +7,7 @@ use std::time::Instant;
 #[test]
 #[ignore = "prints times"]
 fn of_commits() {
-    fn go<G: Dimension>(n: usize, basis: &[G::Point]) {
+    fn go<G: Moving>(n: usize, basis: &[G::Point]) {
         let rng = &mut Rng::new(1);
         let mut points = random_points::<G>(rng, n, basis);
         let start = Instant::now();
@@ -61,7 +61,7 @@ fn of_commits() {
 #[test]
 #[ignore = "prints times"]
 fn of_reading() {
-    fn go<G: Dimension>(n: usize, basis: &[G::Point]) {
+    fn go<G: Moving>(n: usize, basis: &[G::Point]) {
         let rng = &mut Rng::new(1);
         let mut points = random_points::<G>(rng, n, basis);
         let mut t = PeriodicTriangulation::<G>::new(&points, basis, Options::default()).unwrap();
@@ -95,7 +95,7 @@ fn of_reading() {
 #[test]
 #[ignore = "prints times"]
 fn of_edits() {
-    fn go<G: Dimension>(n: usize, basis: &[G::Point]) {
+    fn go<G: Moving>(n: usize, basis: &[G::Point]) {
         let rng = &mut Rng::new(1);
         let mut points = random_points::<G>(rng, n, basis);
         let mut t = PeriodicTriangulation::<G>::new(&points, basis, Options::default()).unwrap();
@@ -131,7 +131,7 @@ fn of_edits() {
 #[test]
 #[ignore = "prints times"]
 fn of_rounds() {
-    fn go<G: Dimension>(n: usize, n_moved: usize, basis: &[G::Point]) {
+    fn go<G: Moving>(n: usize, n_moved: usize, basis: &[G::Point]) {
         let rng = &mut Rng::new(1);
         let mut points = random_points::<G>(rng, n, basis);
         let mut boxes =

@@ -3,7 +3,7 @@
 use super::*;
 use crate::motion::finds_as_by_a_look_at_all;
 
-fn history<G: Dimension>(seed: u64, counts: &mut [usize; 2]) {
+fn history<G: Moving>(seed: u64, counts: &mut [usize; 2]) {
     let rng = &mut Rng::new(seed);
     let (way, skew) = (*rng.pick(&[0.1, 0.2, 0.6]), *rng.pick(&[0.0, 0.3, 4.7]));
     let rank = 1 + rng.below(G::D);

@@ -15,7 +15,7 @@ fn name_of(mut row: Name) -> Name {
 }
 
 /// Points with coordinates from 0 to 1 that are multiples of a step, and other places from -1 to 2.
-fn check<G: Dimension>(seed: u64, n: usize, step: f64, basis: &[G::Point], most: i64) {
+fn check<G: Moving>(seed: u64, n: usize, step: f64, basis: &[G::Point], most: i64) {
     let context = format!("seed {seed}, {n} points, {step}, {basis:?}");
     let rng = &mut Rng::new(seed);
     let at = |rng: &mut Rng, step: f64, least: f64, extent: f64| {

@@ -1,6 +1,6 @@
 //! Voronoi cells and facets beside those of copies in the open, those of lattices, and differences of volumes.
 
-use crate::delaunay::{Dimension, Plane, Space};
+use crate::delaunay::{Moving, Plane, Space};
 use crate::error::Error;
 use crate::ids::VertexId;
 use crate::motion::{MovingTriangulation, Options, VoronoiCell, VoronoiFacet};
@@ -13,7 +13,7 @@ type Periodic<G> = PeriodicTriangulation<G>;
 /// By vertex, another one and the shift of that: measures of whole facets, and what of them is in a box.
 type FacetsByEdge<P> = BTreeMap<(usize, usize, [i64; 3]), (f64, VoronoiFacet<P>)>;
 
-fn cells<G: Dimension>(t: &Periodic<G>) -> Vec<VoronoiCell<G::Point>> {
+fn cells<G: Moving>(t: &Periodic<G>) -> Vec<VoronoiCell<G::Point>> {
     let mut told = vec![None; t.id_count()];
     t.for_voronoi_cells(None, &mut |_| true, &mut |v, cell| {
         assert!(told[v.index()].replace(cell).is_none(), "{v:?} is told once");
@@ -22,7 +22,7 @@ fn cells<G: Dimension>(t: &Periodic<G>) -> Vec<VoronoiCell<G::Point>> {
     told.into_iter().map(Option::unwrap).collect()
 }
 
-fn facets<G: Dimension>(t: &Periodic<G>) -> Vec<VoronoiFacet<G::Point>> {
+fn facets<G: Moving>(t: &Periodic<G>) -> Vec<VoronoiFacet<G::Point>> {
     let mut told = vec![None; t.edge_count().unwrap()];
     t.for_voronoi_facets(None, &mut |_| true, &mut |edge, facet| {
         assert!(told[edge].replace(facet).is_none(), "{edge} is told once");
@@ -31,7 +31,7 @@ fn facets<G: Dimension>(t: &Periodic<G>) -> Vec<VoronoiFacet<G::Point>> {
     told.into_iter().map(Option::unwrap).collect()
 }
 
-fn translated<G: Dimension>(p: &G::Point, basis: &[G::Point], shift: [i64; 3]) -> G::Point {
+fn translated<G: Moving>(p: &G::Point, basis: &[G::Point], shift: [i64; 3]) -> G::Point {
     let mut place = *p;
     for (vector, n) in basis.iter().zip(shift) {
         (0..G::D).for_each(|axis| place[axis] += n as f64 * vector[axis]);
@@ -40,7 +40,7 @@ fn translated<G: Dimension>(p: &G::Point, basis: &[G::Point], shift: [i64; 3]) -
 }
 
 /// Points of a box, along open axes from 0 to 1; some of them in other periods.
-fn points_of<G: Dimension>(rng: &mut Rng, n: usize, basis: &[G::Point]) -> Vec<G::Point> {
+fn points_of<G: Moving>(rng: &mut Rng, n: usize, basis: &[G::Point]) -> Vec<G::Point> {
     let mut number = || rng.below(1 << 20) as f64 / f64::from(1 << 20);
     let mut points = Vec::new();
     for k in 0..n {
@@ -64,12 +64,12 @@ fn is_close(x: f64, y: f64, scale: f64) -> bool {
 
 /// An open triangulation of the copies of a set of which multiples are up to `n` in magnitude, and which copy each of its
 /// vertices is.
-struct Copies<G: Dimension> {
+struct Copies<G: Moving> {
     t: MovingTriangulation<G>,
     of: Vec<(usize, [i64; 3])>,
 }
 
-impl<G: Dimension> Copies<G> {
+impl<G: Moving> Copies<G> {
     /// Of points taken back into the box.
     fn new(points: &[G::Point], basis: &[G::Point], n: i64) -> Self {
         let (mut places, mut of) = (Vec::new(), Vec::new());
@@ -112,14 +112,14 @@ impl<G: Dimension> Copies<G> {
 }
 
 /// Of a box that cuts no cell of the middle copy, unless it is long.
-fn far_corners<G: Dimension>() -> (G::Point, G::Point) {
+fn far_corners<G: Moving>() -> (G::Point, G::Point) {
     let (mut low, mut high) = (G::Point::default(), G::Point::default());
     (0..G::D).for_each(|axis| (low[axis], high[axis]) = (-64.0, 64.0));
     (low, high)
 }
 
 /// All numbers are those of copies.
-fn check<G: Dimension>(seed: u64, n: usize, basis: &[G::Point], n_copies: i64) {
+fn check<G: Moving>(seed: u64, n: usize, basis: &[G::Point], n_copies: i64) {
     let rng = &mut Rng::new(seed);
     let t = Periodic::<G>::new(&points_of::<G>(rng, n, basis), basis, Options::default()).unwrap();
     let used: Vec<G::Point> = (0..n).map(|v| t.position(VertexId::at(v)).unwrap()).collect();
@@ -133,7 +133,7 @@ fn check<G: Dimension>(seed: u64, n: usize, basis: &[G::Point], n_copies: i64) {
     check_facets(&t, &copies, &used, &at_home, far, &context);
 }
 
-fn check_cells<G: Dimension>(
+fn check_cells<G: Moving>(
     t: &Periodic<G>,
     copies: &Copies<G>,
     used: &[G::Point],
@@ -163,7 +163,7 @@ fn check_cells<G: Dimension>(
     }
 }
 
-fn check_facets<G: Dimension>(
+fn check_facets<G: Moving>(
     t: &Periodic<G>,
     copies: &Copies<G>,
     used: &[G::Point],
@@ -246,7 +246,7 @@ fn cells_of_lattices_are_known() {
 
 /// What a vertex changes is what differences of volumes tell, for all periods of it together; small boxes have edges from a
 /// vertex to itself, and several between two.
-fn check_derivatives<G: Dimension>(seed: u64, n: usize, basis: &[G::Point]) {
+fn check_derivatives<G: Moving>(seed: u64, n: usize, basis: &[G::Point]) {
     let rng = &mut Rng::new(seed);
     let points = points_of::<G>(rng, n, basis);
     let t = Periodic::<G>::new(&points, basis, Options::default()).unwrap();

@@ -12,7 +12,7 @@ const MAGIC: [u8; 8] = *b"\x89DLD\r\n\x1a\n";
 
 /// The version of the format, without segments and keys, with segments, with keys, and of what repeats; without keys and
 /// with some where there is a [history](History); the two with it that list the segments in force, with the labels of
-/// their sides; and the two with it in which points have weights.
+/// their sides; the two with it in which points have weights; and that of what repeats and has weights.
 const VERSION: u32 = 1;
 const WITH_SEGMENTS: u32 = 2;
 const WITH_KEYS: u32 = 3;
@@ -23,7 +23,8 @@ const WITH_LIST: u32 = 7;
 const WITH_KEYS_AND_LIST: u32 = 8;
 const WITH_WEIGHTS: u32 = 9;
 const WITH_KEYS_AND_WEIGHTS: u32 = 10;
-const LATEST: u32 = WITH_KEYS_AND_WEIGHTS;
+const PERIODIC_WITH_WEIGHTS: u32 = 11;
+const LATEST: u32 = PERIODIC_WITH_WEIGHTS;
 
 /// Bytes of a key.
 const KEY: usize = 8;
@@ -46,7 +47,7 @@ const PIECE: usize = 16;
 const HISTORY: usize = 96;
 
 /// Sums that there are with weights alone: vertices that had another weight, that were hidden, and that were shown.
-pub(super) const N_SUMS_OF_WEIGHTS: usize = 3;
+pub(crate) const N_SUMS_OF_WEIGHTS: usize = 3;
 
 /// Bytes of the header.
 pub(super) const SIZE: usize = 72 + 8 * N_SUMS;
@@ -77,8 +78,19 @@ impl Beginning {
     /// Bytes of the checksum at the end of all data.
     pub(crate) const CHECKSUM: usize = CHECKSUM;
 
-    /// The version of what repeats.
-    pub(crate) const PERIODIC: u32 = PERIODIC;
+    /// The version of what repeats, with weights or without.
+    pub(crate) const fn of_periodic(has_weights: bool) -> u32 {
+        if has_weights { PERIODIC_WITH_WEIGHTS } else { PERIODIC }
+    }
+
+    /// Whether what repeats has weights; none for what does not repeat.
+    pub(crate) fn is_periodic_with_weights(&self) -> Option<bool> {
+        match self.version {
+            PERIODIC => Some(false),
+            PERIODIC_WITH_WEIGHTS => Some(true),
+            _ => None,
+        }
+    }
 
     /// Its bytes, and those of the statistics.
     pub(crate) fn bytes(&self, statistics: &CommitReport) -> [u8; SIZE] {
@@ -234,10 +246,11 @@ impl Header {
     /// Reads it, and checks that the data are as long as it says, of which `given` bytes are there, and these are the
     /// first.
     pub(super) fn read(data: &[u8], given: u64) -> Result<Self, Damage> {
-        let Beginning { version, dimension, size, counts } = Beginning::read(data, given)?;
-        if version == PERIODIC {
+        let beginning = Beginning::read(data, given)?;
+        if beginning.is_periodic_with_weights().is_some() {
             return Err(Damage::Periodic { is_periodic: true });
         }
+        let Beginning { version, dimension, size, counts } = beginning;
         let [ids, cells, moves, insertions, removals] = counts;
         let has_keys =
             matches!(version, WITH_KEYS | WITH_KEYS_AND_HISTORY | WITH_KEYS_AND_LIST | WITH_KEYS_AND_WEIGHTS);
@@ -344,13 +357,13 @@ impl SegmentCounts {
 }
 
 /// The sums that there are with weights alone, in the order in which they are saved.
-pub(super) fn sums_of_weights(statistics: &CommitReport) -> [u64; N_SUMS_OF_WEIGHTS] {
+pub(crate) fn sums_of_weights(statistics: &CommitReport) -> [u64; N_SUMS_OF_WEIGHTS] {
     let sums = [statistics.reweighted, statistics.newly_hidden, statistics.newly_shown];
     sums.map(|sum| sum.min(GREATEST_SUM))
 }
 
 /// Enters these sums, which are at this place in the data.
-pub(super) fn enter_sums_of_weights(
+pub(crate) fn enter_sums_of_weights(
     statistics: &mut CommitReport,
     sums: &[[u8; 8]],
     offset: usize,

@@ -17,7 +17,7 @@ use crate::motion::state::cells::Cells;
 use crate::motion::state::checking::{check_position, limit};
 use crate::motion::state::hidden::Hidden;
 use crate::motion::state::made::{Made, Origin};
-use crate::motion::state::part::{PointPart, numbers_of};
+use crate::motion::state::part::{numbers_of, staged_part};
 use crate::motion::state::segments::{Segment, Segments};
 use crate::motion::triangulation::{MAX_VERTICES, MovingTriangulation};
 
@@ -187,16 +187,6 @@ fn of_number(vertex: VertexId, axis: usize, value: f64) -> Damage {
     match axis {
         AXIS_OF_WEIGHT => Damage::Weight { vertex, value },
         axis => Damage::Position { vertex, axis, value },
-    }
-}
-
-/// The part of a goal that is staged; both if none is left out.
-fn staged_part<G: Moving>(goal: &G::Point) -> Option<PointPart> {
-    let is_without = |part| numbers_of::<G>(goal, part).iter().all(|x| x.is_nan());
-    match [PointPart::Place, PointPart::Weight].map(is_without) {
-        [true, false] => Some(PointPart::Weight),
-        [false, true] => Some(PointPart::Place),
-        _ => None,
     }
 }
 

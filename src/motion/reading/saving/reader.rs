@@ -29,6 +29,18 @@ impl<'d> Reader<'d> {
         Ok(points)
     }
 
+    /// The next places, as points without weight.
+    pub(crate) fn vectors<G: Moving>(&mut self, n: usize) -> Result<Vec<G::Point>> {
+        let mut points = Vec::new();
+        memory::reserve_exact(&mut points, n)?;
+        points.extend(self.entries::<8>(n * G::D).chunks_exact(G::D).map(|bytes| {
+            let mut point = G::Point::default();
+            (0..G::D).for_each(|k| point[k] = f64::from_le_bytes(bytes[k]) + 0.0);
+            point
+        }));
+        Ok(points)
+    }
+
     /// The next ids.
     pub(crate) fn numbers<I: Id>(&mut self, n: usize) -> Result<Vec<I>> {
         let mut numbers = Vec::new();

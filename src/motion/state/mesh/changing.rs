@@ -125,6 +125,7 @@ impl<G: Moving> Mesh<G> {
     pub(in crate::motion) fn publish(&mut self) {
         self.n_changes += u64::from(self.has_changed());
         self.show_change();
+        self.hidden_in_new = None;
         self.kernel.end();
         self.transaction.end();
         if let Some(segments) = &mut self.segments {

@@ -4,7 +4,7 @@
 //! the greatest weight represents it, then the one of the lowest rank, whether it is a corner of cells or hidden itself;
 //! the others are hidden by place, as they are without weights.
 //!
-//! Nothing is kept of this: what a call needs is found anew from the hidden vertices. Cost: a pass over the sites, and for each
+//! Nothing is kept of this: what a call needs is found anew from the hidden vertices. Cost: for each
 //! hidden one the corners of the cell below it. Of hidden ones that are at no corner those are sorted that may share a place, by
 //! a hash of it.
 
