@@ -382,6 +382,20 @@ static void equal_weights_are_none(uint32_t d) {
     free(positions);
 }
 
+// What is read of some cells is what is read of all; beyond the arrays nothing is written.
+static void reads_rows_of_coordinates(const deldrift_triangulation *t, uint32_t d) {
+    enum { CELLS = 16 * MOST };
+    static double all[CELLS * 3], some[CELLS * 3 + 1], squares[CELLS], again[CELLS];
+    static uint32_t cells[CELLS];
+    size_t n;
+    OK(deldrift_circumcentres(t, all, squares, CELLS, &n));
+    for (size_t c = 0; c < n; c++) cells[c] = (uint32_t)c;
+    some[n * d] = 4.5;
+    OK(deldrift_update_circumcentres(t, cells, n, some, again, n));
+    CHECK(memcmp(all, some, n * d * sizeof *all) == 0 && memcmp(squares, again, n * sizeof *squares) == 0);
+    CHECK(some[n * d] == 4.5);
+}
+
 // Power cells fill a box, whatever the weights; their derivatives by weights are what differences say, and a sum of nothing.
 static void cells_follow_weights(uint32_t d) {
     enum { N = 40, EDGES = 12 * N };
@@ -406,6 +420,7 @@ static void cells_follow_weights(uint32_t d) {
     CHECK(fabs(sum - whole) < 1e-6 && n_empty == n_hidden);
     // A step so small that no cell changes its neighbours, and so large that it is seen.
     const double step = 1e-6;
+    reads_rows_of_coordinates(t, d);
     for (uint32_t v = 0; v < N; v += 7) {
         if (volumes[v] == 0) continue;
         OK(deldrift_set_weight(t, v, weights[v] + step));
@@ -473,6 +488,15 @@ static void weights_repeat(uint32_t d) {
     OK(deldrift_voronoi_volumes(plain, NULL, NULL, plain_volumes, MOST, &count));
     for (size_t v = 0; v < MOST; v++) CHECK(fabs(volumes[v] - plain_volumes[v]) < 1e-12);
     CHECK_STATUS(deldrift_hidden_by_weight(plain, NULL, NULL, 0, &count), DELDRIFT_NOT_WEIGHTED);
+    double told[10] = {[9] = 4.5}, reduced[10] = {[9] = 4.5}, plain_reduced[9], wrapped[MOST * 3];
+    OK(deldrift_vectors(t, told, d, &count));
+    CHECK(count == d && memcmp(told, box[d - 2], d * d * sizeof *told) == 0 && told[d * d] == (d == 3 ? 4.5 : 0));
+    OK(deldrift_reduced_vectors(t, reduced, NULL, NULL, d, &count));
+    OK(deldrift_reduced_vectors(plain, plain_reduced, NULL, NULL, d, &count));
+    CHECK(memcmp(reduced, plain_reduced, d * d * sizeof *reduced) == 0 && reduced[9] == 4.5);
+    OK(deldrift_wrap_positions(t, positions, NULL, MOST, wrapped, NULL));
+    for (size_t i = 0; i < MOST * d; i++) CHECK(wrapped[i] > -1 && wrapped[i] < 2);
+    reads_rows_of_coordinates(t, d);
     OK(deldrift_set_weight(t, 5, 100));
     uint32_t hidden[MOST], above[MOST];
     OK(deldrift_hidden_by_weight(t, hidden, above, MOST, &count));

@@ -7,6 +7,7 @@ use super::handle::{Reading, deldrift_triangulation, in_any};
 use super::pointers::{Array, Buffer, Offer, Output, given};
 use super::status::{Failure, deldrift_status};
 use crate::ids::{CellId, VertexId};
+use crate::predicates::PointArray;
 
 /// The cells around some vertices: those that have at least one of the vertices as a corner, ascending, each once.
 ///
@@ -74,7 +75,7 @@ pub unsafe extern "C" fn deldrift_update_circumcentres(
             let cells = CellId::of_numbers(cells.get()?);
             let (centres, squared_radii) = (centres.places_if_any(n)?, squared_radii.places_if_any(n)?);
             t.for_circumspheres(Some(cells), |cell, (centre, squared_radius)| {
-                write_if_any(centres, cell, centre);
+                write_if_any(centres, cell, centre.coordinates());
                 write_if_any(squared_radii, cell, squared_radius);
             })?;
             Ok(())

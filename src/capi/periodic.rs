@@ -14,6 +14,7 @@ use crate::error::Error;
 use crate::machine::memory;
 use crate::motion::{CoincidencePolicy, MAX_VERTICES, MovingTriangulation, Options, check_position};
 use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
+use crate::predicates::PointArray;
 
 /// Creates the Delaunay triangulation of points that repeat. Each is in all places to which sums of multiples of the
 /// vectors take it.
@@ -226,7 +227,7 @@ pub unsafe extern "C" fn deldrift_vectors(
             Content::Periodic(t) => in_its_period!(t, t => {
                 let vectors = vectors.cast();
                 given!(vectors[capacity]: Buffer);
-                vectors.fill(count, needed, || Ok(t.vectors()))
+                vectors.fill(count, needed, || Ok(t.vectors().map(|vector| vector.coordinates())))
             }),
         }
     })

@@ -12,6 +12,7 @@ use std::{ptr, slice};
 
 use super::status::{Failure, Wrong};
 use crate::delaunay::Moving;
+use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::MovingTriangulation;
 use crate::periodic::PeriodicTriangulation;
@@ -306,6 +307,21 @@ impl<P> Deref for TakenPoints<'_, P> {
     }
 }
 
+/// What C has in buffers: numbers, rows of them, and structures. Points with weights are none, as positions are rows of coordinates.
+pub(super) trait Entry {}
+
+impl Entry for bool {}
+impl Entry for u8 {}
+impl Entry for i32 {}
+impl Entry for u32 {}
+impl Entry for i64 {}
+impl Entry for u64 {}
+impl Entry for f64 {}
+impl Entry for usize {}
+impl Entry for VertexId {}
+impl Entry for CellId {}
+impl<T: Entry, const N: usize> Entry for [T; N] {}
+
 /// A buffer of the caller's, which may be uninitialised.
 pub(super) struct Buffer<'a, T> {
     argument: &'static str,
@@ -314,7 +330,7 @@ pub(super) struct Buffer<'a, T> {
     lives: PhantomData<&'a mut [T]>,
 }
 
-impl<'a, T> Buffer<'a, T> {
+impl<'a, T: Entry> Buffer<'a, T> {
     /// # Safety
     /// `pointer` is NULL, misaligned, or has room for `capacity` entries, which nothing else uses.
     #[inline(always)]

@@ -2,7 +2,7 @@
 
 use super::domain::of_the_plane;
 use super::handle::{Changing, Reading, deldrift_triangulation};
-use super::pointers::{Array, Buffer, Output, fill_all, given, write_all};
+use super::pointers::{Array, Buffer, Entry, Output, fill_all, given, write_all};
 use super::query::DELDRIFT_NONE;
 use super::status::{Failure, deldrift_status};
 use crate::either::AnyTriangulation;
@@ -38,6 +38,8 @@ pub struct deldrift_conflict {
     /// The id of a segment or a vertex, or DELDRIFT_NONE, as kind says.
     pub other: u32,
 }
+
+impl Entry for deldrift_conflict {}
 
 impl From<&Conflict> for deldrift_conflict {
     fn from(conflict: &Conflict) -> Self {
