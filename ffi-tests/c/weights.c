@@ -494,7 +494,8 @@ static void weights_repeat(uint32_t d) {
     OK(deldrift_reduced_vectors(t, reduced, NULL, NULL, d, &count));
     OK(deldrift_reduced_vectors(plain, plain_reduced, NULL, NULL, d, &count));
     CHECK(memcmp(reduced, plain_reduced, d * d * sizeof *reduced) == 0 && reduced[9] == 4.5);
-    OK(deldrift_wrap_positions(t, positions, NULL, MOST, wrapped, NULL));
+    int64_t shifts[MOST * 3];
+    OK(deldrift_wrap_positions(t, positions, NULL, MOST, wrapped, shifts));
     for (size_t i = 0; i < MOST * d; i++) CHECK(wrapped[i] > -1 && wrapped[i] < 2);
     reads_rows_of_coordinates(t, d);
     OK(deldrift_set_weight(t, 5, 100));
