@@ -20,8 +20,8 @@
 
 namespace deldrift::cgal::detail {
 
-// Points at the same place are one vertex, as in CGAL; with weights, those of the same weight there. Calls that fail have no
-// effect.
+// Points at the same place are one vertex, as in CGAL; with weights, those of the same weight, where that is not hidden.
+// Calls that fail have no effect.
 template <std::uint32_t D, class Policy, class Info>
 class Mesh : public Reading<D, Info_or_none<typename Parts_of<Info>::Faces>>, public Records<D, Policy, Info> {
     using Base = Reading<D, Info_or_none<typename Parts_of<Info>::Faces>>;
@@ -94,8 +94,11 @@ public:
     Record *at(const Point &p) const {
         const Numbers place = numbers_of(p);
         if constexpr (is_weighted) {
+            const deldrift_location found = t_.locate_points(place)[0];
+            if (found.kind == DELDRIFT_LOCATION_VERTEX) return by_id_[found.index];
+            if (found.kind != DELDRIFT_LOCATION_NO_CELLS) return nullptr;
             for (std::uint32_t id : t_.vertices_in_ball(place, 0)) {
-                if (!is_hidden_now(id)) return by_id_[id];
+                if (!is_hidden(id)) return by_id_[id];
             }
             return nullptr;
         } else {
@@ -109,7 +112,8 @@ public:
             if (Record *same = same_as(p)) return same;
         }
         Record *record = add(p, std::move(info));
-        if (is_weighted && !(weight_of(p) >= 0)) {
+        // Those that the library refuses are refused before there is an id.
+        if (is_weighted && !(weight_of(p) >= 0 && weight_of(p) <= 1e114)) {
             insert_alone(*record);
             return record;
         }
@@ -335,13 +339,12 @@ private:
         return Triangulation(D, places, options());
     }
 
-    // The vertex at the same place with the same weight, of these the one that shows where none is heavier; null where there
-    // is none.
+    static bool differ(double a, double b) noexcept { return a < b || b < a; }
+    // The vertex at the same place with the same weight, if that is not hidden; null where there is none.
     Record *same_as(const Point &p) const {
-        for (std::uint32_t id : t_.vertices_in_ball(numbers_of(p), 0)) {
-            if (weight_of(by_id_[id]->point) == weight_of(p)) return by_id_[id];
-        }
-        return nullptr;
+        Record *record = at(p);
+        if (record == nullptr || differ(weight_of(record->point), weight_of(p))) return nullptr;
+        return record;
     }
     // The last vertex, which has a record, by a commit of its own: so it comes with its weight. With 0 meanwhile, one that is
     // lighter could hide all others.
@@ -368,16 +371,14 @@ private:
         }
         throw error;
     }
-    // To another place, with another weight, or both. Where another vertex shows at the place, or has the same weight there,
-    // that one is the answer, and nothing has changed.
+    // To another place, with another weight, or both. Where another vertex is at the place, and not hidden, that one is the
+    // answer, and nothing has changed.
     Record *move_weighted(Record *record, const Point &p) {
         const Numbers place = numbers_of(p);
-        for (std::uint32_t id : t_.vertices_in_ball(place, 0)) {
-            const bool is_other = by_id_[id] != record;
-            if (is_other && (weight_of(by_id_[id]->point) == weight_of(p) || !is_hidden_now(id))) return by_id_[id];
-        }
+        Record *there = at(p);
+        if (there != nullptr && there != record) return there;
         const double before = weight_of(record->point);
-        const bool is_reweighted = weight_of(p) != before;
+        const bool is_reweighted = differ(weight_of(p), before);
         if (is_reweighted) this->require_ok(deldrift_set_weight(t_.native(), record->id, weight_of(p)));
         changed();
         const deldrift_status status = deldrift_relocate_vertex(t_.native(), record->id, place.data());
@@ -484,7 +485,7 @@ private:
                     order.end());
         const auto is_taken = [&](std::size_t i) {
             const Point &p = vertices[i].first;
-            return (is_weighted ? same_as(p) : at(p)) != nullptr;
+            return same_as(p) != nullptr;
         };
         order.erase(std::remove_if(order.begin(), order.end(), is_taken), order.end());
         std::sort(order.begin(), order.end());
@@ -492,14 +493,14 @@ private:
     }
 
     void compact() {
-        std::vector<Record *> by_id(t_.vertex_count());
+        std::vector<Record *> kept(t_.vertex_count());
         const std::vector<std::uint32_t> ids = t_.compact();
         for (std::size_t old = 0; old < ids.size(); old++) {
             if (ids[old] == DELDRIFT_NONE) continue;
-            by_id[ids[old]] = by_id_[old];
+            kept[ids[old]] = by_id_[old];
             by_id_[old]->id = ids[old];
         }
-        by_id_ = std::move(by_id);
+        by_id_ = std::move(kept);
         changed();
     }
 
