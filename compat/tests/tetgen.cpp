@@ -127,7 +127,8 @@ void weighted_cells_satisfy_the_definition() {
             CHECK(deldrift_in_power_sphere(3, &p[0][0], w, &sign) == DELDRIFT_OK && sign <= 0);
         }
     }
-    // Those that are hidden by weight stay, in no tetrahedron, and with an empty cell; of a place with tetrahedra the heaviest.
+    // Those that are hidden by weight stay, in no tetrahedron, and with an empty cell; of a place with tetrahedra the
+    // heaviest one.
     std::map<std::array<double, 3>, std::pair<int, double>> given;
     for (std::size_t i = 0; i < 90; i++) {
         auto &[n, heaviest] = given[{points[3 * i], points[3 * i + 1], points[3 * i + 2]}];

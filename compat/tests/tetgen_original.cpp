@@ -287,7 +287,8 @@ void by_behavior() {
         in.pointlist = nullptr;
         if (has_all_by_original()) leave_unset_lists(out, 0);
         CHECK(out.numberoftetrahedra > 0 && out.neighborlist != nullptr && out.pointmarkerlist == nullptr);
-        CHECK((out.vpointlist != nullptr) == (b == nullptr || b->voroout == 1) && out.edgelist != nullptr && out.trifacelist != nullptr);
+        CHECK((out.vpointlist != nullptr) == (b == nullptr || b->voroout == 1));
+        CHECK(out.edgelist != nullptr && out.trifacelist != nullptr);
         const std::set<std::set<std::array<double, 3>>> places = places_of(out);
         CHECK(*std::min_element(out.tetrahedronlist, out.tetrahedronlist + 4 * out.numberoftetrahedra) == 0);
         return places;

@@ -157,7 +157,8 @@ static void show_plane(const Rt2 &t) {
     for (Rt2::Hidden_vertices_iterator v = t.hidden_vertices_begin(); v != t.hidden_vertices_end(); ++v) {
         const Rt2::Vertex_handle handle = v;
         if (!handle->is_hidden()) std::printf("not hidden\n");
-        hidden.push_back(name(t, handle) + " " + std::to_string(handle->info()) + " by" + corners_of(t, handle->face()));
+        hidden.push_back(name(t, handle) + " " + std::to_string(handle->info()) + " by" +
+                         corners_of(t, handle->face()));
     }
     show("hidden vertices", hidden);
 }

@@ -61,8 +61,8 @@ public:
     const K &geom_traits() const noexcept { return traits_; }
     void clear() { mesh_ = std::make_unique<Mesh>(); }
 
-    // One vertex. At the place of another one nothing is inserted, and that one returned; with weights, at that of one of the
-    // same weight that is not hidden. In space a vertex that is hidden at once is there, but no handle is returned.
+    // One vertex. At the place of another one nothing is inserted, and that one returned; with weights, at that of one
+    // of the same weight that is not hidden. In space a vertex that is hidden at once is there, but no handle returned.
     template <class... Hint>
     Vertex_handle insert(const Point &p, Hint...) {
         const Vertex_handle v(mesh_->insert(p, {}));
@@ -89,8 +89,8 @@ public:
         for (; first != last; ++first, n++) remove(*first);
         return n;
     }
-    // At once, with weights to another place, another weight, or both. Where another vertex is at the place, and not hidden,
-    // that one is returned, and this one stays as it is.
+    // At once, with weights to another place, another weight, or both. Where another vertex is at the place, and not
+    // hidden, that one is returned, and this one stays as it is.
     Vertex_handle move_if_no_collision(Vertex_handle v, const Point &p) {
         return Vertex_handle(mesh_->move_if_free(v.record_, p));
     }

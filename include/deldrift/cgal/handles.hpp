@@ -62,7 +62,7 @@ public:
     friend std::size_t hash_value(const Vertex_handle &v) noexcept { return std::hash<Vertex_handle>()(v); }
 
 private:
-    template <std::uint32_t E, class K, class I, class Policy>
+    template <std::uint32_t E, class K, class Info, class Policy>
     friend class Base;
     friend struct std::hash<Vertex_handle>;
     Record *record_ = nullptr;

@@ -20,8 +20,8 @@
 
 namespace deldrift::cgal::detail {
 
-// Points at the same place are one vertex, as in CGAL; with weights, those of the same weight, where that is not hidden.
-// Calls that fail have no effect.
+// Points at the same place are one vertex, as in CGAL; with weights, those of the same weight, where that is not
+// hidden. Calls that fail have no effect.
 template <std::uint32_t D, class Policy, class Info>
 class Mesh : public Reading<D, Info_or_none<typename Parts_of<Info>::Faces>>, public Records<D, Policy, Info> {
     using Base = Reading<D, Info_or_none<typename Parts_of<Info>::Faces>>;
@@ -346,8 +346,8 @@ private:
         if (record == nullptr || differ(weight_of(record->point), weight_of(p))) return nullptr;
         return record;
     }
-    // The last vertex, which has a record, by a commit of its own: so it comes with its weight. With 0 meanwhile, one that is
-    // lighter could hide all others.
+    // The last vertex, which has a record, by a commit of its own: so it comes with its weight. With 0 meanwhile, one
+    // that is lighter could hide all others.
     void insert_alone(const Record &record) {
         try {
             commit_alone([&] {
@@ -359,7 +359,8 @@ private:
             throw;
         }
     }
-    // Gives a new vertex its weight, or takes the vertex back. Where there is no memory for that, it stays without the weight.
+    // Gives a new vertex its weight, or takes the vertex back. Where there is no memory for that, it stays without the
+    // weight.
     void give_weight(Record *record) {
         const deldrift_status status = deldrift_set_weight(t_.native(), record->id, weight_of(record->point));
         if (status == DELDRIFT_OK) return;
@@ -371,8 +372,8 @@ private:
         }
         throw error;
     }
-    // To another place, with another weight, or both. Where another vertex is at the place, and not hidden, that one is the
-    // answer, and nothing has changed.
+    // To another place, with another weight, or both. Where another vertex is at the place, and not hidden, that one is
+    // the answer, and nothing has changed.
     Record *move_weighted(Record *record, const Point &p) {
         const Numbers place = numbers_of(p);
         Record *there = at(p);
@@ -420,7 +421,8 @@ private:
                 places.push_back(numbers_of(p));
                 weights.push_back(weight_of(p));
             }
-            is_done = t_.id_count() == 0 ? build(places, weights, which.empty()) : add_all(places, weights, which.empty());
+            const bool may_be_same = which.empty();
+            is_done = t_.id_count() == 0 ? build(places, weights, may_be_same) : add_all(places, weights, may_be_same);
         } catch (const Error &error) {
             undo_insertions(n_before);
             if (error.status() == DELDRIFT_COINCIDENT) return false;

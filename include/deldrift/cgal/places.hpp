@@ -30,9 +30,9 @@ int side_of_facet(Cell_handle<Mesh, D> c, std::uint32_t corner, const typename M
     return orientation(D, points);
 }
 
-// Whether a point is in the circle or sphere of a cell, 1, or outside of it, -1, or on it, 0; with weights, whether it is
-// below, above or on its power circle or sphere. That of a ghost cell is the half-space beyond its facet, and of the plane
-// of that what is in the circle.
+// Whether a point is in the circle or sphere of a cell, 1, or outside of it, -1, or on it, 0; with weights, whether the
+// cell is in conflict with it by their power distances. That of a ghost cell is the half-space beyond its facet, and of
+// the plane of that what is in the circle.
 template <class Mesh, std::uint32_t D>
 int side_of_sphere(Cell_handle<Mesh, D> c, const Mesh *mesh, const typename Mesh::Point &p) {
     if (c.is_infinite()) {

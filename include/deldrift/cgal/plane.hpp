@@ -284,8 +284,8 @@ public:
     }
     Segment segment(const Edge &e) const { return segment(e.first, e.second); }
 
-    // The centre of the circle, or power circle, of a finite face, rounded; by the kernel's construct_circumcenter_2_object
-    // or construct_weighted_circumcenter_2_object, if it has that.
+    // The centre of the circle, or power circle, of a finite face, rounded; by the kernel's
+    // construct_circumcenter_2_object or construct_weighted_circumcenter_2_object, if it has that.
     Bare_point dual(Face_handle f) const { return this->centre_of(f); }
     // The edge of the Voronoi or power diagram across a finite edge: a segment, or a ray. The kernel is one of CGAL's.
     template <class Traits = K>

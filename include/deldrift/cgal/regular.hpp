@@ -14,9 +14,9 @@ namespace deldrift::cgal {
 
 namespace detail {
 
-// What those in the plane and in space have in common, beside what Delaunay triangulations have. A vertex that is hidden
-// keeps its handle, its info and its weight, and shows again as soon as the others let it. It is not among the finite
-// vertices, and not counted with them.
+// What those in the plane and in space have in common, beside what Delaunay triangulations have. A vertex that is
+// hidden keeps its handle, its info and its weight, and shows again as soon as the others let it. It is not among the
+// finite vertices, and not counted with them.
 template <class Common>
 class Regular : public Common {
 protected:
@@ -72,8 +72,8 @@ public:
     using Base::Base;
     Regular_triangulation_2() = default;
 
-    // On the positive side of the power circle of a face are those points with which the face is in conflict, exactly; of an
-    // infinite face that is beyond its edge of the hull.
+    // On the positive side of the power circle of a face are those points with which the face is in conflict, exactly;
+    // of an infinite face that is beyond its edge of the hull.
     Oriented_side power_test(Face_handle f, const Weighted_point &p) const {
         return static_cast<Oriented_side>(detail::side_of_sphere(f, this->mesh(), p));
     }
@@ -87,8 +87,8 @@ public:
         return {faces_end, edges_end, get_hidden_vertices(p, vertices, hint)};
     }
     template <class Faces, class Vertices>
-    std::pair<Faces, Vertices> get_conflicts_and_hidden_vertices(const Weighted_point &p, Faces faces, Vertices vertices,
-                                                                 Face_handle hint = {}) const {
+    std::pair<Faces, Vertices> get_conflicts_and_hidden_vertices(const Weighted_point &p, Faces faces,
+                                                                 Vertices vertices, Face_handle hint = {}) const {
         return {this->get_conflicts(p, faces, hint), get_hidden_vertices(p, vertices, hint)};
     }
     template <class Edges, class Vertices>
@@ -122,8 +122,8 @@ public:
     using Base::Base;
     Regular_triangulation_3() = default;
 
-    // On the bounded side of the power sphere of a cell are those points with which the cell is in conflict, exactly; of an
-    // infinite cell that is beyond its facet.
+    // On the bounded side of the power sphere of a cell are those points with which the cell is in conflict, exactly;
+    // of an infinite cell that is beyond its facet.
     Bounded_side side_of_power_sphere(Cell_handle c, const Weighted_point &p) const {
         return static_cast<Bounded_side>(detail::side_of_sphere(c, this->mesh(), p));
     }

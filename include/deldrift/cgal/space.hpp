@@ -277,8 +277,8 @@ public:
     }
     Cell_handle locate(const Point &p, Cell_handle hint = {}) const { return this->place_of(p, hint).cell; }
 
-    // The centre of the sphere, or power sphere, of a finite cell, rounded; by the kernel's construct_circumcenter_3_object or
-    // construct_weighted_circumcenter_3_object, if it has that.
+    // The centre of the sphere, or power sphere, of a finite cell, rounded; by the kernel's
+    // construct_circumcenter_3_object or construct_weighted_circumcenter_3_object, if it has that.
     Bare_point dual(Cell_handle c) const { return this->centre_of(c); }
 
     // The cells, infinite ones included, that go when p is inserted, decided exactly, and the facets of these that they
