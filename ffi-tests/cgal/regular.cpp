@@ -261,6 +261,12 @@ static void plane(double greatest) {
     count();
     std::printf("%d\n", other.insert(Weighted_point_2(p.point(), p.weight() + 1))->is_hidden());
     count();
+    // A point at the place of a hidden one, with the same weight, is another vertex.
+    const Rt2::Vertex_handle hidden = std::find_if(by_info.begin(), by_info.end(), [](const auto &each) {
+                                          return each.second->is_hidden();
+                                      })->second;
+    std::printf("%d\n", other.insert(hidden->point()) == hidden);
+    count();
     other.clear();
     count();
     show_plane(t);

@@ -1,6 +1,6 @@
-// CGAL's names for deldrift: Delaunay_triangulation_2, Delaunay_triangulation_3 and
-// Constrained_Delaunay_triangulation_2, and meshes and conforming triangulations of the latter, so far as common programs use
-// them.
+// CGAL's names for deldrift: Delaunay_triangulation_2 and _3, Regular_triangulation_2 and _3, and
+// Constrained_Delaunay_triangulation_2, with meshes and conforming triangulations of the latter, so far as common programs
+// use them.
 //
 //     using K = deldrift::cgal::Kernel;  // or any kernel of CGAL's with coordinates in double
 //     using Dt = deldrift::cgal::Delaunay_triangulation_2<K, unsigned>;  // unsigned: the info of vertices
@@ -15,10 +15,12 @@
 // - Handles are small values, not pointers. Those of vertices are valid until the vertex is removed; those of cells
 //   until the triangulation changes. Cells have no info: what has changed is told by take_changes(). Faces of constrained
 //   triangulations may have one, until the triangulation changes.
+// - Vertices that weights hide keep their handles and infos, in space too. Vertices with weights can move, hidden or not.
 // - Where the vertices are on a line (in space: in a plane), there are no faces or cells, and no edges or facets.
 // - Cells in conflict with a point have it inside of their circle or sphere: what is on it exactly is not in conflict.
 //   Only they can be given to star_hole and insert_in_hole.
-// - A call that fails throws deldrift::Error and has no effect. Coordinates are finite and of magnitude up to 1e57.
+// - A call that fails throws deldrift::Error and has no effect. Coordinates are finite and of magnitude up to 1e57,
+//   weights up to 1e114.
 // - Meshes have other vertices, and fulfil criteria that CGAL has itself: see meshing.hpp.
 // - Constraints that cross are an exception, or, with Exact_predicates_tag, get a vertex there, rounded.
 //
