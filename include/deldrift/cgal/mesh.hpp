@@ -266,14 +266,6 @@ public:
         marks_.swap(after);
         has_marks_ = true;
     }
-    // Why the last change was refused.
-    std::vector<deldrift_conflict> conflicts_of_segments() const {
-        std::size_t n = 0;
-        this->require_ok(deldrift_segment_conflicts(t_.native(), nullptr, 0, &n));
-        std::vector<deldrift_conflict> conflicts(n);
-        this->require_ok(deldrift_segment_conflicts(t_.native(), conflicts.data(), n, &n));
-        return conflicts;
-    }
     deldrift_commit_report commit_timestamp() {
         const deldrift_commit_report report = t_.commit_timestamp();
         changed();
@@ -283,17 +275,8 @@ public:
     }
 
 private:
-    using Base::changed;
-    using Kept::add;
-    using Kept::by_id_;
-    using Kept::drop_last;
-    using Kept::forget;
-    using Kept::records_;
-    using Kept::staged_;
-    using Kept::unused_;
-    using Base::has_marks_;
-    using Base::marks_;
-    using Base::t_;
+    using Base::changed, Base::has_marks_, Base::marks_, Base::t_;
+    using Kept::add, Kept::by_id_, Kept::drop_last, Kept::forget, Kept::records_, Kept::staged_, Kept::unused_;
 
     std::uint32_t stage_segments(const std::vector<std::array<Record *, 2>> &ends) {
         std::vector<Ends> ids;

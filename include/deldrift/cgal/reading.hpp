@@ -71,6 +71,14 @@ public:
             require_ok(deldrift_segments_of_cells(t_.native(), segments_.data(), n, &n));
         });
     }
+    // Why the last change was refused.
+    std::vector<deldrift_conflict> conflicts_of_segments() const {
+        std::size_t n = 0;
+        require_ok(deldrift_segment_conflicts(t_.native(), nullptr, 0, &n));
+        std::vector<deldrift_conflict> conflicts(n);
+        require_ok(deldrift_segment_conflicts(t_.native(), conflicts.data(), n, &n));
+        return conflicts;
+    }
     // Of a finite cell, or, with a corner, of the ghost cell opposite it: until the next change.
     Face_info &face_info(std::uint32_t cell, std::uint32_t hull_corner) const {
         auto &infos = fresh(has_face_infos_, face_infos_, [&] {
