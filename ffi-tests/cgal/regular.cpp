@@ -189,6 +189,7 @@ static void ask_in_plane(const Rt2 &t) {
             n_positive += t.power_test(f, p) == library::ON_POSITIVE_SIDE;
         }
         std::printf("%d %zu of %zu\n", again.size() == conflicts.size(), n_positive, conflicts.size());
+        std::printf("%d %d\n", t.power_test(p, Weighted_point_2(p.point(), 0)), t.power_test(p, p));
         std::printf("nearest %s\n", name(t, t.nearest_power_vertex(p.point())).c_str());
         Rt2::Locate_type lt;
         int li = 0;

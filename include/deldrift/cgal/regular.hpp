@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -62,6 +63,7 @@ class Regular_triangulation_2
           detail::Plane<K, typename detail::Info_of<Info>::type, detail::Weighted_points<2, K>>> {
     using Base =
         detail::Regular<detail::Plane<K, typename detail::Info_of<Info>::type, detail::Weighted_points<2, K>>>;
+    using typename Base::Mesh;
 
 public:
     using typename Base::Bare_point;
@@ -76,6 +78,11 @@ public:
     // of an infinite face that is beyond its edge of the hull.
     Oriented_side power_test(Face_handle f, const Weighted_point &p) const {
         return static_cast<Oriented_side>(detail::side_of_sphere(f, this->mesh(), p));
+    }
+    // Of two points at one place: the second one is on the positive side if it is heavier.
+    Oriented_side power_test(const Weighted_point &p, const Weighted_point &q) const {
+        const double before = Mesh::weight_of(p), after = Mesh::weight_of(q);
+        return static_cast<Oriented_side>((before < after) - (after < before));
     }
     Bare_point weighted_circumcenter(Face_handle f) const { return this->dual(f); }
 
