@@ -260,7 +260,7 @@ void coincident_points(Function original) {
     }
 }
 
-// Not TetGen 1.6.0, which has lost the switch.
+// Not TetGen 1.6.0, which has lost the switch v, and makes tetrahedra with w in whose power spheres there are points.
 bool makes_voronoi_diagrams(Function original) {
     Points points = random_points(3, 4, 4);
     tetgenio in, out;
@@ -327,8 +327,7 @@ int main() {
     for (const char *switches : {"Qznfevw", "Qzw", "Qzwe", "wnJQF", "Qfew0", "QzBw", "QzNw", "QzEw", "QzwJfe"})
         for (const double greatest : {1e-3, 0.02, 0.3})
             for (const int n_attributes : {0, 1, 2})
-                if (has_voronoi || std::strchr(switches, 'v') == nullptr)
-                    call_both(original, switches, 0, n_attributes, greatest);
+                if (has_voronoi) call_both(original, switches, 0, n_attributes, greatest);
     coincident_points(original);
     by_behavior();
 }
