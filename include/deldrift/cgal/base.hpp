@@ -62,7 +62,7 @@ public:
     void clear() { mesh_ = std::make_unique<Mesh>(); }
 
     // One vertex. At the place of another one nothing is inserted, and that one returned; with weights, at that of one
-    // of the same weight that is not hidden. In space a vertex that is hidden at once is there, but no handle returned.
+    // of the same weight that is not hidden. In space there is no handle for one that is hidden at once.
     template <class... Hint>
     Vertex_handle insert(const Point &p, Hint...) {
         const Vertex_handle v(mesh_->insert(p, {}));

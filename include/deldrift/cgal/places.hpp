@@ -99,7 +99,7 @@ public:
     using Cell = Cell_handle<Mesh, D>;
     using Facet = std::pair<Cell, int>;
 
-    // Empty where there are no cells, and at the place of a vertex, of which the weight is not less.
+    // Empty where there are no cells, and at the place of a vertex; with weights, of one that is not lighter.
     Zone(const Mesh *mesh, const typename Mesh::Point &p, Cell hint) : mesh_(mesh), p_(Mesh::numbers_of(p)) {
         const Place<Mesh, D> place = place_of(mesh, p, hint);
         if (place.kind == DELDRIFT_LOCATION_NO_CELLS) return;
