@@ -8,7 +8,7 @@
 //! | `pairs.rs` | every two calls, one after the other, in many states, and every two that read at the same time |
 //! | `algorithms.rs` | what is said of algorithms elsewhere is what their rows say |
 //! | `programs.rs` | every program under `c/` and `cpp/`, with the shared and with the static library |
-//! | `cgal/both.cpp`, `cgal/constrained.cpp` | programs for CGAL, which write the same with deldrift in its place (`--include-ignored`) |
+//! | `cgal/both.cpp`, `constrained.cpp`, `regular.cpp` | programs for CGAL that write the same with deldrift (ignored) |
 //! | `cgal/meshing.cpp` | meshes of domains beside those of CGAL's mesher (`--include-ignored`) |
 //! | `cgal/conforming.cpp` | conforming triangulations beside those of CGAL's conformer (`--include-ignored`) |
 //! | `cgal/examples` | a script that runs CGAL's own examples with deldrift in its place (`make cgal-examples`) |

@@ -99,7 +99,7 @@ fn numbers_have_points_in_any_locale() {
 #[test]
 #[ignore = "needs CGAL"]
 fn programs_for_cgal_write_the_same() {
-    for program in ["both", "constrained"] {
+    for program in ["both", "constrained", "regular"] {
         let source = repository(&format!("ffi-tests/cgal/{program}.cpp"));
         let run = |name: &str, flags: &[&str]| {
             // CGAL takes a while to compile, less so without optimisation.

@@ -89,8 +89,13 @@ fn headers_have_no_names_that_are_macros_of_others() {
         "#include <deldrift/research.h>",
     );
     let folders = ["include", "include/deldrift", "include/deldrift/cgal"];
-    let names =
-        ["Delaunay_triangulation_2", "Constrained_Delaunay_triangulation_2", "Delaunay_triangulation_3"];
+    let names = [
+        "Delaunay_triangulation_2",
+        "Constrained_Delaunay_triangulation_2",
+        "Delaunay_triangulation_3",
+        "Regular_triangulation_2",
+        "Regular_triangulation_3",
+    ];
     let triangulations =
         names.map(|name| format!("template class deldrift::cgal::{name}<deldrift::cgal::Kernel, int>;"));
     let uses = format!("#include <deldrift/cgal.hpp>\n{}", triangulations.join("\n"));

@@ -17,7 +17,7 @@
 // iterators for <algorithm> and <ranges>: see deldrift/cells.hpp. Ranges end like the views that they are made of, with
 // the next change. Segments, and the error of a change that they refuse, are in deldrift/segments.hpp; the quality of
 // cells that refine() works towards is in deldrift/refining.hpp.
-// deldrift/cgal.hpp has the names of CGAL's Delaunay_triangulation_2 and _3.
+// deldrift/cgal.hpp has the names of CGAL's Delaunay_triangulation_2 and _3, and of its regular triangulations.
 #ifndef DELDRIFT_HPP
 #define DELDRIFT_HPP
 

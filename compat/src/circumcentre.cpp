@@ -72,7 +72,8 @@ double exact_determinant_2d(const double *a, const double *b, const double *c) {
     return sum.value();
 }
 
-void circumcentre_3d(const double *a, const double *b, const double *c, const double *d, double *centre) {
+void circumcentre_3d(const double *a, const double *b, const double *c, const double *d, const double *weights,
+                     double *centre) {
     double edge[3][3], squared[3];
     const double *ends[] = {b, c, d};
     for (int i = 0; i < 3; i++) {
@@ -81,6 +82,7 @@ void circumcentre_3d(const double *a, const double *b, const double *c, const do
             edge[i][axis] = ends[i][axis] - a[axis];
             squared[i] += edge[i][axis] * edge[i][axis];
         }
+        if (weights != nullptr) squared[i] += weights[0] - weights[i + 1];
     }
     double determinant = 0, terms = 0, sum[3] = {0, 0, 0};
     for (int axis = 0; axis < 3; axis++) {

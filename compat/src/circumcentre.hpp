@@ -27,7 +27,9 @@ inline double circumcentre_2d(const double *a, const double *b, const double *c,
     return determinant;
 }
 
-// a, b, c, d in either orientation; three numbers to centre.
-void circumcentre_3d(const double *a, const double *b, const double *c, const double *d, double *centre);
+// a, b, c, d in either orientation; three numbers to centre. weights: NULL, or those of the four points, for the centre
+// of their power sphere.
+void circumcentre_3d(const double *a, const double *b, const double *c, const double *d, const double *weights,
+                     double *centre);
 
 } // namespace compat

@@ -101,6 +101,13 @@ Borrowed::Borrowed(unsigned dimension, const double *points, std::size_t n_point
     if (!is_found) build(points);
 }
 
+Borrowed::Borrowed(const double *points, const std::vector<double> &weights)
+    : dimension_(3), n_points_(weights.size()), is_to_be_kept_(false) {
+    deldrift_triangulation *built = nullptr;
+    status_ = deldrift_create_weighted(3, points, weights.data(), nullptr, n_points_, nullptr, &built);
+    triangulation_.reset(built);
+}
+
 void Borrowed::build(const double *points) {
     deldrift_triangulation *built = nullptr;
     status_ = deldrift_create(dimension_, points, n_points_, nullptr, &built);

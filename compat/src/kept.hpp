@@ -31,6 +31,8 @@ public:
     // rows, and no two points share a place. Otherwise it is one of the points alone, and not kept unless the caller
     // brings the segments in, and says so.
     Borrowed(unsigned dimension, const double *points, std::size_t n_points, std::vector<std::uint32_t> segments = {});
+    // Of points in space with weights; it is built, and not kept.
+    Borrowed(const double *points, const std::vector<double> &weights);
     Borrowed(const Borrowed &) = delete;
     Borrowed &operator=(const Borrowed &) = delete;
     ~Borrowed();
@@ -50,7 +52,7 @@ private:
     Triangulation triangulation_;
     unsigned dimension_;
     std::size_t n_points_;
-    std::vector<std::uint32_t> segments_;
+    std::vector<std::uint32_t> segments_{};
     bool is_to_be_kept_ = true;
     How how_ = How::built;
     deldrift_status status_ = DELDRIFT_OK;

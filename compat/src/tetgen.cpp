@@ -1,12 +1,16 @@
 // TetGen's entry point: decides who serves a call, and serves.
 #include <deldrift_tetgen.h>
 
+#include <algorithm>
+#include <array>
 #include <climits>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <new>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -78,6 +82,22 @@ void check(const Io &in) {
         fail(bad_input, "in->pointattributelist is NULL");
 }
 
+// As TetGen has them: the first attribute of each point, or, where points have none, the greatest magnitude of its
+// coordinates.
+template <class Io>
+std::vector<double> weights_of(const TetgenSwitches &switches, const Io &in) {
+    if (!switches.weighted) return {};
+    const std::size_t n = static_cast<std::size_t>(in.numberofpoints);
+    const std::size_t n_attributes = static_cast<std::size_t>(in.numberofpointattributes);
+    std::vector<double> weights(n);
+    for (std::size_t i = 0; i < n; i++) {
+        const double *p = in.pointlist + 3 * i;
+        weights[i] = n_attributes > 0 ? in.pointattributelist[n_attributes * i]
+                                      : std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+    }
+    return weights;
+}
+
 // The cells of the original, with an output of its own. Its input is numbered from 0: TetGen 1.5 and 1.6 write past the
 // end of the markers of faces where z is given for points that are numbered from 1.
 template <class Io>
@@ -86,10 +106,14 @@ public:
     Original(Function function, const TetgenSwitches &switches, const Io &in) {
         struct Lent {
             Io io;
-            ~Lent() { io.pointlist = nullptr; }
+            ~Lent() { io.pointlist = io.pointattributelist = nullptr; }
         } lent;
         lent.io.pointlist = in.pointlist;
         lent.io.numberofpoints = in.numberofpoints;
+        if (switches.weighted) {
+            lent.io.pointattributelist = in.pointattributelist;
+            lent.io.numberofpointattributes = in.numberofpointattributes;
+        }
         std::string plain = switches.for_cells();
         const Inside inside;
         const double start = processor_time();
@@ -112,20 +136,30 @@ private:
 // Writes the cells, sorted if that was asked for. The seconds that writing took.
 template <class Io>
 double write(const TetgenSwitches &switches, const Cells &cells, const Io &in, Io &out,
-             const std::vector<std::uint32_t> &representative) {
+             const std::vector<std::uint32_t> &representative, const std::vector<double> &weights) {
     std::optional<OwnedCells> in_order;
     if (sorted()) in_order = sorted_cells(cells);
     const double start = processor_time();
-    write_tetrahedra(switches, in_order ? in_order->view() : cells, in, out, representative);
+    write_tetrahedra(switches, in_order ? in_order->view() : cells, in, out, representative, weights);
     return processor_time() - start;
 }
 
 // The points that stay where the cells are the original's: each that is in one stands for itself. Of points at one
-// place it need not be the first.
-std::vector<std::uint32_t> representatives_in(const Cells &cells, int n_points) {
+// place it need not be the first. With weights those stay, too, at whose places there is none in the cells.
+template <class Io>
+std::vector<std::uint32_t> representatives_in(const Cells &cells, const Io &in, bool weighted) {
     constexpr std::uint32_t none = UINT32_MAX;
-    std::vector<std::uint32_t> representative(static_cast<std::size_t>(n_points), none);
+    std::vector<std::uint32_t> representative(static_cast<std::size_t>(in.numberofpoints), none);
     for (std::size_t i = 0; i < 4 * cells.count; i++) representative[cells.vertices[i]] = cells.vertices[i];
+    if (!weighted) return representative;
+    const auto place = [&in](std::size_t i) {
+        return std::array<double, 3>{in.pointlist[3 * i], in.pointlist[3 * i + 1], in.pointlist[3 * i + 2]};
+    };
+    std::set<std::array<double, 3>> shown;
+    for (std::size_t i = 0; i < representative.size(); i++)
+        if (representative[i] != none) shown.insert(place(i));
+    for (std::size_t i = 0; i < representative.size(); i++)
+        if (representative[i] == none && shown.count(place(i)) == 0) representative[i] = static_cast<std::uint32_t>(i);
     return representative;
 }
 
@@ -148,7 +182,9 @@ void serve(const TetgenSwitches &switches, Io &in, Io &out, Function compared) {
     check(in);
     const std::size_t n_points = static_cast<std::size_t>(in.numberofpoints);
     const double start = processor_time();
-    const Borrowed triangulation(3, in.pointlist, n_points);
+    const std::vector<double> weights = weights_of(switches, in);
+    const Borrowed triangulation = switches.weighted ? Borrowed(in.pointlist, weights)
+                                                     : Borrowed(3, in.pointlist, n_points);
     check_status(triangulation.status());
     deldrift_cells_view view{};
     check_status(deldrift_cells(triangulation.get(), &view));
@@ -158,14 +194,14 @@ void serve(const TetgenSwitches &switches, Io &in, Io &out, Function compared) {
     const std::vector<std::uint32_t> representative = representatives(triangulation.get(), n_points);
     double seconds = processor_time() - start;
     if (compared == nullptr) {
-        seconds += write(switches, cells, in, out, representative);
+        seconds += write(switches, cells, in, out, representative, weights);
     } else {
         const Original<Io> original(compared, switches, in);
         const Difference found = difference(cells, original.cells(), representative);
         if (tally.compared(cells.count, found.count)) report_difference(found, cells.count);
         tally.original_served(original.seconds(), n_points, original.cells().count);
-        const std::vector<std::uint32_t> shown = representatives_in(original.cells(), in.numberofpoints);
-        seconds += write(switches, original.cells(), in, out, shown);
+        const std::vector<std::uint32_t> shown = representatives_in(original.cells(), in, switches.weighted);
+        seconds += write(switches, original.cells(), in, out, shown, weights);
     }
     tally.served(triangulation.how(), seconds, n_points, view.count);
 }
@@ -178,7 +214,8 @@ void serve_by_original(const Call &call, const TetgenSwitches &switches, Io &in,
         check(in);
         const Original<Io> original(function, switches, in);
         seconds = original.seconds();
-        write(switches, original.cells(), in, out, representatives_in(original.cells(), in.numberofpoints));
+        write(switches, original.cells(), in, out, representatives_in(original.cells(), in, switches.weighted),
+              weights_of(switches, in));
     } else {
         const double start = processor_time();
         call_original(function, call);

@@ -29,6 +29,12 @@ TetgenSwitches::TetgenSwitches(const char *switches) {
         case 'f': faces = true; break;
         case 'e': edges = true; break;
         case 'v': voronoi = true; break;
+        case 'w':
+            weighted = true;
+            // With another number the attribute is no weight, but the height of the lifted point.
+            if (each[1] == '0') each++;
+            else if ('1' <= each[1] && each[1] <= '9') leave('w');
+            break;
         case 'J': jettison = false; break;
         case 'B': markers = false; break;
         case 'N':
@@ -43,7 +49,7 @@ TetgenSwitches::TetgenSwitches(const char *switches) {
 
 std::string TetgenSwitches::for_cells() const {
     return std::string("QznJ") + (any_faces ? "" : "F") + (faces ? "f" : "") + (edges ? "e" : "") +
-           (voronoi ? "v" : "");
+           (voronoi && !weighted ? "v" : "") + (weighted ? "w" : "");
 }
 
 } // namespace compat

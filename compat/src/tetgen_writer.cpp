@@ -55,14 +55,19 @@ private:
 // The points of the input, whatever its layout.
 struct Points {
     template <class Io>
-    explicit Points(const Io &in)
+    Points(const Io &in, const std::vector<double> &of_points)
         : first_number(in.firstnumber), mesh_dimension(in.mesh_dim), count(static_cast<std::size_t>(in.numberofpoints)),
           n_attributes(static_cast<std::size_t>(in.numberofpointattributes)), positions(in.pointlist),
-          attributes(in.pointattributelist), markers(in.pointmarkerlist) {}
+          attributes(in.pointattributelist), weights(of_points.empty() ? nullptr : of_points.data()),
+          markers(in.pointmarkerlist) {
+        if (n_attributes > 0 || weights == nullptr) return;
+        n_attributes = 1;
+        attributes = weights;
+    }
 
     int first_number, mesh_dimension;
     std::size_t count, n_attributes;
-    const double *positions, *attributes;
+    const double *positions, *attributes, *weights;
     const int *markers;
 };
 
@@ -213,7 +218,11 @@ private:
         centres_.allocate(3 * cells_.count);
         for (std::size_t c = 0; c < cells_.count; c++) {
             const std::uint32_t *v = cells_.vertices + 4 * c;
-            circumcentre_3d(position(v[0]), position(v[1]), position(v[2]), position(v[3]), &centres_[3 * c]);
+            const double *weights = in_.weights;
+            double of_corners[4] = {};
+            for (unsigned i = 0; i < 4 && weights != nullptr; i++) of_corners[i] = weights[v[i]];
+            circumcentre_3d(position(v[0]), position(v[1]), position(v[2]), position(v[3]),
+                            weights == nullptr ? nullptr : of_corners, &centres_[3 * c]);
         }
     }
 
@@ -296,17 +305,17 @@ private:
 
 template <class Io>
 void write_tetrahedra(const TetgenSwitches &switches, const Cells &cells, const Io &in, Io &out,
-                      const std::vector<std::uint32_t> &representative) {
-    Writer writer(switches, cells, Points(in), representative);
+                      const std::vector<std::uint32_t> &representative, const std::vector<double> &weights) {
+    Writer writer(switches, cells, Points(in, weights), representative);
     writer.make();
     writer.hand_over(out);
 }
 
 template void write_tetrahedra(const TetgenSwitches &, const Cells &, const TetgenIo150 &, TetgenIo150 &,
-                               const std::vector<std::uint32_t> &);
+                               const std::vector<std::uint32_t> &, const std::vector<double> &);
 template void write_tetrahedra(const TetgenSwitches &, const Cells &, const TetgenIo151 &, TetgenIo151 &,
-                               const std::vector<std::uint32_t> &);
+                               const std::vector<std::uint32_t> &, const std::vector<double> &);
 template void write_tetrahedra(const TetgenSwitches &, const Cells &, const TetgenIo16 &, TetgenIo16 &,
-                               const std::vector<std::uint32_t> &);
+                               const std::vector<std::uint32_t> &, const std::vector<double> &);
 
 } // namespace compat

@@ -60,11 +60,15 @@ bool triangulate_fails_at(long n, Points points, std::size_t n_cells) {
     return reached;
 }
 
-bool tetrahedralize_fails_at(long n, const Points &points, std::size_t n_cells) {
+// With weights, if there are some: then the first attribute.
+bool tetrahedra_fail_at(long n, const Points &points, const std::vector<double> &weights, std::size_t n_cells) {
     tetgenio in, out;
     in.pointlist = const_cast<double *>(points.data());
     in.numberofpoints = static_cast<int>(points.size() / 3);
-    char switches[] = "Qznfev";
+    in.pointattributelist = weights.empty() ? nullptr : const_cast<double *>(weights.data());
+    in.numberofpointattributes = weights.empty() ? 0 : 1;
+    char plain[] = "Qznfev", weighted[] = "Qznfevw";
+    char *switches = weights.empty() ? plain : weighted;
     int thrown = 0;
     before_failure = n;
     try {
@@ -74,10 +78,28 @@ bool tetrahedralize_fails_at(long n, const Points &points, std::size_t n_cells) 
     }
     const bool reached = before_failure < 0;
     before_failure = -1;
-    in.pointlist = nullptr;
+    in.pointlist = in.pointattributelist = nullptr;
     if (thrown != 0) CHECK(reached && thrown == 1 && out.tetrahedronlist == nullptr && out.vcelllist == nullptr);
     else CHECK(static_cast<std::size_t>(out.numberoftetrahedra) == n_cells);
     return reached;
+}
+
+bool tetrahedralize_fails_at(long n, const Points &points, std::size_t n_cells) {
+    return tetrahedra_fail_at(n, points, {}, n_cells);
+}
+
+// Some points are hidden, some are at the place of others, and some of these places are hidden.
+bool weights_fail_at(long n) {
+    Points points = random_points(3, 80, 4);
+    points.insert(points.end(), points.begin(), points.begin() + 60);
+    std::vector<double> weights = random_points(1, 100, 5);
+    for (double &w : weights) w *= 0.2;
+    deldrift_triangulation *t = nullptr;
+    std::size_t n_cells = 0;
+    CHECK(deldrift_create_weighted(3, points.data(), weights.data(), nullptr, 100, nullptr, &t) == DELDRIFT_OK);
+    CHECK(deldrift_cell_count(t, &n_cells) == DELDRIFT_OK);
+    deldrift_destroy(t);
+    return tetrahedra_fail_at(n, points, weights, n_cells);
 }
 
 // Points that move, so that both the new and the kept triangulation are asked for memory.
@@ -101,4 +123,7 @@ void refuse_each(unsigned dimension, Call call) {
 int main() {
     refuse_each(2, triangulate_fails_at);
     refuse_each(3, tetrahedralize_fails_at);
+    long n_refused = 0;
+    while (weights_fail_at(n_refused)) n_refused++;
+    CHECK(n_refused > 10);
 }

@@ -24,7 +24,9 @@ extern "C" void trifree_of_cxx(void *list) __asm__("_Z7trifreePv");
 namespace {
 
 constexpr int n_points = 60;
-constexpr std::size_t z = 22, n = 25, markers = 29, quiet = 37, refines = 2, order = 14;
+constexpr std::size_t weighted = 6, z = 22, n = 25, markers = 29, quiet = 37, refines = 2;
+// Of the parameters.
+constexpr std::size_t heights = 6, order = 14;
 
 struct Lent {
     tetgenio in, out;
@@ -57,7 +59,7 @@ struct Row {
 void is_what_the_switches_give(Points &points) {
     for (const Row &row : {Row{{}, ""}, Row{{z}, "z"}, Row{{z, n, quiet}, "znQ"}, Row{{23, 24}, "fe"}, Row{{26}, "v"},
                            Row{{markers, 23}, "Bf"}, Row{{30}, "N"}, Row{{31}, "E"}, Row{{32}, "F"}, Row{{33}, "I"},
-                           Row{{34, n}, "Jn"}, Row{{20, 21, 38}, "XV"}}) {
+                           Row{{34, n}, "Jn"}, Row{{20, 21, 38}, "XV"}, Row{{weighted, z}, "wz"}}) {
         tetgenbehavior b;
         for (const std::size_t each : row.set) b.switches[each] = 1;
         Lent one(points), other(points);
@@ -85,16 +87,18 @@ void what_is_not_served_is_refused(Points &points) {
     };
     CHECK(is_refused(nullptr));
     for (std::size_t i = 0; i < 39; i++) {
-        const bool is_served = i == 7 || i == 20 || i == 21 || (i >= z && i <= 26) || (i >= markers && i <= 34) || i >= quiet;
+        const bool is_one_of_few = i == weighted || i == 7 || i == 20 || i == 21;
+        const bool is_served = is_one_of_few || (i >= z && i <= 26) || (i >= markers && i <= 34) || i >= quiet;
         if (is_served) continue;
         tetgenbehavior b;
         b.switches[i] = 1;
         CHECK(is_refused(&b));
     }
-    tetgenbehavior twice, second_order;
+    tetgenbehavior twice, second_order, of_heights;
     twice.switches[n] = 2;
     second_order.parameters[order] = 2;
-    CHECK(is_refused(&twice) && is_refused(&second_order));
+    of_heights.switches[weighted] = of_heights.parameters[heights] = 1;
+    CHECK(is_refused(&twice) && is_refused(&second_order) && is_refused(&of_heights));
     // One of another version, as the structure of the output says.
     alignas(tetgenio) unsigned char later[448] = {};
     const int corners = 4;

@@ -107,7 +107,9 @@ private:
                 ring.push_back(dual.elist[k] == -1 ? Key{} : face(dual.elist[k] - first_));
             result.voronoi_facets[edge(e)] = one_way(ring);
         }
+        const std::set<int> corners(io_.tetrahedronlist, io_.tetrahedronlist + 4 * io_.numberoftetrahedra);
         for (int c = 0; c < io_.numberofvcells; c++) {
+            if (corners.count(c + first_) == 0) continue;
             auto &[edges, is_unbounded] = result.voronoi_cells[c + first_];
             const int *list = io_.vcelllist[c];
             for (int k = 1; k <= list[0]; k++) {
@@ -151,14 +153,25 @@ bool are_same(const T *a, const T *b, int count) {
     return std::equal(a, a + count, b);
 }
 
-void check_same(const tetgenio &own, const tetgenio &other, int first, bool has_all_faces) {
+// TetGen computes weights again from the heights that it has made of them.
+bool have_same_weights(const tetgenio &own, const tetgenio &other) {
+    const int n = own.numberofpointattributes;
+    for (int i = 0; i < n * own.numberofpoints; i++) {
+        const double a = own.pointattributelist[i], b = other.pointattributelist[i];
+        if (!(i % n == 0 ? std::abs(a - b) < 1e-14 : a == b)) return false;
+    }
+    return true;
+}
+
+void check_same(const tetgenio &own, const tetgenio &other, int first, bool has_all_faces, bool weighted) {
     CHECK(own.firstnumber == other.firstnumber && own.mesh_dim == other.mesh_dim);
     CHECK(own.numberofpoints == other.numberofpoints && own.numberofcorners == other.numberofcorners);
     CHECK(own.numberofpointattributes == other.numberofpointattributes);
     CHECK(are_same(own.pointlist, other.pointlist, 3 * own.numberofpoints));
     CHECK(are_same(own.pointmarkerlist, other.pointmarkerlist, own.numberofpoints));
-    CHECK(are_same(own.pointattributelist, other.pointattributelist,
-                   own.numberofpoints * own.numberofpointattributes));
+    CHECK(weighted ? have_same_weights(own, other)
+                   : are_same(own.pointattributelist, other.pointattributelist,
+                              own.numberofpoints * own.numberofpointattributes));
     CHECK((own.tetrahedronlist == nullptr) == (other.tetrahedronlist == nullptr));
     CHECK((own.neighborlist == nullptr) == (other.neighborlist == nullptr));
     CHECK((own.trifacelist == nullptr) == (other.trifacelist == nullptr));
@@ -178,9 +191,24 @@ void check_same(const tetgenio &own, const tetgenio &other, int first, bool has_
     CHECK(a.voronoi_cells == b.voronoi_cells);
 }
 
-void call_both(Function original, const char *switches, int firstnumber) {
+// TetGen 1.5.0 leaves the lists of points that their weights hide as the memory was, so that nothing may free them.
+void leave_unset_lists(tetgenio &io, int first) {
+    if (io.vcelllist == nullptr) return;
+    const std::set<int> corners(io.tetrahedronlist, io.tetrahedronlist + 4 * io.numberoftetrahedra);
+    for (int c = 0; c < io.numberofvcells; c++)
+        if (corners.count(c + first) == 0) io.vcelllist[c] = nullptr;
+}
+
+bool has_all_by_original() {
+    const char *mode = std::getenv("DELDRIFT_COMPAT");
+    return mode != nullptr && std::strcmp(mode, "original") == 0;
+}
+
+// The weights, if they are some, are up to the greatest.
+void call_both(Function original, const char *switches, int firstnumber, int n_attributes = 2, double greatest = 1) {
     constexpr int n = 120;
     Points points = random_points(3, n, 1), attributes = random_points(2, n, 2);
+    for (double &x : attributes) x *= greatest;
     std::vector<int> markers(n);
     for (int i = 0; i < n; i++) markers[static_cast<std::size_t>(i)] = i % 7;
     tetgenio in, own, other;
@@ -189,13 +217,16 @@ void call_both(Function original, const char *switches, int firstnumber) {
     in.numberofpoints = n;
     in.pointmarkerlist = markers.data();
     in.pointattributelist = attributes.data();
-    in.numberofpointattributes = 2;
+    in.numberofpointattributes = n_attributes;
     std::string text(switches);
     tetrahedralize(text.data(), &in, &own);
     original(text.data(), &in, &other, nullptr, nullptr);
     in.initialize();
     const auto has = [switches](char which) { return std::strchr(switches, which) != nullptr; };
-    check_same(own, other, has('z') ? 0 : firstnumber, has('f'));
+    const int first = has('z') ? 0 : firstnumber;
+    leave_unset_lists(other, first);
+    if (has_all_by_original()) leave_unset_lists(own, first);
+    check_same(own, other, first, has('f'), has('w'));
 }
 
 // The places of the corners of each tetrahedron.
@@ -229,7 +260,7 @@ void coincident_points(Function original) {
     }
 }
 
-// Not TetGen 1.6.0, which has lost the switch.
+// Not TetGen 1.6.0, which has lost the switch v, and makes tetrahedra with w in whose power spheres there are points.
 bool makes_voronoi_diagrams(Function original) {
     Points points = random_points(3, 4, 4);
     tetgenio in, out;
@@ -254,16 +285,28 @@ void by_behavior() {
         if (b != nullptr) tetrahedralize(b, &in, &out);
         else tetrahedralize(switches, &in, &out);
         in.pointlist = nullptr;
+        if (has_all_by_original()) leave_unset_lists(out, 0);
         CHECK(out.numberoftetrahedra > 0 && out.neighborlist != nullptr && out.pointmarkerlist == nullptr);
-        CHECK(out.vpointlist != nullptr && out.edgelist != nullptr && out.trifacelist != nullptr);
+        CHECK((out.vpointlist != nullptr) == (b == nullptr || b->voroout == 1));
+        CHECK(out.edgelist != nullptr && out.trifacelist != nullptr);
         const std::set<std::set<std::array<double, 3>>> places = places_of(out);
         CHECK(*std::min_element(out.tetrahedronlist, out.tetrahedronlist + 4 * out.numberoftetrahedra) == 0);
         return places;
     };
-    tetgenbehavior b;
+    tetgenbehavior b, of_weights, of_heights;
     b.zeroindex = b.neighout = b.facesout = b.edgesout = b.voroout = b.nobound = b.quiet = 1;
     char switches[] = "znfevBQ";
     CHECK(call(&b, nullptr) == call(nullptr, switches));
+    of_weights = b;
+    of_weights.weighted = 1;
+    char weighted[] = "znfevBQw";
+    CHECK(call(&of_weights, nullptr) == call(nullptr, weighted));
+    CHECK(call(&of_weights, nullptr) != call(&b, nullptr));
+    // TetGen's own answer.
+    of_heights = of_weights;
+    of_heights.weighted_param = 1;
+    of_heights.voroout = 0;
+    CHECK(call(&of_heights, nullptr) != call(&of_weights, nullptr));
 }
 
 int main() {
@@ -280,6 +323,11 @@ int main() {
             if ((firstnumber == 0 || std::strchr(switches, 'z') == nullptr) &&
                 (has_voronoi || std::strchr(switches, 'v') == nullptr))
                 call_both(original, switches, firstnumber);
+    // With few points hidden, with most of them, and with the weights that TetGen gives to points without attributes.
+    for (const char *switches : {"Qznfevw", "Qzw", "Qzwe", "wnJQF", "Qfew0", "QzBw", "QzNw", "QzEw", "QzwJfe"})
+        for (const double greatest : {1e-3, 0.02, 0.3})
+            for (const int n_attributes : {0, 1, 2})
+                if (has_voronoi) call_both(original, switches, 0, n_attributes, greatest);
     coincident_points(original);
     by_behavior();
 }

@@ -28,6 +28,10 @@ template class deldrift::cgal::Delaunay_mesher_2<deldrift::cgal::Constrained_Del
 template class deldrift::cgal::Triangulation_conformer_2<deldrift::cgal::Constrained_Delaunay_triangulation_2<Kernel>>;
 template class deldrift::cgal::Delaunay_triangulation_3<Kernel>;
 template class deldrift::cgal::Delaunay_triangulation_3<Kernel, unsigned>;
+template class deldrift::cgal::Regular_triangulation_2<Kernel>;
+template class deldrift::cgal::Regular_triangulation_2<Kernel, unsigned>;
+template class deldrift::cgal::Regular_triangulation_3<Kernel>;
+template class deldrift::cgal::Regular_triangulation_3<Kernel, unsigned>;
 
 namespace {
 
@@ -86,12 +90,10 @@ void insert_and_remove(Dt &t) {
     for (const typename Dt::Vertex_handle v : t.finite_vertex_handles()) handles.insert(t.insert(v->point(), v));
     t.remove(handles.begin(), handles.end());
     size_of(t.points());
-    t.nearest_vertex(points.front(), typename Dt::Vertex_handle());
 }
 
-template <class Info>
+template <class Dt>
 void plane() {
-    using Dt = deldrift::cgal::Delaunay_triangulation_2<Kernel, Info>;
     const std::vector<typename Dt::Point> points;
     Dt t(points.begin(), points.end());
     insert_and_remove(t);
@@ -99,9 +101,8 @@ void plane() {
     size_of(t.all_face_handles());
 }
 
-template <class Info>
+template <class Dt>
 void space() {
-    using Dt = deldrift::cgal::Delaunay_triangulation_3<Kernel, Info>;
     const std::vector<typename Dt::Point> points;
     Dt t(points.begin(), points.end());
     insert_and_remove(t);
@@ -119,12 +120,30 @@ void space() {
     size_of(t.finite_facets());
 }
 
+template <class Info>
+void all() {
+    using Dt2 = deldrift::cgal::Delaunay_triangulation_2<Kernel, Info>;
+    using Dt3 = deldrift::cgal::Delaunay_triangulation_3<Kernel, Info>;
+    using Rt2 = deldrift::cgal::Regular_triangulation_2<Kernel, Info>;
+    using Rt3 = deldrift::cgal::Regular_triangulation_3<Kernel, Info>;
+    plane<Dt2>();
+    plane<Rt2>();
+    space<Dt3>();
+    space<Rt3>();
+    Dt2().nearest_vertex({0, 0}, typename Dt2::Vertex_handle());
+    Dt3().nearest_vertex({0, 0, 0}, typename Dt3::Vertex_handle());
+    const Rt3 t;
+    size_of(t.hidden_points());
+    size_of(t.hidden_vertex_handles());
+    size_of(t.infinite_cell().vertex_list());
+    const std::vector<typename Rt3::Vertex_handle> vertices{t.nearest_power_vertex({0, 0, 0}, t.infinite_cell())};
+    t.vertices_inside_conflict_zone(vertices[0]->point(), {}, std::vector<typename Rt3::Vertex_handle>().begin());
+}
+
 }  // namespace
 
 int main() {
-    plane<void>();
-    plane<unsigned>();
-    space<void>();
-    space<unsigned>();
+    all<void>();
+    all<unsigned>();
     return arrangements({}) + ranges(deldrift::Triangulation(2, {})) == 0;
 }

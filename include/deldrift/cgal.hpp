@@ -1,6 +1,6 @@
-// CGAL's names for deldrift: Delaunay_triangulation_2, Delaunay_triangulation_3 and
-// Constrained_Delaunay_triangulation_2, and meshes and conforming triangulations of the latter, so far as common programs use
-// them.
+// CGAL's names for deldrift: Delaunay_triangulation_2 and _3, Regular_triangulation_2 and _3, and
+// Constrained_Delaunay_triangulation_2, with meshes and conforming triangulations of the latter, so far as common programs
+// use them.
 //
 //     using K = deldrift::cgal::Kernel;  // or any kernel of CGAL's with coordinates in double
 //     using Dt = deldrift::cgal::Delaunay_triangulation_2<K, unsigned>;  // unsigned: the info of vertices
@@ -15,10 +15,12 @@
 // - Handles are small values, not pointers. Those of vertices are valid until the vertex is removed; those of cells
 //   until the triangulation changes. Cells have no info: what has changed is told by take_changes(). Faces of constrained
 //   triangulations may have one, until the triangulation changes.
+// - Vertices that weights hide keep their handles and infos, in space too. Vertices with weights can move, hidden or not.
 // - Where the vertices are on a line (in space: in a plane), there are no faces or cells, and no edges or facets.
 // - Cells in conflict with a point have it inside of their circle or sphere: what is on it exactly is not in conflict.
 //   Only they can be given to star_hole and insert_in_hole.
-// - A call that fails throws deldrift::Error and has no effect. Coordinates are finite and of magnitude up to 1e57.
+// - A call that fails throws deldrift::Error and has no effect. Coordinates are finite and of magnitude up to 1e57,
+//   weights up to 1e114.
 // - Meshes have other vertices, and fulfil criteria that CGAL has itself: see meshing.hpp.
 // - Constraints that cross are an exception, or, with Exact_predicates_tag, get a vertex there, rounded.
 //
@@ -41,6 +43,7 @@
 #include "cgal/constrained.hpp"
 #include "cgal/meshing.hpp"
 #include "cgal/plane.hpp"
+#include "cgal/regular.hpp"
 #include "cgal/space.hpp"
 
 namespace deldrift::cgal {
@@ -76,10 +79,44 @@ private:
 using Point_2 = Point<2>;
 using Point_3 = Point<3>;
 
+// A point with a weight, which are compared by the points alone, as in CGAL.
+template <std::size_t D>
+class Weighted_point {
+public:
+    Weighted_point() = default;
+    explicit Weighted_point(const Point<D> &p) noexcept : point_(p) {}
+    Weighted_point(const Point<D> &p, double weight) noexcept : point_(p), weight_(weight) {}
+    Weighted_point(double x, double y) noexcept : point_(x, y) {}
+    Weighted_point(double x, double y, double z) noexcept : point_(x, y, z) {}
+    const Point<D> &point() const noexcept { return point_; }
+    double weight() const noexcept { return weight_; }
+    double x() const noexcept { return point_.x(); }
+    double y() const noexcept { return point_.y(); }
+    double z() const noexcept { return point_.z(); }
+    double operator[](int i) const noexcept { return point_[i]; }
+    static constexpr int dimension() noexcept { return static_cast<int>(D); }
+
+    friend bool operator==(const Weighted_point &a, const Weighted_point &b) noexcept { return a.point_ == b.point_; }
+    friend bool operator!=(const Weighted_point &a, const Weighted_point &b) noexcept { return !(a == b); }
+    friend bool operator<(const Weighted_point &a, const Weighted_point &b) noexcept { return a.point_ < b.point_; }
+    friend std::ostream &operator<<(std::ostream &out, const Weighted_point &p) {
+        return out << p.point_ << ' ' << p.weight_;
+    }
+
+private:
+    Point<D> point_{};
+    double weight_ = 0;
+};
+
+using Weighted_point_2 = Weighted_point<2>;
+using Weighted_point_3 = Weighted_point<3>;
+
 struct Kernel {
     using FT = double;
     using Point_2 = cgal::Point_2;
     using Point_3 = cgal::Point_3;
+    using Weighted_point_2 = cgal::Weighted_point_2;
+    using Weighted_point_3 = cgal::Weighted_point_3;
     using Segment_2 = Simplex<Point_2, 2>;
     using Triangle_2 = Simplex<Point_2, 3>;
     using Segment_3 = Simplex<Point_3, 2>;

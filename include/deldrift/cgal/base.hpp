@@ -1,4 +1,4 @@
-// What Delaunay_triangulation_2 and _3 have in common: see cgal.hpp.
+// What Delaunay and regular triangulations have in common: see cgal.hpp.
 #ifndef DELDRIFT_CGAL_BASE_HPP
 #define DELDRIFT_CGAL_BASE_HPP
 
@@ -20,16 +20,19 @@
 
 namespace deldrift::cgal::detail {
 
-template <std::uint32_t D, class K, class Info>
+template <std::uint32_t D, class K, class Info, class Policy>
 class Base {
 protected:
-    using Mesh = detail::Mesh<D, K, Info>;
+    using Mesh = detail::Mesh<D, Policy, Info>;
     template <class Source>
     using handles = range<handle_iterator<Source>>;
+    template <template <class, std::uint32_t> class Source>
+    using list_iterator = handle_iterator<Source<Mesh, D>>;
 
 public:
     using Geom_traits = K;
     using Point = typename Mesh::Point;
+    using Bare_point = typename Mesh::Bare_point;
     using Vertex_handle = detail::Vertex_handle<Mesh, D>;
     using Vertex = Vertex_handle;
     using size_type = std::size_t;
@@ -58,10 +61,13 @@ public:
     const K &geom_traits() const noexcept { return traits_; }
     void clear() { mesh_ = std::make_unique<Mesh>(); }
 
-    // One vertex. At the place of another one nothing is inserted, and that one returned.
+    // One vertex. At the place of another one nothing is inserted, and that one returned; with weights, at that of one
+    // of the same weight that is not hidden. In space there is no handle for one that is hidden at once.
     template <class... Hint>
     Vertex_handle insert(const Point &p, Hint...) {
-        return Vertex_handle(mesh_->insert(p, {}));
+        const Vertex_handle v(mesh_->insert(p, {}));
+        if constexpr (D == 3) return mesh_->is_hidden_now(v.id()) ? Vertex_handle() : v;
+        return v;
     }
     Vertex_handle push_back(const Point &p) { return insert(p); }
     // Points, or pairs or tuples of point and info, all at once; returns how many vertices there are more. Each element
@@ -83,11 +89,12 @@ public:
         for (; first != last; ++first, n++) remove(*first);
         return n;
     }
-    // At once. Where another vertex is at the place, that one is returned, and this one stays where it is.
+    // At once, with weights to another place, another weight, or both. Where another vertex is at the place, and not
+    // hidden, that one is returned, and this one stays as it is.
     Vertex_handle move_if_no_collision(Vertex_handle v, const Point &p) {
         return Vertex_handle(mesh_->move_if_free(v.record_, p));
     }
-    // Where another vertex is at the place, that one is returned, and this one removed.
+    // The same, but where another one is returned, this one is removed.
     Vertex_handle move(Vertex_handle v, const Point &p) {
         const Vertex_handle there = move_if_no_collision(v, p);
         if (there != v) remove(v);
@@ -95,7 +102,7 @@ public:
     }
 
     // All staged moves are made together, which is the fast way to move many vertices; until then nothing changes. A
-    // commit throws Error, and changes nothing, if two vertices would be at the same place.
+    // commit throws Error, and changes nothing, if two vertices without weights would be at the same place.
     void stage_move(Vertex_handle v, const Point &p) { mesh_->stage_move(v.record_, p); }
     void discard_moves() { mesh_->discard_moves(); }
     deldrift_commit_report commit_timestamp() { return mesh_->commit_timestamp(); }
@@ -104,20 +111,17 @@ public:
     // What has changed, by ids and indices of cells: see deldrift_take_changes.
     deldrift_changes take_changes() { return mesh_->triangulation().take_changes(); }
 
-    size_type number_of_vertices() const { return triangulation().vertex_count(); }
+    size_type number_of_vertices() const { return mesh_->shown_count(); }
     Vertex_handle infinite_vertex() const noexcept { return Vertex_handle(mesh_->infinite()); }
     bool is_infinite(Vertex_handle v) const noexcept { return v == infinite_vertex(); }
     // Whether it is one of this triangulation.
     bool is_vertex(Vertex_handle v) const noexcept { return v != nullptr && v.record_->mesh == mesh(); }
     bool is_vertex(const Point &p, Vertex_handle &v) const {
-        v = nearest_vertex(p);
-        return v != nullptr && Mesh::numbers_of(v.point()) == Mesh::numbers_of(p);
+        const Vertex_handle found(mesh_->at(p));
+        if (found != nullptr) v = found;
+        return found != nullptr;
     }
-    template <class... Hint>
-    Vertex_handle nearest_vertex(const Point &p, Hint...) const {
-        return Vertex_handle(mesh_->nearest(p));
-    }
-    // Whether it is the Delaunay triangulation of its vertices, decided exactly.
+    // Whether it is the Delaunay or regular triangulation of its vertices, decided exactly.
     bool is_valid(bool = false, int = 0) const {
         const deldrift_status status = deldrift_validate(triangulation().native(), 3);
         if (status != DELDRIFT_OK && status != DELDRIFT_INVALID) throw Error(status);
@@ -148,6 +152,7 @@ protected:
     using Cell = detail::Cell_handle<Mesh, D>;
 
     const Mesh *mesh() const noexcept { return mesh_.get(); }
+    Vertex_handle nearest(const typename Mesh::Numbers &place) const { return Vertex_handle(mesh_->nearest(place)); }
     Mesh &mesh_to_change() noexcept { return *mesh_; }
     static typename Mesh::Record *record_of(Vertex_handle v) noexcept { return v.record_; }
     template <template <class, std::uint32_t> class Source>
@@ -223,8 +228,9 @@ protected:
     }
 
     // The centre of the sphere through points, rounded: the solution of 2 (q - p) x = |q - p|^2 for the others q, by
-    // Cramer's rule from the first one, p.
-    static std::array<double, D> centre_of(const std::array<std::array<double, D>, D + 1> &points) {
+    // Cramer's rule from the first one, p. With weights the weight of p is added there, and that of q taken away.
+    static std::array<double, D> centre_of(const std::array<std::array<double, D>, D + 1> &points,
+                                           const std::array<double, D + 1> &weights) {
         std::array<std::array<double, D>, D> u;
         std::array<double, D> squares{}, centre;
         for (std::size_t i = 0; i < D; i++) {
@@ -232,6 +238,7 @@ protected:
                 u[i][k] = points[i + 1][k] - points[0][k];
                 squares[i] += u[i][k] * u[i][k];
             }
+            squares[i] += weights[0] - weights[i + 1];
         }
         const double scale = 2 * determinant(u);
         for (std::size_t k = 0; k < D; k++) {
@@ -242,17 +249,20 @@ protected:
         return centre;
     }
     // By the kernel, if it can.
-    Point centre_of(Cell c) const {
-        if constexpr (D == 2 && Has_circumcenter_2<K>::value) {
-            return traits_.construct_circumcenter_2_object()(c.vertex(0).point(), c.vertex(1).point(),
-                                                             c.vertex(2).point());
-        } else if constexpr (D == 3 && Has_circumcenter_3<K>::value) {
-            return traits_.construct_circumcenter_3_object()(c.vertex(0).point(), c.vertex(1).point(),
-                                                             c.vertex(2).point(), c.vertex(3).point());
+    Bare_point centre_of(Cell c) const {
+        if constexpr (D == 2 && Policy::have_centres) {
+            return Policy::centre(traits_, c.vertex(0).point(), c.vertex(1).point(), c.vertex(2).point());
+        } else if constexpr (Policy::have_centres) {
+            return Policy::centre(traits_, c.vertex(0).point(), c.vertex(1).point(), c.vertex(2).point(),
+                                  c.vertex(3).point());
         } else {
             std::array<std::array<double, D>, D + 1> points;
-            for (std::uint32_t i = 0; i <= D; i++) points[i] = numbers_of(c, i);
-            return Coordinates<D, K>::point(centre_of(points));
+            std::array<double, D + 1> weights;
+            for (std::uint32_t i = 0; i <= D; i++) {
+                points[i] = numbers_of(c, i);
+                weights[i] = Mesh::weight_of(c.vertex(static_cast<int>(i)).point());
+            }
+            return Coordinates<D, K>::point(centre_of(points, weights));
         }
     }
 

@@ -64,7 +64,7 @@ struct Infos_of<Infos<Vertices, Faces>> {
 template <class K, class Data = void, class Itag = No_constraint_intersection_requiring_constructions_tag>
 class Constrained_Delaunay_triangulation_2 : public Delaunay_triangulation_2<K, typename detail::Infos_of<Data>::type> {
     using Base = Delaunay_triangulation_2<K, typename detail::Infos_of<Data>::type>;
-    using Mesh = detail::Mesh<2, K, typename detail::Infos_of<Data>::type>;
+    using Mesh = detail::Mesh<2, detail::Plain_points<2, K>, typename detail::Infos_of<Data>::type>;
 
 public:
     using typename Base::Edge;

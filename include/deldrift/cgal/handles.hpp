@@ -14,8 +14,14 @@ namespace deldrift::cgal::detail {
 
 template <class Mesh, std::uint32_t D>
 class Cell_handle;
-template <std::uint32_t D, class P, class Info>
+template <std::uint32_t D, class K, class Info, class Policy>
 class Base;
+template <class Source>
+class handle_iterator;
+template <class Mesh, std::uint32_t D>
+struct Hidden_vertices;
+template <class Mesh, std::uint32_t D>
+struct Hidden_points;
 
 // A vertex. As in CGAL, a handle is used like a pointer; here it leads to itself.
 template <class Mesh, std::uint32_t D>
@@ -38,7 +44,9 @@ public:
     Info &info() const noexcept { return record_->info; }
     // The id in deldrift's arrays, until a vertex is removed; DELDRIFT_NONE for the infinite vertex.
     std::uint32_t id() const noexcept { return record_->id; }
-    // Some cell with this vertex.
+    // Of a regular triangulation: whether it is a corner of no cell, as others are heavier.
+    bool is_hidden() const { return record_->mesh->is_hidden(id()); }
+    // Some cell with this vertex; of a hidden one, the cell that hides it.
     Cell_handle cell() const;
     Cell_handle face() const { return cell(); }
 
@@ -54,7 +62,7 @@ public:
     friend std::size_t hash_value(const Vertex_handle &v) noexcept { return std::hash<Vertex_handle>()(v); }
 
 private:
-    template <std::uint32_t E, class P, class Info>
+    template <std::uint32_t E, class K, class Info, class Policy>
     friend class Base;
     friend struct std::hash<Vertex_handle>;
     Record *record_ = nullptr;
@@ -159,6 +167,12 @@ public:
         mesh_->mark(cell_, hull_corner_, is_inside);
     }
 
+    // Of a regular triangulation: the hidden vertices above the cell, and their points.
+    range<handle_iterator<Hidden_vertices<Mesh, D>>> vertex_list() const { return above<Hidden_vertices>(); }
+    range<handle_iterator<Hidden_points<Mesh, D>>> hidden_points() const { return above<Hidden_points>(); }
+    handle_iterator<Hidden_points<Mesh, D>> hidden_points_begin() const { return hidden_points().begin(); }
+    handle_iterator<Hidden_points<Mesh, D>> hidden_points_end() const { return hidden_points().end(); }
+
     bool is_infinite() const noexcept { return hull_corner_ < corners; }
     // The index in deldrift's arrays; of a ghost cell, that of the finite cell behind it.
     std::uint32_t id() const noexcept { return cell_; }
@@ -184,6 +198,11 @@ private:
         if (!is_infinite()) return k;
         const std::uint32_t a = (hull_corner_ + 1) % corners, b = (hull_corner_ + 2) % corners;
         return k == a ? b : k == b ? a : k;
+    }
+    template <template <class, std::uint32_t> class Source>
+    range<handle_iterator<Source<Mesh, D>>> above() const {
+        const auto [first, last] = mesh_->hidden().above(is_infinite() ? DELDRIFT_NONE - 1 : cell_);
+        return {{{mesh_}, first, last}, {{mesh_}, last, last}};
     }
     // The ghost cell beyond the ridge that this one's facet of the hull has opposite corner j of the finite cell:
     // around the ridge, from cell to cell, to the other facet on the hull.
@@ -219,6 +238,9 @@ Cell_handle<Mesh, D> Vertex_handle<Mesh, D>::cell() const {
         const std::uint32_t *end = cells.neighbours + cells.count * (D + 1);
         const auto k = static_cast<std::size_t>(std::find(cells.neighbours, end, DELDRIFT_NONE) - cells.neighbours);
         return {mesh, static_cast<std::uint32_t>(k / (D + 1)), static_cast<std::uint32_t>(k % (D + 1))};
+    }
+    if constexpr (Mesh::is_weighted) {
+        if (is_hidden()) return {mesh, mesh->hidden().cells[id()]};
     }
     return {mesh, *typename Mesh::Star(*mesh, id()).begin()};
 }
@@ -256,7 +278,7 @@ template <class Mesh, std::uint32_t D>
 struct Finite_vertices {
     const Mesh *mesh = nullptr;
     Vertex_handle<Mesh, D> operator()(std::size_t id) const { return Vertex_handle<Mesh, D>(mesh->by_id()[id]); }
-    bool selects(std::size_t id) const { return mesh->by_id()[id] != nullptr; }
+    bool selects(std::size_t id) const { return mesh->shows(static_cast<std::uint32_t>(id)); }
 };
 
 // The infinite vertex first.
@@ -266,14 +288,29 @@ struct All_vertices {
     Vertex_handle<Mesh, D> operator()(std::size_t i) const {
         return Vertex_handle<Mesh, D>(i == 0 ? mesh->infinite() : mesh->by_id()[i - 1]);
     }
-    bool selects(std::size_t i) const { return i == 0 || mesh->by_id()[i - 1] != nullptr; }
+    bool selects(std::size_t i) const { return i == 0 || mesh->shows(static_cast<std::uint32_t>(i - 1)); }
+};
+
+template <class Mesh, std::uint32_t D>
+struct Hidden_vertices {
+    const Mesh *mesh = nullptr;
+    Vertex_handle<Mesh, D> operator()(std::size_t k) const {
+        return Vertex_handle<Mesh, D>(mesh->by_id()[mesh->hidden().in_order[k]]);
+    }
+    bool selects(std::size_t) const noexcept { return true; }
+};
+template <class Mesh, std::uint32_t D>
+struct Hidden_points {
+    const Mesh *mesh = nullptr;
+    typename Mesh::Point operator()(std::size_t k) const { return mesh->by_id()[mesh->hidden().in_order[k]]->point; }
+    bool selects(std::size_t) const noexcept { return true; }
 };
 
 template <class Mesh, std::uint32_t D>
 struct Points {
     const Mesh *mesh = nullptr;
     typename Mesh::Point operator()(std::size_t id) const { return mesh->by_id()[id]->point; }
-    bool selects(std::size_t id) const { return mesh->by_id()[id] != nullptr; }
+    bool selects(std::size_t id) const { return mesh->shows(static_cast<std::uint32_t>(id)); }
 };
 
 template <class Mesh, std::uint32_t D>

@@ -4,11 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
-#include <mutex>
 #include <new>
 #include <numeric>
 #include <type_traits>
@@ -16,41 +13,33 @@
 #include <vector>
 
 #include "../../deldrift.hpp"
-#include "kernel.hpp"
 #include "marks.hpp"
+#include "points.hpp"
+#include "reading.hpp"
+#include "record.hpp"
 
 namespace deldrift::cgal::detail {
 
-struct No_info {};
-template <class Info>
-using Info_or_none = std::conditional_t<std::is_void_v<Info>, No_info, Info>;
+// Points at the same place are one vertex, as in CGAL; with weights, those of the same weight, where that is not
+// hidden. Calls that fail have no effect.
+template <std::uint32_t D, class Policy, class Info>
+class Mesh : public Reading<D, Info_or_none<typename Parts_of<Info>::Faces>>, public Records<D, Policy, Info> {
+    using Base = Reading<D, Info_or_none<typename Parts_of<Info>::Faces>>;
+    using Kept = Records<D, Policy, Info>;
 
-// What a vertex handle points to. It stays where it is until the vertex is removed.
-template <std::uint32_t D, class K, class Info>
-class Mesh;
-template <std::uint32_t D, class K, class Info>
-struct Record {
-    typename Coordinates<D, K>::Point point;
-    Info_or_none<typename Parts_of<Info>::Vertices> info;
-    // Null for one that is not in use, and for the infinite vertex its mesh.
-    const Mesh<D, K, Info> *mesh;
-    std::uint32_t id;
-};
-
-// Points at the same place are one vertex, as in CGAL. Calls that fail have no effect.
-template <std::uint32_t D, class K, class Info>
-class Mesh {
 public:
-    using Point = typename Coordinates<D, K>::Point;
+    using Point = typename Policy::Point;
+    using Bare_point = typename Policy::Bare_point;
     using Numbers = std::array<double, D>;
-    using Record = detail::Record<D, K, Info>;
+    using Record = detail::Record<D, Policy, Info>;
     using Given_info = decltype(Record::info);
     using Face_info = Info_or_none<typename Parts_of<Info>::Faces>;
+    using typename Base::Star;
     using Vertices = std::vector<std::pair<Point, Given_info>>;
 
-    Mesh() : t_(D, Positions(), options()), infinite_{Coordinates<D, K>::point({}), {}, this, DELDRIFT_NONE} {}
+    Mesh() : Base(made({}, {})), infinite_{Policy::point({}), {}, this, DELDRIFT_NONE} {}
     // All is copied, nothing triangulated: vertices have the same ids, cells the same indices, and what is staged is.
-    Mesh(const Mesh &other) : t_(other.t_.clone()), infinite_{Coordinates<D, K>::point({}), {}, this, DELDRIFT_NONE} {
+    Mesh(const Mesh &other) : Base(other.t_.clone()), infinite_{Policy::point({}), {}, this, DELDRIFT_NONE} {
         by_id_.reserve(other.by_id_.size());
         for (const Record *record : other.by_id_) {
             if (record != nullptr) records_.push_back(Record{record->point, record->info, this, record->id});
@@ -66,102 +55,79 @@ public:
     }
     Mesh &operator=(const Mesh &) = delete;
 
-    static Numbers numbers_of(const Point &p) { return Coordinates<D, K>::of(p); }
+    static constexpr bool is_weighted = Policy::are_weighted;
+    static Numbers numbers_of(const Point &p) { return Policy::of(p); }
+    static double weight_of(const Point &p) { return Policy::weight_of(p); }
 
-    const Triangulation &triangulation() const noexcept { return t_; }
-    Triangulation &triangulation() noexcept { return t_; }
     Record *infinite() const noexcept { return &infinite_; }
-    const std::vector<Record *> &by_id() const noexcept { return by_id_; }
+    using Kept::by_id;
 
-    // The arrays of the cells, from any number of threads.
-    const deldrift_cells_view &cells() const {
-        if (!is_fresh_.load(std::memory_order_acquire)) {
-            const std::lock_guard<std::mutex> lock(mutex_);
-            // Unless another thread has been here; then it may be reading them.
-            if (!is_fresh_.load(std::memory_order_relaxed)) require_ok(deldrift_cells(t_.native(), &cells_));
-            is_fresh_.store(true, std::memory_order_release);
+    // Whether the vertex is a corner of cells, or is in the lower hull where there are none.
+    bool is_hidden(std::uint32_t id) const {
+        if constexpr (is_weighted) {
+            return id != DELDRIFT_NONE && this->hidden().are_hidden[id] != 0;
+        } else {
+            return false;
         }
-        return cells_;
     }
-    // Cells around a vertex; those of most have room in place.
-    class Star {
-    public:
-        Star(const Mesh &mesh, std::uint32_t vertex) {
-            if (const Lists *all = mesh.all_stars()) {
-                const auto cells = all->of_vertex(vertex);
-                first_ = cells.data();
-                n_ = cells.size();
-                return;
-            }
-            deldrift_status status = deldrift_star(mesh.t_.native(), vertex, few_, room, &n_);
-            if (status == DELDRIFT_BUFFER_TOO_SMALL) {
-                many_.resize(n_);
-                first_ = many_.data();
-                status = deldrift_star(mesh.t_.native(), vertex, many_.data(), n_, &n_);
-            }
-            require_ok(status);
-        }
-        Star(const Star &) = delete;
-        Star &operator=(const Star &) = delete;
-        const std::uint32_t *begin() const noexcept { return first_; }
-        const std::uint32_t *end() const noexcept { return first_ + n_; }
-        std::size_t size() const noexcept { return n_; }
+    bool shows(std::uint32_t id) const { return by_id_[id] != nullptr && !is_hidden(id); }
+    std::size_t shown_count() const {
+        const std::size_t n = t_.vertex_count();
+        if constexpr (is_weighted) return n - this->hidden().in_order.size();
+        return n;
+    }
+    // That of one vertex, from its star alone, where there are cells.
+    bool is_hidden_now(std::uint32_t id) const {
+        if constexpr (!is_weighted) return false;
+        const std::vector<std::uint32_t> star = t_.star(id);
+        if (star.empty()) return t_.cell_count() > 0 || is_hidden(id);
+        const std::uint32_t *row = this->cells().vertices + std::size_t{star[0]} * (D + 1);
+        return std::find(row, row + D + 1, id) == row + D + 1;
+    }
 
-    private:
-        static constexpr std::size_t room = 64;
-        std::uint32_t few_[room];
-        std::vector<std::uint32_t> many_{};
-        const std::uint32_t *first_ = few_;
-        std::size_t n_ = 0;
-    };
-
-    // The segment at the edge opposite each corner of each cell, DELDRIFT_NONE where there is none.
-    const std::vector<std::uint32_t> &segments_of_cells() const {
-        return fresh(has_segments_, segments_, [&] {
-            std::size_t n = cells().count;
-            segments_.resize(3 * n);
-            require_ok(deldrift_segments_of_cells(t_.native(), segments_.data(), n, &n));
-        });
-    }
-    // Of a finite cell, or, with a corner, of the ghost cell opposite it: until the next change.
-    Face_info &face_info(std::uint32_t cell, std::uint32_t hull_corner) const {
-        auto &infos = fresh(has_face_infos_, face_infos_, [&] {
-            face_infos_.clear();
-            face_infos_.resize(cells().count * (D + 2));
-        });
-        return infos[index_of(cell, hull_corner)];
-    }
-    // Whether it is in the domain of a mesh: until the next change, or as a refinement leaves it.
-    bool is_marked(std::uint32_t cell, std::uint32_t hull_corner) const {
-        return has_marks() && marks_[index_of(cell, hull_corner)] != 0;
-    }
-    void mark(std::uint32_t cell, std::uint32_t hull_corner, bool is_inside) const {
-        marks()[index_of(cell, hull_corner)] = is_inside ? 1 : 0;
-    }
-    // Of finite cells first, in their order, then of ghost cells.
-    std::vector<std::uint8_t> &marks() const {
-        return fresh(has_marks_, marks_, [&] { marks_.assign(cells().count * (D + 2), 0); });
-    }
-    bool has_marks() const noexcept { return has_marks_.load(std::memory_order_acquire); }
-
-    // The vertex at a place; null where there is none.
-    Record *nearest(const Point &p) const {
-        const std::uint32_t id = t_.nearest_vertex(numbers_of(p));
+    // The vertex at the least distance, or power distance, from a place; null where there is none.
+    Record *nearest(const Numbers &place) const {
+        const std::uint32_t id = t_.nearest_vertex(place);
         return id == DELDRIFT_NONE ? nullptr : by_id_[id];
+    }
+    // The vertex at a place that is not hidden; null where there is none.
+    Record *at(const Point &p) const {
+        const Numbers place = numbers_of(p);
+        if constexpr (is_weighted) {
+            const deldrift_location found = t_.locate_points(place)[0];
+            if (found.kind == DELDRIFT_LOCATION_VERTEX) return by_id_[found.index];
+            if (found.kind != DELDRIFT_LOCATION_NO_CELLS) return nullptr;
+            for (std::uint32_t id : t_.vertices_in_ball(place, 0)) {
+                if (!is_hidden(id)) return by_id_[id];
+            }
+            return nullptr;
+        } else {
+            Record *record = nearest(place);
+            return record != nullptr && numbers_of(record->point) == place ? record : nullptr;
+        }
     }
 
     Record *insert(const Point &p, Given_info info) {
+        if constexpr (is_weighted) {
+            if (Record *same = same_as(p)) return same;
+        }
         Record *record = add(p, std::move(info));
+        // Those that the library refuses are refused before there is an id.
+        if (is_weighted && !(weight_of(p) >= 0 && weight_of(p) <= 1e114)) {
+            insert_alone(*record);
+            return record;
+        }
         std::uint32_t id = 0;
         const deldrift_status status = deldrift_insert_vertex(t_.native(), numbers_of(p).data(), &id);
         if (status != DELDRIFT_OK) drop_last();
-        if (status == DELDRIFT_COINCIDENT) return nearest(p);
-        require_ok(status);
+        if (!is_weighted && status == DELDRIFT_COINCIDENT) return nearest(numbers_of(p));
+        this->require_ok(status);
         changed();
+        if (weight_of(p) > 0) give_weight(record);
         return record;
     }
 
-    // All at once; one vertex for each place. Where there are moves to be committed, one after the other.
+    // All at once; one vertex for each place, and weight. Where there are moves to be committed, one after the other.
     void insert(Vertices vertices) {
         if (t_.staged_count() > 0) {
             for (auto &[p, info] : vertices) insert(p, std::move(info));
@@ -185,9 +151,10 @@ public:
 
     // The vertex at the place: this one, or one that is there already; then nothing has changed.
     Record *move_if_free(Record *record, const Point &p) {
+        if constexpr (is_weighted) return move_weighted(record, p);
         const deldrift_status status = deldrift_relocate_vertex(t_.native(), record->id, numbers_of(p).data());
-        if (status == DELDRIFT_COINCIDENT) return nearest(p);
-        require_ok(status);
+        if (status == DELDRIFT_COINCIDENT) return nearest(numbers_of(p));
+        this->require_ok(status);
         changed();
         record->point = p;
         return record;
@@ -197,7 +164,17 @@ public:
         staged_.emplace_back(record, p);
         const deldrift_status status = deldrift_move_vertex(t_.native(), record->id, numbers_of(p).data());
         if (status != DELDRIFT_OK) staged_.pop_back();
-        require_ok(status);
+        this->require_ok(status);
+        if constexpr (is_weighted) {
+            try {
+                stage_weight(t_, record->id, p);
+            } catch (...) {
+                staged_.pop_back();
+                t_.discard_moves();
+                stage_again();
+                throw;
+            }
+        }
     }
     void discard_moves() {
         t_.discard_moves();
@@ -222,14 +199,14 @@ public:
             commit_alone([&] {
                 first = stage_segments(ends);
                 split = t_.stage_splits();
-                for (std::uint64_t k = 0; k < split.inserted; k++) add(Coordinates<D, K>::point({}), {});
+                for (std::uint64_t k = 0; k < split.inserted; k++) add(Policy::point({}), {});
             });
         } catch (...) {
             while (by_id_.size() > n_before) drop_last();
             throw;
         }
         for (std::size_t id = n_before; id < by_id_.size(); id++) {
-            by_id_[id]->point = Coordinates<D, K>::point(t_.position<D>(static_cast<std::uint32_t>(id)));
+            by_id_[id]->point = Policy::point(t_.template position<D>(static_cast<std::uint32_t>(id)));
         }
     }
     // New vertices, new segments, of which these may be ends, by ids, and the removal of other segments. The id of the first
@@ -268,8 +245,8 @@ public:
     void refine(const Quality &quality, Keep keep) {
         Triangulation refined = t_.clone();
         refined.discard_moves();
-        const std::vector<std::uint8_t> &before = marks();
-        const auto report = refined.refine(quality, span<const std::uint8_t>(before.data(), cells().count));
+        const std::vector<std::uint8_t> &before = this->marks();
+        const auto report = refined.refine(quality, span<const std::uint8_t>(before.data(), this->cells().count));
         if (report.inserted == 0) return;
         std::vector<std::uint8_t> after = marks_after(t_, before, refined);
         after.resize(refined.cell_count() * (D + 2));
@@ -277,7 +254,7 @@ public:
         const std::size_t n_before = by_id_.size();
         try {
             for (std::size_t id = n_before; id < refined.id_count(); id++) {
-                add(Coordinates<D, K>::point(refined.position<D>(static_cast<std::uint32_t>(id))), {});
+                add(Policy::point(refined.position<D>(static_cast<std::uint32_t>(id))), {});
             }
             keep(refined);
         } catch (...) {
@@ -289,14 +266,6 @@ public:
         marks_.swap(after);
         has_marks_ = true;
     }
-    // Why the last change was refused.
-    std::vector<deldrift_conflict> conflicts_of_segments() const {
-        std::size_t n = 0;
-        require_ok(deldrift_segment_conflicts(t_.native(), nullptr, 0, &n));
-        std::vector<deldrift_conflict> conflicts(n);
-        require_ok(deldrift_segment_conflicts(t_.native(), conflicts.data(), n, &n));
-        return conflicts;
-    }
     deldrift_commit_report commit_timestamp() {
         const deldrift_commit_report report = t_.commit_timestamp();
         changed();
@@ -306,42 +275,8 @@ public:
     }
 
 private:
-    void changed() noexcept {
-        is_fresh_ = false;
-        has_segments_ = false;
-        has_face_infos_ = false;
-        has_marks_ = false;
-        has_stars_ = false;
-        n_stars_asked_ = 0;
-    }
-    std::size_t index_of(std::uint32_t cell, std::uint32_t hull_corner) const {
-        const bool is_ghost = hull_corner <= D;
-        return is_ghost ? cells().count + std::size_t{cell} * (D + 1) + hull_corner : cell;
-    }
-    // The stars of all vertices, in one pass over the cells, once so many have been asked for since the last change
-    // that the program seems to want them all; null before.
-    const Lists *all_stars() const {
-        if (has_stars_.load(std::memory_order_acquire)) return &stars_;
-        if (n_stars_asked_.fetch_add(1, std::memory_order_relaxed) < by_id_.size() / 8) return nullptr;
-        const std::lock_guard<std::mutex> lock(mutex_);
-        if (!has_stars_.load(std::memory_order_relaxed)) {
-            stars_ = t_.vertex_cells();
-            has_stars_.store(true, std::memory_order_release);
-        }
-        return &stars_;
-    }
-
-    // What is made once after a change, by any thread.
-    template <class List, class Make>
-    List &fresh(std::atomic<bool> &is_made, List &list, Make make) const {
-        if (!is_made.load(std::memory_order_acquire)) {
-            cells();
-            const std::lock_guard<std::mutex> lock(mutex_);
-            if (!is_made.load(std::memory_order_relaxed)) make();
-            is_made.store(true, std::memory_order_release);
-        }
-        return list;
-    }
+    using Base::changed, Base::has_marks_, Base::marks_, Base::t_;
+    using Kept::add, Kept::by_id_, Kept::drop_last, Kept::forget, Kept::records_, Kept::staged_, Kept::unused_;
 
     std::uint32_t stage_segments(const std::vector<std::array<Record *, 2>> &ends) {
         std::vector<Ends> ids;
@@ -366,50 +301,81 @@ private:
     void stage_again() { stage_moves_of(t_); }
     void stage_moves_of(Triangulation &t) const {
         for (const auto &[record, p] : staged_) {
-            require_ok(deldrift_move_vertex(t.native(), record->id, numbers_of(p).data()));
+            this->require_ok(deldrift_move_vertex(t.native(), record->id, numbers_of(p).data()));
+            if constexpr (is_weighted) stage_weight(t, record->id, p);
         }
     }
+    static void stage_weight(Triangulation &t, std::uint32_t id, const Point &p) {
+        const std::uint32_t ids[] = {id};
+        const double weights[] = {weight_of(p)};
+        t.stage_weights(ids, weights);
+    }
 
+    // Points at one place are one vertex: with weights those of the same weight, which is looked at here.
     static deldrift_options options() noexcept {
         deldrift_options options = default_options();
-        options.coincidence = DELDRIFT_COINCIDENCE_REJECT;
+        if (!is_weighted) options.coincidence = DELDRIFT_COINCIDENCE_REJECT;
         return options;
     }
-    static void require_ok(deldrift_status status) {
-        if (status != DELDRIFT_OK) throw Error(status);
+    static Triangulation made(const std::vector<Numbers> &places, const std::vector<double> &weights) {
+        if constexpr (is_weighted) return Triangulation(D, places, Weights(weights), options());
+        return Triangulation(D, places, options());
     }
 
-    // A record for the next id. Points and infos whose assignment throws leave nothing behind.
-    Record *add(const Point &p, Given_info info) {
-        const auto id = static_cast<std::uint32_t>(by_id_.size());
-        if (unused_.empty()) {
-            // Room for all, so that none is lost when it is forgotten.
-            if (unused_.capacity() <= records_.size()) unused_.reserve(2 * records_.size() + 16);
-            records_.push_back(Record{p, {}, nullptr, id});
-            unused_.push_back(&records_.back());
-        }
-        Record *record = unused_.back();
-        if (by_id_.size() == by_id_.capacity()) by_id_.reserve(2 * by_id_.size() + 16);
-        record->point = p;
-        record->info = std::move(info);
-        record->mesh = this;
-        record->id = id;
-        by_id_.push_back(record);
-        unused_.pop_back();
+    static bool differ(double a, double b) noexcept { return a < b || b < a; }
+    // The vertex at the same place with the same weight, if that is not hidden; null where there is none.
+    Record *same_as(const Point &p) const {
+        Record *record = at(p);
+        if (record == nullptr || differ(weight_of(record->point), weight_of(p))) return nullptr;
         return record;
     }
-    void forget(Record *record) noexcept {
-        by_id_[record->id] = nullptr;
-        record->mesh = nullptr;
-        staged_.erase(std::remove_if(staged_.begin(), staged_.end(), [&](const auto &s) { return s.first == record; }),
-                      staged_.end());
-        unused_.push_back(record);
+    // The last vertex, which has a record, by a commit of its own: so it comes with its weight. With 0 meanwhile, one
+    // that is lighter could hide all others.
+    void insert_alone(const Record &record) {
+        try {
+            commit_alone([&] {
+                t_.stage_insertions(numbers_of(record.point));
+                stage_weight(t_, record.id, record.point);
+            });
+        } catch (...) {
+            drop_last();
+            throw;
+        }
     }
-    void drop_last() noexcept {
-        Record *record = by_id_.back();
-        by_id_.pop_back();
-        record->mesh = nullptr;
-        unused_.push_back(record);
+    // Gives a new vertex its weight, or takes the vertex back. Where there is no memory for that, it stays without the
+    // weight.
+    void give_weight(Record *record) {
+        const deldrift_status status = deldrift_set_weight(t_.native(), record->id, weight_of(record->point));
+        if (status == DELDRIFT_OK) return;
+        const Error error(status);
+        if (deldrift_remove_vertex(t_.native(), record->id) == DELDRIFT_OK) {
+            forget(record);
+        } else {
+            record->point = Policy::point(numbers_of(record->point));
+        }
+        throw error;
+    }
+    // To another place, with another weight, or both. Where another vertex is at the place, and not hidden, that one is
+    // the answer, and nothing has changed.
+    Record *move_weighted(Record *record, const Point &p) {
+        const Numbers place = numbers_of(p);
+        Record *there = at(p);
+        if (there != nullptr && there != record) return there;
+        const double before = weight_of(record->point);
+        const bool is_reweighted = differ(weight_of(p), before);
+        if (is_reweighted) this->require_ok(deldrift_set_weight(t_.native(), record->id, weight_of(p)));
+        changed();
+        const deldrift_status status = deldrift_relocate_vertex(t_.native(), record->id, place.data());
+        if (status == DELDRIFT_OK) {
+            record->point = p;
+            return record;
+        }
+        const Error error(status);
+        // Where there is no memory for that, it keeps the new weight.
+        if (is_reweighted && deldrift_set_weight(t_.native(), record->id, before) != DELDRIFT_OK) {
+            record->point = Policy::point(numbers_of(record->point), weight_of(p));
+        }
+        throw error;
     }
 
     // Infos are moved to their vertices when nothing can fail any more; those whose assignment may throw are copied
@@ -422,8 +388,11 @@ private:
     bool insert_at_once(Vertices &vertices, const std::vector<std::size_t> &which) {
         const auto index = [&which](std::size_t i) { return which.empty() ? i : which[i]; };
         const std::size_t n = which.empty() ? vertices.size() : which.size(), n_before = by_id_.size();
-        std::vector<std::array<double, D>> places;
+        std::vector<Numbers> places;
+        std::vector<double> weights;
         places.reserve(n);
+        weights.reserve(n);
+        bool is_done = false;
         try {
             for (std::size_t i = 0; i < n; i++) {
                 const auto &[p, info] = vertices[index(i)];
@@ -433,13 +402,10 @@ private:
                     add(p, info);
                 }
                 places.push_back(numbers_of(p));
+                weights.push_back(weight_of(p));
             }
-            if (t_.id_count() == 0) {
-                t_ = Triangulation(D, places, options());
-            } else {
-                t_.stage_insertions(places);
-                t_.commit_timestamp();
-            }
+            const bool may_be_same = which.empty();
+            is_done = t_.id_count() == 0 ? build(places, weights, may_be_same) : add_all(places, weights, may_be_same);
         } catch (const Error &error) {
             undo_insertions(n_before);
             if (error.status() == DELDRIFT_COINCIDENT) return false;
@@ -448,10 +414,40 @@ private:
             undo_insertions(n_before);
             throw;
         }
+        if (!is_done) {
+            undo_insertions(n_before);
+            return false;
+        }
         changed();
         if constexpr (moves_infos) {
             for (std::size_t i = 0; i < n; i++) by_id_[n_before + i]->info = std::move(vertices[index(i)].second);
         }
+        return true;
+    }
+    // With weights, these may not share their place while it is not known whether they have the same weight there.
+    bool build(const std::vector<Numbers> &places, const std::vector<double> &weights, bool may_be_same) {
+        Triangulation t = made(places, weights);
+        if (is_weighted && may_be_same && t.statistics().coincident > 0) return false;
+        t_ = std::move(t);
+        return true;
+    }
+    bool add_all(const std::vector<Numbers> &places, const std::vector<double> &weights, bool may_be_same) {
+        const std::uint32_t first = t_.stage_insertions(places);
+        if constexpr (is_weighted) {
+            std::vector<std::uint32_t> ids(weights.size());
+            std::iota(ids.begin(), ids.end(), first);
+            t_.stage_weights(ids, weights);
+            if (may_be_same) {
+                const auto before = t_.statistics().coincident;
+                if (t_.prepare_timestamp().coincident > before) {
+                    t_.withdraw_timestamp();
+                    return false;
+                }
+                t_.publish_timestamp();
+                return true;
+            }
+        }
+        t_.commit_timestamp();
         return true;
     }
     void undo_insertions(std::size_t n_before) {
@@ -459,9 +455,11 @@ private:
         while (by_id_.size() > n_before) drop_last();
     }
 
-    // One index for each place at which there is no vertex yet.
+    // One index for each place, and weight, with which there is no vertex yet.
     std::vector<std::size_t> different_places(const Vertices &vertices) const {
-        const auto place = [&](std::size_t i) { return numbers_of(vertices[i].first); };
+        const auto place = [&](std::size_t i) {
+            return std::make_pair(numbers_of(vertices[i].first), weight_of(vertices[i].first));
+        };
         std::vector<std::size_t> order(vertices.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
         std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
@@ -471,8 +469,8 @@ private:
         order.erase(std::unique(order.begin(), order.end(), [&](auto i, auto j) { return place(i) == place(j); }),
                     order.end());
         const auto is_taken = [&](std::size_t i) {
-            const Record *record = nearest(vertices[i].first);
-            return record != nullptr && numbers_of(record->point) == place(i);
+            const Point &p = vertices[i].first;
+            return same_as(p) != nullptr;
         };
         order.erase(std::remove_if(order.begin(), order.end(), is_taken), order.end());
         std::sort(order.begin(), order.end());
@@ -480,35 +478,18 @@ private:
     }
 
     void compact() {
-        std::vector<Record *> by_id(t_.vertex_count());
+        std::vector<Record *> kept(t_.vertex_count());
         const std::vector<std::uint32_t> ids = t_.compact();
         for (std::size_t old = 0; old < ids.size(); old++) {
             if (ids[old] == DELDRIFT_NONE) continue;
-            by_id[ids[old]] = by_id_[old];
+            kept[ids[old]] = by_id_[old];
             by_id_[old]->id = ids[old];
         }
-        by_id_ = std::move(by_id);
+        by_id_ = std::move(kept);
         changed();
     }
 
-    Triangulation t_;
-    std::deque<Record> records_{};
-    // Null for removed vertices.
-    std::vector<Record *> by_id_{}, unused_{};
-    std::vector<std::pair<Record *, Point>> staged_{};
     mutable Record infinite_;
-    mutable std::mutex mutex_{};
-    mutable std::atomic<bool> is_fresh_{false};
-    mutable deldrift_cells_view cells_{};
-    mutable std::atomic<bool> has_segments_{false};
-    mutable std::vector<std::uint32_t> segments_{};
-    mutable std::atomic<bool> has_face_infos_{false};
-    mutable std::vector<Face_info> face_infos_{};
-    mutable std::atomic<bool> has_marks_{false};
-    mutable std::vector<std::uint8_t> marks_{};
-    mutable std::atomic<bool> has_stars_{false};
-    mutable std::atomic<std::size_t> n_stars_asked_{0};
-    mutable Lists stars_{};
 };
 
 }  // namespace deldrift::cgal::detail

@@ -30,22 +30,27 @@ int side_of_facet(Cell_handle<Mesh, D> c, std::uint32_t corner, const typename M
     return orientation(D, points);
 }
 
-// Whether a point is in the circle or sphere of a cell, 1, or outside of it, -1, or on it, 0. That of a ghost cell is
-// the half-space beyond its facet, and of the plane of that what is in the circle.
+// Whether a point is in the circle or sphere of a cell, 1, or outside of it, -1, or on it, 0; with weights, whether the
+// cell is in conflict with it by their power distances. That of a ghost cell is the half-space beyond its facet, and of
+// the plane of that what is in the circle.
 template <class Mesh, std::uint32_t D>
-int side_of_sphere(Cell_handle<Mesh, D> c, const Mesh *mesh, const typename Mesh::Numbers &p) {
+int side_of_sphere(Cell_handle<Mesh, D> c, const Mesh *mesh, const typename Mesh::Point &p) {
     if (c.is_infinite()) {
         const Cell_handle<Mesh, D> behind(mesh, c.id());
         const auto corner = static_cast<std::uint32_t>(behind.index(c));
-        const int side = side_of_facet(behind, corner, p);
+        const int side = side_of_facet(behind, corner, Mesh::numbers_of(p));
         return side != 0 ? -side : side_of_sphere(behind, mesh, p);
     }
     std::array<double, (D + 2) * D> points;
-    for (std::uint32_t i = 0; i <= D; i++) {
-        const auto x = numbers_of(c, i);
+    std::array<double, D + 2> weights;
+    const auto give = [&](std::uint32_t i, const typename Mesh::Point &q) {
+        const auto x = Mesh::numbers_of(q);
         std::copy(x.begin(), x.end(), points.begin() + i * D);
-    }
-    std::copy(p.begin(), p.end(), points.end() - D);
+        weights[i] = Mesh::weight_of(q);
+    };
+    for (std::uint32_t i = 0; i <= D; i++) give(i, c.vertex(static_cast<int>(i)).point());
+    give(D + 1, p);
+    if constexpr (Mesh::is_weighted) return in_power_sphere(D, points, weights);
     return in_sphere(D, points);
 }
 
@@ -94,12 +99,16 @@ public:
     using Cell = Cell_handle<Mesh, D>;
     using Facet = std::pair<Cell, int>;
 
-    // Empty at the place of a vertex, and where there are no cells.
+    // Empty where there are no cells, and at the place of a vertex; with weights, of one that is not lighter.
     Zone(const Mesh *mesh, const typename Mesh::Point &p, Cell hint) : mesh_(mesh), p_(Mesh::numbers_of(p)) {
         const Place<Mesh, D> place = place_of(mesh, p, hint);
-        if (place.kind == DELDRIFT_LOCATION_VERTEX || place.kind == DELDRIFT_LOCATION_NO_CELLS) return;
-        add_finite(place);
-        add_ghosts(place);
+        if (place.kind == DELDRIFT_LOCATION_NO_CELLS) return;
+        if constexpr (Mesh::is_weighted) {
+            add_all(place.cell, p);
+        } else if (place.kind != DELDRIFT_LOCATION_VERTEX) {
+            add_finite(place);
+            add_ghosts(place);
+        }
     }
     Zone(const Zone &) = delete;
     Zone &operator=(const Zone &) = delete;
@@ -113,8 +122,40 @@ public:
     std::vector<Facet> inner_facets() const {
         return facets([this](Cell c, Cell other) { return c < other && has(other); });
     }
+    // The vertices that only these cells have: with weights, those that a vertex here would hide.
+    std::vector<Vertex_handle<Mesh, D>> inner_vertices() const {
+        std::set<Vertex_handle<Mesh, D>> vertices;
+        for (Cell c : cells_) {
+            for (int i = 0; i <= static_cast<int>(D); i++) vertices.insert(c.vertex(i));
+        }
+        vertices.erase(Vertex_handle<Mesh, D>(mesh_->infinite()));
+        for (const auto &[c, i] : boundary()) {
+            for (int k = 0; k <= static_cast<int>(D); k++) {
+                if (k != i) vertices.erase(c.vertex(k));
+            }
+        }
+        return {vertices.begin(), vertices.end()};
+    }
 
 private:
+    // With a weight: from the cell that holds the point, from cell to cell.
+    void add_all(Cell first, const typename Mesh::Point &p) {
+        std::set<Cell> found;
+        std::vector<Cell> to_see;
+        const auto visit = [&](Cell c) {
+            if (found.count(c) == 0 && side_of_sphere(c, mesh_, p) > 0) {
+                found.insert(c);
+                to_see.push_back(c);
+            }
+        };
+        visit(first);
+        while (!to_see.empty()) {
+            const Cell c = to_see.back();
+            to_see.pop_back();
+            for (int i = 0; i <= static_cast<int>(D); i++) visit(c.neighbor(i));
+        }
+        cells_.assign(found.begin(), found.end());
+    }
     void add_finite(const Place<Mesh, D> &place) {
         const deldrift_location hint{DELDRIFT_LOCATION_CELL, place.cell.id()};
         for (std::uint32_t cell : mesh_->triangulation().conflicts(p_, &hint)) cells_.emplace_back(mesh_, cell);

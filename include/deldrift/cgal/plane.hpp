@@ -80,17 +80,18 @@ struct At_edge {
     }
 };
 
-}  // namespace detail
-
-// K has Point_2. Info is that of vertices, or one of CGAL's data structures whose vertices have one.
-template <class K, class Info = void>
-class Delaunay_triangulation_2 : public detail::Base<2, K, typename detail::Info_of<Info>::type> {
-    using Base = detail::Base<2, K, typename detail::Info_of<Info>::type>;
-    using typename Base::Mesh;
+// What Delaunay and regular triangulations in the plane have in common.
+template <class K, class Info, class Policy>
+class Plane : public Base<2, K, Info, Policy> {
+    using Base = detail::Base<2, K, Info, Policy>;
     template <class Source>
     using handles = typename Base::template handles<Source>;
 
+protected:
+    using typename Base::Mesh;
+
 public:
+    using typename Base::Bare_point;
     using typename Base::Point;
     using typename Base::size_type;
     using typename Base::Vertex_handle;
@@ -120,11 +121,11 @@ public:
     using Triangle = typename detail::Simplex_2<K, 3>::type;
     using Oriented_side = typename detail::Sides<K>::Oriented;
 
-    Delaunay_triangulation_2() = default;
-    explicit Delaunay_triangulation_2(const K &traits) : Base(traits) {}
+    Plane() = default;
+    explicit Plane(const K &traits) : Base(traits) {}
     // Of points, or pairs or tuples of point and info, each of which is read once.
     template <class Iterator, class End, class = std::enable_if_t<detail::Is_sequence<Iterator, End>::value>>
-    Delaunay_triangulation_2(Iterator first, End last) {
+    Plane(Iterator first, End last, const K &traits = K()) : Base(traits) {
         this->insert(std::move(first), std::move(last));
     }
 
@@ -264,10 +265,6 @@ public:
         return this->insert_in_zone(p, first, last);
     }
 
-    // On which side of the circle through the corners, decided exactly; of an infinite face, of its edge of the hull.
-    Oriented_side side_of_oriented_circle(Face_handle f, const Point &p) const {
-        return static_cast<Oriented_side>(detail::side_of_sphere<Mesh, 2>(f, this->mesh(), Mesh::numbers_of(p)));
-    }
     // On which side of the boundary of a finite face.
     Oriented_side oriented_side(Face_handle f, const Point &p) const {
         int least = 1;
@@ -279,15 +276,18 @@ public:
 
     const Point &point(Vertex_handle v) const { return v.point(); }
     const Point &point(Face_handle f, int i) const { return f.vertex(i).point(); }
-    Triangle triangle(Face_handle f) const { return Triangle(point(f, 0), point(f, 1), point(f, 2)); }
-    Segment segment(Face_handle f, int i) const { return Segment(point(f, ccw(i)), point(f, cw(i))); }
+    Triangle triangle(Face_handle f) const {
+        return Triangle(Policy::bare(point(f, 0)), Policy::bare(point(f, 1)), Policy::bare(point(f, 2)));
+    }
+    Segment segment(Face_handle f, int i) const {
+        return Segment(Policy::bare(point(f, ccw(i))), Policy::bare(point(f, cw(i))));
+    }
     Segment segment(const Edge &e) const { return segment(e.first, e.second); }
 
-    // The centre of the circle through the corners of a finite face, rounded; by the kernel's
-    // construct_circumcenter_2_object, if it has that.
-    Point dual(Face_handle f) const { return this->centre_of(f); }
-    Point circumcenter(Face_handle f) const { return this->centre_of(f); }
-    // The edge of the Voronoi diagram across a finite edge: a segment, or a ray. The kernel is one of CGAL's.
+    // The centre of the circle, or power circle, of a finite face, rounded; by the kernel's
+    // construct_circumcenter_2_object or construct_weighted_circumcenter_2_object, if it has that.
+    Bare_point dual(Face_handle f) const { return this->centre_of(f); }
+    // The edge of the Voronoi or power diagram across a finite edge: a segment, or a ray. The kernel is one of CGAL's.
     template <class Traits = K>
     typename Traits::Object_2 dual(const Edge &e) const {
         typename Traits::Object_2 object;
@@ -297,7 +297,7 @@ public:
         visit_dual(e, keep);
         return object;
     }
-    // `stream << edge` for each edge of the Voronoi diagram.
+    // `stream << edge` for each edge of that diagram.
     template <class Stream>
     Stream &draw_dual(Stream &stream) const {
         for (const Edge &e : finite_edges()) visit_dual(e, [&](const auto &of_voronoi) { stream << of_voronoi; });
@@ -327,11 +327,42 @@ private:
             visit(traits.construct_segment_2_object()(dual(e.first), dual(other.first)));
         } else {
             const auto &[f, i] = is_infinite(e.first) ? other : e;
-            const auto away = traits.construct_bisector_2_object()(point(f, cw(i)), point(f, ccw(i)));
+            const auto away = Policy::bisector(traits, point(f, cw(i)), point(f, ccw(i)));
             visit(traits.construct_ray_2_object()(dual(f), away));
         }
     }
-    static Face_handle first_face(Vertex_handle v, Face_handle f) { return f == nullptr ? v.face() : f; }
+    // A hidden vertex has no faces around it.
+    static Face_handle first_face(Vertex_handle v, Face_handle f) {
+        if (v.is_hidden()) return nullptr;
+        return f == nullptr ? v.face() : f;
+    }
+};
+
+}  // namespace detail
+
+// K has Point_2. Info is that of vertices, or one of CGAL's data structures whose vertices have one.
+template <class K, class Info = void>
+class Delaunay_triangulation_2
+    : public detail::Plane<K, typename detail::Info_of<Info>::type, detail::Plain_points<2, K>> {
+    using Base = detail::Plane<K, typename detail::Info_of<Info>::type, detail::Plain_points<2, K>>;
+
+public:
+    using typename Base::Face_handle;
+    using typename Base::Oriented_side;
+    using typename Base::Point;
+    using typename Base::Vertex_handle;
+    using Base::Base;
+    Delaunay_triangulation_2() = default;
+
+    template <class... Hint>
+    Vertex_handle nearest_vertex(const Point &p, Hint...) const {
+        return this->nearest(detail::Coordinates<2, K>::of(p));
+    }
+    // On which side of the circle through the corners, decided exactly; of an infinite face, of its edge of the hull.
+    Oriented_side side_of_oriented_circle(Face_handle f, const Point &p) const {
+        return static_cast<Oriented_side>(detail::side_of_sphere(f, this->mesh(), p));
+    }
+    Point circumcenter(Face_handle f) const { return this->dual(f); }
 };
 
 }  // namespace deldrift::cgal

@@ -15,16 +15,20 @@
 
 namespace deldrift::cgal {
 
-// K has Point_3. Info is that of vertices, or one of CGAL's data structures whose vertices have one. What CGAL has
-// behind it, how to locate points and whether to lock, has no meaning here.
-template <class K, class Info = void, class = void, class = void>
-class Delaunay_triangulation_3 : public detail::Base<3, K, typename detail::Info_of<Info>::type> {
-    using Base = detail::Base<3, K, typename detail::Info_of<Info>::type>;
-    using typename Base::Mesh;
+namespace detail {
+
+// What Delaunay and regular triangulations in space have in common.
+template <class K, class Info, class Policy>
+class Space : public Base<3, K, Info, Policy> {
+    using Base = detail::Base<3, K, Info, Policy>;
     template <class Source>
     using handles = typename Base::template handles<Source>;
 
+protected:
+    using typename Base::Mesh;
+
 public:
+    using typename Base::Bare_point;
     using typename Base::Point;
     using typename Base::size_type;
     using typename Base::Vertex_handle;
@@ -60,26 +64,26 @@ public:
     using Tetrahedron = typename detail::Simplex_3<K, 4>::type;
     using Bounded_side = typename detail::Sides<K>::Bounded;
 
-    Delaunay_triangulation_3() = default;
-    explicit Delaunay_triangulation_3(const K &traits) : Base(traits) {}
+    Space() = default;
+    explicit Space(const K &traits) : Base(traits) {}
     // Of points, or pairs or tuples of point and info, each of which is read once.
     template <class Iterator, class End, class = std::enable_if_t<detail::Is_sequence<Iterator, End>::value>>
-    Delaunay_triangulation_3(Iterator first, End last) {
+    Space(Iterator first, End last, const K &traits = K()) : Base(traits) {
         this->insert(std::move(first), std::move(last));
     }
 
     const Point &point(Vertex_handle v) const { return v.point(); }
     const Point &point(Cell_handle c, int i) const { return c.vertex(i).point(); }
-    Segment segment(Cell_handle c, int i, int j) const { return Segment(point(c, i), point(c, j)); }
+    Segment segment(Cell_handle c, int i, int j) const { return Segment(bare(c, i), bare(c, j)); }
     Segment segment(const Edge &e) const { return segment(e.first, e.second, e.third); }
     // Its corners are counter-clockwise as seen from the cell.
     Triangle triangle(Cell_handle c, int i) const {
         const auto corner = [i](int k) { return vertex_triple_index(i, k); };
-        return Triangle(point(c, corner(0)), point(c, corner(1)), point(c, corner(2)));
+        return Triangle(bare(c, corner(0)), bare(c, corner(1)), bare(c, corner(2)));
     }
     Triangle triangle(const Facet &f) const { return triangle(f.first, f.second); }
     Tetrahedron tetrahedron(Cell_handle c) const {
-        return Tetrahedron(point(c, 0), point(c, 1), point(c, 2), point(c, 3));
+        return Tetrahedron(bare(c, 0), bare(c, 1), bare(c, 2), bare(c, 3));
     }
 
     // The corner k by which i, j, k and the fourth one are an even permutation; the k-th corner of the facet opposite
@@ -273,13 +277,9 @@ public:
     }
     Cell_handle locate(const Point &p, Cell_handle hint = {}) const { return this->place_of(p, hint).cell; }
 
-    // The centre of the sphere through the corners of a finite cell, rounded; by the kernel's
-    // construct_circumcenter_3_object, if it has that.
-    Point dual(Cell_handle c) const { return this->centre_of(c); }
-    // Inside of the sphere of a finite cell, outside or on it, decided exactly; of an infinite one, beyond its facet.
-    Bounded_side side_of_sphere(Cell_handle c, const Point &p) const {
-        return static_cast<Bounded_side>(detail::side_of_sphere<Mesh, 3>(c, this->mesh(), Mesh::numbers_of(p)));
-    }
+    // The centre of the sphere, or power sphere, of a finite cell, rounded; by the kernel's
+    // construct_circumcenter_3_object or construct_weighted_circumcenter_3_object, if it has that.
+    Bare_point dual(Cell_handle c) const { return this->centre_of(c); }
 
     // The cells, infinite ones included, that go when p is inserted, decided exactly, and the facets of these that they
     // have in common with others; then, if wanted, those that they have in common with each other. There are none at
@@ -315,6 +315,7 @@ public:
     }
 
 private:
+    static auto bare(Cell_handle c, int i) { return Policy::bare(c.vertex(i).point()); }
     template <std::size_t N>
     bool are_in_cell(const std::array<Vertex_handle, N> &vertices, Cell_handle &c,
                      const std::array<int *, N> &corners) const {
@@ -404,6 +405,33 @@ private:
             }
         }
         return out;
+    }
+};
+
+}  // namespace detail
+
+// K has Point_3. Info is that of vertices, or one of CGAL's data structures whose vertices have one. What CGAL has
+// behind it, how to locate points and whether to lock, has no meaning here.
+template <class K, class Info = void, class = void, class = void>
+class Delaunay_triangulation_3
+    : public detail::Space<K, typename detail::Info_of<Info>::type, detail::Plain_points<3, K>> {
+    using Base = detail::Space<K, typename detail::Info_of<Info>::type, detail::Plain_points<3, K>>;
+
+public:
+    using typename Base::Bounded_side;
+    using typename Base::Cell_handle;
+    using typename Base::Point;
+    using typename Base::Vertex_handle;
+    using Base::Base;
+    Delaunay_triangulation_3() = default;
+
+    template <class... Hint>
+    Vertex_handle nearest_vertex(const Point &p, Hint...) const {
+        return this->nearest(detail::Coordinates<3, K>::of(p));
+    }
+    // Inside of the sphere of a finite cell, outside or on it, decided exactly; of an infinite one, beyond its facet.
+    Bounded_side side_of_sphere(Cell_handle c, const Point &p) const {
+        return static_cast<Bounded_side>(detail::side_of_sphere(c, this->mesh(), p));
     }
 };
 
