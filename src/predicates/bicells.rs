@@ -22,10 +22,6 @@ pub trait BiCellTolerances: Sized {
     type BiCells: Debug + Default;
     /// Standard delimiter.
     fn delimiter(bicell: &[&Self]) -> Delimiter<Self>;
-    /// scratch: the separator, and the vertex of the facet that is outside.
-    fn separated(bicell: &[&Self]) -> (Delimiter<Self>, usize) {
-        (Self::delimiter(bicell), 9)
-    }
     /// Certified lower bound of the tolerance; it need not be sharp if it is `enough`.
     fn tolerance(bicell: &[&Self], enough: f64) -> f64;
     /// Sets the bi-cell of a lane.
@@ -81,12 +77,6 @@ impl BiCellTolerances for [f64; 3] {
     fn delimiter(bicell: &[&Self]) -> Delimiter<Self> {
         let &[d, a, b, c, e] = bicell else { unreachable!("two tetrahedra") };
         delimiter3d(d, [a, b, c], e)
-    }
-
-    fn separated(bicell: &[&Self]) -> (Delimiter<Self>, usize) {
-        let &[d, a, b, c, e] = bicell else { unreachable!("two tetrahedra") };
-        let s = separator3d(d, [a, b, c], e, f64::INFINITY);
-        (s.delimiter, s.exception as usize)
     }
 
     #[inline(always)]

@@ -90,14 +90,6 @@ struct Separated<T: Real> {
     is_enough: T::Mask,
 }
 
-/// scratch: planes are enough if they leave this share of what is wanted.
-static KAPPA: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
-
-#[inline(always)]
-fn kappa() -> f64 {
-    *KAPPA.get_or_init(|| std::env::var("P_KAPPA").ok().and_then(|x| x.parse().ok()).unwrap_or(1.0))
-}
-
 /// Separates a bi-cell by the signs of its affine dependency, or as the standard partition has it.
 #[inline(always)]
 fn separate<T: Real, const BY_SIGNS: bool>(points: &BiCellPoints<T>, enough: T) -> Separated<T> {
@@ -121,7 +113,7 @@ fn separate<T: Real, const BY_SIGNS: bool>(points: &BiCellPoints<T>, enough: T) 
     let (centre, radius, half_width) = annulus(sides, is_standard);
     let planes = slabs.squared_widths(outside, is_standard);
     let reach = half_of_square(planes[0].min(planes[1]).min(planes[2].min(planes[3])));
-    let is_enough = !reach.is_less(half_width.min(enough) * reach.splat(kappa()));
+    let is_enough = !reach.is_less(half_width.min(enough));
     Separated { centre, radius, half_width, outside, planes, reach, is_enough }
 }
 

@@ -162,13 +162,13 @@ impl<G: Moving> Regions<G> {
     /// Whether a vertex that has site `s` for itself certainly stays in its region when it moves to `p`.
     #[inline(always)]
     pub(in crate::motion) fn admit(
-        &mut self,
+        &self,
         kernel: &mut Delaunay<G>,
         vertex: VertexId,
         s: SiteId,
         p: &G::Point,
     ) -> Option<Admission> {
-        match self.kept.as_deref_mut() {
+        match self.kept.as_deref() {
             Some(KeptRegions::Tolerance(tolerances)) => {
                 tolerances.fixed()[vertex].holds(p).then_some(Admission::WithinTolerance)
             }

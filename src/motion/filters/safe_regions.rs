@@ -16,9 +16,9 @@ use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::filters::bicell::{BiCell, for_bicells};
-use crate::motion::filters::store::{Store, TimestampSteps, proto};
+use crate::motion::filters::store::{Store, TimestampSteps};
 use crate::motion::filters::tolerance::Tolerances;
-use crate::predicates::{BiCellTolerances, PointArray, displacement_limit, distance_above, is_certainly_inside, is_path_certainly_outside};
+use crate::predicates::{PointArray, displacement_limit, is_certainly_inside, is_path_certainly_outside};
 
 /// What lets a vertex move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,8 +38,6 @@ pub(in crate::motion) struct SafeRegions<G: Moving> {
     tolerances: Tolerances<G>,
     /// By vertex id: how far from its fixed position a vertex inside its safe region may be.
     reach: Vec<f64>,
-    /// scratch
-    drift: Vec<G::Point>,
     /// By the lower facet code of an interior bi-cell: centre and radius of the delimiter.
     delimiters: Vec<(G::Point, f64)>,
 }
@@ -47,7 +45,7 @@ pub(in crate::motion) struct SafeRegions<G: Moving> {
 impl<G: Moving> SafeRegions<G> {
     pub(in crate::motion) fn new(tests_tolerance: bool) -> Self {
         let tolerances = Tolerances::default();
-        SafeRegions { tests_tolerance, tolerances, reach: Vec::new(), drift: Vec::new(), delimiters: Vec::new() }
+        SafeRegions { tests_tolerance, tolerances, reach: Vec::new(), delimiters: Vec::new() }
     }
 
     /// A copy.
@@ -56,7 +54,6 @@ impl<G: Moving> SafeRegions<G> {
             tests_tolerance: self.tests_tolerance,
             tolerances: self.tolerances.copied()?,
             reach: memory::copy_of(&self.reach)?,
-            drift: self.drift.clone(),
             delimiters: memory::copy_of(&self.delimiters)?,
         })
     }
@@ -68,7 +65,7 @@ impl<G: Moving> SafeRegions<G> {
     /// Whether a vertex that has site `s` for itself certainly stays in its region when it moves to `p`.
     #[inline(always)]
     pub(in crate::motion) fn admit(
-        &mut self,
+        &self,
         kernel: &mut Delaunay<G>,
         vertex: VertexId,
         s: SiteId,
@@ -77,139 +74,57 @@ impl<G: Moving> SafeRegions<G> {
         if self.tests_tolerance && self.tolerances.fixed()[vertex].holds(p) {
             Some(Admission::WithinTolerance)
         } else {
-            let room = self.is_in_safe_region(kernel, s, p)?;
-            if proto().reball > 0.0 && room > 0.0 {
-                self.set_ball(vertex, p, room);
-            }
-            Some(Admission::WithinSafeRegion)
+            self.is_in_safe_region(kernel, s, p).then_some(Admission::WithinSafeRegion)
         }
     }
 
     /// The sub-routine of Algorithm 2: is `p` certainly inside the delimiters of the facets that have the site, outside
     /// those of the facets opposite it, and in reach?
-    fn is_in_safe_region(&self, kernel: &mut Delaunay<G>, s: SiteId, p: &G::Point) -> Option<f64> {
+    fn is_in_safe_region(&self, kernel: &mut Delaunay<G>, s: SiteId, p: &G::Point) -> bool {
         let &Site { point: here, id, .. } = kernel.site(s);
         let from = self.tolerances.fixed()[id].point();
         if from.squared_way(p) >= displacement_limit(self.reach[id]) {
-            return None;
+            return false;
         }
         if G::HAS_WEIGHTS {
             // A reach is a tolerance there.
-            return Some(0.0);
+            return true;
         }
         // The outside of a sphere is not convex: a vertex must not jump over a delimiter.
         if kernel.gather_star(s).is_err() {
-            return None;
+            return false;
         }
         let complex = kernel.complex();
-        let mut least = f64::INFINITY;
-        let measures = proto().reball > 0.0;
-        let holds = kernel.gathered_star().iter().filter(|(c, _)| !complex.cell(*c).is_ghost()).all(|&(c, at)| {
+        kernel.gathered_star().iter().filter(|(c, _)| !complex.cell(*c).is_ghost()).all(|&(c, at)| {
             (0..G::Corners::N).all(|i| {
                 let (facet, across) = (Facet::new(c, i), complex.cell(c).neighbour(i));
                 if complex.cell(across.cell()).is_ghost() {
                     return true;
                 }
                 let (centre, radius) = &self.delimiters[facet.code().min(across.code()) as usize];
-                if measures {
-                    let d = centre.squared_way(p).sqrt();
-                    let away = if i == at as usize { d - radius } else { radius - d };
-                    least = least.min(away - (d + radius) * 2e-15);
-                }
                 if i == at as usize {
                     is_path_certainly_outside(centre, *radius, &here, p)
                 } else {
                     is_certainly_inside(centre, *radius, p)
                 }
             })
-        });
-        holds.then_some(least)
-    }
-
-    /// scratch: another ball in the safe region, around the place where the vertex goes.
-    fn set_ball(&mut self, v: VertexId, p: &G::Point, room: f64) {
-        let from = *self.tolerances.fixed()[v].point();
-        let moved = distance_above(&from, p);
-        let reach = &mut self.reach[v];
-        *reach = (*reach - moved).next_down().max(0.0);
-        let radius = room.min(*reach);
-        self.tolerances.set_ball(v, *p, radius);
-        for axis in 0..G::D {
-            self.drift[v][axis] = p[axis] - from[axis];
-        }
+        })
     }
 
     /// Follows the number of ids and cells.
     fn grow(&mut self, kernel: &Delaunay<G>, n_ids: usize) -> Result<()> {
         self.tolerances.grow(n_ids)?;
         memory::lengthen(&mut self.reach, n_ids, f64::INFINITY)?;
-        self.drift.resize(n_ids, G::Point::default());
         memory::lengthen(&mut self.delimiters, 4 * kernel.complex().n_slots(), (G::Point::default(), 0.0))
     }
 
     /// Fixes the vertex of a site where it is: what is left of its reach is its reach.
     #[inline(always)]
     fn fix_again(&mut self, site: &Site<G>) {
-        let from = *self.tolerances.fixed()[site.id].point();
         if let Some(moved) = self.tolerances.fix_again(site) {
-            for axis in 0..G::D {
-                self.drift[site.id][axis] = site.point[axis] - from[axis];
-            }
             let reach = &mut self.reach[site.id];
             *reach = (*reach - moved).next_down().max(0.0);
         }
-    }
-
-    /// scratch: a delimiter between where the vertices are and where they will be if they go on; centre, radius,
-    /// certified distances of the facet and of the opposing vertices.
-    fn adapted(
-        &self,
-        points: &[&G::Point],
-        vertices: &[VertexId],
-        standard: G::Point,
-        radius: f64,
-        half_width: f64,
-    ) -> (G::Point, f64, f64, f64) {
-        let mut factor = proto().adapt;
-        for _ in 0..4 {
-            let mut later: [G::Point; 5] = [G::Point::default(); 5];
-            let mut middle: [G::Point; 5] = [G::Point::default(); 5];
-            for (k, p) in points.iter().enumerate() {
-                for axis in 0..G::D {
-                    let by = factor * self.drift[vertices[k]][axis];
-                    later[k][axis] = p[axis] + by;
-                    middle[k][axis] = p[axis] + by * 0.5;
-                }
-            }
-            let mut centre = standard;
-            if proto().centre > 0.0 {
-                let refs: [&G::Point; 5] = std::array::from_fn(|k| &middle[k]);
-                centre = G::Point::delimiter(&refs[..G::D + 2]).centre;
-            }
-            let way = |p: &G::Point| centre.squared_way(p).sqrt();
-            let (mut inner, mut outer) = (0.0f64, f64::INFINITY);
-            let (mut now_inner, mut now_outer) = (0.0f64, f64::INFINITY);
-            for (k, p) in points.iter().enumerate() {
-                let (now, then) = (way(p), way(&later[k]));
-                if k == 0 || k == G::D + 1 {
-                    outer = outer.min(now).min(then);
-                    now_outer = now_outer.min(now);
-                } else {
-                    inner = inner.max(now).max(then);
-                    now_inner = now_inner.max(now);
-                }
-            }
-            if inner < outer {
-                let radius = 0.5 * (inner + outer);
-                let error = (radius + now_outer) * 4e-15;
-                let (of_facet, of_opposing) = (radius - now_inner - error, now_outer - radius - error);
-                if of_facet > 0.0 && of_opposing > 0.0 {
-                    return (centre, radius, of_facet, of_opposing);
-                }
-            }
-            factor *= 0.5;
-        }
-        (standard, radius, half_width, half_width)
     }
 
     /// Computes a bi-cell: keeps its delimiter, and lets it lower the tolerance and the reach of its vertices, which
@@ -219,16 +134,6 @@ impl<G: Moving> SafeRegions<G> {
         let vertices = bicell.vertices(kernel);
         let finite = &vertices[..bicell.sites().len()];
         let (tolerance, reach) = match bicell.delimiter() {
-            Some(delimiter) if proto().adapt > 0.0 && delimiter.half_width > 0.0 => {
-                let across = kernel.complex().cell(facet.cell()).neighbour(facet.index());
-                let points = bicell.interior().expect("an interior bi-cell");
-                let (centre, radius, of_facet, of_opposing) =
-                    self.adapted(points, finite, delimiter.centre, delimiter.radius, delimiter.half_width);
-                self.delimiters[facet.code().min(across.code()) as usize] = (centre, radius);
-                self.tolerances.lower(&finite[1..=G::D], of_facet.min(delimiter.reach));
-                self.tolerances.lower(&[finite[0], finite[G::D + 1]], of_opposing.min(delimiter.reach));
-                (f64::INFINITY, delimiter.reach)
-            }
             Some(delimiter) => {
                 let across = kernel.complex().cell(facet.cell()).neighbour(facet.index());
                 // The test only looks at the vertex that moves: the others must certainly be on their sides. If
@@ -270,11 +175,6 @@ impl<G: Moving> Store<G> for SafeRegions<G> {
     ) -> Result<u64> {
         self.grow(kernel, site_of.len())?;
         for &v in relocated {
-            let from = *self.tolerances.fixed()[v].point();
-            let here = kernel.site(site_of[v]).point;
-            for axis in 0..G::D {
-                self.drift[v][axis] = here[axis] - from[axis];
-            }
             self.tolerances.fix(kernel, site_of[v]);
             self.reach[v] = f64::INFINITY;
         }

@@ -4,42 +4,6 @@ use crate::delaunay::{Delaunay, Moving};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 
-/// scratch
-#[derive(Debug, Default)]
-pub(in crate::motion) struct Proto {
-    pub cap: f64,
-    pub steps: f64,
-    pub reball: f64,
-    pub shift: f64,
-    pub order: u32,
-    pub adapt: f64,
-    pub centre: f64,
-    pub share: f64,
-    pub enough: f64,
-    pub capw: f64,
-}
-
-static PROTO: std::sync::OnceLock<Proto> = std::sync::OnceLock::new();
-
-#[inline(always)]
-pub(in crate::motion) fn proto() -> &'static Proto {
-    PROTO.get_or_init(|| {
-        let get = |name: &str| std::env::var(name).ok().and_then(|x| x.parse().ok()).unwrap_or(0.0);
-        Proto {
-            cap: get("P_CAP"),
-            steps: get("P_STEPS"),
-            reball: get("P_REBALL"),
-            shift: get("P_SHIFT"),
-            order: get("P_ORDER") as u32,
-            adapt: get("P_ADAPT"),
-            centre: get("P_CENTRE"),
-            share: get("P_SHARE"),
-            enough: get("P_ENOUGH"),
-            capw: get("P_CAPW"),
-        }
-    })
-}
-
 /// How far vertices go in a timestamp.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::motion) struct TimestampSteps<'s, G: Moving> {

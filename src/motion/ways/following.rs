@@ -70,23 +70,6 @@ impl<G: Moving> MovingTriangulation<G> {
         Some(origin)
     }
 
-    /// scratch
-    fn proto_order(&self, queue: &mut [VertexId], goals: Goals<'_, G>) {
-        use crate::predicates::PointArray;
-        let way = |v: &VertexId| {
-            let here = &self.mesh.kernel.site(self.mesh.site_of[*v]).point;
-            here.squared_way(&goals.of(*v))
-        };
-        match crate::motion::filters::store::proto().order {
-            1 => queue.sort_unstable(),
-            2 => queue.sort_by(|a, b| way(b).total_cmp(&way(a))),
-            3 => queue.sort_by(|a, b| way(a).total_cmp(&way(b))),
-            4 => queue.sort_by_key(|v| v.get().wrapping_mul(2654435761)),
-            5 => crate::motion::ways::placement::order_by_goal::<G>(queue, goals).expect("memory"),
-            _ => {}
-        }
-    }
-
     /// Places the queued vertices; the regions follow.
     pub(in crate::motion) fn place_queued(
         &mut self,
@@ -95,7 +78,6 @@ impl<G: Moving> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<()> {
         self.mesh.order_by_site(&mut queue);
-        self.proto_order(&mut queue, goals);
         self.with_regions(report, |t, report| {
             t.place_all(&queue, goals, report, |t, v, goal, report| t.relocate_noted(v, goal, report))
         })?;

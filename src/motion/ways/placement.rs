@@ -256,7 +256,7 @@ impl<G: Moving> Mesh<G> {
 }
 
 /// Puts vertices in the order of their goals along a Hilbert curve.
-pub(in crate::motion) fn order_by_goal<G: Moving>(queue: &mut [VertexId], goals: Goals<'_, G>) -> Result<()> {
+fn order_by_goal<G: Moving>(queue: &mut [VertexId], goals: Goals<'_, G>) -> Result<()> {
     let mut keyed = Vec::new();
     memory::reserve_exact(&mut keyed, queue.len())?;
     keyed.extend(queue.iter().map(|v| Keyed::new(v.get())));

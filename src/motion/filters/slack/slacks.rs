@@ -171,8 +171,7 @@ impl<G: Moving> Slacks<G> {
 
     /// The vertices are going to move by about so much in a timestamp. Whether the unit still fits.
     fn expect(&mut self, step: f64) -> bool {
-        let enough = crate::motion::filters::store::proto().enough;
-        self.enough = if enough > 0.0 { enough } else { ENOUGH } * step;
+        self.enough = ENOUGH * step;
         let units = step * self.per_length / UNITS;
         let fits = units * FITTING > 1.0 && units < FITTING;
         self.unfit = if fits { 0 } else { self.unfit + 1 };

@@ -7,9 +7,9 @@ use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::filters::bicell::{BiCell, for_bicells};
 use crate::motion::filters::margin::Margin;
-use crate::motion::filters::store::{Store, TimestampSteps, proto};
+use crate::motion::filters::store::{Store, TimestampSteps};
 use crate::motion::filters::tolerance::batch::Batch;
-use crate::predicates::{BiCellTolerances, LANES, PointArray, displacement_limit, distance_above};
+use crate::predicates::{LANES, PointArray, displacement_limit, distance_above};
 
 /// Fixed position and tolerance of a vertex.
 #[derive(Clone, Copy, Debug)]
@@ -44,31 +44,12 @@ pub(in crate::motion) struct Tolerances<G: Moving> {
     /// By vertex id, so that what a timestamp reads that changes nothing is one stream. For a site with several
     /// vertices, that of its representative is in force.
     fixed: Vec<Fixed<G>>,
-    /// scratch
-    next: Vec<Next<G>>,
-}
-
-/// scratch: the least tolerance, the next one, the way from the nearest delimiter, how far that may be followed, and
-/// how far the vertex has gone when it was fixed last.
-#[derive(Clone, Copy, Debug)]
-struct Next<G: Moving> {
-    least: f64,
-    second: f64,
-    away: G::Point,
-    room: f64,
-    drift: f64,
-}
-
-impl<G: Moving> Next<G> {
-    fn none() -> Self {
-        Next { least: f64::INFINITY, second: f64::INFINITY, away: G::Point::default(), room: 0.0, drift: 0.0 }
-    }
 }
 
 impl<G: Moving> Tolerances<G> {
     /// A copy.
     pub(in crate::motion) fn copied(&self) -> Result<Self> {
-        Ok(Tolerances { margin: self.margin, fixed: memory::copy_of(&self.fixed)?, next: self.next.clone() })
+        Ok(Tolerances { margin: self.margin, fixed: memory::copy_of(&self.fixed)? })
     }
 
     /// Fixed positions and tolerances by vertex id.
@@ -77,25 +58,13 @@ impl<G: Moving> Tolerances<G> {
         &self.fixed
     }
 
-    /// scratch
-    pub(in crate::motion) fn set_ball(&mut self, v: VertexId, point: G::Point, radius: f64) {
-        self.fixed[v] = Fixed { point, tolerance: radius.min(self.margin.distance()).max(0.0) };
-    }
-
     /// Fixes every vertex where it is; no bi-cell has lowered a tolerance yet.
     pub(in crate::motion) fn fix_all(&mut self, kernel: &mut Delaunay<G>, n_ids: usize) -> Result<()> {
-        let former = std::mem::take(&mut self.fixed);
+        self.fixed.clear();
         self.margin = Margin::around_all(kernel);
         self.grow(n_ids)?;
         for site in kernel.sites()[1..].iter().filter(|site| site.is_live()) {
             self.fixed[site.id].point = site.point;
-            if proto().capw > 0.0 && !former.is_empty() {
-                let former = &former[site.id];
-                let moved = distance_above(&former.point, &site.point);
-                let most = (proto().capw * former.tolerance).max(proto().steps * moved);
-                let tolerance = &mut self.fixed[site.id].tolerance;
-                *tolerance = tolerance.min(most);
-            }
         }
         Ok(())
     }
@@ -103,7 +72,6 @@ impl<G: Moving> Tolerances<G> {
     /// Follows the number of ids. New vertices have no bi-cells yet, so no tolerance smaller than any.
     pub(in crate::motion) fn grow(&mut self, n_ids: usize) -> Result<()> {
         let tolerance = self.margin.distance();
-        self.next.resize(n_ids, Next::none());
         memory::lengthen(&mut self.fixed, n_ids, Fixed { point: G::Point::default(), tolerance })
     }
 
@@ -112,13 +80,7 @@ impl<G: Moving> Tolerances<G> {
     pub(in crate::motion) fn fix(&mut self, kernel: &mut Delaunay<G>, s: SiteId) {
         let &Site { point, id, .. } = kernel.site(s);
         self.margin.cover(kernel, &point);
-        let mut tolerance = self.margin.distance();
-        let moved = distance_above(&self.fixed[id].point, &point);
-        if proto().cap > 0.0 && moved < tolerance {
-            tolerance = tolerance.min((proto().cap * self.fixed[id].tolerance).max(proto().steps * moved));
-        }
-        self.next[id] = Next { drift: moved, ..Next::none() };
-        self.fixed[id] = Fixed { point, tolerance };
+        self.fixed[id] = Fixed { point, tolerance: self.margin.distance() };
     }
 
     /// Fixes the vertex of a site where it is: what is left of its ball, as a lower bound, is its tolerance. Returns
@@ -132,7 +94,6 @@ impl<G: Moving> Tolerances<G> {
         let moved = distance_above(&fixed.point, &point);
         fixed.tolerance = (fixed.tolerance - moved).next_down().max(0.0);
         fixed.point = point;
-        self.next[id].drift = moved;
         Some(moved)
     }
 
@@ -142,98 +103,6 @@ impl<G: Moving> Tolerances<G> {
         for &v in vertices {
             let fixed = &mut self.fixed[v];
             fixed.tolerance = fixed.tolerance.min(tolerance);
-        }
-    }
-
-    /// scratch: the delimiter nearer to the vertices that have gone less.
-    fn lower_by_share(&mut self, vertices: &[VertexId], tolerance: f64) {
-        let points: [&G::Point; 5] = std::array::from_fn(|k| &self.fixed[vertices[k.min(G::D + 1)]].point);
-        let (mut half_width, mut exception, mut reach) = (tolerance, 9, f64::INFINITY);
-        if G::D == 3 {
-            let (delimiter, outside) = G::Point::separated(&points[..G::D + 2]);
-            (half_width, exception, reach) = (delimiter.half_width, outside, delimiter.reach);
-        }
-        let is_outside = |k: usize| k == 0 || k == G::D + 1 || k == exception + 1;
-        let mut drifts = [0.0f64; 2];
-        for (k, &v) in vertices.iter().enumerate() {
-            let of = &mut drifts[usize::from(is_outside(k))];
-            *of = of.max(self.next[v].drift);
-        }
-        let sum = drifts[0] + drifts[1];
-        let least = proto().share;
-        let share = if sum > 0.0 { (drifts[0] / sum).clamp(least, 1.0 - least) } else { 0.5 };
-        for (k, &v) in vertices.iter().enumerate() {
-            let share = if is_outside(k) { 1.0 - share } else { share };
-            let of_this = (2.0 * half_width * share * (1.0 - 1e-12)).min(reach);
-            let fixed = &mut self.fixed[v];
-            fixed.tolerance = fixed.tolerance.min(of_this);
-        }
-    }
-
-    /// scratch: where the nearest delimiter is.
-    fn note_next(&mut self, vertices: &[VertexId], tolerance: f64) {
-        if vertices.len() != G::D + 2 {
-            for &v in vertices {
-                let next = &mut self.next[v];
-                if tolerance < next.least {
-                    (next.second, next.least, next.room) = (next.least, tolerance, 0.0);
-                } else {
-                    next.second = next.second.min(tolerance);
-                }
-            }
-            return;
-        }
-        let wanted = vertices.iter().any(|&v| tolerance < self.next[v].least);
-        let mut sphere = None;
-        if wanted {
-            let points: [&G::Point; 5] = std::array::from_fn(|k| &self.fixed[vertices[k.min(G::D + 1)]].point);
-            let (delimiter, exception) = G::Point::separated(&points[..G::D + 2]);
-            if delimiter.half_width <= delimiter.reach && delimiter.half_width > 0.0 {
-                sphere = Some((delimiter.centre, exception, delimiter.reach));
-            }
-        }
-        for (k, &v) in vertices.iter().enumerate() {
-            let here = self.fixed[v].point;
-            let next = &mut self.next[v];
-            if tolerance < next.least {
-                next.second = next.least;
-                next.least = tolerance;
-                next.room = 0.0;
-                if let Some((centre, exception, reach)) = sphere {
-                    let outside = k == 0 || k == G::D + 1 || k == exception + 1;
-                    let mut away = G::Point::default();
-                    let mut length = 0.0;
-                    for axis in 0..G::D {
-                        away[axis] = if outside { here[axis] - centre[axis] } else { centre[axis] - here[axis] };
-                        length += away[axis] * away[axis];
-                    }
-                    let length = length.sqrt();
-                    (0..G::D).for_each(|axis| away[axis] /= length);
-                    next.away = away;
-                    next.room = ((reach - tolerance) / 2.0).min(if outside { 1e9 } else { 0.9 * length });
-                }
-            } else {
-                next.second = next.second.min(tolerance);
-            }
-        }
-    }
-
-    /// scratch: moves the balls of these vertices away from their nearest delimiter.
-    fn shift(&mut self, vertices: &[VertexId]) {
-        for &v in vertices {
-            let (next, fixed) = (self.next[v], &mut self.fixed[v]);
-            if next.least < fixed.tolerance || !next.least.is_finite() {
-                continue;
-            }
-            let by = ((next.second - next.least) / 2.0).min(next.room).min(proto().shift * next.least)
-                .min((self.margin.distance() - next.least) / 2.0);
-            if by > 0.0 {
-                for axis in 0..G::D {
-                    fixed.point[axis] += by * next.away[axis];
-                }
-                let size: f64 = (0..G::D).map(|axis| fixed.point[axis].abs()).sum();
-                fixed.tolerance = ((next.least + by) * (1.0 - 1e-12) - size * 1e-15).max(0.0);
-            }
         }
     }
 
@@ -301,9 +170,6 @@ impl<G: Moving> Tolerances<G> {
                 let tolerance = bicell.hull_tolerance();
                 if !set_aside(&self.fixed, facets, finite, tolerance) {
                     self.lower(finite, tolerance);
-                    if proto().shift > 0.0 {
-                        self.note_next(finite, tolerance);
-                    }
                 }
             }
         }
@@ -323,14 +189,7 @@ impl<G: Moving> Tolerances<G> {
         }
         batch.empty(&enough, |facets, vertices, tolerance| {
             if !set_aside(&self.fixed, facets, vertices, tolerance) {
-                if proto().share > 0.0 {
-                    self.lower_by_share(vertices, tolerance);
-                } else {
-                    self.lower(vertices, tolerance);
-                }
-                if proto().shift > 0.0 {
-                    self.note_next(vertices, tolerance);
-                }
+                self.lower(vertices, tolerance);
             }
         });
     }
@@ -339,13 +198,7 @@ impl<G: Moving> Tolerances<G> {
 impl<G: Moving> Store<G> for Tolerances<G> {
     fn prepare(&mut self, kernel: &mut Delaunay<G>, n_ids: usize, _: TimestampSteps<'_, G>) -> Result<u64> {
         self.fix_all(kernel, n_ids)?;
-        self.next.fill(Next::none());
-        let n = self.measure_all(kernel, |_, _, _, _| false);
-        if proto().shift > 0.0 {
-            let all: Vec<VertexId> = VertexId::range(0..n_ids).collect();
-            self.shift(&all);
-        }
-        Ok(n)
+        Ok(self.measure_all(kernel, |_, _, _, _| false))
     }
 
     fn follow(
@@ -358,11 +211,7 @@ impl<G: Moving> Store<G> for Tolerances<G> {
     ) -> Result<u64> {
         self.grow(site_of.len())?;
         relocated.iter().for_each(|&v| self.fix(kernel, site_of[v]));
-        let n = self.measure_around(kernel, cells, |_, _, _, _| false);
-        if proto().shift > 0.0 {
-            self.shift(relocated);
-        }
-        Ok(n)
+        Ok(self.measure_around(kernel, cells, |_, _, _, _| false))
     }
 
     fn tighten_filter(&mut self, kernel: &mut Delaunay<G>) {
