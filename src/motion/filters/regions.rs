@@ -178,7 +178,7 @@ impl<G: Moving> Regions<G> {
         }
     }
 
-    /// Fixed positions and tolerances by vertex id, of all that keep such but slack.
+    /// Fixed positions and tolerances by vertex id: of all kinds but slack, which has none.
     #[inline(always)]
     pub(in crate::motion) fn fixed(&self) -> &[Fixed<G>] {
         match self.kept.as_deref() {

@@ -23,8 +23,8 @@ use crate::predicates::{
     is_path_certainly_outside,
 };
 
-/// A vertex that has gone by its last step, times the root of this, since it was fixed gets another ball in its safe region:
-/// one that goes farther in each step would leave that at once.
+/// A vertex gets another ball in its safe region if the square of its way since it was fixed is more than this number of
+/// times that of its last step: one that goes farther in each step would leave the ball at once.
 const SLOW: f64 = 4.0;
 
 /// What lets a vertex move.
@@ -75,8 +75,8 @@ impl<G: Moving> SafeRegions<G> {
         self.tolerances.fixed()
     }
 
-    /// Whether a vertex that has site `s` for itself certainly stays in its region when it moves to `p`. If it leaves
-    /// only the ball of its tolerance, another one around `p` takes the place of that.
+    /// Whether a vertex that has site `s` for itself certainly stays in its region when it moves to `p`. If it slowly
+    /// leaves only the ball of its tolerance, another one around `p` takes the place of that.
     #[inline(always)]
     pub(in crate::motion) fn admit(
         &mut self,

@@ -13,9 +13,9 @@
 //!
 //! Vertices are placed at the moving positions, and none is queued twice: see the
 //! [tolerance algorithm](crate::motion::ways::tolerance). With tolerances, the safe region is tested only where the
-//! tolerance test fails. A vertex that is still in it gets another ball in it, around its new place, with the distance of
-//! the nearest delimiter for radius: this is its tolerance from then on. So a vertex that goes on its way slowly is tested
-//! now and then, and by one distance in between. (`docs/FUTURE_WORK.md` has what this gains.)
+//! tolerance test fails. A vertex that is still in it and goes slowly gets another ball in it, around its new place, with
+//! the distance of the nearest delimiter for radius: this is its tolerance from then on. So its star is tested now and
+//! then, and one distance in between. (`docs/FUTURE_WORK.md` has what this gains.)
 //!
 //! Cost: a test is a squared distance for each bi-cell of the star, and another ball as much again; a queued vertex costs
 //! as in the tolerance algorithm.
