@@ -1,13 +1,13 @@
-//! Counts of the work of an algorithm on recorded positions, as `make report` leaves them in `cpp-bench/results/series`:
-//! a NumPy file of timestamps × vertices × coordinates.
+//! Counts of the work of an algorithm on recorded positions, as `make report` leaves them in
+//! `cpp-bench/results/series`: a NumPy file of timestamps × vertices × coordinates.
 //!
 //! ```text
 //! cargo run --release --example report_work -- FILE.npy safe_region_tolerance [one-by-one] [check]
 //! valgrind --tool=callgrind --toggle-collect='*replay*' target/release/examples/report_work FILE.npy slack
 //! ```
 //!
-//! The second command counts the instructions of the commits alone. With `one-by-one` vertices are relocated at once, in the order
-//! of their ids; with `check` the cells of each timestamp are compared with those of a fresh build.
+//! The second command counts the instructions of the commits alone. With `one-by-one` vertices are relocated at once,
+//! in the order of their ids; with `check` the cells of each timestamp are compared with those of a fresh build.
 use std::error::Error;
 use std::{env, fs};
 

@@ -26,8 +26,8 @@ pub trait BiCellTolerances: Sized {
     fn tolerance(bicell: &[&Self], enough: f64) -> f64;
     /// Sets the bi-cell of a lane.
     fn set_bicell(bicells: &mut Self::BiCells, lane: usize, bicell: &[&Self]);
-    /// For each lane the [`tolerance`](Self::tolerance) of its bi-cell, which need not be sharp if it is `enough`, or of
-    /// both at least this `share`.
+    /// For each lane the [`tolerance`](Self::tolerance) of its bi-cell, which need not be sharp if it is `enough`, or
+    /// of both at least this `share`.
     fn tolerances(bicells: &Self::BiCells, enough: [f64; LANES], share: f64) -> [f64; LANES];
     /// For each lane, whether the bi-cell surely has two positive cells and passes the empty-sphere test.
     fn bicells_hold(f: &StaticFilter, bicells: &Self::BiCells) -> [bool; LANES];

@@ -39,8 +39,8 @@ pub fn separator3d(c: &[f64; 3], facet: [&[f64; 3]; 3], d: &[f64; 3], enough: f6
     Separator { delimiter: separated.delimiter(&points, exception, enough), exception: exception as u8 }
 }
 
-/// Tolerances of [`LANES`] bi-cells, as [`separator3d`] has them, or at least this `share` of them, of 1 at most: no sphere is
-/// looked for where planes leave as much as that.
+/// Tolerances of [`LANES`] bi-cells, as [`separator3d`] has them, or at least this `share` of them, of 1 at most: no
+/// sphere is looked for where planes leave as much as that.
 #[inline]
 pub fn tolerances3d(bicells: &BiCells<3, 5>, enough: [f64; LANES], share: f64) -> [f64; LANES] {
     in_lanes!(simd => tolerances_in_lanes(simd, bicells, &enough, share))
@@ -96,8 +96,8 @@ struct Separated<T: Real> {
     is_enough: T::Mask,
 }
 
-/// Separates a bi-cell by the signs of its affine dependency, or as the standard partition has it. Wanted is this share of
-/// the half-width, or of what is enough.
+/// Separates a bi-cell by the signs of its affine dependency, or as the standard partition has it. Wanted is this
+/// share of the half-width, or of what is enough.
 #[inline(always)]
 fn separate<T: Real, const BY_SIGNS: bool>(points: &BiCellPoints<T>, enough: T, share: T) -> Separated<T> {
     let slabs = Slabs::new(points);

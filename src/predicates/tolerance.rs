@@ -238,8 +238,8 @@ pub fn is_path_certainly_outside<P: AsRef<[f64]>>(centre: &P, radius: f64, from:
 
 /// Lower bound of the distance of `p` from the sphere.
 ///
-/// The rounded distance from the centre is (D + 4) / 2 u off, see the module, and its difference to the radius u more; both
-/// in units of no more than the sum.
+/// The rounded distance from the centre is (D + 4) / 2 u off, see the module, and its difference to the radius u
+/// more; both in units of no more than the sum.
 #[inline(always)]
 pub fn distance_from_sphere<P: AsRef<[f64]>>(centre: &P, radius: f64, p: &P) -> f64 {
     let from_centre = squared_distance(centre, p).sqrt();

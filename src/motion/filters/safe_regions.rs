@@ -23,8 +23,8 @@ use crate::predicates::{
     is_path_certainly_outside,
 };
 
-/// A vertex gets another ball in its safe region if the square of its way since it was fixed is more than this number of
-/// times that of its last step: one that goes farther in each step would leave the ball at once.
+/// A vertex gets another ball in its safe region if the square of its way since it was fixed is more than this number
+/// of times that of its last step: one that goes farther in each step would leave the ball at once.
 const SLOW: f64 = 4.0;
 
 /// What lets a vertex move.
@@ -36,8 +36,8 @@ pub(in crate::motion) enum Admission {
     WithinSafeRegion,
 }
 
-/// A delimiter for each interior bi-cell, and a tolerance for each vertex: the ball of it is in the safe region. A vertex
-/// found inside its safe region may be outside this ball, unless it gets another one there.
+/// A delimiter for each interior bi-cell, and a tolerance for each vertex: the ball of it is in the safe region. A
+/// vertex found inside its safe region may be outside this ball, unless it gets another one there.
 #[derive(Debug)]
 pub(in crate::motion) struct SafeRegions<G: Moving> {
     /// Whether the safe region is tested only where the tolerance fails.
@@ -123,8 +123,8 @@ impl<G: Moving> SafeRegions<G> {
             })
     }
 
-    /// Whether all delimiters around the site of the gathered star are such, given by centre and radius, and whether the
-    /// site is outside. Facets that have the site are seen from one side.
+    /// Whether all delimiters around the site of the gathered star are such, given by centre and radius, and whether
+    /// the site is outside. Facets that have the site are seen from one side.
     #[inline(always)]
     fn delimit_gathered(
         &self,
@@ -145,8 +145,8 @@ impl<G: Moving> SafeRegions<G> {
         })
     }
 
-    /// Fixes the vertex of the gathered star, which goes to `p` and is in its safe region there, at `p`: its tolerance is
-    /// the distance of the nearest delimiter, and what is left of its reach is its reach.
+    /// Fixes the vertex of the gathered star, which goes to `p` and is in its safe region there, at `p`: its
+    /// tolerance is the distance of the nearest delimiter, and what is left of its reach is its reach.
     fn keep_ball_around(&mut self, kernel: &mut Delaunay<G>, vertex: VertexId, p: &G::Point) {
         let moved = distance_above(self.fixed()[vertex].point(), p);
         let reach = (self.reach[vertex] - moved).next_down().max(0.0);

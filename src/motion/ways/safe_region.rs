@@ -11,14 +11,14 @@
 //!     compute and store c_B and r_B
 //! ```
 //!
-//! Vertices are placed at the moving positions, and none is queued twice: see the
-//! [tolerance algorithm](crate::motion::ways::tolerance). With tolerances, the safe region is tested only where the
-//! tolerance test fails. A vertex that is still in it and goes slowly gets another ball in it, around its new place, with
-//! the distance of the nearest delimiter for radius: this is its tolerance from then on. So its star is tested now and
+//! Vertices are placed at the moving positions, and none is queued twice: see the [tolerance
+//! algorithm](crate::motion::ways::tolerance). With tolerances, the safe region is tested only where the tolerance
+//! test fails. A vertex that is still in it and goes slowly gets another ball in it, around its new place, with the
+//! distance of the nearest delimiter for radius: this is its tolerance from then on. So its star is tested now and
 //! then, and one distance in between. (`docs/FUTURE_WORK.md` has what this gains.)
 //!
-//! Cost: a test is a squared distance for each bi-cell of the star, and another ball as much again; a queued vertex costs
-//! as in the tolerance algorithm.
+//! Cost: a test is a squared distance for each bi-cell of the star, and another ball as much again; a queued vertex
+//! costs as in the tolerance algorithm.
 
 use crate::delaunay::Moving;
 use crate::error::Result;

@@ -5,8 +5,8 @@ use crate::delaunay::{Delaunay, Failures, Moving};
 use crate::error::Result;
 use crate::predicates::{BiCellTolerances, LANES};
 
-/// A tolerance of this share of what there is will do: to look for spheres where planes leave as much takes longer than to
-/// compute the bi-cell again sooner.
+/// A tolerance of this share of what there is will do: to look for spheres where planes leave as much takes longer
+/// than to compute the bi-cell again sooner.
 const SHARE: f64 = 0.25;
 
 /// Whether bi-cells that are computed are checked before.
