@@ -5,9 +5,9 @@
 
 use crate::common::Rng;
 use deldrift::internals::predicates::{
-    BiCells, LANES, delimiter2d, delimiter3d, displacement_limit, distance_above, is_certainly_inside,
-    is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d, separator3d,
-    squared_distance, tolerances2d, tolerances3d,
+    BiCells, LANES, delimiter2d, delimiter3d, displacement_limit, distance_above, distance_from_sphere,
+    is_certainly_inside, is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d,
+    separator3d, squared_distance, tolerances2d, tolerances3d,
 };
 use num_bigint::{BigInt, Sign};
 use std::array::from_fn;
@@ -408,7 +408,7 @@ fn tolerances_of_several_bicells_are_those_of_each() {
     }
     let (mut several, rng) = (BiCells::<3, 5>::default(), &mut Rng::new(8));
     let all: Vec<_> = bicells::<3, 5>(40_000, 9).map(|(_, p)| p).collect();
-    let mut n_positive = 0;
+    let (mut n_positive, mut n_less) = (0, 0);
     for group in all.chunks_exact(LANES) {
         group.iter().enumerate().for_each(|(i, p)| several.set(i, p.each_ref()));
         let enough: [f64; LANES] = from_fn(|_| [0.0, f64::INFINITY, power(rng, -3.0, 0.0)][rng.below(3)]);
@@ -416,11 +416,19 @@ fn tolerances_of_several_bicells_are_those_of_each() {
             let [o, f, g, c, d] = &group[i];
             separator3d(c, [o, f, g], d, enough[i]).delimiter.tolerance
         };
-        let tolerances = tolerances3d(&several, enough);
+        let tolerances = tolerances3d(&several, enough, 1.0);
         n_positive += tolerances.iter().filter(|t| **t > 0.0).count();
         assert_eq!(tolerances.map(f64::to_bits), from_fn(|i| each(i).to_bits()), "{group:?}");
+        let share = rng.unit();
+        for (i, of_a_share) in tolerances3d(&several, enough, share).into_iter().enumerate() {
+            let [o, f, g, c, d] = &group[i];
+            let sharp = separator3d(c, [o, f, g], d, f64::INFINITY).delimiter.tolerance;
+            assert!(of_a_share <= sharp * (1.0 + 1e-14), "{group:?}");
+            assert!(of_a_share >= share * enough[i].min(sharp) * (1.0 - 1e-14), "{group:?}");
+            n_less += usize::from(of_a_share < 0.99 * tolerances[i]);
+        }
     }
-    assert!(n_positive > 10_000, "{n_positive}");
+    assert!(n_positive > 10_000 && n_less > 500, "{n_positive}, {n_less}");
 }
 
 /// `p` moved towards `aim` by less than `t`, exactly, if it can be told; by `factor` t at most.
@@ -744,8 +752,19 @@ where
             assert_eq!(compare_distance(&p, &q, above * (1.0 - 1e-14)), Greater);
         }
         let square = squared_distance(&p, &q);
+        for factor in [0.0, 0.5, 1.0 - 1e-9, 1.0 + 1e-12, 3.0] {
+            let radius = square.sqrt() * factor;
+            let room = distance_from_sphere(&p, radius, &q);
+            let inside: &[usize] = if factor > 1.0 { &[0] } else { &[] };
+            assert!(room == 0.0 || are_apart(&[q], inside, &p, radius, room), "{kind:?}");
+            if square > 1e-200 && factor != 1.0 + 1e-12 {
+                assert!(room >= 0.999 * (radius - square.sqrt()).abs(), "{kind:?}");
+            }
+        }
         for k in -12..=12 {
             let t = square.sqrt() * (1.0 + f64::from(k) * f64::EPSILON / 2.0);
+            let room = distance_from_sphere(&p, t, &q);
+            assert!(room == 0.0, "{kind:?}: {room} of {t}");
             let order = compare_distance(&p, &q, t);
             let (inside, outside) = (is_certainly_inside(&p, t, &q), is_certainly_outside(&p, t, &q));
             assert!(square >= displacement_limit(t) || order == Less);

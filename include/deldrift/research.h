@@ -43,8 +43,9 @@ enum
     /// every cell. In the recorded report slower than DELDRIFT_TOLERANCE in 74 of 74 rows.
     DELDRIFT_RESEARCH_SAFE_REGION = 17,
     /// For comparison: the safe region is tested only where the tolerance test fails. As many vertices stay within
-    /// as with either, and most cost one distance. Memory as for the safe region. In the recorded report slower
-    /// than DELDRIFT_TOLERANCE in 68 of 74 rows.
+    /// as with either, and most cost one distance: one that leaves its tolerance slowly gets another ball in its
+    /// safe region. Memory as for the safe region. In the recorded report slower than DELDRIFT_TOLERANCE in 68 of
+    /// 74 rows.
     DELDRIFT_RESEARCH_SAFE_REGION_TOLERANCE = 18,
     /// For comparison: rebuilds until a sample of the vertices stays within tolerance, then tolerance for good, by
     /// the rule of deldrift_research_options (RR-6750, section 5.2). A sample costs the tolerances of a few

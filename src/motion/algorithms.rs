@@ -153,8 +153,9 @@ macro_rules! for_algorithms {
         }
 
         /// For comparison: the safe region is tested only where the tolerance test fails. As many vertices stay within
-        /// as with either, and most cost one distance. Memory as for the safe region. In the recorded report slower
-        /// than DELDRIFT_TOLERANCE in 68 of 74 rows.
+        /// as with either, and most cost one distance: one that leaves its tolerance slowly gets another ball in its
+        /// safe region. Memory as for the safe region. In the recorded report slower than DELDRIFT_TOLERANCE in 68 of
+        /// 74 rows.
         SafeRegionTolerance = 18 {
             name: "safe_region_tolerance",
             purpose: Comparison,

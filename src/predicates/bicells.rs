@@ -26,8 +26,9 @@ pub trait BiCellTolerances: Sized {
     fn tolerance(bicell: &[&Self], enough: f64) -> f64;
     /// Sets the bi-cell of a lane.
     fn set_bicell(bicells: &mut Self::BiCells, lane: usize, bicell: &[&Self]);
-    /// For each lane the [`tolerance`](Self::tolerance) of its bi-cell, which need not be sharp if it is `enough`.
-    fn tolerances(bicells: &Self::BiCells, enough: [f64; LANES]) -> [f64; LANES];
+    /// For each lane the [`tolerance`](Self::tolerance) of its bi-cell, which need not be sharp if it is `enough`, or
+    /// of both at least this `share`.
+    fn tolerances(bicells: &Self::BiCells, enough: [f64; LANES], share: f64) -> [f64; LANES];
     /// For each lane, whether the bi-cell surely has two positive cells and passes the empty-sphere test.
     fn bicells_hold(f: &StaticFilter, bicells: &Self::BiCells) -> [bool; LANES];
     /// Certified lower bound of the tolerance of the orientation of `D + 1` points; 0 unless it is certainly positive.
@@ -55,7 +56,7 @@ impl BiCellTolerances for [f64; 2] {
     }
 
     #[inline(always)]
-    fn tolerances(bicells: &BiCells<2, 4>, _: [f64; LANES]) -> [f64; LANES] {
+    fn tolerances(bicells: &BiCells<2, 4>, _: [f64; LANES], _: f64) -> [f64; LANES] {
         tolerances2d(bicells)
     }
 
@@ -92,8 +93,8 @@ impl BiCellTolerances for [f64; 3] {
     }
 
     #[inline(always)]
-    fn tolerances(bicells: &BiCells<3, 5>, enough: [f64; LANES]) -> [f64; LANES] {
-        tolerances3d(bicells, enough)
+    fn tolerances(bicells: &BiCells<3, 5>, enough: [f64; LANES], share: f64) -> [f64; LANES] {
+        tolerances3d(bicells, enough, share)
     }
 
     #[inline]

@@ -153,7 +153,7 @@ pub use sphere::{Circle, Sphere, edge_length, half_space, half_space_by_length, 
 #[cfg(feature = "internals")]
 pub use sphere::{OwnBounds2d, OwnBounds3d, circle, is_box_outside_circle, is_box_outside_sphere, sphere};
 pub use tolerance::{
-    Delimiter, delimiter2d, displacement_limit, distance_above, is_certainly_inside,
+    Delimiter, delimiter2d, displacement_limit, distance_above, distance_from_sphere, is_certainly_inside,
     is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d, tolerances2d,
 };
 pub(crate) use tolerance::{are_within, distances_above};

@@ -216,7 +216,7 @@ impl BiCellTolerances for WeightedPoint<2> {
         bicells.set(lane, numbers.each_ref());
     }
 
-    fn tolerances(bicells: &BiCells<3, 4>, _: [f64; LANES]) -> [f64; LANES] {
+    fn tolerances(bicells: &BiCells<3, 4>, _: [f64; LANES], _: f64) -> [f64; LANES] {
         std::array::from_fn(|lane| {
             let [a, b, c, d] = bicells.lane(lane).map(|numbers| point_of(&numbers));
             tolerance2d(&c, [&a, &b], &d)
@@ -255,7 +255,7 @@ impl BiCellTolerances for WeightedPoint<3> {
         bicells.set(lane, numbers.each_ref());
     }
 
-    fn tolerances(bicells: &BiCells<4, 5>, _: [f64; LANES]) -> [f64; LANES] {
+    fn tolerances(bicells: &BiCells<4, 5>, _: [f64; LANES], _: f64) -> [f64; LANES] {
         std::array::from_fn(|lane| {
             let [a, b, c, d, e] = bicells.lane(lane).map(|numbers| point_of(&numbers));
             tolerance3d(&d, [&a, &b, &c], &e)

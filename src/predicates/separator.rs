@@ -14,7 +14,7 @@ type BiCellPoints<T> = [[T; 3]; 5];
 #[inline]
 pub fn delimiter3d(c: &[f64; 3], facet: [&[f64; 3]; 3], d: &[f64; 3]) -> Delimiter<[f64; 3]> {
     let points = [*facet[0], *facet[1], *facet[2], *c, *d];
-    separate::<f64, false>(&points, f64::INFINITY).delimiter(&points, STANDARD, f64::INFINITY)
+    separate::<f64, false>(&points, f64::INFINITY, 1.0).delimiter(&points, STANDARD, f64::INFINITY)
 }
 
 /// The delimiter that decides about a bi-cell: with the interior facet inside, but for one of its vertices
@@ -34,20 +34,26 @@ pub struct Separator<P> {
 #[inline]
 pub fn separator3d(c: &[f64; 3], facet: [&[f64; 3]; 3], d: &[f64; 3], enough: f64) -> Separator<[f64; 3]> {
     let points = [*facet[0], *facet[1], *facet[2], *c, *d];
-    let separated = separate::<f64, true>(&points, enough);
+    let separated = separate::<f64, true>(&points, enough, 1.0);
     let exception = separated.outside.iter().position(|&k| k).unwrap_or(STANDARD);
     Separator { delimiter: separated.delimiter(&points, exception, enough), exception: exception as u8 }
 }
 
-/// Tolerances of [`LANES`] bi-cells, as [`separator3d`] has them.
+/// Tolerances of [`LANES`] bi-cells, as [`separator3d`] has them, or at least this `share` of them, of 1 at most: no
+/// sphere is looked for where planes leave as much as that.
 #[inline]
-pub fn tolerances3d(bicells: &BiCells<3, 5>, enough: [f64; LANES]) -> [f64; LANES] {
-    in_lanes!(simd => tolerances_in_lanes(simd, bicells, &enough))
+pub fn tolerances3d(bicells: &BiCells<3, 5>, enough: [f64; LANES], share: f64) -> [f64; LANES] {
+    in_lanes!(simd => tolerances_in_lanes(simd, bicells, &enough, share))
 }
 
 #[inline(always)]
-fn tolerances_in_lanes<S: Simd>(simd: S, bicells: &BiCells<3, 5>, enough: &[f64; LANES]) -> [f64; LANES] {
-    let separated = separate::<_, true>(&bicells.lanes(simd), simd.load(enough));
+fn tolerances_in_lanes<S: Simd>(
+    simd: S,
+    bicells: &BiCells<3, 5>,
+    enough: &[f64; LANES],
+    share: f64,
+) -> [f64; LANES] {
+    let separated = separate::<_, true>(&bicells.lanes(simd), simd.load(enough), simd.splat(share));
     let mut tolerances = separated.half_width.min(separated.reach).store();
     let is_enough = separated.is_enough.bits();
     if is_enough != ALL {
@@ -58,7 +64,7 @@ fn tolerances_in_lanes<S: Simd>(simd: S, bicells: &BiCells<3, 5>, enough: &[f64;
         let half_widths = separated.half_width.store();
         for i in (0..LANES).filter(|i| is_enough >> i & 1 == 0) {
             let partition = outside.iter().position(|bits| bits >> i & 1 != 0).unwrap_or(STANDARD);
-            let wanted = Real::min(half_widths[i], enough[i]);
+            let wanted = Real::min(half_widths[i], enough[i]) * share;
             let reach = reach_by_spheres(&bicells.lane(i), partition, &planes.map(|p| p[i]), wanted);
             tolerances[i] = Real::min(half_widths[i], reach);
         }
@@ -90,9 +96,10 @@ struct Separated<T: Real> {
     is_enough: T::Mask,
 }
 
-/// Separates a bi-cell by the signs of its affine dependency, or as the standard partition has it.
+/// Separates a bi-cell by the signs of its affine dependency, or as the standard partition has it. Wanted is this
+/// share of the half-width, or of what is enough.
 #[inline(always)]
-fn separate<T: Real, const BY_SIGNS: bool>(points: &BiCellPoints<T>, enough: T) -> Separated<T> {
+fn separate<T: Real, const BY_SIGNS: bool>(points: &BiCellPoints<T>, enough: T, share: T) -> Separated<T> {
     let slabs = Slabs::new(points);
     let outside = if BY_SIGNS { slabs.exception() } else { [slabs.nowhere(); 3] };
     let [o, f, g, c, d] = points;
@@ -113,7 +120,7 @@ fn separate<T: Real, const BY_SIGNS: bool>(points: &BiCellPoints<T>, enough: T) 
     let (centre, radius, half_width) = annulus(sides, is_standard);
     let planes = slabs.squared_widths(outside, is_standard);
     let reach = half_of_square(planes[0].min(planes[1]).min(planes[2].min(planes[3])));
-    let is_enough = !reach.is_less(half_width.min(enough));
+    let is_enough = !reach.is_less(half_width.min(enough) * share);
     Separated { centre, radius, half_width, outside, planes, reach, is_enough }
 }
 

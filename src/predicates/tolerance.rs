@@ -236,6 +236,17 @@ pub fn is_path_certainly_outside<P: AsRef<[f64]>>(centre: &P, radius: f64, from:
     square > limit + LEAST * LEAST && square < f64::INFINITY
 }
 
+/// Lower bound of the distance of `p` from the sphere.
+///
+/// The rounded distance from the centre is (D + 4) / 2 u off, see the module, and its difference to the radius u
+/// more; both in units of no more than the sum.
+#[inline(always)]
+pub fn distance_from_sphere<P: AsRef<[f64]>>(centre: &P, radius: f64, p: &P) -> f64 {
+    let from_centre = squared_distance(centre, p).sqrt();
+    let error = (radius + from_centre) * (8.0 * UNIT) + 2.0 * LEAST;
+    non_negative((radius - from_centre).abs() - error)
+}
+
 /// Standard delimiter and tolerance of the bi-cell of a facet with opposing vertices `c` and `d`.
 #[inline(always)]
 pub fn delimiter2d(c: &[f64; 2], facet: [&[f64; 2]; 2], d: &[f64; 2]) -> Delimiter<[f64; 2]> {

@@ -17,6 +17,7 @@ import jinja2
 from data import Results
 from figures import FIGURES
 from published import INPUT_TITLES, INPUTS, MAN_PLACEMENT_NOTE
+from section_6 import section_6
 from tables import table
 from words import count, listed, span, times
 
@@ -77,6 +78,7 @@ def page(results, figures):
         tables=[table(results, which) for which in (0, 1)],
         misprint=MAN_PLACEMENT_NOTE,
         figures=figures,
+        section_6=section_6(),
         n_compared=sum(int(r["compared_timestamps"]) for r in results.checks),
         wrong=wrong(results),
     )

@@ -129,10 +129,11 @@ ReportInput report_input(const std::string &scenario, const Options &options, Pr
         input.series.is_sequential = scenario == "snodt" || scenario == "man";
     } else {
         input.series = record(scenario, options, effort, input.body, progress);
-        if (!is_segmented(scenario) && dimension_of(scenario) == 3) {
+        if (!is_segmented(scenario)) {
             std::filesystem::create_directories(options.results + "/series");
             write_npy(path + ".new",
-                      {{input.series.n_frames(), input.series.n_points, 3}, input.series.positions});
+                      {{input.series.n_frames(), input.series.n_points, input.series.dimension},
+                       input.series.positions});
             std::filesystem::rename(path + ".new", path);
         }
     }

@@ -162,13 +162,13 @@ impl<G: Moving> Regions<G> {
     /// Whether a vertex that has site `s` for itself certainly stays in its region when it moves to `p`.
     #[inline(always)]
     pub(in crate::motion) fn admit(
-        &self,
+        &mut self,
         kernel: &mut Delaunay<G>,
         vertex: VertexId,
         s: SiteId,
         p: &G::Point,
     ) -> Option<Admission> {
-        match self.kept.as_deref() {
+        match self.kept.as_deref_mut() {
             Some(KeptRegions::Tolerance(tolerances)) => {
                 tolerances.fixed()[vertex].holds(p).then_some(Admission::WithinTolerance)
             }
@@ -178,13 +178,14 @@ impl<G: Moving> Regions<G> {
         }
     }
 
-    /// Fixed positions and tolerances by vertex id, of the tolerance algorithm or of watching.
+    /// Fixed positions and tolerances by vertex id: of all kinds but slack, which has none.
     #[inline(always)]
     pub(in crate::motion) fn fixed(&self) -> &[Fixed<G>] {
         match self.kept.as_deref() {
             Some(KeptRegions::Tolerance(tolerances)) => tolerances.fixed(),
             Some(KeptRegions::Watching(watching)) => watching.fixed(),
-            Some(KeptRegions::SafeRegion(_) | KeptRegions::Slack(_)) | None => &[],
+            Some(KeptRegions::SafeRegion(regions)) => regions.fixed(),
+            Some(KeptRegions::Slack(_)) | None => &[],
         }
     }
 

@@ -17,8 +17,15 @@ use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::filters::bicell::{BiCell, for_bicells};
 use crate::motion::filters::store::{Store, TimestampSteps};
-use crate::motion::filters::tolerance::Tolerances;
-use crate::predicates::{PointArray, displacement_limit, is_certainly_inside, is_path_certainly_outside};
+use crate::motion::filters::tolerance::{Fixed, Tolerances};
+use crate::predicates::{
+    PointArray, displacement_limit, distance_above, distance_from_sphere, is_certainly_inside,
+    is_path_certainly_outside,
+};
+
+/// A vertex gets another ball in its safe region if the square of its way since it was fixed is more than this number
+/// of times that of its last step: one that goes farther in each step would leave the ball at once.
+const SLOW: f64 = 4.0;
 
 /// What lets a vertex move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,8 +36,8 @@ pub(in crate::motion) enum Admission {
     WithinSafeRegion,
 }
 
-/// A delimiter for each interior bi-cell, and a tolerance for each vertex. A vertex found inside its safe region may be
-/// outside the ball of its tolerance.
+/// A delimiter for each interior bi-cell, and a tolerance for each vertex: the ball of it is in the safe region. A
+/// vertex found inside its safe region may be outside this ball, unless it gets another one there.
 #[derive(Debug)]
 pub(in crate::motion) struct SafeRegions<G: Moving> {
     /// Whether the safe region is tested only where the tolerance fails.
@@ -62,27 +69,42 @@ impl<G: Moving> SafeRegions<G> {
         self.tests_tolerance
     }
 
-    /// Whether a vertex that has site `s` for itself certainly stays in its region when it moves to `p`.
+    /// Fixed positions by vertex id, and the radius of a ball around each that is in the safe region.
+    #[inline(always)]
+    pub(in crate::motion) fn fixed(&self) -> &[Fixed<G>] {
+        self.tolerances.fixed()
+    }
+
+    /// Whether a vertex that has site `s` for itself certainly stays in its region when it moves to `p`. If it slowly
+    /// leaves only the ball of its tolerance, another one around `p` takes the place of that.
     #[inline(always)]
     pub(in crate::motion) fn admit(
-        &self,
+        &mut self,
         kernel: &mut Delaunay<G>,
         vertex: VertexId,
         s: SiteId,
         p: &G::Point,
     ) -> Option<Admission> {
-        if self.tests_tolerance && self.tolerances.fixed()[vertex].holds(p) {
-            Some(Admission::WithinTolerance)
-        } else {
-            self.is_in_safe_region(kernel, s, p).then_some(Admission::WithinSafeRegion)
+        if self.tests_tolerance && self.fixed()[vertex].holds(p) {
+            return Some(Admission::WithinTolerance);
         }
+        if !self.is_in_safe_region(kernel, s, p) {
+            return None;
+        }
+        if self.tests_tolerance && !G::HAS_WEIGHTS {
+            let (here, from) = (&kernel.site(s).point, self.fixed()[vertex].point());
+            if here.squared_way(p) * SLOW < from.squared_way(p) {
+                self.keep_ball_around(kernel, vertex, p);
+            }
+        }
+        Some(Admission::WithinSafeRegion)
     }
 
     /// The sub-routine of Algorithm 2: is `p` certainly inside the delimiters of the facets that have the site, outside
     /// those of the facets opposite it, and in reach?
     fn is_in_safe_region(&self, kernel: &mut Delaunay<G>, s: SiteId, p: &G::Point) -> bool {
         let &Site { point: here, id, .. } = kernel.site(s);
-        let from = self.tolerances.fixed()[id].point();
+        let from = self.fixed()[id].point();
         if from.squared_way(p) >= displacement_limit(self.reach[id]) {
             return false;
         }
@@ -91,24 +113,50 @@ impl<G: Moving> SafeRegions<G> {
             return true;
         }
         // The outside of a sphere is not convex: a vertex must not jump over a delimiter.
-        if kernel.gather_star(s).is_err() {
-            return false;
-        }
+        kernel.gather_star(s).is_ok()
+            && self.delimit_gathered(kernel, |centre, radius, is_outside| {
+                if is_outside {
+                    is_path_certainly_outside(centre, radius, &here, p)
+                } else {
+                    is_certainly_inside(centre, radius, p)
+                }
+            })
+    }
+
+    /// Whether all delimiters around the site of the gathered star are such, given by centre and radius, and whether
+    /// the site is outside. Facets that have the site are seen from one side.
+    #[inline(always)]
+    fn delimit_gathered(
+        &self,
+        kernel: &Delaunay<G>,
+        mut are_such: impl FnMut(&G::Point, f64, bool) -> bool,
+    ) -> bool {
         let complex = kernel.complex();
         kernel.gathered_star().iter().filter(|(c, _)| !complex.cell(*c).is_ghost()).all(|&(c, at)| {
             (0..G::Corners::N).all(|i| {
                 let (facet, across) = (Facet::new(c, i), complex.cell(c).neighbour(i));
-                if complex.cell(across.cell()).is_ghost() {
+                let is_opposite = i == at as usize;
+                if !is_opposite && across < facet || complex.cell(across.cell()).is_ghost() {
                     return true;
                 }
                 let (centre, radius) = &self.delimiters[facet.code().min(across.code()) as usize];
-                if i == at as usize {
-                    is_path_certainly_outside(centre, *radius, &here, p)
-                } else {
-                    is_certainly_inside(centre, *radius, p)
-                }
+                are_such(centre, *radius, is_opposite)
             })
         })
+    }
+
+    /// Fixes the vertex of the gathered star, which goes to `p` and is in its safe region there, at `p`: its
+    /// tolerance is the distance of the nearest delimiter, and what is left of its reach is its reach.
+    fn keep_ball_around(&mut self, kernel: &mut Delaunay<G>, vertex: VertexId, p: &G::Point) {
+        let moved = distance_above(self.fixed()[vertex].point(), p);
+        let reach = (self.reach[vertex] - moved).next_down().max(0.0);
+        let mut radius = reach;
+        self.delimit_gathered(kernel, |centre, of_delimiter, _| {
+            radius = radius.min(distance_from_sphere(centre, of_delimiter, p));
+            true
+        });
+        self.reach[vertex] = reach;
+        self.tolerances.fix_at(kernel, vertex, p, radius);
     }
 
     /// Follows the number of ids and cells.
@@ -192,6 +240,8 @@ impl<G: Moving> Store<G> for SafeRegions<G> {
 
     fn tighten_filter(&mut self, kernel: &mut Delaunay<G>) {
         self.tolerances.tighten_filter(kernel);
+        // A vertex in its safe region may be far from its ball, and go back there.
+        self.tolerances.cover_balls(kernel);
     }
 
     fn memory_bytes(&self) -> usize {

@@ -10,6 +10,7 @@ use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::{Goals, Moves};
 use crate::motion::triangulation::MovingTriangulation;
+use crate::motion::ways::moving::{Advance, Beyond};
 use crate::motion::ways::placement::Placed;
 
 impl<G: Moving> MovingTriangulation<G> {
@@ -27,6 +28,22 @@ impl<G: Moving> MovingTriangulation<G> {
             report.tolerances += self.regions.prepare(kind, kernel, n_ids, steps)?;
         }
         Ok(())
+    }
+
+    /// Moves all vertices that stay within tolerance, in one loop; returns the others.
+    pub(in crate::motion) fn accept_all(
+        &mut self,
+        moves: &mut Moves<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<Vec<VertexId>> {
+        let mut queue = std::mem::take(&mut self.queue);
+        let mut beyond = Beyond { fixed: self.regions.fixed(), most: usize::MAX, queue: &mut queue };
+        let Advance::Moved(moved) = self.mesh.move_and_queue::<false>(moves, &mut beyond)? else {
+            unreachable!("there is room for all in the queue");
+        };
+        report.moved += moved;
+        report.within_tolerance += (self.mesh.site_of.len() - queue.len()) as u64;
+        Ok(queue)
     }
 
     /// Moves those of the queued vertices that stay in their regions; the others stay in the queue.

@@ -32,13 +32,10 @@
 
 use crate::delaunay::Moving;
 use crate::error::Result;
-use crate::ids::VertexId;
 use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Moves;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::motion::ways::moving::Advance;
-use crate::motion::ways::moving::Beyond;
 
 impl<G: Moving> MovingTriangulation<G> {
     /// Algorithm 1.
@@ -62,17 +59,5 @@ impl<G: Moving> MovingTriangulation<G> {
             queue
         };
         self.place_queued(queue, moves.checked()?, report)
-    }
-
-    /// Moves all vertices that stay within tolerance; returns the others.
-    fn accept_all(&mut self, moves: &mut Moves<'_, G>, report: &mut CommitReport) -> Result<Vec<VertexId>> {
-        let mut queue = std::mem::take(&mut self.queue);
-        let mut beyond = Beyond { fixed: self.regions.fixed(), most: usize::MAX, queue: &mut queue };
-        let Advance::Moved(moved) = self.mesh.move_and_queue::<false>(moves, &mut beyond)? else {
-            unreachable!("there is room for all in the queue");
-        };
-        report.moved += moved;
-        report.within_tolerance += (self.mesh.site_of.len() - queue.len()) as u64;
-        Ok(queue)
     }
 }

@@ -5,6 +5,10 @@ use crate::delaunay::{Delaunay, Failures, Moving};
 use crate::error::Result;
 use crate::predicates::{BiCellTolerances, LANES};
 
+/// A tolerance of this share of what there is will do: to look for spheres where planes leave as much takes longer
+/// than to compute the bi-cell again sooner.
+const SHARE: f64 = 0.25;
+
 /// Whether bi-cells that are computed are checked before.
 pub(super) enum CheckFirst<'c, G: Moving> {
     /// All are known to hold.
@@ -53,7 +57,7 @@ impl<'c, G: Moving> Pass<'c, G> {
             CheckFirst::Moved(..) => G::Point::bicells_hold(kernel.filter(), &self.bicells),
             CheckFirst::Not => [true; LANES],
         };
-        let tolerances = G::Point::tolerances(&self.bicells, [enough; LANES]);
+        let tolerances = G::Point::tolerances(&self.bicells, [enough; LANES], SHARE);
         for k in 0..n {
             let sides = self.facets[k];
             let holds = hold[k] || self.holds(kernel, sides[0]);

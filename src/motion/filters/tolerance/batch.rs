@@ -60,7 +60,7 @@ impl<G: Moving> Batch<G> {
         enough: &[f64; LANES],
         mut hand_on: impl FnMut([Facet; 2], &[VertexId], f64),
     ) {
-        let tolerances = G::Point::tolerances(&self.bicells, *enough);
+        let tolerances = G::Point::tolerances(&self.bicells, *enough, 1.0);
         for (k, tolerance) in tolerances.into_iter().enumerate().take(self.n) {
             hand_on(self.facets[k], &self.vertices[k][..G::D + 2], tolerance);
         }

@@ -97,6 +97,28 @@ impl<G: Moving> Tolerances<G> {
         Some(moved)
     }
 
+    /// Fixes a vertex at the place to which it goes: it may go by this distance from there.
+    pub(in crate::motion) fn fix_at(
+        &mut self,
+        kernel: &mut Delaunay<G>,
+        vertex: VertexId,
+        place: &G::Point,
+        distance: f64,
+    ) {
+        self.margin.cover(kernel, place);
+        self.fixed[vertex] = Fixed { point: *place, tolerance: distance.min(self.margin.distance()) };
+    }
+
+    /// Makes the kernel's static filter cover the balls of all vertices, wherever these are.
+    pub(in crate::motion) fn cover_balls(&self, kernel: &mut Delaunay<G>) {
+        for s in SiteId::range(1..kernel.sites().len()) {
+            if kernel.site(s).is_live() {
+                let fixed = &self.fixed[kernel.site(s).id];
+                self.margin.cover(kernel, &fixed.point);
+            }
+        }
+    }
+
     /// A bi-cell with this tolerance has these vertices.
     #[inline(always)]
     pub(in crate::motion) fn lower(&mut self, vertices: &[VertexId], tolerance: f64) {
