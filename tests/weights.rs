@@ -1,5 +1,7 @@
 //! Triangulations of points with weights: any history against a fresh build, by every algorithm.
 
+mod definition;
+mod known;
 mod saving;
 
 use crate::common::inputs::{KINDS, Kind, draw_one};
