@@ -3,6 +3,7 @@
 mod definition;
 mod known;
 mod saving;
+mod stuck;
 
 use crate::common::inputs::{KINDS, Kind, draw_one};
 use crate::common::{CellSet, Rng, assert_same_cells, cell_set, check_adjacency, seeds};
