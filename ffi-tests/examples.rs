@@ -61,6 +61,17 @@ fn power_cells_have_the_areas_that_are_wanted() {
     assert!(number("mean after ") < 20.0, "{said}");
 }
 
+/// Small discs within large ones are hidden, and come out; then all grow as far as they can.
+#[test]
+#[ignore = "needs Eigen and pkg-config"]
+fn discs_grow_until_they_touch() {
+    let said = run("packing", "examples/packing.cpp", &["120"], true);
+    let number = |before: &str| number_after(before, &said);
+    assert!(number("at random: ") > 3.0 && number("discs cover ") > 0.78, "{said}");
+    assert!(number("of the square; ") > 120.0, "{said}");
+    assert!(said.ends_with("of all pairs 0 overlap, and 0 touch that are no neighbours\n"), "{said}");
+}
+
 #[test]
 #[ignore = "needs Eigen and pkg-config"]
 fn a_gas_of_voronoi_cells_comes_to_rest() {
