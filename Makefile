@@ -162,6 +162,7 @@ examples: library ## all examples, and their pictures in docs; particle finite e
 	build/examples/gas 400 4000 docs/gas.svg
 	build/examples/transport 300 docs/transport.svg
 	build/examples/packing 300 docs/packing.svg
+	build/examples/molecule 34 docs/molecule.svg
 	build/examples/particle_fem 3.6 0.05 docs/particle_fem.svg
 	build/examples/particle_fem_cgal
 	$(WITH_PACKAGE) python/examples/tissue.py docs/tissue.svg
