@@ -130,7 +130,8 @@ impl Lifted {
         }
     }
 
-    /// Looks at all cells: no place is within the power sphere of one, and facets of one cell have all places on one side.
+    /// Looks at all cells: no place is within the power sphere of one, and facets of one cell have all places on one
+    /// side.
     fn check_cells<G: Moving>(&self, t: &MovingTriangulation<G>, name: &str) {
         let view = t.cells().expect("room");
         let at = |v: VertexId| self.ids.binary_search(&v).unwrap_or_else(|_| panic!("{name}: {v} in a cell"));

@@ -1,6 +1,6 @@
-//! Sets that others test their regular triangulations with: those of CGAL (`test_regular_3.cpp`, `test_regular_remove_3.cpp` with its
-//! data, `_test_cls_regular_triangulation_2.h`, issues 3175, 3186 and 3188 there) and of GUDHI's weighted alpha complexes.
-//! The oracle is the definition in exact integers.
+//! Sets that others test their regular triangulations with: those of CGAL (`test_regular_3.cpp`,
+//! `test_regular_remove_3.cpp` with its data, `_test_cls_regular_triangulation_2.h`, issues 3175, 3186 and 3188
+//! there) and of GUDHI's weighted alpha complexes. The oracle is the definition in exact integers.
 
 mod sets;
 
@@ -239,8 +239,8 @@ struct Case {
     newly_hidden: u64,
 }
 
-/// Which of four things an insertion is can be told before it is made: shown beside others, shown in the place of a lighter one,
-/// hidden at the place of one as heavy or heavier, or hidden by weight; and whom it hides.
+/// Which of four things an insertion is can be told before it is made: shown beside others, shown in the place of a
+/// lighter one, hidden at the place of one as heavy or heavier, or hidden by weight; and whom it hides.
 #[test]
 fn what_an_insertion_does_is_told_before_it() {
     let set = listed(&[[0, 0, 0, 1], [8, 0, 0, 1], [0, 8, 0, 1], [0, 0, 8, 1], [2, 2, 2, -1]]);
@@ -311,8 +311,8 @@ fn nearest_vertices_of_others_hold() {
     }
 }
 
-/// The least value at which the edge of two vertices on a line is in a weighted alpha complex, times four squares of their
-/// distance, and that times the value given: with d, v and w in units of 2^-60 and of its square.
+/// The least value at which the edge of two vertices on a line is in a weighted alpha complex, times four squares of
+/// their distance, and that times the value given: with d, v and w in units of 2^-60 and of its square.
 fn alpha_of_edge(d: f64, v: f64, w: f64, value: f64) -> (BigInt, BigInt) {
     let scaled = |x: f64, shift: u32| {
         let bits = x.to_bits();
@@ -326,8 +326,8 @@ fn alpha_of_edge(d: f64, v: f64, w: f64, value: f64) -> (BigInt, BigInt) {
     (&sum * &sum - BigInt::from(4) * &d * &d * v, BigInt::from(4) * &d * &d * value)
 }
 
-/// GUDHI's two vertices of very different weights on a line are both shown, and their edge has the value 249,900; of three the
-/// one between is hidden.
+/// GUDHI's two vertices of very different weights on a line are both shown, and their edge has the value 249,900; of
+/// three the one between is hidden.
 #[test]
 fn alpha_values_of_others_hold() {
     // With the decimal numbers exactly, here times 10,000; with those of the machine nearly.
@@ -377,7 +377,8 @@ fn alpha_values_of_others_hold() {
             }
         }
     }
-    // The tetrahedron whose power sphere has a negative square, in an alpha complex without values that are not numbers.
+    // The tetrahedron whose power sphere has a negative square, in an alpha complex without values that are not
+    // numbers.
     let t = build::<PowerSpace>(&of_alpha_complexes()[0]);
     let spheres: Vec<f64> = t.circumspheres().expect("room").map(|(_, square)| square).collect();
     assert!(spheres.iter().all(|square| square.is_finite()));

@@ -1,7 +1,7 @@
-//! Flips that are stuck. In the plane an edge that fails can always be flipped without weights. With weights it may not: the
-//! quadrilateral around it need not be convex, and the vertex that is in its way can vanish by a flip only if it has three
-//! neighbours (Edelsbrunner and Shah, 10.1007/BF01975867). Whoever flips from such a state must notice, and place vertices
-//! instead.
+//! Flips that are stuck. In the plane an edge that fails can always be flipped without weights. With weights it may
+//! not: the quadrilateral around it need not be convex, and the vertex that is in its way can vanish by a flip only
+//! if it has three neighbours (Edelsbrunner and Shah, 10.1007/BF01975867). Whoever flips from such a state must
+//! notice, and place vertices instead.
 
 use super::definition::{Points, check, to_point};
 use super::{fresh, shown};
@@ -19,8 +19,8 @@ type Numbers = [i64; 3];
 /// What the edges of cells are when vertices have moved and cells have not changed yet.
 #[derive(Debug, PartialEq)]
 enum Edges {
-    /// A cell has turned over.
-    Inverted,
+    /// A cell has turned over, or the hull is not convex any more.
+    Torn,
     Regular,
     /// One that fails can be flipped, or a vertex of three neighbours beside one can vanish.
     Flippable,
@@ -44,11 +44,16 @@ fn edges_of(cells: &CellSet, points: &[Numbers]) -> Edges {
             neighbours.entry(u).or_default().extend([v, w]);
         }
         if turn(a, b, c) <= 0 {
-            return Edges::Inverted;
+            return Edges::Torn;
         }
     }
-    let is_on_hull =
-        |v: VertexId| beyond.keys().any(|&(u, w)| (u == v || w == v) && !beyond.contains_key(&(w, u)));
+    let hull: Vec<(VertexId, VertexId)> =
+        beyond.keys().copied().filter(|&(u, v)| !beyond.contains_key(&(v, u))).collect();
+    let all = || VertexId::range(0..points.len());
+    if hull.iter().any(|&(u, v)| all().any(|w| turn(u, v, w) < 0)) {
+        return Edges::Torn;
+    }
+    let is_on_hull = |v: VertexId| hull.iter().any(|&(u, _)| u == v);
     let (mut n_failing, mut n_flippable) = (0, 0);
     for (&(u, v), &w) in &beyond {
         let Some(&x) = beyond.get(&(v, u)).filter(|_| u < v) else { continue };
@@ -87,7 +92,8 @@ fn as_points(points: &[Numbers]) -> Vec<Point> {
     points.iter().map(|p| to_point::<PowerPlane>(p)).collect()
 }
 
-/// A commit from one set to another one, by every algorithm, of all at once or of those that move, and one vertex after the other.
+/// A commit from one set to another one, by every algorithm, of all at once or of those that move, and one vertex
+/// after the other.
 fn reach(from: &[Numbers], to: &[Numbers], name: &str) {
     let goals = as_points(to);
     let present: Vec<Option<Point>> = goals.iter().copied().map(Some).collect();
@@ -120,8 +126,8 @@ fn reach(from: &[Numbers], to: &[Numbers], name: &str) {
     assert_eq!(shown(&t), expected, "{name}, one after the other");
 }
 
-/// Three vertices within a triangle, each at the end of an arm that the next one is near: as they turn back and rise, none of the six
-/// edges at them can be flipped. Where they are at first, and then; the weight is what they lose.
+/// Three vertices within a triangle, each at the end of an arm that the next one is near: as they turn back and rise,
+/// none of the six edges at them can be flipped. Where they are at first, and then; the weight is what they lose.
 fn pinwheel(is_turned: bool, weight: i64) -> [Numbers; 6] {
     let [a, b, c] = if is_turned { [[-3, 10], [-7, -7], [10, -3]] } else { [[9, 3], [-8, 6], [-2, -10]] };
     let outer = [[0, 40, 0], [-35, -20, 0], [35, -20, 0]];

@@ -1,4 +1,5 @@
-//! The points of tests that others have written for their regular triangulations, rebuilt as integers: coordinates, and then the weight.
+//! The points of tests that others have written for their regular triangulations, rebuilt as integers: coordinates,
+//! and then the weight.
 
 use crate::common::Rng;
 
@@ -161,7 +162,8 @@ pub fn numbered(i: usize, weight_by_four: i64) -> Vec<i64> {
     vec![x, y, 0, 64 * weight_by_four]
 }
 
-/// Those that it makes a line of: the third is hidden as it comes, the fourth by the fifth; then two at places that are taken.
+/// Those that it makes a line of: the third is hidden as it comes, the fourth by the fifth; then two at places that
+/// are taken.
 pub fn line_in_plane() -> Set {
     let rows = [(1, 80), (2, 80), (3, 4), (9, 4), (8, 80), (2, 4), (3, 80)];
     rows.map(|(i, w)| numbered(i, w)).to_vec()
