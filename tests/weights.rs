@@ -1,6 +1,7 @@
 //! Triangulations of points with weights: any history against a fresh build, by every algorithm.
 
 mod definition;
+mod exactly;
 mod known;
 mod saving;
 mod stuck;
