@@ -61,6 +61,33 @@ fn power_cells_have_the_areas_that_are_wanted() {
     assert!(number("mean after ") < 20.0, "{said}");
 }
 
+/// Small discs within large ones are hidden, and come out; then all grow as far as they can.
+#[test]
+#[ignore = "needs Eigen and pkg-config"]
+fn discs_grow_until_they_touch() {
+    let said = run("packing", "examples/packing.cpp", &["120"], true);
+    let number = |before: &str| number_after(before, &said);
+    assert!(number("at random: ") > 3.0 && number("discs cover ") > 0.78, "{said}");
+    assert!(number("of the square; ") > 120.0, "{said}");
+    assert!(said.ends_with("of all pairs 0 overlap, and 0 touch that are no neighbours\n"), "{said}");
+}
+
+/// What is known of twenty hexagons and twelve pentagons: each has a void below it while the atom in the middle touches the
+/// cage, then there is one void, then tunnels through the hexagons, through all of them, and atoms apart.
+#[test]
+#[ignore = "needs Eigen and pkg-config"]
+fn a_growing_cage_of_atoms_opens() {
+    let said = run("molecule", "examples/molecule.cpp", &["34"], true);
+    let shapes: Vec<[f64; 4]> = said
+        .lines()
+        .filter(|line| line.contains(" times as large: "))
+        .map(|line| ["pieces ", "tunnels ", "voids ", "atoms "].map(|before| number_after(before, line)))
+        .collect();
+    let known = [[1, 0, 0], [1, 0, 32], [2, 0, 1], [2, 19, 0], [2, 31, 0], [61, 0, 0]];
+    let known = known.map(|[pieces, tunnels, voids]: [i32; 3]| [pieces, tunnels, voids, 0].map(f64::from));
+    assert_eq!(shapes, known, "{said}");
+}
+
 #[test]
 #[ignore = "needs Eigen and pkg-config"]
 fn a_gas_of_voronoi_cells_comes_to_rest() {

@@ -1,6 +1,10 @@
 //! Triangulations of points with weights: any history against a fresh build, by every algorithm.
 
+mod definition;
+mod exactly;
+mod known;
 mod saving;
+mod stuck;
 
 use crate::common::inputs::{KINDS, Kind, draw_one};
 use crate::common::{CellSet, Rng, assert_same_cells, cell_set, check_adjacency, seeds};

@@ -1,10 +1,11 @@
 //! Flips, while there are any, and undoing them.
 //!
-//! A facet that fails the empty-sphere test is flipped. In the plane that is always possible and leads to the Delaunay
-//! triangulation (Lawson, 10.1016/B978-0-12-587260-7.50011-X). In space it is done if a 2-3, 3-2 or 4-4 flip there
-//! makes positive cells (Joe, 10.1016/0167-8396(91)90038-D); every flip lowers the lifted surface, so there is an
-//! end, but that can be short of the Delaunay triangulation: what is around a facet that is stuck is then triangulated
-//! again, if it is small (`islands`). The cells that a flip is about to change are kept in a
+//! A facet that fails the empty-sphere test is flipped. In the plane without weights that is always possible and leads to
+//! the Delaunay triangulation (Lawson, 10.1016/B978-0-12-587260-7.50011-X). With weights the two cells there need not make a
+//! convex quadrilateral (Edelsbrunner and Shah, 10.1007/BF01975867). In space it is done if a 2-3, 3-2 or 4-4 flip there
+//! makes positive cells (Joe, 10.1016/0167-8396(91)90038-D). Every flip lowers the lifted surface, so there is an
+//! end, but that can be short of the Delaunay triangulation: what is around a facet of space that is stuck is then
+//! triangulated again, if it is small (`islands`). The cells that a flip is about to change are kept in a
 //! journal, so that all can be as it was; flips that stay are entered into the record of the complex from there.
 //!
 //! **Threads.** Cells near each other in space are near each other in storage once they have been sorted. So each
@@ -88,8 +89,8 @@ impl<G: Geometry> AllFlips<G> {
 
 impl<G: Geometry> Delaunay<G> {
     /// Flips until no facet of a triangulation fails, where `suspects` are all that may; leaves in `stuck` those that
-    /// fail still as they cannot be flipped, all of cells that are there. There are none in the plane; if there are,
-    /// [`undo_flips`](Self::undo_flips) must follow. Returns the number of flips; `None` if more than `most`
+    /// fail still as they cannot be flipped, all of cells that are there. There are none in the plane without weights; if
+    /// there are, [`undo_flips`](Self::undo_flips) must follow. Returns the number of flips; `None` if more than `most`
     /// certificates would have to be evaluated on the way, exact evaluations counted as
     /// [so many](CERTIFICATES_PER_EXACT), and then [`undo_flips`](Self::undo_flips) must follow, too.
     /// After an error all is as it was.

@@ -17,7 +17,7 @@ pub fn to_point<G: Moving>(p: &Grid) -> G::Point {
 }
 
 /// Determinant by expansion along the first row.
-fn determinant(rows: &[Vec<i128>]) -> i128 {
+pub fn determinant(rows: &[Vec<i128>]) -> i128 {
     if rows.is_empty() {
         return 1;
     }
@@ -41,15 +41,25 @@ pub fn squared_distance(p: &Grid, q: &Grid) -> i128 {
     p.iter().zip(q).map(|(x, y)| i128::from(x - y).pow(2)).sum()
 }
 
+/// The sum of the squares of the coordinates.
+fn lift(p: &Grid) -> i128 {
+    p.iter().map(|&x| i128::from(x).pow(2)).sum()
+}
+
 /// Whether the last point is inside the sphere of the others, ties broken by id. The others are not in one
 /// hyperplane; their order does not matter.
 pub fn is_inside(points: &[&Grid], ids: &[VertexId]) -> bool {
+    is_inside_lifted(points, &points.iter().map(|p| lift(p)).collect::<Vec<_>>(), ids)
+}
+
+/// Whether the last point is below the hyperplane of the others, each at a height of its own, ties broken by id: inside
+/// their power sphere if heights are squares less weights.
+pub fn is_inside_lifted(points: &[&Grid], lifts: &[i128], ids: &[VertexId]) -> bool {
     let last = points.len() - 1;
-    let row = |p: &&Grid| -> Vec<i128> {
-        let lift = p.iter().map(|&x| i128::from(x).pow(2)).sum();
+    let row = |(p, &lift): (&&Grid, &i128)| -> Vec<i128> {
         p.iter().map(|&x| i128::from(x)).chain([1, lift]).collect()
     };
-    let rows: Vec<Vec<i128>> = points.iter().map(row).collect();
+    let rows: Vec<Vec<i128>> = points.iter().zip(lifts).map(row).collect();
     // The lift is the last column: cofactor of row i is the
     // determinant without row i and that column, signed.
     let cofactor = |i: usize| {
@@ -73,7 +83,7 @@ pub fn representatives<P: PartialEq>(positions: &[Option<P>]) -> Vec<Option<Vert
 }
 
 /// All subsets of `k` of `items`.
-fn subsets(items: &[VertexId], k: usize) -> Vec<Vec<VertexId>> {
+pub fn subsets(items: &[VertexId], k: usize) -> Vec<Vec<VertexId>> {
     if k == 0 {
         return vec![Vec::new()];
     }
