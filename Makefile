@@ -32,7 +32,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help quick test counts soak bench report memory large targets calibrate costs table records sizes lint header doc picture install uninstall
-.PHONY: examples cgal-examples
+.PHONY: examples cgal-examples platforms
 .PHONY: compat demo deb dist packages wheel library benchmark clean faults tsan miri fuzz mutants coverage
 
 help: ## this list
@@ -101,6 +101,10 @@ tsan: ## tests of the library's threads under ThreadSanitizer, with a nightly to
 miri: ## tests of what needs no system under Miri, with a nightly toolchain that has it
 	.ci/nightly miri
 
+platforms: ## the library for other machines, tested under emulators: docs/PLATFORMS.md (ARGS=arm64 for one)
+	platforms/run $(ARGS)
+	.ci/records write tests/results/environment_platforms.txt "$(strip make platforms $(if $(ARGS),ARGS='$(ARGS)'))"
+
 mutants: ## changes of the sources that no test notices: tests/results/mutants.csv (an hour; ARGS="--sample 0" for all)
 	mutants/run $(ARGS)
 	.ci/records write tests/results/environment_mutants.txt "$(strip make mutants $(if $(ARGS),ARGS='$(ARGS)'))"
@@ -113,6 +117,7 @@ coverage: ## lines and branches that the tests run: tests/results/coverage.csv (
 table: ## fill in the tables and sentences with figures of README.md and docs, from the records
 	cpp-bench/readme_table
 	.ci/figures --write
+	platforms/run --table
 
 records: ## where the recorded figures come from: command, date, commit, and how many commits to the sources since
 	.ci/records

@@ -2,29 +2,21 @@
 
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Not, Sub};
-use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
 
+use super::presence::{self, Presence};
 use super::{LANES, Lanes, Real, Simd};
 
 /// Proof that the processor has AVX2.
 #[derive(Clone, Copy, Debug)]
 pub struct Avx2(());
 
-/// Whether there is a token: not known yet, no, or yes.
-static IS_THERE: AtomicU8 = AtomicU8::new(UNKNOWN);
-const UNKNOWN: u8 = 0;
-const NO: u8 = 1;
-const YES: u8 = 2;
+static PRESENCE: Presence = Presence::unknown();
 
 impl Avx2 {
     /// The token; `None` if the processor lacks AVX2, or if lanes of numbers are forced.
     #[inline(always)]
     pub fn new() -> Option<Self> {
-        match IS_THERE.load(Relaxed) {
-            YES => Some(Avx2(())),
-            UNKNOWN => detect(),
-            _ => None,
-        }
+        PRESENCE.is_there(detect).then_some(Avx2(()))
     }
 }
 
@@ -89,16 +81,8 @@ impl Simd for Avx2 {
 /// Detects the processor, and remembers the result.
 #[cold]
 #[inline(never)]
-fn detect() -> Option<Avx2> {
-    let is_there = is_x86_feature_detected!("avx2") && !is_scalar_path_forced();
-    IS_THERE.store(if is_there { YES } else { NO }, Relaxed);
-    is_there.then_some(Avx2(()))
-}
-
-/// Whether `DELDRIFT_SCALAR` is set. Does not allocate, unlike the function of the standard library.
-fn is_scalar_path_forced() -> bool {
-    // SAFETY: the name ends with a zero, and what the answer points to is not read.
-    !unsafe { libc::getenv(c"DELDRIFT_SCALAR".as_ptr()) }.is_null()
+fn detect() -> bool {
+    PRESENCE.note(is_x86_feature_detected!("avx2") && !presence::is_scalar_path_forced())
 }
 
 /// Prefetches what is at an address, which need not be valid.

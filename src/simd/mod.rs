@@ -2,8 +2,9 @@
 //! here.
 //!
 //! A [`Simd`] is a token, which makes [`Lanes`]. There is one of AVX2 (`Avx2`), which exists only where the processor has
-//! that, since only its `new`, which detects it, makes one; so every operation on its lanes is safe. And there is
-//! [`Scalar`], which always is there, with four numbers for lanes.
+//! that, since only its `new`, which detects it, makes one; so every operation on its lanes is safe. There is one of NEON
+//! (`Neon`) on 64-bit ARM, whose processors all have that. And there is [`Scalar`], which always is there, with four
+//! numbers for lanes.
 //!
 //! Code that uses lanes is generic over the token, and called through [`in_lanes!`], which takes the best one and
 //! compiles the code for it. It must be inlined for that: the closure and all functions of lanes that it calls are
@@ -15,8 +16,8 @@
 //! products would spare a build in space 2 % of its instructions.) Code that takes another way without lanes, or that asks
 //! which token there is, would break this.
 //!
-//! If the environment variable `DELDRIFT_SCALAR` is set, to any value, everything runs as on a processor without AVX2,
-//! which tests use. The variable is read once.
+//! If the environment variable `DELDRIFT_SCALAR` is set, to any value, everything runs as on a processor without AVX2
+//! or NEON, which tests use. The variable is read once.
 //!
 //! A token for other processors needs a file with [`Simd`] for the token and [`Lanes`] for its lanes, and an arm in
 //! [`in_lanes!`]. The tests here compare it with numbers, bit by bit.
@@ -32,6 +33,10 @@
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
+#[cfg(all(target_arch = "aarch64", target_endian = "little"))]
+mod neon;
+#[cfg(any(target_arch = "x86_64", all(target_arch = "aarch64", target_endian = "little")))]
+mod presence;
 mod scalar;
 #[cfg(test)]
 mod tests;
@@ -40,6 +45,8 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Not, Sub};
 
 #[cfg(target_arch = "x86_64")]
 pub use avx2::Avx2;
+#[cfg(all(target_arch = "aarch64", target_endian = "little"))]
+pub use neon::Neon;
 pub use scalar::Scalar;
 
 /// Number of lanes.
@@ -214,7 +221,12 @@ macro_rules! in_lanes {
             Some(avx2) => run!(avx2),
             None => run!($crate::simd::Scalar),
         }
-        #[cfg(not(target_arch = "x86_64"))]
+        #[cfg(all(target_arch = "aarch64", target_endian = "little"))]
+        match $crate::simd::Neon::new() {
+            Some(neon) => run!(neon),
+            None => run!($crate::simd::Scalar),
+        }
+        #[cfg(not(any(target_arch = "x86_64", all(target_arch = "aarch64", target_endian = "little"))))]
         run!($crate::simd::Scalar)
     }};
 }
@@ -233,6 +245,8 @@ pub fn rows<L: Lanes>([x, y, z, w]: [L; 4]) -> [L; LANES] {
 pub fn prefetch_at<T>(address: *const T) {
     #[cfg(target_arch = "x86_64")]
     avx2::prefetch_at(address);
-    #[cfg(not(target_arch = "x86_64"))]
+    #[cfg(all(target_arch = "aarch64", target_endian = "little"))]
+    neon::prefetch_at(address);
+    #[cfg(not(any(target_arch = "x86_64", all(target_arch = "aarch64", target_endian = "little"))))]
     let _ = address;
 }

@@ -9,6 +9,13 @@ fn the_scalar_path_can_be_forced() {
     assert_eq!(Avx2::new().is_some(), is_x86_feature_detected!("avx2") && !is_forced);
 }
 
+/// The token of NEON exists unless lanes of numbers are forced.
+#[cfg(all(target_arch = "aarch64", target_endian = "little"))]
+#[test]
+fn the_scalar_path_can_be_forced() {
+    assert_eq!(Neon::new().is_some(), std::env::var_os("DELDRIFT_SCALAR").is_none());
+}
+
 /// Calls a test with every token that there is here.
 macro_rules! for_all_tokens {
     ($test:ident) => {
@@ -16,6 +23,10 @@ macro_rules! for_all_tokens {
         #[cfg(target_arch = "x86_64")]
         if let Some(avx2) = Avx2::new() {
             $test(avx2);
+        }
+        #[cfg(all(target_arch = "aarch64", target_endian = "little"))]
+        if let Some(neon) = Neon::new() {
+            $test(neon);
         }
     };
 }
