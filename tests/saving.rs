@@ -458,8 +458,8 @@ fn every_kind_of_damage_is_told() {
     let size = Damage::Size { given: bytes.len() - 1, wanted: bytes.len() as u64 };
     assert_eq!(Saved::of(&bytes[..bytes.len() - 1]).err(), Some(size));
     let mut later = bytes.clone();
-    later[8] = 11;
-    assert_eq!(Saved::of(&later).err(), Some(Damage::Version { given: 11, latest: 10 }));
+    later[8] = 12;
+    assert_eq!(Saved::of(&later).err(), Some(Damage::Version { given: 12, latest: 11 }));
     let mut flipped = bytes.clone();
     flipped[200] ^= 1;
     assert!(matches!(Saved::of(&flipped).err(), Some(Damage::Checksum { .. })));

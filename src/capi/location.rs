@@ -5,7 +5,7 @@ use std::iter::repeat_n;
 use super::handle::{
     Content, Reading, by_kind, deldrift_triangulation, in_any, in_its_period, tell_any, with_weights,
 };
-use super::pointers::{Buffer, Entry, Input, Output, Point, Points, fill_all, given, write_all};
+use super::pointers::{Buffer, InBuffer, Input, Output, Point, Points, fill_all, given, write_all};
 use super::query::DELDRIFT_NONE;
 use super::status::{Failure, deldrift_status};
 use crate::ids::{CellId, VertexId};
@@ -37,7 +37,7 @@ pub struct deldrift_location {
     pub index: u32,
 }
 
-impl Entry for deldrift_location {}
+impl InBuffer for deldrift_location {}
 
 impl From<Location> for deldrift_location {
     fn from(location: Location) -> Self {

@@ -308,19 +308,19 @@ impl<P> Deref for TakenPoints<'_, P> {
 }
 
 /// What C has in buffers: numbers, rows of them, and structures. Points with weights are none, as positions are rows of coordinates.
-pub(super) trait Entry {}
+pub(super) trait InBuffer {}
 
-impl Entry for bool {}
-impl Entry for u8 {}
-impl Entry for i32 {}
-impl Entry for u32 {}
-impl Entry for i64 {}
-impl Entry for u64 {}
-impl Entry for f64 {}
-impl Entry for usize {}
-impl Entry for VertexId {}
-impl Entry for CellId {}
-impl<T: Entry, const N: usize> Entry for [T; N] {}
+impl InBuffer for bool {}
+impl InBuffer for u8 {}
+impl InBuffer for i32 {}
+impl InBuffer for u32 {}
+impl InBuffer for i64 {}
+impl InBuffer for u64 {}
+impl InBuffer for f64 {}
+impl InBuffer for usize {}
+impl InBuffer for VertexId {}
+impl InBuffer for CellId {}
+impl<T: InBuffer, const N: usize> InBuffer for [T; N] {}
 
 /// A buffer of the caller's, which may be uninitialised.
 pub(super) struct Buffer<'a, T> {
@@ -330,7 +330,7 @@ pub(super) struct Buffer<'a, T> {
     lives: PhantomData<&'a mut [T]>,
 }
 
-impl<'a, T: Entry> Buffer<'a, T> {
+impl<'a, T: InBuffer> Buffer<'a, T> {
     /// # Safety
     /// `pointer` is NULL, misaligned, or has room for `capacity` entries, which nothing else uses.
     #[inline(always)]

@@ -2,7 +2,7 @@
 
 use super::domain::of_the_plane;
 use super::handle::{Changing, Reading, deldrift_triangulation};
-use super::pointers::{Array, Buffer, Entry, Output, fill_all, given, write_all};
+use super::pointers::{Array, Buffer, InBuffer, Output, fill_all, given, write_all};
 use super::query::DELDRIFT_NONE;
 use super::status::{Failure, deldrift_status};
 use crate::either::AnyTriangulation;
@@ -39,7 +39,7 @@ pub struct deldrift_conflict {
     pub other: u32,
 }
 
-impl Entry for deldrift_conflict {}
+impl InBuffer for deldrift_conflict {}
 
 impl From<&Conflict> for deldrift_conflict {
     fn from(conflict: &Conflict) -> Self {

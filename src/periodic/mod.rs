@@ -58,6 +58,7 @@ mod following;
 mod geometry;
 mod grid;
 mod hidden;
+mod hidden_vertices;
 mod homes;
 mod images;
 mod immediate;

@@ -360,7 +360,7 @@ mod tests {
         assert!(n_outside > 2_000 && n_seen > 2_000, "{n_outside} outside, {n_seen} not");
     }
 
-    /// The same with weights: no point of a box of places and weights is inside the power circle or sphere.
+    /// A box of places and weights that is said to be outside of a power circle or sphere has no point inside.
     #[test]
     fn boxes_outside_of_power_spheres_are_outside() {
         let rng = &mut Rng::new(11);

@@ -153,7 +153,7 @@ fn threads<G: Weighted>() {
         .collect();
     let [low, high] = cube::<G>(1.0, 9.0);
     let all = |threads| {
-        let options = Options { threads, ..Options::default() };
+        let options = Options { threads, parts: 2, ..Options::default() };
         let t = MovingTriangulation::<G>::new(&points, options).expect("room");
         assert!(!t.vertices_hidden_by_weight().expect("room").is_empty());
         let copy = t.try_clone(None).expect("room");
