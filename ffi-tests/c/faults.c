@@ -124,7 +124,7 @@ static const char *fault(scene *s, const control *c, size_t k, later too, bool l
 static void faults_of(uint32_t dimension, call call, size_t which, double share, size_t turn) {
     const setting *setting = &SETTINGS[which];
     // Of those that are in a line without end most images are there.
-    const bool is_periodic = is_periodic_call(call.kind);
+    const bool is_periodic = is_periodic_call(call.kind) || call.kind == CREATE_PERIODIC_WEIGHTED;
     if (setting->weighted ? refuses_weights(call.kind) : is_of_weights(call.kind)) return;
     if (is_periodic && (setting->n > 100 || setting->stages > 0)) return;
     // And so many bytes.

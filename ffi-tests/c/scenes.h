@@ -817,6 +817,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     }
     switch (s->call.kind) {
         case CREATE_PERIODIC:
+        case CREATE_PERIODIC_WEIGHTED:
             *given = digest_of_periodic(made, d);
             deldrift_destroy(made);
             break;

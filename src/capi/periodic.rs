@@ -9,7 +9,7 @@ use super::handle::{Changing, Content, Reading, by_kind, deldrift_triangulation,
 use super::options::{GivenOptions, deldrift_options, invalid};
 use super::pointers::{Array, Buffer, Output, Points, fill_all, given, write_all};
 use super::status::{Failure, deldrift_status};
-use crate::delaunay::{Moving, Plane, Space};
+use crate::delaunay::{Moving, Plane, PowerPlane, PowerSpace, Space};
 use crate::error::Error;
 use crate::machine::memory;
 use crate::motion::{CoincidencePolicy, MAX_VERTICES, MovingTriangulation, Options, check_position};
@@ -72,19 +72,21 @@ pub unsafe extern "C" fn deldrift_create_periodic(
     given!(positions[count]: Points, vectors[vector_count]: Points, options: GivenOptions, out: Output);
     guard::enter(|| {
         create(dimension, options, [count, vector_count], out, |options| {
-            Ok(if dimension == 2 {
-                AnyPeriodic::Plane(PeriodicTriangulation::new(
+            if dimension == 2 {
+                built(
                     &positions.of_kind::<PeriodicTriangulation<Plane>>()?,
-                    &vectors.of_kind::<PeriodicTriangulation<Plane>>()?,
+                    vectors,
                     options,
-                )?)
+                    AnyPeriodic::Plane,
+                )
             } else {
-                AnyPeriodic::Space(PeriodicTriangulation::new(
+                built(
                     &positions.of_kind::<PeriodicTriangulation<Space>>()?,
-                    &vectors.of_kind::<PeriodicTriangulation<Space>>()?,
+                    vectors,
                     options,
-                )?)
-            })
+                    AnyPeriodic::Space,
+                )
+            }
         })
     })
 }
@@ -122,25 +124,28 @@ pub unsafe extern "C" fn deldrift_create_periodic_weighted(
     guard::enter(|| {
         create(dimension, options, [count, vector_count], out, |options| {
             let weights = if weights.is_null() { None } else { Some(weights.get()?) };
-            Ok(if dimension == 2 {
-                AnyPeriodic::PowerPlane(weighted(positions, weights, vectors, options)?)
+            if dimension == 2 {
+                let points = positions.with_weights::<PeriodicTriangulation<PowerPlane>>(weights)?;
+                built(&points, vectors, options, AnyPeriodic::PowerPlane)
             } else {
-                AnyPeriodic::PowerSpace(weighted(positions, weights, vectors, options)?)
-            })
+                let points = positions.with_weights::<PeriodicTriangulation<PowerSpace>>(weights)?;
+                built(&points, vectors, options, AnyPeriodic::PowerSpace)
+            }
         })
     })
 }
 
-/// Builds one of places and weights.
-fn weighted<G: Moving>(
-    positions: Points<'_>,
-    weights: Option<&[f64]>,
+/// Builds one, by itself: no other call has room for one on the stack.
+#[inline(never)]
+fn built<G: Moving>(
+    points: &[G::Point],
     vectors: Points<'_>,
     options: Options,
-) -> Result<PeriodicTriangulation<G>, Failure> {
-    let points = positions.with_weights::<PeriodicTriangulation<G>>(weights)?;
+    any: impl FnOnce(PeriodicTriangulation<G>) -> AnyPeriodic,
+) -> Result<Box<AnyPeriodic>, Failure> {
     let vectors = vectors.of_kind::<PeriodicTriangulation<G>>()?;
-    Ok(PeriodicTriangulation::new(&points, &vectors, options)?)
+    let t = PeriodicTriangulation::<G>::new(points, &vectors, options)?;
+    Ok(memory::boxed_by(|| any(t))?)
 }
 
 /// Hands out what is made by these options, in this dimension, of so many positions and vectors.
@@ -149,7 +154,7 @@ fn create(
     options: GivenOptions<'_>,
     [count, vector_count]: [usize; 2],
     out: Output<'_, *mut deldrift_triangulation>,
-    make: impl FnOnce(Options) -> Result<AnyPeriodic, Failure>,
+    make: impl FnOnce(Options) -> Result<Box<AnyPeriodic>, Failure>,
 ) -> Result<(), Failure> {
     let out = out.place()?;
     if dimension != 2 && dimension != 3 {
@@ -166,7 +171,7 @@ fn create(
     if vector_count == 0 || vector_count > dimension as usize {
         return Err(Error::DependentVectors { count: vector_count }.into());
     }
-    hand_out(out, memory::boxed(make(options)?)?, callbacks)
+    hand_out(out, make(options)?, callbacks)
 }
 
 /// Stages other vectors for the box: strain, shear, or others of the same lattice. The next commit, with or without

@@ -155,7 +155,7 @@ fn load_periodic(
     let saved = SavedPeriodic::of(data).map_err(|damage| Failure::Data { argument, damage })?;
     reject_coincidence(&options)?;
     match AnyPeriodic::load(&saved, options) {
-        Ok(made) => hand_out(out, memory::boxed(made)?, callbacks),
+        Ok(made) => hand_out(out, made, callbacks),
         Err(error) => Err(of_load(argument, error)),
     }
 }

@@ -1,8 +1,9 @@
 //! A periodic triangulation of either dimension, with weights or without, for bindings to other languages.
 
 use crate::damage::LoadError;
-use crate::delaunay::{Plane, PowerPlane, PowerSpace, Space};
+use crate::delaunay::{Moving, Plane, PowerPlane, PowerSpace, Space};
 use crate::error::Result;
+use crate::machine::memory;
 use crate::motion::{Monitor, Options};
 use crate::periodic::saving::SavedPeriodic;
 use crate::periodic::triangulation::PeriodicTriangulation;
@@ -25,12 +26,12 @@ impl AnyPeriodic {
     ///
     /// # Errors
     /// The errors of [`PeriodicTriangulation::load`].
-    pub fn load(saved: &SavedPeriodic<'_>, options: Options) -> Result<Self, LoadError> {
+    pub fn load(saved: &SavedPeriodic<'_>, options: Options) -> Result<Box<Self>, LoadError> {
         match (saved.dimension(), saved.is_weighted()) {
-            (2, false) => PeriodicTriangulation::load(saved, options).map(Self::Plane),
-            (2, true) => PeriodicTriangulation::load(saved, options).map(Self::PowerPlane),
-            (_, false) => PeriodicTriangulation::load(saved, options).map(Self::Space),
-            (_, true) => PeriodicTriangulation::load(saved, options).map(Self::PowerSpace),
+            (2, false) => load_as(saved, options, Self::Plane),
+            (2, true) => load_as(saved, options, Self::PowerPlane),
+            (_, false) => load_as(saved, options, Self::Space),
+            (_, true) => load_as(saved, options, Self::PowerSpace),
         }
     }
 
@@ -82,4 +83,15 @@ impl AnyPeriodic {
     pub fn is_weighted(&self) -> bool {
         matches!(self, Self::PowerPlane(_) | Self::PowerSpace(_))
     }
+}
+
+/// Loads one by itself, so that the stack has room for one alone.
+#[inline(never)]
+fn load_as<G: Moving>(
+    saved: &SavedPeriodic<'_>,
+    options: Options,
+    any: impl FnOnce(PeriodicTriangulation<G>) -> AnyPeriodic,
+) -> Result<Box<AnyPeriodic>, LoadError> {
+    let t = PeriodicTriangulation::load(saved, options)?;
+    Ok(memory::boxed_by(|| any(t))?)
 }

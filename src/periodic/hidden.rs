@@ -47,7 +47,8 @@ impl HiddenHomes {
 }
 
 impl<G: Moving> Inside<G> {
-    /// The vertices at home that are corners of no cell.
+    /// The vertices at home that are corners of no cell. Never a part of its callers, of which some take much of the stack.
+    #[inline(never)]
     pub(super) fn hidden_homes(&self, lattice: &Lattice<G>) -> Result<HiddenHomes> {
         let mut hidden = HiddenHomes::default();
         if !G::HAS_WEIGHTS {

@@ -125,6 +125,7 @@ impl<G: Moving> PeriodicTriangulation<G> {
     }
 
     /// Stages what was staged.
+    #[inline(never)]
     fn stage_saved(&mut self, header: &PeriodicHeader, waiting: &StagedLists<G>) -> Result<(), LoadError> {
         if !waiting.vectors.is_empty() {
             self.stage_vectors(&waiting.vectors).map_err(of_vectors)?;
