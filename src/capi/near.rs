@@ -16,13 +16,15 @@ use crate::motion::{Entry, Lists, ListsOf};
 ///
 /// vertices: receives count rows of k ids, NULL if there are none.
 ///
-/// It is fastest if each position is near the one before it. The first id of a row is that of deldrift_nearest_vertex.
+/// It is fastest if each position is near the one before it. Without weights the first id of a row is that of
+/// deldrift_nearest_vertex.
 ///
 /// In a periodic triangulation each vertex comes once, by the distance of its nearest image (the minimum image); images
 /// farther away do not count.
 ///
 /// Cost: count times that of deldrift_nearest_vertex, the stars of the k vertices, and k log k; with k = 0 constant.
-/// While there are no cells, count times n; n more in a periodic triangulation with hidden vertices.
+/// While there are no cells, and in a periodic triangulation with weights, count times n; n more in a periodic
+/// triangulation with hidden vertices.
 ///
 /// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]

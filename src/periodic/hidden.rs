@@ -128,7 +128,11 @@ impl<G: Moving> Inside<G> {
     ) -> Result<()> {
         let mut entries = Vec::new();
         for &home in homes {
-            let numbers = lattice.multiples(&self.place_of(home)).map(|x| (x - x.floor()) * INTERVALS);
+            let place = self.place_of(home);
+            let numbers = lattice.multiples(&place).map(|x| (x - x.floor()) * INTERVALS);
+            // Along axes along which no vector goes, places that are the same in some period have one coordinate.
+            let open = [0, 1, 2]
+                .map(|axis| if axis < G::D && !lattice.is_spanned(axis) { place[axis].to_bits() } else { 0 });
             for choice in 0..1_u32 << lattice.rank() {
                 let beside = [0, 1, 2].map(|j| choice >> j & 1 == 1);
                 let interval = [0, 1, 2].map(|j| {
@@ -138,7 +142,7 @@ impl<G: Moving> Inside<G> {
                         .then(|| (if beside[j] { high } else { low }).rem_euclid(INTERVALS))
                 });
                 if let [Some(x), Some(y), Some(z)] = interval {
-                    memory::push(&mut entries, ([x as u32, y as u32, z as u32], home))?;
+                    memory::push(&mut entries, (([x as u32, y as u32, z as u32], open), home))?;
                 }
             }
         }

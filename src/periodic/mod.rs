@@ -21,14 +21,16 @@
 //! # With weights
 //!
 //! Let W be the greatest weight, and the *reach* of a cell the ball around its power centre with the square of the radius of its
-//! power sphere plus W. Whatever would change the cell is in its reach, as are its corners, so reaches take the place of balls. The
-//! proof is the same for a vertex u that the repeating set shows: inside shows it as well, as what is inside is a part of the set. So
-//! all cells of the set at vertices at home that it shows are there. It is left to prove that u at home is hidden inside if the set hides
-//! it. Then some cell F of the set has the place of u in its closure. There the power of the place in respect of F is the mean of the
-//! corners' weights less the mean of their squared distances from it, with its barycentric coordinates: at most W. So the place is in
-//! the reach of F. Translate F so that any of its corners is at home: it is a cell at a vertex that is shown, and so inside, and its
-//! reach has a place of H translated. So the image that takes this corner back to where F has it is there. All corners of F are there, and
-//! with them F, as it is a cell of the set, and it hides u.
+//! power sphere plus W. Whatever would change the cell is in its reach, as are its corners, so reaches take the place of
+//! balls. The proof is the same for a vertex u that the repeating set shows: inside shows it as well, as what is inside is a part of
+//! the set. So all cells of the set at vertices at home that it shows are there.
+//!
+//! What is left is to prove that u at home is hidden inside if the set hides it. Then some cell F of the set has the place of u in its
+//! closure. There the power of the place in respect of F is the mean of the corners' weights less the mean of their squared
+//! distances from it, with its barycentric coordinates: at most W. So the place is in the reach of F. Translate F so that any
+//! of its corners is at home: it is a cell at a vertex that is shown, and so inside, and its reach has a place of H translated. So
+//! the image that takes this corner back to where F has it is there. All corners of F are there, and with them F, as it is a
+//! cell of the set, and it hides u.
 //!
 //! How far away images can be is bounded as without weights: in a power cell each place is at least as near to its vertex as to the
 //! translations of that, which have its weight.

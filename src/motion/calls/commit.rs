@@ -83,7 +83,7 @@ impl<G: Moving> MovingTriangulation<G> {
         } else {
             self.mesh.begin(Aim::Commit)?;
             self.edit_and_advance(moves, &mut report)
-                .and_then(|()| self.settle_hidden(true, &mut report))
+                .and_then(|()| self.settle_hidden(moves.count() > 0, &mut report))
                 .and_then(|()| self.tell_hidden(&hidden, &mut report))
                 .and_then(|()| self.mesh.enforce_segments())
         };
