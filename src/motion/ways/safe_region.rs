@@ -42,7 +42,11 @@ impl<G: Moving> MovingTriangulation<G> {
             let goals = moves.checked()?;
             self.prepare_regions(kind, goals.positions(), report)?;
         }
-        let mut queue = self.queue_of(moves)?;
+        let mut queue = if kind == RegionKind::Both && self.mesh.moves_in_one_loop(moves) {
+            self.accept_all(moves, report)?
+        } else {
+            self.queue_of(moves)?
+        };
         let goals = moves.checked()?;
         self.accept_queued(&mut queue, goals, report)?;
         self.place_queued(queue, goals, report)
