@@ -5,6 +5,7 @@ mod exactly;
 mod known;
 mod saving;
 mod stuck;
+mod together;
 
 use crate::common::inputs::{KINDS, Kind, draw_one};
 use crate::common::{CellSet, Rng, assert_same_cells, cell_set, check_adjacency, seeds};

@@ -142,10 +142,10 @@ impl<G: Moving> MovingTriangulation<G> {
         let (mut lower, mut upper) = (self.mesh.kernel.lower(), self.mesh.kernel.upper());
         self.mesh.transaction.origins_mut().make_room(self.mesh.site_of.len(), movers.len())?;
         for &v in &movers {
-            if let Standing::Shown(s) = self.mesh.standing(v) {
+            if let Standing::Shown(s) | Standing::Above(s) = self.mesh.standing(v) {
                 let goal = goals.of(v);
-                for axis in 0..G::D {
-                    (lower[axis], upper[axis]) = (lower[axis].min(goal[axis]), upper[axis].max(goal[axis]));
+                for k in 0..G::NUMBERS {
+                    (lower[k], upper[k]) = (lower[k].min(goal[k]), upper[k].max(goal[k]));
                 }
                 self.mesh.transaction.origins_mut().note(v, self.mesh.kernel.site(s).point);
                 self.mesh.kernel.set_point(s, goal);

@@ -283,3 +283,26 @@ fn bad_weights_change_nothing() {
     assert_eq!(t.discard_moves(), 1);
     assert!(t.saved().unwrap() == bytes);
 }
+
+/// All weights change by one number, and all vertices go by one vector, after some have been removed and while some are hidden.
+#[test]
+fn all_that_change_alike_keep_their_cells() {
+    let basis = unweighted(&[[1.0, 0.0], [0.0, 1.0]]);
+    let points = random_points::<PowerPlane>(&mut Rng::new(6), 60, &basis);
+    let mut points: Vec<_> = points.into_iter().map(Some).collect();
+    // Numbers of few digits: then all differences are exact.
+    points.iter_mut().flatten().for_each(|p| p.weight = (p.weight * 4096.0).round() / 4096.0);
+    let given: Vec<_> = points.iter().flatten().copied().collect();
+    let mut t = PeriodicTriangulation::<PowerPlane>::new(&given, &basis, Options::default()).unwrap();
+    t.remove_vertex(VertexId::new(7)).unwrap();
+    points[7] = None;
+    for (way, more) in [(0.0, -3.0), (0.25, 0.0), (-0.125, 8.0), (0.0, -16.0)] {
+        for p in points.iter_mut().flatten() {
+            *p = WeightedPoint { place: p.place.map(|x| x + way), weight: p.weight + more };
+        }
+        let goals: Vec<_> = points.iter().map(|p| p.unwrap_or_default()).collect();
+        let report = t.commit_positions(&goals).unwrap();
+        assert_eq!((report.newly_hidden, report.newly_shown), (0, 0));
+        check_hidden(&t, &points, &basis);
+    }
+}
