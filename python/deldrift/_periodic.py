@@ -11,7 +11,7 @@ from . import _library
 from ._arrays import F64, I32, Handle, address, address_if, answered, array_of, box_corners, half_space_rows, ids as listed_ids
 from ._arrays import mask as mask_of, one_id, places, points as point_rows
 from ._callbacks import calling
-from ._core import cell_count, check, count_of, fixed, id_count, make_options
+from ._core import Division, cell_count, check, count_of, fixed, id_count, make_options
 from ._errors import WrongCount
 from ._geometry import VoronoiCells, VoronoiDerivatives, VoronoiWeightDerivatives, cells_and_facets, vertex_mask
 from ._geometry import weight_derivatives
@@ -124,14 +124,28 @@ class PeriodicDelaunay(Near, Measured, Meeting, Transferring, Writing):
         cancel: Optional[Callable[[], bool]] = None,
     ) -> None:
         rows = point_rows("points", points)
+        self._make(_create_periodic, rows, (address(rows),), vectors, algorithm, (threads, parts), progress, cancel)
+
+    def _make(
+        self,
+        create: Callable[..., int],
+        rows: np.ndarray,
+        arrays: tuple[Any, ...],
+        vectors: Any,
+        algorithm: str,
+        division: Division,
+        progress: Any,
+        cancel: Optional[Callable[[], bool]],
+    ) -> None:
+        """Makes the triangulation of what these arrays have for each row of points."""
         ndim = rows.shape[1]
         box = box_of(vectors, ndim)
         callbacks = given_callbacks(progress, cancel)
-        options = make_options(algorithm, (threads, parts), "merge", "ignore", callbacks)
+        options = make_options(algorithm, division, "merge", "ignore", callbacks)
         handle = Handle(callbacks)
-        given = ndim, address(rows), len(rows), address(box), len(box), options, handle.made
-        check(calling(callbacks, _create_periodic, *given), {"positions": "points"}, callbacks)
-        self._start(handle, ndim, (threads, parts), "merge", "ignore", callbacks)
+        given = ndim, *arrays, len(rows), address(box), len(box), options, handle.made
+        check(calling(callbacks, create, *given), {"positions": "points"}, callbacks)
+        self._start(handle, ndim, division, "merge", "ignore", callbacks)
 
     @classmethod
     def load(

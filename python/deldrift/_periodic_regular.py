@@ -5,12 +5,10 @@ from __future__ import annotations
 from typing import Any, Callable, Optional, cast
 
 from . import _library
-from ._arrays import Handle, address, address_if, ids as listed_ids, points as point_rows
-from ._callbacks import calling
-from ._core import check, id_count, make_options
+from ._arrays import address, address_if, ids as listed_ids, points as point_rows
+from ._core import id_count
 from ._errors import WrongCount
 from ._library import Report
-from ._loading import given_callbacks
 from ._periodic import PeriodicDelaunay, box_of
 from ._values import expect
 from ._weighing import Weighing, numbers_of
@@ -64,16 +62,11 @@ class PeriodicRegular(Weighing, PeriodicDelaunay):
         cancel: Optional[Callable[[], bool]] = None,
     ) -> None:
         rows = point_rows("points", points)
-        ndim = rows.shape[1]
-        box = box_of(vectors, ndim)
         numbers = None if weights is None else numbers_of(weights)
         expect("weights", numbers, len(rows), "points")
-        callbacks = given_callbacks(progress, cancel)
-        options = make_options(algorithm, (threads, parts), "merge", "ignore", callbacks)
-        handle = Handle(callbacks)
-        given = ndim, address(rows), address_if(numbers), len(rows), address(box), len(box), options, handle.made
-        check(calling(callbacks, _create_periodic_weighted, *given), {"positions": "points"}, callbacks)
-        self._start(handle, ndim, (threads, parts), "merge", "ignore", callbacks)
+        arrays = address(rows), address_if(numbers)
+        division = threads, parts
+        self._make(_create_periodic_weighted, rows, arrays, vectors, algorithm, division, progress, cancel)
 
     def move(self, points: Any = None, ids: Any = None, *, vectors: Any = None, weights: Any = None) -> Report:
         """Moves vertices, gives them other weights, changes the box, or any of these, and makes that the next timestamp.

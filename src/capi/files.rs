@@ -8,6 +8,7 @@ mod windows;
 
 use std::ffi::CStr;
 use std::fmt;
+use std::io::Write;
 
 use crate::error::Error;
 use crate::machine::memory;
@@ -19,6 +20,15 @@ pub(super) use unix::{NewFile, OldFile};
 use windows::message;
 #[cfg(windows)]
 pub(super) use windows::{NewFile, OldFile};
+
+/// The name of a file beside another one that is to take its place, which ends in a NUL: as much of the room as it takes.
+fn temporary_name(number: u32, room: &mut [u8; 64]) -> &[u8] {
+    let mut rest = &mut room[..];
+    // There is room, so it does not fail.
+    let _ = write!(rest, ".deldrift-{}-{number}.tmp\0", std::process::id());
+    let left = rest.len();
+    &room[..room.len() - left]
+}
 
 /// Why a file cannot be read or written.
 #[derive(Debug)]

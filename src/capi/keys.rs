@@ -103,7 +103,7 @@ pub unsafe extern "C" fn deldrift_stage_insertions_at_free_ids(
     t.change_any(|t| {
         in_open!(t => {
             let positions = positions.of(t)?;
-            let keys = if keys.is_null() { None } else { Some(keys.get()?) };
+            let keys = keys.if_any()?;
             let places = vertices.places(count)?;
             let mut free = places.iter_mut();
             t.stage_insertions_at_free_ids(&positions, keys, |v| {

@@ -134,7 +134,7 @@ pub unsafe extern "C" fn deldrift_move_vertices(
         if count == 0 {
             return Ok(());
         }
-        let vertices = if vertices.is_null() { None } else { Some(VertexId::of_numbers(vertices.get()?)) };
+        let vertices = vertices.if_any()?.map(VertexId::of_numbers);
         if t.is_weighted() {
             return in_weighted!(t => Ok(t.move_parts(PointPart::Place, vertices, positions.numbers(t)?)?));
         }

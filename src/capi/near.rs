@@ -165,7 +165,7 @@ pub unsafe extern "C" fn deldrift_neighbour_lists(
         if !mask.is_null() && mask_count != n_ids {
             return Err(wrong_count("mask_count", mask_count, n_ids));
         }
-        let mask = if mask.is_null() { None } else { Some(mask.get()?) };
+        let mask = mask.if_any()?;
         let wanted = ListsOf { squared_radii: squared_radii.get()?, mask, is_half: is_half(pairs)? };
         let is_kept = !(neighbours.is_null() && shifts.is_null());
         let into = Into { offsets, neighbours, shifts, capacity, d };

@@ -11,7 +11,7 @@ use super::status::Failure;
 use crate::error::Error;
 use crate::machine::memory;
 use crate::machine::tally;
-use crate::motion::{Algorithm, CoincidencePolicy, Monitor, Options, PassingPolicy, Purpose};
+use crate::motion::{Algorithm, CoincidencePolicy, MAX_VERTICES, Monitor, Options, PassingPolicy, Purpose};
 
 /// What happens when vertices come to lie at the same place.
 #[repr(u32)]
@@ -199,6 +199,22 @@ impl Growing for deldrift_options {
 
 /// Options as a call is given them.
 pub(super) type GivenOptions<'a> = Given<'a, deldrift_options>;
+
+impl GivenOptions<'_> {
+    /// The callbacks and the options of a creation of so many vertices in a dimension, if there is that dimension, and they
+    /// are not too many. The count is looked at here as well, lest an absurd one becomes the length of a slice.
+    pub(super) fn of_creation(self, dimension: u32, count: usize) -> Result<(Callbacks, Options), Failure> {
+        if dimension != 2 && dimension != 3 {
+            return Err(Error::InvalidDimension { given: dimension }.into());
+        }
+        let options = self.read()?;
+        let (callbacks, options) = (options.callbacks(), options.convert()?);
+        if count > MAX_VERTICES {
+            return Err(Error::TooManyVertices { given: count, limit: MAX_VERTICES }.into());
+        }
+        Ok((callbacks, options))
+    }
+}
 
 /// A structure as a call is given it: as much of it as the program's header knows. Its size comes first.
 #[derive(Clone, Copy)]

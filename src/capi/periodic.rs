@@ -12,7 +12,7 @@ use super::status::{Failure, deldrift_status};
 use crate::delaunay::{Moving, Plane, PowerPlane, PowerSpace, Space};
 use crate::error::Error;
 use crate::machine::memory;
-use crate::motion::{CoincidencePolicy, MAX_VERTICES, MovingTriangulation, Options, check_position};
+use crate::motion::{CoincidencePolicy, MovingTriangulation, Options, check_position};
 use crate::periodic::{AnyPeriodic, PeriodicTriangulation};
 use crate::predicates::PointArray;
 
@@ -123,7 +123,7 @@ pub unsafe extern "C" fn deldrift_create_periodic_weighted(
     given!(positions[count]: Points, weights[count]: Array, vectors[vector_count]: Points, options: GivenOptions, out: Output);
     guard::enter(|| {
         create(dimension, options, [count, vector_count], out, |options| {
-            let weights = if weights.is_null() { None } else { Some(weights.get()?) };
+            let weights = weights.if_any()?;
             if dimension == 2 {
                 let points = positions.with_weights::<PeriodicTriangulation<PowerPlane>>(weights)?;
                 built(&points, vectors, options, AnyPeriodic::PowerPlane)
@@ -157,17 +157,8 @@ fn create(
     make: impl FnOnce(Options) -> Result<Box<AnyPeriodic>, Failure>,
 ) -> Result<(), Failure> {
     let out = out.place()?;
-    if dimension != 2 && dimension != 3 {
-        return Err(Error::InvalidDimension { given: dimension }.into());
-    }
-    let options = options.read()?;
-    let callbacks = options.callbacks();
-    let options = options.convert()?;
+    let (callbacks, options) = options.of_creation(dimension, count)?;
     reject_coincidence(&options)?;
-    // Looked at here as well, lest an absurd count becomes the length of a slice.
-    if count > MAX_VERTICES {
-        return Err(Error::TooManyVertices { given: count, limit: MAX_VERTICES }.into());
-    }
     if vector_count == 0 || vector_count > dimension as usize {
         return Err(Error::DependentVectors { count: vector_count }.into());
     }

@@ -135,6 +135,12 @@ impl<'a, T> Array<'a, T> {
         self.pointer.is_null()
     }
 
+    /// The values; none if they are not given.
+    #[inline(always)]
+    pub(super) fn if_any(self) -> Result<Option<&'a [T]>, Failure> {
+        if self.is_null() { Ok(None) } else { self.get().map(Some) }
+    }
+
     /// The values, which must be there unless their count is 0.
     #[inline(always)]
     pub(super) fn get(self) -> Result<&'a [T], Failure> {

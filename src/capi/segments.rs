@@ -97,7 +97,7 @@ pub unsafe extern "C" fn deldrift_stage_segments(
         let AnyTriangulation::Plane(t) = t else { return Err(Failure::NotOfThePlane) };
         let place = first_segment.place()?;
         let ends = ends.get()?;
-        let markers = if markers.is_null() { None } else { Some(markers.get()?) };
+        let markers = markers.if_any()?;
         let marker = |k: usize| markers.map_or(0, |markers| markers[k]);
         let segments = ends.iter().enumerate().map(|(k, ends)| Segment {
             ends: ends.map(VertexId::new),

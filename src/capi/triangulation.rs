@@ -6,9 +6,8 @@ use super::options::{self, AlgorithmCode, GivenOptions, deldrift_options};
 use super::pointers::{Array, Output, Points, given};
 use super::status::{Failure, deldrift_status};
 use crate::either::AnyTriangulation;
-use crate::error::Error;
 use crate::in_its_dimension;
-use crate::motion::{MAX_VERTICES, MovingTriangulation};
+use crate::motion::MovingTriangulation;
 
 /// Creates the Delaunay triangulation of count points in the plane or in space, at timestamp 0.
 ///
@@ -47,19 +46,8 @@ pub(super) fn create(
     out: Output<'_, *mut deldrift_triangulation>,
 ) -> Result<(), Failure> {
     let out = out.place()?;
-    let is_plane = match dimension {
-        2 => true,
-        3 => false,
-        given => return Err(Error::InvalidDimension { given }.into()),
-    };
-    let options = options.read()?;
-    let callbacks = options.callbacks();
-    let options = options.convert()?;
-    // Looked at here as well, lest an absurd count becomes the length of a slice.
-    if count > MAX_VERTICES {
-        return Err(Error::TooManyVertices { given: count, limit: MAX_VERTICES }.into());
-    }
-    let mut made = if is_plane {
+    let (callbacks, options) = options.of_creation(dimension, count)?;
+    let mut made = if dimension == 2 {
         deldrift_triangulation::unbuilt(
             #[inline(always)]
             || AnyTriangulation::Plane(MovingTriangulation::unbuilt(options)),

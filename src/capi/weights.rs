@@ -11,7 +11,7 @@ use crate::either::AnyWeighted;
 use crate::error::Error;
 use crate::ids::VertexId;
 use crate::machine::memory;
-use crate::motion::{MAX_VERTICES, MovingTriangulation, Options, PointPart};
+use crate::motion::{MovingTriangulation, Options, PointPart};
 use crate::predicates::PointArray;
 
 /// Creates the regular triangulation of count points with weights in the plane or in space, at timestamp 0: the weighted
@@ -62,18 +62,9 @@ pub unsafe extern "C" fn deldrift_create_weighted(
     given!(positions[count]: Points, weights[count]: Array, keys[count]: Array, options: GivenOptions, out: Output);
     guard::enter(|| {
         let out = out.place()?;
-        if dimension != 2 && dimension != 3 {
-            return Err(Error::InvalidDimension { given: dimension }.into());
-        }
-        let options = options.read()?;
-        let callbacks = options.callbacks();
-        let options = options.convert()?;
-        // Looked at here as well, lest an absurd count becomes the length of a slice.
-        if count > MAX_VERTICES {
-            return Err(Error::TooManyVertices { given: count, limit: MAX_VERTICES }.into());
-        }
-        let weights = if weights.is_null() { None } else { Some(weights.get()?) };
-        let keys = if keys.is_null() { None } else { Some(keys.get()?) };
+        let (callbacks, options) = options.of_creation(dimension, count)?;
+        let weights = weights.if_any()?;
+        let keys = keys.if_any()?;
         let made = if dimension == 2 {
             AnyWeighted::Plane(build(positions, weights, keys, options)?)
         } else {
@@ -158,7 +149,7 @@ pub unsafe extern "C" fn deldrift_stage_weights(
     given!(t: Changing, vertices[count]: Array, weights[count]: Array);
     t.change_any(|t| {
         let weights = weights.get()?;
-        let vertices = if vertices.is_null() { None } else { Some(VertexId::of_numbers(vertices.get()?)) };
+        let vertices = vertices.if_any()?.map(VertexId::of_numbers);
         in_weighted!(t => Ok(t.move_parts(PointPart::Weight, vertices, weights)?))
     })
 }
@@ -193,7 +184,7 @@ pub unsafe extern "C" fn deldrift_commit_weighted(
                 let coming = t.staged_edits().0;
                 return Err(Error::WrongCount { argument: "count", given: count, wanted, coming }.into());
             }
-            let weights = if weights.is_null() { None } else { Some(weights.get()?) };
+            let weights = weights.if_any()?;
             t.commit_parts(positions.numbers_if_any(t)?, weights)?
         });
         if let Some(report) = report {

@@ -13,6 +13,11 @@ use crate::periodic::lattice::{HOME, Lattice, Occupied, Range, Shift};
 use crate::predicates::{PointArray, squared_distance};
 
 /// What makes a rounded radius one that certainly is no less than the distance of a corner from a rounded centre.
+///
+/// With weights it makes the radius r of a reach, told by a rounded centre and the first corner, one of a ball that has the reach in
+/// it. No corner is farther than r from the centre, so coordinates of corners differ by 2 r at most, and weights by r² at most. So
+/// each coordinate of the centre is off by 2·10⁻⁹ r at most (circumspheres), the centre by 3.5·10⁻⁹ r, and r by as much: seven
+/// are less than ten.
 const RADIUS: f64 = 1.0 + 1e-8;
 
 /// Images up to so many mean distances of vertices outside of what vertices at home occupy are there from the beginning.

@@ -36,7 +36,7 @@ impl<G: Moving> PeriodicTriangulation<G> {
         let (mut listed, mut coming) = (Vec::new(), Vec::new());
         memory::reserve_exact(&mut listed, n)?;
         for k in 0..n {
-            let (vertex, row) = (vertex_at(k), row_of::<G>(part, numbers, k));
+            let (vertex, row) = (vertex_at(k), part.row::<G>(numbers, k));
             let is_coming = (n_vertices..n_ids).contains(&vertex.index());
             if is_coming && !(vertices.is_some() && part == PointPart::Place) {
                 memory::push(&mut coming, k)?;
@@ -55,10 +55,10 @@ impl<G: Moving> PeriodicTriangulation<G> {
             lattice.unwrapped(&inside.places[home], &wraps[vertex])
         };
         let is_listed = vertices.is_some();
-        staged.move_parts(part, n_vertices, &listed, |k| row_of::<G>(part, numbers, k), present).map_err(
+        staged.move_parts(part, n_vertices, &listed, |k| part.row::<G>(numbers, k), present).map_err(
             |error| match error {
                 Error::DuplicateMove { index, vertex, .. } if !is_listed => {
-                    Error::DuplicateMove { argument: argument(part), index, vertex }
+                    Error::DuplicateMove { argument: part.argument(), index, vertex }
                 }
                 error => error,
             },
@@ -66,7 +66,7 @@ impl<G: Moving> PeriodicTriangulation<G> {
         // Insertions are not taken back, so they come last.
         for k in coming {
             let index = vertex_at(k).index() - n_vertices;
-            staged.set_part_of_insertion(index, part, row_of::<G>(part, numbers, k));
+            staged.set_part_of_insertion(index, part, part.row::<G>(numbers, k));
         }
         Ok(())
     }
@@ -101,9 +101,9 @@ impl<G: Moving> PeriodicTriangulation<G> {
                 continue;
             };
             for (part, numbers) in parts.into_iter().filter_map(|(part, numbers)| Some((part, numbers?))) {
-                let row = row_of::<G>(part, numbers, k);
+                let row = part.row::<G>(numbers, k);
                 if !self.staged.goes(vertex) {
-                    check_numbers::<G>(argument(part), k, part, row)?;
+                    check_numbers::<G>(part.argument(), k, part, row)?;
                     set_part::<G>(&mut goal, part, row);
                 }
             }
@@ -133,27 +133,13 @@ impl<G: Moving> PeriodicTriangulation<G> {
     }
 }
 
-/// The names of the arguments.
-const fn argument(part: PointPart) -> &'static str {
-    match part {
-        PointPart::Place => "positions",
-        PointPart::Weight => "weights",
-    }
-}
-
 /// Checks a place, or a weight.
 fn check_row<G: Moving>(lattice: &Lattice<G>, part: PointPart, index: usize, row: &[f64]) -> Result<()> {
-    check_numbers::<G>(argument(part), index, part, row)?;
+    check_numbers::<G>(part.argument(), index, part, row)?;
     let mut point = G::Point::default();
     if part == PointPart::Place {
         set_part::<G>(&mut point, part, row);
-        lattice.check(argument(part), index, &point)?;
+        lattice.check(part.argument(), index, &point)?;
     }
     Ok(())
-}
-
-/// The row of numbers at an index.
-fn row_of<G: Moving>(part: PointPart, numbers: &[f64], index: usize) -> &[f64] {
-    let width = part.width::<G>();
-    &numbers[width * index..width * (index + 1)]
 }

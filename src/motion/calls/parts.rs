@@ -11,14 +11,6 @@ use crate::motion::state::checking::{check_numbers, check_position};
 use crate::motion::state::part::{PointPart, set_part};
 use crate::motion::triangulation::MovingTriangulation;
 
-/// The names of the arguments.
-const fn argument(part: PointPart) -> &'static str {
-    match part {
-        PointPart::Place => "positions",
-        PointPart::Weight => "weights",
-    }
-}
-
 impl<G: Moving> MovingTriangulation<G> {
     /// Stages places or weights of these vertices, or of those with the first ids: rows of as many numbers as they have, one for
     /// each; all of them or, on an error, none. The other part stays what it is, or what it is staged to be. In a list vertices
@@ -59,7 +51,7 @@ impl<G: Moving> MovingTriangulation<G> {
         // Insertions are not taken back, so they come last.
         for k in 0..n {
             if self.edits.is_insertion_staged(vertex_at(k)) {
-                self.edits.set_part(vertex_at(k), part, row::<G>(part, numbers, k));
+                self.edits.set_part(vertex_at(k), part, part.row::<G>(numbers, k));
             }
         }
         Ok(())
@@ -74,19 +66,19 @@ impl<G: Moving> MovingTriangulation<G> {
         is_listed: bool,
         numbers: &[f64],
     ) -> Result<()> {
-        let row = row::<G>(part, numbers, index);
+        let row = part.row::<G>(numbers, index);
         if self.edits.is_insertion_staged(vertex) && !(is_listed && part == PointPart::Place) {
-            return check_numbers::<G>(argument(part), index, part, row);
+            return check_numbers::<G>(part.argument(), index, part, row);
         }
         if !is_listed && (!self.mesh.is_present(vertex) || self.edits.is_removal_staged(vertex)) {
             return Ok(());
         }
         let s = self.site_of_vertex("vertices", index, vertex)?;
         if self.staging.is_part_staged(vertex, part) {
-            let argument = if is_listed { "vertices" } else { argument(part) };
+            let argument = if is_listed { "vertices" } else { part.argument() };
             return Err(Error::DuplicateMove { argument, index, vertex });
         }
-        check_numbers::<G>(argument(part), index, part, row)?;
+        check_numbers::<G>(part.argument(), index, part, row)?;
         let Self { staging, mesh, .. } = self;
         staging.stage_part(vertex, part, || mesh.kernel.site(s).point, row);
         Ok(())
@@ -145,10 +137,10 @@ impl<G: Moving> MovingTriangulation<G> {
                     *goal = mesh.kernel.site(mesh.site_of[VertexId::at(k)]).point;
                 }
                 if let Some(places) = places {
-                    set_part::<G>(goal, PointPart::Place, row::<G>(PointPart::Place, places, k));
+                    set_part::<G>(goal, PointPart::Place, PointPart::Place.row::<G>(places, k));
                 }
                 if let Some(weights) = weights {
-                    set_part::<G>(goal, PointPart::Weight, row::<G>(PointPart::Weight, weights, k));
+                    set_part::<G>(goal, PointPart::Weight, PointPart::Weight.row::<G>(weights, k));
                 }
                 check_position::<G>("positions", k, goal)?;
             }
@@ -170,10 +162,4 @@ impl<G: Moving> MovingTriangulation<G> {
         set_part::<G>(&mut goal, part, numbers);
         self.relocate_vertex(vertex, &goal)
     }
-}
-
-/// The row of numbers at an index.
-fn row<G: Moving>(part: PointPart, numbers: &[f64], index: usize) -> &[f64] {
-    let width = part.width::<G>();
-    &numbers[width * index..width * (index + 1)]
 }

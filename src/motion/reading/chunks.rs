@@ -38,12 +38,16 @@ impl<E, P: FnMut(&[u8]) -> Result<(), E>> Chunks<P> {
     }
 
     pub(crate) fn point<G: Moving>(&mut self, point: &G::Point) -> Result<(), E> {
-        (0..G::D).try_for_each(|axis| self.write(point[axis].to_le_bytes()))
+        self.first_numbers::<G>(point, G::D)
     }
 
     /// Writes all numbers of a point: its coordinates, and its weight if it has one.
     pub(crate) fn whole_point<G: Moving>(&mut self, point: &G::Point) -> Result<(), E> {
-        (0..G::NUMBERS).try_for_each(|k| self.write(point[k].to_le_bytes()))
+        self.first_numbers::<G>(point, G::NUMBERS)
+    }
+
+    fn first_numbers<G: Moving>(&mut self, point: &G::Point, n: usize) -> Result<(), E> {
+        (0..n).try_for_each(|k| self.write(point[k].to_le_bytes()))
     }
 
     pub(crate) fn numbers(&mut self, numbers: &[u32]) -> Result<(), E> {

@@ -32,6 +32,20 @@ impl PointPart {
         }
     }
 
+    /// What programs know it by.
+    pub(crate) const fn argument(self) -> &'static str {
+        match self {
+            PointPart::Place => "positions",
+            PointPart::Weight => "weights",
+        }
+    }
+
+    /// The row of numbers at an index.
+    pub(crate) fn row<G: Moving>(self, numbers: &[f64], index: usize) -> &[f64] {
+        let width = self.width::<G>();
+        &numbers[width * index..width * (index + 1)]
+    }
+
     /// A bit for each.
     pub(crate) const fn bit(self) -> u8 {
         match self {

@@ -1,9 +1,10 @@
 //! Files that are written beside the one whose place they take.
 
 use std::ffi::CStr;
-use std::io::{self, Write};
+use std::io;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
+use super::super::temporary_name;
 use super::signals::Quiet;
 use super::{Descriptor, FileError, again, failure, refusal, status_of};
 use crate::error::Result;
@@ -22,15 +23,12 @@ pub(in crate::capi) struct NewFile<'p> {
 fn path_beside(path: &CStr, number: u32) -> Result<Vec<u8>> {
     let path = path.to_bytes();
     let folder = path.iter().rposition(|&byte| byte == b'/').map_or(0, |at| at + 1);
-    let mut name = [0; 64];
-    let mut rest = &mut name[..];
-    // There is room, so it does not fail.
-    let _ = write!(rest, ".deldrift-{}-{number}.tmp\0", std::process::id());
-    let left = rest.len();
+    let mut room = [0; 64];
+    let name = temporary_name(number, &mut room);
     let mut beside = Vec::new();
-    memory::reserve_exact(&mut beside, folder + name.len() - left)?;
+    memory::reserve_exact(&mut beside, folder + name.len())?;
     beside.extend_from_slice(&path[..folder]);
-    beside.extend_from_slice(&name[..name.len() - left]);
+    beside.extend_from_slice(name);
     Ok(beside)
 }
 

@@ -1,11 +1,10 @@
 //! Files that are written beside the one whose place they take.
 
 use std::ffi::CStr;
-use std::io::Write;
 use std::ptr::null_mut;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
-use super::super::{FileError, failure, refusal};
+use super::super::{FileError, failure, refusal, temporary_name};
 use super::system::*;
 use super::{MOST, OpenFile, WholePath};
 use crate::error::Result;
@@ -24,15 +23,12 @@ pub(in crate::capi) struct NewFile<'p> {
 /// A path beside another one.
 fn path_beside(whole: &WholePath, number: u32) -> Result<WholePath> {
     let folder = whole.0.iter().rposition(|&unit| unit == u16::from(b'\\')).map_or(0, |at| at + 1);
-    let mut name = [0; 64];
-    let mut rest = &mut name[..];
-    // There is room, so it does not fail.
-    let _ = write!(rest, ".deldrift-{}-{number}.tmp\0", std::process::id());
-    let left = rest.len();
+    let mut room = [0; 64];
+    let name = temporary_name(number, &mut room);
     let mut beside = Vec::new();
-    memory::reserve_exact(&mut beside, folder + name.len() - left)?;
+    memory::reserve_exact(&mut beside, folder + name.len())?;
     beside.extend_from_slice(&whole.0[..folder]);
-    beside.extend(name[..name.len() - left].iter().map(|&byte| u16::from(byte)));
+    beside.extend(name.iter().map(|&byte| u16::from(byte)));
     Ok(WholePath(beside))
 }
 

@@ -18,24 +18,22 @@ impl<'d> Reader<'d> {
 
     /// The next points, with their weights if they have some.
     pub(crate) fn points<G: Moving>(&mut self, n: usize) -> Result<Vec<G::Point>> {
-        let mut points = Vec::new();
-        memory::reserve_exact(&mut points, n)?;
-        points.extend(self.entries::<8>(n * G::NUMBERS).chunks_exact(G::NUMBERS).map(|bytes| {
-            let mut point = G::Point::default();
-            // The sum makes -0 into 0, so that equal places are equal bits.
-            (0..G::NUMBERS).for_each(|k| point[k] = f64::from_le_bytes(bytes[k]) + 0.0);
-            point
-        }));
-        Ok(points)
+        self.points_of::<G>(n, G::NUMBERS)
     }
 
     /// The next places, as points without weight.
     pub(crate) fn vectors<G: Moving>(&mut self, n: usize) -> Result<Vec<G::Point>> {
+        self.points_of::<G>(n, G::D)
+    }
+
+    /// The next points of which so many numbers are there.
+    fn points_of<G: Moving>(&mut self, n: usize, width: usize) -> Result<Vec<G::Point>> {
         let mut points = Vec::new();
         memory::reserve_exact(&mut points, n)?;
-        points.extend(self.entries::<8>(n * G::D).chunks_exact(G::D).map(|bytes| {
+        points.extend(self.entries::<8>(n * width).chunks_exact(width).map(|bytes| {
             let mut point = G::Point::default();
-            (0..G::D).for_each(|k| point[k] = f64::from_le_bytes(bytes[k]) + 0.0);
+            // The sum makes -0 into 0, so that equal places are equal bits.
+            (0..width).for_each(|k| point[k] = f64::from_le_bytes(bytes[k]) + 0.0);
             point
         }));
         Ok(points)
