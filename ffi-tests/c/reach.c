@@ -7,17 +7,26 @@ typedef struct {
     uint32_t dimension;
     deldrift_triangulation *t;
     deldrift_cells_view view;
-    double positions[3 * COUNT];
+    double positions[3 * COUNT], weights[COUNT];
+    int64_t greatest; // weight of those that are there, at least 0
     bool is_there[COUNT];
 } lattice;
 
-// Vertices at places of a small lattice, some of them at one place, and some removed.
-static lattice make_lattice(uint32_t dimension) {
+// Vertices at places of a small lattice, some of them at one place, and some removed. Weights are whole numbers of some
+// units, of which many vertices have none, so that many are hidden and many are not.
+static lattice make_lattice(uint32_t dimension, bool is_weighted) {
     lattice l = {.dimension = dimension};
     uint64_t seed = 21 + dimension;
     for (size_t i = 0; i < COUNT * dimension; i++) l.positions[i] = floor(SIDE * next_random(&seed));
-    l.t = create(dimension, l.positions, COUNT, NULL);
+    for (size_t i = 0; i < COUNT && is_weighted; i++) l.weights[i] = floor(8 * next_random(&seed)) - 3;
+    if (is_weighted)
+        OK(deldrift_create_weighted(dimension, l.positions, l.weights, NULL, COUNT, NULL, &l.t));
+    else
+        l.t = create(dimension, l.positions, COUNT, NULL);
     for (uint32_t v = 0; v < COUNT; v++) l.is_there[v] = v % 9 != 4;
+    for (uint32_t v = 0; v < COUNT; v++) {
+        if (l.is_there[v] && l.weights[v] > (double)l.greatest) l.greatest = (int64_t)l.weights[v];
+    }
     for (uint32_t v = 0; v < COUNT; v++) {
         if (!l.is_there[v]) OK(deldrift_remove_vertex(l.t, v));
     }
@@ -47,7 +56,18 @@ static void edges_of(const lattice *l, const uint32_t *row, int64_t edges[3][3])
     if (l->dimension == 2) edges[2][2] = 1;
 }
 
-// The place of the box next to the centre, at n / 2V from the first corner, is no further from it than that.
+static bool has_weights(const lattice *l) {
+    bool is = false;
+    OK(deldrift_is_weighted(l->t, &is));
+    return is;
+}
+
+static int64_t weight_apart(const lattice *l, uint32_t vertex, uint32_t first) {
+    return (int64_t)(l->weights[vertex] - l->weights[first]);
+}
+
+// The place of the box next to the centre, at n / 2V from the first corner, is no further from it than that; with
+// weights the squares differ by the greatest weight less that of the corner.
 static bool is_cell_in_reach(const lattice *l, size_t cell, const double *low, const double *high) {
     const uint32_t *row = l->view.vertices + cell * (l->dimension + 1);
     int64_t e[3][3], product[3], n[3] = {0}, volume = 0, left = 0;
@@ -55,11 +75,13 @@ static bool is_cell_in_reach(const lattice *l, size_t cell, const double *low, c
     for (int i = 0; i < 3; i++) {
         int64_t squared = 0;
         for (uint32_t k = 0; k < l->dimension; k++) squared += e[i][k] * e[i][k];
+        if (i < (int)l->dimension) squared -= weight_apart(l, row[i + 1], row[0]);
         cross(e[(i + 1) % 3], e[(i + 2) % 3], product);
         for (uint32_t k = 0; k < l->dimension; k++) n[k] += squared * product[k];
         if (i == 0) volume = e[0][0] * product[0] + e[0][1] * product[1] + e[0][2] * product[2];
     }
     CHECK(volume > 0);
+    if (has_weights(l)) left = 4 * volume * volume * (l->greatest - (int64_t)l->weights[row[0]]);
     for (uint32_t k = 0; k < l->dimension; k++) {
         const int64_t below = 2 * volume * (whole(low[k]) - at(l, row[0], k)) - n[k];
         const int64_t above = n[k] - 2 * volume * (whole(high[k]) - at(l, row[0], k));
@@ -99,7 +121,7 @@ static bool is_empty(const lattice *l, const double *low, const double *high) {
     return false;
 }
 
-// Whether a vertex of the mask is at the place of a corner but one.
+// Whether a vertex of the mask is at the place of a corner but one; with weights, whether it is one.
 static bool has_masked(const lattice *l, size_t cell, uint32_t without, const uint8_t *mask) {
     if (mask == NULL) return true;
     const uint32_t *row = l->view.vertices + cell * (l->dimension + 1);
@@ -107,6 +129,7 @@ static bool has_masked(const lattice *l, size_t cell, uint32_t without, const ui
         uint32_t shown = DELDRIFT_NONE;
         if (!l->is_there[v] || mask[v] == 0) continue;
         OK(deldrift_coincident_representative(l->t, v, &shown));
+        if (v != shown && has_weights(l)) continue;
         for (uint32_t i = 0; i <= l->dimension; i++) {
             if (i != without && row[i] == shown) return true;
         }
@@ -152,14 +175,18 @@ static void those_of_boxes(const lattice *l, uint64_t *seed, const uint8_t *mask
         }
         if (is_any && has_masked(l, cell, DELDRIFT_NONE, mask)) {
             CHECK(next < count && cells[next] == cell);
-            // The ball has the corners in it, but for the rounding here.
+            // The ball has the corners in it, but for the rounding here; with weights all that has a power as they have or
+            // less, for the greatest weight.
             for (uint32_t i = 0; i <= d; i++) {
                 double squared = 0;
                 for (uint32_t k = 0; k < d; k++) {
                     const double off = centres[next * d + k] - l->positions[row[i] * d + k];
                     squared += off * off;
                 }
-                CHECK(sqrt(squared) <= radii[next] * (1 + 1e-15) && radii[next] <= sqrt(squared) * (1 + 1e-8));
+                const double reach = squared + (double)l->greatest - l->weights[row[i]];
+                const double off = has_weights(l) ? 1e-8 * (squared + 8) : 0;
+                CHECK(reach <= radii[next] * radii[next] * (1 + 1e-14) + off / 1e4);
+                CHECK(radii[next] * radii[next] <= reach * (1 + 3e-8) + off);
             }
             next++;
         }
@@ -178,7 +205,7 @@ static void those_of_boxes(const lattice *l, uint64_t *seed, const uint8_t *mask
             uint32_t shown = DELDRIFT_NONE;
             if (!l->is_there[v] || (mask != NULL && mask[v] == 0)) continue;
             OK(deldrift_coincident_representative(l->t, v, &shown));
-            if (!is_in[b][shown]) continue;
+            if (!is_in[b][shown] || (v != shown && has_weights(l))) continue;
             CHECK(k < offsets[b + 1] && vertices[k] == v);
             k++;
         }
@@ -186,8 +213,11 @@ static void those_of_boxes(const lattice *l, uint64_t *seed, const uint8_t *mask
     }
 }
 
-static void those_of_all(uint32_t dimension) {
-    lattice l = make_lattice(dimension);
+static void those_of_all(uint32_t dimension, bool is_weighted) {
+    lattice l = make_lattice(dimension, is_weighted);
+    size_t n_hidden = 0;
+    if (is_weighted) OK(deldrift_hidden_by_weight(l.t, NULL, NULL, 0, &n_hidden));
+    CHECK(!is_weighted || n_hidden > 3);
     uint64_t seed = 5;
     uint8_t mask[COUNT];
     for (size_t round = 0; round < 300; round++) {
@@ -296,7 +326,8 @@ static void bad_boxes(void) {
 
 int main(void) {
     for (uint32_t dimension = 2; dimension <= 3; dimension++) {
-        those_of_all(dimension);
+        those_of_all(dimension, false);
+        those_of_all(dimension, true);
         buffers_are_as_large_as_they_say(dimension);
     }
     a_last_bit_decides();

@@ -178,6 +178,10 @@ static void has_power_cells() {
     CHECK(left.volumes[0] > 0 && std::isnan(left.volumes[1]));
     CHECK_THROWS(t.voronoi_weight_derivatives(low, high, {1.0, 0.0}), DELDRIFT_WRONG_COUNT, "half_spaces has 2");
     CHECK(t.nearest_vertex(std::vector<double>{2.4, 2.4}) == 4);
+    // All cells have the heaviest vertex for a corner, and so its place in reach.
+    const std::vector<double> middle{2, 2}, far{40, 40};
+    CHECK(t.cells_in_reach(middle, middle).cells.size() == 4 && t.cells_in_reach(far, far).cells.empty());
+    CHECK(t.vertices_in_reach(middle, middle).vertices.size() == 5);
 }
 
 static void refuses() {
@@ -192,7 +196,6 @@ static void refuses() {
     CHECK_THROWS(t.commit_weighted({}, few), DELDRIFT_WRONG_COUNT, "3");
     CHECK_THROWS(t.stage_weights(std::vector<std::uint32_t>{0, 1}, few), DELDRIFT_WRONG_COUNT, "weights has 3 numbers");
     CHECK_THROWS(t.set_weight(4, 1), DELDRIFT_NO_SUCH_VERTEX, "4");
-    CHECK_THROWS(t.cells_in_reach(square, square), DELDRIFT_WEIGHTED, "weights");
     CHECK(!plain.is_weighted());
     CHECK_THROWS(plain.weights(), DELDRIFT_NOT_WEIGHTED, "weights");
     CHECK_THROWS(plain.stage_weights(weights), DELDRIFT_NOT_WEIGHTED, "weights");

@@ -409,6 +409,11 @@ deldrift_status deldrift_conflicts(const deldrift_triangulation *t,
 /// that have a place of the box. Segments between them do not count. All that the insertion of a vertex in the box
 /// would remove are among them.
 ///
+/// With weights a vertex in the box may have any weight up to the greatest that there is, or up to 0 if that is more: the cells told
+/// are those in respect of which a place of the box has a power of at most this weight. Those that have a place of
+/// the box are among them, and so is the cell that hides a vertex there. In a mask and in lists of vertices only those count
+/// then that are corners.
+///
 /// Cost: for each box that of deldrift_locate, and the cells and hull facets in its reach, whether in the mask or not;
 /// k log k for the k cells told.
 ///

@@ -182,6 +182,41 @@ deldrift_status deldrift_mpi_create_periodic(MPI_Comm comm, uint32_t dimension, 
                                              size_t vector_count, const deldrift_mpi_options *options,
                                              deldrift_mpi **out);
 
+/// Creates the regular triangulation of the vertices of all processes and their weights, at timestamp 0: that of
+/// deldrift_create_weighted, on several processes. Collective.
+///
+/// comm, dimension, positions, ids, count, options, out: as in deldrift_mpi_create. weights: count numbers; NULL stands
+/// for 0 each, on this process. All processes have to make this call: vertices without weights and with them are not in
+/// one triangulation.
+///
+/// A vertex that is hidden by its weight is so on its owner: deldrift_hidden_by_weight of deldrift_mpi_local tells of
+/// own vertices what it would tell of them on one process, and so do deldrift_hidden_vertices and all else that reads
+/// their cells. deldrift_weights of deldrift_mpi_local has the weights.
+///
+/// Of several vertices at one place, of different processes, that are all hidden by weight, each process may tell
+/// of its own that it represents the place. Where the vertices of all processes do not span the dimension, processes do
+/// not know of each other's.
+///
+/// Cost: that of deldrift_mpi_create. A process sends what is in reach of the greatest weight that it knows of, so one
+/// vertex whose weight is large beside the others' makes halos larger near it.
+///
+/// Errors: those of deldrift_mpi_create and deldrift_create_weighted; DELDRIFT_WEIGHTED or DELDRIFT_NOT_WEIGHTED where
+/// process 0 calls deldrift_mpi_create.
+deldrift_status deldrift_mpi_create_weighted(MPI_Comm comm, uint32_t dimension, const double *positions,
+                                             const double *weights, const uint64_t *ids, size_t count,
+                                             const deldrift_mpi_options *options, deldrift_mpi **out);
+
+/// Creates the regular triangulation of the vertices of all processes, their weights, and all places to which sums of
+/// multiples of the vectors take them: deldrift_create_periodic_weighted, on several processes. Collective.
+///
+/// weights: as in deldrift_mpi_create_weighted; all else as in deldrift_mpi_create_periodic.
+///
+/// Errors: those of deldrift_mpi_create_periodic and deldrift_mpi_create_weighted.
+deldrift_status deldrift_mpi_create_periodic_weighted(MPI_Comm comm, uint32_t dimension, const double *positions,
+                                                      const double *weights, const uint64_t *ids, size_t count,
+                                                      const double *vectors, size_t vector_count,
+                                                      const deldrift_mpi_options *options, deldrift_mpi **out);
+
 /// Destroys a triangulation. Collective. NULL is legal and does nothing.
 void deldrift_mpi_destroy(deldrift_mpi *m);
 
@@ -197,6 +232,16 @@ void deldrift_mpi_destroy(deldrift_mpi *m);
 /// DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_mpi_stage_insertions(deldrift_mpi *m, const double *positions, const uint64_t *ids,
                                               size_t count);
+
+/// Stages the insertion of count vertices with weights: deldrift_mpi_stage_insertions gives them weight 0.
+///
+/// positions, ids, count: as there. weights: a number for each; NULL for 0 each.
+///
+/// Cost: count, in the mean over many calls.
+///
+/// Errors: those of deldrift_mpi_stage_insertions, also for a weight; DELDRIFT_NOT_WEIGHTED.
+deldrift_status deldrift_mpi_stage_weighted_insertions(deldrift_mpi *m, const double *positions,
+                                                       const double *weights, const uint64_t *ids, size_t count);
 
 /// Stages the removal of count own vertices by the next commit: all, or none if it fails.
 ///
@@ -227,6 +272,18 @@ deldrift_status deldrift_mpi_discard(deldrift_mpi *m);
 /// DELDRIFT_OUT_OF_MEMORY, on any process.
 deldrift_status deldrift_mpi_commit(deldrift_mpi *m, const double *positions, size_t count,
                                     deldrift_mpi_report *report);
+
+/// Makes new positions and weights of the own vertices, and the staged insertions and removals, the next timestamp.
+/// Collective.
+///
+/// positions, count, report: as in deldrift_mpi_commit. weights: a number for each own vertex (those whose removal is
+/// staged too; their entries are not read). NULL for positions or weights leaves these as they are, on this process.
+///
+/// Cost: that of deldrift_mpi_commit.
+///
+/// Errors: those of deldrift_mpi_commit, also for a weight, and DELDRIFT_NOT_WEIGHTED, on any process.
+deldrift_status deldrift_mpi_commit_weighted(deldrift_mpi *m, const double *positions, const double *weights,
+                                             size_t count, deldrift_mpi_report *report);
 
 /// Makes other vectors of a periodic box, and new positions of the own vertices, the next timestamp. Collective. Where
 /// each reduced vector is near a sum of those before, as in a step of a barostat or of a shear, this is a commit of

@@ -101,12 +101,18 @@ def _load() -> ctypes.CDLL:
         "create_periodic": [
             _Comm, c_uint32, pointer, pointer, size, pointer, size, POINTER(Options), POINTER(c_void_p)
         ],
+        "create_weighted": [_Comm, c_uint32, pointer, pointer, pointer, size, POINTER(Options), POINTER(c_void_p)],
+        "create_periodic_weighted": [
+            _Comm, c_uint32, pointer, pointer, pointer, size, pointer, size, POINTER(Options), POINTER(c_void_p)
+        ],
         "cell_shifts": [pointer, pointer, size, count],
         "periods": [pointer, pointer, size, count],
         "stage_insertions": [pointer, pointer, pointer, size],
+        "stage_weighted_insertions": [pointer, pointer, pointer, pointer, size],
         "stage_removals": [pointer, pointer, size],
         "discard": [pointer],
         "commit": [pointer, pointer, size, POINTER(Report)],
+        "commit_weighted": [pointer, pointer, pointer, size, POINTER(Report)],
         "commit_vectors": [pointer, pointer, size, pointer, size, POINTER(Report)],
         "count": [pointer, count],
         "vertices": [pointer, pointer, pointer, size, count],
@@ -133,7 +139,9 @@ def _load() -> ctypes.CDLL:
     library.deldrift_copy_cells.argtypes = [pointer, pointer, pointer, size, count]
     library.deldrift_copy_positions.argtypes = [pointer, pointer, size, count]
     library.deldrift_keys.argtypes = [pointer, pointer, size, count]
-    for name in ("copy_cells", "copy_positions", "keys"):
+    library.deldrift_weights.argtypes = [pointer, pointer, size, count]
+    library.deldrift_hidden_by_weight.argtypes = [pointer, pointer, pointer, size, count]
+    for name in ("copy_cells", "copy_positions", "keys", "weights", "hidden_by_weight"):
         getattr(library, "deldrift_" + name).restype = c_uint32
     library.deldrift_last_error.restype = c_char_p
     return library
@@ -146,6 +154,11 @@ def _check(status: int, is_collective: bool = True) -> None:
     if status:
         message = _library.deldrift_mpi_last_error().decode()
         raise DeldriftMpiError(status, _library.deldrift_mpi_refusing_process() if is_collective else -1, message)
+
+
+def _check_local(status: int) -> None:
+    if status:
+        raise DeldriftMpiError(status, -1, _library.deldrift_last_error().decode())
 
 
 def _address(array: np.ndarray | None) -> int | None:
@@ -166,6 +179,8 @@ class Delaunay:
         or none.
     vectors : (1 to 3, 2 or 3) array of float, optional
         The vectors of a periodic box, the same on all processes.
+    weights : (n,) array of float, optional
+        A weight for each: then all processes give weights, and the triangulation is the regular one.
     boxes, drop_percent : int, optional
         As in deldrift_mpi_options.
     """
@@ -177,6 +192,7 @@ class Delaunay:
         ids: Any = None,
         *,
         vectors: Any = None,
+        weights: Any = None,
         boxes: int = 0,
         drop_percent: int = 0,
     ) -> None:
@@ -188,24 +204,23 @@ class Delaunay:
         ids = None if ids is None else np.ascontiguousarray(ids, dtype=np.uint64)
         if ids is not None and ids.shape != points.shape[:1]:
             self.dimension = 0
+        weights = None if weights is None else np.ascontiguousarray(weights, dtype=np.float64)
+        if weights is not None and weights.shape != points.shape[:1]:
+            self.dimension = 0
         options = Options(ctypes.sizeof(Options), boxes, drop_percent, None)
-        handle = _Comm.from_address(MPI._addressof(comm))
-        if vectors is None:
-            _check(
-                _library.deldrift_mpi_create(
-                    handle, self.dimension, _address(points), _address(ids), len(points), byref(options),
-                    byref(self._handle),
-                )
-            )
-            return
-        box = np.ascontiguousarray(vectors, dtype=np.float64)
-        is_right = box.ndim == 2 and box.shape[1] == self.dimension
-        _check(
-            _library.deldrift_mpi_create_periodic(
-                handle, self.dimension, _address(points), _address(ids), len(points), _address(box),
-                len(box) if is_right else 0, byref(options), byref(self._handle),
-            )
-        )
+        given = [_Comm.from_address(MPI._addressof(comm)), self.dimension, _address(points)]
+        name = "create"
+        box = None if vectors is None else np.ascontiguousarray(vectors, dtype=np.float64)
+        if weights is not None:
+            given.append(_address(weights))
+        given += [_address(ids), len(points)]
+        if box is not None:
+            is_right = box.ndim == 2 and box.shape[1] == self.dimension
+            given += [_address(box), len(box) if is_right else 0]
+            name += "_periodic"
+        if weights is not None:
+            name += "_weighted"
+        _check(getattr(_library, "deldrift_mpi_" + name)(*given, byref(options), byref(self._handle)))
 
     def destroy(self) -> None:
         """Frees all. Collective; without it the memory stays until the program ends."""
@@ -372,12 +387,37 @@ class Delaunay:
             shifts(changes.created_shifts, created), shifts(changes.removed_shifts, removed),
         )
 
-    def stage_insertions(self, points: Any, ids: Any) -> None:
-        """Stages vertices of new global ids, which the next commit inserts behind the own ones."""
+    @property
+    def weights(self) -> np.ndarray:
+        """Weights of the own vertices, in the order of their list."""
+        count, local = c_size_t(), self._local()
+        _check_local(_library.deldrift_weights(local, None, 0, byref(count)))
+        weights = np.empty(count.value)
+        _check_local(_library.deldrift_weights(local, _address(weights), len(weights), byref(count)))
+        return weights[self.vertices]
+
+    @property
+    def hidden_by_weight(self) -> np.ndarray:
+        """Places of the own vertices that are hidden by weight, ascending."""
+        count, local = c_size_t(), self._local()
+        _check_local(_library.deldrift_hidden_by_weight(local, None, None, 0, byref(count)))
+        hidden = np.empty(count.value, np.uint32)
+        _check_local(_library.deldrift_hidden_by_weight(local, _address(hidden), None, len(hidden), byref(count)))
+        return np.flatnonzero(np.isin(self.vertices, hidden))
+
+    def stage_insertions(self, points: Any, ids: Any, weights: Any = None) -> None:
+        """Stages vertices of new global ids, which the next commit inserts behind the own ones; of these weights, or 0."""
         points = np.ascontiguousarray(points, dtype=np.float64)
         ids = np.ascontiguousarray(ids, dtype=np.uint64)
         if points.shape != (len(ids), self.dimension):
             raise ValueError(f"points has the shape {points.shape}, and there are {len(ids)} ids")
+        if weights is not None:
+            weights = np.ascontiguousarray(weights, dtype=np.float64)
+            if weights.shape != ids.shape:
+                raise ValueError(f"weights has the shape {weights.shape}, and there are {len(ids)} ids")
+            given = (_address(points), _address(weights), _address(ids), len(ids))
+            _check(_library.deldrift_mpi_stage_weighted_insertions(self._handle, *given), False)
+            return
         _check(
             _library.deldrift_mpi_stage_insertions(self._handle, _address(points), _address(ids), len(ids)), False
         )
@@ -391,18 +431,25 @@ class Delaunay:
         """Forgets what is staged on this process."""
         _check(_library.deldrift_mpi_discard(self._handle), False)
 
-    def commit(self, points: Any = None, *, vectors: Any = None) -> Report:
+    def commit(self, points: Any = None, *, weights: Any = None, vectors: Any = None) -> Report:
         """Makes new positions of the own vertices, and what is staged, the next timestamp. Collective.
 
-        points: a row for each own vertex, also for those whose removal is staged; None if none moves. vectors: those of
-        a periodic box from now on; all points have to be given then, and nothing may be staged.
+        points: a row for each own vertex, also for those whose removal is staged; None if none moves. weights: a number
+        for each; None leaves them as they are. vectors: those of a periodic box from now on; all points have to be given
+        then, and nothing may be staged.
         """
         report, count = Report(), 0
+        if weights is not None:
+            if vectors is not None:
+                raise ValueError("vectors and weights are not committed in one call")
+            weights = np.ascontiguousarray(weights, dtype=np.float64)
+            count = len(weights) if weights.ndim == 1 else len(self) + 1
         if points is not None:
             points = np.ascontiguousarray(points, dtype=np.float64)
             # A wrong shape is refused as a wrong count, by all.
             is_right = points.ndim == 2 and points.shape[1] == self.dimension
-            count = len(points) if is_right else len(self) + 1
+            counts = {len(points) if is_right else len(self) + 1} | ({count} if weights is not None else set())
+            count = counts.pop() if len(counts) == 1 else len(self) + 1
         if vectors is not None:
             box = np.ascontiguousarray(vectors, dtype=np.float64)
             n_vectors = len(box) if box.ndim == 2 and box.shape[1] == self.dimension else 0
@@ -411,6 +458,10 @@ class Delaunay:
                     self._handle, _address(points), count, _address(box), n_vectors, byref(report)
                 )
             )
+            return report
+        if weights is not None:
+            given = (_address(points), _address(weights), count)
+            _check(_library.deldrift_mpi_commit_weighted(self._handle, *given, byref(report)))
             return report
         _check(_library.deldrift_mpi_commit(self._handle, _address(points), count, byref(report)))
         return report

@@ -137,8 +137,53 @@ def in_a_box(dimension):
     assert refusal(lambda: Delaunay(comm, given, vectors=np.ones((2, dimension)))).process == 0
 
 
+def has_hidden(places, weights, vectors=None):
+    """Which of some points one process hides by weight."""
+    tri = deldrift_mpi.Delaunay(MPI.COMM_SELF, places, weights=weights, vectors=vectors)
+    hidden = set(tri.hidden_by_weight.tolist())
+    tri.destroy()
+    return hidden
+
+
+def with_weights(dimension, vectors):
+    """What processes hide together is what one process hides, while weights and places change."""
+    rng = np.random.default_rng(comm.rank + 3)
+    points, weights = rng.random((60, dimension)), 0.1 * rng.random(60)
+    tri = Delaunay(comm, points, weights=weights, vectors=vectors)
+    for step in range(6):
+        assert (tri.weights == weights).all()
+        hidden = np.zeros(len(tri), bool)
+        hidden[tri.hidden_by_weight] = True
+        everywhere = [np.concatenate(comm.allgather(part)) for part in (points, weights, tri.ids, hidden)]
+        order = np.argsort(everywhere[2])
+        places, of_all, _, are_hidden = (part[order] for part in everywhere)
+        assert set(np.flatnonzero(are_hidden)) == has_hidden(places, of_all, vectors) and 0 < are_hidden.sum() < len(order)
+        if step % 3 == 0:
+            weights = weights + 0.002 * rng.random(len(tri))
+            tri.commit(weights=weights)
+        elif step % 3 == 1:
+            points = points + 0.02 * rng.random(points.shape)
+            tri.stage_insertions(rng.random((2, dimension)), 10**6 + 10 * step + 100 * comm.rank + np.arange(2), [0.01, 0.02])
+            tri.commit(points, weights=weights)
+            weights, points = tri.weights, np.concatenate([points, tri.points[-2:]])
+            assert weights[-2:].tolist() == [0.01, 0.02]
+        else:
+            both = tri.migrate(tri.partition(), np.column_stack([points, weights]))
+            points, weights = both[:, :dimension], both[:, dimension]
+    wrong = weights.copy()
+    if comm.rank == comm.size - 1:
+        wrong[0] = np.inf
+    error = refusal(lambda: tri.commit(weights=wrong))
+    assert error.process == comm.size - 1 and "weights: entry 0 is inf" in str(error)
+    assert refusal(lambda: tri.commit(points, weights=weights[1:])).status == refusal(tri.commit, points[1:]).status
+    tri.destroy()
+
+
 history(2)
 history(3)
+for dimension in (2, 3):
+    with_weights(dimension, None)
+    with_weights(dimension, np.eye(dimension))
 in_a_box(2)
 in_a_box(3)
 empty = Delaunay(comm, np.random.default_rng(1).random((40, 2)) if comm.rank == 0 else np.empty((0, 2)))

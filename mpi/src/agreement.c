@@ -10,7 +10,8 @@
 static __thread char last_message[DM_MESSAGE];
 static __thread int last_process = -1;
 
-static const double LARGEST = 1e57; // of coordinates, as deldrift.h has it
+static const double LARGEST = 1e57;          // of coordinates, as deldrift.h has it
+static const double GREATEST_WEIGHT = 1e114; // likewise
 
 void dm_refuse(dm_refusal *refusal, deldrift_status status, const char *format, ...) {
     if (refusal->status != DELDRIFT_OK) return;
@@ -82,6 +83,16 @@ bool dm_check_points(dm_refusal *refusal, const char *name, uint32_t dimension, 
         if (fabs(x) <= LARGEST || (is_skipped && is_skipped[i / dimension])) continue;
         dm_refuse(refusal, isfinite(x) ? DELDRIFT_OUT_OF_RANGE : DELDRIFT_NOT_FINITE,
                   "%s: coordinate %zu of point %zu is %.17g", name, i % dimension, i / dimension, x);
+        return false;
+    }
+    return true;
+}
+
+bool dm_check_weights(dm_refusal *refusal, const double *weights, size_t count, const uint8_t *is_skipped) {
+    for (size_t i = 0; weights && i < count; i++) {
+        if (fabs(weights[i]) <= GREATEST_WEIGHT || (is_skipped && is_skipped[i])) continue;
+        dm_refuse(refusal, isfinite(weights[i]) ? DELDRIFT_OUT_OF_RANGE : DELDRIFT_NOT_FINITE,
+                  "weights: entry %zu is %.17g", i, weights[i]);
         return false;
     }
     return true;

@@ -59,7 +59,7 @@ void dm_fit_boxes(deldrift_mpi *m, dm_box *boxes, const uint16_t *box_of) {
     size_t counts[DM_MAX_BOXES] = {0};
     for (uint32_t b = 0; b < m->options.boxes; b++) empty(&boxes[b]);
     for (size_t i = 0; i < m->next_count; i++) {
-        take_in(m, &boxes[box_of[i]], m->points + i * m->dimension);
+        take_in(m, &boxes[box_of[i]], m->points + i * m->row);
         counts[box_of[i]]++;
     }
     for (uint32_t b = 0; b < m->options.boxes; b++) {
@@ -87,7 +87,7 @@ void dm_make_boxes(deldrift_mpi *m, dm_box *boxes, uint16_t *box_of) {
         empty(&boxes[fresh]);
         for (size_t i = 0; i < m->next_count; i++) {
             if (box_of[i] != split) continue;
-            const double *point = m->points + i * m->dimension;
+            const double *point = m->points + i * m->row;
             if (point[axis] > middle) box_of[i] = fresh;
             take_in(m, &boxes[box_of[i]], point);
         }

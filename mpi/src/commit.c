@@ -8,32 +8,58 @@
 // The boxes are made anew, rather than fitted, where they have grown so much.
 static const double MOST_GROWTH = 1.1;
 
-deldrift_status deldrift_mpi_stage_insertions(deldrift_mpi *m, const double *positions, const uint64_t *ids,
-                                              size_t count) {
-    if (!m) return dm_no_handle();
-    dm_refusal refusal = {DELDRIFT_OK, ""};
-    if (count && !ids) dm_refuse(&refusal, DELDRIFT_NULL_ARGUMENT, "ids is NULL, and count is %zu", count);
-    dm_check_points(&refusal, "positions", m->dimension, positions, count, NULL);
-    if (refusal.status != DELDRIFT_OK) return dm_fail(&refusal);
+// The points of insertions, behind those that are staged, where there is room.
+static bool place_insertions(deldrift_mpi *m, dm_refusal *refusal, const double *positions, const double *weights,
+                             size_t count) {
     uint32_t d = m->dimension;
-    size_t needed = m->insertion_count + count, room = m->insertion_room, wrap_room = room;
-    if (!dm_reserve(&refusal, &m->insertion_positions, &room, needed, d * sizeof(double)) ||
-        (m->lattice.rank && !dm_reserve(&refusal, &m->insertion_wraps, &wrap_room, needed, d * sizeof(int64_t))) ||
-        !dm_reserve(&refusal, &m->insertion_ids, &m->insertion_room, needed, sizeof *ids))
-        return dm_fail(&refusal);
-    if (m->lattice.rank) {
-        size_t first = m->insertion_count * d;
-        if (!dm_wrap(&refusal, &m->lattice, positions, NULL, count, m->insertion_positions + first,
-                     m->insertion_wraps + first))
-            return dm_fail(&refusal);
-    } else if (count) {
-        memcpy(m->insertion_positions + m->insertion_count * d, positions, count * d * sizeof(double));
+    double *points = m->insertion_points + m->insertion_count * m->row;
+    if (!count) return true;
+    if (!m->lattice.rank) {
+        dm_zip(d, m->row, positions, weights, count, points);
+        return true;
     }
-    if (count) {
-        memcpy(m->insertion_ids + m->insertion_count, ids, count * sizeof *ids);
-    }
+    double *home = dm_allocate(refusal, count * d, sizeof *home);
+    bool are_home = home && dm_wrap(refusal, &m->lattice, positions, NULL, count, home,
+                                    m->insertion_wraps + m->insertion_count * d);
+    if (are_home) dm_zip(d, m->row, home, weights, count, points);
+    free(home);
+    return are_home;
+}
+
+static deldrift_status stage(deldrift_mpi *m, dm_refusal *refusal, const double *positions, const double *weights,
+                             const uint64_t *ids, size_t count) {
+    if (count && !ids) dm_refuse(refusal, DELDRIFT_NULL_ARGUMENT, "ids is NULL, and count is %zu", count);
+    dm_check_points(refusal, "positions", m->dimension, positions, count, NULL);
+    dm_check_weights(refusal, weights, count, NULL);
+    if (refusal->status != DELDRIFT_OK) return dm_fail(refusal);
+    size_t needed = m->insertion_count + count, room = m->insertion_room, wrap_room = room, wrap = sizeof(int64_t);
+    if (!dm_reserve(refusal, &m->insertion_points, &room, needed, m->row * sizeof(double)) ||
+        (m->lattice.rank && !dm_reserve(refusal, &m->insertion_wraps, &wrap_room, needed, m->dimension * wrap)) ||
+        !dm_reserve(refusal, &m->insertion_ids, &m->insertion_room, needed, sizeof *ids) ||
+        !place_insertions(m, refusal, positions, weights, count))
+        return dm_fail(refusal);
+    if (count) memcpy(m->insertion_ids + m->insertion_count, ids, count * sizeof *ids);
     m->insertion_count = needed;
     return DELDRIFT_OK;
+}
+
+deldrift_status deldrift_mpi_stage_insertions(deldrift_mpi *m, const double *positions, const uint64_t *ids,
+                                              size_t count) {
+    dm_refusal refusal = {DELDRIFT_OK, ""};
+    return m ? stage(m, &refusal, positions, NULL, ids, count) : dm_no_handle();
+}
+
+static void refuse_without_weights(const deldrift_mpi *m, dm_refusal *refusal) {
+    if (m->row == m->dimension)
+        dm_refuse(refusal, DELDRIFT_NOT_WEIGHTED, "m has no weights, and this function is for those that have");
+}
+
+deldrift_status deldrift_mpi_stage_weighted_insertions(deldrift_mpi *m, const double *positions,
+                                                       const double *weights, const uint64_t *ids, size_t count) {
+    if (!m) return dm_no_handle();
+    dm_refusal refusal = {DELDRIFT_OK, ""};
+    refuse_without_weights(m, &refusal);
+    return stage(m, &refusal, positions, weights, ids, count);
 }
 
 static void unmark(deldrift_mpi *m, const uint32_t *places, size_t count) {
@@ -75,31 +101,30 @@ static bool is_removed(const deldrift_mpi *m, size_t place) {
     return m->removal_count && m->is_removal[place];
 }
 
-static const double *position_of(const deldrift_mpi *m, const double *positions, size_t place) {
-    uint32_t d = m->dimension;
-    return positions ? positions + place * d : m->where + (size_t)m->own[place] * d;
+static const double *point_of(const deldrift_mpi *m, const double *points, size_t place) {
+    return points ? points + place * m->row : m->where + (size_t)m->own[place] * m->row;
 }
 
 // The list of own vertices as it will be, where they will be, and the boxes that those are in which there are already.
-static bool make_next(deldrift_mpi *m, const double *positions) {
-    uint32_t d = m->dimension;
+static bool make_next(deldrift_mpi *m, const double *points) {
+    uint32_t d = m->dimension, row = m->row;
     m->next_count = m->own_count - m->removal_count + m->insertion_count;
     if (!dm_reserve_own(m, m->own_count > m->next_count ? m->own_count : m->next_count) ||
         !dm_reserve(&m->refusal, &m->moved, &m->moved_room, m->ids, sizeof *m->moved))
         return false;
-    bool is_copied = !positions || m->removal_count || m->insertion_count;
-    m->points = is_copied ? m->next_points : positions;
+    bool is_copied = !points || m->removal_count || m->insertion_count;
+    m->points = is_copied ? m->next_points : points;
     size_t next = 0;
     for (size_t i = 0; i < m->own_count; i++) {
         if (is_removed(m, i)) continue;
         m->next_own[next] = m->own[i];
         m->next_box_of[next] = m->box_of[i];
-        if (is_copied) memcpy(m->next_points + next * d, position_of(m, positions, i), d * sizeof(double));
+        if (is_copied) memcpy(m->next_points + next * row, point_of(m, points, i), row * sizeof(double));
         if (m->lattice.rank) memcpy(m->next_wraps + next * d, m->home_wraps + i * d, d * sizeof *m->next_wraps);
         next++;
     }
     if (m->insertion_count)
-        memcpy(m->next_points + next * d, m->insertion_positions, m->insertion_count * d * sizeof(double));
+        memcpy(m->next_points + next * row, m->insertion_points, m->insertion_count * row * sizeof(double));
     if (m->insertion_count && m->lattice.rank)
         memcpy(m->next_wraps + next * d, m->insertion_wraps, m->insertion_count * d * sizeof *m->next_wraps);
     return true;
@@ -110,7 +135,7 @@ static bool fits(deldrift_mpi *m) {
     const dm_box *boxes = m->boxes + (size_t)m->rank * m->options.boxes;
     size_t kept = m->next_count - m->insertion_count;
     for (size_t i = 0; i < m->next_count; i++) {
-        const double *point = m->points + i * m->dimension;
+        const double *point = m->points + i * m->row;
         if (i < kept && dm_is_in_box(m, &boxes[m->next_box_of[i]], point)) continue;
         uint32_t b = 0;
         while (b < m->options.boxes && !dm_is_in_box(m, &boxes[b], point)) b++;
@@ -128,31 +153,31 @@ static void share_new_boxes(deldrift_mpi *m) {
     dm_share_boxes(m, own);
 }
 
-// Own vertices that move: to `where`, and on the list.
-static void take_positions(deldrift_mpi *m, const double *positions) {
+// Own vertices that change: to `where`, and on the list.
+static void take_points(deldrift_mpi *m, const double *points) {
     uint32_t d = m->dimension;
     m->displacement = 0;
-    for (size_t i = 0; positions && i < m->own_count; i++) {
+    for (size_t i = 0; points && i < m->own_count; i++) {
         if (is_removed(m, i)) continue;
-        double *where = m->where + (size_t)m->own[i] * d;
-        const double *position = positions + i * d;
-        bool has_moved = false;
-        for (uint32_t k = 0; k < d; k++) {
-            if (where[k] == position[k]) continue;
-            has_moved = true;
-            m->displacement = fmax(m->displacement, fabs(position[k] - where[k]));
-            where[k] = position[k];
+        double *where = m->where + (size_t)m->own[i] * m->row;
+        const double *point = points + i * m->row;
+        bool has_changed = false;
+        for (uint32_t k = 0; k < m->row; k++) {
+            if (where[k] == point[k]) continue;
+            has_changed = true;
+            if (k < d) m->displacement = fmax(m->displacement, fabs(point[k] - where[k]));
+            where[k] = point[k];
         }
-        if (has_moved) m->moved[m->moved_count++] = m->own[i];
+        if (has_changed) m->moved[m->moved_count++] = m->own[i];
     }
 }
 
-static bool moves(const deldrift_mpi *m, const double *positions) {
-    uint32_t d = m->dimension;
-    for (size_t i = 0; positions && i < m->own_count; i++) {
-        const double *where = m->where + (size_t)m->own[i] * d;
-        for (uint32_t k = 0; k < d && !is_removed(m, i); k++)
-            if (where[k] != positions[i * d + k]) return true;
+static bool moves(const deldrift_mpi *m, const double *points) {
+    uint32_t row = m->row;
+    for (size_t i = 0; points && i < m->own_count; i++) {
+        const double *where = m->where + (size_t)m->own[i] * row;
+        for (uint32_t k = 0; k < row && !is_removed(m, i); k++)
+            if (where[k] != points[i * row + k]) return true;
     }
     return false;
 }
@@ -177,27 +202,31 @@ static bool stage_leaving(deldrift_mpi *m) {
 }
 
 static bool stage_insertions(deldrift_mpi *m) {
-    uint32_t d = m->dimension;
     size_t count = m->insertion_count, kept = m->next_count - count;
     if (!count) return true;
     if (!dm_reserve(&m->refusal, &m->vertices, &m->vertex_room, count, sizeof *m->vertices) ||
-        !dm_insert(m, m->insertion_positions, m->insertion_ids, count))
+        !dm_insert(m, m->insertion_points, m->insertion_ids, count))
         return false;
     for (size_t k = 0; k < count; k++) {
         m->next_own[kept + k] = m->vertices[k];
-        dm_set_vertex(m, m->vertices[k], m->rank, 0, m->insertion_ids[k], m->insertion_positions + k * d);
+        dm_set_vertex(m, m->vertices[k], m->rank, 0, m->insertion_ids[k], m->insertion_points + k * m->row);
     }
     return true;
 }
 
 static bool stage_moves(deldrift_mpi *m) {
-    uint32_t d = m->dimension;
-    if (m->moved_count > m->ids / 4) return dm_took(&m->refusal, deldrift_move_vertices(m->t, NULL, m->where, m->ids));
-    if (!dm_reserve(&m->refusal, &m->coordinates, &m->coordinate_room, m->moved_count * d, sizeof *m->coordinates))
+    uint32_t row = m->row;
+    const double *points, *weights;
+    if (row == m->dimension && m->moved_count > m->ids / 4)
+        return dm_took(&m->refusal, deldrift_move_vertices(m->t, NULL, m->where, m->ids));
+    if (!dm_reserve(&m->refusal, &m->coordinates, &m->coordinate_room, m->moved_count * row, sizeof *m->coordinates))
         return false;
     for (size_t k = 0; k < m->moved_count; k++)
-        memcpy(m->coordinates + k * d, m->where + (size_t)m->moved[k] * d, d * sizeof(double));
-    return dm_took(&m->refusal, deldrift_move_vertices(m->t, m->moved, m->coordinates, m->moved_count));
+        memcpy(m->coordinates + k * row, m->where + (size_t)m->moved[k] * row, row * sizeof(double));
+    points = m->coordinates;
+    return dm_unzip(m, &points, m->moved_count, &weights) &&
+           dm_took(&m->refusal, deldrift_move_vertices(m->t, m->moved, points, m->moved_count)) &&
+           (!weights || dm_took(&m->refusal, deldrift_stage_weights(m->t, m->moved, weights, m->moved_count)));
 }
 
 // Each process decides for its own vertices: the exchange tells who drops.
@@ -208,12 +237,12 @@ static bool is_time_to_drop(const deldrift_mpi *m) {
 }
 
 // From what all have agreed to do to what all have, or none; with other vectors, or NULL.
-static deldrift_status advance(deldrift_mpi *m, const double *positions, bool has_new_boxes, dm_strain *strain) {
+static deldrift_status advance(deldrift_mpi *m, const double *points, bool has_new_boxes, dm_strain *strain) {
     m->has_dropped = is_time_to_drop(m);
     if (m->has_dropped) dm_find_drops(m);
     if (strain) dm_strain_copies(m, strain);
     m->moved_count = 0;
-    take_positions(m, positions);
+    take_points(m, points);
     if (has_new_boxes) share_new_boxes(m);
     for (size_t i = 0; m->removal_count && i < m->own_count; i++) m->is_leaving[m->own[i]] = m->is_removal[i];
     dm_exchange_positions(m);
@@ -245,8 +274,8 @@ deldrift_status dm_commit_strain(deldrift_mpi *m, const double *positions, const
     int64_t numbers[4] = {0};
     if (dm_make_strain(&m->refusal, m, vectors, &strain)) {
         numbers[0] = !dm_can_strain(m, &strain);
-        if (!numbers[0] && dm_come_home(m, &strain.lattice, &positions) && make_next(m, positions) &&
-            dm_make_peers_ready(m))
+        if (!numbers[0] && dm_come_home(m, &strain.lattice, &positions) && dm_take_points(m, &positions, NULL) &&
+            make_next(m, positions) && dm_make_peers_ready(m))
             numbers[1] = !fits(m);
     }
     dm_vote vote = dm_decide(m->comm, &m->refusal, numbers);
@@ -261,33 +290,52 @@ deldrift_status dm_commit_strain(deldrift_mpi *m, const double *positions, const
     return status;
 }
 
-deldrift_status deldrift_mpi_commit(deldrift_mpi *m, const double *positions, size_t count,
-                                    deldrift_mpi_report *report) {
-    if (!m) return dm_no_handle();
-    memset(&m->refusal, 0, sizeof m->refusal);
+// What is wrong with what a process is given for its own vertices.
+static bool check_given(const deldrift_mpi *m, dm_refusal *refusal, const double *positions, const double *weights,
+                        size_t count) {
+    const uint8_t *is_skipped = m->removal_count ? m->is_removal : NULL;
+    if ((positions || weights || count) && count != m->own_count) {
+        dm_refuse(refusal, DELDRIFT_WRONG_COUNT, "count is %zu, and there are %zu own vertices", count, m->own_count);
+        return false;
+    }
+    return (!positions && weights) ? dm_check_weights(refusal, weights, count, is_skipped)
+                                   : dm_check_points(refusal, "positions", m->dimension, positions, count, is_skipped) &&
+                                         dm_check_weights(refusal, weights, count, is_skipped);
+}
+
+static deldrift_status commit(deldrift_mpi *m, const double *positions, const double *weights, size_t count,
+                              deldrift_mpi_report *report) {
     memset(&m->report, 0, sizeof m->report);
     m->report.is_spanning = m->was_spanning;
-    bool is_legal = true;
-    if ((positions || count) && count != m->own_count) {
-        dm_refuse(&m->refusal, DELDRIFT_WRONG_COUNT, "count is %zu, and there are %zu own vertices", count,
-                  m->own_count);
-        is_legal = false;
-    } else {
-        is_legal = dm_check_points(&m->refusal, "positions", m->dimension, positions, count,
-                                   m->removal_count ? m->is_removal : NULL);
-    }
-    if (is_legal && m->lattice.rank) is_legal = dm_come_home(m, &m->lattice, &positions);
+    const double *points = positions;
+    bool is_legal = check_given(m, &m->refusal, positions, weights, count);
+    if (is_legal && m->lattice.rank) is_legal = dm_come_home(m, &m->lattice, &points);
     int64_t numbers[4] = {0};
-    if (is_legal && make_next(m, positions) && dm_make_peers_ready(m)) {
-        numbers[0] = m->insertion_count || m->removal_count || moves(m, positions);
+    if (is_legal && dm_take_points(m, &points, weights) && make_next(m, points) && dm_make_peers_ready(m)) {
+        numbers[0] = m->insertion_count || m->removal_count || moves(m, points);
         numbers[1] = numbers[0] && !fits(m);
     }
     dm_vote vote = dm_decide(m->comm, &m->refusal, numbers);
     m->report.collectives++;
     deldrift_status status = vote.status;
-    if (status == DELDRIFT_OK && vote.most[0]) status = advance(m, positions, vote.most[1], NULL);
+    if (status == DELDRIFT_OK && vote.most[0]) status = advance(m, points, vote.most[1], NULL);
     if (status != DELDRIFT_OK) return status;
     finish(m);
     if (report) *report = m->report;
     return DELDRIFT_OK;
+}
+
+deldrift_status deldrift_mpi_commit(deldrift_mpi *m, const double *positions, size_t count,
+                                    deldrift_mpi_report *report) {
+    if (!m) return dm_no_handle();
+    memset(&m->refusal, 0, sizeof m->refusal);
+    return commit(m, positions, NULL, count, report);
+}
+
+deldrift_status deldrift_mpi_commit_weighted(deldrift_mpi *m, const double *positions, const double *weights,
+                                             size_t count, deldrift_mpi_report *report) {
+    if (!m) return dm_no_handle();
+    memset(&m->refusal, 0, sizeof m->refusal);
+    refuse_without_weights(m, &m->refusal);
+    return commit(m, positions, weights, count, report);
 }

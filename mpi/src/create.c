@@ -11,6 +11,12 @@ typedef struct {
     size_t vector_count;
 } box;
 
+// Weights, or NULL for 0 each; and whether there are any.
+typedef struct {
+    const double *of;
+    bool are_there;
+} weighing;
+
 enum { DEFAULT_BOXES = 16, DEFAULT_DROP_PERCENT = 5 };
 
 // What the program says of options, with defaults in place. False if it has no meaning.
@@ -54,25 +60,27 @@ void dm_free(deldrift_mpi *m) {
     dm_free_classes(&m->told);
     void *arrays[] = {
         m->id_of,         m->owner_of,   m->is_own,       m->is_leaving,  m->where,       m->stamp,
-        m->own,           m->box_of,     m->next_own,     m->next_box_of, m->next_points, m->insertion_positions,
+        m->own,           m->box_of,     m->next_own,     m->next_box_of, m->next_points, m->insertion_points,
         m->insertion_ids, m->is_removal, m->boxes,        m->next_boxes,  m->peer_of,     m->undo,
         m->low,           m->high,       m->box_ranks,    m->offsets,     m->found,       m->vertices,
         m->coordinates,   m->numbers,    m->outgoing,     m->incoming,    m->chunks,      m->requests,
         m->chunk,         m->bases,      m->migrated,     m->moved,       m->nodes,       m->rebound,
         m->created,       m->removed,    m->created_cells, m->period_of,  m->wraps,       m->next_wraps,
         m->home,          m->home_before, m->home_wraps,  m->box_periods, m->insertion_wraps,
-        m->created_shifts, m->removed_shifts};
+        m->created_shifts, m->removed_shifts, m->weight_of, m->unzipped,  m->weights,     m->given};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) free(arrays[i]);
 }
 
-deldrift_mpi *dm_new(dm_refusal *refusal, MPI_Comm comm, uint32_t dimension, const deldrift_mpi_options *options,
-                     const deldrift_options *local, const double *vectors, size_t vector_count) {
+deldrift_mpi *dm_new(dm_refusal *refusal, MPI_Comm comm, uint32_t dimension, uint32_t row,
+                     const deldrift_mpi_options *options, const deldrift_options *local, const double *vectors,
+                     size_t vector_count) {
     deldrift_mpi *m = dm_allocate(refusal, 1, sizeof *m);
     if (!m) return NULL;
     m->comm = comm;
     MPI_Comm_rank(comm, &m->rank);
     MPI_Comm_size(comm, &m->size);
     m->dimension = dimension;
+    m->row = row;
     m->options = *options;
     m->local = *local;
     size_t size = (size_t)m->size, boxes = size * m->options.boxes;
@@ -80,7 +88,7 @@ deldrift_mpi *dm_new(dm_refusal *refusal, MPI_Comm comm, uint32_t dimension, con
     m->next_boxes = dm_allocate(refusal, boxes, sizeof *m->next_boxes);
     m->peer_of = dm_allocate(refusal, size, sizeof *m->peer_of);
     m->bases = dm_allocate(refusal, size, sizeof *m->bases);
-    m->chunk = dm_allocate(refusal, DM_CHUNK, 2 * sizeof(uint64_t) + 3 * sizeof(double));
+    m->chunk = dm_allocate(refusal, DM_CHUNK, 2 * sizeof(uint64_t) + 4 * sizeof(double));
     dm_make_lattice(refusal, &m->lattice, dimension, vectors, vector_count);
     if (refusal->status != DELDRIFT_OK) {
         dm_free(m);
@@ -104,6 +112,17 @@ static deldrift_status push_seeds(deldrift_mpi *m) {
     return DELDRIFT_OK;
 }
 
+// That of the next own vertices.
+static bool make_triangulation(deldrift_mpi *m, const double *points, const uint64_t *keys) {
+    const double *weights;
+    size_t count = m->next_count;
+    if (!dm_unzip(m, &points, count, &weights)) return false;
+    return dm_took(&m->refusal,
+                   m->row == m->dimension
+                       ? deldrift_create_with_keys(m->dimension, points, keys, count, &m->local, &m->t)
+                       : deldrift_create_weighted(m->dimension, points, weights, keys, count, &m->local, &m->t));
+}
+
 deldrift_status dm_build(deldrift_mpi *m, const double *points, const uint64_t *ids, const int64_t *wraps,
                          size_t count) {
     dm_refusal *refusal = &m->refusal;
@@ -112,17 +131,14 @@ deldrift_status dm_build(deldrift_mpi *m, const double *points, const uint64_t *
     m->next_count = count;
     m->points = points;
     dm_box own[DM_MAX_BOXES];
-    (void)(dm_reserve_own(m, count) &&
-           dm_took(refusal,
-                   deldrift_create_with_keys(m->dimension, points, DM_HAS_FAULT(DM_FAULT_LOCAL_KEYS) ? NULL : ids,
-                                             count, &m->local, &m->t)) &&
+    (void)(dm_reserve_own(m, count) && make_triangulation(m, points, DM_HAS_FAULT(DM_FAULT_LOCAL_KEYS) ? NULL : ids) &&
            dm_reserve_ids(m, count) && dm_reserve(refusal, &m->undo, &m->undo_room, count, sizeof *m->undo));
     deldrift_status status = dm_decide(m->comm, refusal, NULL).status;
     m->report.collectives++;
     if (status != DELDRIFT_OK) return status;
     for (size_t i = 0; i < count; i++) {
         m->next_own[i] = (uint32_t)i;
-        dm_set_vertex(m, (uint32_t)i, m->rank, 0, ids[i], points + i * m->dimension);
+        dm_set_vertex(m, (uint32_t)i, m->rank, 0, ids[i], points + i * m->row);
     }
     dm_make_boxes(m, own, m->next_box_of);
     dm_share_boxes(m, own);
@@ -186,7 +202,8 @@ static uint64_t *make_ids(MPI_Comm comm, dm_refusal *refusal, const uint64_t *id
 
 // What is wrong with the arguments, also beside those of other processes. The status is that of all.
 static deldrift_status check_arguments(MPI_Comm comm, dm_refusal *refusal, uint32_t dimension, const double *positions,
-                                       const uint64_t *ids, size_t count, const deldrift_mpi_options *options) {
+                                       bool are_weighted, const uint64_t *ids, size_t count,
+                                       const deldrift_mpi_options *options) {
     if (dimension != 2 && dimension != 3)
         dm_refuse(refusal, DELDRIFT_INVALID_DIMENSION, "the dimension is %u", dimension);
     else if (count > UINT32_MAX - 1)
@@ -195,14 +212,17 @@ static deldrift_status check_arguments(MPI_Comm comm, dm_refusal *refusal, uint3
         dm_check_points(refusal, "positions", dimension, positions, count, NULL);
     int64_t numbers[4] = {ids || !count, !ids && count, 0, 0};
     if (!ids) numbers[0] = 0;
-    uint64_t first[2] = {dimension, options->boxes};
-    MPI_Bcast(first, 2, MPI_UINT64_T, 0, comm);
+    uint64_t first[3] = {dimension, options->boxes, are_weighted};
+    MPI_Bcast(first, 3, MPI_UINT64_T, 0, comm);
     if (first[0] != dimension)
         dm_refuse(refusal, DELDRIFT_INVALID_DIMENSION, "the dimension is %u, that of process 0 is %llu", dimension,
                   (unsigned long long)first[0]);
     if (first[1] != options->boxes)
         dm_refuse(refusal, DELDRIFT_INVALID_OPTIONS, "boxes is %u, that of process 0 is %llu", options->boxes,
                   (unsigned long long)first[1]);
+    if (first[2] != are_weighted)
+        dm_refuse(refusal, are_weighted ? DELDRIFT_WEIGHTED : DELDRIFT_NOT_WEIGHTED,
+                  "the call is for %s, that of process 0 is not", are_weighted ? "weights" : "vertices without weights");
     dm_vote vote = dm_decide(comm, refusal, numbers);
     if (vote.status == DELDRIFT_OK && vote.most[0] && vote.most[1]) {
         if (!ids && count)
@@ -246,10 +266,41 @@ static bool check_communicator(dm_refusal *refusal, MPI_Comm comm) {
     return refusal->status == DELDRIFT_OK;
 }
 
+// What a process owns, at home in the box if there is one.
+typedef struct {
+    uint64_t *ids;
+    double *home, *points;
+    int64_t *wraps;
+} own_points;
+
+static void free_own(own_points *own) {
+    free(own->ids);
+    free(own->home);
+    free(own->points);
+    free(own->wraps);
+}
+
+// The points to build from. NULL, and a refusal, where there is no memory.
+static const double *place_own(dm_refusal *refusal, const deldrift_mpi *m, own_points *own, const double *positions,
+                               const double *weights, size_t count) {
+    uint32_t d = m->dimension;
+    if (m->lattice.rank) {
+        own->home = dm_allocate(refusal, count * d, sizeof *own->home);
+        own->wraps = dm_allocate(refusal, count * d, sizeof *own->wraps);
+        if (!own->home || !own->wraps) return NULL;
+        dm_wrap(refusal, &m->lattice, positions, NULL, count, own->home, own->wraps);
+        positions = own->home;
+    }
+    if (m->row == d) return positions;
+    own->points = dm_allocate(refusal, count * m->row, sizeof *own->points);
+    if (own->points) dm_zip(d, m->row, positions, weights, count, own->points);
+    return own->points;
+}
+
 // With the vectors of a box, or NULL where the set is open.
-static deldrift_status create(MPI_Comm comm, uint32_t dimension, const double *positions, const uint64_t *ids,
-                              size_t count, const box *given, const deldrift_mpi_options *options,
-                              deldrift_mpi **out) {
+static deldrift_status create(MPI_Comm comm, uint32_t dimension, const double *positions, weighing weights,
+                              const uint64_t *ids, size_t count, const box *given,
+                              const deldrift_mpi_options *options, deldrift_mpi **out) {
     dm_refusal refusal = {DELDRIFT_OK, ""};
     deldrift_mpi_options read;
     deldrift_options local;
@@ -261,31 +312,26 @@ static deldrift_status create(MPI_Comm comm, uint32_t dimension, const double *p
     if (!out) dm_refuse(&refusal, DELDRIFT_NULL_ARGUMENT, "out is NULL");
     read_options(&refusal, options, &read, &local);
     deldrift_mpi *m = NULL;
-    uint64_t *own_ids = NULL;
-    double *home = NULL;
-    int64_t *wraps = NULL;
+    own_points own = {NULL, NULL, NULL, NULL};
+    const double *points = NULL;
     if (given && local.coincidence == DELDRIFT_COINCIDENCE_REJECT)
         dm_refuse(&refusal, DELDRIFT_INVALID_OPTIONS, "a periodic triangulation does not reject coincident vertices");
-    deldrift_status status = check_arguments(copy, &refusal, dimension, positions, ids, count, &read);
+    dm_check_weights(&refusal, weights.of, count, NULL);
+    deldrift_status status =
+        check_arguments(copy, &refusal, dimension, positions, weights.are_there, ids, count, &read);
     if (status == DELDRIFT_OK && given) status = check_vectors(copy, &refusal, dimension, given);
     if (status == DELDRIFT_OK) {
         int size;
         MPI_Comm_size(copy, &size);
-        own_ids = make_ids(copy, &refusal, ids, count);
-        if (own_ids) find_twins(copy, size, &refusal, own_ids, count);
-        m = dm_new(&refusal, copy, dimension, &read, &local, given ? given->vectors : NULL,
-                   given ? given->vector_count : 0);
-        if (given && m) {
-            home = dm_allocate(&refusal, count * dimension, sizeof *home);
-            wraps = dm_allocate(&refusal, count * dimension, sizeof *wraps);
-            if (home && wraps) dm_wrap(&refusal, &m->lattice, positions, NULL, count, home, wraps);
-        }
+        own.ids = make_ids(copy, &refusal, ids, count);
+        if (own.ids) find_twins(copy, size, &refusal, own.ids, count);
+        m = dm_new(&refusal, copy, dimension, dimension + weights.are_there, &read, &local,
+                   given ? given->vectors : NULL, given ? given->vector_count : 0);
+        if (m) points = place_own(&refusal, m, &own, positions, weights.of, count);
         status = dm_decide(copy, &refusal, NULL).status;
     }
-    if (status == DELDRIFT_OK) status = dm_build(m, given ? home : positions, own_ids, wraps, count);
-    free(own_ids);
-    free(home);
-    free(wraps);
+    if (status == DELDRIFT_OK) status = dm_build(m, points, own.ids, own.wraps, count);
+    free_own(&own);
     if (status == DELDRIFT_OK) {
         *out = m;
         return status;
@@ -300,7 +346,13 @@ static deldrift_status create(MPI_Comm comm, uint32_t dimension, const double *p
 
 deldrift_status deldrift_mpi_create(MPI_Comm comm, uint32_t dimension, const double *positions, const uint64_t *ids,
                                     size_t count, const deldrift_mpi_options *options, deldrift_mpi **out) {
-    return create(comm, dimension, positions, ids, count, NULL, options, out);
+    return create(comm, dimension, positions, (weighing){NULL, false}, ids, count, NULL, options, out);
+}
+
+deldrift_status deldrift_mpi_create_weighted(MPI_Comm comm, uint32_t dimension, const double *positions,
+                                             const double *weights, const uint64_t *ids, size_t count,
+                                             const deldrift_mpi_options *options, deldrift_mpi **out) {
+    return create(comm, dimension, positions, (weighing){weights, true}, ids, count, NULL, options, out);
 }
 
 deldrift_status deldrift_mpi_create_periodic(MPI_Comm comm, uint32_t dimension, const double *positions,
@@ -308,7 +360,15 @@ deldrift_status deldrift_mpi_create_periodic(MPI_Comm comm, uint32_t dimension, 
                                              size_t vector_count, const deldrift_mpi_options *options,
                                              deldrift_mpi **out) {
     box given = {vectors, vector_count};
-    return create(comm, dimension, positions, ids, count, &given, options, out);
+    return create(comm, dimension, positions, (weighing){NULL, false}, ids, count, &given, options, out);
+}
+
+deldrift_status deldrift_mpi_create_periodic_weighted(MPI_Comm comm, uint32_t dimension, const double *positions,
+                                                      const double *weights, const uint64_t *ids, size_t count,
+                                                      const double *vectors, size_t vector_count,
+                                                      const deldrift_mpi_options *options, deldrift_mpi **out) {
+    box given = {vectors, vector_count};
+    return create(comm, dimension, positions, (weighing){weights, true}, ids, count, &given, options, out);
 }
 
 void dm_replace(deldrift_mpi *m, deldrift_mpi *fresh) {
@@ -341,13 +401,19 @@ static deldrift_status build_strained(deldrift_mpi *m, const double *positions, 
     uint64_t *ids = dm_allocate(&refusal, count, sizeof *ids);
     double *home = dm_allocate(&refusal, count * m->dimension, sizeof *home);
     int64_t *wraps = dm_allocate(&refusal, count * m->dimension, sizeof *wraps);
-    deldrift_mpi *fresh = dm_new(&refusal, m->comm, m->dimension, &m->options, &m->local, vectors, vector_count);
+    deldrift_mpi *fresh =
+        dm_new(&refusal, m->comm, m->dimension, m->row, &m->options, &m->local, vectors, vector_count);
+    const double *points = home;
     if (refusal.status == DELDRIFT_OK) {
         for (size_t i = 0; i < count; i++) ids[i] = m->id_of[m->own[i]];
-        dm_wrap(&refusal, &fresh->lattice, positions, NULL, count, home, wraps);
+        if (dm_wrap(&refusal, &fresh->lattice, positions, NULL, count, home, wraps)) {
+            m->refusal = refusal;
+            dm_take_points(m, &points, NULL);
+            refusal = m->refusal;
+        }
     }
     deldrift_status status = dm_decide(m->comm, &refusal, NULL).status;
-    if (status == DELDRIFT_OK) status = dm_build(fresh, home, ids, wraps, count);
+    if (status == DELDRIFT_OK) status = dm_build(fresh, points, ids, wraps, count);
     if (status == DELDRIFT_OK) {
         // Cells are known by global ids, so lists of changes go on.
         fresh->told = m->told;

@@ -102,6 +102,7 @@ struct deldrift_mpi {
     MPI_Comm comm;
     int rank, size;
     uint32_t dimension;
+    uint32_t row; // numbers of a point: coordinates, and a weight where there are weights
     deldrift_mpi_options options;
     deldrift_options local;
     deldrift_triangulation *t;
@@ -120,6 +121,7 @@ struct deldrift_mpi {
     uint8_t *is_own;
     uint8_t *is_leaving;
     double *where;
+    double *weight_of; // room for weights on their way to `where`; NULL without weights
     uint32_t *stamp;
     uint32_t stamped;
     // Vertices that have moved, with those of the halo; room for all ids.
@@ -148,7 +150,7 @@ struct deldrift_mpi {
     size_t home_room;
 
     // Staged by the program.
-    double *insertion_positions; // at home
+    double *insertion_points; // at home
     int64_t *insertion_wraps;
     uint64_t *insertion_ids;
     size_t insertion_count, insertion_room;
@@ -195,6 +197,10 @@ struct deldrift_mpi {
     size_t vertex_room;
     double *coordinates;
     size_t coordinate_room;
+    double *unzipped, *weights; // positions and weights, for deldrift.h
+    size_t unzipped_room, weight_room;
+    double *given; // points of a commit, where there are weights
+    size_t given_room;
     uint64_t *numbers;
     size_t number_room;
     char *outgoing, *incoming; // records of a push round
@@ -237,6 +243,21 @@ deldrift_status dm_no_handle(void);
 bool dm_check_points(dm_refusal *refusal, const char *name, uint32_t dimension, const double *positions, size_t count,
                      const uint8_t *is_skipped);
 
+// The same of weights.
+bool dm_check_weights(dm_refusal *refusal, const double *weights, size_t count, const uint8_t *is_skipped);
+
+// points.c: points as rows of numbers, where deldrift.h has weights in an array of their own.
+void dm_zip(uint32_t dimension, uint32_t row, const double *positions, const double *weights, size_t count,
+            double *points);
+// Points become positions, and their weights are told; NULL without weights.
+bool dm_unzip(deldrift_mpi *m, const double **points, size_t count, const double **weights);
+// `where` becomes what the triangulation has. Allocates nothing.
+void dm_copy_points(deldrift_mpi *m);
+bool dm_wrap_points(dm_refusal *refusal, const deldrift_mpi *m, const double *points, size_t count, double *places,
+                    int64_t *shifts);
+// Positions of own vertices become their points, with these weights; what is not given, NULL, stays as it is.
+bool dm_take_points(deldrift_mpi *m, const double **positions, const double *weights);
+
 // boxes.c
 // Puts `points` into boxes of their own, `boxes` of them at most; box_of receives that of each.
 void dm_make_boxes(deldrift_mpi *m, dm_box *boxes, uint16_t *box_of);
@@ -256,6 +277,7 @@ uint32_t dm_opposite(uint32_t period);
 // The number of a translation by multiples of the reduced vectors; DELDRIFT_NONE if these are too great.
 uint32_t dm_period_of(const dm_lattice *lattice, const int64_t multiples[3]);
 void dm_translate(const deldrift_mpi *m, double *to, const double *from, uint32_t period);
+void dm_translate_point(const deldrift_mpi *m, double *to, const double *from, uint32_t period);
 bool dm_wrap(dm_refusal *refusal, const dm_lattice *lattice, const double *positions, const double *near, size_t count,
              double *places, int64_t *shifts);
 // Has what a commit is given in m->home, and where each comes from in m->home_wraps; positions become these.
@@ -301,9 +323,9 @@ bool dm_span(deldrift_mpi *m, bool has_no_cells);
 
 // vertices.c
 // Stages insertions, whose ids are in m->vertices then, which has room for them.
-bool dm_insert(deldrift_mpi *m, const double *positions, const uint64_t *ids, size_t count);
+bool dm_insert(deldrift_mpi *m, const double *points, const uint64_t *ids, size_t count);
 void dm_set_vertex(deldrift_mpi *m, uint32_t vertex, int32_t owner, uint32_t period, uint64_t id,
-                   const double *position);
+                   const double *point);
 void dm_unset_vertex(deldrift_mpi *m, uint32_t vertex);
 // What ids stood for before the timestamp that is being prepared.
 void dm_unbind(deldrift_mpi *m);
@@ -349,8 +371,10 @@ deldrift_status dm_build(deldrift_mpi *m, const double *points, const uint64_t *
                          size_t count);
 // Puts what has been built in the place of what there was.
 void dm_replace(deldrift_mpi *m, deldrift_mpi *fresh);
-deldrift_mpi *dm_new(dm_refusal *refusal, MPI_Comm comm, uint32_t dimension, const deldrift_mpi_options *options,
-                     const deldrift_options *local, const double *vectors, size_t vector_count);
+// With weights if a row has a number more than the dimension.
+deldrift_mpi *dm_new(dm_refusal *refusal, MPI_Comm comm, uint32_t dimension, uint32_t row,
+                     const deldrift_mpi_options *options, const deldrift_options *local, const double *vectors,
+                     size_t vector_count);
 // All but the communicator and the handle itself.
 void dm_free(deldrift_mpi *m);
 

@@ -56,13 +56,15 @@ bool dm_reserve_list(dm_refusal *refusal, dm_list *list, size_t needed) {
 // There is an array also for no ids, or own vertices: copies of nothing need an address.
 bool dm_reserve_ids(deldrift_mpi *m, size_t ids) {
     if (ids > m->ids_room || !m->ids_room) {
-        size_t room[7] = {m->ids_room, m->ids_room, m->ids_room, m->ids_room, m->ids_room, m->ids_room, m->ids_room};
+        size_t room[8];
+        for (int k = 0; k < 8; k++) room[k] = m->ids_room;
         dm_refusal *r = &m->refusal;
         size_t needed = ids ? ids : 1;
         if (!dm_reserve(r, &m->id_of, &room[0], needed, sizeof *m->id_of) ||
             !dm_reserve(r, &m->owner_of, &room[1], needed, sizeof *m->owner_of) ||
             !dm_reserve(r, &m->is_own, &room[2], needed, 1) || !dm_reserve(r, &m->is_leaving, &room[3], needed, 1) ||
-            !dm_reserve(r, &m->where, &room[4], needed, m->dimension * sizeof *m->where) ||
+            !dm_reserve(r, &m->where, &room[4], needed, m->row * sizeof *m->where) ||
+            (m->row > m->dimension && !dm_reserve(r, &m->weight_of, &room[7], needed, sizeof *m->weight_of)) ||
             !dm_reserve(r, &m->stamp, &room[5], needed, sizeof *m->stamp) ||
             !dm_reserve(r, &m->period_of, &room[6], needed, sizeof *m->period_of))
             return false;
@@ -94,5 +96,5 @@ bool dm_reserve_own(deldrift_mpi *m, size_t count) {
             return false;
         m->own_room = room[0];
     }
-    return dm_reserve(&m->refusal, &m->next_points, &m->next_room, count, m->dimension * sizeof *m->next_points);
+    return dm_reserve(&m->refusal, &m->next_points, &m->next_room, count, m->row * sizeof *m->next_points);
 }

@@ -7,23 +7,23 @@
 
 enum { TAG_MIGRATION = 3 };
 
-// What goes and what comes: records (id, position, in a periodic box the multiples of the vectors by which that is
+// What goes and what comes: records (id, point, in a periodic box the multiples of the vectors by which that is
 // translated to where the program has it, data) by process.
 typedef struct {
     size_t record, *goes, *comes; // counts by rank
     char *outgoing, *incoming;
     MPI_Request *requests;
     size_t arriving;
-    // What has come: ids, positions, data, each contiguous.
+    // What has come: ids, points, data, each contiguous.
     uint64_t *ids;
-    double *positions, *home;
+    double *points, *home;
     int64_t *wraps, *more_wraps;
     char *values;
 } freight;
 
 static void free_freight(freight *f) {
     void *arrays[] = {f->goes, f->comes,     f->outgoing, f->incoming, f->requests,  f->ids,
-                      f->home, f->positions, f->wraps,    f->values,   f->more_wraps};
+                      f->home, f->points,    f->wraps,    f->values,   f->more_wraps};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) free(arrays[i]);
 }
 
@@ -58,9 +58,9 @@ static void pack(const deldrift_mpi *m, freight *f, const int32_t *targets, cons
         uint32_t v = m->own[i];
         memcpy(record, &m->id_of[v], sizeof(uint64_t));
         char *place = record + sizeof(uint64_t);
-        memcpy(place, m->where + (size_t)v * m->dimension, m->dimension * sizeof(double));
+        memcpy(place, m->where + (size_t)v * m->row, m->row * sizeof(double));
         if (m->lattice.rank)
-            memcpy(place + m->dimension * sizeof(double), m->wraps + i * m->dimension, m->dimension * sizeof(int64_t));
+            memcpy(place + m->row * sizeof(double), m->wraps + i * m->dimension, m->dimension * sizeof(int64_t));
         if (bytes) memcpy(record + f->record - bytes, (const char *)values + i * bytes, bytes);
     }
 }
@@ -94,9 +94,9 @@ static void unpack(const deldrift_mpi *m, freight *f, size_t bytes) {
         const char *record = f->incoming + i * f->record;
         memcpy(&f->ids[i], record, sizeof(uint64_t));
         const char *place = record + sizeof(uint64_t);
-        memcpy(f->positions + i * m->dimension, place, m->dimension * sizeof(double));
+        memcpy(f->points + i * m->row, place, m->row * sizeof(double));
         if (m->lattice.rank)
-            memcpy(f->wraps + i * m->dimension, place + m->dimension * sizeof(double), m->dimension * sizeof(int64_t));
+            memcpy(f->wraps + i * m->dimension, place + m->row * sizeof(double), m->dimension * sizeof(int64_t));
         if (bytes) memcpy(f->values + i * bytes, record + f->record - bytes, bytes);
     }
 }
@@ -105,7 +105,7 @@ static void unpack(const deldrift_mpi *m, freight *f, size_t bytes) {
 static deldrift_status move_freight(deldrift_mpi *m, dm_refusal *refusal, freight *f, const int32_t *targets,
                                     const void *values, size_t bytes) {
     size_t size = (size_t)m->size;
-    f->record = sizeof(uint64_t) + m->dimension * sizeof(double) + bytes;
+    f->record = sizeof(uint64_t) + m->row * sizeof(double) + bytes;
     if (m->lattice.rank) f->record += m->dimension * sizeof(int64_t);
     f->goes = dm_allocate(refusal, size, sizeof *f->goes);
     f->comes = dm_allocate(refusal, size, sizeof *f->comes);
@@ -120,8 +120,8 @@ static deldrift_status move_freight(deldrift_mpi *m, dm_refusal *refusal, freigh
     check_lengths(m, refusal, f);
     f->incoming = dm_allocate(refusal, f->arriving, f->record);
     f->ids = dm_allocate(refusal, f->arriving, sizeof *f->ids);
-    f->positions = dm_allocate(refusal, f->arriving, m->dimension * sizeof *f->positions);
-    f->home = dm_allocate(refusal, f->arriving, m->dimension * sizeof *f->home);
+    f->points = dm_allocate(refusal, f->arriving, m->row * sizeof *f->points);
+    f->home = dm_allocate(refusal, f->arriving, m->row * sizeof *f->home);
     f->wraps = dm_allocate(refusal, f->arriving, m->dimension * sizeof *f->wraps);
     f->more_wraps = dm_allocate(refusal, f->arriving, m->dimension * sizeof *f->more_wraps);
     f->values = dm_allocate(refusal, f->arriving, bytes ? bytes : 1);
@@ -134,8 +134,8 @@ static deldrift_status move_freight(deldrift_mpi *m, dm_refusal *refusal, freigh
 
 // All that has come goes to the unit cell of a periodic box: the places that dm_build is given.
 static const double *come_home(dm_refusal *refusal, const deldrift_mpi *fresh, freight *f) {
-    if (!fresh->lattice.rank) return f->positions;
-    dm_wrap(refusal, &fresh->lattice, f->positions, NULL, f->arriving, f->home, f->more_wraps);
+    if (!fresh->lattice.rank) return f->points;
+    dm_wrap_points(refusal, fresh, f->points, f->arriving, f->home, f->more_wraps);
     for (size_t i = 0; i < f->arriving * fresh->dimension; i++) f->wraps[i] += f->more_wraps[i];
     return f->home;
 }
@@ -152,7 +152,8 @@ deldrift_status deldrift_mpi_migrate(deldrift_mpi *m, const int32_t *targets, si
     deldrift_mpi *fresh = NULL;
     const double *places = NULL;
     if (status == DELDRIFT_OK) {
-        fresh = dm_new(&refusal, m->comm, m->dimension, &m->options, &m->local, m->lattice.given, m->lattice.rank);
+        fresh = dm_new(&refusal, m->comm, m->dimension, m->row, &m->options, &m->local, m->lattice.given,
+                       m->lattice.rank);
         if (fresh) places = come_home(&refusal, fresh, &f);
         status = dm_decide(m->comm, &refusal, NULL).status;
     }

@@ -1,4 +1,4 @@
-// Lists of what other processes have of this one, and this one of them, and the exchange of positions by these lists.
+// Lists of what other processes have of this one, and this one of them, and the exchange of points by these lists.
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -21,15 +21,15 @@ dm_peer *dm_peer_of(deldrift_mpi *m, int rank) {
 
 // Requests know the address and the size of a buffer: they are made again where either has changed.
 static bool make_ready(deldrift_mpi *m, dm_peer *peer) {
-    uint32_t d = m->dimension;
+    uint32_t row = m->row;
     size_t longest = peer->sent.count > peer->received.count ? peer->sent.count : peer->received.count;
-    if (longest > INT_MAX / d) {
+    if (longest > INT_MAX / row) {
         dm_refuse(&m->refusal, DELDRIFT_SIZE_OVERFLOW, "%zu vertices go between two processes in one message", longest);
         return false;
     }
     const double *before[2] = {peer->outgoing, peer->incoming};
-    if (!dm_reserve(&m->refusal, &peer->outgoing, &peer->outgoing_room, peer->sent.count, d * sizeof(double)) ||
-        !dm_reserve(&m->refusal, &peer->incoming, &peer->incoming_room, peer->received.count, d * sizeof(double)))
+    if (!dm_reserve(&m->refusal, &peer->outgoing, &peer->outgoing_room, peer->sent.count, row * sizeof(double)) ||
+        !dm_reserve(&m->refusal, &peer->incoming, &peer->incoming_room, peer->received.count, row * sizeof(double)))
         return false;
     double *now[2] = {peer->outgoing, peer->incoming};
     size_t counts[2] = {peer->sent.count, peer->received.count};
@@ -38,7 +38,7 @@ static bool make_ready(deldrift_mpi *m, dm_peer *peer) {
         if (peer->requests[k] != MPI_REQUEST_NULL) MPI_Request_free(&peer->requests[k]);
         peer->requested[k] = counts[k];
         if (!counts[k]) continue;
-        int numbers = (int)(counts[k] * d);
+        int numbers = (int)(counts[k] * row);
         if (k == 0)
             MPI_Send_init(now[k], numbers, MPI_DOUBLE, peer->rank, TAG_POSITIONS, m->comm, &peer->requests[k]);
         else
@@ -54,7 +54,7 @@ bool dm_make_peers_ready(deldrift_mpi *m) {
 }
 
 void dm_exchange_positions(deldrift_mpi *m) {
-    uint32_t d = m->dimension;
+    uint32_t row = m->row;
     for (size_t p = 0; p < m->peer_count; p++) {
         dm_peer *peer = &m->peers[p];
         if (peer->requests[1] != MPI_REQUEST_NULL) MPI_Start(&peer->requests[1]);
@@ -64,28 +64,28 @@ void dm_exchange_positions(deldrift_mpi *m) {
         for (size_t k = 0; k < peer->sent.count; k++) {
             uint32_t v = peer->sent.at[k];
             if (m->is_leaving[v]) peer->sent.is_leaving[k] = 1;
-            dm_translate(m, peer->outgoing + k * d, m->where + (size_t)v * d, peer->sent.period[k]);
+            dm_translate_point(m, peer->outgoing + k * row, m->where + (size_t)v * row, peer->sent.period[k]);
             // A position that is no number says that the copy goes.
-            if (peer->sent.is_leaving[k]) peer->outgoing[k * d] = NAN;
+            if (peer->sent.is_leaving[k]) peer->outgoing[k * row] = NAN;
         }
         if (peer->requests[0] == MPI_REQUEST_NULL) continue;
         MPI_Start(&peer->requests[0]);
         m->report.messages++;
-        m->report.bytes += peer->sent.count * d * sizeof(double);
+        m->report.bytes += peer->sent.count * row * sizeof(double);
     }
     for (size_t p = 0; p < m->peer_count; p++) {
         dm_peer *peer = &m->peers[p];
         MPI_Wait(&peer->requests[1], MPI_STATUS_IGNORE);
         for (size_t k = 0; k < peer->received.count; k++) {
             uint32_t v = peer->received.at[k];
-            peer->received.is_leaving[k] = isnan(peer->incoming[k * d]);
+            peer->received.is_leaving[k] = isnan(peer->incoming[k * row]);
             if (peer->received.is_leaving[k]) {
                 m->is_leaving[v] = 1;
                 m->report.dropped++;
             } else if (!DM_HAS_FAULT(DM_FAULT_STALE_HALO) || k % 16) {
-                double *where = m->where + (size_t)v * d;
-                if (!memcmp(where, peer->incoming + k * d, d * sizeof(double))) continue;
-                memcpy(where, peer->incoming + k * d, d * sizeof(double));
+                double *where = m->where + (size_t)v * row;
+                if (!memcmp(where, peer->incoming + k * row, row * sizeof(double))) continue;
+                memcpy(where, peer->incoming + k * row, row * sizeof(double));
                 m->moved[m->moved_count++] = v;
             }
         }

@@ -33,6 +33,11 @@ void dm_translate(const deldrift_mpi *m, double *to, const double *from, uint32_
     for (uint32_t k = 0; k < m->dimension; k++) to[k] = period ? from[k] + way[k] : from[k];
 }
 
+void dm_translate_point(const deldrift_mpi *m, double *to, const double *from, uint32_t period) {
+    dm_translate(m, to, from, period);
+    if (m->row > m->dimension) to[m->dimension] = from[m->dimension];
+}
+
 static bool make_translations(dm_refusal *refusal, dm_lattice *lattice, uint32_t d, const double *reduced,
                               const int64_t *multiples) {
     const uint32_t *greatest = lattice->greatest;
@@ -93,7 +98,7 @@ bool dm_wrap(dm_refusal *refusal, const dm_lattice *lattice, const double *posit
 static void gather_own(const deldrift_mpi *m, double *places) {
     uint32_t d = m->dimension;
     for (size_t i = 0; i < m->own_count; i++)
-        memcpy(places + i * d, m->where + (size_t)m->own[i] * d, d * sizeof *places);
+        memcpy(places + i * d, m->where + (size_t)m->own[i] * m->row, d * sizeof *places);
 }
 
 bool dm_come_home(deldrift_mpi *m, const dm_lattice *lattice, const double **positions) {

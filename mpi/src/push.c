@@ -8,9 +8,9 @@
 
 enum { TAG_PUSH = 2 };
 
-// The global id, the position, and in a periodic box the translation.
+// The global id, the point, and in a periodic box the translation.
 static size_t record_bytes(const deldrift_mpi *m) {
-    return sizeof(uint64_t) + m->dimension * sizeof(double) + (m->lattice.rank ? sizeof(uint64_t) : 0);
+    return sizeof(uint64_t) + m->row * sizeof(double) + (m->lattice.rank ? sizeof(uint64_t) : 0);
 }
 
 static uint32_t period_in(const deldrift_mpi *m, const char *record) {
@@ -36,10 +36,10 @@ bool dm_pack_sends(deldrift_mpi *m) {
         for (size_t k = sent->pushed; k < sent->count; k++, record += bytes) {
             uint32_t v = sent->at[k];
             memcpy(record, &m->id_of[v], sizeof m->id_of[v]);
-            double place[3];
+            double point[4];
             uint64_t period = sent->period[k];
-            dm_translate(m, place, m->where + (size_t)v * m->dimension, sent->period[k]);
-            memcpy(record + sizeof(uint64_t), place, m->dimension * sizeof(double));
+            dm_translate_point(m, point, m->where + (size_t)v * m->row, sent->period[k]);
+            memcpy(record + sizeof(uint64_t), point, m->row * sizeof(double));
             if (m->lattice.rank) memcpy(record + bytes - sizeof period, &period, sizeof period);
         }
     }
@@ -110,12 +110,12 @@ static int compare_chunks(const void *first, const void *second) {
 }
 
 bool dm_stage_received(deldrift_mpi *m) {
-    uint32_t d = m->dimension;
+    uint32_t row = m->row;
     size_t bytes = record_bytes(m), count = m->incoming_bytes / bytes, next = 0;
     if (m->refusal.status != DELDRIFT_OK) return false;
     if (!count) return true;
     qsort(m->chunks, m->chunk_count, sizeof *m->chunks, compare_chunks);
-    if (!dm_reserve(&m->refusal, &m->coordinates, &m->coordinate_room, count * d, sizeof *m->coordinates) ||
+    if (!dm_reserve(&m->refusal, &m->coordinates, &m->coordinate_room, count * row, sizeof *m->coordinates) ||
         !dm_reserve(&m->refusal, &m->numbers, &m->number_room, count, sizeof *m->numbers) ||
         !dm_reserve(&m->refusal, &m->vertices, &m->vertex_room, count, sizeof *m->vertices))
         return false;
@@ -123,7 +123,7 @@ bool dm_stage_received(deldrift_mpi *m) {
         const char *record = m->incoming + m->chunks[c].offset;
         for (size_t k = 0; k < m->chunks[c].count; k++, record += bytes, next++) {
             memcpy(&m->numbers[next], record, sizeof *m->numbers);
-            memcpy(m->coordinates + next * d, record + sizeof *m->numbers, d * sizeof(double));
+            memcpy(m->coordinates + next * row, record + sizeof *m->numbers, row * sizeof(double));
         }
     }
     if (!dm_insert(m, m->coordinates, m->numbers, count)) return false;
@@ -139,7 +139,8 @@ bool dm_stage_received(deldrift_mpi *m) {
             received->is_leaving[received->count] = 0;
             received->period[received->count] = period;
             received->at[received->count++] = m->vertices[next];
-            dm_set_vertex(m, m->vertices[next], peer->rank, period, m->numbers[next], m->coordinates + next * d);
+            dm_set_vertex(m, m->vertices[next], peer->rank, period, m->numbers[next],
+                          m->coordinates + next * row);
         }
     }
     m->report.received += count;

@@ -435,7 +435,7 @@ void dm_seed(deldrift_mpi *m) {
                 near.high[k] = m->high[b * m->dimension + k] + width;
             }
             for (size_t i = 0; i < m->next_count; i++)
-                if (dm_is_in_box(m, &near, m->points + i * m->dimension))
+                if (dm_is_in_box(m, &near, m->points + i * m->row))
                     send(m, sent, m->next_own[i], g.period, stamp);
         }
     }

@@ -55,7 +55,7 @@ deldrift_status deldrift_mpi_owners(const deldrift_mpi *m, int32_t *owners, size
 
 static bool is_before(const deldrift_mpi *m, uint32_t v, uint32_t w) {
     if (m->id_of[v] != m->id_of[w]) return m->id_of[v] < m->id_of[w];
-    const double *p = m->where + (size_t)v * m->dimension, *q = m->where + (size_t)w * m->dimension;
+    const double *p = m->where + (size_t)v * m->row, *q = m->where + (size_t)w * m->row;
     for (uint32_t k = 0; k < m->dimension; k++)
         if (p[k] != q[k]) return p[k] < q[k];
     return false;

@@ -72,13 +72,10 @@ void dm_settle(deldrift_mpi *m) {
 }
 
 void dm_restore(deldrift_mpi *m) {
-    size_t count = 0;
     dm_withdraw(m);
     dm_unbind(m);
     dm_restore_peers(m);
     m->has_next_boxes = m->has_dropped = false;
     memset(m->is_leaving, 0, m->ids);
-    // There is room, as there was for more ids.
-    deldrift_copy_positions(m->t, m->where, m->ids_room, &count);
-    m->ids = count;
+    dm_copy_points(m);
 }

@@ -52,7 +52,7 @@ static void find_own_basis(const deldrift_mpi *m, dm_basis *basis) {
         candidate.vertex = m->next_own[i];
         candidate.id = m->id_of[candidate.vertex];
         candidate.owner = m->rank;
-        memcpy(candidate.position, m->where + (size_t)candidate.vertex * m->dimension, m->dimension * sizeof(double));
+        memcpy(candidate.position, m->where + (size_t)candidate.vertex * m->row, m->dimension * sizeof(double));
         extend(m->dimension, basis, &candidate);
     }
     // The vectors of a periodic box span as well.

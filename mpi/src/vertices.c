@@ -3,9 +3,12 @@
 
 #include "internal.h"
 
-bool dm_insert(deldrift_mpi *m, const double *positions, const uint64_t *ids, size_t count) {
+bool dm_insert(deldrift_mpi *m, const double *points, const uint64_t *ids, size_t count) {
     if (DM_HAS_FAULT(DM_FAULT_LOCAL_KEYS)) ids = NULL;
-    deldrift_status status = deldrift_stage_insertions_at_free_ids(m->t, positions, ids, count, m->vertices);
+    const double *weights;
+    if (!dm_unzip(m, &points, count, &weights)) return false;
+    deldrift_status status = deldrift_stage_insertions_at_free_ids(m->t, points, ids, count, m->vertices);
+    if (status == DELDRIFT_OK && weights) status = deldrift_stage_weights(m->t, m->vertices, weights, count);
     size_t id_count = 0;
     if (status == DELDRIFT_OK) status = deldrift_id_count(m->t, &id_count);
     if (!dm_took(&m->refusal, status)) return false;
@@ -25,11 +28,11 @@ static void bind(deldrift_mpi *m, uint32_t vertex, int32_t owner, uint32_t perio
 }
 
 void dm_set_vertex(deldrift_mpi *m, uint32_t vertex, int32_t owner, uint32_t period, uint64_t id,
-                   const double *position) {
+                   const double *point) {
     note(m, vertex);
     bind(m, vertex, owner, period, id);
     m->is_leaving[vertex] = 0;
-    memcpy(m->where + (size_t)vertex * m->dimension, position, m->dimension * sizeof *position);
+    memcpy(m->where + (size_t)vertex * m->row, point, m->row * sizeof *point);
 }
 
 void dm_unset_vertex(deldrift_mpi *m, uint32_t vertex) {

@@ -118,6 +118,54 @@ static void wrong_commits(deldrift_mpi *m, double *points) {
     free(values);
 }
 
+// With weights, and without where they are asked for. At rest nothing is sent, whichever of both is given.
+static void weights_are_checked(deldrift_mpi *plain, const double *points) {
+    int who = size / 2;
+    bool is_wrong = rank == who;
+    double weights[4] = {0.5, -1, 0, is_wrong ? INFINITY : 0.25};
+    uint64_t ids[4], number = 0, after = 0;
+    deldrift_mpi *m = NULL;
+    deldrift_mpi_report report;
+    for (uint64_t i = 0; i < 4; i++) ids[i] = 10 * (uint64_t)rank + i;
+    REFUSED(deldrift_mpi_create_weighted(MPI_COMM_WORLD, 2, points, weights, ids, 4, NULL, &m), DELDRIFT_NOT_FINITE,
+            who);
+    CHECK(strstr(deldrift_mpi_last_error(), "weights: entry 3 is inf") != NULL);
+    if (is_wrong) weights[3] = 2e114;
+    REFUSED(deldrift_mpi_create_weighted(MPI_COMM_WORLD, 2, points, weights, ids, 4, NULL, &m), DELDRIFT_OUT_OF_RANGE,
+            who);
+    if (size > 1)
+        CHECK((is_wrong ? deldrift_mpi_create(MPI_COMM_WORLD, 2, points, ids, 4, NULL, &m)
+                        : deldrift_mpi_create_weighted(MPI_COMM_WORLD, 2, points, NULL, ids, 4, NULL, &m)) ==
+              DELDRIFT_NOT_WEIGHTED);
+    CHECK(m == NULL);
+    if (is_wrong) weights[3] = 0.25;
+    OK(deldrift_mpi_create_weighted(MPI_COMM_WORLD, 2, points, is_wrong ? NULL : weights, ids, 4, NULL, &m));
+    is_serial(m, 2, "after wrong calls of deldrift_mpi_create_weighted");
+    OK(deldrift_mpi_timestamp(m, &number));
+    if (is_wrong) weights[2] = NAN;
+    REFUSED(deldrift_mpi_commit_weighted(m, points, weights, 4, NULL), DELDRIFT_NOT_FINITE, who);
+    REFUSED(deldrift_mpi_commit_weighted(m, NULL, weights, 4, NULL), DELDRIFT_NOT_FINITE, who);
+    weights[2] = 0;
+    REFUSED(deldrift_mpi_commit_weighted(m, points, weights, is_wrong ? 3 : 4, NULL), DELDRIFT_WRONG_COUNT, who);
+    REFUSED(deldrift_mpi_commit_weighted(m, NULL, NULL, is_wrong ? 4 : 0, NULL), DELDRIFT_NULL_ARGUMENT, who);
+    double place[2] = {0.5, 0.5}, heavy = NAN;
+    CHECK(deldrift_mpi_stage_weighted_insertions(m, place, &heavy, ids, 1) == DELDRIFT_NOT_FINITE);
+    OK(deldrift_mpi_timestamp(m, &after));
+    CHECK(number == after);
+    OK(deldrift_mpi_commit_weighted(m, points, weights, 4, NULL));
+    is_serial(m, 2, "after wrong weights");
+    for (int step = 0; step < 6; step++) {
+        OK(deldrift_mpi_commit_weighted(m, step % 2 ? points : NULL, step % 3 ? weights : NULL,
+                                        step % 2 || step % 3 ? 4 : 0, &report));
+        CHECK(report.messages == 0 && report.collectives == 1);
+    }
+    deldrift_mpi_destroy(m);
+    CHECK(deldrift_mpi_stage_weighted_insertions(NULL, place, NULL, ids, 1) == DELDRIFT_NULL_ARGUMENT);
+    CHECK(deldrift_mpi_commit_weighted(NULL, place, NULL, 1, NULL) == DELDRIFT_NULL_ARGUMENT);
+    CHECK(deldrift_mpi_stage_weighted_insertions(plain, place, NULL, ids, 1) == DELDRIFT_NOT_WEIGHTED);
+    CHECK(deldrift_mpi_commit_weighted(plain, points, weights, 4, NULL) == DELDRIFT_NOT_WEIGHTED);
+}
+
 static void wrong_calls_of_one_process(deldrift_mpi *m) {
     size_t count = 99;
     uint64_t ids[4], number;
@@ -227,6 +275,7 @@ int main(int argc, char **argv) {
         for (size_t i = 0; i < 4; i++) CHECK(ids[i] == 4 * (size_t)rank + i);
         wrong_commits(m, points);
         wrong_calls_of_one_process(m);
+        weights_are_checked(m, points);
         is_serial(m, 2, "after wrong calls");
         rest(m, points);
     }

@@ -25,13 +25,20 @@ static bool has_lost(const deldrift_mpi *m) {
 }
 
 // How many of the states, which are counted, are not those of one process.
-static long wrong_states(int fault, uint32_t d, point_kind kind, point_spread spread, uint64_t seed, long *states) {
+// With weights those of process 0 are far greater than the others'.
+static long wrong_states(int fault, bool is_weighted, uint32_t d, point_kind kind, point_spread spread, uint64_t seed,
+                         long *states) {
     point_set p = make_points(d, kind, spread, 300, seed);
     uint64_t state = seed + (uint64_t)rank;
     long wrong = 0;
     deldrift_mpi *m = NULL;
+    double *weights = calloc(p.own_count + 1, sizeof *weights);
+    for (size_t i = 0; rank == 0 && i < p.own_count; i++) weights[i] = kind == LATTICE ? 4 : 0.02;
     deldrift_mpi_fault = fault;
-    OK(deldrift_mpi_create(MPI_COMM_WORLD, d, p.own, p.own_ids, p.own_count, NULL, &m));
+    OK(is_weighted
+           ? deldrift_mpi_create_weighted(MPI_COMM_WORLD, d, p.own, weights, p.own_ids, p.own_count, NULL, &m)
+           : deldrift_mpi_create(MPI_COMM_WORLD, d, p.own, p.own_ids, p.own_count, NULL, &m));
+    free(weights);
     for (int step = 0; step < 6; step++) {
         wrong += !is_serial(m, d, NULL);
         ++*states;
@@ -56,7 +63,8 @@ static void plant(void) {
             for (uint64_t seed = 1; seed <= 3; seed++) {
                 static const point_kind KINDS_HERE[] = {RANDOM, LATTICE, CLUSTERS};
                 for (size_t k = 0; k < 3; k++)
-                    wrong += wrong_states(fault, d, KINDS_HERE[k], seed == 3 ? SCATTERED : SLABS, seed, &states);
+                    wrong += wrong_states(fault, seed == 2, d, KINDS_HERE[k],
+                                          seed == 3 ? SCATTERED : SLABS, seed, &states);
             }
         }
         CHECK((wrong > 0) == (fault != DM_FAULT_NONE));
@@ -133,11 +141,12 @@ static void refuse_memory_of_triangulation(uint32_t d, int who, size_t *refused)
 
 // One process is refused memory at its first, second, third, ... request in a commit with edits, until it gets all it
 // asks for.
-static void refuse_memory(uint32_t d, int who, size_t *refused) {
+static void refuse_memory(uint32_t d, bool is_weighted, int who, size_t *refused) {
     point_set p = make_points(d, RANDOM, SLABS, 240, 3 + d);
     uint64_t state = 17 + (uint64_t)rank;
     deldrift_mpi *m = NULL;
-    OK(deldrift_mpi_create(MPI_COMM_WORLD, d, p.own, p.own_ids, p.own_count, NULL, &m));
+    OK(is_weighted ? deldrift_mpi_create_weighted(MPI_COMM_WORLD, d, p.own, NULL, p.own_ids, p.own_count, NULL, &m)
+                   : deldrift_mpi_create(MPI_COMM_WORLD, d, p.own, p.own_ids, p.own_count, NULL, &m));
     for (long allowed = 0; allowed < 1000; allowed++) {
         uint64_t before, after, id = (uint64_t)(2 * (allowed * size + rank));
         double place[3] = {random_number(&state), random_number(&state), random_number(&state)};
@@ -146,17 +155,22 @@ static void refuse_memory(uint32_t d, int who, size_t *refused) {
         OK(deldrift_mpi_count(m, &count));
         // Far enough that all have to send anew.
         double *far = malloc((count + 1) * d * sizeof *far);
+        double *weights = malloc((count + 1) * sizeof *weights);
         for (size_t i = 0; i < count * d; i++) far[i] = random_number(&state);
-        OK(deldrift_mpi_stage_insertions(m, place, &id, 1));
+        for (size_t i = 0; i <= count; i++) weights[i] = 0.02 * random_number(&state);
+        OK(is_weighted ? deldrift_mpi_stage_weighted_insertions(m, place, weights, &id, 1)
+                       : deldrift_mpi_stage_insertions(m, place, &id, 1));
         if (count) OK(deldrift_mpi_stage_removals(m, &first, 1));
         OK(deldrift_mpi_timestamp(m, &before));
         if (rank == who) deldrift_mpi_allocations_left = allowed;
-        deldrift_status status = deldrift_mpi_commit(m, far, count, NULL);
+        deldrift_status status = is_weighted ? deldrift_mpi_commit_weighted(m, far, weights, count, NULL)
+                                             : deldrift_mpi_commit(m, far, count, NULL);
         deldrift_mpi_allocations_left = -1;
         OK(deldrift_mpi_timestamp(m, &after));
         OK(deldrift_mpi_count(m, &count_after));
         is_serial(m, d, "after memory was refused");
         free(far);
+        free(weights);
         if (status == DELDRIFT_OK) {
             CHECK(after == before + 1);
             break;
@@ -208,7 +222,8 @@ int main(int argc, char **argv) {
     size_t refused = 0, refused_within = 0;
     if (size > 1) plant();
     for (uint32_t d = 2; d <= 3; d++) {
-        refuse_memory(d, size - 1, &refused);
+        refuse_memory(d, false, size - 1, &refused);
+        refuse_memory(d, true, size - 1, &refused);
         refuse_memory_of_triangulation(d, size / 2, &refused_within);
         refuse_coincidence(d);
     }

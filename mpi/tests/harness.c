@@ -261,6 +261,125 @@ static table local_cells(const deldrift_triangulation *t) {
     return cells;
 }
 
+bool has_weights(const deldrift_triangulation *t) {
+    bool has = false;
+    OK(deldrift_is_weighted(t, &has));
+    return has;
+}
+
+// The keys of all vertices that are hidden, by weight or by place, that a mask by id has.
+static table hidden_keys(const deldrift_triangulation *t, const uint64_t *keys, const bool *is_wanted) {
+    size_t by_weight = 0, by_place = 0, n = 0;
+    OK(deldrift_hidden_by_weight(t, NULL, NULL, 0, &by_weight));
+    OK(deldrift_hidden_vertices(t, NULL, NULL, 0, &by_place));
+    uint32_t *vertices = malloc((by_weight + by_place + 1) * sizeof *vertices);
+    OK(deldrift_hidden_by_weight(t, vertices, NULL, by_weight, &n));
+    OK(deldrift_hidden_vertices(t, vertices + by_weight, NULL, by_place, &n));
+    table hidden = {malloc((by_weight + by_place + 1) * sizeof(uint64_t)), 0};
+    for (size_t k = 0; k < by_weight + by_place; k++)
+        if (is_wanted[vertices[k]]) hidden.rows[hidden.count++] = keys[vertices[k]];
+    free(vertices);
+    sort_rows(hidden.rows, hidden.count, 1);
+    return hidden;
+}
+
+// Whether each own vertex that is hidden by weight is in a cell of the whole, as is told.
+static bool are_in_cells(const deldrift_triangulation *t, const uint64_t *keys, const bool *is_own, table whole) {
+    size_t n = 0;
+    deldrift_cells_view view;
+    OK(deldrift_cells(t, &view));
+    OK(deldrift_hidden_by_weight(t, NULL, NULL, 0, &n));
+    uint32_t *vertices = malloc((2 * n + 1) * sizeof *vertices), *cells = vertices + n, length = view.corners_per_cell;
+    bool are_in = true;
+    OK(deldrift_hidden_by_weight(t, vertices, cells, n, &n));
+    for (size_t k = 0; k < n; k++) {
+        uint64_t row[4];
+        if (!is_own[vertices[k]] || !whole.count) continue;
+        for (uint32_t i = 0; i < length; i++) row[i] = keys[view.vertices[cells[k] * length + i]];
+        normalise(row, length);
+        row_length = length;
+        are_in = are_in && bsearch(row, whole.rows, whole.count, length * sizeof *row, compare_rows);
+    }
+    free(vertices);
+    return are_in;
+}
+
+long compared_hidden;
+
+bool hides_the_same(const deldrift_mpi *m, const deldrift_triangulation *serial, const uint64_t *ids) {
+    const deldrift_triangulation *t;
+    size_t own = 0, n_keys = 0, n = 0;
+    OK(deldrift_mpi_local(m, &t));
+    OK(deldrift_mpi_count(m, &own));
+    OK(deldrift_keys(t, NULL, 0, &n_keys));
+    OK(deldrift_id_count(serial, &n));
+    uint64_t *keys = calloc(n_keys + 1, sizeof *keys), *own_ids = calloc(own + 1, sizeof *own_ids);
+    uint32_t *vertices = calloc(own + 1, sizeof *vertices);
+    bool *is_own = calloc(n_keys + 1, sizeof *is_own), *is_wanted = calloc(n + 1, sizeof *is_wanted);
+    OK(deldrift_keys(t, keys, n_keys, &n_keys));
+    OK(deldrift_mpi_vertices(m, own_ids, vertices, own, &own));
+    for (size_t i = 0; i < own; i++) is_own[vertices[i]] = true;
+    qsort(own_ids, own, sizeof *own_ids, compare_numbers);
+    for (size_t v = 0; v < n; v++) is_wanted[v] = bsearch(&ids[v], own_ids, own, sizeof *own_ids, compare_numbers);
+    table here = hidden_keys(t, keys, is_own), there = hidden_keys(serial, ids, is_wanted);
+    bool holds = is_same(here, there, 1);
+    deldrift_cells_view view;
+    OK(deldrift_cells(serial, &view));
+    size_t n_vectors = 0;
+    OK(deldrift_vectors(serial, NULL, 0, &n_vectors));
+    if (!n_vectors && view.count) {
+        table cells = serial_cells(serial, ids);
+        sort_rows(cells.rows, cells.count, view.corners_per_cell);
+        holds = holds && are_in_cells(t, keys, is_own, cells);
+        free(cells.rows);
+    }
+    compared_hidden += (long)there.count;
+    free(here.rows);
+    free(there.rows);
+    free(keys);
+    free(own_ids);
+    free(vertices);
+    free(is_own);
+    free(is_wanted);
+    return holds;
+}
+
+void read_weights(const deldrift_mpi *m, double *weights) {
+    const deldrift_triangulation *t;
+    size_t own = 0, n = 0;
+    OK(deldrift_mpi_local(m, &t));
+    OK(deldrift_mpi_count(m, &own));
+    OK(deldrift_weights(t, NULL, 0, &n));
+    double *all = malloc((n + 1) * sizeof *all);
+    uint32_t *vertices = malloc((own + 1) * sizeof *vertices);
+    OK(deldrift_weights(t, all, n, &n));
+    OK(deldrift_mpi_vertices(m, NULL, vertices, own, &own));
+    for (size_t i = 0; i < own; i++) weights[i] = all[vertices[i]];
+    free(all);
+    free(vertices);
+}
+
+// The triangulation that one process makes; with weights if `m` has them. Collective.
+static deldrift_triangulation *make_serial(const deldrift_mpi *m, uint32_t d, const double *all, const uint64_t *ids,
+                                           size_t count) {
+    const deldrift_triangulation *t;
+    deldrift_triangulation *serial = NULL;
+    size_t own = 0, bytes = 0;
+    OK(deldrift_mpi_local(m, &t));
+    if (!has_weights(t)) {
+        OK(deldrift_create_with_keys(d, all, ids, count, NULL, &serial));
+        return serial;
+    }
+    OK(deldrift_mpi_count(m, &own));
+    double *mine = malloc((own + 1) * sizeof *mine);
+    read_weights(m, mine);
+    double *weights = gather(mine, own * sizeof *mine, &bytes);
+    OK(deldrift_create_weighted(d, all, weights, ids, count, NULL, &serial));
+    free(mine);
+    free(weights);
+    return serial;
+}
+
 bool is_serial(const deldrift_mpi *m, uint32_t d, const char *label) {
     const deldrift_triangulation *t;
     size_t own = 0, bytes = 0;
@@ -275,8 +394,7 @@ bool is_serial(const deldrift_mpi *m, uint32_t d, const char *label) {
     double *all = gather(positions, own * d * sizeof *positions, &bytes);
     size_t count = bytes / (d * sizeof *all);
 
-    deldrift_triangulation *serial = NULL;
-    OK(deldrift_create_with_keys(d, all, ids, count, NULL, &serial));
+    deldrift_triangulation *serial = make_serial(m, d, all, ids, count);
     table cells = serial_cells(serial, ids), facets = serial_facets(serial, ids, d);
     sort_rows(cells.rows, cells.count, d + 1);
     sort_rows(facets.rows, facets.count, d);
@@ -296,15 +414,18 @@ bool is_serial(const deldrift_mpi *m, uint32_t d, const char *label) {
     sort_rows(local.rows, local.count, d + 1);
     table local_own = select_own(local, d + 1, own_ids, own), serial_own = select_own(cells, d + 1, own_ids, own);
 
-    int results[3] = {is_same(cells, whole, d + 1), is_same(facets, whole_facets, d),
-                      is_same(local_own, serial_own, d + 1)};
-    int all_results[3];
-    MPI_Allreduce(results, all_results, 3, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
-    bool holds = all_results[0] && all_results[1] && all_results[2];
+    // Without cells a process knows of no others, which may hide its vertices.
+    int results[4] = {is_same(cells, whole, d + 1), is_same(facets, whole_facets, d),
+                      is_same(local_own, serial_own, d + 1),
+                      !has_weights(t) || !cells.count || hides_the_same(m, serial, ids)};
+    int all_results[4];
+    MPI_Allreduce(results, all_results, 4, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+    bool holds = all_results[0] && all_results[1] && all_results[2] && all_results[3];
     if (!holds && label && rank == 0)
-        fprintf(stderr, "%s: union %s (%zu of %zu cells), hull %s (%zu of %zu), own cells %s\n", label,
+        fprintf(stderr, "%s: union %s (%zu of %zu cells), hull %s (%zu of %zu), own cells %s, hidden %s\n", label,
                 all_results[0] ? "right" : "WRONG", whole.count, cells.count, all_results[1] ? "right" : "WRONG",
-                whole_facets.count, facets.count, all_results[2] ? "right" : "WRONG");
+                whole_facets.count, facets.count, all_results[2] ? "right" : "WRONG",
+                all_results[3] ? "right" : "WRONG");
     if (label && !holds) failures++;
     compared_cells += (long)cells.count;
     table tables[] = {cells, facets, mine, mine_facets, whole, whole_facets, local, local_own, serial_own};

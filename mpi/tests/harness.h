@@ -46,6 +46,13 @@ void collect_own(point_set *p);
 // Bytes of all processes, one behind the other, on each.
 void *gather(const void *mine, size_t bytes, size_t *total);
 
+// Whether vertices have weights; those of own ones, and whether those that one process hides are hidden here, each in a
+// cell of the whole, given their ids in the order of that one.
+bool has_weights(const deldrift_triangulation *t);
+void read_weights(const deldrift_mpi *m, double *weights);
+bool hides_the_same(const deldrift_mpi *m, const deldrift_triangulation *serial, const uint64_t *ids);
+extern long compared_hidden; // vertices that are hidden by this comparison
+
 // Sorts rows, and the ids in each.
 void sort_sets(uint64_t *rows, size_t count, uint32_t length);
 

@@ -10,7 +10,8 @@
 typedef struct {
     uint32_t dimension;
     deldrift_mpi *m;
-    double *positions; // of own vertices
+    double *positions, *weights; // of own vertices
+    double heaviest;             // weights are up to this, and 0 without weights
     size_t count;
     double amplitude;
     uint64_t state;  // differs between processes
@@ -20,7 +21,7 @@ typedef struct {
     size_t cell_count;
     bool has_migrated; // since then
     long changes;
-    long commits, refusals, migrations, extra_rounds, edits;
+    long commits, refusals, migrations, extra_rounds, edits, weighted;
 } history;
 
 static void read_own(history *h) {
@@ -32,6 +33,26 @@ static void read_own(history *h) {
     h->positions = realloc(h->positions, (h->count + 1) * h->dimension * sizeof(double));
     for (size_t i = 0; i < h->count; i++) OK(deldrift_position(t, vertices[i], h->positions + i * h->dimension));
     free(vertices);
+    h->weights = realloc(h->weights, (h->count + 1) * sizeof(double));
+    if (h->heaviest > 0) read_weights(h->m, h->weights);
+}
+
+// Whole numbers of a few steps, so that there are ties, or any.
+static double any_weight(history *h, bool is_whole) {
+    double share = random_number(&h->state);
+    return h->heaviest * (is_whole ? floor(5 * share) / 4 : share);
+}
+
+// All, some, or none; the heaviest vertex of a process may outweigh all others, or be as light as any.
+static void reweigh(history *h, int how) {
+    for (size_t i = 0; i < h->count; i++) {
+        if (how == 0 || (how == 1 && random_bits(&h->state) % 10)) continue;
+        if (how == 2)
+            h->weights[i] += 0.01 * h->heaviest * (2 * random_number(&h->state) - 1);
+        else
+            h->weights[i] = any_weight(h, how == 3);
+    }
+    if (how == 1 && h->count) h->weights[0] = random_bits(&h->state) % 2 ? 10 * h->heaviest : 0;
 }
 
 static void move(history *h, int how) {
@@ -62,7 +83,12 @@ static void stage_edits(history *h) {
         ids[k] =
             (h->next_id++ * (uint64_t)size + (uint64_t)rank) * 2; // even; those of the first points are odd multiples
     }
-    OK(deldrift_mpi_stage_insertions(h->m, places, ids, insertions));
+    double weights[20];
+    for (size_t k = 0; k < insertions; k++) weights[k] = any_weight(h, k % 2);
+    if (h->heaviest > 0 && insertions % 4)
+        OK(deldrift_mpi_stage_weighted_insertions(h->m, places, weights, ids, insertions));
+    else
+        OK(deldrift_mpi_stage_insertions(h->m, places, ids, insertions));
     uint32_t *removed = malloc((h->count + 1) * sizeof *removed);
     for (size_t i = 0; i < h->count; i++)
         if (random_bits(&h->state) % 16 == 0) removed[removals++] = (uint32_t)i;
@@ -108,10 +134,17 @@ static void migrate(history *h) {
     OK(deldrift_mpi_migrate(h->m, targets, h->count, h->positions, d * sizeof(double), &received, NULL));
     free(targets);
     free(weights);
-    double *carried = NULL;
+    double *carried = NULL, *of_weights = calloc(h->count + 1, sizeof(double));
+    memcpy(of_weights, h->weights, h->count * sizeof(double));
+    double sums[4] = {0, 0, 0, 0};
+    for (size_t i = 0; i < h->count; i++) sums[0] += h->heaviest > 0 ? of_weights[i] : 0;
+    free(of_weights);
     read_own(h);
     carried = h->positions;
     CHECK(!h->count || !memcmp(carried, received, h->count * d * sizeof(double)));
+    for (size_t i = 0; i < h->count; i++) sums[1] += h->heaviest > 0 ? h->weights[i] : 0;
+    MPI_Allreduce(sums, sums + 2, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    CHECK(fabs(sums[2] - sums[3]) <= 1e-9 * fabs(sums[2]) + 1e-300);
     h->has_migrated = true;
     h->migrations++;
 }
@@ -226,6 +259,9 @@ static void run(long number, int steps, history *totals) {
     h.amplitude = AMPLITUDES[random_bits(&h.common) % 4] * spacing;
     h.state = h.common ^ ((uint64_t)rank << 40);
     h.next_id = 1;
+    // Two histories of five have weights, of which the greatest hides few, or half of the vertices, or nearly all.
+    static const double HEAVIEST[] = {0.1, 1, 16};
+    if (number % 5 < 2) h.heaviest = HEAVIEST[random_bits(&h.common) % 3] * spacing * spacing;
     point_set p = make_points(h.dimension, kind, spread, count, h.common);
     for (size_t i = 0; i < p.count; i++) p.ids[i] |= 1;
     for (size_t i = 0; i < p.own_count; i++) p.own_ids[i] |= 1;
@@ -233,7 +269,15 @@ static void run(long number, int steps, history *totals) {
     deldrift_mpi_options_init(&options);
     options.boxes = 1 + (uint32_t)(random_bits(&h.common) % 8);
     options.drop_percent = (uint32_t)(random_bits(&h.common) % 3);
-    OK(deldrift_mpi_create(MPI_COMM_WORLD, h.dimension, p.own, p.own_ids, p.own_count, &options, &h.m));
+    if (h.heaviest > 0) {
+        double *weights = malloc((p.own_count + 1) * sizeof *weights);
+        for (size_t i = 0; i < p.own_count; i++) weights[i] = any_weight(&h, number % 2);
+        OK(deldrift_mpi_create_weighted(MPI_COMM_WORLD, h.dimension, p.own, weights, p.own_ids, p.own_count, &options,
+                                        &h.m));
+        free(weights);
+    } else {
+        OK(deldrift_mpi_create(MPI_COMM_WORLD, h.dimension, p.own, p.own_ids, p.own_count, &options, &h.m));
+    }
     free_points(&p);
     if (!h.m) return;
     read_own(&h);
@@ -248,7 +292,15 @@ static void run(long number, int steps, history *totals) {
             h.edits++;
         }
         if (choice / 1024 % 5 == 0) refuse_once(&h);
-        OK(deldrift_mpi_commit(h.m, h.positions, h.count, &report));
+        if (h.heaviest > 0) {
+            // Weights and positions, or one of these on some processes and the other on others.
+            uint64_t given = choice / 65536 % 4 ? 0 : random_bits(&h.state) % 3;
+            reweigh(&h, (int)(choice / 1048576 % 5));
+            OK(deldrift_mpi_commit_weighted(h.m, given == 1 ? NULL : h.positions, given == 2 ? NULL : h.weights,
+                                            h.count, &report));
+        } else {
+            OK(deldrift_mpi_commit(h.m, h.positions, h.count, &report));
+        }
         snprintf(label, sizeof label, "history %ld, step %d: %uD %s, %s, P = %d", number, step, h.dimension,
                  kind_names[kind], spread_names[spread], size);
         is_serial(h.m, h.dimension, label);
@@ -262,7 +314,9 @@ static void run(long number, int steps, history *totals) {
     }
     deldrift_mpi_destroy(h.m);
     free(h.positions);
+    free(h.weights);
     free(h.cells);
+    totals->weighted += h.heaviest > 0;
     totals->changes += h.changes;
     totals->commits += h.commits;
     totals->refusals += h.refusals;
@@ -281,10 +335,11 @@ int main(int argc, char **argv) {
     memset(&totals, 0, sizeof totals);
     for (long number = first; number < first + count; number++) run(number, steps, &totals);
     if (rank == 0)
-        printf("moving, P = %d: %ld histories, %ld commits, %ld cells, %ld with edits, %ld refusals, %ld migrations, "
-               "%ld changes of cells here, %ld failures; %ld commits took more than one round\n",
-               size, count, totals.commits, compared_cells, totals.edits, totals.refusals, totals.migrations,
-               totals.changes, failures, totals.extra_rounds);
+        printf("moving, P = %d: %ld histories, %ld with weights, %ld commits, %ld cells, %ld hidden here, %ld with "
+               "edits, %ld refusals, %ld migrations, %ld changes of cells here, %ld failures; %ld commits took more "
+               "than one round\n",
+               size, count, totals.weighted, totals.commits, compared_cells, compared_hidden, totals.edits,
+               totals.refusals, totals.migrations, totals.changes, failures, totals.extra_rounds);
     MPI_Finalize();
     return failures ? 1 : 0;
 }

@@ -42,7 +42,13 @@ static void stage_edits(history *h) {
         place(h, &h->state, places + k * d);
         ids[k] = (h->next_id++ * (uint64_t)size + (uint64_t)rank) * 2; // even; those of the first are odd
     }
-    OK(deldrift_mpi_stage_insertions(h->m, places, ids, insertions));
+    if (h->heaviest > 0) {
+        double *weights = make_weights(h, insertions);
+        OK(deldrift_mpi_stage_weighted_insertions(h->m, places, weights, ids, insertions));
+        free(weights);
+    } else {
+        OK(deldrift_mpi_stage_insertions(h->m, places, ids, insertions));
+    }
     uint32_t *removed = malloc((h->count + 1) * sizeof *removed);
     double *next = malloc((h->count + insertions + 1) * d * sizeof *next);
     double *wrong = malloc((h->count + 1) * d * sizeof *wrong);
@@ -176,6 +182,11 @@ static void run(long number, int steps, history *totals) {
     if (h.kind == FEW) n = random_bits(&h.common) % 6;
     static const double AMPLITUDES[] = {1e-3, 1e-2, 0.1, 0.5};
     h.amplitude = AMPLITUDES[random_bits(&h.common) % 4];
+    // Two histories of five have weights, of which the greatest hides few, or half of the vertices, or nearly all.
+    static const double HEAVIEST[] = {0.1, 1, 16};
+    if (number % 5 < 2)
+        h.heaviest = HEAVIEST[random_bits(&h.common) % 3] / (h.kind == CUBES || h.kind == MEETING ? 16 : 40);
+    totals->weighted += h.heaviest > 0;
     h.state = h.common ^ ((uint64_t)rank << 40);
     h.next_id = 1;
     deldrift_mpi_options options;
@@ -199,7 +210,22 @@ static void run(long number, int steps, history *totals) {
         }
         if (step) {
             move(&h, choice / 8 % 16 < 8 ? (int)(choice / 8 % 16) / 2 : 4);
-            OK(deldrift_mpi_commit(h.m, choice / 4096 % 4 || h.count ? h.positions : NULL, h.count, NULL));
+            const double *given = choice / 4096 % 4 || h.count ? h.positions : NULL;
+            if (h.heaviest > 0 && choice / 262144 % 4) {
+                double *weights = make_weights(&h, h.count);
+                // Not all: the others are what they were.
+                if (choice / 262144 % 4 < 3) {
+                    double *before = malloc((h.count + 1) * sizeof *before);
+                    read_weights(h.m, before);
+                    for (size_t i = 0; i < h.count; i++)
+                        if (random_bits(&h.state) % 4) weights[i] = before[i];
+                    free(before);
+                }
+                OK(deldrift_mpi_commit_weighted(h.m, given, weights, h.count, NULL));
+                free(weights);
+            } else {
+                OK(deldrift_mpi_commit(h.m, given, h.count, NULL));
+            }
         }
         snprintf(label, sizeof label, "history %ld, step %d: %uD %s, box %zu, spread %d, P = %d", number, step,
                  h.dimension, set_names[h.kind], box, spread, size);
@@ -224,10 +250,11 @@ static void run(long number, int steps, history *totals) {
 
 // One process is refused memory at its first, second, third, ... request in a commit with edits, until it gets all it
 // asks for: all have what they had.
-static void refuse_memory(uint32_t d, long *refused) {
+static void refuse_memory(uint32_t d, double heaviest, long *refused) {
     history h;
     memset(&h, 0, sizeof h);
     h.dimension = d;
+    h.heaviest = heaviest;
     memcpy(h.vectors, boxes[d - 2][1], sizeof h.vectors);
     h.vector_count = d;
     h.common = 3;
@@ -240,12 +267,16 @@ static void refuse_memory(uint32_t d, long *refused) {
         double *far = malloc((h.count + 1) * d * sizeof *far);
         for (size_t i = 0; i < h.count * d; i++) far[i] = h.positions[i] + random_number(&h.state);
         place(&h, &h.state, inserted);
-        OK(deldrift_mpi_stage_insertions(h.m, inserted, &id, 1));
+        double *weights = make_weights(&h, h.count + 1);
+        OK(heaviest > 0 ? deldrift_mpi_stage_weighted_insertions(h.m, inserted, weights + h.count, &id, 1)
+                        : deldrift_mpi_stage_insertions(h.m, inserted, &id, 1));
         if (h.count) OK(deldrift_mpi_stage_removals(h.m, &first, 1));
         OK(deldrift_mpi_timestamp(h.m, &before));
         if (rank == size - 1) deldrift_mpi_allocations_left = allowed;
-        deldrift_status status = deldrift_mpi_commit(h.m, far, h.count, NULL);
+        deldrift_status status = heaviest > 0 ? deldrift_mpi_commit_weighted(h.m, far, weights, h.count, NULL)
+                                              : deldrift_mpi_commit(h.m, far, h.count, NULL);
         deldrift_mpi_allocations_left = -1;
+        free(weights);
         OK(deldrift_mpi_timestamp(h.m, &after));
         bool is_done = status == DELDRIFT_OK;
         CHECK(is_done ? after == before + 1 : status == DELDRIFT_OUT_OF_MEMORY && after == before);
@@ -427,17 +458,18 @@ int main(int argc, char **argv) {
     for (long number = first; number < first + count; number++) run(number, steps, &totals);
     long refused = 0;
     for (uint32_t d = 2; d <= 3; d++) {
-        refuse_memory(d, &refused);
+        refuse_memory(d, 0, &refused);
+        refuse_memory(d, 0.02, &refused);
         refuse_memory_of_changes(d, &refused);
         follow_vectors(d);
     }
     plant();
     check_arguments();
     if (rank == 0)
-        printf("periodic, P = %d: %ld histories, %ld commits, %ld cells, %ld edits, %ld other boxes, %ld of them built "
+        printf("periodic, P = %d: %ld histories, %ld with weights, %ld commits, %ld cells, %ld hidden here, %ld edits, %ld other boxes, %ld of them built "
                "anew, %ld refusals, "
                "%ld migrations, %ld changes of cells here, %ld failures; memory refused %ld times\n",
-               size, count, totals.commits, totals.cells, totals.edits, totals.strains, totals.rebuilds,
+               size, count, totals.weighted, totals.commits, totals.cells, compared_hidden, totals.edits, totals.strains, totals.rebuilds,
                totals.refusals, totals.migrations, totals.changes, failures, refused);
     MPI_Finalize();
     return failures ? 1 : 0;

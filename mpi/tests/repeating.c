@@ -83,9 +83,18 @@ static cell *cells_of(uint32_t d, const uint64_t *ids, const int64_t *shifts, si
     return cells;
 }
 
+double *make_weights(history *h, size_t count) {
+    double *weights = malloc((count + 1) * sizeof *weights);
+    for (size_t i = 0; i < count; i++) {
+        double share = random_number(&h->state);
+        weights[i] = h->heaviest * (h->kind == CUBES || h->kind == MEETING ? floor(5 * share) / 4 : share);
+    }
+    return weights;
+}
+
 typedef struct {
     uint64_t id;
-    double position[3];
+    double position[3], weight;
 } vertex;
 
 static int compare_vertices(const void *first, const void *second) {
@@ -93,13 +102,25 @@ static int compare_vertices(const void *first, const void *second) {
     return a->id < b->id ? -1 : a->id > b->id;
 }
 
-// The cells that one process has of all vertices, by global ids.
-static cell *serial_cells(const history *h, const vertex *all, size_t n, size_t *count) {
+// The cells that one process has of all vertices, by global ids, and whether it hides those that are hidden here.
+static cell *serial_cells(const history *h, const vertex *all, size_t n, size_t *count, bool *hides) {
     uint32_t d = h->dimension, corners = d + 1;
     double *positions = malloc((n + 1) * d * sizeof *positions);
     for (size_t i = 0; i < n; i++) memcpy(positions + i * d, all[i].position, d * sizeof *positions);
     deldrift_triangulation *t = NULL;
-    OK(deldrift_create_periodic(d, positions, n, h->vectors, h->vector_count, NULL, &t));
+    *hides = true;
+    if (h->heaviest > 0) {
+        double *weights = malloc((n + 1) * sizeof *weights);
+        uint64_t *of_vertices = malloc((n + 1) * sizeof *of_vertices);
+        for (size_t i = 0; i < n; i++) weights[i] = all[i].weight;
+        for (size_t i = 0; i < n; i++) of_vertices[i] = all[i].id;
+        OK(deldrift_create_periodic_weighted(d, positions, weights, n, h->vectors, h->vector_count, NULL, &t));
+        *hides = hides_the_same(h->m, t, of_vertices);
+        free(weights);
+        free(of_vertices);
+    } else {
+        OK(deldrift_create_periodic(d, positions, n, h->vectors, h->vector_count, NULL, &t));
+    }
     deldrift_cells_view view;
     OK(deldrift_cells(t, &view));
     uint64_t *ids = malloc((view.count * corners + 1) * sizeof *ids);
@@ -182,21 +203,29 @@ bool is_right(history *h, const char *label) {
         vertices[i].id = own_ids[i];
         memcpy(vertices[i].position, h->positions + i * d, d * sizeof(double));
     }
+    if (h->heaviest > 0) {
+        double *weights = malloc((own + 1) * sizeof *weights);
+        read_weights(h->m, weights);
+        for (size_t i = 0; i < own; i++) vertices[i].weight = weights[i];
+        free(weights);
+    }
     vertex *all = gather(vertices, own * sizeof *vertices, &bytes);
     size_t n = bytes / sizeof *all;
     qsort(all, n, sizeof *all, compare_vertices);
-    cell *serial = serial_cells(h, all, n, &count), *parts = own_cells(h, &mine);
+    bool hides;
+    cell *serial = serial_cells(h, all, n, &count, &hides), *parts = own_cells(h, &mine);
     cell *whole = gather(parts, mine * sizeof *parts, &bytes);
     size_t total = bytes / sizeof *whole;
     qsort(whole, total, sizeof *whole, compare_cells);
-    int results[2] = {total == count && !memcmp(whole, serial, count * sizeof *serial),
-                      has_right_stars(h, own_ids, serial, count)};
-    int everywhere[2];
-    MPI_Allreduce(results, everywhere, 2, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
-    bool holds = everywhere[0] && everywhere[1];
+    int results[3] = {total == count && !memcmp(whole, serial, count * sizeof *serial),
+                      has_right_stars(h, own_ids, serial, count), hides};
+    int everywhere[3];
+    MPI_Allreduce(results, everywhere, 3, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+    bool holds = everywhere[0] && everywhere[1] && everywhere[2];
     if (!holds && label && rank == 0)
-        fprintf(stderr, "%s: union %s (%zu of %zu cells of %zu vertices), stars %s\n", label,
-                everywhere[0] ? "right" : "WRONG", total, count, n, everywhere[1] ? "right" : "WRONG");
+        fprintf(stderr, "%s: union %s (%zu of %zu cells of %zu vertices), stars %s, hidden %s\n", label,
+                everywhere[0] ? "right" : "WRONG", total, count, n, everywhere[1] ? "right" : "WRONG",
+                everywhere[2] ? "right" : "WRONG");
     if (label && !holds) failures++;
     h->cells += (long)count;
     free(own_ids);
@@ -357,7 +386,14 @@ void begin(history *h, size_t n, int spread, const deldrift_mpi_options *options
         memcpy(h->positions + h->count * d, x, d * sizeof *x);
         ids[h->count++] = (i + 1) * 0x9e3779b97f4a7c15u | 1;
     }
-    OK(deldrift_mpi_create_periodic(MPI_COMM_WORLD, d, h->positions, ids, h->count, h->vectors, h->vector_count,
-                                    options, &h->m));
+    if (h->heaviest > 0) {
+        double *weights = make_weights(h, h->count);
+        OK(deldrift_mpi_create_periodic_weighted(MPI_COMM_WORLD, d, h->positions, weights, ids, h->count, h->vectors,
+                                                 h->vector_count, options, &h->m));
+        free(weights);
+    } else {
+        OK(deldrift_mpi_create_periodic(MPI_COMM_WORLD, d, h->positions, ids, h->count, h->vectors, h->vector_count,
+                                        options, &h->m));
+    }
     free(ids);
 }

@@ -30,17 +30,21 @@ typedef struct {
     set_kind kind;
     deldrift_mpi *m;
     double *positions; // of own vertices, as they were given
+    double heaviest;   // weights are up to this, and 0 without weights
     size_t count;
     double amplitude;
     uint64_t state;  // differs between processes
     uint64_t common; // is the same on all
     uint64_t next_id;
-    long commits, refusals, migrations, edits, strains, rebuilds, cells;
+    long commits, refusals, migrations, edits, strains, rebuilds, cells, weighted;
     cell *taken; // own cells when changes were last taken
     size_t taken_count;
     bool has_taken;
     long changes;
 } history;
+
+// Weights for as many vertices, to be freed.
+double *make_weights(history *h, size_t count);
 
 // A place in the box, in any of some periods.
 void place(const history *h, uint64_t *state, double *x);

@@ -215,6 +215,8 @@ class Asking(Scipy):
     def simplices_in_reach(self, low: Any, high: Any, mask: Any = None) -> Reach:
         """The simplices and facets of the convex hull that a vertex in one of some boxes could change, exactly.
 
+        With weights the vertex may have any weight up to the greatest that there is, or up to 0.
+
         Parameters
         ----------
         low, high : array_like

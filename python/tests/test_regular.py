@@ -382,8 +382,6 @@ def test_refused_moves_change_nothing(rng):
 
 
 REFUSED = """
-simplices_in_reach([0, 0], [1, 1])
-vertices_in_reach([0, 0], [1, 1])
 add_segments([[0, 1]])
 check(tri.points)
 nesting_levels()

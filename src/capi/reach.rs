@@ -1,12 +1,12 @@
 //! The cells, hull facets and vertices that a vertex in a box could change.
 
 use super::geometry::write_next;
-use super::handle::{Reading, deldrift_triangulation};
+use super::handle::{Reading, deldrift_triangulation, in_open};
 use super::pointers::{Array, Buffer, Output, Points, fill_all, given, write_all};
 use super::status::{Failure, deldrift_status};
-use crate::delaunay::Dimension;
-use crate::in_its_dimension;
+use crate::delaunay::Moving;
 use crate::motion::MovingTriangulation;
+use crate::predicates::PointArray;
 
 /// The cells that a vertex at a place in one of some boxes could change. With deldrift_hull_facets_in_reach, they are
 /// what a process has to know of vertices that it does not have, given where these may be.
@@ -35,6 +35,11 @@ use crate::motion::MovingTriangulation;
 /// that have a place of the box. Segments between them do not count. All that the insertion of a vertex in the box
 /// would remove are among them.
 ///
+/// With weights a vertex in the box may have any weight up to the greatest that there is, or up to 0 if that is more: the cells told
+/// are those in respect of which a place of the box has a power of at most this weight. Those that have a place of
+/// the box are among them, and so is the cell that hides a vertex there. In a mask and in lists of vertices only those count
+/// then that are corners.
+///
 /// Cost: for each box that of deldrift_locate, and the cells and hull facets in its reach, whether in the mask or not;
 /// k log k for the k cells told.
 ///
@@ -56,8 +61,8 @@ pub unsafe extern "C" fn deldrift_cells_in_reach(
 ) -> deldrift_status {
     given!(t: Reading, low[box_count]: Points, high[box_count]: Points, mask[mask_count]: Array);
     given!(cells[capacity]: Buffer, radii[capacity]: Buffer, count: Output);
-    t.read(|t| {
-        in_its_dimension!(t => {
+    t.read_any(|t| {
+        in_open!(t => {
             let centres = centres.cast();
             given!(centres[capacity]: Buffer);
             let found = t.cells_in_reach(&low.of(t)?, &high.of(t)?, mask_of(t, mask, mask_count)?)?.cells;
@@ -68,7 +73,7 @@ pub unsafe extern "C" fn deldrift_cells_in_reach(
                 if !(centres.is_empty() && radii.is_empty()) {
                     let (mut centres, mut radii) = (centres.iter_mut(), radii.iter_mut());
                     for (centre, radius) in t.covering_balls_of(&found)? {
-                        write_next(&mut centres, centre);
+                        write_next(&mut centres, centre.coordinates());
                         write_next(&mut radii, radius);
                     }
                 }
@@ -108,8 +113,8 @@ pub unsafe extern "C" fn deldrift_hull_facets_in_reach(
 ) -> deldrift_status {
     given!(t: Reading, low[box_count]: Points, high[box_count]: Points, mask[mask_count]: Array);
     given!(cells[capacity]: Buffer, corners[capacity]: Buffer, count: Output);
-    t.read(|t| {
-        in_its_dimension!(t => {
+    t.read_any(|t| {
+        in_open!(t => {
             let found = t.cells_in_reach(&low.of(t)?, &high.of(t)?, mask_of(t, mask, mask_count)?)?.hull;
             let needed = found.len();
             fill_all(count, needed, capacity, [cells.offer(), corners.offer()], || {
@@ -157,8 +162,8 @@ pub unsafe extern "C" fn deldrift_vertices_in_reach(
     let n_offsets = box_count.saturating_add(1);
     given!(t: Reading, low[box_count]: Points, high[box_count]: Points, mask[mask_count]: Array);
     given!(vertices[capacity]: Buffer, offsets[n_offsets]: Buffer, count: Output);
-    t.read(|t| {
-        in_its_dimension!(t => {
+    t.read_any(|t| {
+        in_open!(t => {
             let (low, high) = (&low.of(t)?, &high.of(t)?);
             let offsets = offsets.places_if_any(n_offsets)?;
             let found = t.vertices_in_reach(low, high, mask_of(t, mask, mask_count)?)?;
@@ -174,7 +179,7 @@ pub unsafe extern "C" fn deldrift_vertices_in_reach(
 }
 
 /// The mask, if there is one, which has so many entries.
-fn mask_of<'a, G: Dimension>(
+fn mask_of<'a, G: Moving>(
     t: &MovingTriangulation<G>,
     mask: Array<'a, u8>,
     count: usize,

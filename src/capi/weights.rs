@@ -40,8 +40,7 @@ use crate::predicates::PointArray;
 /// else that is near is so by distance, hidden vertices included, and deldrift_conflicts are those of a vertex of weight 0.
 ///
 /// All functions serve a triangulation with weights but those of deldrift/segments.h and the following, which return
-/// DELDRIFT_WEIGHTED: deldrift_cells_in_reach, deldrift_hull_facets_in_reach, deldrift_vertices_in_reach,
-/// deldrift_research_annulus_widths, deldrift_research_standard_delimiter. The tolerance of a
+/// DELDRIFT_WEIGHTED: deldrift_research_annulus_widths, deldrift_research_standard_delimiter. The tolerance of a
 /// vertex is of the root of the square of the way that it moves and of the magnitude by which its weight changes.
 ///
 /// Cost: that of deldrift_create.

@@ -17,7 +17,7 @@ pub trait Geometry: Flip {
 }
 
 /// A geometry in which vertices move.
-pub trait Moving: Geometry<Point: BiCellTolerances + Measures> + Exchange {}
+pub trait Moving: Geometry<Point: BiCellTolerances + Measures + Reach> + Exchange {}
 
 impl Moving for Plane {}
 impl Moving for Space {}
@@ -25,7 +25,7 @@ impl Moving for PowerPlane {}
 impl Moving for PowerSpace {}
 
 /// A dimension: [`Plane`] or [`Space`].
-pub trait Dimension: Moving<Point: Reach> {}
+pub trait Dimension: Moving {}
 
 impl Dimension for Plane {}
 impl Dimension for Space {}

@@ -319,6 +319,23 @@ pub(super) const MOST_LIMBS: usize = 6720;
 /// These are 5,573.
 pub(super) const POWER_RADIUS_LIMBS: usize = 5576;
 
+/// Limbs of all integers that the lifted cell of a reach takes (`reach/weighted.rs`).
+///
+/// As for a power sphere, with the sides of a box beside the corners: 18 coordinates and 15 differences, 33 · 21; five squares
+/// of 202, six weights and five differences of 43, and five lifts of 44; nine minors of 121, a volume, 484, and a vector,
+/// three times 3 · 84 + 2 · 85. These are 5,235.
+pub(super) const POWER_REACH_LIMBS: usize = 5240;
+
+/// Limbs of what is kept of that: the vector, the volume and the sides, 3 · 85 + 61 + 6 · 21.
+pub(super) const POWER_CELL_LIMBS: usize = 442;
+
+/// Limbs of what is made of that with the box.
+///
+/// Twice the volume, 62; two weights and their difference, 131; the square of the vector, 3 · 170 + 2 · 171, that of the volume,
+/// 124, its product with a weight, 168, and a sum of 171; for each side of the box a product of 83 and a difference of 86;
+/// for each axis a square of 172 and a difference of at most 175. These are 3,563.
+pub(super) const POWER_BOX_LIMBS: usize = 3568;
+
 /// Room for integers, which are given up together.
 pub(super) struct LimbRoom<const N: usize = LIMBS> {
     limbs: UnsafeCell<[MaybeUninit<u64>; N]>,
@@ -381,7 +398,7 @@ impl<'r, const N: usize> Integer<'r, N> {
     }
 
     /// The integer itself, with another room for what is made of it.
-    fn within<'s, const M: usize>(self, room: &'s LimbRoom<M>) -> Integer<'s, M>
+    pub(super) fn within<'s, const M: usize>(self, room: &'s LimbRoom<M>) -> Integer<'s, M>
     where
         'r: 's,
     {
@@ -389,7 +406,7 @@ impl<'r, const N: usize> Integer<'r, N> {
     }
 
     /// A copy in another room.
-    fn copied_to<'s, const M: usize>(self, room: &'s LimbRoom<M>) -> Integer<'s, M> {
+    pub(super) fn copied_to<'s, const M: usize>(self, room: &'s LimbRoom<M>) -> Integer<'s, M> {
         let limbs = room.zeros(self.magnitude.len());
         limbs.copy_from_slice(self.magnitude);
         Integer::new(room, self.is_negative, limbs)

@@ -261,6 +261,43 @@ impl<T: Real> OwnBounds<[T; 3], T> for OwnBounds3d<T> {
     }
 }
 
+/// The greatest side of points of a box in respect of the power circle of a triangle, positive inside, and a bound beyond which the
+/// sign of it is certain. The bound is infinite where nothing is. Derived as without weights ([`is_box_outside_circle`]): what a
+/// side is off by holds for all points of the box up to the last rounding, and so for the greatest, in either direction.
+#[inline(always)]
+pub(super) fn side_of_box_2d(triangle: [&WeightedPoint<2>; 3], sides: [&WeightedPoint<2>; 2]) -> (f64, f64) {
+    let [a, b, c] = triangle.map(Located::alone);
+    let circle = <WeightedPoint<2> as PlanePoint>::circle(a, b, c);
+    let [x, y, volume] = circle;
+    let (q, mut extents, mut weight) = least_outside(triangle[0], [x, y], volume, sides);
+    for p in [b, c] {
+        let seen = WeightedPoint::<2>::seen(p, a).difference;
+        (0..2).for_each(|k| extents[k] = extents[k].max(seen[k].abs()));
+        weight = weight.max(WeightedPoint::<2>::weight_apart(p, a));
+    }
+    let [_, bound] = power_bounds_2d(extents, weight);
+    (side_of_circle_seen(&circle, &q), if volume > 0.0 { 4.0 * bound } else { f64::INFINITY })
+}
+
+/// [`side_of_box_2d`], of a power sphere.
+#[inline(always)]
+pub(super) fn side_of_box_3d(
+    tetrahedron: [&WeightedPoint<3>; 4],
+    sides: [&WeightedPoint<3>; 2],
+) -> (f64, f64) {
+    let [a, b, c, d] = tetrahedron.map(Located::alone);
+    let sphere = <WeightedPoint<3> as SpacePoint>::sphere(a, b, c, d);
+    let [x, y, z, volume] = sphere;
+    let (q, mut extents, mut weight) = least_outside(tetrahedron[0], [x, y, z], volume, sides);
+    for p in [b, c, d] {
+        let seen = WeightedPoint::<3>::seen(p, a).difference;
+        (0..3).for_each(|k| extents[k] = extents[k].max(seen[k].abs()));
+        weight = weight.max(WeightedPoint::<3>::weight_apart(p, a));
+    }
+    let [_, bound] = power_bounds_3d(extents, weight);
+    (side_of_sphere_seen(&sphere, &q), if volume > 0.0 { 4.0 * bound } else { f64::INFINITY })
+}
+
 impl PlanePoint for WeightedPoint<2> {
     type OwnBounds<T: Real> = Extents<T, 2>;
 
@@ -278,20 +315,10 @@ impl PlanePoint for WeightedPoint<2> {
         in_power_circle_perturbed(f, points, ranks)
     }
 
-    /// Derived as without weights: the bound holds for all points of the box up to the last rounding.
     #[inline(always)]
     fn is_box_outside(triangle: [&Self; 3], sides: [&Self; 2]) -> bool {
-        let [a, b, c] = triangle.map(Located::alone);
-        let circle = Self::circle(a, b, c);
-        let [x, y, volume] = circle;
-        let (q, mut extents, mut weight) = least_outside(triangle[0], [x, y], volume, sides);
-        for p in [b, c] {
-            let seen = Self::seen(p, a).difference;
-            (0..2).for_each(|k| extents[k] = extents[k].max(seen[k].abs()));
-            weight = weight.max(Self::weight_apart(p, a));
-        }
-        let [_, bound] = power_bounds_2d(extents, weight);
-        volume > 0.0 && side_of_circle_seen(&circle, &q) < -4.0 * bound
+        let (side, bound) = side_of_box_2d(triangle, sides);
+        side < -bound
     }
 
     #[inline(always)]
@@ -327,20 +354,10 @@ impl SpacePoint for WeightedPoint<3> {
         in_power_sphere_perturbed(f, points, ranks)
     }
 
-    /// Derived as without weights: the bound holds for all points of the box up to the last rounding.
     #[inline(always)]
     fn is_box_outside(tetrahedron: [&Self; 4], sides: [&Self; 2]) -> bool {
-        let [a, b, c, d] = tetrahedron.map(Located::alone);
-        let sphere = Self::sphere(a, b, c, d);
-        let [x, y, z, volume] = sphere;
-        let (q, mut extents, mut weight) = least_outside(tetrahedron[0], [x, y, z], volume, sides);
-        for p in [b, c, d] {
-            let seen = Self::seen(p, a).difference;
-            (0..3).for_each(|k| extents[k] = extents[k].max(seen[k].abs()));
-            weight = weight.max(Self::weight_apart(p, a));
-        }
-        let [_, bound] = power_bounds_3d(extents, weight);
-        volume > 0.0 && side_of_sphere_seen(&sphere, &q) < -4.0 * bound
+        let (side, bound) = side_of_box_3d(tetrahedron, sides);
+        side < -bound
     }
 
     #[inline(always)]

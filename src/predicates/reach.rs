@@ -43,6 +43,7 @@
 //! makes good for.
 
 use std::cmp::Ordering;
+use std::fmt::Debug;
 
 use super::StaticFilter;
 use super::big::{Integer, LimbRoom, MOST_LIMBS, differences_in_units, square};
@@ -82,28 +83,35 @@ const NO_FILTER: StaticFilter = StaticFilter {
     is_exact: false,
 };
 
-/// Cells and facets against boxes. Boxes are in the range of coordinates, and not empty.
+/// Cells and facets against boxes. Boxes are in the range of coordinates, and not empty. With weights both sides of a box have
+/// one weight, the greatest of what may be in it, and it is the *reach* of a cell that meets it or does not: all places at which
+/// the power of a vertex of this weight would be at most that of the corners.
 pub trait Reach: Sized {
+    /// What is computed once for a cell that rounded numbers do not suffice for.
+    type Centre: Copy + Debug + Default;
+
     /// Whether the closed ball of a positively oriented cell, given by its `D + 1` corners, and a closed box have a
     /// place in common, where rounded numbers tell.
     fn does_ball_surely_meet(cell: &[&Self], low: &Self, high: &Self) -> Option<bool>;
 
     /// The way from the first corner of a cell to the centre of its ball, as [`does_ball_meet`](Self::does_ball_meet) needs it.
-    fn exact_centre(cell: &[&Self]) -> Self;
+    fn exact_centre(cell: &[&Self]) -> Self::Centre;
 
     /// Whether the ball of a cell meets a box, exactly.
-    fn does_ball_meet(cell: &[&Self], centre: &Self, low: &Self, high: &Self) -> bool;
+    fn does_ball_meet(cell: &[&Self], centre: &Self::Centre, low: &Self, high: &Self) -> bool;
 
     /// Whether a closed box has a place that is strictly beyond a facet, given by its `D` corners in the order that
     /// makes the orientation with a place beyond positive: exactly.
     fn does_half_space_meet(facet: &[&Self], low: &Self, high: &Self) -> bool;
 
-    /// A centre and a radius of a closed ball that certainly has the closed ball of a positively oriented cell in it.
-    /// The radius is infinite, and the centre a corner, where numbers do not suffice.
-    fn covering_ball(cell: &[&Self]) -> (Self, f64);
+    /// A centre and a radius of a closed ball that certainly has the closed ball of a positively oriented cell in it; with
+    /// weights its reach for this greatest weight. The radius is infinite, and the centre a corner, where numbers do not suffice.
+    fn covering_ball(cell: &[&Self], greatest: f64) -> (Self, f64);
 }
 
 impl Reach for [f64; 2] {
+    type Centre = Self;
+
     #[inline(always)]
     fn does_ball_surely_meet(cell: &[&Self], low: &Self, high: &Self) -> Option<bool> {
         let &[a, b, c] = cell else { unreachable!("a triangle") };
@@ -133,7 +141,7 @@ impl Reach for [f64; 2] {
     }
 
     #[inline(always)]
-    fn covering_ball(cell: &[&Self]) -> (Self, f64) {
+    fn covering_ball(cell: &[&Self], _: f64) -> (Self, f64) {
         let &[a, b, c] = cell else { unreachable!("a triangle") };
         let rounded = rounded2d([a, b, c]);
         if !rounded.is_sharp {
@@ -147,6 +155,8 @@ impl Reach for [f64; 2] {
 }
 
 impl Reach for [f64; 3] {
+    type Centre = Self;
+
     #[inline(always)]
     fn does_ball_surely_meet(cell: &[&Self], low: &Self, high: &Self) -> Option<bool> {
         let &[a, b, c, d] = cell else { unreachable!("a tetrahedron") };
@@ -178,7 +188,7 @@ impl Reach for [f64; 3] {
     }
 
     #[inline(always)]
-    fn covering_ball(cell: &[&Self]) -> (Self, f64) {
+    fn covering_ball(cell: &[&Self], _: f64) -> (Self, f64) {
         let &[a, b, c, d] = cell else { unreachable!("a tetrahedron") };
         let rounded = rounded3d([a, b, c, d]);
         if !rounded.is_sharp {
@@ -400,6 +410,8 @@ fn length_of_scaled<const D: usize>(v: &[f64; D]) -> f64 {
     let scaled = v.map(|x| x / most);
     most * dot(&scaled, &scaled).sqrt()
 }
+
+mod weighted;
 
 #[cfg(test)]
 mod tests;

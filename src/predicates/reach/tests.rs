@@ -2,7 +2,8 @@
 
 use super::super::dyadic::Dyadic;
 use super::*;
-use crate::predicates::{MAX_MAGNITUDE, Measures};
+use crate::predicates::weighted::WeightedPoint;
+use crate::predicates::{MAX_MAGNITUDE, MAX_WEIGHT, Measures};
 use crate::random::Rng;
 
 fn exact(x: f64) -> Dyadic {
@@ -38,13 +39,21 @@ struct Exact {
 
 impl Exact {
     fn new<const D: usize>(cell: &[[f64; D]]) -> Self {
-        // 2 (p − a) · c = |p|² − |a|².
-        let square = |p: &[f64; D]| p.iter().fold(zero(), |sum, &x| sum + exact(x) * exact(x));
+        let cell: Vec<_> = cell.iter().map(|&place| WeightedPoint { place, weight: 0.0 }).collect();
+        Self::with_weights(&cell, 0.0)
+    }
+
+    /// Of points with weights; the square of the radius is that of the reach for the greatest weight, and may be negative.
+    fn with_weights<const D: usize>(cell: &[WeightedPoint<D>], greatest: f64) -> Self {
+        // 2 (p − a) · c = |p|² − |a|² − (w_p − w_a).
+        let lift = |p: &WeightedPoint<D>| {
+            p.place.iter().fold(zero() - exact(p.weight), |sum, &x| sum + exact(x) * exact(x))
+        };
         let rows: Vec<Vec<Dyadic>> = cell[1..]
             .iter()
-            .map(|p| (0..D).map(|k| exact(2.0) * (exact(p[k]) - exact(cell[0][k]))).collect())
+            .map(|p| (0..D).map(|k| exact(2.0) * (exact(p.place[k]) - exact(cell[0].place[k]))).collect())
             .collect();
-        let right: Vec<Dyadic> = cell[1..].iter().map(|p| square(p) - square(&cell[0])).collect();
+        let right: Vec<Dyadic> = cell[1..].iter().map(|p| lift(p) - lift(&cell[0])).collect();
         let divisor = det(&rows);
         let centre: Vec<Dyadic> = (0..D)
             .map(|k| {
@@ -54,7 +63,9 @@ impl Exact {
             })
             .collect();
         let mut here = Exact { centre, divisor, squared_radius: zero() };
-        here.squared_radius = here.squared_distance(&cell[0]);
+        let apart = exact(greatest) - exact(cell[0].weight);
+        here.squared_radius =
+            here.squared_distance(&cell[0].place) + apart * here.divisor.clone() * here.divisor.clone();
         here
     }
 
@@ -295,7 +306,7 @@ where
         let Some(cell) = draw::<D>(round, rng) else { continue };
         let corners: Vec<&[f64; D]> = cell.iter().collect();
         let sphere = Exact::new(&cell);
-        let (centre, radius) = Reach::covering_ball(&corners);
+        let (centre, radius) = Reach::covering_ball(&corners, 0.0);
         if radius == f64::INFINITY {
             n_infinite += 1;
             assert_eq!(centre, cell[0]);
@@ -322,4 +333,93 @@ where
 fn covering_balls_cover() {
     check_covering::<2>(5);
     check_covering::<3>(6);
+}
+
+/// A cell with weights: equal ones, whole ones, any, far greater than the cell, or far less than a last bit of it.
+fn draw_weights<const D: usize>(cell: &[[f64; D]], rng: &mut Rng) -> Vec<WeightedPoint<D>> {
+    let extent = cell.iter().flat_map(|p| (0..D).map(|k| (p[k] - cell[0][k]).abs())).fold(0.0, f64::max);
+    let scale = (extent * extent * [0.0, 0.125, 1.0, 100.0, 1e30, 1e-30][rng.below(6)]).min(MAX_WEIGHT / 8.0);
+    let is_whole = rng.one_in(2);
+    let weight = |rng: &mut Rng| {
+        let share = rng.unit() * 8.0 - 4.0;
+        scale * if is_whole { share.floor() } else { share }
+    };
+    cell.iter().map(|&place| WeightedPoint { place, weight: weight(rng) }).collect()
+}
+
+/// The longest integers that there can be have room.
+#[test]
+fn there_is_room_for_the_longest_reaches() {
+    let least = f64::from_bits(1);
+    for (most, heavy) in [(MAX_MAGNITUDE, MAX_WEIGHT), (MAX_MAGNITUDE, -MAX_WEIGHT)] {
+        let at = |place, weight| WeightedPoint { place, weight };
+        let low = at([most.next_down(), least, -most], heavy);
+        let high = at([most, most.next_down(), most], heavy);
+        let cell = [
+            at([-most, -most, -most.next_down()], -heavy),
+            at([most, least, -most], heavy),
+            at([least, most, -most], -heavy.next_down()),
+            at([-most, least, most], least),
+        ];
+        let cell = cell.each_ref();
+        let reach = Exact::with_weights(&cell.map(|&p| p), heavy);
+        assert_eq!(Reach::does_ball_meet(&cell, &(), &low, &high), reach.meets(&low.place, &high.place));
+    }
+}
+
+/// Reaches against boxes as exact numbers have it, for weights up to the greatest of a corner and for less; and balls that cover
+/// them.
+fn check_reaches<const D: usize>(seed: u64)
+where
+    WeightedPoint<D>: Reach<Centre = ()> + Measures,
+    [f64; D]: Measures,
+{
+    let rng = &mut Rng::new(seed);
+    let (mut n_met, mut n_apart, mut n_touching, mut n_sure, mut n_covered) = (0, 0, 0, 0, 0);
+    for round in 0..6_000 {
+        let Some(places) = draw::<D>(round, rng) else { continue };
+        let cell = draw_weights(&places, rng);
+        let corners: Vec<&WeightedPoint<D>> = cell.iter().collect();
+        let heaviest = cell.iter().fold(f64::NEG_INFINITY, |most, p| most.max(p.weight));
+        let greatest = [heaviest, heaviest, 2.0 * heaviest.abs(), cell[0].weight][rng.below(4)];
+        let reach = Exact::with_weights(&cell, greatest);
+        for _ in 0..4 {
+            let [mut low, mut high] = draw_box(&places, rng);
+            // At the end of the reach along an axis, where the box decides by a bit.
+            if rng.one_in(3) {
+                let (centre, squared) = Measures::circumsphere(&corners);
+                let (axis, radius) = (rng.below(D), (squared + greatest).max(0.0).sqrt());
+                (low, high) = ([-MAX_MAGNITUDE; D], [MAX_MAGNITUDE; D]);
+                let side = (centre.place[axis] + radius).clamp(-MAX_MAGNITUDE, MAX_MAGNITUDE);
+                low[axis] = nearby(side, rng);
+            }
+            let expected = reach.meets(&low, &high);
+            let [l, h] = [low, high].map(|place| WeightedPoint { place, weight: greatest });
+            let surely = Reach::does_ball_surely_meet(&corners, &l, &h);
+            assert_eq!(Reach::does_ball_meet(&corners, &(), &l, &h), expected, "{cell:?} {low:?} {high:?}");
+            assert!(surely.is_none_or(|surely| surely == expected), "{cell:?} {low:?} {high:?}");
+            n_sure += usize::from(surely.is_some());
+            n_met += usize::from(expected);
+            n_apart += usize::from(!expected);
+            let is_touched = |k: usize| {
+                let mut moved = low;
+                moved[k] = low[k].next_up();
+                moved[k] <= high[k] && !reach.meets(&moved, &high)
+            };
+            n_touching += usize::from(expected && (0..D).any(is_touched));
+        }
+        let (centre, radius) = Reach::covering_ball(&corners, greatest);
+        if reach.squared_radius >= zero() && radius < f64::INFINITY {
+            assert!(reach.is_in(&centre.place, radius), "{cell:?} {greatest} {centre:?} {radius:e}");
+            n_covered += 1;
+        }
+    }
+    println!("{n_met} met, {n_apart} not, {n_touching} by a bit; {n_sure} are sure; {n_covered} are covered");
+    assert!(n_met > 3_000 && n_apart > 3_000 && n_touching > 200 && n_sure > 3_000 && n_covered > 2_000);
+}
+
+#[test]
+fn reaches_meet_boxes_as_exact_numbers_have_it() {
+    check_reaches::<2>(7);
+    check_reaches::<3>(8);
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::delaunay::{Dimension, Moving};
+use crate::delaunay::Moving;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, Slot};
 use crate::machine::prefetch::{AHEAD, prefetch};
@@ -237,11 +237,12 @@ pub(crate) fn tell_all<T>(
         tell(cells.map_or_else(|| CellId::at(k), |cells| cells[k]), value);
     }
 }
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Moving> MovingTriangulation<G> {
     /// For each of the cells of these indices, in their order, a centre and a radius of a closed ball that certainly has
     /// the closed ball of the cell in it. It is larger by some 10⁻¹² of the radius and last bits of the coordinates, by up
     /// to 4·10⁻⁹ of the radius where the cell is nearly flat. Where numbers do not suffice the radius is infinite, and the
-    /// centre is a corner.
+    /// centre is a corner. With weights they have the reach of the cell for a vertex of the greatest weight that there is, or of
+    /// 0 if that is greater.
     ///
     /// # Errors
     /// [`Error::NoSuchCell`], [`Error::OutOfMemory`].
@@ -249,6 +250,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         &'t self,
         cells: &'t [CellId],
     ) -> Result<impl ExactSizeIterator<Item = (G::Point, f64)> + 't> {
-        self.measures_of(cells, G::Point::covering_ball)
+        let greatest = self.greatest_weight().max(0.0);
+        self.measures_of(cells, move |cell| G::Point::covering_ball(cell, greatest))
     }
 }

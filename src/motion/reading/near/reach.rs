@@ -18,11 +18,18 @@
 //!
 //! So a flood finds all of them from the located cell of one place of the box. In a constrained triangulation it finds
 //! those that are connected with the cells that have a place of the box; all that an insertion would remove are.
+//!
+//! # With weights
+//!
+//! Let W be the greatest of the weights of what may be in the box and of all vertices. A cell is in reach of a place x if the power
+//! of x in respect of it is at most W: all that a vertex of a weight up to W could remove, and all that have x in their closure. Of the
+//! latter the power is a mean of weights of corners, less one of squares of distances from them, and so at most W. So what is said
+//! of balls above is true of reaches, and each vertex in the box, whether the cells show it or hide it, is in a cell that is told.
 
 use std::collections::HashMap;
 
 use crate::complex::INFINITE;
-use crate::delaunay::{Delaunay, Dimension, IndexSet, Moving, Place};
+use crate::delaunay::{Delaunay, IndexSet, Moving, Place};
 use crate::error::{Error, Result};
 use crate::ids::{CellId, SiteId, Slot, VertexId};
 use crate::machine::memory;
@@ -48,9 +55,10 @@ pub struct VerticesInReach {
     pub vertices: Vec<VertexId>,
 }
 
-/// The sides of a box that vertices can be at, `None` if there is none.
-fn in_range<G: Moving>(low: &G::Point, high: &G::Point) -> Option<[G::Point; 2]> {
-    let (mut lower, mut upper) = (*low, *high);
+/// The sides of a box that vertices can be at, `None` if there is none; both of the weight of the upper one, or of this, if it is greater.
+fn in_range<G: Moving>(low: &G::Point, high: &G::Point, greatest: f64) -> Option<[G::Point; 2]> {
+    let [mut lower, mut upper] =
+        [low, high].map(|side| G::Point::at(side.coordinates(), high.weight().max(greatest)));
     for axis in 0..G::D {
         lower[axis] = low[axis].max(-MAX_MAGNITUDE);
         upper[axis] = high[axis].min(MAX_MAGNITUDE);
@@ -70,13 +78,13 @@ fn place_near<G: Moving>([low, high]: &[G::Point; 2], lower: &G::Point, upper: &
 
 /// Memory of a flood, kept from one to the next.
 #[derive(Debug, Default)]
-struct Flood<P> {
+struct Flood<P: Reach> {
     seen: IndexSet<Slot>,
     /// The cells in reach, ghost cells included.
     reached: Vec<Slot>,
     /// Centres of cells that rounded numbers did not suffice for: there are as many boxes as are asked about at a time for
     /// each of these cells, which may be nearly all where vertices are on a line.
-    centres: HashMap<Slot, P>,
+    centres: HashMap<Slot, P::Centre>,
 }
 
 impl<P: Reach + Copy> Flood<P> {
@@ -132,7 +140,7 @@ impl<P: Reach + Copy> Flood<P> {
 
     #[cold]
     #[inline(never)]
-    fn centre(&mut self, slot: Slot, cell: &[&P]) -> Result<P> {
+    fn centre(&mut self, slot: Slot, cell: &[&P]) -> Result<P::Centre> {
         memory::reserve_map(&mut self.centres, 1)?;
         Ok(*self.centres.entry(slot).or_insert_with(|| P::exact_centre(cell)))
     }
@@ -154,14 +162,15 @@ impl<G: Moving> MovingTriangulation<G> {
             Err(Error::WrongCount { argument: "mask_count", given, wanted, coming: 0 })
         }
     }
-}
 
-impl<G: Dimension> MovingTriangulation<G> {
     /// The cells and the facets of the convex hull that a vertex at a place in one of some boxes could change: the cells
     /// of which the closed ball meets one of the closed boxes, and the facets that a place in a box is strictly beyond.
     /// Exactly these. Each box is between an entry of `low` and that of `high`, whose coordinates may be infinite; only
     /// places in the range of coordinates count. A box is empty if one of `low` is above that of `high`. With a mask,
     /// which has an entry for each id, only those with a corner at whose place is a vertex of an entry that is not 0.
+    ///
+    /// With weights a vertex in a box may have a weight up to that of the entry of `high`, or up to the greatest that there is, if
+    /// that is greater; in place of the ball counts the reach for this weight. A vertex of the mask counts if it is a corner.
     ///
     /// ```
     /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
@@ -196,7 +205,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         let cells = self.cell_arrays()?;
         let mut flood = Flood::<G::Point>::default();
-        for within in low.iter().zip(high).filter_map(|(low, high)| in_range::<G>(low, high)) {
+        let greatest = self.greatest_weight();
+        for within in low.iter().zip(high).filter_map(|(low, high)| in_range::<G>(low, high, greatest)) {
             let near = flood.reached.first().copied().unwrap_or(Slot::NONE);
             flood.list(kernel, &within, near)?;
             for &slot in flood.reached.iter().filter(|&&slot| self.has_masked(slot, mask)) {
@@ -217,7 +227,8 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// For each box the vertices of the cells and hull facets in its reach of which the entry in the mask is not 0, all
     /// without a mask, hidden ones included: see [`cells_in_reach`](Self::cells_in_reach). While there are no cells, a
-    /// vertex anywhere could change everything: all of the mask are in reach of each box that is not empty.
+    /// vertex anywhere could change everything: all of the mask are in reach of each box that is not empty. With weights
+    /// hidden ones are not told where there are cells.
     ///
     /// ```
     /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
@@ -245,9 +256,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         found.offsets.push(0);
         let kernel = &self.mesh.kernel;
         let (mut flood, mut sites) = (Flood::<G::Point>::default(), IndexSet::new());
+        let greatest = self.greatest_weight();
         for (low, high) in low.iter().zip(high) {
             let first = found.vertices.len();
-            match in_range::<G>(low, high) {
+            match in_range::<G>(low, high, greatest) {
                 Some(within) if kernel.has_cells() => {
                     let near = flood.reached.first().copied().unwrap_or(Slot::NONE);
                     flood.list(kernel, &within, near)?;
@@ -263,6 +275,15 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(found)
     }
 
+    /// The greatest weight of a vertex; with the weights of boxes it says what a reach is. Without weights, 0.
+    pub(in crate::motion::reading) fn greatest_weight(&self) -> f64 {
+        if !G::HAS_WEIGHTS {
+            return 0.0;
+        }
+        let kernel = &self.mesh.kernel;
+        kernel.live_sites().fold(f64::NEG_INFINITY, |most, s| most.max(kernel.site(s).point.weight()))
+    }
+
     /// Boxes have two corners each, of numbers.
     fn check_boxes(&self, low: &[G::Point], high: &[G::Point]) -> Result<()> {
         if low.len() != high.len() {
@@ -270,9 +291,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Err(Error::WrongCount { argument: "the length of high", given, wanted, coming: 0 });
         }
         for (argument, corners) in [("low", low), ("high", high)] {
-            let coordinates = G::Point::flattened(corners);
-            if let Some(index) = coordinates.iter().position(|x| x.is_nan()) {
-                let (value, wanted) = (coordinates[index], "a number or infinite");
+            let coordinates = corners.iter().flat_map(|corner| (0..G::D).map(|axis| corner[axis]));
+            if let Some((index, value)) = coordinates.enumerate().find(|(_, x)| x.is_nan()) {
+                let wanted = "a number or infinite";
                 return Err(Error::InvalidValue { argument, index, value, wanted });
             }
         }
