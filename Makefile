@@ -166,6 +166,7 @@ examples: library ## all examples, and their pictures in docs; particle finite e
 	build/examples/densities 1225 docs/densities.svg
 	build/examples/gas 400 4000 docs/gas.svg
 	build/examples/transport 300 docs/transport.svg
+	build/examples/euler 1600 docs/euler.svg
 	build/examples/packing 300 docs/packing.svg
 	build/examples/molecule 34 docs/molecule.svg
 	build/examples/particle_fem 3.6 0.05 docs/particle_fem.svg

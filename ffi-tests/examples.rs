@@ -54,6 +54,15 @@ fn voronoi_volumes_add_up_and_give_densities() {
 
 #[test]
 #[ignore = "needs Eigen and pkg-config"]
+fn an_incompressible_fluid_keeps_its_vortex_and_its_energy() {
+    let said = run("euler", "examples/euler.cpp", &["900"], true);
+    let number = |before: &str| number_after(before, &said);
+    assert!(number("energy within ") < 0.03 && number("velocities off by ") < 0.3, "{said}");
+    assert!(number("150 steps: ") < 8.0, "{said}");
+}
+
+#[test]
+#[ignore = "needs Eigen and pkg-config"]
 fn power_cells_have_the_areas_that_are_wanted() {
     let said = run("transport", "examples/transport.cpp", &["500"], true);
     let number = |before: &str| number_after(before, &said);
