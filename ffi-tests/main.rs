@@ -27,6 +27,7 @@
 mod abuse;
 mod algorithms;
 mod beside;
+mod bindings;
 mod checkers;
 mod coverage;
 mod examples;
