@@ -87,6 +87,7 @@ impl<G: Geometry> Delaunay<G> {
     fn insert_from(&mut self, cavity: &mut Cavity<G>, cell: Slot, s: SiteId) -> Result<()> {
         let made = cavity.scratch.insert::<false>(self, cell, s)?;
         self.above.take_out(s);
+        self.note_turned(s);
         self.recent = made;
         self.sites[s].cell = made;
         self.record(cavity.scratch.made());

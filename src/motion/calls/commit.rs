@@ -8,6 +8,7 @@ use crate::motion::calls::editing::Edited;
 use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Moves;
+use crate::motion::state::mesh::Told;
 use crate::motion::state::passings::Steps;
 use crate::motion::state::segments::Aim;
 use crate::motion::triangulation::MovingTriangulation;
@@ -50,6 +51,7 @@ impl<G: Moving> MovingTriangulation<G> {
 
     /// Makes these moves, and the staged edits, the next timestamp.
     fn commit(&mut self, moves: &mut Moves<'_, G>) -> Result<CommitReport> {
+        self.mesh.know_hidden()?;
         let before = self.mesh.evaluations();
         let changed = self.parts_to_change(moves);
         let mut report = self.reach(moves)?;
@@ -73,24 +75,28 @@ impl<G: Moving> MovingTriangulation<G> {
     }
 
     /// Begins a change and brings all to where these moves, and the staged edits, have it; then nothing can fail. On an
-    /// error the change has been undone.
+    /// error the change has been undone. Who is hidden [has been found out](crate::motion::state::mesh::Mesh::know_hidden).
     pub(in crate::motion) fn reach(&mut self, moves: &mut Moves<'_, G>) -> Result<CommitReport> {
         let mut report = CommitReport::default();
-        let hidden = self.hidden_now()?;
+        let mut told = Told::Nothing;
         let advanced = if self.rests_beside_segments(moves) {
             self.mesh.begin(Aim::Rest)?;
             self.mesh.reject_coincidence(self.options.coincidence)
         } else {
             self.mesh.begin(Aim::Commit)?;
             self.edit_and_advance(moves, &mut report)
-                .and_then(|()| self.settle_hidden(moves.count() > 0, &mut report))
-                .and_then(|()| self.tell_hidden(&hidden, &mut report))
-                .and_then(|()| self.mesh.enforce_segments())
+                .and_then(|()| self.loosen_moved(moves))
+                .and_then(|()| self.settle_hidden(&mut report))
+                .and_then(|()| {
+                    told = self.tell_hidden(moves, &mut report)?;
+                    self.mesh.enforce_segments()
+                })
         };
         if let Err(error) = advanced.and_then(|()| self.mesh.views.prepare(&self.mesh.kernel)) {
             self.undo();
             return Err(error);
         }
+        self.mesh.follow_told(told);
         Ok(report)
     }
 
