@@ -555,8 +555,8 @@ deldrift_status deldrift_keys(const deldrift_triangulation *t,
 /// the lattice. From the first call on cells that stay keep their indices. A commit that builds anew may list their
 /// corners in another order.
 ///
-/// Cost: what has changed, and with weights the number of hidden vertices; of the first call n + m. Where the
-/// triangulation is periodic, always n + m.
+/// Cost: what has changed, and with weights a bit for each id; of the first call n + m. Where the triangulation is
+/// periodic, always n + m.
 ///
 /// Errors: DELDRIFT_OUT_OF_MEMORY; then nothing has been taken.
 deldrift_status deldrift_take_changes(deldrift_triangulation *t,

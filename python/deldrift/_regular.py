@@ -69,7 +69,7 @@ class WeightedStep(Step):
         positions, numbers, listed = _given(points, weights, radii, ids, owner.ndim)
         try:
             with owner._staging as t:
-                owner._stage_both(t, positions, numbers, listed)
+                owner._stage_both(t, positions, numbers, listed, name_of(radii))
         except BaseException as error:
             if positions is not None and numbers is not None:
                 self._failure = error
@@ -222,26 +222,31 @@ class Regular(Weighing, Delaunay):
         positions, numbers, listed = _given(points, weights, radii, ids, self.ndim)
         report = Report()
         if listed is not None:
-            self._change_some(positions, numbers, listed, report)
+            self._change_some(positions, numbers, listed, report, name_of(radii))
             return report
         with self._changing as t:
             status = _commit_weighted(
                 t, address_if(positions), address_if(numbers), _length(positions, numbers), report
             )
             if status:
-                _check_length(t, positions, numbers)
+                _check_length(t, positions, numbers, name_of(radii))
                 self._check(status, positions="points")
             self._last_report = report
         return report
 
     def _change_some(
-        self, positions: Optional[np.ndarray], numbers: Optional[np.ndarray], listed: np.ndarray, report: Report
+        self,
+        positions: Optional[np.ndarray],
+        numbers: Optional[np.ndarray],
+        listed: np.ndarray,
+        report: Report,
+        what: str,
     ) -> None:
         try:
             with self._changing as t:
                 # Until it is committed.
                 self._must_discard = True
-                self._stage_both(t, positions, numbers, listed)
+                self._stage_both(t, positions, numbers, listed, what)
                 self._check(_commit_timestamp(t, report))
                 self._must_discard = False
                 self._last_report = report
@@ -251,12 +256,17 @@ class Regular(Weighing, Delaunay):
             raise
 
     def _stage_both(
-        self, t: int, positions: Optional[np.ndarray], numbers: Optional[np.ndarray], listed: Optional[np.ndarray]
+        self,
+        t: int,
+        positions: Optional[np.ndarray],
+        numbers: Optional[np.ndarray],
+        listed: Optional[np.ndarray],
+        what: str,
     ) -> None:
-        """Stages moves, weights, or both: of vertices in a list, or of all."""
+        """Stages moves, weights, which messages call so, or both: of vertices in a list, or of all."""
         names = {"positions": "points", "vertices": "ids", "vertex": "ids"}
         if listed is None:
-            _check_length(t, positions, numbers)
+            _check_length(t, positions, numbers, what)
         ids, count = address_if(listed), _length(positions, numbers)
         if numbers is not None:
             self._check(_stage_weights(t, ids, address(numbers), count), **names)
@@ -311,7 +321,7 @@ class Regular(Weighing, Delaunay):
         Whom it hides, and whom it shows when it has gone, is in `changes`:
 
         >>> import deldrift
-        >>> tri = deldrift.Regular([[0, 0], [4, 0], [4, 4], [0, 4], [1, 2]])
+        >>> tri = deldrift.Regular([[0, 0], [4, 0], [4, 4], [0, 4], [1.5, 2]])
         >>> taken = tri.changes()
         >>> heavy = tri.insert([2, 2], weight=4)
         >>> tri.changes().hidden
@@ -401,8 +411,8 @@ def _length(positions: Optional[np.ndarray], numbers: Optional[np.ndarray]) -> i
     return 0 if given is None else len(given)
 
 
-def _check_length(t: int, positions: Optional[np.ndarray], numbers: Optional[np.ndarray]) -> None:
+def _check_length(t: int, positions: Optional[np.ndarray], numbers: Optional[np.ndarray], what: str) -> None:
     """Whether there is a row, or a weight, for each id."""
     if positions is not None:
         check_rows(t, len(positions))
-    expect("weights", numbers, id_count(t), "ids")
+    expect(what, numbers, id_count(t), "ids")

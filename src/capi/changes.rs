@@ -89,8 +89,8 @@ impl<C> From<Changes<'_, C>> for deldrift_changes {
 /// the lattice. From the first call on cells that stay keep their indices. A commit that builds anew may list their
 /// corners in another order.
 ///
-/// Cost: what has changed, and with weights the number of hidden vertices; of the first call n + m. Where the
-/// triangulation is periodic, always n + m.
+/// Cost: what has changed, and with weights a bit for each id; of the first call n + m. Where the triangulation is
+/// periodic, always n + m.
 ///
 /// Errors: DELDRIFT_OUT_OF_MEMORY; then nothing has been taken.
 #[unsafe(no_mangle)]

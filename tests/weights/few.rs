@@ -172,9 +172,10 @@ impl<G: Moving> Few<G> {
         assert_eq!(is, self.hidden, "{}", self.name);
         let sums = self.t.statistics_of_now().expect("room");
         assert_eq!(sums.coincident + sums.hidden_by_weight, is.len() as u64, "{}", self.name);
-        let points = &self.points;
-        self.taken.retain(|&v| points[v].is_some());
         if self.rng.below(2) == 0 {
+            let points = &self.points;
+            // One that has the id of a vertex that has gone is told as if that had moved.
+            self.taken.retain(|&v| points[v].is_some());
             let changes = self.t.take_changes().expect("room");
             let hidden: Vec<_> = is.difference(&self.taken).copied().collect();
             let shown: Vec<_> = self.taken.difference(&is).copied().collect();

@@ -244,7 +244,7 @@ for_algorithms!(commit_by);
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::delaunay::{Level, Plane, Space};
+    use crate::delaunay::{Level, Plane, PowerPlane, PowerSpace, Space};
     use crate::ids::VertexId;
     use crate::motion::options::Options;
     use crate::motion::state::goals::Movers;
@@ -273,6 +273,65 @@ mod tests {
                 assert_eq!((t.timestamp(), t.validate(Level::Delaunay)), (0, Ok(())), "{algorithm:?}");
             }
         }
+    }
+
+    /// Of many hidden vertices those alone are looked at that a vertex which moves, changes its weight, or comes may show; and what is told
+    /// follows from these.
+    fn few_hidden_vertices_are_looked_at<G: Moving>() {
+        let rng = &mut Rng::new(3);
+        let n = 3_000;
+        let mut points = vec![G::Point::default(); n];
+        for p in &mut points {
+            (0..G::D).for_each(|axis| p[axis] = rng.unit());
+            p[G::D] = 20.0 * (n as f64).powf(-2.0 / G::D as f64) * rng.unit();
+        }
+        for algorithm in [Algorithm::Auto, Algorithm::PlacementFlips, Algorithm::Tolerance] {
+            let options = Options { algorithm, ..Options::default() };
+            let mut t = MovingTriangulation::<G>::new(&points, options).expect("room");
+            assert!(t.mesh.kernel.n_hidden() > n / 2);
+            t.commit_timestamp().expect("room");
+            for k in 0..40 {
+                let (v, other) = (VertexId::at(rng.below(n)), points[rng.below(n)]);
+                let mut goal = points[v];
+                if k % 2 == 0 {
+                    goal[0] += 1e-2 * rng.unit();
+                } else {
+                    goal[G::D] = other[G::D];
+                }
+                if k % 4 == 3 {
+                    let mut coming = other;
+                    coming[0] *= 1.01;
+                    t.stage_insertions(&[coming]).expect("room");
+                }
+                t.move_vertices(&[v], &[goal]).expect("a good place");
+                let mut staging = std::mem::take(&mut t.staging);
+                let moves = &mut staging.moves(t.mesh.n_present);
+                let mut report = CommitReport::default();
+                t.mesh.know_hidden().expect("room");
+                t.mesh.begin(Aim::Commit).expect("room");
+                t.edit_and_advance(moves, &mut report).expect("room");
+                t.loosen_moved(moves).expect("room");
+                let n_loose = t.mesh.kernel.n_loose();
+                assert!(n_loose < n / 4, "{algorithm:?}: {n_loose}");
+                t.settle_hidden(&mut report).expect("room");
+                let told = t.tell_hidden(moves, &mut report).expect("room");
+                assert!(matches!(told, Told::Turned(_)), "{algorithm:?}");
+                t.undo();
+                t.staging = staging;
+                t.commit_timestamp().expect("room");
+                assert_eq!(t.validate(Level::Delaunay), Ok(()), "{algorithm:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn few_hidden_vertices_are_looked_at_in_the_plane() {
+        few_hidden_vertices_are_looked_at::<PowerPlane>();
+    }
+
+    #[test]
+    fn few_hidden_vertices_are_looked_at_in_space() {
+        few_hidden_vertices_are_looked_at::<PowerSpace>();
     }
 
     #[test]

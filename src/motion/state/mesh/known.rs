@@ -1,9 +1,9 @@
 //! Who is hidden, kept from one change to the next where vertices have weights, so that a change of few vertices need not look
 //! at all hidden ones.
 //!
-//! A change knows which vertices it has hidden and shown ([`Delaunay::turned`]). Kept beside these is how many are hidden
-//! by place. Who comes to the place of another one cannot be told from that: as long as no vertex shares its place it is enough
-//! to look at those that have come to others; where some do, all are looked at.
+//! A change knows which vertices it has hidden and shown ([`Delaunay::turned`](crate::delaunay::Delaunay::turned)). How many are
+//! hidden by place cannot be told from that. As long as no vertex shares its place it is enough to look at those that have come to
+//! others; where some do, all are looked at.
 //!
 //! Nothing depends on this being kept: it is forgotten where it cannot be followed, and found out anew by the next call that asks.
 
@@ -15,7 +15,7 @@ use crate::motion::options::CoincidencePolicy;
 use crate::motion::state::hidden_ids::HiddenIds;
 use crate::motion::state::mesh::{HiddenNow, Mesh};
 
-/// How many vertices may come to other places by calls at once before it is forgotten who is hidden.
+/// How many vertices may come to other places by calls at once before it is forgotten how many are hidden by place.
 const MOST_PLACED: usize = 256;
 
 /// Who is hidden after the latest change.
@@ -24,6 +24,8 @@ pub(in crate::motion) struct KnownHidden {
     now: HiddenNow,
     /// Vertices that calls at once have brought to other places since it was known that none shared its place.
     placed: Vec<VertexId>,
+    /// Whether how many are hidden by place follows from what was known then and these.
+    are_counted: bool,
 }
 
 impl KnownHidden {
@@ -34,7 +36,12 @@ impl KnownHidden {
 
     /// Whether it is known that no vertex shares its place.
     pub(in crate::motion) fn has_no_shared_place(&self) -> bool {
-        self.now.by_place == 0 && self.placed.is_empty()
+        self.now.by_place == 0 && self.is_counted()
+    }
+
+    /// Whether it is known how many are hidden by place.
+    fn is_counted(&self) -> bool {
+        self.are_counted && self.placed.is_empty()
     }
 
     /// Makes room for the vertices of so many ids.
@@ -71,7 +78,7 @@ impl<G: Moving> Mesh<G> {
         if !G::HAS_WEIGHTS {
             return Ok(());
         }
-        if let Some(mut known) = self.known.take() {
+        if let Some(mut known) = self.known.take().filter(|known| known.are_counted) {
             let mut are_alone = true;
             for v in known.placed.drain(..) {
                 let Some(s) = self.site(v) else { continue };
@@ -85,7 +92,7 @@ impl<G: Moving> Mesh<G> {
         let now = self.hidden_in(&self.kernel, CoincidencePolicy::Merge)?;
         let mut placed = Vec::new();
         memory::reserve_exact(&mut placed, MOST_PLACED)?;
-        self.known = Some(KnownHidden { now, placed });
+        self.known = Some(KnownHidden { now, placed, are_counted: true });
         Ok(())
     }
 
@@ -104,7 +111,7 @@ impl<G: Moving> Mesh<G> {
             }
             Told::Anew(now) => {
                 if let Some(known) = &mut self.known {
-                    known.now = now;
+                    (known.now, known.are_counted) = (now, true);
                     known.placed.clear();
                 }
             }
@@ -120,9 +127,10 @@ impl<G: Moving> Mesh<G> {
         let Some(turned) = self.kernel.turned().filter(|_| self.kernel.has_cells()) else { return };
         if let Some(v) = placed {
             if known.now.by_place > 0 || known.placed.len() == MOST_PLACED.min(known.placed.capacity()) {
-                return;
+                known.are_counted = false;
+            } else {
+                known.placed.push(v);
             }
-            known.placed.push(v);
         }
         // A vertex may be among them twice.
         if known.enter(turned.iter().map(|&v| (v, self.is_hidden(v))), self.kernel.n_hidden()) {
@@ -132,7 +140,7 @@ impl<G: Moving> Mesh<G> {
 
     /// How many vertices are hidden by place and by weight, if that is known.
     pub(in crate::motion) fn known_counts(&self) -> Option<(u64, u64)> {
-        let known = self.known.as_ref().filter(|known| known.placed.is_empty())?;
+        let known = self.known.as_ref().filter(|known| known.is_counted())?;
         Some((known.now.by_place, known.now.by_weight))
     }
 
