@@ -131,8 +131,8 @@ static void live(deldrift_algorithm algorithm) {
         check(t, m);
         const Model last = drawn(3);
         CHECK(t.insert_vertex_with_weight(last.places[0], last.weights[0]) == m.places.size());
-        CHECK(t.stage_insertions({last.places[1], last.places[2]}, Weights({last.weights[1], last.weights[2]})) ==
-              m.places.size() + 1);
+        const std::vector<std::array<double, 2>> two{last.places[1], last.places[2]};
+        CHECK(t.stage_insertions(two, Weights({last.weights[1], last.weights[2]})) == m.places.size() + 1);
         t.commit_timestamp();
         m.places.insert(m.places.end(), last.places.begin(), last.places.end());
         m.weights.insert(m.weights.end(), last.weights.begin(), last.weights.end());
