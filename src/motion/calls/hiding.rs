@@ -42,7 +42,7 @@ impl ChangedParts {
     }
 }
 
-/// So many times as few vertices as there are hidden vertices are looked at one by one rather than all together.
+/// Vertices that have changed are looked at one by one if there are so many times as many in all; else all that are hidden are.
 const ALL_PER_FEW: usize = 16;
 
 impl<G: Moving> Mesh<G> {
