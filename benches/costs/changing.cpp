@@ -232,7 +232,7 @@ std::vector<Call> changing_calls() {
              }, 10);
              c.meter.count(double(c.n));
          }},
-        {"deldrift_insert_vertex_with_weight", "one of ten", [](Context &c) {
+        {"deldrift_insert_vertex_with_weight", "ten vertices", [](Context &c) {
              make_weighted(c);
              std::uint32_t v;
              c.meter.reset();
