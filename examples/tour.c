@@ -436,6 +436,19 @@ static void hide_by_weights(void) {
     expect(report.newly_shown == 1 && report.moved == 0, "weights alone");
     check(deldrift_weights(t, found, 5, &count));
     expect(count == 5 && found[4] == 0, "weights are read by id");
+    // Whom one that is inserted hides, and whom it shows when it is gone.
+    deldrift_changes changes;
+    uint32_t heavy, first;
+    check(deldrift_take_changes(t, &changes));
+    check(deldrift_insert_vertex_with_weight(t, (double[]){0.5, 0.5}, 1, &heavy));
+    check(deldrift_take_changes(t, &changes));
+    expect(changes.hidden_count == 1 && changes.hidden[0] == 4, "a heavier neighbour hides it");
+    check(deldrift_remove_vertex(t, heavy));
+    check(deldrift_take_changes(t, &changes));
+    expect(changes.shown_count == 1 && changes.shown[0] == 4, "and does so no more");
+    check(deldrift_stage_insertions_with_weights(t, (double[]){0.5, 0.5, 2, 0.5}, (double[]){1, 0}, 2, &first));
+    check(deldrift_commit_timestamp(t, &report));
+    expect(report.inserted == 2 && report.newly_hidden == 1, "both come with their weights");
     deldrift_destroy(t);
     check(deldrift_create_periodic_weighted(2, positions + 8, (double[]){3}, 1, (double[]){1, 0, 0, 1}, 2, NULL, &t));
     check(deldrift_cell_count(t, &count));

@@ -111,8 +111,8 @@ public:
         t_.reset(t);
     }
     // Of vertices with weights, a number for each: the regular triangulation. keys: one for each, or none.
-    //     const std::vector<double> squared_radii = radii_of(atoms);
-    //     deldrift::Triangulation t(3, centres, deldrift::Weights(squared_radii));
+    //     const std::vector<double> radii = radii_of(atoms);
+    //     deldrift::Triangulation t(3, centres, deldrift::Radii(radii));
     Triangulation(std::uint32_t dimension, const Positions &positions, Weights weights,
                   const deldrift_options &options = default_options())
         : Triangulation(dimension, positions, weights, span<const std::uint64_t>{}, options) {}
@@ -273,6 +273,8 @@ public:
         expect("weights", weights.size(), vertices.size());
         require_ok(deldrift_stage_weights(native(), vertices.data(), weights.data(), vertices.size()));
     }
+    void stage_weights(const Radii &radii) { stage_weights(radii.squares); }
+    void stage_weights(span<const std::uint32_t> vertices, const Radii &radii) { stage_weights(vertices, radii.squares); }
     // Those of all ids, as for commit_positions(). None of positions, or of weights: these stay.
     //     const deldrift_commit_report report = t.commit_weighted({}, weights);
     //     if (report.newly_hidden > 0) shorten(step);
@@ -288,6 +290,9 @@ public:
         require_ok(deldrift_commit_weighted(native(), numbers.empty() ? nullptr : numbers.data(),
                                             weights.empty() ? nullptr : weights.data(), count, &report));
         return report;
+    }
+    deldrift_commit_report commit_weighted(const Positions &positions, const Radii &radii) {
+        return commit_weighted(positions, radii.squares);
     }
     // At once, without a commit.
     void set_weight(std::uint32_t vertex, double weight) { require_ok(deldrift_set_weight(native(), vertex, weight)); }
@@ -312,6 +317,14 @@ public:
         expect("keys", keys.size(), count);
         std::uint32_t first;
         require_ok(deldrift_stage_insertions_with_keys(native(), numbers.data(), keys.data(), count, &first));
+        return first;
+    }
+    std::uint32_t stage_insertions(const Positions &positions, Weights weights) {
+        const span<const double> numbers = gathered(positions);
+        const std::size_t count = count_of("positions", numbers);
+        expect("weights", weights.numbers.size(), count);
+        std::uint32_t first;
+        require_ok(deldrift_stage_insertions_with_weights(native(), numbers.data(), weights.numbers.data(), count, &first));
         return first;
     }
     // For the next commit, under the ids of removed vertices, the lowest first, and then new ones; returns them. keys: one
@@ -341,6 +354,12 @@ public:
     std::uint32_t insert_vertex_with_key(span<const double> position, std::uint64_t key) {
         std::uint32_t vertex;
         require_change(deldrift_insert_vertex_with_key(native(), point(position), key, &vertex));
+        return vertex;
+    }
+    // Whom it hides is in take_changes().hidden, if they were taken before.
+    std::uint32_t insert_vertex_with_weight(span<const double> position, double weight) {
+        std::uint32_t vertex;
+        require_change(deldrift_insert_vertex_with_weight(native(), point(position), weight, &vertex));
         return vertex;
     }
     // By id; 0 for removed vertices.

@@ -2,6 +2,7 @@
 
 mod definition;
 mod exactly;
+mod few;
 mod known;
 mod saving;
 mod stuck;

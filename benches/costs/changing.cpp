@@ -232,6 +232,26 @@ std::vector<Call> changing_calls() {
              }, 10);
              c.meter.count(double(c.n));
          }},
+        {"deldrift_insert_vertex_with_weight", "ten vertices", [](Context &c) {
+             make_weighted(c);
+             std::uint32_t v;
+             c.meter.reset();
+             c.meter.time([&] {
+                 for (std::size_t k = 0; k < 10; ++k) {
+                     must(deldrift_insert_vertex_with_weight(c.t, c.place(k * 7919 % c.n), 1e-3 * double(k), &v));
+                 }
+             }, 10);
+             c.meter.count(double(c.n));
+         }},
+        {"deldrift_stage_insertions_with_weights", "as many as there are", [](Context &c) {
+             const std::vector<double> weights = make_weighted(c);
+             std::uint32_t first;
+             c.meter.reset();
+             c.meter.time([&] {
+                 must(deldrift_stage_insertions_with_weights(c.t, c.points.data(), weights.data(), c.n, &first));
+             });
+             c.meter.count(double(c.n));
+         }},
         {"deldrift_hidden_by_weight", "of one with weights", [](Context &c) {
              make_weighted(c);
              std::vector<std::uint32_t> vertices(c.n + 1), cells(c.n + 1);

@@ -615,6 +615,14 @@ public static class Deldrift
     /// deldrift_commit_positions for vertices with weights.</summary>
     [DllImport(Library)] public static extern uint deldrift_commit_weighted(IntPtr t, double[] positions, double[] weights, UIntPtr count, ref deldrift_commit_report report);
 
+    /// <summary>Stages the insertion of count vertices with weights, as deldrift_stage_insertions does of vertices of
+    /// weight 0: all of them, or none if it fails.</summary>
+    [DllImport(Library)] public static extern uint deldrift_stage_insertions_with_weights(IntPtr t, double[] positions, double[] weights, UIntPtr count, ref uint first_vertex);
+
+    /// <summary>Inserts a vertex with a weight at once, as deldrift_insert_vertex does one of weight 0.
+    /// deldrift_take_changes, called before and after, tells whom it has hidden; it may be hidden itself.</summary>
+    [DllImport(Library)] public static extern uint deldrift_insert_vertex_with_weight(IntPtr t, double[] position, double weight, ref uint out_vertex);
+
     /// <summary>Gives one vertex another weight at once, whatever is staged for others; it stays where it
     /// is.</summary>
     [DllImport(Library)] public static extern uint deldrift_set_weight(IntPtr t, uint vertex, double weight);

@@ -1221,6 +1221,28 @@ module deldrift
          type(deldrift_commit_report), intent(inout), optional :: report
          integer(c_int32_t) :: status_
       end function
+      ! Stages the insertion of count vertices with weights, as deldrift_stage_insertions does of vertices of weight
+      ! 0: all of them, or none if it fails.
+      function deldrift_stage_insertions_with_weights(t, positions, weights, count, first_vertex) bind(c) &
+         result(status_)
+         import
+         type(c_ptr), value :: t
+         real(c_double), intent(in), optional :: positions(*)
+         real(c_double), intent(in), optional :: weights(*)
+         integer(c_size_t), value :: count
+         integer(c_int32_t), intent(inout), optional :: first_vertex
+         integer(c_int32_t) :: status_
+      end function
+      ! Inserts a vertex with a weight at once, as deldrift_insert_vertex does one of weight 0. deldrift_take_changes,
+      ! called before and after, tells whom it has hidden; it may be hidden itself.
+      function deldrift_insert_vertex_with_weight(t, position, weight, out_vertex) bind(c) result(status_)
+         import
+         type(c_ptr), value :: t
+         real(c_double), intent(in), optional :: position(*)
+         real(c_double), value :: weight
+         integer(c_int32_t), intent(inout), optional :: out_vertex
+         integer(c_int32_t) :: status_
+      end function
       ! Gives one vertex another weight at once, whatever is staged for others; it stays where it is.
       function deldrift_set_weight(t, vertex, weight) bind(c) result(status_)
          import

@@ -561,6 +561,14 @@ deldrift_stage_weights(t, vertices, weights, count) = @ccall $(symbol(:deldrift_
 # deldrift_commit_positions for vertices with weights.
 deldrift_commit_weighted(t, positions, weights, count, report) = @ccall $(symbol(:deldrift_commit_weighted))(t::Ptr{Cvoid}, positions::Ptr{Cdouble}, weights::Ptr{Cdouble}, count::Csize_t, report::Ptr{deldrift_commit_report})::UInt32
 
+# Stages the insertion of count vertices with weights, as deldrift_stage_insertions does of vertices of weight
+# 0: all of them, or none if it fails.
+deldrift_stage_insertions_with_weights(t, positions, weights, count, first_vertex) = @ccall $(symbol(:deldrift_stage_insertions_with_weights))(t::Ptr{Cvoid}, positions::Ptr{Cdouble}, weights::Ptr{Cdouble}, count::Csize_t, first_vertex::Ptr{UInt32})::UInt32
+
+# Inserts a vertex with a weight at once, as deldrift_insert_vertex does one of weight 0. deldrift_take_changes,
+# called before and after, tells whom it has hidden; it may be hidden itself.
+deldrift_insert_vertex_with_weight(t, position, weight, out_vertex) = @ccall $(symbol(:deldrift_insert_vertex_with_weight))(t::Ptr{Cvoid}, position::Ptr{Cdouble}, weight::Cdouble, out_vertex::Ptr{UInt32})::UInt32
+
 # Gives one vertex another weight at once, whatever is staged for others; it stays where it is.
 deldrift_set_weight(t, vertex, weight) = @ccall $(symbol(:deldrift_set_weight))(t::Ptr{Cvoid}, vertex::UInt32, weight::Cdouble)::UInt32
 

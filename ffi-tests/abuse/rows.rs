@@ -80,6 +80,8 @@ pub const ROWS: &[Row] = &[
         arguments: &["t", "moved", "weights", "n_ids", "&out.report"],
         base: "WEIGHTED_WITHOUT_EDITS",
     },
+    weighted("deldrift_stage_insertions_with_weights", &["t", "moved", "weights", "3", "&out.number"]),
+    weighted("deldrift_insert_vertex_with_weight", &["t", "moved", "0.5", "&out.number"]),
     weighted("deldrift_set_weight", &["t", "1", "0.5"]),
     weighted("deldrift_hidden_by_weight", &["t", "out.ids", "out.more_ids", "n_ids", "&out.count"]),
     row("deldrift_compact", &["t", "out.ids", "n_ids", "&out.count"]),

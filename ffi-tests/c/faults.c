@@ -347,7 +347,8 @@ int main(void) {
             for (kind k = 0; k < N_KINDS; k++) {
                 bool is_of_one = k == RELOCATE || k == INSERT || k == INSERT_WITH_KEY || k == REMOVE || k == LOCATE ||
                                  k == LOCATE_POINTS || k == NEAREST || k == NEAREST_VERTICES || k == CONFLICTS ||
-                                 k == COMMIT_WEIGHTED || k == SET_WEIGHT || k == REPRESENTATIVE;
+                                 k == COMMIT_WEIGHTED || k == SET_WEIGHT || k == INSERT_WITH_WEIGHT ||
+                                 k == REPRESENTATIVE;
                 // Moves and edits that are staged already would be in the way.
                 if (SETTINGS[which].edits && (k == STAGE_REMOVALS || k == MOVE_ALL)) continue;
                 if (dimension == 3 && is_of_plane(k)) continue;

@@ -73,7 +73,8 @@ typedef enum { CREATE, CREATE_WITH_KEYS, CREATE_PERIODIC, RELOCATE, INSERT, INSE
     PERIODIC_POSITIONS, STAGE_VECTORS, CELL_SHIFTS, EDGE_SHIFTS, PERIODIC_CELLS, PERIODIC_FACETS, PERIODIC_CENTRES,
     LOCATE_IN_PERIOD, PERIODIC_NEAREST, PERIODIC_BALL, PERIODIC_LISTS, PERIODIC_LINEAR, PERIODIC_WEIGHTS, PERIODIC_CLONE, PERIODIC_LOAD,
     PERIODIC_VTU, PERIODIC_NEIGHBOURS, PERIODIC_CHECK, PERIODIC_COMPACT, PERIODIC_HIDDEN, WRAP_POSITIONS,
-    CREATE_WEIGHTED, CREATE_PERIODIC_WEIGHTED, STAGE_WEIGHTS, COMMIT_WEIGHTED, SET_WEIGHT, HIDDEN_BY_WEIGHT, HIDDEN_BY_PLACE, REPRESENTATIVE, STATISTICS, N_KINDS } kind;
+    CREATE_WEIGHTED, CREATE_PERIODIC_WEIGHTED, STAGE_WEIGHTS, COMMIT_WEIGHTED, SET_WEIGHT, INSERT_WITH_WEIGHT,
+    STAGE_WITH_WEIGHTS, HIDDEN_BY_WEIGHT, HIDDEN_BY_PLACE, REPRESENTATIVE, STATISTICS, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
     "deldrift_create", "deldrift_create_with_keys", "deldrift_create_periodic", "deldrift_relocate_vertex", "deldrift_insert_vertex",
@@ -112,6 +113,7 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_vertex_neighbours, periodic", "deldrift_validate, periodic", "deldrift_compact, periodic", "deldrift_hidden_vertices, periodic",
     "deldrift_wrap_positions",
     "deldrift_create_weighted", "deldrift_create_periodic_weighted", "deldrift_stage_weights", "deldrift_commit_weighted", "deldrift_set_weight",
+    "deldrift_insert_vertex_with_weight", "deldrift_stage_insertions_with_weights",
     "deldrift_hidden_by_weight", "deldrift_hidden_vertices, weighted", "deldrift_coincident_representative, weighted",
     "deldrift_statistics, weighted",
 };
@@ -579,6 +581,12 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             status = deldrift_commit_weighted(s->t, goal == 0 ? NULL : s->places, weights_of(s->n, d, 1), s->n, &report);
             break;
         case SET_WEIGHT: status = deldrift_set_weight(s->t, vertex, goal == 0 ? 0.5 : goal == 1 ? -0.5 : 0); break;
+        case INSERT_WITH_WEIGHT:
+            status = deldrift_insert_vertex_with_weight(s->t, to, goal == 0 ? 0.5 : goal == 1 ? -0.5 : 0, &out);
+            break;
+        case STAGE_WITH_WEIGHTS:
+            status = deldrift_stage_insertions_with_weights(s->t, s->points, weights_of(20, d, 1), 20, &out);
+            break;
         case HIDDEN_BY_WEIGHT: status = deldrift_hidden_by_weight(s->t, ids_out, more_out, ROOM, &count); break;
         case HIDDEN_BY_PLACE: status = deldrift_hidden_vertices(s->t, ids_out, more_out, ROOM, &count); break;
         case STATISTICS: status = deldrift_statistics(s->t, &report); break;

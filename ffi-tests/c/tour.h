@@ -649,7 +649,7 @@ static void make_tour(const places *p, record *made) {
     DO(deldrift_destroy(t));
 
     // One with weights, of vertices that these hide and show again.
-    double weights[12], weights_out[13];
+    double weights[12], weights_out[16];
     for (uint32_t i = 0; i < 12; i++) weights[i] = i % 3 == 0 ? -1.5 : i / 8.0;
     bool is_weighted = false;
     t = NULL;
@@ -664,11 +664,16 @@ static void make_tour(const places *p, record *made) {
     GO(deldrift_commit_timestamp(t, &report));
     note(&report, sizeof report);
     GO(deldrift_set_weight(t, 7, -4));
-    GO(deldrift_weights(t, weights_out, 13, &count));
+    GO(deldrift_insert_vertex_with_weight(t, in_box + 3, 0.75, &first));
+    note(&first, sizeof first);
+    GO(deldrift_stage_insertions_with_weights(t, in_other_box + 2, weights, 2, &first));
+    GO(deldrift_commit_timestamp(t, &report));
+    note(&report, sizeof report);
+    GO(deldrift_weights(t, weights_out, 16, &count));
     note(weights_out, count * sizeof *weights_out);
-    GO(deldrift_hidden_by_weight(t, tour_out.ids, tour_out.ids + 13, 13, &count));
+    GO(deldrift_hidden_by_weight(t, tour_out.ids, tour_out.ids + 16, 16, &count));
     note(tour_out.ids, count * sizeof *tour_out.ids);
-    note(tour_out.ids + 13, count * sizeof *tour_out.ids);
+    note(tour_out.ids + 16, count * sizeof *tour_out.ids);
     GO(deldrift_copy_cells(t, tour_out.ids, NULL, 4 * TOUR_POINTS, &count));
     note(tour_out.ids, count * (d + 1) * sizeof *tour_out.ids);
     DO(deldrift_destroy(t));

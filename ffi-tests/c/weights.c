@@ -276,10 +276,14 @@ static size_t live(uint32_t d, deldrift_algorithm algorithm, int kind, uint64_t 
                 const uint32_t late = n + 1;
                 const double wrong = 3;
                 for (int round = 0; round < 2; round++) {
-                    OK(deldrift_stage_insertions(t, m.positions + n * d, 2, &first));
+                    if (step % 2 == 0) {
+                        OK(deldrift_stage_insertions(t, m.positions + n * d, 2, &first));
+                        OK(deldrift_stage_weights(t, &late, &wrong, 1));
+                        OK(deldrift_stage_weights(t, (uint32_t[]){n, n + 1}, m.weights + n, 2));
+                    } else {
+                        OK(deldrift_stage_insertions_with_weights(t, m.positions + n * d, m.weights + n, 2, &first));
+                    }
                     CHECK(first == n);
-                    OK(deldrift_stage_weights(t, &late, &wrong, 1));
-                    OK(deldrift_stage_weights(t, (uint32_t[]){n, n + 1}, m.weights + n, 2));
                     if (m.present[one]) OK(deldrift_stage_removals(t, &one, 1));
                     OK(deldrift_prepare_timestamp(t, &report));
                     if (round == 0) OK(deldrift_withdraw_timestamp(t));
@@ -300,18 +304,30 @@ static size_t live(uint32_t d, deldrift_algorithm algorithm, int kind, uint64_t 
                 before = m;
                 OK(deldrift_commit_timestamp(t, &report));
                 break;
-            case 6: { // Gone at once, and another one in its place, of weight 0.
-                uint32_t inserted;
-                if (m.n_ids + 1 > MOST || !m.present[one]) continue;
+            case 6: { // Gone at once, and others in its place, with weights, or of weight 0; lists tell after each whom it hides and shows.
+                if (m.n_ids + 2 > MOST || !m.present[one]) continue;
+                check_changes(t, &m, &taken, &was);
                 OK(deldrift_remove_vertex(t, one));
                 m.present[one] = false;
-                draw(&m, n, &state, kind);
-                m.weights[n] = 0;
-                OK(deldrift_insert_vertex(t, m.positions + n * d, &inserted));
-                CHECK(inserted == n);
-                m.n_ids++;
-                m.present[n] = true;
-                was = check(t, &m);
+                taken = check(t, &m);
+                check_changes(t, &m, &was, &taken);
+                for (int k = 0; k < 2; k++) {
+                    const uint32_t next = n + (uint32_t)k;
+                    uint32_t inserted;
+                    draw(&m, next, &state, kind);
+                    if (k == 0) {
+                        OK(deldrift_insert_vertex_with_weight(t, m.positions + next * d, m.weights[next], &inserted));
+                    } else {
+                        m.weights[next] = 0;
+                        OK(deldrift_insert_vertex(t, m.positions + next * d, &inserted));
+                    }
+                    CHECK(inserted == next);
+                    m.n_ids++;
+                    m.present[next] = true;
+                    was = check(t, &m);
+                    check_changes(t, &m, &taken, &was);
+                    taken = was;
+                }
                 before = m;
                 OK(deldrift_commit_timestamp(t, &report));
                 break;
@@ -371,6 +387,20 @@ static void equal_weights_are_none(uint32_t d) {
     CHECK_STATUS(deldrift_set_weight(t, 0, 1.5e114), DELDRIFT_OUT_OF_RANGE);
     CHECK_MESSAGE("weight[0] is 1.5e114");
     CHECK_STATUS(deldrift_set_weight(t, 0, NAN), DELDRIFT_NOT_FINITE);
+    uint32_t first = 7;
+    CHECK_STATUS(deldrift_insert_vertex_with_weight(plain, positions, 1, &first), DELDRIFT_NOT_WEIGHTED);
+    CHECK_STATUS(deldrift_stage_insertions_with_weights(plain, positions, NULL, 2, &first), DELDRIFT_NOT_WEIGHTED);
+    CHECK_STATUS(deldrift_insert_vertex_with_weight(t, positions, -1.5e114, &first), DELDRIFT_OUT_OF_RANGE);
+    CHECK_MESSAGE("weight[0] is -1.5e114");
+    // All of them, or none.
+    weights[1] = NAN;
+    CHECK_STATUS(deldrift_stage_insertions_with_weights(t, positions, weights, 2, &first), DELDRIFT_NOT_FINITE);
+    CHECK_MESSAGE("weights[1]");
+    CHECK(first == 7);
+    OK(deldrift_stage_insertions_with_weights(t, positions, NULL, 1, &first));
+    CHECK(first == MOST);
+    OK(deldrift_discard_moves(t));
+    weights[1] = 0.25;
     weights[5] = INFINITY;
     CHECK_STATUS(deldrift_stage_weights(t, NULL, weights, MOST), DELDRIFT_NOT_FINITE);
     CHECK_MESSAGE("weights[5]");
@@ -520,6 +550,23 @@ static void weights_repeat(uint32_t d) {
     deldrift_triangulation *none = NULL;
     CHECK_STATUS(deldrift_create_periodic_weighted(d, positions, weights, MOST, box[d - 2], d, NULL, &none), DELDRIFT_NOT_FINITE);
     CHECK(none == NULL);
+    // One at once, whatever is staged for others, and two with their weights.
+    uint32_t first = 9;
+    const double coming[] = {0.5, 0.125, 0.75, 0.25, 0.375, 0.5}, their[] = {9, -3};
+    CHECK_STATUS(deldrift_insert_vertex_with_weight(t, coming, NAN, &first), DELDRIFT_NOT_FINITE);
+    CHECK_MESSAGE("weight[0] is NaN");
+    CHECK(first == 9);
+    OK(deldrift_insert_vertex_with_weight(t, coming, 200, &first));
+    OK(deldrift_hidden_by_weight(t, NULL, NULL, 0, &count));
+    CHECK(first == MOST && count == MOST);
+    OK(deldrift_remove_vertex(t, first));
+    OK(deldrift_stage_insertions_with_weights(t, coming, their, 2, &first));
+    CHECK_STATUS(deldrift_insert_vertex_with_weight(t, coming, 0, &first), DELDRIFT_STAGED_VERTEX);
+    OK(deldrift_commit_timestamp(t, &report));
+    double all[MOST + 3];
+    OK(deldrift_weights(t, all, MOST + 3, &count));
+    CHECK(report.inserted == 2 && count == MOST + 3 && isnan(all[MOST]) && all[MOST + 1] == 9 && all[MOST + 2] == -3);
+    OK(deldrift_validate(t, 3));
     deldrift_destroy(loaded);
     deldrift_destroy(plain);
     deldrift_destroy(t);

@@ -129,6 +129,14 @@ static void live(deldrift_algorithm algorithm) {
         m.weights[5] = double(below(20));
         t.set_weight(5, m.weights[5]);
         check(t, m);
+        const Model last = drawn(3);
+        CHECK(t.insert_vertex_with_weight(last.places[0], last.weights[0]) == m.places.size());
+        const std::vector<std::array<double, 2>> two{last.places[1], last.places[2]};
+        CHECK(t.stage_insertions(two, Weights({last.weights[1], last.weights[2]})) == m.places.size() + 1);
+        t.commit_timestamp();
+        m.places.insert(m.places.end(), last.places.begin(), last.places.end());
+        m.weights.insert(m.weights.end(), last.weights.begin(), last.weights.end());
+        check(t, m);
     }
     CHECK(n_hidden > 0);
 }
@@ -147,6 +155,39 @@ static void hides_and_shows() {
     CHECK(report.newly_shown == 1 && report.newly_hidden == 0 && t.hidden_by_weight().size() == 0);
     t.remove_vertex(4);
     CHECK(std::isnan(t.weights()[4]) && t.weights()[5] == 9);
+}
+
+// Radii are the roots of weights, wherever weights are given.
+static void takes_radii() {
+    using deldrift::Radii;
+    const std::vector<std::array<double, 2>> places{{0, 0}, {8, 0}, {8, 8}, {0, 8}, {4, 4}, {5, 4}};
+    const std::vector<double> radii{0, 1, 2, 3, 4, 0.1};
+    std::vector<double> squares;
+    for (const double r : radii) squares.push_back(r * r);
+    Triangulation t(2, places, Radii(radii)), keyed(2, places, Radii(radii), std::vector<std::uint64_t>{6, 5, 4, 3, 2, 1});
+    CHECK(t.weights() == squares && keyed.weights() == squares && t.hidden_by_weight().size() == 1);
+    t.commit_weighted({}, Radii({1, 1, 1, 1, 1, 1}));
+    CHECK(t.hidden_by_weight().size() == 0);
+    CHECK(t.commit_weighted(places, Radii(radii)).newly_hidden == 1);
+    t.stage_weights(Radii({2}));
+    t.stage_weights({3}, Radii({0.5}));
+    CHECK(t.stage_insertions({2, 2}, Radii({3})) == 6);
+    t.commit_timestamp();
+    CHECK(t.weights()[0] == 4 && t.weights()[3] == 0.25 && t.weights()[6] == 9);
+    t.take_changes();
+    const std::uint32_t heavy = t.insert_vertex_with_weight({4, 5}, 100);
+    const deldrift_changes changes = t.take_changes();
+    const std::vector<std::uint32_t> hidden(changes.hidden, changes.hidden + changes.hidden_count);
+    CHECK(heavy == 7 && !hidden.empty() && changes.shown_count == 0);
+    t.remove_vertex(heavy);
+    const deldrift_changes after = t.take_changes();
+    CHECK(after.hidden_count == 0 && std::vector<std::uint32_t>(after.shown, after.shown + after.shown_count) == hidden);
+    CHECK_THROWS(Radii({1, -2}), DELDRIFT_INVALID_VALUE, "radii[1] is -2");
+    CHECK_THROWS(Radii({NAN}), DELDRIFT_INVALID_VALUE, "radii[0] is nan");
+    CHECK_THROWS(t.commit_weighted({}, Radii({1, 2})), DELDRIFT_WRONG_COUNT, "2");
+    const std::vector<double> box{10, 0, 0, 10};
+    const Triangulation repeated(2, places, Radii(radii), deldrift::Periodic{box});
+    CHECK(repeated.weights() == squares);
 }
 
 // Power cells of a box fill it, and volumes follow weights as their derivatives say.
@@ -227,6 +268,7 @@ int main() {
     live(DELDRIFT_TOLERANCE);
     live(DELDRIFT_REPAIR);
     hides_and_shows();
+    takes_radii();
     has_power_cells();
     refuses();
     return 0;

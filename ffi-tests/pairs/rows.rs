@@ -26,6 +26,9 @@ pub const MORE: &[Call] = &[
     ("deldrift_commit_positions", &["t", "nowhere", "n_ids", "&out.report"]),
     ("deldrift_commit_weighted", &["t", "NULL", "weights", "n_ids", "&out.report"]),
     ("deldrift_set_weight", &["t", "last[0]", "-9"]),
+    // So heavy that it may hide all others, and so light that it may be hidden.
+    ("deldrift_insert_vertex_with_weight", &["t", "inside", "9", "&out.number"]),
+    ("deldrift_stage_insertions_with_weights", &["t", "inside", "(double[]){-9}", "1", "&out.number"]),
     ("deldrift_stage_weights", &["t", "last", "weights", "1"]),
     ("deldrift_commit_timestamp", &["cancelled()", "&out.report"]),
     ("deldrift_prepare_timestamp", &["cancelled()", "&out.report"]),

@@ -149,11 +149,12 @@ typedef struct deldrift_changes {
     size_t star_count;
     /// These vertices, ascending. Some may have been removed.
     const uint32_t *stars;
-    /// Number of vertices that are hidden and were not: a vertex of lower id, or key, is at the same place now.
+    /// Number of vertices that are hidden and were not: a vertex of lower id, or key, is at the same place now, or
+    /// weights of others hide it. One that has been inserted and is hidden is among them.
     size_t hidden_count;
     /// These vertices, ascending.
     const uint32_t *hidden;
-    /// Number of vertices that were hidden and are not.
+    /// Number of vertices that were hidden, and are there and not hidden.
     size_t shown_count;
     /// These vertices, ascending.
     const uint32_t *shown;
@@ -331,11 +332,11 @@ deldrift_status deldrift_statistics(const deldrift_triangulation *t,
 ///
 /// While a timestamp is prepared, these calls give DELDRIFT_PREPARED and do nothing: deldrift_commit_timestamp,
 /// deldrift_commit_positions, deldrift_commit_weighted, deldrift_set_weight, deldrift_insert_vertex,
-/// deldrift_insert_vertex_with_key, deldrift_remove_vertex, deldrift_relocate_vertex, deldrift_compact,
-/// deldrift_refine, deldrift_coarsen, deldrift_take_changes, deldrift_transfer_cells, deldrift_clone, deldrift_save and
-/// deldrift_save_file. All others may be made, those that stage or check what is staged included. Changes are of
-/// published states: between two calls of deldrift_take_changes, rounds count as commits once they are published. In
-/// deldrift_cells a cell that was there before has the index that it had, as after commits.
+/// deldrift_insert_vertex_with_key, deldrift_insert_vertex_with_weight, deldrift_remove_vertex, deldrift_relocate_vertex,
+/// deldrift_compact, deldrift_refine, deldrift_coarsen, deldrift_take_changes, deldrift_transfer_cells, deldrift_clone,
+/// deldrift_save and deldrift_save_file. All others may be made, those that stage or check what is staged included.
+/// Changes are of published states: between two calls of deldrift_take_changes, rounds count as commits once they are
+/// published. In deldrift_cells a cell that was there before has the index that it had, as after commits.
 ///
 /// Passings are looked at round by round, each on the way from where the round before has left the vertices.
 ///
@@ -542,6 +543,9 @@ deldrift_status deldrift_keys(const deldrift_triangulation *t,
 /// Takes what has changed since the last call of this function, to *changes. It may have changed by commits or
 /// immediate calls. The first call lists all cells as created.
 ///
+/// Between two calls may be any number of commits and immediate calls. With a call before it and one after it, this is
+/// what one insertion, removal or new weight at once has hidden and shown.
+///
 /// A program that never calls this pays nothing for it. One that does pays in proportion to what has changed, and may
 /// call it as often or as rarely as it likes. It ends the lists of the call before. A view of the cells stays valid
 /// unless it is older than the last change. deldrift_cells takes constant time after it.
@@ -551,7 +555,8 @@ deldrift_status deldrift_keys(const deldrift_triangulation *t,
 /// the lattice. From the first call on cells that stay keep their indices. A commit that builds anew may list their
 /// corners in another order.
 ///
-/// Cost: what has changed; of the first call n + m. Where the triangulation is periodic, always n + m.
+/// Cost: what has changed, and with weights a bit for each id; of the first call n + m. Where the triangulation is
+/// periodic, always n + m.
 ///
 /// Errors: DELDRIFT_OUT_OF_MEMORY; then nothing has been taken.
 deldrift_status deldrift_take_changes(deldrift_triangulation *t,

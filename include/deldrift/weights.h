@@ -16,6 +16,10 @@
  *         fails.
  *     deldrift_commit_weighted: Moves all vertices, gives all other weights, or both, and makes that the next
  *         timestamp: deldrift_commit_positions for vertices with weights.
+ *     deldrift_stage_insertions_with_weights: Stages the insertion of count vertices with weights, as
+ *         deldrift_stage_insertions does of vertices of weight 0: all of them, or none if it fails.
+ *     deldrift_insert_vertex_with_weight: Inserts a vertex with a weight at once, as deldrift_insert_vertex does one of
+ *         weight 0.
  *     deldrift_set_weight: Gives one vertex another weight at once, whatever is staged for others; it stays where it
  *         is.
  *     deldrift_hidden_by_weight: The vertices that are hidden by weight, ascending, each with the cell that it is
@@ -131,6 +135,37 @@ deldrift_status deldrift_commit_weighted(deldrift_triangulation *t,
                                          const double *weights,
                                          size_t count,
                                          deldrift_commit_report *report);
+
+/// Stages the insertion of count vertices with weights, as deldrift_stage_insertions does of vertices of weight 0: all of them,
+/// or none if it fails. With keys as well it is deldrift_stage_insertions_with_keys, and then deldrift_stage_weights.
+///
+/// weights: count numbers, in the order of positions, finite and at most 1e114 in magnitude; NULL: all are 0. The others are
+/// as in deldrift_stage_insertions.
+///
+/// Cost: count, in the mean over many calls.
+///
+/// Errors: DELDRIFT_NOT_WEIGHTED, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_stage_insertions_with_weights(deldrift_triangulation *t,
+                                                       const double *positions,
+                                                       const double *weights,
+                                                       size_t count,
+                                                       uint32_t *first_vertex);
+
+/// Inserts a vertex with a weight at once, as deldrift_insert_vertex does one of weight 0. deldrift_take_changes, called
+/// before and after, tells whom it has hidden; it may be hidden itself.
+///
+/// out_vertex: receives its id, which is one above the highest ever given, or left by the latest deldrift_compact.
+///
+/// Cost: that of deldrift_insert_vertex.
+///
+/// Errors: DELDRIFT_NOT_WEIGHTED, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it),
+/// DELDRIFT_STAGED_VERTEX (if t is periodic and insertions are staged, which have the next ids),
+/// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+deldrift_status deldrift_insert_vertex_with_weight(deldrift_triangulation *t,
+                                                   const double *position,
+                                                   double weight,
+                                                   uint32_t *out_vertex);
 
 /// Gives one vertex another weight at once, whatever is staged for others; it stays where it is.
 ///

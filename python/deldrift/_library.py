@@ -378,6 +378,8 @@ PROTOTYPES = {
     "weights": (T, A, N, C),
     "stage_weights": (T, A, A, N),
     "commit_weighted": (T, A, A, N, POINTER(Report)),
+    "stage_insertions_with_weights": (T, A, A, N, POINTER(U32)),
+    "insert_vertex_with_weight": (T, A, F64, POINTER(U32)),
     "set_weight": (T, U32, F64),
     "hidden_by_weight": (T, A, A, N, C),
     "create_periodic": (U32, A, N, A, N, POINTER(Options), POINTER(T)),

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import ctypes
 from typing import Any, Callable, Optional, cast
 
 import numpy as np
 
 from . import _library
 from ._arrays import I32, Handle, address, address_if, ids as listed_ids
-from ._arrays import keys as given_keys, points as point_rows
+from ._arrays import keys as given_keys, one_point, points as point_rows
 from ._callbacks import calling
 from ._core import check, fixed, id_count, make_options
 from ._delaunay import Delaunay
@@ -20,12 +21,13 @@ from ._segments import Segments
 from ._staging import check_rows, ids_for, move_vertices, positions_of
 from ._step import Step
 from ._values import expect
-from ._weighing import Weighing, numbers_of
+from ._weighing import Weighing, name_of, one_weight, weights_of
 
 _create_weighted = _library.function("create_weighted")
 _stage_weights = _library.function("stage_weights")
 _commit_weighted = _library.function("commit_weighted")
 _commit_timestamp = _library.function("commit_timestamp")
+_insert_vertex_with_weight = _library.function("insert_vertex_with_weight")
 
 
 class WeightedStep(Step):
@@ -48,7 +50,7 @@ class WeightedStep(Step):
                 del failure
         super()._end(is_good)
 
-    def move(self, points: Any = None, ids: Any = None, *, weights: Any = None) -> None:
+    def move(self, points: Any = None, ids: Any = None, *, weights: Any = None, radii: Any = None) -> None:
         """Moves vertices to new places, gives them other weights, or both.
 
         Parameters
@@ -59,19 +61,23 @@ class WeightedStep(Step):
             The vertices, each at most once in a step; all by default.
         weights : array_like, optional
             A number for each vertex; by default all keep theirs.
+        radii : array_like, optional
+            In place of weights: these are their squares.
         """
         self._check_open()
         owner = self._owner
-        positions, numbers, listed = _given(points, weights, ids, owner.ndim)
+        positions, numbers, listed = _given(points, weights, radii, ids, owner.ndim)
         try:
             with owner._staging as t:
-                owner._stage_both(t, positions, numbers, listed)
+                owner._stage_both(t, positions, numbers, listed, name_of(radii))
         except BaseException as error:
             if positions is not None and numbers is not None:
                 self._failure = error
             raise
 
-    def insert(self, points: Any, keys: Any = None, *, reuse_ids: bool = False, weights: Any = None) -> np.ndarray:
+    def insert(
+        self, points: Any, keys: Any = None, *, reuse_ids: bool = False, weights: Any = None, radii: Any = None
+    ) -> np.ndarray:
         """Inserts vertices.
 
         Parameters
@@ -84,6 +90,8 @@ class WeightedStep(Step):
             Whether vertices get the ids of removed ones, the lowest first, and only then new ones.
         weights : array_like, optional
             A number for each; 0 by default.
+        radii : array_like, optional
+            In place of weights: these are their squares.
 
         Returns
         -------
@@ -93,8 +101,8 @@ class WeightedStep(Step):
         self._check_open()
         owner = self._owner
         positions = point_rows("points", points, owner.ndim)
-        numbers = None if weights is None else numbers_of(weights)
-        expect("weights", numbers, len(positions), "points")
+        numbers = weights_of(weights, radii)
+        expect(name_of(radii), numbers, len(positions), "points")
         new = None
         try:
             new = super().insert(positions, keys, reuse_ids=reuse_ids)
@@ -122,8 +130,8 @@ class Regular(Weighing, Delaunay):
 
     It has what `Delaunay` has. Circumcentres and alpha masks are those of power spheres, whose squared radii may be
     negative. Voronoi cells are power cells, and natural neighbours theirs; what is near is so by distance, without
-    weights. `insert` and `relocate` take places alone: a vertex comes with weight 0, or keeps its weight. Segments,
-    refinement and what is in reach raise `Weighted`.
+    weights. `relocate` takes a place alone: the vertex keeps its weight. Segments, refinement and what is in reach raise
+    `Weighted`.
 
     Parameters
     ----------
@@ -131,6 +139,9 @@ class Regular(Weighing, Delaunay):
         A row of 2 or 3 coordinates for each point. Row i is vertex i.
     weights : array_like, optional
         A number for each point, finite, at most 1e114 in magnitude, maybe negative; by default all are 0.
+    radii : array_like, optional
+        In place of weights, the radius of a ball for each point, from 0 to 1e57: weights are their squares, each
+        rounded once.
     algorithm, threads, parts, coincidence, progress, cancel, keys
         As of `Delaunay`.
 
@@ -150,6 +161,7 @@ class Regular(Weighing, Delaunay):
         points: Any,
         weights: Any = None,
         *,
+        radii: Any = None,
         algorithm: str = "auto",
         threads: int = 0,
         parts: int = 0,
@@ -159,8 +171,8 @@ class Regular(Weighing, Delaunay):
         keys: Any = None,
     ) -> None:
         rows = point_rows("points", points)
-        numbers = None if weights is None else numbers_of(weights)
-        expect("weights", numbers, len(rows), "points")
+        numbers = weights_of(weights, radii)
+        expect(name_of(radii), numbers, len(rows), "points")
         given = given_keys("keys", keys, len(rows))
         callbacks = given_callbacks(progress, cancel)
         options = make_options(algorithm, (threads, parts), coincidence, "ignore", callbacks)
@@ -170,7 +182,7 @@ class Regular(Weighing, Delaunay):
         check(status, {"positions": "points"}, callbacks)
         self._start(handle, rows.shape[1], (threads, parts), coincidence, "ignore", callbacks)
 
-    def move(self, points: Any = None, ids: Any = None, *, weights: Any = None) -> Report:
+    def move(self, points: Any = None, ids: Any = None, *, weights: Any = None, radii: Any = None) -> Report:
         """Moves vertices, gives them other weights, or both, and makes that the next timestamp.
 
         The simplices, and who is hidden, are then as if they had been computed from nothing.
@@ -184,6 +196,8 @@ class Regular(Weighing, Delaunay):
             The vertices that change, each at most once; all by default.
         weights : array_like, optional
             A number for each vertex; by default all keep theirs.
+        radii : array_like, optional
+            In place of weights: these are their squares.
 
         Returns
         -------
@@ -203,31 +217,36 @@ class Regular(Weighing, Delaunay):
         """
         if self._trial is not None:
             with self.step() as step:
-                step.move(points, ids, weights=weights)
+                step.move(points, ids, weights=weights, radii=radii)
             return cast(Report, self._last_report)
-        positions, numbers, listed = _given(points, weights, ids, self.ndim)
+        positions, numbers, listed = _given(points, weights, radii, ids, self.ndim)
         report = Report()
         if listed is not None:
-            self._change_some(positions, numbers, listed, report)
+            self._change_some(positions, numbers, listed, report, name_of(radii))
             return report
         with self._changing as t:
             status = _commit_weighted(
                 t, address_if(positions), address_if(numbers), _length(positions, numbers), report
             )
             if status:
-                _check_length(t, positions, numbers)
+                _check_length(t, positions, numbers, name_of(radii))
                 self._check(status, positions="points")
             self._last_report = report
         return report
 
     def _change_some(
-        self, positions: Optional[np.ndarray], numbers: Optional[np.ndarray], listed: np.ndarray, report: Report
+        self,
+        positions: Optional[np.ndarray],
+        numbers: Optional[np.ndarray],
+        listed: np.ndarray,
+        report: Report,
+        what: str,
     ) -> None:
         try:
             with self._changing as t:
                 # Until it is committed.
                 self._must_discard = True
-                self._stage_both(t, positions, numbers, listed)
+                self._stage_both(t, positions, numbers, listed, what)
                 self._check(_commit_timestamp(t, report))
                 self._must_discard = False
                 self._last_report = report
@@ -237,12 +256,17 @@ class Regular(Weighing, Delaunay):
             raise
 
     def _stage_both(
-        self, t: int, positions: Optional[np.ndarray], numbers: Optional[np.ndarray], listed: Optional[np.ndarray]
+        self,
+        t: int,
+        positions: Optional[np.ndarray],
+        numbers: Optional[np.ndarray],
+        listed: Optional[np.ndarray],
+        what: str,
     ) -> None:
-        """Stages moves, weights, or both: of vertices in a list, or of all."""
+        """Stages moves, weights, which messages call so, or both: of vertices in a list, or of all."""
         names = {"positions": "points", "vertices": "ids", "vertex": "ids"}
         if listed is None:
-            _check_length(t, positions, numbers)
+            _check_length(t, positions, numbers, what)
         ids, count = address_if(listed), _length(positions, numbers)
         if numbers is not None:
             self._check(_stage_weights(t, ids, address(numbers), count), **names)
@@ -271,7 +295,54 @@ class Regular(Weighing, Delaunay):
         """
         return WeightedStep(self)
 
-    def add_points(self, points: Any, restart: bool = False, *, weights: Any = None) -> None:
+    def insert(
+        self, point: Any, key: Optional[int] = None, *, weight: Optional[float] = None, radius: Optional[float] = None
+    ) -> int:
+        """Inserts one vertex at once; the timestamp stays.
+
+        Parameters
+        ----------
+        point : array_like
+            Where it is.
+        key : int, optional
+            Its key, as those of `Delaunay`; its id by default. One with a weight as well is for `step`.
+        weight : float, optional
+            Its weight; 0 by default.
+        radius : float, optional
+            In place of the weight: that is its square.
+
+        Returns
+        -------
+        int
+            Its id: one above the highest ever given.
+
+        Examples
+        --------
+        Whom it hides, and whom it shows when it has gone, is in `changes`:
+
+        >>> import deldrift
+        >>> tri = deldrift.Regular([[0, 0], [4, 0], [4, 4], [0, 4], [1.5, 2]])
+        >>> taken = tri.changes()
+        >>> heavy = tri.insert([2, 2], weight=4)
+        >>> tri.changes().hidden
+        array([4], dtype=int32)
+        >>> tri.remove(heavy)
+        >>> tri.changes().shown
+        array([4], dtype=int32)
+        """
+        number = one_weight(weight, radius)
+        if number is None:
+            return super().insert(point, key)
+        if key is not None:
+            raise TypeError("a key and a weight are both given, which step().insert takes")
+        position = one_point("point", point, self.ndim)
+        with self._changing as t:
+            vertex = ctypes.c_uint32()
+            status = _insert_vertex_with_weight(t, address(position), number, vertex)
+            self._check(status, position="point!", weight="weight!")
+        return vertex.value
+
+    def add_points(self, points: Any, restart: bool = False, *, weights: Any = None, radii: Any = None) -> None:
         """Inserts points, whose ids follow those that have been given.
 
         Parameters
@@ -282,9 +353,11 @@ class Regular(Weighing, Delaunay):
             Without an effect: simplices depend on positions, weights and keys alone.
         weights : array_like, optional
             A number for each; 0 by default.
+        radii : array_like, optional
+            In place of weights: these are their squares.
         """
         with self.step() as step:
-            step.insert(points, weights=weights)
+            step.insert(points, weights=weights, radii=radii)
 
     @property
     def segments(self) -> Segments:
@@ -316,20 +389,20 @@ NO_SEGMENTS = Segments(fixed(np.empty(0, I32)), fixed(np.empty((0, 2), I32)), fi
 
 
 def _given(
-    points: Any, weights: Any, ids: Any, ndim: int
+    points: Any, weights: Any, radii: Any, ids: Any, ndim: int
 ) -> tuple[Optional[np.ndarray], Optional[np.ndarray], Optional[np.ndarray]]:
     """Positions, weights and ids of a change, of which at least one of the former has to be given."""
-    if points is None and weights is None:
+    if points is None and weights is None and radii is None:
         raise TypeError("neither points nor weights are given, and something has to change")
     positions = None if points is None else positions_of(points, ndim)
-    numbers = None if weights is None else numbers_of(weights)
+    numbers = weights_of(weights, radii)
     listed = None
     if positions is not None:
         listed = None if ids is None else ids_for(ids, positions)
-        expect("weights", numbers, len(positions), "rows of points")
+        expect(name_of(radii), numbers, len(positions), "rows of points")
     elif ids is not None:
         listed = listed_ids("ids", ids)
-        expect("weights", numbers, len(listed), "ids")
+        expect(name_of(radii), numbers, len(listed), "ids")
     return positions, numbers, listed
 
 
@@ -338,8 +411,8 @@ def _length(positions: Optional[np.ndarray], numbers: Optional[np.ndarray]) -> i
     return 0 if given is None else len(given)
 
 
-def _check_length(t: int, positions: Optional[np.ndarray], numbers: Optional[np.ndarray]) -> None:
+def _check_length(t: int, positions: Optional[np.ndarray], numbers: Optional[np.ndarray], what: str) -> None:
     """Whether there is a row, or a weight, for each id."""
     if positions is not None:
         check_rows(t, len(positions))
-    expect("weights", numbers, id_count(t), "ids")
+    expect(what, numbers, id_count(t), "ids")

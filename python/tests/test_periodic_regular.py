@@ -99,3 +99,28 @@ def test_bad_weights_change_nothing():
     with pytest.raises(deldrift.NotWeighted):
         deldrift.PeriodicRegular.frombytes(deldrift.PeriodicDelaunay(points, BOX).tobytes()).weights
     assert tri.tobytes() == before
+
+
+def test_points_come_with_weights_and_radii():
+    points, weights = made(4)
+    radii = np.sqrt(weights)
+    tri = deldrift.PeriodicRegular(points[:50], BOX, radii=radii[:50])
+    beside_copies(tri, points[:50], radii[:50] ** 2)
+    assert tri.insert(points[50:], radii=radii[50:]).tolist() == list(range(50, 60))
+    beside_copies(tri, points, radii**2)
+    tri.move(radii=radii[::-1])
+    beside_copies(tri, points, radii[::-1] ** 2)
+    tri.changes()
+    were_hidden = tri.hidden_by_weight.vertices
+    tri.insert([[0.5, 0.5]], weights=[10])
+    hidden = tri.hidden_by_weight.vertices
+    assert len(hidden) == 60 and tri.changes().hidden.tolist() == np.setdiff1d(hidden, were_hidden).tolist()
+    for error, call in (
+        (TypeError, lambda: tri.insert([[0, 0]], weights=[1], radii=[1])),
+        (deldrift.WrongCount, lambda: tri.insert([[0, 0]], radii=[1, 2])),
+        (deldrift.InvalidValue, lambda: tri.insert([[0, 0]], radii=[-1])),
+        (deldrift.NotFinite, lambda: tri.insert([[0, 0]], weights=[np.nan])),
+    ):
+        with pytest.raises(error):
+            call()
+    assert len(tri.weights) == 61

@@ -127,7 +127,15 @@ def test_vertices_come_and_go_with_weights(rng, ndim):
     tri.add_points(points[9:10])
     assert tri.weights[34:].tolist() == [8, 9, 0]
     check(tri)
-    assert tri.insert(points[3] + 1) == 37 and tri.weights[37] == 0
+    tri.changes()
+    was_hidden = {*tri.hidden_by_weight.vertices.tolist(), *tri.coplanar[:, 0].tolist()}
+    assert tri.insert(points[3] + 1, weight=25) == 37 and tri.weights[37] == 25
+    check(tri)
+    hidden = {*tri.hidden_by_weight.vertices.tolist(), *tri.coplanar[:, 0].tolist()}
+    changes = tri.changes()
+    assert {*changes.hidden.tolist()} == hidden - was_hidden and {*changes.shown.tolist()} == was_hidden - hidden
+    assert len(changes.hidden) > 0
+    tri.set_weight(37, 0)
     tri.set_weight(37, 6)
     tri.relocate(37, points[4])
     assert tri.weights[37] == 6
@@ -139,6 +147,31 @@ def test_vertices_come_and_go_with_weights(rng, ndim):
     np.testing.assert_array_equal(tri.weights, kept)
     assert ids[36] == -1 and len(kept) == 37
     check(tri)
+
+
+def test_radii_are_roots_of_weights(rng, ndim):
+    points, radii = rng.integers(0, 7, (40, ndim)).astype(float), rng.random(40) * 4
+    tri, squared = deldrift.Regular(points, radii=radii), deldrift.Regular(points, radii**2)
+    np.testing.assert_array_equal(tri.weights, radii * radii)
+    assert as_sets(tri.simplices) == as_sets(squared.simplices)
+    # Of single precision, whose squares are exact; of whole numbers.
+    for single in radii[::-1].astype(np.float32), np.arange(40):
+        tri.move(radii=single)
+        np.testing.assert_array_equal(tri.weights, single.astype(float) ** 2)
+        squared.move(weights=single.astype(float) ** 2)
+        assert as_sets(tri.simplices) == as_sets(squared.simplices)
+        np.testing.assert_array_equal(tri.hidden_by_weight.vertices, squared.hidden_by_weight.vertices)
+    tri.move(points[:2], ids=[3, 4], radii=[2, 3])
+    tri.set_weight(5, radius=1.5)
+    vertex = tri.insert(points[7] + 0.5, radius=0.25)
+    with tri.step() as step:
+        step.move(ids=[6], radii=[0.5])
+        step.insert(points[8:9] + 0.25, radii=[4])
+    tri.add_points(points[9:10] + 0.125, radii=[0])
+    assert tri.weights[[3, 4, 5, 6, vertex, vertex + 1, vertex + 2]].tolist() == [4, 9, 2.25, 0.25, 0.0625, 16, 0]
+    tri.validate()
+    single = deldrift.Regular(points.astype(np.float32), (radii**2).astype(np.float32))
+    np.testing.assert_array_equal(single.weights, (radii**2).astype(np.float32))
 
 
 def test_trials_take_weights_back(rng, ndim):

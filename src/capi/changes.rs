@@ -39,11 +39,12 @@ pub struct deldrift_changes {
     pub star_count: usize,
     /// These vertices, ascending. Some may have been removed.
     pub stars: *const u32,
-    /// Number of vertices that are hidden and were not: a vertex of lower id, or key, is at the same place now.
+    /// Number of vertices that are hidden and were not: a vertex of lower id, or key, is at the same place now, or
+    /// weights of others hide it. One that has been inserted and is hidden is among them.
     pub hidden_count: usize,
     /// These vertices, ascending.
     pub hidden: *const u32,
-    /// Number of vertices that were hidden and are not.
+    /// Number of vertices that were hidden, and are there and not hidden.
     pub shown_count: usize,
     /// These vertices, ascending.
     pub shown: *const u32,
@@ -76,6 +77,9 @@ impl<C> From<Changes<'_, C>> for deldrift_changes {
 /// Takes what has changed since the last call of this function, to *changes. It may have changed by commits or
 /// immediate calls. The first call lists all cells as created.
 ///
+/// Between two calls may be any number of commits and immediate calls. With a call before it and one after it, this is
+/// what one insertion, removal or new weight at once has hidden and shown.
+///
 /// A program that never calls this pays nothing for it. One that does pays in proportion to what has changed, and may
 /// call it as often or as rarely as it likes. It ends the lists of the call before. A view of the cells stays valid
 /// unless it is older than the last change. deldrift_cells takes constant time after it.
@@ -85,7 +89,8 @@ impl<C> From<Changes<'_, C>> for deldrift_changes {
 /// the lattice. From the first call on cells that stay keep their indices. A commit that builds anew may list their
 /// corners in another order.
 ///
-/// Cost: what has changed; of the first call n + m. Where the triangulation is periodic, always n + m.
+/// Cost: what has changed, and with weights a bit for each id; of the first call n + m. Where the triangulation is
+/// periodic, always n + m.
 ///
 /// Errors: DELDRIFT_OUT_OF_MEMORY; then nothing has been taken.
 #[unsafe(no_mangle)]

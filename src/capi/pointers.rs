@@ -213,6 +213,11 @@ impl<'a> Point<'a> {
         Ok(T::Point::at(*self.place(argument, t)?, 0.0))
     }
 
+    /// The point, which must be there, with this weight.
+    pub(super) fn with_weight<T: OfPoints>(self, weight: f64, t: &T) -> Result<T::Point, Failure> {
+        Ok(T::Point::at(*self.place("position", t)?, weight))
+    }
+
     /// Its coordinates, which must be there.
     #[inline(always)]
     pub(super) fn place<T: OfPoints>(
@@ -271,6 +276,15 @@ impl<'a> Points<'a> {
         let places = self.places::<T>()?.iter().enumerate();
         memory::collect(&mut points, places.map(|(k, &place)| T::Point::at(place, weight_of(k))))?;
         Ok(points)
+    }
+
+    /// The points, with these weights, or with 0 if there are none; `t` is the triangulation of the call.
+    pub(super) fn with_weights_of<T: OfPoints>(
+        self,
+        weights: Option<&[f64]>,
+        _t: &T,
+    ) -> Result<Vec<T::Point>, Failure> {
+        self.with_weights::<T>(weights)
     }
 
     /// The coordinates, one after the other.

@@ -4,7 +4,7 @@ use super::guard;
 use super::handle::{Changing, Reading, deldrift_triangulation, hand_out, in_weighted};
 use super::motion::deldrift_commit_report;
 use super::options::{GivenOptions, deldrift_options};
-use super::pointers::{Array, Buffer, Output, Points, fill_all, given, write_all};
+use super::pointers::{Array, Buffer, Output, Point, Points, fill_all, given, write_all};
 use super::status::{Failure, deldrift_status};
 use crate::delaunay::Moving;
 use crate::either::AnyWeighted;
@@ -189,6 +189,59 @@ pub unsafe extern "C" fn deldrift_commit_weighted(
         if let Some(report) = report {
             report.write(done.into());
         }
+        Ok(())
+    })
+}
+
+/// Stages the insertion of count vertices with weights, as deldrift_stage_insertions does of vertices of weight 0: all of them,
+/// or none if it fails. With keys as well it is deldrift_stage_insertions_with_keys, and then deldrift_stage_weights.
+///
+/// weights: count numbers, in the order of positions, finite and at most 1e114 in magnitude; NULL: all are 0. The others are
+/// as in deldrift_stage_insertions.
+///
+/// Cost: count, in the mean over many calls.
+///
+/// Errors: DELDRIFT_NOT_WEIGHTED, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_stage_insertions_with_weights(
+    t: *mut deldrift_triangulation,
+    positions: *const f64,
+    weights: *const f64,
+    count: usize,
+    first_vertex: *mut u32,
+) -> deldrift_status {
+    given!(t: Changing, positions[count]: Points, weights[count]: Array, first_vertex: Output);
+    t.change_any(|t| {
+        let first_vertex = first_vertex.place()?;
+        let first = in_weighted!(t => t.stage_insertions(&positions.with_weights_of(weights.if_any()?, t)?))?;
+        first_vertex.write(first.get());
+        Ok(())
+    })
+}
+
+/// Inserts a vertex with a weight at once, as deldrift_insert_vertex does one of weight 0. deldrift_take_changes, called
+/// before and after, tells whom it has hidden; it may be hidden itself.
+///
+/// out_vertex: receives its id, which is one above the highest ever given, or left by the latest deldrift_compact.
+///
+/// Cost: that of deldrift_insert_vertex.
+///
+/// Errors: DELDRIFT_NOT_WEIGHTED, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it),
+/// DELDRIFT_STAGED_VERTEX (if t is periodic and insertions are staged, which have the next ids),
+/// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_insert_vertex_with_weight(
+    t: *mut deldrift_triangulation,
+    position: *const f64,
+    weight: f64,
+    out_vertex: *mut u32,
+) -> deldrift_status {
+    given!(t: Changing, position: Point, out_vertex: Output);
+    t.change_any(|t| {
+        let out_vertex = out_vertex.place()?;
+        let inserted = in_weighted!(t => t.insert_vertex(&position.with_weight(weight, t)?))?;
+        out_vertex.write(inserted.get());
         Ok(())
     })
 }

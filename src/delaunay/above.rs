@@ -17,12 +17,14 @@
 //! Invariants: a live site has a cell if it is shown, else [`Slot::NONE`]; after `settle` each hidden one is in the list of one live,
 //! finite cell that has its place.
 //!
+//! A change knows which vertices it has hidden and shown, as long as they are few ([`turned`](Delaunay::turned)).
+//!
 //! Cost: a walk of few steps for each site that was loosened; 20 bytes a site and 4 a cell, where there are weights.
 
-use super::{Delaunay, Geometry};
+use super::{Delaunay, Geometry, IndexSet};
 use crate::complex::Row;
 use crate::error::Result;
-use crate::ids::{SiteId, Slot};
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 
 /// Where a hidden site is listed.
@@ -36,6 +38,12 @@ struct Link {
     /// Its index among all hidden ones, less than [`LOOSE`]; that added if it is loose.
     index: u32,
 }
+
+/// How many vertices a change may hide and show so that it knows them.
+const MOST_TURNED: usize = 1024;
+
+/// How many hidden sites are looked at to find out whether one is alone at its place.
+const MOST_LOOKED_AT: usize = 256;
 
 /// Marks indices of sites that are loose. There are fewer sites than this.
 const LOOSE: u32 = 1 << 31;
@@ -61,12 +69,41 @@ pub(super) struct Above {
     all: Vec<SiteId>,
     /// Those that the last insertion has hidden, and a cell that each had before.
     swallowed: Vec<(SiteId, Slot)>,
+    turned: Turned,
+}
+
+/// Vertices that have been hidden, shown, or taken out hidden since a change began, some of them again and again.
+#[derive(Debug, Default)]
+struct Turned {
+    vertices: Vec<VertexId>,
+    /// Whether there are no others.
+    are_all: bool,
+}
+
+impl Turned {
+    /// A change begins.
+    fn begin(&mut self) -> Result<()> {
+        self.vertices.clear();
+        self.are_all = true;
+        if self.vertices.capacity() < MOST_TURNED {
+            memory::reserve_exact(&mut self.vertices, MOST_TURNED)?;
+        }
+        Ok(())
+    }
+
+    fn note(&mut self, vertex: VertexId) {
+        if self.vertices.len() < MOST_TURNED.min(self.vertices.capacity()) {
+            self.vertices.push(vertex);
+        } else {
+            self.are_all = false;
+        }
+    }
 }
 
 impl Default for Above {
     fn default() -> Self {
         let (links, first, all) = (Vec::new(), Vec::new(), Vec::new());
-        Above { links, first, loose: SiteId::NONE, all, swallowed: Vec::new() }
+        Above { links, first, loose: SiteId::NONE, all, swallowed: Vec::new(), turned: Turned::default() }
     }
 }
 
@@ -92,6 +129,7 @@ impl Above {
             + memory::bytes_of(&self.first)
             + memory::bytes_of(&self.all)
             + memory::bytes_of(&self.swallowed)
+            + memory::bytes_of(&self.turned.vertices)
     }
 
     /// A copy, without scratch memory.
@@ -102,6 +140,7 @@ impl Above {
             loose: self.loose,
             all: memory::copy_with_room(&self.all, self.links.len())?,
             swallowed: Vec::new(),
+            turned: Turned::default(),
         })
     }
 
@@ -276,6 +315,7 @@ impl<G: Geometry> Delaunay<G> {
             let swallowed = std::mem::take(&mut self.above.swallowed);
             for &(s, _) in &swallowed {
                 self.above.enter(s, None);
+                self.note_turned(s);
             }
             self.above.swallowed = swallowed;
         }
@@ -284,12 +324,52 @@ impl<G: Geometry> Delaunay<G> {
     /// Lists a site that an insertion has found to be hidden. There is [room](Self::make_room_to_hide).
     pub(super) fn hide(&mut self, s: SiteId, cell: Slot) {
         self.above.enter(s, Some(cell));
+        self.note_turned(s);
+    }
+
+    /// A site has been hidden or shown, or is about to be taken out.
+    pub(super) fn note_turned(&mut self, s: SiteId) {
+        self.above.turned.note(self.sites[s].id);
+    }
+
+    /// A change begins that will know the vertices which it hides and shows.
+    pub(super) fn begin_turning(&mut self) -> Result<()> {
+        if G::HAS_WEIGHTS { self.above.turned.begin() } else { Ok(()) }
+    }
+
+    /// The vertices that the last change has hidden, shown, or taken out hidden, some of them again and again; none if they are too many
+    /// to be known.
+    pub(crate) fn turned(&self) -> Option<&[VertexId]> {
+        let Turned { vertices, are_all } = &self.above.turned;
+        are_all.then_some(vertices.as_slice())
+    }
+
+    /// Whether no other site is at the place of a live one, while there are cells and none is loose; `false` as well where that would
+    /// take long to find out.
+    pub(crate) fn is_alone(&mut self, s: SiteId) -> Result<bool> {
+        let place = self.site(s).point;
+        let mut cells = IndexSet::new();
+        if self.is_hidden(s) {
+            let below = self.cell_below(s);
+            if self.corner_at(below, &place).is_some() {
+                return Ok(false);
+            }
+            self.list_cells_at(&place, below, &mut cells)?;
+        } else {
+            self.gather_star(s)?;
+        }
+        let around = self.star.iter().map(|&(cell, _)| cell).filter(|_| cells.as_slice().is_empty());
+        let mut there =
+            around.chain(cells.as_slice().iter().copied()).flat_map(|cell| self.sites_above(cell));
+        let is_other = |other: SiteId| other != s && self.site(other).point.as_ref() == place.as_ref();
+        Ok(!there.by_ref().take(MOST_LOOKED_AT).any(is_other) && there.next().is_none())
     }
 
     /// Takes a hidden site out of its list, if it is in one.
     pub(super) fn forget_hidden(&mut self, s: SiteId) {
         if self.above.has(s) {
             self.above.take_out(s);
+            self.note_turned(s);
         }
     }
 
@@ -350,6 +430,7 @@ impl<G: Geometry> Delaunay<G> {
             self.above.first.fill(SiteId::NONE);
             self.above.loose = SiteId::NONE;
             self.above.all.clear();
+            self.above.turned.are_all = false;
         }
     }
 

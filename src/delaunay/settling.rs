@@ -27,6 +27,12 @@ impl<G: Geometry> Delaunay<G> {
         Ok(())
     }
 
+    /// How many sites are loose.
+    #[cfg(test)]
+    pub(crate) fn n_loose(&self) -> usize {
+        self.hidden_sites().filter(|&s| self.above.link(s).1).count()
+    }
+
     /// Finds the cell at the place of each loose site, and inserts the sites that are below it, which `shown` is told. After an error those
     /// that are left are loose still.
     pub fn settle(&mut self, mut shown: impl FnMut(SiteId) -> Result<()>) -> Result<()> {
@@ -87,6 +93,7 @@ impl<G: Geometry> Delaunay<G> {
     fn insert_from(&mut self, cavity: &mut Cavity<G>, cell: Slot, s: SiteId) -> Result<()> {
         let made = cavity.scratch.insert::<false>(self, cell, s)?;
         self.above.take_out(s);
+        self.note_turned(s);
         self.recent = made;
         self.sites[s].cell = made;
         self.record(cavity.scratch.made());

@@ -112,6 +112,7 @@ impl<G: Geometry> Delaunay<G> {
     pub(crate) fn begin(&mut self) -> Result<()> {
         debug_assert!(!self.log.is_on);
         self.make_room_to_hide()?;
+        self.begin_turning()?;
         self.complex.begin_record()?;
         self.log.is_on = true;
         self.pace.begin();

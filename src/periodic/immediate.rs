@@ -80,7 +80,11 @@ fn of_one(mut error: Error) -> Error {
     | Error::NotFinite { argument, .. }
     | Error::OutOfRange { argument, .. } = &mut error
     {
-        *argument = if *argument == "positions" { "position" } else { "vertex" };
+        *argument = match *argument {
+            "positions" => "position",
+            "weights" => "weight",
+            _ => "vertex",
+        };
     }
     error
 }

@@ -87,10 +87,19 @@ impl History<'_> {
             }
             2 => {
                 let (place, weight) = self.weighed(d);
-                let mut id = 0;
-                self.is_ok(c!(deldrift_stage_insertions(t, place.as_ptr(), 1, &mut id)));
-                self.is_ok(c!(deldrift_stage_weights(t, &id, &weight, 1)));
-                self.is_ok(c!(deldrift_commit_timestamp(t, null_mut())));
+                let (mut id, at) = (0, place.as_ptr());
+                match self.s.below(3) {
+                    0 => {
+                        self.is_ok(c!(deldrift_stage_insertions(t, at, 1, &mut id)));
+                        self.is_ok(c!(deldrift_stage_weights(t, &id, &weight, 1)));
+                        self.is_ok(c!(deldrift_commit_timestamp(t, null_mut())));
+                    }
+                    1 => {
+                        self.is_ok(c!(deldrift_stage_insertions_with_weights(t, at, &weight, 1, &mut id)));
+                        self.is_ok(c!(deldrift_commit_timestamp(t, null_mut())));
+                    }
+                    _ => self.is_ok(c!(deldrift_insert_vertex_with_weight(t, at, weight, &mut id))),
+                }
                 assert_eq!(id as usize, n);
                 all.push(Some((place, weight)));
             }

@@ -8,6 +8,7 @@ use crate::motion::calls::editing::Edited;
 use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Moves;
+use crate::motion::state::mesh::Told;
 use crate::motion::state::passings::Steps;
 use crate::motion::state::segments::Aim;
 use crate::motion::triangulation::MovingTriangulation;
@@ -50,6 +51,7 @@ impl<G: Moving> MovingTriangulation<G> {
 
     /// Makes these moves, and the staged edits, the next timestamp.
     fn commit(&mut self, moves: &mut Moves<'_, G>) -> Result<CommitReport> {
+        self.mesh.know_hidden()?;
         let before = self.mesh.evaluations();
         let changed = self.parts_to_change(moves);
         let mut report = self.reach(moves)?;
@@ -73,24 +75,28 @@ impl<G: Moving> MovingTriangulation<G> {
     }
 
     /// Begins a change and brings all to where these moves, and the staged edits, have it; then nothing can fail. On an
-    /// error the change has been undone.
+    /// error the change has been undone. Who is hidden [has been found out](crate::motion::state::mesh::Mesh::know_hidden).
     pub(in crate::motion) fn reach(&mut self, moves: &mut Moves<'_, G>) -> Result<CommitReport> {
         let mut report = CommitReport::default();
-        let hidden = self.hidden_now()?;
+        let mut told = Told::Nothing;
         let advanced = if self.rests_beside_segments(moves) {
             self.mesh.begin(Aim::Rest)?;
             self.mesh.reject_coincidence(self.options.coincidence)
         } else {
             self.mesh.begin(Aim::Commit)?;
             self.edit_and_advance(moves, &mut report)
-                .and_then(|()| self.settle_hidden(moves.count() > 0, &mut report))
-                .and_then(|()| self.tell_hidden(&hidden, &mut report))
-                .and_then(|()| self.mesh.enforce_segments())
+                .and_then(|()| self.loosen_moved(moves))
+                .and_then(|()| self.settle_hidden(&mut report))
+                .and_then(|()| {
+                    told = self.tell_hidden(moves, &mut report)?;
+                    self.mesh.enforce_segments()
+                })
         };
         if let Err(error) = advanced.and_then(|()| self.mesh.views.prepare(&self.mesh.kernel)) {
             self.undo();
             return Err(error);
         }
+        self.mesh.follow_told(told);
         Ok(report)
     }
 
@@ -238,7 +244,7 @@ for_algorithms!(commit_by);
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::delaunay::{Level, Plane, Space};
+    use crate::delaunay::{Level, Plane, PowerPlane, PowerSpace, Space};
     use crate::ids::VertexId;
     use crate::motion::options::Options;
     use crate::motion::state::goals::Movers;
@@ -267,6 +273,65 @@ mod tests {
                 assert_eq!((t.timestamp(), t.validate(Level::Delaunay)), (0, Ok(())), "{algorithm:?}");
             }
         }
+    }
+
+    /// Of many hidden vertices those alone are looked at that a vertex which moves, changes its weight, or comes may show; and what is told
+    /// follows from these.
+    fn few_hidden_vertices_are_looked_at<G: Moving>() {
+        let rng = &mut Rng::new(3);
+        let n = 3_000;
+        let mut points = vec![G::Point::default(); n];
+        for p in &mut points {
+            (0..G::D).for_each(|axis| p[axis] = rng.unit());
+            p[G::D] = 20.0 * (n as f64).powf(-2.0 / G::D as f64) * rng.unit();
+        }
+        for algorithm in [Algorithm::Auto, Algorithm::PlacementFlips, Algorithm::Tolerance] {
+            let options = Options { algorithm, ..Options::default() };
+            let mut t = MovingTriangulation::<G>::new(&points, options).expect("room");
+            assert!(t.mesh.kernel.n_hidden() > n / 2);
+            t.commit_timestamp().expect("room");
+            for k in 0..40 {
+                let (v, other) = (VertexId::at(rng.below(n)), points[rng.below(n)]);
+                let mut goal = points[v];
+                if k % 2 == 0 {
+                    goal[0] += 1e-2 * rng.unit();
+                } else {
+                    goal[G::D] = other[G::D];
+                }
+                if k % 4 == 3 {
+                    let mut coming = other;
+                    coming[0] *= 1.01;
+                    t.stage_insertions(&[coming]).expect("room");
+                }
+                t.move_vertices(&[v], &[goal]).expect("a good place");
+                let mut staging = std::mem::take(&mut t.staging);
+                let moves = &mut staging.moves(t.mesh.n_present);
+                let mut report = CommitReport::default();
+                t.mesh.know_hidden().expect("room");
+                t.mesh.begin(Aim::Commit).expect("room");
+                t.edit_and_advance(moves, &mut report).expect("room");
+                t.loosen_moved(moves).expect("room");
+                let n_loose = t.mesh.kernel.n_loose();
+                assert!(n_loose < n / 4, "{algorithm:?}: {n_loose}");
+                t.settle_hidden(&mut report).expect("room");
+                let told = t.tell_hidden(moves, &mut report).expect("room");
+                assert!(matches!(told, Told::Turned(_)), "{algorithm:?}");
+                t.undo();
+                t.staging = staging;
+                t.commit_timestamp().expect("room");
+                assert_eq!(t.validate(Level::Delaunay), Ok(()), "{algorithm:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn few_hidden_vertices_are_looked_at_in_the_plane() {
+        few_hidden_vertices_are_looked_at::<PowerPlane>();
+    }
+
+    #[test]
+    fn few_hidden_vertices_are_looked_at_in_space() {
+        few_hidden_vertices_are_looked_at::<PowerSpace>();
     }
 
     #[test]

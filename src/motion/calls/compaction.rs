@@ -78,6 +78,7 @@ impl<G: Moving> MovingTriangulation<G> {
         (self.mesh.site_of, self.staging, self.edits, self.mesh.views) = (site_of, staging, edits, views);
         let stride = kernel.mean_stride();
         self.adopt(kernel, hidden, stride);
+        self.mesh.known = None;
         self.mesh.find_sites();
         (self.regions, self.repair) = (Regions::default(), None);
         (self.mesh.transaction, self.taken) = (Transaction::default(), None);

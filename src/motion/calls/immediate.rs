@@ -60,10 +60,11 @@ impl<G: Moving> MovingTriangulation<G> {
         let relocate = |t: &mut Self| {
             t.mesh.reject_occupied(vertex, &q, t.options.coincidence)?;
             t.relocate_filtered(vertex, &q, &mut report)?;
-            t.settle_hidden(false, &mut report)?;
+            t.settle_hidden(&mut report)?;
             t.reject_shared_places()
         };
         self.transact(relocate, |t| t.mesh.kernel.set_point(t.mesh.site_of[vertex], old))?;
+        self.mesh.follow_turned((old.as_ref() != q.as_ref()).then_some(vertex));
         self.enter_evaluations(&mut report, before);
         self.count(report);
         if self.options.algorithm == Algorithm::Auto && self.mesh.kernel.has_cells() {
@@ -113,6 +114,9 @@ impl<G: Moving> MovingTriangulation<G> {
         self.staging.list()?;
         self.staging.make_room(1)?;
         memory::reserve(&mut self.mesh.site_of, 1)?;
+        if let Some(known) = &mut self.mesh.known {
+            known.make_room(id.index() + 1)?;
+        }
         let had_keys = self.has_keys();
         self.give_keys(key, &[id], id.index() + 1)?;
         self.mesh.site_of.push(SiteId::NONE);
@@ -121,7 +125,7 @@ impl<G: Moving> MovingTriangulation<G> {
         let insert = |t: &mut Self| {
             t.mesh.reject_occupied(id, &q, t.options.coincidence)?;
             t.insert_at(id, &q, &mut report)?;
-            t.settle_hidden(false, &mut report)?;
+            t.settle_hidden(&mut report)?;
             t.reject_shared_places()
         };
         let inserted = self.transact(insert, |_| {});
@@ -135,6 +139,7 @@ impl<G: Moving> MovingTriangulation<G> {
             return Err(error);
         }
         self.mesh.n_present += 1;
+        self.mesh.follow_turned(Some(id));
         self.staging.grow(self.mesh.site_of.len());
         // The keys of staged insertions are forgotten with them.
         let has_keys = self.edits.had_keys() || matches!(key, Coming::Keys(_));
@@ -186,9 +191,10 @@ impl<G: Moving> MovingTriangulation<G> {
         let mut report = CommitReport { removed: 1, ..CommitReport::default() };
         let remove = |t: &mut Self| {
             t.with_regions(&mut report, |t, _| t.remove_present(vertex))?;
-            t.settle_hidden(false, &mut report)
+            t.settle_hidden(&mut report)
         };
         self.transact(remove, |_| {})?;
+        self.mesh.follow_turned(Some(vertex));
         self.staging.unstage(vertex);
         self.edits.forget_removal(vertex);
         self.enter_evaluations(&mut report, before);

@@ -84,6 +84,7 @@ impl<G: Moving> MovingTriangulation<G> {
         self.regions.release();
         let Some(savepoint) = self.mesh.withdraw_rounds(are_all) else { return };
         self.mesh.kernel.settle_undone();
+        self.mesh.known = None;
         self.auto.note_withdrawn(self.mesh.constants);
         self.regions.invalidate();
         self.statistics = savepoint.statistics;
@@ -119,6 +120,7 @@ impl<G: Moving> MovingTriangulation<G> {
     /// Makes the moves and the staged edits as a round.
     fn make_round(&mut self, moves: &mut Moves<'_, G>) -> Result<CommitReport> {
         self.mesh.make_room_to_withhold(self.edits.removals().len())?;
+        self.mesh.know_hidden()?;
         let before = self.mesh.evaluations();
         let changed = self.parts_to_change(moves);
         let mut report = self.reach(moves)?;

@@ -4,7 +4,6 @@ use crate::delaunay::Moving;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
-use crate::motion::options::CoincidencePolicy;
 use crate::motion::state::cells::OwnedCells;
 use crate::motion::state::hidden_ids::HiddenIds;
 use crate::motion::state::taken::{Changes, Taken};
@@ -84,7 +83,8 @@ impl<G: Moving> MovingTriangulation<G> {
     /// weights.
     fn list_visibilities(&mut self, taken: &mut Taken<G::Vertices>) -> Result<HiddenIds> {
         if G::HAS_WEIGHTS {
-            let hidden = self.mesh.hidden_in(&self.mesh.kernel, CoincidencePolicy::Merge)?.ids;
+            self.mesh.know_hidden_ids()?;
+            let hidden = self.mesh.known.as_ref().expect("they have been found out").ids().copied()?;
             let differences = || hidden.differences(&self.mesh.views.visibilities().hidden_when_taken);
             taken.reserve_vertices(differences().count())?;
             for (vertex, is_hidden) in differences().filter(|&(v, _)| self.mesh.is_present(v)) {

@@ -143,8 +143,13 @@ impl<G: Moving> MovingTriangulation<G> {
     pub fn statistics_of_now(&self) -> Result<CommitReport> {
         let mut statistics = self.statistics;
         if G::HAS_WEIGHTS {
-            let now = self.mesh.hidden_in(&self.mesh.kernel, CoincidencePolicy::Merge)?;
-            (statistics.coincident, statistics.hidden_by_weight) = (now.by_place, now.by_weight);
+            (statistics.coincident, statistics.hidden_by_weight) = match self.mesh.known_counts() {
+                Some(known) => known,
+                None => {
+                    let now = self.mesh.hidden_in(&self.mesh.kernel, CoincidencePolicy::Merge)?;
+                    (now.by_place, now.by_weight)
+                }
+            };
         }
         Ok(statistics)
     }

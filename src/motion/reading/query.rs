@@ -256,6 +256,9 @@ impl<G: Moving> MovingTriangulation<G> {
                 self.mesh.hidden.count()
             )));
         }
+        if !self.mesh.knows_who_is_hidden() {
+            return violation(memory::text(format_args!("others are hidden than is known")));
+        }
         Ok(())
     }
 

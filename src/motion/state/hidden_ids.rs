@@ -17,6 +17,31 @@ impl HiddenIds {
         Ok(HiddenIds(words))
     }
 
+    /// Makes room for the vertices of so many ids.
+    pub(in crate::motion) fn make_room(&mut self, n_ids: usize) -> Result<()> {
+        memory::lengthen(&mut self.0, n_ids.div_ceil(64), 0_u64)
+    }
+
+    /// Enters a vertex, or takes it out; `false` if there is no room for it.
+    pub(in crate::motion) fn set(&mut self, vertex: VertexId, is_in: bool) -> bool {
+        let bit = 1_u64 << (vertex.index() % 64);
+        match self.0.get_mut(vertex.index() / 64) {
+            Some(word) => *word = if is_in { *word | bit } else { *word & !bit },
+            None => return !is_in,
+        }
+        true
+    }
+
+    /// Whether a vertex is in the set.
+    pub(in crate::motion) fn has(&self, vertex: VertexId) -> bool {
+        self.word(vertex.index() / 64) >> (vertex.index() % 64) & 1 == 1
+    }
+
+    /// An id above all that are in the set.
+    pub(in crate::motion) fn n_ids(&self) -> usize {
+        64 * self.0.len()
+    }
+
     fn word(&self, k: usize) -> u64 {
         self.0.get(k).copied().unwrap_or(0)
     }
@@ -68,5 +93,18 @@ mod tests {
             (0..131).map(|v| if v == 64 { VertexId::NONE } else { VertexId::new(v / 2) }).collect();
         let renumbered = before.renumbered(&ids, 66).expect("there is room");
         assert_eq!(renumbered.differences(&set(&[0, 31, 65], 66)).count(), 0);
+    }
+
+    #[test]
+    fn vertices_are_entered_and_taken_out_where_there_is_room() {
+        let mut set = HiddenIds::default();
+        let [low, high] = [3, 70].map(VertexId::new);
+        assert!(!set.set(low, true) && set.set(high, false) && !set.has(low));
+        set.make_room(65).expect("there is room");
+        assert!(
+            set.set(low, true) && set.set(high, true) && set.has(low) && set.has(high) && set.n_ids() == 128
+        );
+        set.make_room(1).expect("there is room");
+        assert!(set.set(low, false) && !set.has(low) && set.has(high) && !set.has(VertexId::new(500)));
     }
 }

@@ -161,19 +161,11 @@ impl<G: Moving> MovingTriangulation<G> {
         done
     }
 
-    /// Shows those of the vertices that weights hide which are below the cells now; the regions that are kept follow. All of them are
-    /// looked at if others `have_moved` than have been placed alone.
-    pub(in crate::motion) fn settle_hidden(
-        &mut self,
-        have_moved: bool,
-        report: &mut CommitReport,
-    ) -> Result<()> {
+    /// Shows those of the vertices that weights hide, and that are loose, which are below the cells now; the regions that are kept follow.
+    pub(in crate::motion) fn settle_hidden(&mut self, report: &mut CommitReport) -> Result<()> {
         // A new kernel has been built with all of them.
         if !G::HAS_WEIGHTS || self.mesh.transaction.has_rebuilt() {
             return Ok(());
-        }
-        if have_moved {
-            self.mesh.kernel.loosen_all();
         }
         if self.mesh.kernel.has_loose() {
             self.with_regions(report, |t, _| {

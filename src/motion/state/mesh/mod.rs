@@ -7,6 +7,7 @@
 mod changing;
 mod coincidence;
 mod hidden_by_weight;
+mod known;
 mod rounds;
 mod standing;
 
@@ -27,6 +28,7 @@ use crate::motion::state::views::Views;
 use crate::predicates::exact_calls;
 
 pub(in crate::motion) use hidden_by_weight::HiddenNow;
+pub(in crate::motion) use known::{KnownHidden, Told};
 pub(in crate::motion) use standing::Standing;
 
 /// Before the tolerances of all bi-cells are computed, cells are sorted again if this many times as many as there are
@@ -49,6 +51,8 @@ pub(in crate::motion) struct Mesh<G: Moving> {
     pub(in crate::motion) segments: Option<Box<Segments<G>>>,
     /// Who is hidden, of vertices with weights, in a new kernel that is in place: found before, as nothing may fail after.
     pub(in crate::motion) hidden_in_new: Option<HiddenNow>,
+    /// Who is hidden, of vertices with weights, as long as that is known.
+    pub(in crate::motion) known: Option<KnownHidden>,
     /// What the latest call has found to be in their way.
     pub(in crate::motion) last_found: LastFound,
     /// Changes that can still all be taken back, while a timestamp is being prepared.
@@ -81,6 +85,7 @@ impl<G: Moving> Mesh<G> {
             views: Views::default(),
             segments: None,
             hidden_in_new: None,
+            known: None,
             last_found: LastFound::default(),
             rounds: None,
             constants: TABLE.of::<G>(),
@@ -104,6 +109,7 @@ impl<G: Moving> Mesh<G> {
                 None => None,
             },
             hidden_in_new: None,
+            known: None,
             last_found: LastFound::default(),
             rounds: None,
             constants: self.constants,
@@ -179,6 +185,7 @@ impl<G: Moving> Mesh<G> {
             + self.views.memory_bytes()
             + self.segments.as_ref().map_or(0, |segments| segments.memory_bytes())
             + self.last_found.memory_bytes()
+            + self.known.as_ref().map_or(0, KnownHidden::memory_bytes)
             + memory::bytes_of_made(&self.rounds, Rounds::memory_bytes)
     }
 }
