@@ -60,7 +60,8 @@ extern "C" {
 /// they do span which says who is hidden by weight.
 ///
 /// Calls that take positions take coordinates alone, as in any triangulation: a vertex that is moved keeps its weight, and one
-/// that is inserted has weight 0 until it is given another one. Circumcentres, and masks by circumradius, are those of
+/// that is inserted has weight 0 until it is given another one, unless it comes by deldrift_insert_vertex_with_weight or
+/// deldrift_stage_insertions_with_weights. Circumcentres, and masks by circumradius, are those of
 /// power spheres, of which the squared radius may be negative; Voronoi cells are power cells, and that of a hidden vertex is
 /// empty. deldrift_nearest_vertex is the one of least power distance, and natural neighbours are those of power cells. All
 /// else that is near is so by distance, hidden vertices included, and deldrift_conflicts are those of a vertex of weight 0.
