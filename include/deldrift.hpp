@@ -274,7 +274,9 @@ public:
         require_ok(deldrift_stage_weights(native(), vertices.data(), weights.data(), vertices.size()));
     }
     void stage_weights(const Radii &radii) { stage_weights(radii.squares); }
-    void stage_weights(span<const std::uint32_t> vertices, const Radii &radii) { stage_weights(vertices, radii.squares); }
+    void stage_weights(span<const std::uint32_t> vertices, const Radii &radii) {
+        stage_weights(vertices, radii.squares);
+    }
     // Those of all ids, as for commit_positions(). None of positions, or of weights: these stay.
     //     const deldrift_commit_report report = t.commit_weighted({}, weights);
     //     if (report.newly_hidden > 0) shorten(step);
@@ -324,7 +326,8 @@ public:
         const std::size_t count = count_of("positions", numbers);
         expect("weights", weights.numbers.size(), count);
         std::uint32_t first;
-        require_ok(deldrift_stage_insertions_with_weights(native(), numbers.data(), weights.numbers.data(), count, &first));
+        const double *given = weights.numbers.data();
+        require_ok(deldrift_stage_insertions_with_weights(native(), numbers.data(), given, count, &first));
         return first;
     }
     // For the next commit, under the ids of removed vertices, the lowest first, and then new ones; returns them. keys: one

@@ -304,7 +304,7 @@ static size_t live(uint32_t d, deldrift_algorithm algorithm, int kind, uint64_t 
                 before = m;
                 OK(deldrift_commit_timestamp(t, &report));
                 break;
-            case 6: { // Gone at once, and others in its place, with weights, or of weight 0; lists tell after each whom it hides and shows.
+            case 6: { // Gone at once, and others come, with a weight and without; lists tell after each whom it hides and shows.
                 if (m.n_ids + 2 > MOST || !m.present[one]) continue;
                 check_changes(t, &m, &taken, &was);
                 OK(deldrift_remove_vertex(t, one));

@@ -164,7 +164,8 @@ static void takes_radii() {
     const std::vector<double> radii{0, 1, 2, 3, 4, 0.1};
     std::vector<double> squares;
     for (const double r : radii) squares.push_back(r * r);
-    Triangulation t(2, places, Radii(radii)), keyed(2, places, Radii(radii), std::vector<std::uint64_t>{6, 5, 4, 3, 2, 1});
+    const std::vector<std::uint64_t> keys{6, 5, 4, 3, 2, 1};
+    Triangulation t(2, places, Radii(radii)), keyed(2, places, Radii(radii), keys);
     CHECK(t.weights() == squares && keyed.weights() == squares && t.hidden_by_weight().size() == 1);
     t.commit_weighted({}, Radii({1, 1, 1, 1, 1, 1}));
     CHECK(t.hidden_by_weight().size() == 0);
@@ -181,7 +182,8 @@ static void takes_radii() {
     CHECK(heavy == 7 && !hidden.empty() && changes.shown_count == 0);
     t.remove_vertex(heavy);
     const deldrift_changes after = t.take_changes();
-    CHECK(after.hidden_count == 0 && std::vector<std::uint32_t>(after.shown, after.shown + after.shown_count) == hidden);
+    const std::vector<std::uint32_t> shown(after.shown, after.shown + after.shown_count);
+    CHECK(after.hidden_count == 0 && shown == hidden);
     CHECK_THROWS(Radii({1, -2}), DELDRIFT_INVALID_VALUE, "radii[1] is -2");
     CHECK_THROWS(Radii({NAN}), DELDRIFT_INVALID_VALUE, "radii[0] is nan");
     CHECK_THROWS(t.commit_weighted({}, Radii({1, 2})), DELDRIFT_WRONG_COUNT, "2");

@@ -332,11 +332,12 @@ deldrift_status deldrift_statistics(const deldrift_triangulation *t,
 ///
 /// While a timestamp is prepared, these calls give DELDRIFT_PREPARED and do nothing: deldrift_commit_timestamp,
 /// deldrift_commit_positions, deldrift_commit_weighted, deldrift_set_weight, deldrift_insert_vertex,
-/// deldrift_insert_vertex_with_key, deldrift_insert_vertex_with_weight, deldrift_remove_vertex, deldrift_relocate_vertex,
-/// deldrift_compact, deldrift_refine, deldrift_coarsen, deldrift_take_changes, deldrift_transfer_cells, deldrift_clone,
-/// deldrift_save and deldrift_save_file. All others may be made, those that stage or check what is staged included.
-/// Changes are of published states: between two calls of deldrift_take_changes, rounds count as commits once they are
-/// published. In deldrift_cells a cell that was there before has the index that it had, as after commits.
+/// deldrift_insert_vertex_with_key, deldrift_insert_vertex_with_weight, deldrift_remove_vertex,
+/// deldrift_relocate_vertex, deldrift_compact, deldrift_refine, deldrift_coarsen, deldrift_take_changes,
+/// deldrift_transfer_cells, deldrift_clone, deldrift_save and deldrift_save_file. All others may be made, those that
+/// stage or check what is staged included. Changes are of published states: between two calls of deldrift_take_changes,
+/// rounds count as commits once they are published. In deldrift_cells a cell that was there before has the index that
+/// it had, as after commits.
 ///
 /// Passings are looked at round by round, each on the way from where the round before has left the vertices.
 ///

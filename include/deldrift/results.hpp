@@ -56,14 +56,14 @@ struct Weights {
     span<const double> numbers;
 };
 
-// The radius of a ball for each vertex: the weights are their squares, each rounded once. In place of Weights, for as long as
-// this lives.
+// The radius of a ball for each vertex: the weights are their squares, each rounded once. In place of Weights, for as
+// long as this lives.
 struct Radii {
     explicit Radii(span<const double> of) : squares(of.begin(), of.end()) {
         for (std::size_t i = 0; i < squares.size(); i++) {
             if (!(squares[i] >= 0)) {
-                throw Error(DELDRIFT_INVALID_VALUE, "radii[" + std::to_string(i) + "] is " + std::to_string(squares[i]) +
-                                                        ", and must be 0 or more");
+                const std::string what = "radii[" + std::to_string(i) + "] is " + std::to_string(squares[i]);
+                throw Error(DELDRIFT_INVALID_VALUE, what + ", and must be 0 or more");
             }
             squares[i] *= squares[i];
         }

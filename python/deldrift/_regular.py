@@ -130,8 +130,8 @@ class Regular(Weighing, Delaunay):
 
     It has what `Delaunay` has. Circumcentres and alpha masks are those of power spheres, whose squared radii may be
     negative. Voronoi cells are power cells, and natural neighbours theirs; what is near is so by distance, without
-    weights. `relocate` takes a place alone: the vertex keeps its weight. Segments, refinement and what is in reach raise
-    `Weighted`.
+    weights. `relocate` takes a place alone: the vertex keeps its weight. Segments, refinement and what is in reach
+    raise `Weighted`.
 
     Parameters
     ----------

@@ -33,11 +33,13 @@ use crate::predicates::PointArray;
 /// not. Where vertices do not span the dimension there are no cells. Then it is the lower hull in the dimension that
 /// they do span which says who is hidden by weight.
 ///
-/// Calls that take positions take coordinates alone, as in any triangulation: a vertex that is moved keeps its weight, and one
-/// that is inserted has weight 0 until it is given another one. Circumcentres, and masks by circumradius, are those of
-/// power spheres, of which the squared radius may be negative; Voronoi cells are power cells, and that of a hidden vertex is
-/// empty. deldrift_nearest_vertex is the one of least power distance, and natural neighbours are those of power cells. All
-/// else that is near is so by distance, hidden vertices included, and deldrift_conflicts are those of a vertex of weight 0.
+/// Calls that take positions take coordinates alone, as in any triangulation: a vertex that is moved keeps its weight,
+/// and one that is inserted has weight 0 until it is given another one, unless it comes by
+/// deldrift_insert_vertex_with_weight or deldrift_stage_insertions_with_weights. Circumcentres, and masks by
+/// circumradius, are those of power spheres, of which the squared radius may be negative; Voronoi cells are power
+/// cells, and that of a hidden vertex is empty. deldrift_nearest_vertex is the one of least power distance, and natural
+/// neighbours are those of power cells. All else that is near is so by distance, hidden vertices included, and
+/// deldrift_conflicts are those of a vertex of weight 0.
 ///
 /// All functions serve a triangulation with weights but those of deldrift/segments.h and the following, which return
 /// DELDRIFT_WEIGHTED: deldrift_research_annulus_widths, deldrift_research_standard_delimiter. The tolerance of a
@@ -193,11 +195,12 @@ pub unsafe extern "C" fn deldrift_commit_weighted(
     })
 }
 
-/// Stages the insertion of count vertices with weights, as deldrift_stage_insertions does of vertices of weight 0: all of them,
-/// or none if it fails. With keys as well it is deldrift_stage_insertions_with_keys, and then deldrift_stage_weights.
+/// Stages the insertion of count vertices with weights, as deldrift_stage_insertions does of vertices of weight 0: all
+/// of them, or none if it fails. With keys as well it is deldrift_stage_insertions_with_keys, and then
+/// deldrift_stage_weights.
 ///
-/// weights: count numbers, in the order of positions, finite and at most 1e114 in magnitude; NULL: all are 0. The others are
-/// as in deldrift_stage_insertions.
+/// weights: count numbers, in the order of positions, finite and at most 1e114 in magnitude; NULL: all are 0. The
+/// others are as in deldrift_stage_insertions.
 ///
 /// Cost: count, in the mean over many calls.
 ///
@@ -220,15 +223,15 @@ pub unsafe extern "C" fn deldrift_stage_insertions_with_weights(
     })
 }
 
-/// Inserts a vertex with a weight at once, as deldrift_insert_vertex does one of weight 0. deldrift_take_changes, called
-/// before and after, tells whom it has hidden; it may be hidden itself.
+/// Inserts a vertex with a weight at once, as deldrift_insert_vertex does one of weight 0. deldrift_take_changes,
+/// called before and after, tells whom it has hidden; it may be hidden itself.
 ///
 /// out_vertex: receives its id, which is one above the highest ever given, or left by the latest deldrift_compact.
 ///
 /// Cost: that of deldrift_insert_vertex.
 ///
-/// Errors: DELDRIFT_NOT_WEIGHTED, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it),
-/// DELDRIFT_STAGED_VERTEX (if t is periodic and insertions are staged, which have the next ids),
+/// Errors: DELDRIFT_NOT_WEIGHTED, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options
+/// reject it), DELDRIFT_STAGED_VERTEX (if t is periodic and insertions are staged, which have the next ids),
 /// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_insert_vertex_with_weight(

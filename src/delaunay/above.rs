@@ -337,15 +337,15 @@ impl<G: Geometry> Delaunay<G> {
         if G::HAS_WEIGHTS { self.above.turned.begin() } else { Ok(()) }
     }
 
-    /// The vertices that the last change has hidden, shown, or taken out hidden, some of them again and again; none if they are too many
-    /// to be known.
+    /// The vertices that the last change has hidden, shown, or taken out hidden, some of them again and again; none if
+    /// they are too many to be known.
     pub(crate) fn turned(&self) -> Option<&[VertexId]> {
         let Turned { vertices, are_all } = &self.above.turned;
         are_all.then_some(vertices.as_slice())
     }
 
-    /// Whether no other site is at the place of a live one, while there are cells and none is loose; `false` as well where that would
-    /// take long to find out.
+    /// Whether no other site is at the place of a live one, while there are cells and none is loose; `false` as well
+    /// where that would take long to find out.
     pub(crate) fn is_alone(&mut self, s: SiteId) -> Result<bool> {
         let place = self.site(s).point;
         let mut cells = IndexSet::new();

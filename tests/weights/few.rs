@@ -1,4 +1,5 @@
-//! Few vertices change among many that are hidden: reports, lists of changes and sums tell of each who is hidden, whatever came before.
+//! Few vertices change among many that are hidden: reports, lists of changes and sums tell of each who is hidden,
+//! whatever came before.
 
 use super::{fresh, shown};
 use crate::common::Rng;

@@ -75,7 +75,8 @@ impl<G: Moving> MovingTriangulation<G> {
     }
 
     /// Begins a change and brings all to where these moves, and the staged edits, have it; then nothing can fail. On an
-    /// error the change has been undone. Who is hidden [has been found out](crate::motion::state::mesh::Mesh::know_hidden).
+    /// error the change has been undone. Who is hidden [has been found
+    /// out](crate::motion::state::mesh::Mesh::know_hidden).
     pub(in crate::motion) fn reach(&mut self, moves: &mut Moves<'_, G>) -> Result<CommitReport> {
         let mut report = CommitReport::default();
         let mut told = Told::Nothing;
@@ -275,8 +276,8 @@ mod tests {
         }
     }
 
-    /// Of many hidden vertices those alone are looked at that a vertex which moves, changes its weight, or comes may show; and what is told
-    /// follows from these.
+    /// Of many hidden vertices those alone are looked at that a vertex which moves, changes its weight, or comes may
+    /// show; and what is told follows from these.
     fn few_hidden_vertices_are_looked_at<G: Moving>() {
         let rng = &mut Rng::new(3);
         let n = 3_000;

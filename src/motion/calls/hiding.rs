@@ -42,7 +42,8 @@ impl ChangedParts {
     }
 }
 
-/// Vertices that have changed are looked at one by one if there are so many times as many in all; else all that are hidden are.
+/// Vertices that have changed are looked at one by one if there are so many times as many in all; else all that are
+/// hidden are.
 const ALL_PER_FEW: usize = 16;
 
 impl<G: Moving> Mesh<G> {
@@ -81,8 +82,8 @@ impl<G: Moving> MovingTriangulation<G> {
         }
     }
 
-    /// Reports who is hidden, of vertices with weights, and who was not before; or refuses two of them at one place. Who was hidden
-    /// [has been found out](Mesh::know_hidden).
+    /// Reports who is hidden, of vertices with weights, and who was not before; or refuses two of them at one place.
+    /// Who was hidden [has been found out](Mesh::know_hidden).
     pub(in crate::motion) fn tell_hidden(
         &mut self,
         moves: &Moves<'_, G>,
@@ -120,8 +121,9 @@ impl<G: Moving> MovingTriangulation<G> {
         Ok(told)
     }
 
-    /// The vertices that a commit may have hidden or shown, each with whether it is hidden, if it has moved and inserted few vertices, and
-    /// neither these nor others share their places; there is room to [follow](Mesh::follow_told) them.
+    /// The vertices that a commit may have hidden or shown, each with whether it is hidden, if it has moved and
+    /// inserted few vertices, and neither these nor others share their places; there is room to
+    /// [follow](Mesh::follow_told) them.
     fn turned_alone(&mut self, moves: &Moves<'_, G>) -> Result<Option<Vec<(VertexId, bool)>>> {
         let Self { mesh, edits, .. } = self;
         let Movers::Listed(movers) = moves.movers() else { return Ok(None) };
@@ -149,8 +151,9 @@ impl<G: Moving> MovingTriangulation<G> {
         Ok(Some(told))
     }
 
-    /// Loosens the hidden vertices that may come back as vertices have moved: where few have been taken one by one, those above the
-    /// cells around them, as what is above cells that have been removed is loose already; all of them where others have moved.
+    /// Loosens the hidden vertices that may come back as vertices have moved: where few have been taken one by one,
+    /// those above the cells around them, as what is above cells that have been removed is loose already; all of them
+    /// where others have moved.
     pub(in crate::motion) fn loosen_moved(&mut self, moves: &Moves<'_, G>) -> Result<()> {
         let mesh = &mut self.mesh;
         // A new kernel has been built with all of them.

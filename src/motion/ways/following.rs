@@ -161,7 +161,8 @@ impl<G: Moving> MovingTriangulation<G> {
         done
     }
 
-    /// Shows those of the vertices that weights hide, and that are loose, which are below the cells now; the regions that are kept follow.
+    /// Shows those of the vertices that weights hide, and that are loose, which are below the cells now; the regions
+    /// that are kept follow.
     pub(in crate::motion) fn settle_hidden(&mut self, report: &mut CommitReport) -> Result<()> {
         // A new kernel has been built with all of them.
         if !G::HAS_WEIGHTS || self.mesh.transaction.has_rebuilt() {

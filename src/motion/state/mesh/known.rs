@@ -1,11 +1,12 @@
-//! Who is hidden, kept from one change to the next where vertices have weights, so that a change of few vertices need not look
-//! at all hidden ones.
+//! Who is hidden, kept from one change to the next where vertices have weights, so that a change of few vertices need
+//! not look at all hidden ones.
 //!
-//! A change knows which vertices it has hidden and shown ([`Delaunay::turned`](crate::delaunay::Delaunay::turned)). How many are
-//! hidden by place cannot be told from that. As long as no vertex shares its place it is enough to look at those that have come to
-//! others; where some do, all are looked at.
+//! A change knows which vertices it has hidden and shown ([`Delaunay::turned`](crate::delaunay::Delaunay::turned)). How
+//! many are hidden by place cannot be told from that. As long as no vertex shares its place it is enough to look at
+//! those that have come to others; where some do, all are looked at.
 //!
-//! Nothing depends on this being kept: it is forgotten where it cannot be followed, and found out anew by the next call that asks.
+//! Nothing depends on this being kept: it is forgotten where it cannot be followed, and found out anew by the next call
+//! that asks.
 
 use crate::delaunay::Moving;
 use crate::error::Result;
@@ -49,7 +50,8 @@ impl KnownHidden {
         self.now.ids.make_room(n_ids)
     }
 
-    /// Enters who is hidden now, or not, of some vertices, where so many are hidden in all; whether there was room for them.
+    /// Enters who is hidden now, or not, of some vertices, where so many are hidden in all; whether there was room for
+    /// them.
     fn enter(&mut self, mut vertices: impl Iterator<Item = (VertexId, bool)>, n_hidden: usize) -> bool {
         self.now.by_weight = (n_hidden as u64).saturating_sub(self.now.by_place);
         vertices.all(|(v, is_hidden)| self.now.ids.set(v, is_hidden))
@@ -72,8 +74,8 @@ pub(in crate::motion) enum Told {
 }
 
 impl<G: Moving> Mesh<G> {
-    /// Finds out who is hidden, of vertices with weights, unless that is known, and how many are so by place. For between two
-    /// changes.
+    /// Finds out who is hidden, of vertices with weights, unless that is known, and how many are so by place. No change
+    /// may be under way.
     pub(in crate::motion) fn know_hidden(&mut self) -> Result<()> {
         if !G::HAS_WEIGHTS {
             return Ok(());
