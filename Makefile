@@ -227,6 +227,13 @@ fuzz: ## fuzzing guided by coverage: TARGET=predicates, calls or loaders, for SE
 	    build/fuzz/$(TARGET) fuzz/corpus/$(TARGET) -max_total_time=$(SECONDS) -timeout=60 -max_len=1500 \
 	    -artifact_prefix=fuzz/findings/$(TARGET)-
 
+reproducible: ## two builds in two folders under two homes: the same bytes, or it fails (some ten minutes)
+	release/reproducible
+
+sbom: ## what the library is made of, as CycloneDX: build/packages/deldrift.cdx.json
+	mkdir -p build/packages
+	release/sbom > build/packages/deldrift.cdx.json
+
 wheel: library ## Python package: wheel and sdist in build/packages, and its tests in a clean environment; needs a network
 	@.ci/packages python3-venv
 	python/make_wheel

@@ -84,6 +84,18 @@ fn dependencies_are_accepted_and_planted_ones_are_not() {
 }
 
 #[test]
+#[ignore = "needs Python 3.11, git and cargo"]
+fn the_bill_of_materials_has_what_is_linked() {
+    let bill = succeed(&mut command(repository("release/sbom")));
+    for linked in ["deldrift", "crc32fast", "cfg-if", "libc", "robust"] {
+        assert!(bill.contains(&format!("\"purl\": \"pkg:cargo/{linked}@")), "{linked} is not in {bill}");
+    }
+    // Each is told in the list and in the relations of the whole.
+    assert_eq!(bill.matches("\"purl\"").count(), 5, "{bill}");
+    assert_eq!(bill, succeed(&mut command(repository("release/sbom"))));
+}
+
+#[test]
 #[ignore = "needs Python 3.11"]
 fn sentences_say_what_the_records_say() {
     let said = succeed(&mut command(repository(".ci/figures")));
