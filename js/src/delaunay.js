@@ -41,6 +41,11 @@ export class Delaunay {
         return this.#delaunator.hull;
     }
 
+    /** The points along their line, if all are on one and more than two are apart; undefined otherwise. */
+    get collinear() {
+        return this.triangles.length === 0 && this.hull.length > 2 ? Int32Array.from(this.hull) : undefined;
+    }
+
     /** For each point a half-edge that ends there, the one on the hull if there is one; -1 if it is in no triangle. */
     get inedges() {
         if (this.#inedges === null) {

@@ -111,7 +111,8 @@ class Frame {
 
     /** Room for so many bytes, at a multiple of 16. */
     room(size) {
-        const start = wasm.deldrift_js_allocate(size) >>> 0;
+        // A number that needs more than 32 bits would lose some.
+        const start = size < 2 ** 32 ? wasm.deldrift_js_allocate(size) >>> 0 : 0;
         if (start === 0) throw new DeldriftError("OUT_OF_MEMORY", `there is no memory for ${size} bytes`);
         this.#blocks.push(start, size);
         return start;

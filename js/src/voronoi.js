@@ -122,10 +122,11 @@ export class Voronoi {
     contains(i, x, y) {
         const [px, py] = [+x, +y];
         if (!Number.isFinite(px) || !Number.isFinite(py)) return false;
-        const { points, triangulation } = this.delaunay;
-        const j = triangulation.nearest([px, py]);
+        const { points } = this.delaunay;
+        if (!this.#isShown(i)) return false;
+        const j = this.delaunay.find(px, py);
         const distance = (k) => (points[2 * k] - px) ** 2 + (points[2 * k + 1] - py) ** 2;
-        return i === j || j >= 0 && distance(i) <= distance(j);
+        return distance(i) <= distance(j);
     }
 
     /** The points whose cells share an edge with that of a point, within the rectangle. */
@@ -149,12 +150,17 @@ export class Voronoi {
         } while (e !== first && e !== -1);
     }
 
+    /** Whether a point represents its place, and so has a cell. */
+    #isShown(i) {
+        const { inedges, halfedges, hull } = this.delaunay;
+        return halfedges.length === 0 ? hull.includes(i) : inedges[i] !== -1;
+    }
+
     /** The polygon of a cell within the rectangle, counter-clockwise where y goes up; null if nothing is left. */
     #cell(i) {
-        const { points, inedges, halfedges, hull } = this.delaunay;
+        const { points, inedges, halfedges } = this.delaunay;
+        if (!this.#isShown(i)) return null;
         const first = inedges[i];
-        const isShown = halfedges.length === 0 ? hull.includes(i) : first !== -1;
-        if (!isShown) return null;
         let cell = halfedges.length === 0 || halfedges[first] === -1 ? null : this.#around(first);
         if (cell === null) {
             cell = [this.xmax, this.ymin, this.xmax, this.ymax, this.xmin, this.ymax, this.xmin, this.ymin];
