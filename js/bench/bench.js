@@ -3,7 +3,8 @@
 //     node bench/bench.js                 10,000 and 100,000 points
 //     node bench/bench.js 1000            other numbers of points, and no record
 //
-// All four take turns, so that what else the machine does is the same for each. Times are medians. A step is from the
+// All four take turns, some steps each, so that what else the machine does is the same for each, and what is in its
+// caches is what they have used themselves. Times are medians. A step is from the
 // new positions to the cells: as rows of vertices and neighbours ("deldrift, cells"), and as `triangles` and `halfedges`
 // ("deldrift, names"), which is what the other two give. At the end of each series all have the same triangles.
 
@@ -16,9 +17,10 @@ import { Delaunay, Triangulation } from "../index.js";
 import { Random, setOfRows, shaken } from "../test/common.js";
 
 const BUILDS = 15;
-const STEPS = 40;
+const STEPS_OF_TURN = 8;
+const TURNS = 6;
 // Engines compile what is called often, and again when they know more; the first calls take several times as long.
-const WARM_UP = 25;
+const WARM_UP_TURNS = 3;
 /** By how many spacings each coordinate moves at most. */
 const SIZES = [0, 1e-5, 1e-3, 1e-2];
 const NAMES = ["deldrift, cells", "deldrift, names", "delaunator", "d3-delaunay"];
@@ -85,14 +87,19 @@ function steps(count, size, random) {
     let points = random.points(count);
     const made = ways.map((way) => way.make(points));
     const times = ways.map(() => []);
-    for (let k = -WARM_UP; k < STEPS; k++) {
-        points = shaken(points, size / Math.sqrt(count), random);
+    for (let turn = -WARM_UP_TURNS; turn < TURNS; turn++) {
+        const series = Array.from({ length: STEPS_OF_TURN }, () => {
+            points = shaken(points, size / Math.sqrt(count), random);
+            return points;
+        });
         ways.forEach((way, w) => {
-            const [time] = timed(() => {
-                way.follow(made[w], points);
-                way.read(made[w]);
-            });
-            if (k >= 0) times[w].push(time);
+            for (const next of series) {
+                const [time] = timed(() => {
+                    way.follow(made[w], next);
+                    way.read(made[w]);
+                });
+                if (turn >= 0) times[w].push(time);
+            }
         });
     }
     const rows = new Set(ways.map((way, w) => setOfRows(way.read(made[w]), 3).join()));

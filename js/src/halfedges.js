@@ -11,10 +11,6 @@ export class Halfedges {
     #triangles = new Uint32Array(0);
     #halfedges = new Int32Array(0);
     #count = 0;
-    // The rows that the arrays have been made of. A list of changes would not do: a cell whose corners have another
-    // order is in none.
-    #vertices = new Uint32Array(0);
-    #neighbours = new Uint32Array(0);
 
     get triangles() {
         return this.#triangles.subarray(0, 3 * this.#count);
@@ -34,61 +30,66 @@ export class Halfedges {
         };
         this.#triangles = longer(this.#triangles);
         this.#halfedges = longer(this.#halfedges);
-        this.#vertices = longer(this.#vertices);
-        this.#neighbours = longer(this.#neighbours);
     }
 
     /** Brings the arrays up to date with cells, most of which may be those of before. */
     follow({ count, vertices, neighbours }) {
         this.#reserve(3 * count);
-        const both = 3 * Math.min(count, this.#count);
+        const [triangles, halfedges] = [this.#triangles, this.#halfedges];
+        const [before, after] = [3 * this.#count, 3 * count];
+        const both = Math.min(before, after);
         this.#count = count;
-        const changed = changedRows(vertices, neighbours, this.#vertices, this.#neighbours, both);
-        for (const e of changed) this.#take(e, vertices, neighbours);
-        for (let e = both; e < 3 * count; e += 3) this.#take(e, vertices, neighbours);
-        for (const e of changed) this.#join(e);
-        for (let e = both; e < 3 * count; e += 3) this.#join(e);
-    }
-
-    #take(e, vertices, neighbours) {
-        for (let k = e; k < e + 3; k++) {
-            this.#vertices[k] = vertices[k];
-            this.#neighbours[k] = neighbours[k];
-        }
-        this.#triangles[e] = vertices[e];
-        this.#triangles[e + 1] = vertices[e + 2];
-        this.#triangles[e + 2] = vertices[e + 1];
-    }
-
-    /** Joins the half-edges of a row with those beyond: in rows that are as before these may be others, too. */
-    #join(e) {
-        const [neighbours, halfedges] = [this.#neighbours, this.#halfedges];
-        const cell = e / 3;
-        for (let j = 0; j < 3; j++) {
-            const half = e + EXCHANGED[j];
-            const beyond = neighbours[e + j];
-            if (beyond === NONE) {
-                halfedges[half] = -1;
-                continue;
-            }
-            const row = 3 * beyond;
-            const mirror = neighbours[row] === cell ? 0 : neighbours[row + 1] === cell ? 1 : 2;
-            const other = row + EXCHANGED[mirror];
-            halfedges[half] = other;
-            halfedges[other] = half;
-        }
+        // A list of changes would not do: a cell whose corners have another order is in none.
+        const changed = takeChanged(vertices, triangles, both);
+        for (let e = both; e < after; e += 3) takeRow(e, vertices, triangles);
+        // What was beyond is so still, or is joined to a row that has changed, or is on the hull now.
+        for (const e of changed) leaveRow(e, halfedges);
+        for (let e = both; e < before; e += 3) leaveRow(e, halfedges);
+        for (const e of changed) joinRow(e, neighbours, halfedges);
+        for (let e = both; e < after; e += 3) joinRow(e, neighbours, halfedges);
     }
 }
 
-/** Where rows begin that are others than before, among the first ones. */
-function changedRows(vertices, neighbours, oldVertices, oldNeighbours, length) {
+function takeRow(e, vertices, triangles) {
+    triangles[e] = vertices[e];
+    triangles[e + 1] = vertices[e + 2];
+    triangles[e + 2] = vertices[e + 1];
+}
+
+/** Takes over the rows that are others than before, of the first ones, and tells where they begin. */
+function takeChanged(vertices, triangles, length) {
     const changed = [];
     for (let e = 0; e < length; e += 3) {
-        if (
-            vertices[e] !== oldVertices[e] || vertices[e + 1] !== oldVertices[e + 1]
-            || vertices[e + 2] !== oldVertices[e + 2] || neighbours[e] !== oldNeighbours[e]
-            || neighbours[e + 1] !== oldNeighbours[e + 1] || neighbours[e + 2] !== oldNeighbours[e + 2]
-        ) changed.push(e);
+        const f = e + 1;
+        const g = e + 2;
+        if (vertices[e] === triangles[e] && vertices[f] === triangles[g] && vertices[g] === triangles[f]) continue;
+        takeRow(e, vertices, triangles);
+        changed.push(e);
     }
     return changed;
+}
+
+/** Takes the half-edges of a row from those beyond. */
+function leaveRow(e, halfedges) {
+    for (let half = e; half < e + 3; half++) {
+        if (halfedges[half] !== -1) halfedges[halfedges[half]] = -1;
+    }
+}
+
+/** Joins the half-edges of a row with those beyond. */
+function joinRow(e, neighbours, halfedges) {
+    const cell = e / 3;
+    for (let j = 0; j < 3; j++) {
+        const half = e + EXCHANGED[j];
+        const beyond = neighbours[e + j];
+        if (beyond === NONE) {
+            halfedges[half] = -1;
+            continue;
+        }
+        const row = 3 * beyond;
+        const mirror = neighbours[row] === cell ? 0 : neighbours[row + 1] === cell ? 1 : 2;
+        const other = row + EXCHANGED[mirror];
+        halfedges[half] = other;
+        halfedges[other] = half;
+    }
 }
