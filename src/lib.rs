@@ -55,8 +55,6 @@ mod predicates;
 mod random;
 mod refine;
 mod simd;
-#[cfg(target_family = "wasm")]
-mod wasm;
 
 pub use damage::{Damage, LoadError};
 pub use delaunay::{Dimension, Moving, Plane, PowerPlane, PowerSpace, Shape, Space};

@@ -1,4 +1,5 @@
-// deldrift beside d3-delaunay and Delaunator, on the same positions, in one run: js/bench/results.csv, and a table.
+// deldrift beside d3-delaunay and Delaunator, on the same positions, in one run: js/bench/results.csv, and the table of
+// docs/JAVASCRIPT.md.
 //
 //     node bench/bench.js                 10,000 and 100,000 points
 //     node bench/bench.js 1000            other numbers of points, and no record
@@ -8,7 +9,7 @@
 // new positions to the cells: as rows of vertices and neighbours ("deldrift, cells"), and as `triangles` and `halfedges`
 // ("deldrift, names"), which is what the other two give. At the end of each series all have the same triangles.
 
-import { writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 
 import { Delaunay as D3 } from "d3-delaunay";
 import Original from "delaunator";
@@ -26,7 +27,7 @@ const SIZES = [0, 1e-5, 1e-3, 1e-2];
 const NAMES = ["deldrift, cells", "deldrift, names", "delaunator", "d3-delaunay"];
 
 function median(times) {
-    return times.toSorted((a, b) => a - b)[times.length >> 1];
+    return times.slice().sort((a, b) => a - b)[times.length >> 1];
 }
 
 /** What is compared: how each is made, how it follows, and its triangles. */
@@ -111,17 +112,24 @@ function steps(count, size, random) {
 const given = process.argv.slice(2).map(Number);
 const random = new Random(1);
 const lines = [["points", "what", ...NAMES.map((name) => `${name.replace(",", "")} (ms)`)].join(",")];
-console.log(`| points | | ${NAMES.join(" | ")} | beside delaunator | beside d3-delaunay |`);
-console.log(`|--:|---|${"--:|".repeat(NAMES.length + 2)}`);
+const table = [
+    `| points | | ${NAMES.join(" | ")} | names beside delaunator | names beside d3-delaunay |`,
+    `|--:|---|${"--:|".repeat(NAMES.length + 2)}`,
+];
 for (const count of given.length > 0 ? given : [10_000, 100_000]) {
     const row = (what, times) => {
         lines.push([count, what, ...times.map((time) => time.toFixed(3))].join(","));
-        const ratios = [times[2], times[3]].map((time) => `${(time / times[1]).toFixed(1)}×`);
-        const cells = [count.toLocaleString("en"), what, ...times.map((time) => `${time.toFixed(2)} ms`), ...ratios];
-        console.log(`| ${cells.join(" | ")} |`);
+        const ratios = [times[2], times[3]].map((time) => `**${(time / times[1]).toPrecision(2)}×**`);
+        const cells = [count.toLocaleString("en"), what, ...times.map((time) => `${time.toPrecision(3)} ms`), ...ratios];
+        table.push(`| ${cells.join(" | ")} |`);
+        console.log(table.at(-1));
     };
     row("build", builds(count, random));
-    for (const size of SIZES) row(size === 0 ? "at rest" : `step of ${size}`, steps(count, size, random));
+    for (const size of SIZES) row(size === 0 ? "at rest" : `step of ${size.toExponential()}`, steps(count, size, random));
 }
-console.log(`\n(Ratios are of "${NAMES[1]}".)`);
-if (given.length === 0) writeFileSync(new URL("results.csv", import.meta.url), `${lines.join("\n")}\n`);
+if (given.length === 0) {
+    writeFileSync(new URL("results.csv", import.meta.url), `${lines.join("\n")}\n`);
+    const page = new URL("../../docs/JAVASCRIPT.md", import.meta.url);
+    const marked = /(<!-- bench:begin -->\n\n)[^]*(\n\n<!-- bench:end -->)/;
+    writeFileSync(page, readFileSync(page, "utf8").replace(marked, (_, begin, end) => begin + table.join("\n") + end));
+}

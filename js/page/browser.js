@@ -91,9 +91,10 @@ export class Browser {
         throw new Error(`${expression}: nothing; ${this.complaints.join("\n")}`);
     }
 
-    /** A picture of the page, as a PNG file. */
+    /** A picture of the page, as a JPEG file. */
     async picture() {
-        return Buffer.from((await this.#ask("Page.captureScreenshot", { format: "png" })).data, "base64");
+        const { data } = await this.#ask("Page.captureScreenshot", { format: "jpeg", quality: 75 });
+        return Buffer.from(data, "base64");
     }
 
     async end() {

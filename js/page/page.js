@@ -37,11 +37,11 @@ function begin() {
     document.getElementById("explanation").textContent = scene.explanation;
     theirs.setTransform(1, 0, 0, 1, 0, 0);
     theirs.clearRect(0, 0, theirs.canvas.width, theirs.canvas.height);
-    theirText.textContent = scene.theirs ? "" : "not here";
+    theirText.textContent = scene.theirs ? "" : "not shown";
 }
 
 function median(list) {
-    return list.toSorted((a, b) => a - b)[list.length >> 1];
+    return list.slice().sort((a, b) => a - b)[list.length >> 1];
 }
 
 /** Adds what a frame has taken to the last ones, and shows the time and the rate that one alone would have. */

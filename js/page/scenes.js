@@ -127,30 +127,32 @@ class Lloyd extends Vortex {
     }
 
     followOurs() {
-        this.ours.move(this.points);
+        super.followOurs();
         this.centroids = this.ours.triangulation.voronoiCells([-1, -1], [1, 1]).centroids;
+        this.cells = this.ours.voronoi([-1, -1, 1, 1]);
+        return this.cells.circumcenters;
     }
 
     followTheirs() {
         super.followTheirs();
-        const voronoi = this.theirs.voronoi([-1, -1, 1, 1]);
+        this.theirCells = this.theirs.voronoi([-1, -1, 1, 1]);
         this.found = new Float64Array(this.points.length);
-        for (const cell of voronoi.cellPolygons()) this.found.set(centroid(cell), 2 * cell.index);
+        for (const cell of this.theirCells.cellPolygons()) this.found.set(centroid(cell), 2 * cell.index);
     }
 
     drawOurs(context) {
-        this.#draw(context, this.ours);
+        this.#draw(context, this.cells);
     }
 
     drawTheirs(context) {
-        this.#draw(context, this.theirs);
+        this.#draw(context, this.theirCells);
     }
 
-    #draw(context, delaunay) {
+    #draw(context, cells) {
         prepare(context, this.extent);
         context.strokeStyle = "#b5542b";
         context.beginPath();
-        delaunay.voronoi([-this.extent, -this.extent, this.extent, this.extent]).render(context);
+        cells.render(context);
         context.stroke();
     }
 
@@ -223,23 +225,31 @@ class Domain {
     }
 
     drawOurs(context) {
-        const { points } = this;
-        prepare(context, this.extent);
-        const { vertices, count } = this.ours.cells();
+        const { points, extent, levels, outline } = this;
+        prepare(context, extent);
+        context.fillStyle = "#e4eef8";
+        context.fillRect(-1, -1, 2, 2);
+        context.fillStyle = "#f4c67a";
+        context.beginPath();
+        for (let k = 0; k < 2 * outline; k += 2) context.lineTo(points[k], points[k + 1]);
+        context.fill();
+        const { vertices, neighbours, count } = this.ours.cells();
         for (const isInside of [false, true]) {
+            context.strokeStyle = isInside ? "#8a5a00" : "#7f9fc0";
             context.beginPath();
             for (let cell = 0; cell < count; cell++) {
-                if ((this.levels[cell] % 2 === 1) !== isInside) continue;
-                const [a, b, c] = [0, 1, 2].map((k) => 2 * vertices[3 * cell + k]);
-                if (Math.abs(points[a]) > this.extent || Math.abs(points[a + 1]) > this.extent) continue;
-                context.moveTo(points[a], points[a + 1]);
-                context.lineTo(points[b], points[b + 1]);
-                context.lineTo(points[c], points[c + 1]);
-                context.closePath();
+                if ((levels[cell] % 2 === 1) !== isInside) continue;
+                for (let j = 0; j < 3; j++) {
+                    // Each edge once, and the outline as that of the inside.
+                    const beyond = neighbours[3 * cell + j];
+                    if (beyond < cell && levels[beyond] % 2 === levels[cell] % 2) continue;
+                    const a = 2 * vertices[3 * cell + ((j + 1) % 3)];
+                    const b = 2 * vertices[3 * cell + ((j + 2) % 3)];
+                    if (Math.abs(points[a]) > extent || Math.abs(points[a + 1]) > extent) continue;
+                    context.moveTo(points[a], points[a + 1]);
+                    context.lineTo(points[b], points[b + 1]);
+                }
             }
-            context.fillStyle = isInside ? "#f4c67a" : "#e4eef8";
-            context.fill();
-            context.strokeStyle = isInside ? "#8a5a00" : "#7f9fc0";
             context.stroke();
         }
     }

@@ -1,11 +1,12 @@
 //! What a program in JavaScript needs besides the C functions, as it has no allocator: memory for arguments and results,
 //! in the memory that both see.
 //!
-//! js/src/memory.js calls these; no header has them.
-
-#![allow(unsafe_code)]
+//! js/src/library.js calls these; no header has them.
 
 use std::alloc::{Layout, alloc, dealloc};
+
+use super::guard;
+use super::status::deldrift_status;
 
 /// More than any type of the header asks for.
 const ALIGNMENT: usize = 16;
@@ -31,4 +32,10 @@ pub unsafe extern "C" fn deldrift_js_free(start: *mut u8, bytes: usize) {
         // SAFETY: it has been made by this layout, and nobody uses it.
         unsafe { dealloc(start, layout) };
     }
+}
+
+/// Panics, as only a defect can: js/test/panic.test.js sees what comes of that. It is in no package.
+#[unsafe(no_mangle)]
+pub extern "C" fn deldrift_js_panic() -> deldrift_status {
+    guard::enter(|| panic!("cell {} went missing", 13))
 }
