@@ -101,7 +101,7 @@ tsan: ## tests of the library's threads under ThreadSanitizer, with a nightly to
 miri: ## tests of what needs no system under Miri, with a nightly toolchain that has it
 	.ci/nightly miri
 
-js: ## npm package for browsers and Node, in build/packages, and its tests, beside d3-delaunay and Delaunator; needs a network
+js: ## npm package in build/packages, tested in Node and Chromium beside d3-delaunay and Delaunator; needs a network
 	@.ci/packages nodejs npm
 	-@.ci/packages chromium
 	js/build

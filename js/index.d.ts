@@ -85,7 +85,7 @@ export interface Changes {
 
 /** The Delaunay triangulation of points in the plane or in space that move. */
 export class Triangulation {
-    /** Positions are contiguous: x0, y0, x1, ... or x0, y0, z0, x1, ... With weights it is the regular triangulation. */
+    /** Positions are contiguous: x0, y0, x1, ... or x0, y0, z0, ... With weights it is the regular triangulation. */
     constructor(dimension: 2 | 3, positions: Numbers, options?: Options & { weights?: Numbers });
     /** The triangulation that `save` has written. */
     static load(data: Uint8Array, options?: Options): Triangulation;

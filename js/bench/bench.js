@@ -120,12 +120,14 @@ for (const count of given.length > 0 ? given : [10_000, 100_000]) {
     const row = (what, times) => {
         lines.push([count, what, ...times.map((time) => time.toFixed(3))].join(","));
         const ratios = [times[2], times[3]].map((time) => `**${(time / times[1]).toPrecision(2)}×**`);
-        const cells = [count.toLocaleString("en"), what, ...times.map((time) => `${time.toPrecision(3)} ms`), ...ratios];
-        table.push(`| ${cells.join(" | ")} |`);
+        const shown = times.map((time) => `${time.toPrecision(3)} ms`);
+        table.push(`| ${[count.toLocaleString("en"), what, ...shown, ...ratios].join(" | ")} |`);
         console.log(table.at(-1));
     };
     row("build", builds(count, random));
-    for (const size of SIZES) row(size === 0 ? "at rest" : `step of ${size.toExponential()}`, steps(count, size, random));
+    for (const size of SIZES) {
+        row(size === 0 ? "at rest" : `step of ${size.toExponential()}`, steps(count, size, random));
+    }
 }
 if (given.length === 0) {
     writeFileSync(new URL("results.csv", import.meta.url), `${lines.join("\n")}\n`);

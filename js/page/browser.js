@@ -38,8 +38,8 @@ export class Browser {
 
     async #start() {
         this.#profile = await mkdtemp(join(tmpdir(), "deldrift-page-"));
-        const flags = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--remote-debugging-pipe",
-            `--user-data-dir=${this.#profile}`, "--window-size=1140,860", "about:blank"];
+        const flags = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+            "--remote-debugging-pipe", `--user-data-dir=${this.#profile}`, "--window-size=1140,860", "about:blank"];
         this.#process = spawn(chromium, flags, { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
         let text = "";
         this.#process.stdio[4].setEncoding("utf8").on("data", (data) => {
@@ -68,7 +68,9 @@ export class Browser {
             if (error) reject(new Error(error.message));
             else resolve(result);
         }
-        if (method === "Runtime.consoleAPICalled") this.complaints.push(params.args.map(({ value }) => value).join(" "));
+        if (method === "Runtime.consoleAPICalled") {
+            this.complaints.push(params.args.map(({ value }) => value).join(" "));
+        }
         if (method === "Runtime.exceptionThrown") this.complaints.push(params.exceptionDetails.exception?.description);
         if (method === "Log.entryAdded") this.complaints.push(`${params.entry.text} ${params.entry.url ?? ""}`);
     }
@@ -85,7 +87,8 @@ export class Browser {
         const end = Date.now() + 1000 * seconds;
         while (Date.now() < end) {
             const { result } = await this.#ask("Runtime.evaluate", { expression, returnByValue: true });
-            if (result.type !== "undefined" && result.subtype !== "null" && result.subtype !== "error") return result.value;
+            const isThere = result.type !== "undefined" && result.subtype !== "null" && result.subtype !== "error";
+            if (isThere) return result.value;
             await new Promise((resolve) => { setTimeout(resolve, 100); });
         }
         throw new Error(`${expression}: nothing; ${this.complaints.join("\n")}`);

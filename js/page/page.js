@@ -99,8 +99,12 @@ if (frames > 0) {
     const result = document.createElement("pre");
     result.id = "result";
     result.hidden = true;
-    const pixels = [inked(ours), inked(theirs)];
-    result.textContent = JSON.stringify({ scene: form.scene.value, isSame: scene.isSame(), hasOther: D3 !== null, pixels });
+    result.textContent = JSON.stringify({
+        scene: form.scene.value,
+        isSame: scene.isSame(),
+        hasOther: D3 !== null,
+        pixels: [inked(ours), inked(theirs)],
+    });
     document.body.append(result);
 } else {
     requestAnimationFrame(go);

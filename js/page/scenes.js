@@ -60,8 +60,8 @@ function swirl(points, step) {
 }
 
 class Vortex {
-    explanation = "All points are carried around by a vortex, each frame by a fifth of their spacing at most. Both have "
-        + "the same triangles.";
+    explanation = "All points are carried around by a vortex, each frame by a fifth of their spacing at most. Both "
+        + "have the same triangles.";
 
     constructor(count, D3) {
         this.points = randomPoints(count, 2);
@@ -117,8 +117,8 @@ class Vortex {
 }
 
 class Lloyd extends Vortex {
-    explanation = "Each point goes to the centroid of its Voronoi cell, again and again, while a slow vortex keeps them "
-        + "from coming to rest.";
+    explanation = "Each point goes to the centroid of its Voronoi cell, again and again, while a slow vortex keeps "
+        + "them from coming to rest.";
 
     advance() {
         // From the second frame on where deldrift has found the centroids.
@@ -299,8 +299,8 @@ class Domain {
 }
 
 class Cloud {
-    explanation = "A cloud in space, which turns faster inside than outside. Shown are the edges near its middle plane. "
-        + "d3-delaunay is for the plane alone.";
+    explanation = "A cloud in space, which turns faster inside than outside. Shown are the edges near its middle "
+        + "plane. d3-delaunay is for the plane alone.";
 
     constructor(count) {
         const random = randomNumbers(count);

@@ -124,7 +124,8 @@ export class Delaunay {
     }
 
     renderPoints(context, r) {
-        if (r === undefined && (context == null || typeof context.moveTo !== "function")) [context, r] = [null, context];
+        const isContext = typeof context?.moveTo === "function";
+        if (r === undefined && !isContext) [context, r] = [null, context];
         const radius = r == null ? 2 : +r;
         return drawn(context, (to) => {
             const { points } = this;

@@ -51,8 +51,10 @@ export class Triangulation {
      */
     constructor(dimension, positions, options = {}) {
         const pointer = options instanceof Made ? options.pointer : inFrame((frame) => {
-            // What is neither 2 nor 3 is refused whatever the count.
-            const count = rows(positions, dimension === 3 ? 3 : 2);
+            if (dimension !== 2 && dimension !== 3) {
+                throw new DeldriftError("INVALID_DIMENSION", `dimension is ${dimension}, but must be 2 or 3`);
+            }
+            const count = rows(positions, dimension);
             const [places, settings, out] = [frame.doubles(positions), optionsIn(frame, options), frame.room(4)];
             if (options.weights === undefined) {
                 check(wasm.deldrift_create(dimension, places, count, settings, out));
@@ -206,7 +208,7 @@ export class Triangulation {
 
     /** Whether there is a vertex of this id. */
     isPresent(vertex) {
-        return (this.#number((out) => wasm.deldrift_is_present(this.#alive, vertex, out)) & 255) !== 0;
+        return (this.#number((out) => wasm.deldrift_is_present(this.#alive, id(vertex), out)) & 255) !== 0;
     }
 
     /**
@@ -256,8 +258,8 @@ export class Triangulation {
     stageMoves(vertices, positions) {
         inFrame((frame) => {
             sameLength(vertices, rows(positions, this.#dimension), "vertices");
-            const [ids, places] = [frame.words(vertices), frame.doubles(positions)];
-            check(wasm.deldrift_move_vertices(this.#alive, ids, places, vertices.length));
+            const [list, places] = [frame.words(ids(vertices)), frame.doubles(positions)];
+            check(wasm.deldrift_move_vertices(this.#alive, list, places, vertices.length));
         });
     }
 
@@ -273,7 +275,7 @@ export class Triangulation {
     /** Stages the removal of vertices. */
     stageRemovals(vertices) {
         inFrame((frame) => {
-            check(wasm.deldrift_stage_removals(this.#alive, frame.words(vertices), vertices.length));
+            check(wasm.deldrift_stage_removals(this.#alive, frame.words(ids(vertices)), vertices.length));
         });
     }
 
@@ -281,8 +283,8 @@ export class Triangulation {
     stageWeights(vertices, weights) {
         inFrame((frame) => {
             sameLength(weights, vertices.length, "weights");
-            const [ids, numbers] = [frame.words(vertices), frame.doubles(weights)];
-            check(wasm.deldrift_stage_weights(this.#alive, ids, numbers, vertices.length));
+            const [list, numbers] = [frame.words(ids(vertices)), frame.doubles(weights)];
+            check(wasm.deldrift_stage_weights(this.#alive, list, numbers, vertices.length));
         });
     }
 
@@ -290,7 +292,7 @@ export class Triangulation {
     stageSegments(ends) {
         return inFrame((frame) => {
             const out = frame.room(4);
-            check(wasm.deldrift_stage_segments(this.#alive, frame.words(ends), 0, rows(ends, 2), out));
+            check(wasm.deldrift_stage_segments(this.#alive, frame.words(ids(ends)), 0, rows(ends, 2), out));
             return words()[out / 4];
         });
     }
@@ -298,7 +300,7 @@ export class Triangulation {
     /** Stages the removal of segments. */
     stageSegmentRemovals(segments) {
         inFrame((frame) => {
-            check(wasm.deldrift_stage_segment_removals(this.#alive, frame.words(segments), segments.length));
+            check(wasm.deldrift_stage_segment_removals(this.#alive, frame.words(ids(segments)), segments.length));
         });
     }
 
@@ -323,17 +325,17 @@ export class Triangulation {
 
     /** Removes a vertex at once. */
     remove(vertex) {
-        check(wasm.deldrift_remove_vertex(this.#alive, vertex));
+        check(wasm.deldrift_remove_vertex(this.#alive, id(vertex)));
     }
 
     /** Moves one vertex at once. */
     relocate(vertex, position) {
-        inFrame((frame) => check(wasm.deldrift_relocate_vertex(this.#alive, vertex, this.#place(frame, position))));
+        inFrame((frame) => check(wasm.deldrift_relocate_vertex(this.#alive, id(vertex), this.#place(frame, position))));
     }
 
     /** Gives one vertex another weight at once. */
     setWeight(vertex, weight) {
-        check(wasm.deldrift_set_weight(this.#alive, vertex, weight));
+        check(wasm.deldrift_set_weight(this.#alive, id(vertex), weight));
     }
 
     /** What has changed since the last call of this; the first call lists all cells as created. */
@@ -358,7 +360,7 @@ export class Triangulation {
 
     /** The cells that have a vertex as a corner. */
     star(vertex) {
-        return this.#list(1, (...room) => wasm.deldrift_star(this.#alive, vertex, ...room));
+        return this.#list(1, (...room) => wasm.deldrift_star(this.#alive, id(vertex), ...room));
     }
 
     /** The edges: rows of two vertices. */
@@ -407,7 +409,7 @@ export class Triangulation {
     tolerance(vertex) {
         return inFrame((frame) => {
             const out = frame.room(8);
-            check(wasm.deldrift_tolerance(this.#alive, vertex, out));
+            check(wasm.deldrift_tolerance(this.#alive, id(vertex), out));
             return doublesAt(out, 1)[0];
         });
     }
@@ -473,9 +475,18 @@ function rows(values, length) {
     throw new DeldriftError("WRONG_COUNT", `${values.length} numbers are no rows of ${length}`);
 }
 
+/** What can name a vertex or a segment. WebAssembly would take what is no number for 0. */
+function id(value) {
+    if (Number.isInteger(value) && value >= 0 && value < NONE) return value;
+    throw new DeldriftError("NO_SUCH_VERTEX", `${value} is no id`);
+}
+
+function ids(values) {
+    if (!(values instanceof Uint32Array)) Array.prototype.forEach.call(values, id);
+    return values;
+}
+
 function sameLength(values, length, name) {
     if (values.length === length) return;
     throw new DeldriftError("WRONG_COUNT", `there are ${values.length} ${name} and not ${length}`);
 }
-
-export { NONE };

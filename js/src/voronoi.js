@@ -1,7 +1,7 @@
 // The names of d3-delaunay for Voronoi diagrams, clipped by a rectangle.
 //
-// A cell that is finite is the polygon of the circumcentres around its point, clipped by the sides of the rectangle. One
-// at the hull is the rectangle, clipped by the bisectors between its point and its neighbours.
+// A cell that is finite is the polygon of the circumcentres around its point, clipped by the sides of the rectangle.
+// One at the hull is the rectangle, clipped by the bisectors between its point and its neighbours.
 
 import { closed, drawPolygon, drawn } from "./path.js";
 

@@ -11,7 +11,8 @@ const rowsOf = (t) => setOfRows(t.cells().vertices, t.dimension + 1);
 
 /** The call fails with a status and a message. */
 function refused(call, code, message) {
-    assert.throws(call, (error) => error instanceof DeldriftError && error.code === code && message.test(error.message));
+    assert.throws(call, (error) =>
+        error instanceof DeldriftError && error.code === code && message.test(error.message));
 }
 
 function checkIsFresh(t, options) {
@@ -197,6 +198,11 @@ test("wrong arguments are refused, and say what is wrong", () => {
     t.algorithm = "tolerance";
     assert.equal(t.algorithm, "tolerance");
     refused(() => t.star(0), "NO_SUCH_VERTEX", /./);
+    for (const vertex of [undefined, NaN, -1, 0.5, "0"]) {
+        refused(() => t.remove(vertex), "NO_SUCH_VERTEX", /is no id/);
+        refused(() => t.stageRemovals([vertex]), "NO_SUCH_VERTEX", /is no id/);
+    }
+    refused(() => new Triangulation(3.5, new Float64Array(12)), "INVALID_DIMENSION", /3.5/);
     assert.deepEqual(t.locate([1, 2, 3]), { kind: "no cells", index: -1 });
     const data = new Triangulation(2, new Random(1).points(20)).save();
     data[data.length >> 1] ^= 1;

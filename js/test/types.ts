@@ -1,6 +1,8 @@
 // Compiled, not run: what a program in TypeScript writes.
 
-import Default, { Delaunator, Delaunay, DeldriftError, Triangulation, Voronoi, version, type Changes } from "../index.js";
+import Default, {
+    Delaunator, Delaunay, DeldriftError, Triangulation, Voronoi, version, type Changes,
+} from "../index.js";
 
 const delaunay = Delaunay.from([[0, 0], [1, 0], [0, 1]]);
 const named: Delaunay = Delaunay.from([{ x: 1, y: 2 }], (p) => p.x, (p) => p.y);

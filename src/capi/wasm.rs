@@ -1,5 +1,5 @@
-//! What a program in JavaScript needs besides the C functions, as it has no allocator: memory for arguments and results,
-//! in the memory that both see.
+//! What a program in JavaScript needs besides the C functions, as it has no allocator: memory for arguments and
+//! results, in the memory that both see.
 //!
 //! js/src/library.js calls these; no header has them.
 
