@@ -3,10 +3,12 @@
 //
 //     node bench/bench.js                 10,000 and 100,000 points
 //     node bench/bench.js 1000            other numbers of points, and no record
+//     node bench/bench.js --table         the table from the record
 //
 // All four take turns, some steps each, so that what else the machine does is the same for each, and what is in its
-// caches is what they have used themselves. Times are medians. A step is from the
-// new positions to the cells: as rows of vertices and neighbours ("deldrift, cells"), and as `triangles` and `halfedges`
+// caches is what they have used themselves. Times are medians of the processor's time, to which other programs do not
+// add: with these beside it a long call would be interrupted more often than a short one. A step is from the new
+// positions to the cells: as rows of vertices and neighbours ("deldrift, cells"), and as `triangles` and `halfedges`
 // ("deldrift, names"), which is what the other two give. At the end of each series all have the same triangles.
 
 import { readFileSync, writeFileSync } from "node:fs";
@@ -58,10 +60,12 @@ const ways = [
     },
 ];
 
+/** Milliseconds of the processor, of all threads of Node, and what comes of the work. */
 function timed(work) {
-    const start = performance.now();
+    const start = process.cpuUsage();
     const result = work();
-    return [performance.now() - start, result];
+    const { user, system } = process.cpuUsage(start);
+    return [(user + system) / 1000, result];
 }
 
 function builds(count, random) {
@@ -109,29 +113,52 @@ function steps(count, size, random) {
     return times.map(median);
 }
 
-const given = process.argv.slice(2).map(Number);
-const random = new Random(1);
-const lines = [["points", "what", ...NAMES.map((name) => `${name.replace(",", "")} (ms)`)].join(",")];
-const table = [
-    `| points | | ${NAMES.join(" | ")} | names beside delaunator | names beside d3-delaunay |`,
-    `|--:|---|${"--:|".repeat(NAMES.length + 2)}`,
-];
-for (const count of given.length > 0 ? given : [10_000, 100_000]) {
-    const row = (what, times) => {
-        lines.push([count, what, ...times.map((time) => time.toFixed(3))].join(","));
+const record = new URL("results.csv", import.meta.url);
+
+/** The table of the lines of a record. */
+function tableOf(lines) {
+    const rows = lines.slice(1).map((line) => {
+        const [count, what, ...times] = line.split(",");
         const ratios = [times[2], times[3]].map((time) => `**${(time / times[1]).toPrecision(2)}×**`);
-        const shown = times.map((time) => `${time.toPrecision(3)} ms`);
-        table.push(`| ${[count.toLocaleString("en"), what, ...shown, ...ratios].join(" | ")} |`);
-        console.log(table.at(-1));
-    };
-    row("build", builds(count, random));
-    for (const size of SIZES) {
-        row(size === 0 ? "at rest" : `step of ${size.toExponential()}`, steps(count, size, random));
-    }
+        const shown = times.map((time) => `${Number(time).toPrecision(3)} ms`);
+        return `| ${[Number(count).toLocaleString("en"), what, ...shown, ...ratios].join(" | ")} |`;
+    });
+    return [
+        `| points | | ${NAMES.join(" | ")} | names beside delaunator | names beside d3-delaunay |`,
+        `|--:|---|${"--:|".repeat(NAMES.length + 2)}`,
+        ...rows,
+    ].join("\n");
 }
-if (given.length === 0) {
-    writeFileSync(new URL("results.csv", import.meta.url), `${lines.join("\n")}\n`);
+
+function writeTable() {
     const page = new URL("../../docs/JAVASCRIPT.md", import.meta.url);
-    const marked = /(<!-- bench:begin -->\n\n)[^]*(\n\n<!-- bench:end -->)/;
-    writeFileSync(page, readFileSync(page, "utf8").replace(marked, (_, begin, end) => begin + table.join("\n") + end));
+    const [begin, end] = ["<!-- bench:begin -->", "<!-- bench:end -->"];
+    const [before, rest] = readFileSync(page, "utf8").split(begin);
+    const table = tableOf(readFileSync(record, "utf8").trim().split("\n"));
+    writeFileSync(page, `${before}${begin}\n\n${table}\n\n${end}${rest.split(end)[1]}`);
 }
+
+function measured(counts) {
+    const random = new Random(1);
+    const lines = [["points", "what", ...NAMES.map((name) => `${name.replace(",", "")} (ms)`)].join(",")];
+    const add = (count, what, times) => {
+        lines.push([count, what, ...times.map((time) => time.toFixed(3))].join(","));
+        console.log(lines.at(-1));
+    };
+    console.log(lines[0]);
+    for (const count of counts) {
+        add(count, "build", builds(count, random));
+        for (const size of SIZES) {
+            add(count, size === 0 ? "at rest" : `step of ${size.toExponential()}`, steps(count, size, random));
+        }
+    }
+    return lines;
+}
+
+const given = process.argv.slice(2);
+if (given[0] !== "--table") {
+    const lines = measured(given.length > 0 ? given.map(Number) : [10_000, 100_000]);
+    console.log(`\n${tableOf(lines)}`);
+    if (given.length === 0) writeFileSync(record, `${lines.join("\n")}\n`);
+}
+if (given.length === 0 || given[0] === "--table") writeTable();

@@ -34,7 +34,7 @@ pub unsafe extern "C" fn deldrift_js_free(start: *mut u8, bytes: usize) {
     }
 }
 
-/// Panics, as only a defect can: js/test/panic.test.js sees what comes of that. It is in no package.
+/// Panics, as only a defect can: js/test/unpacked.test.js sees what comes of that. It is in no package.
 #[unsafe(no_mangle)]
 pub extern "C" fn deldrift_js_panic() -> deldrift_status {
     guard::enter(|| panic!("cell {} went missing", 13))
