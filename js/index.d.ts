@@ -159,6 +159,7 @@ export class Delaunator<T extends Numbers = Float64Array> {
     readonly trianglesLen: number;
     readonly triangulation: Triangulation;
     update(): void;
+    move(points: Numbers): void;
 }
 export default Delaunator;
 

@@ -24,19 +24,23 @@ export class Delaunator {
         }
         this.coords = coords;
         /** What moves: see class Triangulation. */
-        this.triangulation = new Triangulation(2, coords.length % 2 === 0 ? coords : coords.slice(0, -1));
+        this.triangulation = new Triangulation(2, whole(coords));
     }
 
     /** Follows `coords`, of which any may have changed. */
     update() {
-        const { coords } = this;
-        this.#changed(this.triangulation.move(coords.length % 2 === 0 ? coords : coords.slice(0, -1)));
+        this.move(this.coords);
     }
 
-    #changed(report) {
+    /** Moves all points to others, as many and in the same order, and writes these to `coords`. */
+    move(points) {
+        this.triangulation.move(whole(points));
         this.#isStale = true;
         this.#hull = null;
-        return report;
+        const { coords } = this;
+        if (points === coords) return;
+        if (ArrayBuffer.isView(coords)) coords.set(points);
+        else for (let k = 0; k < points.length; k++) coords[k] = points[k];
     }
 
     #follow() {
@@ -88,4 +92,9 @@ export class Delaunator {
         return Uint32Array.from(shown.sort((i, j) =>
             coords[2 * i] - coords[2 * j] || coords[2 * i + 1] - coords[2 * j + 1]));
     }
+}
+
+/** Coordinates of points without half of one. */
+function whole(coords) {
+    return coords.length % 2 === 0 ? coords : coords.slice(0, -1);
 }

@@ -68,16 +68,15 @@ export class Delaunay {
 
     /** Follows `points`, of which any may have changed. */
     update() {
-        this.#delaunator.update();
-        this.#inedges = null;
-        this.#places = null;
-        return this;
+        return this.move(this.points);
     }
 
     /** Moves all points to others, as many and in the same order: x0, y0, x1, ... */
     move(points) {
-        for (let k = 0; k < this.points.length; k++) this.points[k] = points[k];
-        return this.update();
+        this.#delaunator.move(points);
+        this.#inedges = null;
+        this.#places = null;
+        return this;
     }
 
     voronoi(bounds) {

@@ -180,6 +180,12 @@ test("points at one place, and on a line", () => {
     checkHalfedges({ ...named(line), coords: line.points });
     line.move(line.points.map((x, k) => (k % 2 ? x : 0)));
     assert.equal(line.collinear.length, 5);
+    // A move that is refused changes nothing.
+    const before = line.points.slice();
+    assert.throws(() => line.move(before.map((x, k) => (k === 3 ? NaN : x + 1))), { code: "NOT_FINITE" });
+    assert.throws(() => line.move([1, 2]), { code: "WRONG_COUNT" });
+    assert.deepEqual(line.points, before);
+    assert.equal(line.find(10, 10), 2);
 });
 
 const named = ({ triangles, halfedges, hull }) => ({ triangles, halfedges, hull });
