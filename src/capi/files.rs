@@ -18,7 +18,7 @@ use crate::machine::memory;
 #[cfg(not(any(unix, windows)))]
 use absent::message;
 #[cfg(not(any(unix, windows)))]
-pub(super) use absent::{NewFile, OldFile};
+pub(super) use absent::{NoFile as NewFile, NoFile as OldFile};
 #[cfg(unix)]
 use unix::message;
 #[cfg(unix)]

@@ -33,7 +33,7 @@ fn put(x: &mut [f64; 2], two: v128) {
 }
 
 impl Simd for Vectors {
-    type Lanes = FourLanes;
+    type Lanes = Four;
 
     #[inline(always)]
     fn run_with<A, B, C, R>(self, a: A, b: B, c: C, work: impl FnOnce(A, B, C) -> R) -> R {
@@ -41,33 +41,33 @@ impl Simd for Vectors {
     }
 
     #[inline(always)]
-    fn splat(self, x: f64) -> FourLanes {
-        FourLanes(f64x2_splat(x), f64x2_splat(x))
+    fn splat(self, x: f64) -> Four {
+        Four(f64x2_splat(x), f64x2_splat(x))
     }
 
     #[inline(always)]
-    fn load(self, x: &[f64; LANES]) -> FourLanes {
+    fn load(self, x: &[f64; LANES]) -> Four {
         let [low, high] = halves(x);
-        FourLanes(two(low), two(high))
+        Four(two(low), two(high))
     }
 
     #[inline(always)]
-    fn two_pairs(self, low: &[f64; 2], high: &[f64; 2]) -> FourLanes {
-        FourLanes(two(low), two(high))
+    fn two_pairs(self, low: &[f64; 2], high: &[f64; 2]) -> Four {
+        Four(two(low), two(high))
     }
 
     #[inline(always)]
-    fn mask(self, bits: u32) -> FourLanes {
+    fn mask(self, bits: u32) -> Four {
         let (bits, none) = (i64x2_splat(i64::from(bits)), i64x2_splat(0));
         let are_set = |own| i64x2_ne(v128_and(bits, own), none);
-        FourLanes(are_set(i64x2(1, 2)), are_set(i64x2(4, 8)))
+        Four(are_set(i64x2(1, 2)), are_set(i64x2(4, 8)))
     }
 
     #[inline(always)]
-    fn are_equal(self, x: &[u32; LANES], y: u32) -> FourLanes {
+    fn are_equal(self, x: &[u32; LANES], y: u32) -> Four {
         // SAFETY: there are 16 bytes, and any alignment will do.
         let are_equal = i32x4_eq(unsafe { v128_load(x.as_ptr().cast()) }, u32x4_splat(y));
-        FourLanes(i64x2_extend_low_i32x4(are_equal), i64x2_extend_high_i32x4(are_equal))
+        Four(i64x2_extend_low_i32x4(are_equal), i64x2_extend_high_i32x4(are_equal))
     }
 }
 
@@ -77,44 +77,44 @@ fn halves(x: &[f64; LANES]) -> [&[f64; 2]; 2] {
     [&pairs[0], &pairs[1]]
 }
 
-/// FourLanes numbers; or a mask, with all bits of a lane set or none.
+/// Four numbers; or a mask, with all bits of a lane set or none.
 #[derive(Clone, Copy)]
-pub struct FourLanes(v128, v128);
+pub struct Four(v128, v128);
 
-impl Lanes for FourLanes {
+impl Lanes for Four {
     #[inline(always)]
-    fn even_with_even(self, y: FourLanes) -> FourLanes {
-        FourLanes(i64x2_shuffle::<0, 2>(self.0, y.0), i64x2_shuffle::<0, 2>(self.1, y.1))
+    fn even_with_even(self, y: Four) -> Four {
+        Four(i64x2_shuffle::<0, 2>(self.0, y.0), i64x2_shuffle::<0, 2>(self.1, y.1))
     }
 
     #[inline(always)]
-    fn odd_with_odd(self, y: FourLanes) -> FourLanes {
-        FourLanes(i64x2_shuffle::<1, 3>(self.0, y.0), i64x2_shuffle::<1, 3>(self.1, y.1))
+    fn odd_with_odd(self, y: Four) -> Four {
+        Four(i64x2_shuffle::<1, 3>(self.0, y.0), i64x2_shuffle::<1, 3>(self.1, y.1))
     }
 
     #[inline(always)]
-    fn low_with_low(self, y: FourLanes) -> FourLanes {
-        FourLanes(self.0, y.0)
+    fn low_with_low(self, y: Four) -> Four {
+        Four(self.0, y.0)
     }
 
     #[inline(always)]
-    fn high_with_high(self, y: FourLanes) -> FourLanes {
-        FourLanes(self.1, y.1)
+    fn high_with_high(self, y: Four) -> Four {
+        Four(self.1, y.1)
     }
 
     #[inline(always)]
-    fn with_last_of(self, y: FourLanes) -> FourLanes {
-        FourLanes(self.0, i64x2_shuffle::<0, 3>(self.1, y.1))
+    fn with_last_of(self, y: Four) -> Four {
+        Four(self.0, i64x2_shuffle::<0, 3>(self.1, y.1))
     }
 
     #[inline(always)]
-    fn rotated(self) -> FourLanes {
-        FourLanes(i64x2_shuffle::<1, 2>(self.0, self.1), i64x2_shuffle::<1, 2>(self.1, self.0))
+    fn rotated(self) -> Four {
+        Four(i64x2_shuffle::<1, 2>(self.0, self.1), i64x2_shuffle::<1, 2>(self.1, self.0))
     }
 
     #[inline(always)]
-    fn are_same(self, y: FourLanes) -> FourLanes {
-        FourLanes(i64x2_eq(self.0, y.0), i64x2_eq(self.1, y.1))
+    fn are_same(self, y: Four) -> Four {
+        Four(i64x2_eq(self.0, y.0), i64x2_eq(self.1, y.1))
     }
 
     #[inline(always)]
@@ -155,55 +155,55 @@ impl Lanes for FourLanes {
     }
 }
 
-impl Real for FourLanes {
-    type Mask = FourLanes;
+impl Real for Four {
+    type Mask = Four;
 
     #[inline(always)]
-    fn splat(self, x: f64) -> FourLanes {
+    fn splat(self, x: f64) -> Four {
         Vectors(()).splat(x)
     }
 
     #[inline(always)]
-    fn sqrt(self) -> FourLanes {
-        FourLanes(f64x2_sqrt(self.0), f64x2_sqrt(self.1))
+    fn sqrt(self) -> Four {
+        Four(f64x2_sqrt(self.0), f64x2_sqrt(self.1))
     }
 
     #[inline(always)]
-    fn abs(self) -> FourLanes {
-        FourLanes(f64x2_abs(self.0), f64x2_abs(self.1))
+    fn abs(self) -> Four {
+        Four(f64x2_abs(self.0), f64x2_abs(self.1))
     }
 
     #[inline(always)]
-    fn is_less(self, y: FourLanes) -> FourLanes {
-        FourLanes(f64x2_lt(self.0, y.0), f64x2_lt(self.1, y.1))
+    fn is_less(self, y: Four) -> Four {
+        Four(f64x2_lt(self.0, y.0), f64x2_lt(self.1, y.1))
     }
 
     #[inline(always)]
-    fn select(mask: FourLanes, yes: FourLanes, no: FourLanes) -> FourLanes {
-        FourLanes(v128_bitselect(yes.0, no.0, mask.0), v128_bitselect(yes.1, no.1, mask.1))
+    fn select(mask: Four, yes: Four, no: Four) -> Four {
+        Four(v128_bitselect(yes.0, no.0, mask.0), v128_bitselect(yes.1, no.1, mask.1))
     }
 
     // The second number of these instructions is the one that a comparison has to choose.
 
     #[inline(always)]
-    fn min(self, y: FourLanes) -> FourLanes {
-        FourLanes(f64x2_pmin(y.0, self.0), f64x2_pmin(y.1, self.1))
+    fn min(self, y: Four) -> Four {
+        Four(f64x2_pmin(y.0, self.0), f64x2_pmin(y.1, self.1))
     }
 
     #[inline(always)]
-    fn max(self, y: FourLanes) -> FourLanes {
-        FourLanes(f64x2_pmax(y.0, self.0), f64x2_pmax(y.1, self.1))
+    fn max(self, y: Four) -> Four {
+        Four(f64x2_pmax(y.0, self.0), f64x2_pmax(y.1, self.1))
     }
 }
 
 macro_rules! operators {
     ($($trait:ident $name:ident $instruction:ident),*) => {
-        $(impl $trait for FourLanes {
-            type Output = FourLanes;
+        $(impl $trait for Four {
+            type Output = Four;
 
             #[inline(always)]
-            fn $name(self, y: FourLanes) -> FourLanes {
-                FourLanes($instruction(self.0, y.0), $instruction(self.1, y.1))
+            fn $name(self, y: Four) -> Four {
+                Four($instruction(self.0, y.0), $instruction(self.1, y.1))
             }
         })*
     };
@@ -213,11 +213,11 @@ operators!(
     BitAnd bitand v128_and, BitOr bitor v128_or
 );
 
-impl Not for FourLanes {
-    type Output = FourLanes;
+impl Not for Four {
+    type Output = Four;
 
     #[inline(always)]
-    fn not(self) -> FourLanes {
-        FourLanes(v128_not(self.0), v128_not(self.1))
+    fn not(self) -> Four {
+        Four(v128_not(self.0), v128_not(self.1))
     }
 }

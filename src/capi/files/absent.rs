@@ -10,15 +10,19 @@ pub(super) fn message(_: i32, _: &mut [u8; MESSAGE]) -> Option<&str> {
     Some("there are no files here")
 }
 
-/// None can be opened.
-pub(in crate::capi) enum OldFile<'p> {
+/// A file to be read or made, of which there is none.
+pub(in crate::capi) enum NoFile<'p> {
     #[expect(dead_code, reason = "nothing makes one")]
     At(&'p CStr),
 }
 
-impl<'p> OldFile<'p> {
+impl<'p> NoFile<'p> {
     pub(in crate::capi) fn open(path: &'p CStr) -> Result<Self, FileError> {
         Err(refusal("open", path, 0))
+    }
+
+    pub(in crate::capi) fn create(path: &'p CStr) -> Result<Self, FileError> {
+        Err(refusal("create", path, 0))
     }
 
     pub(in crate::capi) fn size(&self) -> u64 {
@@ -27,18 +31,6 @@ impl<'p> OldFile<'p> {
 
     pub(in crate::capi) fn read(&self, _: &mut Vec<u8>, _: usize) -> Result<(), FileError> {
         Ok(())
-    }
-}
-
-/// None can be made.
-pub(in crate::capi) enum NewFile<'p> {
-    #[expect(dead_code, reason = "nothing makes one")]
-    At(&'p CStr),
-}
-
-impl<'p> NewFile<'p> {
-    pub(in crate::capi) fn create(path: &'p CStr) -> Result<Self, FileError> {
-        Err(refusal("create", path, 0))
     }
 
     pub(in crate::capi) fn put(&mut self, _: &[u8]) -> Result<(), FileError> {
