@@ -32,7 +32,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help quick test counts soak bench report memory large targets calibrate costs table records sizes lint header doc picture install uninstall
-.PHONY: examples cgal-examples platforms
+.PHONY: examples cgal-examples platforms js js-bench page
 .PHONY: compat demo deb dist packages wheel library benchmark clean faults tsan miri fuzz mutants coverage
 
 help: ## this list
@@ -100,6 +100,19 @@ tsan: ## tests of the library's threads under ThreadSanitizer, with a nightly to
 
 miri: ## tests of what needs no system under Miri, with a nightly toolchain that has it
 	.ci/nightly miri
+
+js: ## npm package in build/packages, tested in Node and Chromium beside d3-delaunay and Delaunator; needs a network
+	@.ci/packages nodejs npm
+	-@.ci/packages chromium
+	js/build
+	js/make_package
+
+js-bench: ## deldrift in JavaScript beside d3-delaunay and Delaunator: js/bench/results.csv; after make js
+	cd js && node bench/bench.js
+	.ci/records write js/bench/environment.txt "make js-bench"
+
+page: ## a page whose points move, in a browser of this machine; after make js
+	node js/page/serve.js
 
 platforms: ## the library for other machines, tested under emulators: docs/PLATFORMS.md (ARGS=arm64 for one)
 	platforms/run $(ARGS)

@@ -89,7 +89,8 @@ fn comments_can_be_read_alone() {
 
 /// A file without the machine that it is for.
 fn of_any_machine(path: &str) -> String {
-    let machines = ["/unix", "/windows", "/avx2", "/neon", "/arm32", "/arm64", "/s390x", "/unknown", "/x86"];
+    let machines =
+        ["/unix", "/windows", "/avx2", "/neon", "/arm32", "/arm64", "/s390x", "/unknown", "/wasm", "/x86"];
     machines.into_iter().fold(path.to_owned(), |path, machine| path.replace(machine, ""))
 }
 

@@ -1,6 +1,8 @@
 //! Files, by the system's own calls: those of the standard library ask for memory that cannot be refused, for long
 //! paths and for messages.
 
+#[cfg(not(any(unix, windows)))]
+mod absent;
 #[cfg(unix)]
 mod unix;
 #[cfg(windows)]
@@ -8,10 +10,15 @@ mod windows;
 
 use std::ffi::CStr;
 use std::fmt;
+#[cfg(any(unix, windows))]
 use std::io::Write;
 
 use crate::error::Error;
 use crate::machine::memory;
+#[cfg(not(any(unix, windows)))]
+use absent::message;
+#[cfg(not(any(unix, windows)))]
+pub(super) use absent::{NoFile as NewFile, NoFile as OldFile};
 #[cfg(unix)]
 use unix::message;
 #[cfg(unix)]
@@ -22,6 +29,7 @@ use windows::message;
 pub(super) use windows::{NewFile, OldFile};
 
 /// The name of a file beside another one that is to take its place, which ends in a NUL: as much of the room as it takes.
+#[cfg(any(unix, windows))]
 fn temporary_name(number: u32, room: &mut [u8; 64]) -> &[u8] {
     let mut rest = &mut room[..];
     // There is room, so it does not fail.
@@ -45,6 +53,7 @@ pub(super) enum FileError {
         code: i32,
     },
     /// What is at a path is nothing that can be read to its end.
+    #[cfg(any(unix, windows))]
     Special {
         /// Where, as much as there was memory for.
         path: String,
@@ -63,6 +72,7 @@ impl fmt::Display for FileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             FileError::Call(error) => write!(f, "{error}"),
+            #[cfg(any(unix, windows))]
             FileError::Special { path, kind } => {
                 write!(f, "cannot read \"{path}\": it is {kind}, and only regular files are read")
             }
@@ -79,6 +89,7 @@ impl fmt::Display for FileError {
 }
 
 /// The error of the latest call of the system.
+#[cfg(any(unix, windows))]
 fn failure(action: &'static str, path: &CStr) -> FileError {
     let code = std::io::Error::last_os_error().raw_os_error().unwrap_or(0);
     refusal(action, path, code)

@@ -86,6 +86,8 @@ mod status;
 mod transferring;
 mod triangulation;
 mod voronoi;
+#[cfg(target_family = "wasm")]
+mod wasm;
 mod weights;
 
 pub use changes::*;

@@ -126,11 +126,21 @@ const UNKNOWN: u8 = 0;
 const NO: u8 = 1;
 const YES: u8 = 2;
 
+#[cfg(any(unix, windows))]
+fn is_variable_set() -> bool {
+    // SAFETY: the name ends with a zero, and what the answer points to is not read.
+    !unsafe { libc::getenv(c"DELDRIFT_ALL_THREADS".as_ptr()) }.is_null()
+}
+
+/// Where there is no system there are no variables.
+#[cfg(not(any(unix, windows)))]
+fn is_variable_set() -> bool {
+    false
+}
+
 fn are_all_used() -> bool {
     if ARE_ALL_USED.load(Relaxed) == UNKNOWN {
-        // SAFETY: the name ends with a zero, and what the answer points to is not read.
-        let is_set = !unsafe { libc::getenv(c"DELDRIFT_ALL_THREADS".as_ptr()) }.is_null();
-        ARE_ALL_USED.store(if is_set { YES } else { NO }, Relaxed);
+        ARE_ALL_USED.store(if is_variable_set() { YES } else { NO }, Relaxed);
     }
     ARE_ALL_USED.load(Relaxed) == YES
 }

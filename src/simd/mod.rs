@@ -3,8 +3,8 @@
 //!
 //! A [`Simd`] is a token, which makes [`Lanes`]. There is one of AVX2 (`Avx2`), which exists only where the processor has
 //! that, since only its `new`, which detects it, makes one; so every operation on its lanes is safe. There is one of NEON
-//! (`Neon`) on 64-bit ARM, whose processors all have that. And there is [`Scalar`], which always is there, with four
-//! numbers for lanes.
+//! (`Neon`) on 64-bit ARM, whose processors all have that, and one of the vectors of WebAssembly (`Vectors`), where that
+//! is compiled for them. And there is [`Scalar`], which always is there, with four numbers for lanes.
 //!
 //! Code that uses lanes is generic over the token, and called through [`in_lanes!`], which takes the best one and
 //! compiles the code for it. It must be inlined for that: the closure and all functions of lanes that it calls are
@@ -40,6 +40,8 @@ mod presence;
 mod scalar;
 #[cfg(test)]
 mod tests;
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+mod wasm;
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Not, Sub};
 
@@ -48,6 +50,8 @@ pub use avx2::Avx2;
 #[cfg(all(target_arch = "aarch64", target_endian = "little"))]
 pub use neon::Neon;
 pub use scalar::Scalar;
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+pub use wasm::Vectors;
 
 /// Number of lanes.
 pub const LANES: usize = 4;
@@ -226,7 +230,16 @@ macro_rules! in_lanes {
             Some(neon) => run!(neon),
             None => run!($crate::simd::Scalar),
         }
-        #[cfg(not(any(target_arch = "x86_64", all(target_arch = "aarch64", target_endian = "little"))))]
+        #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+        match $crate::simd::Vectors::new() {
+            Some(vectors) => run!(vectors),
+            None => run!($crate::simd::Scalar),
+        }
+        #[cfg(not(any(
+            target_arch = "x86_64",
+            all(target_arch = "aarch64", target_endian = "little"),
+            all(target_arch = "wasm32", target_feature = "simd128")
+        )))]
         run!($crate::simd::Scalar)
     }};
 }

@@ -28,6 +28,10 @@ macro_rules! for_all_tokens {
         if let Some(neon) = Neon::new() {
             $test(neon);
         }
+        #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+        if let Some(vectors) = Vectors::new() {
+            $test(vectors);
+        }
     };
 }
 
