@@ -75,7 +75,7 @@ fn a_program_in_csharp_calls_the_library() {
     let program = fresh_folder("csharp").join("test.exe");
     let sources = ["Deldrift.cs", "Test.cs"].map(|name| repository("bindings/csharp").join(name));
     succeed(command("mcs").args(sources).arg(format!("-out:{}", program.display())));
-    assert_eq!(succeed(&mut running(command("mono")).arg(&program)), "passed\n");
+    assert_eq!(succeed(running(command("mono")).arg(&program)), "passed\n");
 }
 
 /// A program that finds the library.
