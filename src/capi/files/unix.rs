@@ -7,10 +7,10 @@ use std::ffi::{CStr, c_int};
 use std::mem::MaybeUninit;
 
 // Those for files whose sizes and numbers have 64 bits: with 32, the system does not tell about the others.
-#[cfg(all(target_os = "linux", target_pointer_width = "32"))]
-use libc::{fstat64 as fstat, open64 as open, stat64 as stat};
 #[cfg(not(all(target_os = "linux", target_pointer_width = "32")))]
 use libc::{fstat, open, stat};
+#[cfg(all(target_os = "linux", target_pointer_width = "32"))]
+use libc::{fstat64 as fstat, open64 as open, stat64 as stat};
 
 use super::{FileError, MESSAGE, failure, refusal, shown};
 use crate::error::Result;
