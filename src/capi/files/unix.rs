@@ -6,7 +6,8 @@ mod writing;
 use std::ffi::{CStr, c_int};
 use std::mem::MaybeUninit;
 
-// Those for files whose sizes and numbers have 64 bits: with 32, the system does not tell about the others.
+// With addresses of 32 bits, those for files whose sizes and numbers have 64: the system tells of no others than small ones
+// otherwise.
 #[cfg(not(all(target_os = "linux", target_pointer_width = "32")))]
 use libc::{fstat, open, stat};
 #[cfg(all(target_os = "linux", target_pointer_width = "32"))]
