@@ -8,20 +8,7 @@ function(run)
   endif()
 endfunction()
 
-# The functions that a header declares or defines at the beginning of a line: those that it defines are in the library as
-# well, for other languages.
-set(functions "")
-file(GLOB headers "${HEADERS}/deldrift/*.h")
-foreach(header IN LISTS headers)
-  file(READ "${header}" text)
-  string(REGEX MATCHALL "\n(static inline |const )?[a-z0-9_]+ [*]?deldrift_[a-z0-9_]+[(]" declared "${text}")
-  list(LENGTH declared n_declared)
-  if(n_declared EQUAL 0)
-    message(FATAL_ERROR "No functions in ${header}")
-  endif()
-  list(APPEND functions ${declared})
-endforeach()
-list(TRANSFORM functions REPLACE ".*(deldrift_[a-z0-9_]+)[(]" "\\1")
+include("${CMAKE_CURRENT_LIST_DIR}/functions.cmake")
 
 file(MAKE_DIRECTORY "${TO}")
 run("${STRIP}" --strip-unneeded -o "${TO}/libdeldrift.so" "${FROM}/libdeldrift.so")

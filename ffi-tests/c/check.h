@@ -27,6 +27,13 @@
         }                                                                                           \
     } while (0)
 
+// SIZE_MAX, as messages write it.
+#if SIZE_MAX > UINT32_MAX
+#define MOST_ENTRIES "18446744073709551615"
+#else
+#define MOST_ENTRIES "4294967295"
+#endif
+
 static inline void check_status(deldrift_status status, deldrift_status expected, const char *call,
                                 const char *file, int line) {
     if (status != expected) {

@@ -5,13 +5,15 @@
 //! number, without traps, with numbers near zero as they are. A program may have another one, which a thread that it
 //! starts inherits. [`in_default`] puts the default one in force for a piece of work, and what was there back.
 //!
-//! Known are those of x86-64 and x86 with SSE2 (MXCSR, by which all arithmetic of Rust goes; nothing uses the x87 unit,
-//! whose environment is thus left alone), of 64-bit ARM (FPCR and FPSR), of 32-bit ARM with registers for numbers
-//! (FPSCR), and of s390x (FPC). On other processors an [`Environment`] tells nothing and changes nothing.
+//! Known are those of x86-64 (MXCSR, by which all arithmetic of Rust goes; nothing uses the x87 unit, whose environment
+//! is thus left alone), of x86 with SSE2 (MXCSR, and the x87 unit's, which makes numbers of integers of 64 bits there), of
+//! 64-bit ARM (FPCR and FPSR), of 32-bit ARM with registers for numbers (FPSCR), and of s390x (FPC). On other processors
+//! an [`Environment`] tells nothing and changes nothing.
 
 #![allow(unsafe_code)]
 
-#[cfg_attr(any(target_arch = "x86_64", target_arch = "x86"), path = "environment/x86.rs")]
+#[cfg_attr(target_arch = "x86_64", path = "environment/x86_64.rs")]
+#[cfg_attr(target_arch = "x86", path = "environment/i686.rs")]
 #[cfg_attr(target_arch = "aarch64", path = "environment/arm64.rs")]
 #[cfg_attr(all(target_arch = "arm", target_abi = "eabihf"), path = "environment/arm32.rs")]
 #[cfg_attr(target_arch = "s390x", path = "environment/s390x.rs")]

@@ -266,7 +266,7 @@ fn cells_with_weights_are_those_of_copies() {
 /// of copies of the positions and vectors that are used.
 fn check_oblique<G: Moving>(seed: u64) {
     let rng = &mut Rng::new(seed);
-    let mut number = |most: f64| most * (rng.below(1 << 40) as f64 / (1u64 << 39) as f64 - 1.0);
+    let mut number = |most: f64| most * (rng.within(0, (1 << 40) - 1) as f64 / (1u64 << 39) as f64 - 1.0);
     let mut vector = G::Point::default();
     (0..G::D).for_each(|axis| vector[axis] = number(if seed.is_multiple_of(4) { 1e-9 } else { 0.4 }));
     vector[0] += 0.7;

@@ -6,6 +6,13 @@ mod writing;
 use std::ffi::{CStr, c_int};
 use std::mem::MaybeUninit;
 
+// With addresses of 32 bits, those for files whose sizes and numbers have 64: the system tells of no others than small ones
+// otherwise.
+#[cfg(not(all(target_os = "linux", target_pointer_width = "32")))]
+use libc::{fstat, open, stat};
+#[cfg(all(target_os = "linux", target_pointer_width = "32"))]
+use libc::{fstat64 as fstat, open64 as open, stat64 as stat};
+
 use super::{FileError, MESSAGE, failure, refusal, shown};
 use crate::error::Result;
 use crate::machine::memory;
@@ -48,15 +55,15 @@ impl Descriptor {
         named: &CStr,
     ) -> Result<Self, FileError> {
         // SAFETY: the path ends in a NUL.
-        let opened = again(|| unsafe { libc::open(path.as_ptr(), flags | libc::O_CLOEXEC, mode) as isize });
+        let opened = again(|| unsafe { open(path.as_ptr(), flags | libc::O_CLOEXEC, mode) as isize });
         opened.map(|number| Descriptor(number as c_int)).ok_or_else(|| failure(action, named))
     }
 
     /// What the system knows of it.
-    fn status(&self) -> Option<libc::stat> {
+    fn status(&self) -> Option<stat> {
         let mut status = MaybeUninit::uninit();
         // SAFETY: the file is open, and there is room for the answer.
-        let is_known = unsafe { libc::fstat(self.0, status.as_mut_ptr()) } == 0;
+        let is_known = unsafe { fstat(self.0, status.as_mut_ptr()) } == 0;
         // SAFETY: it has been written.
         is_known.then(|| unsafe { status.assume_init() })
     }
@@ -70,16 +77,16 @@ impl Drop for Descriptor {
 }
 
 /// What the system knows of the file at a path, to which symbolic links lead, if there is one.
-fn status_of(path: &CStr) -> Option<libc::stat> {
+fn status_of(path: &CStr) -> Option<stat> {
     let mut status = MaybeUninit::uninit();
     // SAFETY: the path ends in a NUL, and there is room for the answer.
-    let is_there = unsafe { libc::stat(path.as_ptr(), status.as_mut_ptr()) } == 0;
+    let is_there = unsafe { stat(path.as_ptr(), status.as_mut_ptr()) } == 0;
     // SAFETY: it has been written.
     is_there.then(|| unsafe { status.assume_init() })
 }
 
 /// What a file is that is none with an end.
-fn special_kind(status: &libc::stat) -> Option<&'static str> {
+fn special_kind(status: &stat) -> Option<&'static str> {
     match status.st_mode & libc::S_IFMT {
         libc::S_IFREG => None,
         libc::S_IFDIR => Some("a directory"),

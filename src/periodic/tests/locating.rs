@@ -196,7 +196,7 @@ fn a_place_is_at_a_vertex_that_would_be_put_there() {
     let rng = &mut Rng::new(3);
     let basis = [[0.3, 0.1], [0.7, 1.9]];
     for _ in 0..200 {
-        let p = [0, 1].map(|_| rng.below(1 << 40) as f64 / 3e11 - 1.0);
+        let p = [0, 1].map(|_| rng.within(0, (1 << 40) - 1) as f64 / 3e11 - 1.0);
         let t = PeriodicTriangulation::<Plane>::new(&[[0.1, 0.2], p], &basis, Options::default()).unwrap();
         let used = t.position(VertexId::new(1)).unwrap();
         for p in [p, used] {

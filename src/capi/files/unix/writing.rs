@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use super::super::temporary_name;
 use super::signals::Quiet;
-use super::{Descriptor, FileError, again, failure, refusal, status_of};
+use super::{Descriptor, FileError, again, failure, refusal, stat, status_of};
 use crate::error::Result;
 use crate::machine::memory;
 
@@ -72,7 +72,7 @@ fn copy_access_list(_path: &CStr, _file: &Descriptor) -> bool {
 
 /// Gives a new file owner, group, access control list and mode of the one at a path, as far as the system allows.
 /// Nobody is allowed more than before: if the group or the list cannot be kept, the group is allowed what others are.
-fn copy_access(path: &CStr, old: &libc::stat, file: &Descriptor) -> bool {
+fn copy_access(path: &CStr, old: &stat, file: &Descriptor) -> bool {
     let Some(new) = file.status() else { return false };
     let keeps = |uid, gid| {
         // SAFETY: the file is open.

@@ -1,12 +1,6 @@
-//! The environment of x86-64, and of x86 with SSE2.
+//! The environment of x86-64.
 
 use std::arch::asm;
-
-// Without SSE2 numbers would be kept with more bits than they have, and rounded twice.
-#[cfg(not(target_feature = "sse2"))]
-compile_error!(
-    "deldrift needs SSE2 on x86: the x87 unit rounds numbers twice, so that exact answers would be wrong"
-);
 
 /// MXCSR.
 pub(super) type Registers = u32;
